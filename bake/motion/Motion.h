@@ -1,0 +1,76 @@
+#pragma once
+#include "bake/geometry/TriangleMesh.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tss {
+
+using Pose = Eigen::Isometry3d;
+
+enum class DofKind { Rotation, Translation, Path };
+
+/// One row of a path: the rigid pose at a value. Between rows: linear in translation, slerp in rotation.
+struct PathRow {
+    double value = 0;
+    Vec3 translation = Vec3::Zero();
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+};
+
+/// One degree of freedom D(q), a rigid map in the frame of body A.
+///   Rotation:    D(x) = R(axis, q)(x - origin) + origin, axis of unit length, q in radians
+///   Translation: D(x) = x + q * axis, axis of any length, q in multiples of it
+///   Path:        D(x) = frame * path(q) * frame^-1 x
+struct Dof {
+    std::string name;
+    DofKind kind = DofKind::Rotation;
+    Vec3 origin = Vec3::Zero(); ///< a point on the axis (rotation)
+    Vec3 axis = Vec3::UnitX();
+    double lower = 0; ///< lower <= upper, finite
+    double upper = 0;
+    double rest = 0; ///< value at which the bodies stand as modelled
+    std::vector<PathRow> path; ///< at least two rows, values strictly rising, covering [lower, upper]
+    Pose frame = Pose::Identity();
+};
+
+/// A linear coupling of limits: coefficients . q <= bound.
+struct LimitPlane {
+    std::vector<double> coefficients; ///< one a DOF
+    double bound = 0;
+};
+
+/// How body B may move against body A: T(q) = D1(q1) ... Dd(qd) T0, B-local to A-local (METHOD 0).
+/// Q is the box of the DOFs' limits cut by the planes.
+struct Motion {
+    std::vector<Dof> dofs;           ///< D1, nearest to A, first
+    Pose base = Pose::Identity();    ///< T0
+    std::vector<LimitPlane> planes;
+
+    std::size_t dofCount() const { return dofs.size(); }
+};
+
+/// The rigid map of one DOF at value q.
+Pose dofPose(const Dof& dof, double q);
+
+/// T(q). q: one value a DOF.
+Pose pose(const Motion& motion, std::span<const double> q);
+
+/// dT(q)x/dq for a point x given in A's frame at pose q (that is x = T(q) y): 3 by #DOFs.
+/// Path DOFs by central differences within the segment.
+Eigen::Matrix3Xd pointJacobian(const Motion& motion, std::span<const double> q, const Vec3& x);
+
+/// The rest values of all DOFs.
+std::vector<double> restValues(const Motion& motion);
+
+/// Every limit and every plane holds at q, with a slack in the DOF's own unit.
+bool withinLimits(const Motion& motion, std::span<const double> q, double slack = 0);
+
+/// Clamps each DOF into its limits, then pulls q back into the planes by cyclic projection (at most 100 rounds; the
+/// result is inside for a non-empty Q up to 1e-12 of the range).
+std::vector<double> clampToLimits(const Motion& motion, std::span<const double> q);
+
+/// Throws InputError for a motion that cannot be served: no finite limits, reversed limits, zero axis, bad path.
+void checkMotion(const Motion& motion);
+
+} // namespace tss

@@ -1,0 +1,32 @@
+#pragma once
+#include "bake/table/Table.h"
+
+namespace tss {
+
+enum class JointStatus {
+    Free,      ///< the asked pose is free and so is the way to it
+    Blocked,   ///< stopped at contact on the way
+    Slid,      ///< stopped, then slid along the contact
+    Separated, ///< started in collision and was led out, or less deep
+    Stuck,     ///< started in collision and stayed there
+};
+
+const char* name(JointStatus status);
+
+struct JointRequest {
+    std::span<const double> last;  ///< where the joint is, one value a DOF
+    std::span<const double> asked; ///< where it is asked to go
+};
+
+struct JointResult {
+    std::vector<double> q; ///< where it may go
+    double gap = 0;        ///< of the table at q
+    int test = -1;         ///< the test that gives the gap
+    JointStatus status = JointStatus::Free;
+};
+
+/// Keeps a joint out of collision (METHOD 5): never through an obstacle, never farther from the asked pose than the
+/// start; no stiffness, no time step, the same bits for the same input.
+JointResult respond(const Table& table, const JointRequest& request);
+
+} // namespace tss
