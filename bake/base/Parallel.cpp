@@ -18,6 +18,8 @@ ThreadLimit::ThreadLimit(int threads) {
                                            static_cast<std::size_t>(threads));
 }
 
-ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }
+ThreadLimit::~ThreadLimit() {
+    delete static_cast<tbb::global_control*>(control_);
+}
 
 } // namespace tss

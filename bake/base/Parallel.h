@@ -4,8 +4,9 @@
 
 namespace tss {
 
-/// Calls body(i) for every i in [0, count), spread over the threads allowed by ThreadLimit. Which thread takes which
-/// i is not fixed: body(i) writes to slot i only, so that the result is the same bits for any number of threads.
+/// Calls body(i) for every i in [0, count), spread over the threads allowed by ThreadLimit. Which thread
+/// takes which i is not fixed: body(i) writes to slot i only, so that the result is the same bits for any
+/// number of threads.
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body);
 
 /// Limits the worker threads of this process while it lives. 0: as many as the machine has.

@@ -29,7 +29,7 @@ struct Dof {
     Vec3 axis = Vec3::UnitX();
     double lower = 0; ///< lower <= upper, finite
     double upper = 0;
-    double rest = 0; ///< value at which the bodies stand as modelled
+    double rest = 0;           ///< value at which the bodies stand as modelled
     std::vector<PathRow> path; ///< at least two rows, values strictly rising, covering [lower, upper]
     Pose frame = Pose::Identity();
 };
@@ -43,8 +43,8 @@ struct LimitPlane {
 /// How body B may move against body A: T(q) = D1(q1) ... Dd(qd) T0, B-local to A-local (METHOD 0).
 /// Q is the box of the DOFs' limits cut by the planes.
 struct Motion {
-    std::vector<Dof> dofs;           ///< D1, nearest to A, first
-    Pose base = Pose::Identity();    ///< T0
+    std::vector<Dof> dofs;        ///< D1, nearest to A, first
+    Pose base = Pose::Identity(); ///< T0
     std::vector<LimitPlane> planes;
 
     std::size_t dofCount() const { return dofs.size(); }
@@ -66,11 +66,12 @@ std::vector<double> restValues(const Motion& motion);
 /// Every limit and every plane holds at q, with a slack in the DOF's own unit.
 bool withinLimits(const Motion& motion, std::span<const double> q, double slack = 0);
 
-/// Clamps each DOF into its limits, then pulls q back into the planes by cyclic projection (at most 100 rounds; the
-/// result is inside for a non-empty Q up to 1e-12 of the range).
+/// Clamps each DOF into its limits, then pulls q back into the planes by cyclic projection (at most 100
+/// rounds; the result is inside for a non-empty Q up to 1e-12 of the range).
 std::vector<double> clampToLimits(const Motion& motion, std::span<const double> q);
 
-/// Throws InputError for a motion that cannot be served: no finite limits, reversed limits, zero axis, bad path.
+/// Throws InputError for a motion that cannot be served: no finite limits, reversed limits, zero axis, bad
+/// path.
 void checkMotion(const Motion& motion);
 
 } // namespace tss

@@ -25,8 +25,8 @@ struct JointResult {
     JointStatus status = JointStatus::Free;
 };
 
-/// Keeps a joint out of collision (METHOD 5): never through an obstacle, never farther from the asked pose than the
-/// start; no stiffness, no time step, the same bits for the same input.
+/// Keeps a joint out of collision (METHOD 5): never through an obstacle, never farther from the asked pose
+/// than the start; no stiffness, no time step, the same bits for the same input.
 JointResult respond(const Table& table, const JointRequest& request);
 
 } // namespace tss

@@ -18,10 +18,10 @@ struct Layer;
 struct Body {
     std::string path;        ///< prim path, e.g. /Jaw/Skull
     std::string displayName; ///< the name it had elsewhere (an OSG node's), when that is not a prim name
-    TriangleMesh mesh;       ///< in the body's own rigid frame; scale of the prim's transform is applied already
+    TriangleMesh mesh; ///< in the body's own rigid frame; scale of the prim's transform is applied already
     Pose placement = Pose::Identity(); ///< body to world, as modelled
     Vec3 displayColor{0.8, 0.8, 0.8};  ///< linear RGB, 0..1
-    bool rigid = false;  ///< PhysicsRigidBodyAPI
+    bool rigid = false;                ///< PhysicsRigidBodyAPI
     bool visible = true;
     bool doubleSided = false;
 };
@@ -41,29 +41,29 @@ struct Joint {
     bool collisionEnabled = true;
 };
 
-/// Settings of a pair's bake that differ from the defaults, as "key" -> text; keys are the options of `tss bake`
-/// without dashes.
+/// Settings of a pair's bake that differ from the defaults, as "key" -> text; keys are the options of `tss
+/// bake` without dashes.
 using BakeSettings = std::map<std::string, std::string>;
 
 /// Two rigid bodies whose collision is of interest.
 struct Pair {
-    std::string path;  ///< the joint's path, or that of a prim with tss:bodies
-    int bodyA = -1;    ///< A stays, B moves
+    std::string path; ///< the joint's path, or that of a prim with tss:bodies
+    int bodyA = -1;   ///< A stays, B moves
     int bodyB = -1;
     std::vector<int> joints; ///< the chain from A to B, indices into joints; one for neighbours
     BakeSettings settings;
     std::string tablePath; ///< prim path of the table, empty when there is none
     std::shared_ptr<const Table> table;
     std::shared_ptr<const NeverCollides> proof; ///< instead of a table
-    std::string sourceHash; ///< of what the table or the proof was made from
+    std::string sourceHash;                     ///< of what the table or the proof was made from
 };
 
 /// A muscle prim. Its surface is that of a body of the scene.
 struct MuscleModel {
     std::string path;
-    int body = -1;  ///< index into bodies: the surface
-    int bone = -1;  ///< the body it rides on, -1: none
-    Muscle muscle;  ///< in the surface's frame
+    int body = -1; ///< index into bodies: the surface
+    int bone = -1; ///< the body it rides on, -1: none
+    Muscle muscle; ///< in the surface's frame
     TimeSamples activation;
 };
 
@@ -71,13 +71,14 @@ struct MuscleModel {
 struct SkinModel {
     std::string path; ///< of its mesh prim
     int body = -1;
-    std::vector<int> muscles;  ///< indices into muscles
-    double thickness = 0;      ///< skin sphere radius, scene units; 0: from the mesh
-    double travel = 0;         ///< how far a vertex may stray from rest; 0: from the muscles' motion
+    std::vector<int> muscles; ///< indices into muscles
+    double thickness = 0;     ///< skin sphere radius, scene units; 0: from the mesh
+    double travel = 0;        ///< how far a vertex may stray from rest; 0: from the muscles' motion
     double stretchCompliance = 0;
     double bendCompliance = 0;
     std::vector<double> tether; ///< #V, 0..1, how firmly a vertex is held to its rest place; empty: 0
-    std::vector<double> attach; ///< #V, 0..1, how firmly it is carried by the muscle below; empty: from the muscles
+    std::vector<double>
+        attach; ///< #V, 0..1, how firmly it is carried by the muscle below; empty: from the muscles
     BakeSettings settings;
     std::string tablePath;
     std::shared_ptr<const SkinTable> table;
@@ -102,8 +103,9 @@ struct SceneModel {
     std::shared_ptr<const Layer> layer; ///< what it was read from, with everything that it does not know
 };
 
-/// The motion of a pair: its chain of joints composed, B-local to A-local. The DOFs are the joints' in chain order;
-/// a joint crossed from body1 to body0 is inverted. DOF names are "<joint name>:<dof>" when there are several joints.
+/// The motion of a pair: its chain of joints composed, B-local to A-local. The DOFs are the joints' in chain
+/// order; a joint crossed from body1 to body0 is inverted. DOF names are "<joint name>:<dof>" when there are
+/// several joints.
 Motion pairMotion(const SceneModel& scene, const Pair& pair);
 
 /// Index of the body, joint, ... with this prim path, -1 when there is none.

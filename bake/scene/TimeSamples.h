@@ -4,8 +4,8 @@
 
 namespace tss {
 
-/// A value over time: linear between samples, held before the first and after the last, as USD does. Times are time
-/// codes, strictly rising.
+/// A value over time: linear between samples, held before the first and after the last, as USD does. Times
+/// are time codes, strictly rising.
 struct TimeSamples {
     std::vector<double> times;
     std::vector<double> values;

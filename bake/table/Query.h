@@ -4,8 +4,8 @@
 namespace tss {
 
 struct QueryResult {
-    double gap = 0;    ///< smallest gap minus its rest gap, scene units; <= 0: contact. +inf for an empty table
-    int test = -1;     ///< index of the test that gives it, -1 for an empty table
+    double gap = 0; ///< smallest gap minus its rest gap, scene units; <= 0: contact. +inf for an empty table
+    int test = -1;  ///< index of the test that gives it, -1 for an empty table
     Vec3 point = Vec3::Zero();  ///< contact point in A's frame, half way between the two sphere surfaces
     Vec3 normal = Vec3::Zero(); ///< unit, A's frame, from A towards B
     bool hit() const { return gap <= 0; }

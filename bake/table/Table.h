@@ -8,8 +8,8 @@
 
 namespace tss {
 
-/// A Tabulated Sphere Subset (TSS): the few sphere pairs of two bodies that answer for all of them over every pose
-/// the motion allows. Immutable once made; shared between threads and instances.
+/// A Tabulated Sphere Subset (TSS): the few sphere pairs of two bodies that answer for all of them over every
+/// pose the motion allows. Immutable once made; shared between threads and instances.
 struct Table {
     SphereSet a; ///< the used spheres of body A, in A's frame
     SphereSet b; ///< the used spheres of body B, in B's frame
@@ -18,16 +18,16 @@ struct Table {
     std::vector<std::uint32_t> rowOffsets{0}; ///< #a + 1, starts at 0, never falls, ends at columns.size()
     std::vector<std::uint32_t> columns;       ///< < #b
 
-    /// Per test: the gap below which it counts as contact; 0, or the negative gap at rest of a pair that overlaps
-    /// there (METHOD 2.4). Empty: all 0.
+    /// Per test: the gap below which it counts as contact; 0, or the negative gap at rest of a pair that
+    /// overlaps there (METHOD 2.4). Empty: all 0.
     std::vector<double> restGaps;
 
     Motion motion; ///< the motion and limits it was made for
 
-    double epsilon = 0;    ///< gap of the table <= gap of the sphere models + epsilon, at every pose (3.3)
-    double gapDepth = 0;   ///< gap-true down to this depth ...
-    double gapMargin = 0;  ///< ... and up to this clearance (3.4); both 0: a yes/no table
-    double boundMiss = -1; ///< contact is reported no later than this depth of the meshes; < 0: not known
+    double epsilon = 0;     ///< gap of the table <= gap of the sphere models + epsilon, at every pose (3.3)
+    double gapDepth = 0;    ///< gap-true down to this depth ...
+    double gapMargin = 0;   ///< ... and up to this clearance (3.4); both 0: a yes/no table
+    double boundMiss = -1;  ///< contact is reported no later than this depth of the meshes; < 0: not known
     double boundEarly = -1; ///< contact is reported only when the meshes are this near; < 0: not known
     bool certified = false; ///< the bounds hold for every pose of the limits, not for samples
     std::string method;     ///< how it was made, e.g. "medial/certified/cover"
@@ -37,7 +37,7 @@ struct Table {
 
 /// A proof that the two bodies cannot meet anywhere in Q: no table, no callback.
 struct NeverCollides {
-    double clearance = 0; ///< the sphere models stay farther apart than this at every pose
+    double clearance = 0;    ///< the sphere models stay farther apart than this at every pose
     std::uint64_t cells = 0; ///< cells of Q that the proof took
     std::string method;
 };
@@ -49,9 +49,9 @@ struct SpherePair {
 };
 std::vector<SpherePair> tests(const Table& table);
 
-/// Makes the CSR of a table from pairs of indices into whole sphere sets: keeps the used spheres only, in rising order
-/// of their index. usedA, usedB when given receive the index in the whole set of each kept sphere.
-/// restGaps (one a pair, or empty) follow their pairs.
+/// Makes the CSR of a table from pairs of indices into whole sphere sets: keeps the used spheres only, in
+/// rising order of their index. usedA, usedB when given receive the index in the whole set of each kept
+/// sphere. restGaps (one a pair, or empty) follow their pairs.
 Table makeTable(const SphereSet& a, const SphereSet& b, std::vector<SpherePair> pairs,
                 const std::vector<double>& restGaps, const Motion& motion,
                 std::vector<std::uint32_t>* usedA = nullptr, std::vector<std::uint32_t>* usedB = nullptr);

@@ -1,0 +1,84 @@
+#include "bake/base/Error.h"
+#include "bake/motion/Motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tss {
+
+namespace {
+
+double excess(const LimitPlane& plane, std::span<const double> q) {
+    return std::inner_product(q.begin(), q.end(), plane.coefficients.begin(), -plane.bound);
+}
+
+void checkPath(const Dof& dof) {
+    if (dof.path.size() < 2) throw InputError("path of DOF '" + dof.name + "': expected at least 2 rows");
+    for (std::size_t i = 0; i + 1 < dof.path.size(); ++i)
+        if (!(dof.path[i].value < dof.path[i + 1].value))
+            throw InputError("path of DOF '" + dof.name + "': expected values that rise from row to row");
+    for (const PathRow& row : dof.path)
+        if (!row.translation.allFinite() || !row.rotation.coeffs().allFinite())
+            throw InputError("path of DOF '" + dof.name + "': expected finite numbers");
+    if (dof.lower < dof.path.front().value || dof.upper > dof.path.back().value)
+        throw InputError("path of DOF '" + dof.name + "': expected rows that cover the limits");
+}
+
+void checkDof(const Dof& dof) {
+    if (!std::isfinite(dof.lower) || !std::isfinite(dof.upper))
+        throw InputError("DOF '" + dof.name + "': expected finite limits; a table covers a bounded motion");
+    if (dof.lower > dof.upper)
+        throw InputError("DOF '" + dof.name + "': expected lower limit <= upper limit");
+    if (!std::isfinite(dof.rest)) throw InputError("DOF '" + dof.name + "': expected a finite rest value");
+    if (dof.kind == DofKind::Path) return checkPath(dof);
+    if (!dof.axis.allFinite() || !(dof.axis.norm() > 0) || !dof.origin.allFinite())
+        throw InputError("DOF '" + dof.name + "': expected a finite origin and an axis that is not zero");
+    if (dof.kind == DofKind::Rotation && std::abs(dof.axis.norm() - 1) > 1e-9)
+        throw InputError("DOF '" + dof.name + "': expected an axis of unit length");
+}
+
+} // namespace
+
+bool withinLimits(const Motion& motion, std::span<const double> q, double slack) {
+    for (std::size_t k = 0; k < motion.dofs.size(); ++k)
+        if (!(q[k] >= motion.dofs[k].lower - slack && q[k] <= motion.dofs[k].upper + slack)) return false;
+    return std::all_of(motion.planes.begin(), motion.planes.end(),
+                       [&](const LimitPlane& plane) { return excess(plane, q) <= slack; });
+}
+
+std::vector<double> clampToLimits(const Motion& motion, std::span<const double> asked) {
+    std::vector<double> q(asked.begin(), asked.end());
+    const auto clampBox = [&] {
+        for (std::size_t k = 0; k < q.size(); ++k)
+            q[k] = std::clamp(q[k], motion.dofs[k].lower, motion.dofs[k].upper);
+    };
+    clampBox();
+    for (int round = 0; round < 100 && !withinLimits(motion, q); ++round) {
+        for (const LimitPlane& plane : motion.planes) {
+            const double over = excess(plane, q);
+            if (over <= 0) continue;
+            double squared = 0;
+            for (double c : plane.coefficients) squared += c * c;
+            for (std::size_t k = 0; k < q.size(); ++k) q[k] -= over / squared * plane.coefficients[k];
+        }
+        clampBox();
+    }
+    return q;
+}
+
+void checkMotion(const Motion& motion) {
+    for (const Dof& dof : motion.dofs) checkDof(dof);
+    if (!motion.base.matrix().allFinite()) throw InputError("motion: expected finite frames");
+    for (const LimitPlane& plane : motion.planes) {
+        const bool finite = std::all_of(plane.coefficients.begin(), plane.coefficients.end(),
+                                        [](double c) { return std::isfinite(c); });
+        const bool zero = std::all_of(plane.coefficients.begin(), plane.coefficients.end(),
+                                      [](double c) { return c == 0; });
+        if (plane.coefficients.size() != motion.dofCount() || !finite || zero || !std::isfinite(plane.bound))
+            throw InputError(
+                "limit plane: expected one finite coefficient a DOF, not all 0, and a finite bound");
+    }
+}
+
+} // namespace tss

@@ -1,0 +1,81 @@
+#include "bake/motion/Motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tss {
+
+namespace {
+
+/// The path's pose at a value: linear in translation, slerp in rotation between the rows about it.
+Pose pathPose(const std::vector<PathRow>& rows, double value) {
+    const auto next = std::upper_bound(rows.begin() + 1, rows.end() - 1, value,
+                                       [](double v, const PathRow& row) { return v < row.value; });
+    const PathRow &r0 = *(next - 1), &r1 = *next;
+    const double t = std::clamp((value - r0.value) / (r1.value - r0.value), 0.0, 1.0);
+    Pose p = Pose::Identity();
+    p.linear() = r0.rotation.slerp(t, r1.rotation).toRotationMatrix();
+    p.translation() = r0.translation + t * (r1.translation - r0.translation);
+    return p;
+}
+
+} // namespace
+
+Pose dofPose(const Dof& dof, double q) {
+    Pose p = Pose::Identity();
+    switch (dof.kind) {
+    case DofKind::Rotation:
+        p.linear() = Eigen::AngleAxisd(q, dof.axis).toRotationMatrix();
+        p.translation() = dof.origin - p.linear() * dof.origin;
+        break;
+    case DofKind::Translation:
+        p.translation() = q * dof.axis;
+        break;
+    case DofKind::Path:
+        p = dof.frame * pathPose(dof.path, q) * dof.frame.inverse(Eigen::Isometry);
+        break;
+    }
+    return p;
+}
+
+Pose pose(const Motion& motion, std::span<const double> q) {
+    Pose p = Pose::Identity();
+    for (std::size_t k = 0; k < motion.dofs.size(); ++k) p = p * dofPose(motion.dofs[k], q[k]);
+    return p * motion.base;
+}
+
+Eigen::Matrix3Xd pointJacobian(const Motion& motion, std::span<const double> q, const Vec3& x) {
+    Eigen::Matrix3Xd jacobian(3, motion.dofCount());
+    Pose prefix = Pose::Identity();
+    for (std::size_t k = 0; k < motion.dofs.size(); ++k) {
+        const Dof& dof = motion.dofs[k];
+        switch (dof.kind) {
+        case DofKind::Rotation:
+            jacobian.col(k) = (prefix.linear() * dof.axis).cross(x - prefix * dof.origin);
+            break;
+        case DofKind::Translation:
+            jacobian.col(k) = prefix.linear() * dof.axis;
+            break;
+        case DofKind::Path: {
+            const double h = 1e-6 * (dof.path.back().value - dof.path.front().value);
+            const Vec3 local =
+                dofPose(dof, q[k]).inverse(Eigen::Isometry) * (prefix.inverse(Eigen::Isometry) * x);
+            const Vec3 ahead = dofPose(dof, std::min(q[k] + h, dof.upper)) * local;
+            const Vec3 behind = dofPose(dof, std::max(q[k] - h, dof.lower)) * local;
+            const double step = std::min(q[k] + h, dof.upper) - std::max(q[k] - h, dof.lower);
+            jacobian.col(k) = step > 0 ? Vec3(prefix.linear() * (ahead - behind) / step) : Vec3::Zero();
+            break;
+        }
+        }
+        prefix = prefix * dofPose(dof, q[k]);
+    }
+    return jacobian;
+}
+
+std::vector<double> restValues(const Motion& motion) {
+    std::vector<double> q;
+    for (const Dof& dof : motion.dofs) q.push_back(dof.rest);
+    return q;
+}
+
+} // namespace tss
