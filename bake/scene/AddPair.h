@@ -1,0 +1,18 @@
+#pragma once
+#include "bake/scene/SceneModel.h"
+
+namespace tss {
+
+/// Adds the joints that spell a motion of body B against body A in terms of USD physics, places B at the
+/// motion's rest values, and adds the pair. One joint prim when the DOFs share a centre and lie along the
+/// axes of one frame; otherwise a chain of joints with an Xform between each two of them, and a pair prim
+/// that names its ends. Bodies A and B must be in the scene, paths of siblings under /<defaultPrim>. `name`:
+/// of the new prims. Returns the index of the pair. Throws InputError for a motion that checkMotion()
+/// refuses.
+int addPair(SceneModel& scene, int bodyA, int bodyB, const Motion& motion, const std::string& name);
+
+/// A name that USD accepts ([A-Za-z_][A-Za-z0-9_]*), as near to the wanted one as can be, that no body, joint
+/// or muscle of the scene has yet under the root prim.
+std::string freePrimName(const SceneModel& scene, const std::string& wanted);
+
+} // namespace tss
