@@ -32,8 +32,11 @@ std::optional<Eigen::Matrix3d> completeFrame(const std::array<std::optional<Vec3
     if (given == 1) {
         const Vec3 unit = Vec3::Unit(first);
         if (*columns[first] == unit) return frame;
-        if (*columns[first] == -unit)
-            return Eigen::AngleAxisd(M_PI, Vec3::Unit((first + 1) % 3)).toRotationMatrix();
+        if (*columns[first] == -unit) { // half a turn about the next axis, exact
+            frame = -frame;
+            frame((first + 1) % 3, (first + 1) % 3) = 1;
+            return frame;
+        }
         return Eigen::Quaterniond::FromTwoVectors(unit, *columns[first]).toRotationMatrix();
     }
     for (int k = 0; k < 3; ++k)
