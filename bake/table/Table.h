@@ -8,6 +8,22 @@
 
 namespace tss {
 
+/// How well the spheres of one body fit its mesh, as bounds over its whole surface, or over the contact zone
+/// when the table was made from one (METHOD 1.5); < 0: not known.
+struct FitRecord {
+    double coverage = -1;   ///< no surface point is farther than this from the union of the spheres
+    double protrusion = -1; ///< no sphere sticks out of the solid by more than this
+};
+
+/// What went into a table, for those who read about it; the query does not use it.
+struct BakeRecord {
+    std::uint64_t spheresA = 0; ///< generated (the paper's Ms)
+    std::uint64_t spheresB = 0;
+    std::uint64_t candidatePairs = 0; ///< pairs that can meet (the paper's Tc)
+    std::uint64_t lowerBound = 0;     ///< no table with the same answers has fewer tests; 0: not known
+    FitRecord fitA, fitB;
+};
+
 /// A Tabulated Sphere Subset (TSS): the few sphere pairs of two bodies that answer for all of them over every
 /// pose the motion allows. Immutable once made; shared between threads and instances.
 struct Table {
@@ -31,6 +47,7 @@ struct Table {
     double boundEarly = -1; ///< contact is reported only when the meshes are this near; < 0: not known
     bool certified = false; ///< the bounds hold for every pose of the limits, not for samples
     std::string method;     ///< how it was made, e.g. "medial/certified/cover"
+    BakeRecord record;
 
     std::size_t testCount() const { return columns.size(); }
 };
@@ -40,6 +57,7 @@ struct NeverCollides {
     double clearance = 0;    ///< the sphere models stay farther apart than this at every pose
     std::uint64_t cells = 0; ///< cells of Q that the proof took
     std::string method;
+    BakeRecord record;
 };
 
 /// Row and column of each test, in order.
