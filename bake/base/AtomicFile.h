@@ -1,0 +1,14 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace tss {
+
+/// Writes a whole file beside its place and renames it there: the old file stays intact when anything fails,
+/// and no partial file is left. Throws InputError with the file and the system's reason.
+void writeFileAtomically(const std::string& file, std::string_view content);
+
+/// The whole content of a regular file. Throws InputError with the file and the system's reason.
+std::string readWholeFile(const std::string& file);
+
+} // namespace tss
