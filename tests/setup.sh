@@ -1,0 +1,36 @@
+# What a build, the tests and the pictures need on Debian 12; sourced by tests/run.sh and examples/run.sh.
+# install_packages installs what is missing, with apt, as root or through sudo; build_release builds into build/.
+
+packages=(
+    build-essential cmake ninja-build pkg-config
+    libopenscenegraph-dev openscenegraph
+    libeigen3-dev libassimp-dev nlohmann-json3-dev catch2
+    libtbb-dev libembree-dev libhwy-dev libcli11-dev libfmt-dev
+    libfcl-dev
+    xvfb xauth libgl1-mesa-dri
+)
+
+say() { printf '\n== %s\n' "$*"; }
+
+install_packages() {
+    local missing=() package
+    for package in "${packages[@]}"; do
+        dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -q '^installed$' || missing+=("$package")
+    done
+    if [ ${#missing[@]} -eq 0 ]; then
+        say "All Debian packages are there"
+        return
+    fi
+    say "Installing ${missing[*]}"
+    local become=()
+    [ "$(id -u)" -eq 0 ] || become=(sudo)
+    "${become[@]}" apt-get update -q
+    "${become[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"
+}
+
+# build_release [cmake options]: the preset `release` into build/
+build_release() {
+    say "Building the preset release into build/"
+    cmake --preset release "$@"
+    cmake --build --preset release --parallel "$(nproc)"
+}
