@@ -1,0 +1,130 @@
+#include "bake/geometry/Bvh.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace tss {
+
+namespace {
+
+using Box = Eigen::AlignedBox3d;
+
+constexpr int binCount = 16;
+constexpr int deepest =
+    100; // below visitNearest's stack; splits in the middle from depth 60 on keep under it
+
+double halfArea(const Box& box) {
+    if (box.isEmpty()) return 0;
+    const Vec3 s = box.sizes();
+    return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
+}
+
+struct Split {
+    int axis = -1;
+    int bin = 0;
+    double cost = std::numeric_limits<double>::infinity();
+};
+
+class Builder {
+public:
+    Builder(std::span<const Box> boxes, std::uint32_t leafSize) : boxes_(boxes), leafSize_(leafSize) {
+        bvh_.items.resize(boxes.size());
+        std::iota(bvh_.items.begin(), bvh_.items.end(), 0u);
+        bvh_.nodes.reserve(boxes.size());
+    }
+
+    Bvh build() {
+        bvh_.nodes.emplace_back();
+        subdivide(0, 0, static_cast<std::uint32_t>(boxes_.size()), 0);
+        return std::move(bvh_);
+    }
+
+private:
+    void subdivide(std::uint32_t index, std::uint32_t first, std::uint32_t count, int depth) {
+        Box box, centres;
+        for (std::uint32_t i = first; i < first + count; ++i) {
+            box.extend(boxes_[bvh_.items[i]]);
+            centres.extend(boxes_[bvh_.items[i]].center());
+        }
+        bvh_.nodes[index].lower = box.min();
+        bvh_.nodes[index].upper = box.max();
+        if (count <= leafSize_ || depth >= deepest) {
+            bvh_.nodes[index].first = first;
+            bvh_.nodes[index].count = count;
+            return;
+        }
+        const std::uint32_t middle = partition(first, count, centres, depth);
+        const auto left = static_cast<std::uint32_t>(bvh_.nodes.size());
+        bvh_.nodes[index].first = left;
+        bvh_.nodes.resize(bvh_.nodes.size() + 2);
+        subdivide(left, first, middle - first, depth + 1);
+        subdivide(left + 1, middle, first + count - middle, depth + 1);
+    }
+
+    int binOf(std::uint32_t item, const Box& centres, int axis) const {
+        const double width = centres.sizes()[axis];
+        const double t = (boxes_[item].center()[axis] - centres.min()[axis]) / width;
+        return std::clamp(static_cast<int>(t * binCount), 0, binCount - 1);
+    }
+
+    Split bestSplit(std::uint32_t first, std::uint32_t count, const Box& centres) const {
+        Split best;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(centres.sizes()[axis] > 0)) continue;
+            std::array<Box, binCount> bins;
+            std::array<std::uint32_t, binCount> counts{};
+            for (std::uint32_t i = first; i < first + count; ++i) {
+                const int bin = binOf(bvh_.items[i], centres, axis);
+                bins[bin].extend(boxes_[bvh_.items[i]]);
+                ++counts[bin];
+            }
+            std::array<double, binCount> right{};
+            Box box;
+            std::uint32_t n = 0;
+            for (int bin = binCount - 1; bin > 0; --bin) {
+                box.extend(bins[bin]);
+                n += counts[bin];
+                right[bin] = halfArea(box) * n;
+            }
+            box.setEmpty();
+            n = 0;
+            for (int bin = 1; bin < binCount; ++bin) {
+                box.extend(bins[bin - 1]);
+                n += counts[bin - 1];
+                const double cost = halfArea(box) * n + right[bin];
+                if (n > 0 && n < count && cost < best.cost) best = {axis, bin, cost};
+            }
+        }
+        return best;
+    }
+
+    std::uint32_t partition(std::uint32_t first, std::uint32_t count, const Box& centres, int depth) {
+        const auto begin = bvh_.items.begin() + first, end = begin + count;
+        const Split split = depth < 60 ? bestSplit(first, count, centres) : Split{};
+        if (split.axis >= 0) {
+            const auto middle = std::stable_partition(
+                begin, end, [&](std::uint32_t item) { return binOf(item, centres, split.axis) < split.bin; });
+            return static_cast<std::uint32_t>(middle - bvh_.items.begin());
+        }
+        int axis = 0;
+        centres.sizes().maxCoeff(&axis);
+        std::nth_element(begin, begin + count / 2, end, [&](std::uint32_t a, std::uint32_t b) {
+            const double x = boxes_[a].center()[axis], y = boxes_[b].center()[axis];
+            return x != y ? x < y : a < b;
+        });
+        return first + count / 2;
+    }
+
+    std::span<const Box> boxes_;
+    std::uint32_t leafSize_;
+    Bvh bvh_;
+};
+
+} // namespace
+
+Bvh buildBvh(std::span<const Box> boxes, std::uint32_t leafSize) {
+    if (boxes.empty()) return {};
+    return Builder(boxes, std::max(leafSize, 1u)).build();
+}
+
+} // namespace tss

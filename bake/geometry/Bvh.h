@@ -1,0 +1,67 @@
+#pragma once
+#include "bake/geometry/TriangleMesh.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace tss {
+
+/// A binary hierarchy of axis-aligned boxes in double precision. Embree would be quicker a ray, but its
+/// boxes, rays and point queries are floats: at 0.3 units from the origin a float is 3e-8 wide, and the
+/// bounds proven with these queries must not depend on that.
+struct Bvh {
+    struct Node {
+        Vec3 lower, upper;
+        std::uint32_t first =
+            0; ///< leaf: first place in items; inner node: left child, the right one follows it
+        std::uint32_t count = 0; ///< number of items; 0 for an inner node
+    };
+    std::vector<Node> nodes; ///< nodes[0] is the root; a child stands behind its parent; empty without items
+    std::vector<std::uint32_t> items; ///< the indices of the boxes given, leaf by leaf
+
+    bool empty() const { return nodes.empty(); }
+};
+
+/// Builds the hierarchy by the surface area heuristic over 16 bins; the same input gives the same tree.
+/// leafSize: the largest number of items in a leaf, >= 1.
+Bvh buildBvh(std::span<const Eigen::AlignedBox3d> boxes, std::uint32_t leafSize = 4);
+
+inline double squaredDistance(const Bvh::Node& node, const Vec3& p) {
+    return (node.lower - p).cwiseMax(p - node.upper).cwiseMax(0.0).squaredNorm();
+}
+
+/// Calls leaf(item) for items in roughly rising distance from p, skipping all whose box is no nearer than the
+/// square root of best2, which leaf lowers as it finds better ones.
+template <class Leaf>
+void visitNearest(const Bvh& bvh, const Vec3& p, double& best2, Leaf&& leaf) {
+    if (bvh.empty()) return;
+    std::array<std::pair<double, std::uint32_t>, 128> stack;
+    std::size_t top = 0;
+    stack[top++] = {squaredDistance(bvh.nodes[0], p), 0};
+    while (top > 0) {
+        const auto [distance2, index] = stack[--top];
+        if (distance2 >= best2) continue;
+        const Bvh::Node& node = bvh.nodes[index];
+        for (std::uint32_t i = 0; i < node.count; ++i) leaf(bvh.items[node.first + i]);
+        if (node.count > 0) continue;
+        std::pair<double, std::uint32_t> near{squaredDistance(bvh.nodes[node.first], p), node.first};
+        std::pair<double, std::uint32_t> far{squaredDistance(bvh.nodes[node.first + 1], p), node.first + 1};
+        if (far.first < near.first) std::swap(near, far);
+        if (far.first < best2) stack[top++] = far;
+        if (near.first < best2) stack[top++] = near;
+    }
+}
+
+/// Calls leaf(item) for every item whose box comes within `radius` of p, in the order of the tree.
+template <class Leaf>
+void visitBall(const Bvh& bvh, const Vec3& p, double radius, Leaf&& leaf) {
+    double radius2 = std::nextafter(radius * radius, std::numeric_limits<double>::infinity());
+    visitNearest(bvh, p, radius2, leaf);
+}
+
+} // namespace tss

@@ -1,0 +1,114 @@
+#include "bake/geometry/Import.h"
+
+#include "bake/base/Error.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+
+#ifdef OSGTSS_IMPORT
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#endif
+
+namespace tss {
+
+TriangleMesh welded(const TriangleMesh& mesh) {
+    const auto count = static_cast<int>(mesh.vertices.size());
+    const auto less = [&](int a, int b) {
+        const Vec3 &x = mesh.vertices[a], &y = mesh.vertices[b];
+        for (int k = 0; k < 3; ++k)
+            if (x[k] != y[k]) return x[k] < y[k];
+        return a < b;
+    };
+    std::vector<int> order(count), first(count), place(count, -1);
+    std::iota(order.begin(), order.end(), 0);
+    // NaN has no place in an order: such vertices stay as they are.
+    const auto finite =
+        std::partition(order.begin(), order.end(), [&](int v) { return mesh.vertices[v].allFinite(); });
+    std::sort(order.begin(), finite, less);
+    std::iota(first.begin(), first.end(), 0);
+    for (auto it = order.begin(); it != finite; ++it)
+        if (it != order.begin() && mesh.vertices[*it] == mesh.vertices[*(it - 1)])
+            first[*it] = first[*(it - 1)];
+    TriangleMesh result;
+    for (int v = 0; v < count; ++v) {
+        if (first[v] == v) {
+            place[v] = static_cast<int>(result.vertices.size());
+            result.vertices.push_back(mesh.vertices[v]);
+        } else {
+            place[v] = place[first[v]];
+        }
+    }
+    const auto moved = [&](int v) { return v >= 0 && v < count ? place[v] : v; };
+    for (const Tri& t : mesh.triangles) result.triangles.emplace_back(moved(t[0]), moved(t[1]), moved(t[2]));
+    return result;
+}
+
+#ifdef OSGTSS_IMPORT
+
+namespace {
+
+Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
+    Eigen::Matrix4d result;
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column) result(row, column) = m[row][column];
+    return result;
+}
+
+void append(const aiMesh& source, const Eigen::Matrix4d& transform, TriangleMesh& mesh) {
+    const auto offset = static_cast<int>(mesh.vertices.size());
+    const Eigen::Matrix3d linear = transform.topLeftCorner<3, 3>();
+    const Vec3 shift = transform.topRightCorner<3, 1>();
+    const bool mirrors = linear.determinant() < 0;
+    for (unsigned v = 0; v < source.mNumVertices; ++v) {
+        const aiVector3D& p = source.mVertices[v];
+        mesh.vertices.push_back(linear * Vec3(p.x, p.y, p.z) + shift);
+    }
+    for (unsigned f = 0; f < source.mNumFaces; ++f) {
+        const aiFace& face = source.mFaces[f];
+        if (face.mNumIndices != 3) continue;
+        Tri t(static_cast<int>(face.mIndices[0]), static_cast<int>(face.mIndices[1]),
+              static_cast<int>(face.mIndices[2]));
+        if (mirrors) std::swap(t[1], t[2]); // keeps the outside outside
+        mesh.triangles.push_back(t.array() + offset);
+    }
+}
+
+void append(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& parent, TriangleMesh& mesh) {
+    const Eigen::Matrix4d transform = parent * matrix(node.mTransformation);
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) append(*scene.mMeshes[node.mMeshes[i]], transform, mesh);
+    for (unsigned i = 0; i < node.mNumChildren; ++i) append(scene, *node.mChildren[i], transform, mesh);
+}
+
+} // namespace
+
+TriangleMesh importMesh(const std::string& file) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) throw InputError(Where{file, "", ""}, "no such file");
+    if (!std::filesystem::is_regular_file(file, error))
+        throw InputError(Where{file, "", ""}, "not a file, a mesh file was expected");
+    Assimp::Importer importer;
+    // STL and the like repeat a vertex for every face: welded() joins them, exactly equal ones only.
+    const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
+    if (!scene || !scene->mRootNode)
+        throw InputError(Where{file, "", ""},
+                         "cannot be read as a mesh: " + std::string(importer.GetErrorString()));
+    TriangleMesh mesh;
+    append(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), mesh);
+    if (mesh.triangles.empty())
+        throw InputError(Where{file, "", ""}, "holds no triangle, a mesh with faces was expected");
+    return welded(mesh);
+}
+
+#else
+
+TriangleMesh importMesh(const std::string& file) {
+    throw InputError(Where{file, "", ""}, "this build reads no mesh files (OSGTSS_IMPORT is off)");
+}
+
+#endif
+
+} // namespace tss

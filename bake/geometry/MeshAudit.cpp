@@ -1,0 +1,188 @@
+#include "bake/geometry/MeshAudit.h"
+
+#include "bake/base/Error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace tss {
+
+namespace {
+
+bool inRange(const TriangleMesh& mesh, const Tri& t) {
+    return t.minCoeff() >= 0 && t.maxCoeff() < static_cast<int>(mesh.vertices.size());
+}
+
+/// The corners turned so that the least index stands first: equal for equal triangles of equal sense.
+std::array<int, 3> turned(const Tri& t) {
+    int k = 0;
+    t.minCoeff(&k);
+    return {t[k], t[(k + 1) % 3], t[(k + 2) % 3]};
+}
+
+/// For every triangle, whether an earlier one is the same.
+std::vector<char> duplicates(const TriangleMesh& mesh) {
+    std::vector<std::pair<std::array<int, 3>, std::size_t>> keys;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) keys.push_back({turned(mesh.triangles[t]), t});
+    std::sort(keys.begin(), keys.end());
+    std::vector<char> repeated(keys.size(), 0);
+    for (std::size_t i = 1; i < keys.size(); ++i)
+        if (keys[i].first == keys[i - 1].first) repeated[keys[i].second] = 1;
+    return repeated;
+}
+
+struct HalfEdge {
+    int from, to; // from < to
+    bool forward; // the triangle runs from `from` to `to`
+    bool operator<(const HalfEdge& o) const {
+        return std::tie(from, to, forward) < std::tie(o.from, o.to, o.forward);
+    }
+};
+
+void countEdges(const TriangleMesh& mesh, MeshAudit& audit) {
+    std::vector<HalfEdge> edges;
+    for (const Tri& t : mesh.triangles) {
+        if (!inRange(mesh, t)) continue;
+        for (int k = 0; k < 3; ++k) {
+            const int a = t[k], b = t[(k + 1) % 3];
+            if (a != b) edges.push_back({std::min(a, b), std::max(a, b), a < b});
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+        while (end < edges.size() && edges[end].from == edges[i].from && edges[end].to == edges[i].to) ++end;
+        if (end - i == 1) ++audit.openEdges;
+        if (end - i > 2) ++audit.nonManifoldEdges;
+        if (end - i == 2 && edges[i].forward == edges[i + 1].forward) ++audit.misorientedEdges;
+    }
+}
+
+int countComponents(const TriangleMesh& mesh) {
+    std::vector<int> parent(mesh.vertices.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](int v) {
+        while (parent[v] != v) v = parent[v] = parent[parent[v]];
+        return v;
+    };
+    for (const Tri& t : mesh.triangles)
+        if (inRange(mesh, t)) {
+            parent[root(t[1])] = root(t[0]);
+            parent[root(t[2])] = root(t[0]);
+        }
+    std::vector<char> seen(mesh.vertices.size(), 0);
+    int count = 0;
+    for (const Tri& t : mesh.triangles)
+        if (inRange(mesh, t) && !std::exchange(seen[root(t[0])], 1)) ++count;
+    return count;
+}
+
+void countVertices(const TriangleMesh& mesh, MeshAudit& audit) {
+    std::vector<char> used(mesh.vertices.size(), 0);
+    for (const Tri& t : mesh.triangles)
+        if (inRange(mesh, t))
+            for (int k = 0; k < 3; ++k) used[t[k]] = 1;
+    audit.unusedVertices = static_cast<int>(std::count(used.begin(), used.end(), 0));
+    std::vector<Vec3> finite;
+    for (const Vec3& v : mesh.vertices)
+        if (v.allFinite()) finite.push_back(v);
+    audit.notFinite = static_cast<int>(mesh.vertices.size() - finite.size());
+    std::sort(finite.begin(), finite.end(), [](const Vec3& a, const Vec3& b) {
+        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+    });
+    for (std::size_t i = 1; i < finite.size(); ++i) audit.duplicateVertices += finite[i] == finite[i - 1];
+}
+
+} // namespace
+
+bool hasZeroArea(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 ab = b - a, bc = c - b, ca = a - c;
+    const double longest2 = std::max({ab.squaredNorm(), bc.squaredNorm(), ca.squaredNorm()});
+    // Scaled first, so that triangles of 1e-100 units have the area they have.
+    const double scale = std::sqrt(longest2);
+    return !(scale > 0) || (ab / scale).cross(ca / scale).norm() < 1e-14;
+}
+
+MeshAudit auditMesh(const TriangleMesh& mesh) {
+    MeshAudit audit;
+    audit.vertices = static_cast<int>(mesh.vertices.size());
+    audit.triangles = static_cast<int>(mesh.triangles.size());
+    countEdges(mesh, audit);
+    countVertices(mesh, audit);
+    audit.components = countComponents(mesh);
+    const std::vector<char> repeated = duplicates(mesh);
+    const Vec3 origin = mesh.vertices.empty() ? Vec3(Vec3::Zero()) : mesh.vertices[0];
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        audit.duplicateTriangles += repeated[t];
+        if (!inRange(mesh, mesh.triangles[t])) {
+            ++audit.badIndices;
+            continue;
+        }
+        const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+        audit.zeroAreaTriangles += hasZeroArea(a, b, c);
+        audit.signedVolume += (a - origin).dot((b - origin).cross(c - origin)) / 6;
+    }
+    audit.watertight = audit.triangles > 0 && audit.badIndices == 0 && audit.openEdges == 0 &&
+                       audit.nonManifoldEdges == 0 && audit.misorientedEdges == 0;
+    return audit;
+}
+
+std::string text(const MeshAudit& audit) {
+    std::string s = fmt::format("{} vertices, {} triangles, {} component{}{}", audit.vertices,
+                                audit.triangles, audit.components, audit.components == 1 ? "" : "s",
+                                audit.watertight ? ", watertight" : "");
+    const auto say = [&s](int count, const char* what) {
+        if (count > 0) s += fmt::format("\n{} {}", count, what);
+    };
+    say(audit.notFinite, "vertices with a NaN or infinite coordinate");
+    say(audit.badIndices, "triangles with an index out of range");
+    say(audit.openEdges, "open edges");
+    say(audit.nonManifoldEdges, "edges of more than two triangles");
+    say(audit.misorientedEdges, "edges whose two triangles turn against each other");
+    say(audit.zeroAreaTriangles, "triangles of no area");
+    say(audit.duplicateTriangles, "triangles given more than once");
+    say(audit.unusedVertices, "vertices in no triangle");
+    say(audit.duplicateVertices, "vertices at the place of another");
+    if (audit.insideOut()) s += "\ninside out: its volume is negative";
+    return s;
+}
+
+void checkIndices(const TriangleMesh& mesh) {
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+        if (!mesh.vertices[v].allFinite())
+            throw InputError("vertex " + std::to_string(v) +
+                             " is not finite; every coordinate must be a number");
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        if (!inRange(mesh, mesh.triangles[t]))
+            throw InputError("triangle " + std::to_string(t) + " names a vertex outside 0.." +
+                             std::to_string(static_cast<long>(mesh.vertices.size()) - 1));
+}
+
+TriangleMesh cleaned(const TriangleMesh& mesh) {
+    checkIndices(mesh);
+    const std::vector<char> repeated = duplicates(mesh);
+    TriangleMesh result;
+    std::vector<int> place(mesh.vertices.size(), -1);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        if (!repeated[t] && !hasZeroArea(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2))) {
+            result.triangles.push_back(mesh.triangles[t]);
+            for (int k = 0; k < 3; ++k) place[mesh.triangles[t][k]] = 0;
+        }
+    if (result.triangles.empty())
+        throw InputError("the mesh has no triangle with an area (" + std::to_string(mesh.vertices.size()) +
+                         " vertices, " + std::to_string(mesh.triangles.size()) + " triangles)");
+    for (std::size_t v = 0; v < place.size(); ++v)
+        if (place[v] == 0) {
+            place[v] = static_cast<int>(result.vertices.size());
+            result.vertices.push_back(mesh.vertices[v]);
+        }
+    for (Tri& t : result.triangles) t = Tri(place[t[0]], place[t[1]], place[t[2]]);
+    return result;
+}
+
+} // namespace tss

@@ -1,0 +1,172 @@
+#include "bake/geometry/MeshQuery.h"
+
+#include "bake/geometry/MeshAudit.h"
+#include "bake/geometry/TrianglePoint.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace tss {
+
+MeshQuery::MeshQuery(const TriangleMesh& mesh) {
+    checkIndices(mesh);
+    Eigen::AlignedBox3d all;
+    for (const Tri& t : mesh.triangles)
+        for (int k = 0; k < 3; ++k) all.extend(mesh.vertices[t[k]]);
+    if (!all.isEmpty()) origin_ = all.center();
+    std::vector<Eigen::AlignedBox3d> boxes;
+    boxes.reserve(mesh.triangles.size());
+    corners_.reserve(mesh.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        corners_.push_back(
+            {mesh.corner(t, 0) - origin_, mesh.corner(t, 1) - origin_, mesh.corner(t, 2) - origin_});
+        Eigen::AlignedBox3d box(corners_.back().a);
+        boxes.push_back(box.extend(corners_.back().b).extend(corners_.back().c));
+    }
+    bvh_ = buildBvh(boxes);
+    buildDipoles();
+}
+
+ClosestPoint MeshQuery::closest(const Vec3& p, double within) const {
+    const Vec3 local = p - origin_;
+    ClosestPoint result;
+    double best2 = within * within;
+    visitNearest(bvh_, local, best2, [&](std::uint32_t t) {
+        const Corners& k = corners_[t];
+        const Vec3 q = closestOnTriangle(local, k.a, k.b, k.c);
+        const double d2 = (q - local).squaredNorm();
+        if (d2 < best2) {
+            best2 = d2;
+            result.point = q;
+            result.triangle = static_cast<int>(t);
+        }
+    });
+    if (result.triangle >= 0) {
+        result.distance = std::sqrt(best2);
+        result.point += origin_;
+    }
+    return result;
+}
+
+namespace {
+
+/// Where the ray meets the box, as the least t; infinity where it does not before maxT.
+double enter(const Bvh::Node& node, const Vec3& origin, const Vec3& inverse, double maxT) {
+    double from = 0, to = maxT;
+    for (int k = 0; k < 3; ++k) {
+        double near = (node.lower[k] - origin[k]) * inverse[k],
+               far = (node.upper[k] - origin[k]) * inverse[k];
+        if (near > far) std::swap(near, far);
+        // A ray along a face gives 0 * infinity: written so that NaN leaves the interval as it was.
+        from = near > from ? near : from;
+        to = far < to ? far : to;
+    }
+    return from <= to * (1 + 1e-14) ? from : std::numeric_limits<double>::infinity();
+}
+
+} // namespace
+
+std::optional<RayHit> MeshQuery::ray(const Vec3& origin, const Vec3& direction, double maxT) const {
+    const Vec3 local = origin - origin_;
+    const Vec3 inverse = direction.cwiseInverse();
+    std::optional<RayHit> hit;
+    std::vector<std::uint32_t> stack;
+    if (!bvh_.empty()) stack.push_back(0);
+    while (!stack.empty()) {
+        const Bvh::Node& node = bvh_.nodes[stack.back()];
+        stack.pop_back();
+        if (enter(node, local, inverse, maxT) > maxT) continue;
+        if (node.count == 0) {
+            stack.push_back(node.first);
+            stack.push_back(node.first + 1);
+        }
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const Corners& k = corners_[bvh_.items[i]];
+            const Vec3 ab = k.b - k.a, ac = k.c - k.a, cross = direction.cross(ac);
+            const double det = ab.dot(cross);
+            if (det == 0) continue;
+            const Vec3 s = local - k.a;
+            const double u = s.dot(cross) / det;
+            const Vec3 sxab = s.cross(ab);
+            const double v = direction.dot(sxab) / det, t = ac.dot(sxab) / det;
+            if (u < 0 || v < 0 || u + v > 1 || !(t > 0) || t > maxT) continue;
+            const int triangle = static_cast<int>(bvh_.items[i]);
+            if (hit && t == hit->t && triangle > hit->triangle) continue;
+            maxT = t;
+            hit = RayHit{t, triangle};
+        }
+    }
+    return hit;
+}
+
+void MeshQuery::buildDipoles() {
+    dipoles_.resize(bvh_.nodes.size());
+    std::vector<double> areas(bvh_.nodes.size(), 0.0);
+    // Children stand behind their parent: backwards, both are ready.
+    for (std::size_t n = bvh_.nodes.size(); n-- > 0;) {
+        const Bvh::Node& node = bvh_.nodes[n];
+        Dipole& dipole = dipoles_[n];
+        Vec3 weighted = Vec3::Zero();
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const Corners& k = corners_[bvh_.items[i]];
+            const Vec3 normal = 0.5 * (k.b - k.a).cross(k.c - k.a);
+            dipole.areaNormal += normal;
+            areas[n] += normal.norm();
+            weighted += normal.norm() * (k.a + k.b + k.c) / 3;
+        }
+        if (node.count == 0)
+            for (const std::uint32_t child : {node.first, node.first + 1}) {
+                dipole.areaNormal += dipoles_[child].areaNormal;
+                areas[n] += areas[child];
+                weighted += areas[child] * dipoles_[child].centre;
+            }
+        dipole.centre = areas[n] > 0 ? Vec3(weighted / areas[n]) : Vec3(0.5 * (node.lower + node.upper));
+        dipole.radius = (node.upper - dipole.centre).cwiseMax(dipole.centre - node.lower).norm();
+    }
+}
+
+double MeshQuery::approximateWinding(const Vec3& local) const {
+    constexpr double beta = 2.5; // farther than this many radii a dipole stands for the triangles
+    double sum = 0;
+    std::array<std::uint32_t, 128> stack;
+    std::size_t top = 0;
+    if (!bvh_.empty()) stack[top++] = 0;
+    while (top > 0) {
+        const std::uint32_t index = stack[--top];
+        const Dipole& dipole = dipoles_[index];
+        const Vec3 d = dipole.centre - local;
+        const double d2 = d.squaredNorm();
+        if (d2 > beta * beta * dipole.radius * dipole.radius) {
+            sum += dipole.areaNormal.dot(d) / (d2 * std::sqrt(d2));
+            continue;
+        }
+        const Bvh::Node& node = bvh_.nodes[index];
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const Corners& k = corners_[bvh_.items[i]];
+            sum += solidAngle(local, k.a, k.b, k.c);
+        }
+        if (node.count == 0) {
+            stack[top++] = node.first;
+            stack[top++] = node.first + 1;
+        }
+    }
+    return sum / (4 * std::numbers::pi);
+}
+
+double MeshQuery::exactWinding(const Vec3& local) const {
+    double sum = 0;
+    for (const Corners& k : corners_) sum += solidAngle(local, k.a, k.b, k.c);
+    return sum / (4 * std::numbers::pi);
+}
+
+double MeshQuery::windingNumber(const Vec3& p) const {
+    const Vec3 local = p - origin_;
+    const double w = approximateWinding(local);
+    return std::abs(w - std::round(w)) <= 0.2 ? w : exactWinding(local);
+}
+
+bool MeshQuery::inside(const Vec3& p) const {
+    return std::abs(windingNumber(p)) >= 0.5;
+}
+
+} // namespace tss

@@ -1,0 +1,75 @@
+#pragma once
+#include "bake/geometry/Bvh.h"
+
+#include <limits>
+#include <optional>
+
+namespace tss {
+
+/// The nearest point of a mesh.
+struct ClosestPoint {
+    Vec3 point = Vec3::Zero();
+    double distance = std::numeric_limits<double>::infinity(); ///< infinity: nothing within the limit asked
+    int triangle = -1;
+};
+
+/// Where a ray first meets a mesh.
+struct RayHit {
+    double t = 0; ///< point = origin + t * direction
+    int triangle = -1;
+};
+
+/// Distance, ray and inside queries of a triangle mesh, in double precision throughout and recentred on the
+/// mesh, so that the distance is right to rounding for meshes 1e7 units from the origin or 1e-6 in size.
+/// Keeps a copy of the triangles; immutable, so that threads may share one.
+class MeshQuery {
+public:
+    /// Throws InputError as checkIndices() does. An empty list of triangles is allowed: nothing is ever near.
+    explicit MeshQuery(const TriangleMesh& mesh);
+
+    std::size_t triangleCount() const { return corners_.size(); }
+
+    /// The nearest point of the mesh to p, if it is nearer than `within`.
+    ClosestPoint closest(const Vec3& p, double within = std::numeric_limits<double>::infinity()) const;
+
+    /// Distance from p to the mesh, or infinity where it is not below `within`.
+    double distance(const Vec3& p, double within = std::numeric_limits<double>::infinity()) const {
+        return closest(p, within).distance;
+    }
+
+    /// First hit of the ray at 0 < t <= maxT, from either side.
+    std::optional<RayHit> ray(const Vec3& origin, const Vec3& direction, double maxT) const;
+
+    /// The generalised winding number of the mesh about p: 1 inside a closed mesh, 2 where two closed
+    /// components overlap, 0 outside, -1 in an inverted mesh, a fraction about an open one (Jacobson 2013).
+    /// Far triangles count by their dipole (Barill 2018); a value not within 0.2 of an integer is summed
+    /// exactly.
+    double windingNumber(const Vec3& p) const;
+
+    /// |winding number| >= 1/2: inside the union of the components, whichever way they are turned.
+    bool inside(const Vec3& p) const;
+
+    const Bvh& bvh() const { return bvh_; }
+
+private:
+    struct Corners {
+        Vec3 a, b, c;
+    };
+    /// What a node's triangles look like from afar.
+    struct Dipole {
+        Vec3 centre = Vec3::Zero();
+        Vec3 areaNormal = Vec3::Zero();
+        double radius = 0; ///< all the node's corners lie within it about the centre
+    };
+
+    void buildDipoles();
+    double exactWinding(const Vec3& local) const;
+    double approximateWinding(const Vec3& local) const;
+
+    Vec3 origin_ = Vec3::Zero();
+    std::vector<Corners> corners_;
+    Bvh bvh_;
+    std::vector<Dipole> dipoles_; ///< one a node
+};
+
+} // namespace tss

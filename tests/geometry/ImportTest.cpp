@@ -1,0 +1,128 @@
+#include "bake/geometry/Import.h"
+
+#include "bake/base/Error.h"
+#include "bake/geometry/MeshAudit.h"
+#include "tests/SharedMeshes.h"
+#include "tests/geometry/TestMeshes.h"
+
+#include <fstream>
+
+using namespace tss;
+using namespace tss::test;
+
+namespace {
+
+/// A file in the build tree that goes with the object.
+struct TemporaryFile {
+    std::string name;
+    TemporaryFile(const std::string& file, const std::string& content)
+        : name((std::filesystem::path(OSGTSS_BINARY_DIR) / ("import_" + file)).string()) {
+        std::ofstream(name, std::ios::binary) << content;
+    }
+    ~TemporaryFile() { std::filesystem::remove(name); }
+};
+
+std::string refusal(const std::string& file) {
+    try {
+        importMesh(file);
+    } catch (const InputError& e) {
+        return e.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("equal vertices become one, others stay in their order") {
+    TriangleMesh mesh;
+    mesh.vertices = {{1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1e-300}};
+    mesh.triangles = {{0, 1, 3}, {2, 3, 4}};
+    const TriangleMesh result = welded(mesh);
+    CHECK(result.vertices == std::vector<Vec3>{{1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 1e-300}});
+    CHECK(result.triangles == std::vector<Tri>{{0, 1, 2}, {0, 2, 3}});
+}
+
+#ifdef OSGTSS_IMPORT
+
+TEST_CASE("polygons are cut into triangles and the parts of a file are one mesh") {
+    const TemporaryFile file("quads.obj", "o one\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
+                                          "o two\nv 1 1 1\nv 2 2 2\nv 0 1 0\nf 5 6 7\n");
+    const TriangleMesh mesh = importMesh(file.name);
+    CHECK(mesh.triangles.size() == 3);
+    CHECK(mesh.vertices.size() == 6); // 0 1 0 stands in the file twice
+}
+
+TEST_CASE("the triangles of an STL share their corners again") {
+    std::string stl = "solid t\n";
+    const TriangleMesh box = boxMesh({0, 0, 0}, {1, 1, 1});
+    for (std::size_t t = 0; t < box.triangles.size(); ++t) {
+        stl += "facet normal 0 0 0\nouter loop\n";
+        for (int k = 0; k < 3; ++k) {
+            const Vec3& v = box.corner(t, k);
+            stl += "vertex " + std::to_string(v.x()) + " " + std::to_string(v.y()) + " " +
+                   std::to_string(v.z()) + "\n";
+        }
+        stl += "endloop\nendfacet\n";
+    }
+    const TemporaryFile file("box.stl", stl + "endsolid t\n");
+    const MeshAudit audit = auditMesh(importMesh(file.name));
+    CHECK(audit.vertices == 8);
+    CHECK(audit.watertight);
+    CHECK(audit.signedVolume == Approx(1));
+}
+
+TEST_CASE("the transforms of a scene's nodes are applied, a mirror keeps the outside outside") {
+    const std::string collada = R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>Y_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="12">0 0 0 1 0 0 0 1 0 0 0 1</float_array>
+<technique_common><accessor source="#a" count="4" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/><p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n"><translate>10 0 0</translate><scale>-2 1 1</scale>
+<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+    const TemporaryFile file("mirrored.dae", collada);
+    const TriangleMesh mesh = importMesh(file.name);
+    const MeshAudit audit = auditMesh(mesh);
+    CHECK(audit.watertight);
+    CHECK(audit.signedVolume == Approx(2.0 / 6));
+    CHECK(bounds(mesh).min().x() == Approx(8));
+    CHECK(bounds(mesh).max().x() == Approx(10));
+}
+
+TEST_CASE("a file that is no mesh is refused by its name and the reason") {
+    CHECK(refusal("nowhere.obj").find("nowhere.obj: no such file") != std::string::npos);
+    CHECK(refusal(OSGTSS_BINARY_DIR).find("not a file") != std::string::npos);
+    const TemporaryFile text("words.txt", "these are words\n");
+    CHECK(refusal(text.name).find("cannot be read as a mesh") != std::string::npos);
+    const TemporaryFile empty("empty.obj", "");
+    CHECK_FALSE(refusal(empty.name).empty());
+    const TemporaryFile points("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    CHECK_FALSE(refusal(points.name).empty());
+}
+
+TEST_CASE("the real meshes come in as their list says") {
+    REQUIRE_SHARED_MESHES();
+    const MeshAudit skull = auditMesh(importMesh(sharedMesh("dog_jaw/skull.obj")));
+    CHECK(skull.vertices == 21260);
+    CHECK(skull.triangles == 42480);
+    CHECK(skull.watertight);
+    CHECK(skull.components == 23);
+    CHECK(skull.signedVolume == Approx(0.000231102).epsilon(1e-4));
+    const MeshAudit link = auditMesh(importMesh(sharedMesh("franka_fer/link3.obj")));
+    CHECK(link.openEdges == 238);
+    CHECK(link.components == 4);
+    CHECK_FALSE(link.watertight);
+}
+
+#else
+
+TEST_CASE("a build without mesh files says so") {
+    CHECK(refusal("any.obj").find("OSGTSS_IMPORT") != std::string::npos);
+}
+
+#endif

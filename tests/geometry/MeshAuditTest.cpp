@@ -1,0 +1,134 @@
+#include "bake/geometry/MeshAudit.h"
+
+#include "bake/base/Error.h"
+#include "tests/geometry/TestMeshes.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tss;
+using namespace tss::test;
+
+TEST_CASE("a closed box is watertight, of one component and of its volume") {
+    const MeshAudit audit = auditMesh(boxMesh({0, 0, 0}, {1, 2, 3}));
+    CHECK(audit.watertight);
+    CHECK(audit.components == 1);
+    CHECK(audit.signedVolume == Approx(6));
+    CHECK_FALSE(audit.insideOut());
+    CHECK(audit.usable());
+    CHECK(text(audit) == "8 vertices, 12 triangles, 1 component, watertight");
+}
+
+TEST_CASE("the volume of a box 1e7 units away is not lost") {
+    const MeshAudit audit = auditMesh(boxMesh(Vec3::Constant(1e7), Vec3::Constant(1e7 + 1)));
+    CHECK(audit.signedVolume == Approx(1).epsilon(1e-6));
+}
+
+TEST_CASE("a box turned inside out is watertight with a negative volume") {
+    const MeshAudit audit = auditMesh(turnedInsideOut(boxMesh({0, 0, 0}, {1, 1, 1})));
+    CHECK(audit.watertight);
+    CHECK(audit.insideOut());
+    CHECK(text(audit).find("inside out") != std::string::npos);
+}
+
+TEST_CASE("each fault of a mesh is counted") {
+    TriangleMesh mesh = boxMesh({0, 0, 0}, {1, 1, 1});
+    SECTION("a triangle missing leaves three open edges") {
+        mesh.triangles.pop_back();
+        CHECK(auditMesh(mesh).openEdges == 3);
+        CHECK_FALSE(auditMesh(mesh).watertight);
+    }
+    SECTION("a triangle turned over has three misoriented edges") {
+        std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
+        CHECK(auditMesh(mesh).misorientedEdges == 3);
+    }
+    SECTION("a fin is non-manifold and open") {
+        mesh.vertices.emplace_back(5, 5, 5);
+        mesh.triangles.emplace_back(0, 1, 8);
+        const MeshAudit audit = auditMesh(mesh);
+        CHECK(audit.nonManifoldEdges == 1);
+        CHECK(audit.openEdges == 2);
+    }
+    SECTION("a triangle given again is a duplicate however it is written, the other side of it is none") {
+        mesh.triangles.emplace_back(mesh.triangles[3][1], mesh.triangles[3][2], mesh.triangles[3][0]);
+        CHECK(auditMesh(mesh).duplicateTriangles == 1);
+        mesh.triangles.back() = {mesh.triangles[3][1], mesh.triangles[3][0], mesh.triangles[3][2]};
+        CHECK(auditMesh(mesh).duplicateTriangles == 0);
+    }
+    SECTION("triangles of no area are found whether corners repeat or lie in line") {
+        mesh.triangles.emplace_back(0, 1, 1);
+        mesh.vertices.emplace_back(0.5, 0, 0);
+        mesh.triangles.emplace_back(0, 8, 1);
+        CHECK(auditMesh(mesh).zeroAreaTriangles == 2);
+    }
+    SECTION("unused and repeated vertices") {
+        mesh.vertices.emplace_back(1, 1, 1);
+        CHECK(auditMesh(mesh).unusedVertices == 1);
+        CHECK(auditMesh(mesh).duplicateVertices == 1);
+    }
+    SECTION("NaN and an index out of range make it unusable") {
+        CHECK(auditMesh(mesh).usable());
+        TriangleMesh bad = mesh;
+        bad.vertices[2].y() = std::nan("");
+        CHECK(auditMesh(bad).notFinite == 1);
+        CHECK_FALSE(auditMesh(bad).usable());
+        mesh.triangles[1][2] = 99;
+        CHECK(auditMesh(mesh).badIndices == 1);
+        CHECK_FALSE(auditMesh(mesh).usable());
+    }
+    SECTION("two boxes are two components") {
+        append(mesh, boxMesh({3, 0, 0}, {4, 1, 1}));
+        CHECK(auditMesh(mesh).components == 2);
+        CHECK(auditMesh(mesh).watertight);
+    }
+}
+
+TEST_CASE("an empty mesh has an audit and is not usable") {
+    const MeshAudit audit = auditMesh({});
+    CHECK(audit.triangles == 0);
+    CHECK_FALSE(audit.watertight);
+    CHECK_FALSE(audit.usable());
+}
+
+TEST_CASE("cleaning drops what has no area, what repeats and what nothing uses") {
+    const TriangleMesh box = boxMesh({0, 0, 0}, {1, 1, 1});
+    TriangleMesh dirty;
+    dirty.vertices.emplace_back(9, 9, 9);
+    append(dirty, box);
+    dirty.triangles.emplace_back(1, 1, 2);
+    dirty.triangles.push_back(dirty.triangles[5]);
+    const TriangleMesh clean = cleaned(dirty);
+    CHECK(clean.vertices == box.vertices);
+    CHECK(clean.triangles == box.triangles);
+}
+
+TEST_CASE("what cannot be cleaned is refused with the reason") {
+    TriangleMesh mesh = boxMesh({0, 0, 0}, {1, 1, 1});
+    const auto messageOf = [](const TriangleMesh& m) -> std::string {
+        try {
+            cleaned(m);
+        } catch (const InputError& e) {
+            return e.what();
+        }
+        return "";
+    };
+    SECTION("no triangle") {
+        CHECK(messageOf({}).find("no triangle") != std::string::npos);
+    }
+    SECTION("only triangles of no area") {
+        mesh.triangles = {{0, 1, 1}};
+        CHECK(messageOf(mesh).find("no triangle") != std::string::npos);
+    }
+    SECTION("an infinite coordinate") {
+        mesh.vertices[3].x() = std::numeric_limits<double>::infinity();
+        CHECK(messageOf(mesh).find("vertex 3") != std::string::npos);
+    }
+    SECTION("an index out of range") {
+        mesh.triangles[4][1] = -1;
+        CHECK(messageOf(mesh).find("triangle 4") != std::string::npos);
+    }
+}
+
+TEST_CASE("the size of a mesh does not decide what has no area") {
+    for (const double size : {1e-100, 1e-6, 1.0, 1e6, 1e100})
+        CHECK(auditMesh(boxMesh(Vec3::Zero(), Vec3::Constant(size))).zeroAreaTriangles == 0);
+}

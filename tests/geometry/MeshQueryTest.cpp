@@ -1,0 +1,164 @@
+#include "bake/geometry/MeshQuery.h"
+
+#include "bake/base/Error.h"
+#include "bake/geometry/TrianglePoint.h"
+#include "tests/geometry/TestMeshes.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tss;
+using namespace tss::test;
+
+namespace {
+
+/// By golden section over both barycentric coordinates: slow, and another way than the one under test.
+double sampledDistance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const auto along = [&](double u) {
+        const Vec3 from = a + u * (b - a), to = a + u * (c - a);
+        const double l2 = (to - from).squaredNorm();
+        const double t = l2 > 0 ? std::clamp((p - from).dot(to - from) / l2, 0.0, 1.0) : 0.0;
+        return (from + t * (to - from) - p).norm();
+    };
+    double lo = 0, hi = 1; // convex in u
+    for (int i = 0; i < 200; ++i) {
+        const double m1 = lo + (hi - lo) / 3, m2 = hi - (hi - lo) / 3;
+        (along(m1) < along(m2) ? hi : lo) = along(m1) < along(m2) ? m2 : m1;
+    }
+    return std::min({along(0), along(1), along(lo)});
+}
+
+double bruteDistance(const TriangleMesh& mesh, const Vec3& p) {
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        best = std::min(
+            best, (closestOnTriangle(p, mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)) - p).norm());
+    return best;
+}
+
+} // namespace
+
+TEST_CASE("the nearest point of a triangle agrees with a search over it, slivers and segments included") {
+    const std::uint64_t seed = GENERATE(1u, 2u, 3u);
+    CAPTURE(seed);
+    std::mt19937_64 random(seed);
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 a = uniformPoint(random, 1), b = uniformPoint(random, 1);
+        Vec3 c = uniformPoint(random, 1);
+        if (i % 3 == 1)
+            c = a + uniform(random, 0, 1) * (b - a) + uniformPoint(random, std::pow(10, -(i % 17)));
+        if (i % 30 == 2) c = b;
+        const Vec3 p = uniformPoint(random, i % 2 ? 2.0 : 1e3);
+        CAPTURE(i, a.transpose(), b.transpose(), c.transpose(), p.transpose());
+        CHECK((closestOnTriangle(p, a, b, c) - p).norm() ==
+              Approx(sampledDistance(p, a, b, c)).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("the nearest point of a mesh is the best of all its triangles") {
+    const std::uint64_t seed = GENERATE(4u, 5u);
+    CAPTURE(seed);
+    std::mt19937_64 random(seed);
+    const TriangleMesh mesh = seed % 2 ? lumpyMesh(random, 3, 0.3) : soupMesh(random, 300, 1, 0.2);
+    const MeshQuery query(mesh);
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 p = uniformPoint(random, 1.5);
+        const double expected = bruteDistance(mesh, p);
+        const ClosestPoint found = query.closest(p);
+        CHECK(found.distance == Approx(expected).epsilon(1e-12));
+        CHECK((found.point - p).norm() == Approx(found.distance).epsilon(1e-12));
+        CHECK(found.triangle >= 0);
+        CHECK(query.closest(p, expected * 0.999).triangle == -1);
+        CHECK(query.distance(p, expected * 1.001) == Approx(expected).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("distances are right far from the origin and for tiny meshes") {
+    const Eigen::Affine3d far(Eigen::Translation3d(1e7, -1e7, 1e7));
+    const MeshQuery moved(transformed(boxMesh({0, 0, 0}, {1, 1, 1}), far));
+    // A coordinate at 1e7 is 2e-9 wide: nothing is lost beyond that.
+    CHECK(moved.distance(far * Vec3(0.5, 0.5, 0.25)) == Approx(0.25).margin(1e-8));
+    CHECK(moved.inside(far * Vec3(0.5, 0.5, 1e-4)));
+    CHECK_FALSE(moved.inside(far * Vec3(0.5, 0.5, -1e-4)));
+    const MeshQuery tiny(boxMesh({0, 0, 0}, Vec3::Constant(1e-6)));
+    CHECK(tiny.distance(Vec3(5e-7, 5e-7, 3e-7)) == Approx(3e-7).epsilon(1e-12));
+    CHECK(tiny.inside(Vec3(5e-7, 5e-7, 1e-12)));
+}
+
+TEST_CASE("a ray stops at the first triangle in its way") {
+    const MeshQuery query(boxMesh({-1, -1, -1}, {1, 1, 1}));
+    const auto hit = query.ray({-5, 0.3, 0.2}, Vec3::UnitX(), 100);
+    REQUIRE(hit);
+    CHECK(hit->t == Approx(4));
+    CHECK(query.ray({0, 0.3, 0.2}, Vec3::UnitX(), 100)->t == Approx(1));
+    CHECK_FALSE(query.ray({-5, 0.3, 0.2}, Vec3::UnitX(), 3.9));
+    CHECK_FALSE(query.ray({-5, 0.3, 0.2}, -Vec3::UnitX(), 100));
+    CHECK_FALSE(query.ray({-5, 1.3, 0.2}, Vec3::UnitX(), 100));
+}
+
+TEST_CASE("a ray finds what a test of every triangle finds") {
+    std::mt19937_64 random(6);
+    const TriangleMesh mesh = lumpyMesh(random, 3, 0.3);
+    const MeshQuery query(mesh);
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 from = uniformPoint(random, 2), direction = uniformPoint(random, 1);
+        const auto hit = query.ray(from, direction, 50);
+        // Seen along the ray, the first hit lies on the surface and the way there is clear of it.
+        if (!hit) continue;
+        CHECK(query.distance(from + hit->t * direction) < 1e-12);
+        CHECK_FALSE(query.ray(from, direction, hit->t * 0.999999));
+    }
+}
+
+TEST_CASE("inside is the union of closed components, whichever way they are turned") {
+    TriangleMesh mesh = boxMesh({0, 0, 0}, {2, 2, 2});
+    append(mesh, boxMesh({1, 1, 1}, {3, 3, 3}));
+    const bool inverted = GENERATE(false, true);
+    const MeshQuery query(inverted ? turnedInsideOut(mesh) : mesh);
+    CHECK(query.inside({0.5, 0.5, 0.5}));
+    CHECK(query.inside({1.5, 1.5, 1.5})); // in both
+    CHECK(query.inside({2.5, 2.5, 2.5}));
+    CHECK_FALSE(query.inside({0.5, 2.5, 0.5}));
+    CHECK_FALSE(query.inside({-0.5, 0.5, 0.5}));
+    CHECK(std::abs(query.windingNumber({1.5, 1.5, 1.5})) == Approx(2));
+}
+
+TEST_CASE("the fast winding number tells in from out like the radius of a lumpy ball") {
+    std::mt19937_64 random(7);
+    const TriangleMesh mesh = lumpyMesh(random, 4, 0.3);
+    const MeshQuery query(mesh);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 p = uniformPoint(random, 1.2);
+        // Star-shaped about the origin: outside where the way from there crosses the surface.
+        const bool outside = query.ray(Vec3::Zero(), p, 1).has_value();
+        CHECK(query.inside(p) == !outside);
+    }
+}
+
+TEST_CASE("a box without a lid is inside below its middle") {
+    TriangleMesh mesh = boxMesh({-1, -1, -1}, {1, 1, 1});
+    mesh.triangles.erase(mesh.triangles.begin() + 2, mesh.triangles.begin() + 4);
+    const MeshQuery query(mesh);
+    CHECK(query.inside({0, 0, -0.5}));
+    CHECK_FALSE(query.inside({0, 0, 1.5}));
+    CHECK_FALSE(query.inside({0, 0, -1.5}));
+}
+
+TEST_CASE("a mesh of nothing is near nothing") {
+    const MeshQuery query(TriangleMesh{});
+    CHECK(query.closest({0, 0, 0}).triangle == -1);
+    CHECK_FALSE(query.inside({0, 0, 0}));
+    CHECK_FALSE(query.ray({0, 0, 0}, Vec3::UnitX(), 1));
+}
+
+TEST_CASE("a mesh with a bad index is refused") {
+    TriangleMesh mesh = boxMesh({0, 0, 0}, {1, 1, 1});
+    mesh.triangles[0][0] = 8;
+    CHECK_THROWS_AS(MeshQuery(mesh), InputError);
+}
+
+TEST_CASE("many triangles at one place do not break the hierarchy") {
+    TriangleMesh mesh;
+    for (int i = 0; i < 1000; ++i) append(mesh, boxMesh({0, 0, 0}, {1, 1, 1}));
+    const MeshQuery query(mesh);
+    CHECK(query.distance({2, 0.5, 0.5}) == Approx(1));
+}
