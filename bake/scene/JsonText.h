@@ -1,0 +1,11 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace tss {
+
+/// Appends a JSON string literal. Bytes that are not UTF-8 are written as U+FFFD, so that the text can always
+/// be read.
+void appendQuoted(std::string& out, std::string_view text);
+
+} // namespace tss

@@ -1,0 +1,166 @@
+#include "bake/scene/TreeBuilder.h"
+
+#include "bake/scene/Problems.h"
+
+namespace tss {
+
+namespace {
+
+constexpr std::size_t widestTuple = 16;
+
+} // namespace
+
+/// An object or array that is not closed yet. An array holds numbers, tuples of numbers, or as soon as it
+/// must, values of any kind.
+struct TreeBuilder::Frame {
+    enum class Holds { Nothing, Numbers, Tuples, Values };
+
+    bool object = false;
+    Value::Object members;
+    std::string key;
+
+    Holds holds = Holds::Nothing;
+    std::vector<double> numbers;
+    std::size_t width = 0;
+    Value::Array values;
+
+    std::size_t count() const {
+        if (holds == Holds::Values) return values.size();
+        return holds == Holds::Tuples ? numbers.size() / width : numbers.size();
+    }
+
+    void reset(bool asObject) {
+        object = asObject;
+        members.clear();
+        key.clear();
+        holds = Holds::Nothing;
+        numbers.clear();
+        values.clear();
+    }
+
+    void toValues() {
+        const double* number = numbers.data();
+        for (std::size_t i = 0, n = count(); i < n && holds != Holds::Values; ++i) {
+            if (holds == Holds::Numbers)
+                values.emplace_back(*number++);
+            else
+                values.emplace_back(Numbers{std::vector<double>(number, number + width), 0}), number += width;
+        }
+        numbers.clear();
+        holds = Holds::Values;
+    }
+
+    Value takeArray() {
+        if (holds == Holds::Nothing || holds == Holds::Values) return Value(std::move(values));
+        Numbers block{{}, holds == Holds::Tuples ? static_cast<int>(width) : 0};
+        if (numbers.size() <= widestTuple)
+            block.values.assign(numbers.begin(), numbers.end()); // keep the frame's memory for the next one
+        else
+            block.values = std::move(numbers);
+        return Value(std::move(block));
+    }
+};
+
+TreeBuilder::TreeBuilder(std::string fileName) : file_(std::move(fileName)), frames_(new Frame[deepest]) {}
+TreeBuilder::~TreeBuilder() = default;
+
+TreeBuilder::Frame& TreeBuilder::top() {
+    return frames_[depth_ - 1];
+}
+
+void TreeBuilder::refuse(const std::string& message) const {
+    Place place;
+    for (std::size_t i = 0; i < depth_; ++i) {
+        const Frame& frame = frames_[i];
+        if (frame.object && frame.key.empty() && i + 1 == depth_) break;
+        place = frame.object ? place / frame.key : place / frame.count();
+    }
+    throw InputError({file_, place.pointer, ""}, message);
+}
+
+void TreeBuilder::open(bool object) {
+    if (depth_ == deepest) refuse("expected at most " + std::to_string(deepest) + " levels");
+    frames_[depth_++].reset(object);
+}
+
+void TreeBuilder::add(Value value) {
+    if (depth_ == 0) {
+        root_ = std::move(value);
+        return;
+    }
+    Frame& frame = top();
+    if (frame.object) {
+        frame.members[frame.key] = std::move(value);
+        return;
+    }
+    frame.toValues();
+    frame.values.push_back(std::move(value));
+}
+
+void TreeBuilder::addNumber(double number) {
+    if (depth_ == 0 || top().object || top().holds == Frame::Holds::Tuples ||
+        top().holds == Frame::Holds::Values)
+        return add(Value(number));
+    top().holds = Frame::Holds::Numbers;
+    top().numbers.push_back(number);
+}
+
+void TreeBuilder::addInteger(std::int64_t number) {
+    const Value value(number);
+    if (const double* exact = value.as<double>())
+        addNumber(*exact);
+    else
+        add(value);
+}
+
+void TreeBuilder::addUnsigned(std::uint64_t number) {
+    if (number <= static_cast<std::uint64_t>(INT64_MAX))
+        addInteger(static_cast<std::int64_t>(number));
+    else
+        add(Value(number));
+}
+
+void TreeBuilder::startObject() {
+    open(true);
+}
+void TreeBuilder::startArray() {
+    open(false);
+}
+
+void TreeBuilder::key(const std::string& key) {
+    Frame& frame = top();
+    frame.key = key;
+    if (frame.members.contains(key))
+        refuse("expected each key once in an object, found \"" + key + "\" again");
+}
+
+void TreeBuilder::endObject() {
+    Value value(std::move(top().members));
+    --depth_;
+    add(std::move(value));
+}
+
+void TreeBuilder::endArray() {
+    Frame& frame = top();
+    if (depth_ > 1 && frame.holds == Frame::Holds::Numbers && frame.numbers.size() <= widestTuple) {
+        Frame& parent = frames_[depth_ - 2];
+        const bool first = parent.holds == Frame::Holds::Nothing;
+        const bool fits = parent.holds == Frame::Holds::Tuples && parent.width == frame.numbers.size();
+        if (!parent.object && (first || fits)) {
+            parent.holds = Frame::Holds::Tuples;
+            parent.width = frame.numbers.size();
+            parent.numbers.insert(parent.numbers.end(), frame.numbers.begin(), frame.numbers.end());
+            --depth_;
+            return;
+        }
+    }
+    Value value = frame.takeArray();
+    --depth_;
+    add(std::move(value));
+}
+
+Value TreeBuilder::take() {
+    return std::move(root_);
+}
+
+} // namespace tss

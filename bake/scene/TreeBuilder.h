@@ -1,0 +1,45 @@
+#pragma once
+#include "bake/scene/Value.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace tss {
+
+/// Makes a Value from the events of a parser, JSON or CBOR alike, and refuses on the way what neither library
+/// looks at: a key twice in one object, more than 64 levels. Every refusal is an InputError with the JSON
+/// pointer of the place.
+class TreeBuilder {
+public:
+    static constexpr std::size_t deepest = 64;
+
+    explicit TreeBuilder(std::string fileName);
+    ~TreeBuilder();
+
+    void add(Value value);
+    void addNumber(double number);
+    void addInteger(std::int64_t number);
+    void addUnsigned(std::uint64_t number);
+    void startObject();
+    void key(const std::string& key);
+    void endObject();
+    void startArray();
+    void endArray();
+
+    [[noreturn]] void refuse(const std::string& message) const;
+
+    /// The finished tree.
+    Value take();
+
+private:
+    struct Frame;
+    void open(bool object);
+    Frame& top();
+
+    std::string file_;
+    std::unique_ptr<Frame[]> frames_; ///< kept and reused, so that a million triples do not allocate
+    std::size_t depth_ = 0;
+    Value root_;
+};
+
+} // namespace tss

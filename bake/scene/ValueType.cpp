@@ -1,0 +1,236 @@
+#include "bake/scene/ValueType.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace tss {
+
+namespace {
+
+using Base = ValueType::Base;
+
+ValueType integer(double lowest, double highest) {
+    return {Base::Integer, 1, 1, false, lowest, highest};
+}
+
+std::map<std::string, ValueType, std::less<>> makeTypes() {
+    std::map<std::string, ValueType, std::less<>> types;
+    constexpr double two31 = 2147483648.0, two63 = 9223372036854775808.0;
+    types["bool"] = {Base::Bool};
+    types["uchar"] = integer(0, 255);
+    types["int"] = integer(-two31, two31 - 1);
+    types["uint"] = integer(0, 2 * two31 - 1);
+    types["int64"] = integer(-two63, two63);
+    types["uint64"] = integer(0, 2 * two63);
+    types["timecode"] = {Base::Double};
+    for (const char* text : {"string", "token", "asset"}) types[text] = {Base::Text};
+    const std::pair<char, Base> precisions[] = {{'h', Base::Half}, {'f', Base::Float}, {'d', Base::Double}};
+    for (const auto& [letter, base] : precisions) {
+        const std::string name = letter == 'h' ? "half" : letter == 'f' ? "float" : "double";
+        types[name] = {base};
+        for (int n = 2; n <= 4; ++n) types[name + std::to_string(n)] = {base, n};
+        for (const char* role : {"point3", "vector3", "normal3", "color3", "texCoord3"})
+            types[role + std::string(1, letter)] = {base, 3};
+        types[std::string("color4") + letter] = {base, 4};
+        types[std::string("texCoord2") + letter] = {base, 2};
+        types[std::string("quat") + letter] = {base, 4};
+    }
+    for (int n = 2; n <= 4; ++n) {
+        types["int" + std::to_string(n)] = types["int"];
+        types["int" + std::to_string(n)].width = n;
+        types["matrix" + std::to_string(n) + "d"] = {Base::Double, n, n};
+    }
+    types["frame4d"] = {Base::Double, 4, 4};
+    return types;
+}
+
+/// Checks the single numbers of one value.
+class NumberCheck {
+public:
+    NumberCheck(const ValueType& type, std::string_view typeName, Problems& problems)
+        : type_(type), name_(typeName.substr(0, typeName.find('['))), problems_(problems) {}
+
+    /// The number as the slot stores it. place: a function, as it is needed for a problem only.
+    template <class PlaceOf>
+    double stored(double number, const PlaceOf& place) const {
+        if (type_.base == Base::Integer) {
+            if (number != std::trunc(number) || number < type_.lowest || number > type_.highest)
+                problems_.add(place(), "expected " + integerText() + ", found " + describe(Value(number)));
+            return number;
+        }
+        if (!type_.isFloat() || !std::isfinite(number)) return number;
+        const double limit = type_.base == Base::Half ? 65504.0 : std::numeric_limits<float>::max();
+        if (std::abs(number) > limit)
+            problems_.add(place(), "expected a number of at most " + describe(Value(limit)).substr(7) +
+                                       " in a " + std::string(name_) + ", found " + describe(Value(number)));
+        return static_cast<float>(number);
+    }
+
+    /// A number, or the word for one that JSON cannot write.
+    template <class PlaceOf>
+    double read(const Value& value, const PlaceOf& place) const {
+        if (const double* number = value.as<double>()) return stored(*number, place);
+        const std::string* word = value.as<std::string>();
+        if (word && type_.isReal()) {
+            if (*word == "inf") return std::numeric_limits<double>::infinity();
+            if (*word == "-inf") return -std::numeric_limits<double>::infinity();
+            if (*word == "nan") return std::numeric_limits<double>::quiet_NaN();
+        }
+        problems_.add(place(), "expected " + (type_.base == Base::Integer ? integerText() : "a number") +
+                                   ", found " + describe(value));
+        return 0;
+    }
+
+    std::string integerText() const {
+        return "an integer from " + describe(Value(type_.lowest)).substr(7) + " to " +
+               describe(Value(type_.highest)).substr(7);
+    }
+
+private:
+    const ValueType& type_;
+    std::string_view name_;
+    Problems& problems_;
+};
+
+std::string tupleText(int width, std::string_view typeName) {
+    return "an array of " + std::to_string(width) + " numbers (" + std::string(typeName) + ")";
+}
+
+/// One tuple of `width` numbers appended to `out`; `out` always grows by width.
+void appendTuple(const Value& value, int width, const NumberCheck& check, std::string_view typeName,
+                 const Place& place, Problems& problems, std::vector<double>& out) {
+    const std::size_t start = out.size();
+    if (const Numbers* numbers = value.as<Numbers>(); numbers && numbers->width == 0) {
+        if (numbers->values.size() == std::size_t(width))
+            for (double number : numbers->values)
+                out.push_back(check.stored(number, [&] { return place / (out.size() - start); }));
+        else
+            problems.add(place, "expected " + tupleText(width, typeName) + ", found " + describe(value));
+    } else if (const auto* array = value.as<Value::Array>(); array && array->size() == std::size_t(width)) {
+        for (const Value& element : *array)
+            out.push_back(check.read(element, [&] { return place / (out.size() - start); }));
+    } else {
+        problems.add(place, "expected " + tupleText(width, typeName) + ", found " + describe(value));
+    }
+    out.resize(start + width);
+}
+
+/// An array of numbers, or of tuples, whatever form the parser found for it.
+void conformArray(Value& value, int width, const NumberCheck& check, std::string_view typeName,
+                  const Place& place, Problems& problems) {
+    if (Numbers* numbers = value.as<Numbers>(); numbers && numbers->width == (width == 1 ? 0 : width)) {
+        for (std::size_t i = 0; i < numbers->values.size(); ++i)
+            numbers->values[i] = check.stored(numbers->values[i], [&] {
+                return width == 1 ? place / i : place / (i / width) / (i % width);
+            });
+        return;
+    }
+    if (const Numbers* numbers = value.as<Numbers>()) {
+        const bool flat = numbers->width == 0;
+        problems.add(place / std::size_t(0),
+                     "expected " + (width == 1 ? "a number" : tupleText(width, typeName)) + ", found " +
+                         (flat ? describe(Value(numbers->values[0]))
+                               : "an array of " + std::to_string(numbers->width) + " elements"));
+        value = Value(Value::Array());
+        return;
+    }
+    const auto* array = value.as<Value::Array>();
+    if (!array) {
+        problems.add(place, "expected an array (" + std::string(typeName) + "), found " + describe(value));
+        value = Value(Value::Array());
+        return;
+    }
+    if (array->empty()) return;
+    Numbers block{{}, width == 1 ? 0 : width};
+    block.values.reserve(array->size() * width);
+    for (std::size_t i = 0; i < array->size(); ++i) {
+        if (width == 1)
+            block.values.push_back(check.read((*array)[i], [&] { return place / i; }));
+        else
+            appendTuple((*array)[i], width, check, typeName, place / i, problems, block.values);
+    }
+    value = Value(std::move(block));
+}
+
+template <class T>
+void conformEach(Value& value, bool array, const char* wanted, std::string_view typeName, const Place& place,
+                 Problems& problems) {
+    const auto check = [&](const Value& element, const Place& at) {
+        if (!element.as<T>())
+            problems.add(at, std::string("expected ") + wanted + ", found " + describe(element));
+    };
+    if (!array) return check(value, place);
+    if (const auto* elements = value.as<Value::Array>()) {
+        for (std::size_t i = 0; i < elements->size(); ++i)
+            if (!(*elements)[i].as<T>()) check((*elements)[i], place / i);
+    } else {
+        problems.add(place, "expected an array (" + std::string(typeName) + "), found " + describe(value));
+    }
+}
+
+/// Integers of 64 bits that no double holds stay as they are, in a plain array.
+bool isBigInteger(const Value& value, const ValueType& type) {
+    if (type.base != Base::Integer || type.highest < 4294967296.0) return false;
+    return value.as<std::int64_t>() || (type.lowest == 0 && value.as<std::uint64_t>());
+}
+
+bool hasBigInteger(const Value& value, const ValueType& type) {
+    const auto* array = value.as<Value::Array>();
+    if (!array) return isBigInteger(value, type);
+    for (const Value& element : *array)
+        if (isBigInteger(element, type)) return true;
+    return false;
+}
+
+} // namespace
+
+std::optional<ValueType> valueType(std::string_view typeName) {
+    static const auto types = makeTypes();
+    const bool array = typeName.ends_with("[]");
+    const auto found = types.find(array ? typeName.substr(0, typeName.size() - 2) : typeName);
+    if (found == types.end()) return std::nullopt;
+    ValueType type = found->second;
+    type.array = array;
+    return type;
+}
+
+void conform(Value& value, const ValueType& type, std::string_view typeName, const Place& place,
+             Problems& problems) {
+    if (value.isNull()) return;
+    if (type.base == Base::Bool)
+        return conformEach<bool>(value, type.array, "true or false", typeName, place, problems);
+    if (type.base == Base::Text)
+        return conformEach<std::string>(value, type.array, "a string", typeName, place, problems);
+    if (hasBigInteger(value, type)) return;
+
+    const NumberCheck check(type, typeName, problems);
+    if (type.rows > 1 && type.array) {
+        auto* matrices = value.as<Value::Array>();
+        if (!matrices)
+            problems.add(place,
+                         "expected an array (" + std::string(typeName) + "), found " + describe(value));
+        else
+            for (std::size_t i = 0; i < matrices->size(); ++i) {
+                ValueType one = type;
+                one.array = false;
+                conform((*matrices)[i], one, typeName.substr(0, typeName.size() - 2), place / i, problems);
+            }
+    } else if (type.rows > 1) {
+        conformArray(value, type.width, check, typeName, place, problems);
+        const Numbers* rows = value.as<Numbers>();
+        if (!rows || rows->count() != std::size_t(type.rows))
+            problems.add(place, "expected " + std::to_string(type.rows) + " rows (" + std::string(typeName) +
+                                    "), found " + describe(value));
+    } else if (type.array) {
+        conformArray(value, type.width, check, typeName, place, problems);
+    } else if (type.width > 1) {
+        Numbers tuple;
+        appendTuple(value, type.width, check, typeName, place, problems, tuple.values);
+        value = Value(std::move(tuple));
+    } else {
+        value = Value(check.read(value, [&] { return place; }));
+    }
+}
+
+} // namespace tss

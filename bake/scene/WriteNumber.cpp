@@ -1,0 +1,70 @@
+#include "bake/scene/WriteNumber.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+namespace tss {
+
+namespace {
+
+/// Everything that is written the same way in a float and in a double slot.
+bool appendPlain(std::string& text, double number) {
+    constexpr double exactIntegers = 9007199254740992.0; // 2^53
+    if (std::isnan(number)) {
+        text += "nan";
+    } else if (std::isinf(number)) {
+        text += number > 0 ? "inf" : "-inf";
+    } else if (number == 0 && std::signbit(number)) {
+        text += "-0.0";
+    } else if (number == std::trunc(number) && std::abs(number) <= exactIntegers) {
+        char digits[24];
+        const auto end = std::to_chars(digits, digits + sizeof digits, static_cast<std::int64_t>(number)).ptr;
+        text.append(digits, end);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+template <class Real>
+std::string_view shortest(char (&digits)[40], Real number) {
+    return {digits,
+            static_cast<std::size_t>(std::to_chars(digits, digits + sizeof digits, number).ptr - digits)};
+}
+
+} // namespace
+
+void appendNumber(std::string& text, double number) {
+    char digits[40];
+    if (!appendPlain(text, number)) text += shortest(digits, number);
+}
+
+void appendFloat(std::string& text, double number) {
+    if (appendPlain(text, number)) return;
+    char digits[40];
+    const float single = static_cast<float>(number);
+    const std::string_view written = shortest(digits, single);
+    // Files are read as double and then rounded to float: twice rounded, a value hard by the middle of two
+    // floats could come back as the neighbour. Its text as a double cannot.
+    double back = 0;
+    std::from_chars(written.data(), written.data() + written.size(), back);
+    if (static_cast<float>(back) == single)
+        text += written;
+    else
+        text += shortest(digits, static_cast<double>(single));
+}
+
+std::string numberText(double number) {
+    std::string text;
+    appendNumber(text, number);
+    return text;
+}
+
+std::string floatText(double number) {
+    std::string text;
+    appendFloat(text, number);
+    return text;
+}
+
+} // namespace tss
