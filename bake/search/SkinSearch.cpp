@@ -1,0 +1,201 @@
+#include "bake/search/SkinSearch.h"
+
+#include "bake/base/Error.h"
+#include "bake/base/Parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tss {
+namespace {
+
+using Box = Eigen::AlignedBox3d;
+
+double squaredDistanceToSegment(const Vec3& x, const Vec3& a, const Vec3& b) {
+    const Vec3 d = b - a;
+    const double length = d.squaredNorm();
+    const double t = length > 0 ? std::clamp((x - a).dot(d) / length, 0.0, 1.0) : 0;
+    return (x - a - t * d).squaredNorm();
+}
+
+double squaredDistanceOfSegments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    // The nearest pair of two segments has an end in it, or lies inside both.
+    double best = std::min({squaredDistanceToSegment(a, c, d), squaredDistanceToSegment(b, c, d),
+                            squaredDistanceToSegment(c, a, b), squaredDistanceToSegment(d, a, b)});
+    const Vec3 u = b - a, v = d - c, w = a - c;
+    const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), det = uu * vv - uv * uv;
+    if (!(det > 1e-12 * uu * vv)) return best;
+    const double s = (uv * v.dot(w) - vv * u.dot(w)) / det, t = (uu * v.dot(w) - uv * u.dot(w)) / det;
+    if (s > 0 && s < 1 && t > 0 && t < 1) best = std::min(best, (w + s * u - t * v).squaredNorm());
+    return best;
+}
+
+/// The moving spheres of one muscle, and the skin carried by it.
+struct Reach {
+    MuscleTrack spheres;
+    std::vector<double> radii; ///< #nodes blocks of #spheres
+    MuscleTrack skin;          ///< where it carries each skin vertex; no points when skin is sought at rest
+};
+
+Reach makeReach(const SkinSearchMuscle& muscle, const TriangleMesh& skin, SkinPath path) {
+    const Muscle& m = muscle.deformer->muscle();
+    const std::vector<double> nodes = activationNodes(m.activationLower, m.activationUpper);
+    std::vector<MusclePoint> points;
+    for (const Sphere& s : muscle.spheres) points.push_back(muscle.deformer->bind(s.centre));
+    Reach reach{makeTrack(*muscle.deformer, points, nodes), {}, {}};
+    for (std::size_t i = 0; i < reach.spheres.thicknesses.size(); ++i)
+        reach.radii.push_back(reach.spheres.thicknesses[i] * muscle.spheres[i % points.size()].radius);
+    points.clear();
+    if (path == SkinPath::Carried)
+        for (const Vec3& v : skin.vertices) points.push_back(muscle.deformer->bind(v));
+    reach.skin = makeTrack(*muscle.deformer, points, nodes);
+    return reach;
+}
+
+/// Some activation brings muscle sphere j within `near` (radius of the skin sphere + travel) of the path of
+/// skin vertex v. The path at an activation is the segment from its rest place to where it is carried; over a
+/// stretch of activations the moving end is boxed in by the segment's own motion.
+bool reaches(const Reach& reach, std::size_t j, const Vec3& rest, std::size_t v, double near) {
+    const std::size_t nodes = reach.spheres.nodes.size(), stride = reach.spheres.points;
+    const bool carried = reach.skin.points > 0;
+    for (std::size_t n = 0; n < nodes; ++n) {
+        const std::size_t m = std::min(n + 1, nodes - 1);
+        const Vec3 &a = reach.spheres.positions[n * stride + j], &b = reach.spheres.positions[m * stride + j];
+        double distance = near + std::max(reach.radii[n * stride + j], reach.radii[m * stride + j]);
+        double squared = 0;
+        if (carried) {
+            const Vec3& from = reach.skin.positions[n * reach.skin.points + v];
+            const Vec3& to = reach.skin.positions[m * reach.skin.points + v];
+            // Over the stretch the path's end moves by |to - from|: it stays that near to the first path.
+            distance += (to - from).norm();
+            squared = squaredDistanceOfSegments(a, b, rest, from);
+        } else {
+            squared = squaredDistanceToSegment(rest, a, b);
+        }
+        if (squared <= distance * distance) return true;
+    }
+    return false;
+}
+
+/// Everything that a muscle sphere sweeps.
+Box sweptBox(const Reach& reach, std::size_t j) {
+    Box box;
+    for (std::size_t n = 0; n < reach.spheres.nodes.size(); ++n) {
+        const std::size_t at = n * reach.spheres.points + j;
+        const Vec3 r = Vec3::Constant(reach.radii[at]);
+        box.extend(reach.spheres.positions[at] - r);
+        box.extend(reach.spheres.positions[at] + r);
+    }
+    return box;
+}
+
+/// What the path of a skin vertex sweeps.
+Box pathBox(const Reach& reach, const Vec3& rest, std::size_t v) {
+    Box box(rest);
+    for (std::size_t n = 0; n < reach.spheres.nodes.size() && reach.skin.points > 0; ++n)
+        box.extend(reach.skin.positions[n * reach.skin.points + v]);
+    return box;
+}
+
+std::vector<SpherePair> pairsOfMuscle(const Reach& reach, const SphereSet& spheres, const TriangleMesh& skin,
+                                      const std::vector<Vec3>& normals, const std::vector<double>& radii,
+                                      const SkinSearchOptions& options) {
+    // Skin boxes in rising order of their lower x, so that a sphere looks only at a window of them.
+    std::vector<Box> boxes(skin.vertices.size());
+    double widest = 0;
+    for (std::size_t v = 0; v < boxes.size(); ++v) {
+        boxes[v] = pathBox(reach, skin.vertices[v], v);
+        const Vec3 grow = Vec3::Constant(radii[v] + options.travel);
+        boxes[v].min() -= grow;
+        boxes[v].max() += grow;
+        widest = std::max(widest, boxes[v].sizes()[0]);
+    }
+    std::vector<std::uint32_t> order(boxes.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t l, std::uint32_t r) {
+        return std::pair(boxes[l].min()[0], l) < std::pair(boxes[r].min()[0], r);
+    });
+
+    std::vector<std::vector<SpherePair>> found(spheres.size());
+    parallelFor(spheres.size(), [&](std::size_t j) {
+        const Box swept = sweptBox(reach, j);
+        auto it = std::lower_bound(order.begin(), order.end(), swept.min()[0] - widest,
+                                   [&](std::uint32_t v, double x) { return boxes[v].min()[0] < x; });
+        for (; it != order.end() && boxes[*it].min()[0] <= swept.max()[0]; ++it) {
+            const std::uint32_t v = *it;
+            if (!boxes[v].intersects(swept)) continue;
+            const double before = normals[v].dot(spheres[j].centre - skin.vertices[v]);
+            if (options.facingOnly && before > spheres[j].radius) continue;
+            if (reaches(reach, j, skin.vertices[v], v, radii[v] + options.travel))
+                found[j].push_back({v, static_cast<std::uint32_t>(j)});
+        }
+    });
+    std::vector<SpherePair> pairs;
+    for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
+    return pairs;
+}
+
+} // namespace
+
+double skinThickness(const TriangleMesh& skin) {
+    double sum = 0;
+    for (const Tri& t : skin.triangles)
+        for (int k = 0; k < 3; ++k) sum += (skin.vertices[t[k]] - skin.vertices[t[(k + 1) % 3]]).norm();
+    return skin.triangles.empty() ? 0 : sum / (6.0 * static_cast<double>(skin.triangles.size()));
+}
+
+SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscle>& muscles,
+                     const SkinSearchOptions& options, const Progress& progress, SkinSearchCounts* counts) {
+    if (!(options.travel >= 0) || !std::isfinite(options.travel))
+        throw InputError("the travel of a skin must be a finite length of at least 0");
+    if (!(options.thickness >= 0) || !std::isfinite(options.thickness))
+        throw InputError("the thickness of a skin must be a finite length of at least 0");
+    SkinSearchCounts count;
+    const double thickness = options.thickness > 0 ? options.thickness : skinThickness(skin);
+    const std::vector<double> radii(skin.vertices.size(), thickness);
+    const std::vector<Vec3> normals = vertexNormals(skin);
+
+    SphereSet skinSpheres, muscleSpheres;
+    for (const Vec3& v : skin.vertices) skinSpheres.push_back({v, thickness});
+    std::vector<std::uint32_t> muscleOf;
+    std::vector<SpherePair> pairs;
+    for (std::size_t m = 0; m < muscles.size(); ++m) {
+        if (!report(progress, "skin", static_cast<double>(m) / static_cast<double>(muscles.size()))) {
+            count.stopped = true;
+            break;
+        }
+        const Reach reach = makeReach(muscles[m], skin, options.path);
+        const auto first = static_cast<std::uint32_t>(muscleSpheres.size());
+        for (SpherePair p : pairsOfMuscle(reach, muscles[m].spheres, skin, normals, radii, options))
+            pairs.push_back({p.a, p.b + first});
+        muscleSpheres.insert(muscleSpheres.end(), muscles[m].spheres.begin(), muscles[m].spheres.end());
+        muscleOf.resize(muscleSpheres.size(), static_cast<std::uint32_t>(m));
+    }
+    std::sort(pairs.begin(), pairs.end());
+    std::vector<double> restGaps;
+    for (const SpherePair& p : pairs) {
+        const Sphere &a = skinSpheres[p.a], &b = muscleSpheres[p.b];
+        restGaps.push_back(std::min(0.0, (a.centre - b.centre).norm() - a.radius - b.radius));
+    }
+
+    SkinTable result;
+    std::vector<std::uint32_t> usedB;
+    result.table =
+        makeTable(skinSpheres, muscleSpheres, pairs, restGaps, Motion{}, &result.skinVertices, &usedB);
+    result.table.certified = !count.stopped;
+    result.table.method =
+        options.path == SkinPath::AtRest ? "skin/certified/at-rest" : "skin/certified/carried";
+    for (const std::uint32_t b : usedB) result.muscleOf.push_back(muscleOf[b]);
+    result.travel = options.travel;
+
+    count.skinSpheres = skinSpheres.size();
+    count.muscleSpheres = muscleSpheres.size();
+    count.usedSkin = result.table.a.size();
+    count.usedMuscle = result.table.b.size();
+    count.tests = result.table.testCount();
+    if (counts) *counts = count;
+    return result;
+}
+
+} // namespace tss

@@ -1,0 +1,49 @@
+#pragma once
+#include "bake/base/Progress.h"
+#include "bake/motion/MuscleTrack.h"
+#include "bake/table/SkinTable.h"
+
+namespace tss {
+
+/// A muscle under a skin, in the skin's frame, with the spheres that stand for it at activation 0.
+struct SkinSearchMuscle {
+    const MuscleDeformer* deformer = nullptr;
+    SphereSet spheres;
+};
+
+/// Where a skin vertex is looked for while the muscles move.
+enum class SkinPath {
+    AtRest,  ///< [paper] at its rest place
+    Carried, ///< [ours] anywhere between its rest place and where the muscle would carry it
+};
+
+struct SkinSearchOptions {
+    double thickness = 0; ///< radius of every skin sphere, scene units; 0: skinThickness()
+    double travel = 0;    ///< how far a vertex may stray from its path, scene units, >= 0
+    SkinPath path = SkinPath::Carried;
+    bool facingOnly =
+        true; ///< leave out spheres that lie wholly outside the skin, before the vertex's normal
+};
+
+/// The counts that the paper prints.
+struct SkinSearchCounts {
+    std::size_t skinSpheres = 0, muscleSpheres = 0; ///< before
+    std::size_t usedSkin = 0, usedMuscle = 0;       ///< in the table
+    std::size_t tests = 0;                          ///< a step
+    bool stopped = false;                           ///< the progress asked to stop: the table is not complete
+};
+
+/// Radius of the skin spheres where nothing else is said: half the mean edge.
+double skinThickness(const TriangleMesh& skin);
+
+/// Which skin spheres some muscle sphere can reach (METHOD 6.2): every pair whose gap gets to `travel` or
+/// less somewhere in the activation range of its muscle is a test of the table. Complete, not sampled:
+/// spheres move as their MuscleTrack, linear between its nodes, and each stretch is tested as the capsule it
+/// sweeps; the run time moves them on the same track. One skin sphere a vertex; rows of skin out of reach do
+/// not exist. restGaps: the negative gap of a pair that overlaps at activation 0 (2.4). Same table for any
+/// number of threads.
+SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscle>& muscles,
+                     const SkinSearchOptions& options, const Progress& progress = {},
+                     SkinSearchCounts* counts = nullptr);
+
+} // namespace tss

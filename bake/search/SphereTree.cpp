@@ -1,0 +1,75 @@
+#include "bake/search/SphereTree.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace tss {
+
+namespace {
+
+/// The smallest ball about two balls.
+void enclose(const SphereTree::Node& x, const SphereTree::Node& y, Vec3& centre, double& radius) {
+    const Vec3 between = y.centre - x.centre;
+    const double distance = between.norm();
+    if (distance + y.radius <= x.radius) {
+        centre = x.centre;
+        radius = x.radius;
+    } else if (distance + x.radius <= y.radius) {
+        centre = y.centre;
+        radius = y.radius;
+    } else {
+        radius = 0.5 * (distance + x.radius + y.radius);
+        centre = x.centre + between * ((radius - x.radius) / distance);
+    }
+}
+
+} // namespace
+
+SphereTree::SphereTree(const SphereSet& spheres) {
+    if (spheres.empty()) return;
+    nodes_.reserve(2 * spheres.size() - 1);
+    std::vector<std::uint32_t> order(spheres.size());
+    std::iota(order.begin(), order.end(), 0u);
+    build(spheres, order, 0, order.size());
+}
+
+void SphereTree::build(const SphereSet& spheres, std::vector<std::uint32_t>& order, std::size_t first,
+                       std::size_t last) {
+    const std::size_t self = nodes_.size();
+    nodes_.emplace_back();
+    if (last - first == 1) {
+        const Sphere& s = spheres[order[first]];
+        nodes_[self] = {s.centre, s.radius, 0, order[first]};
+        return;
+    }
+    Eigen::AlignedBox3d box;
+    for (std::size_t k = first; k < last; ++k) box.extend(spheres[order[k]].centre);
+    int axis = 0;
+    box.sizes().maxCoeff(&axis);
+    const std::size_t middle = first + (last - first) / 2;
+    std::nth_element(order.begin() + first, order.begin() + middle, order.begin() + last,
+                     [&](std::uint32_t x, std::uint32_t y) {
+                         const double cx = spheres[x].centre[axis], cy = spheres[y].centre[axis];
+                         return cx != cy ? cx < cy : x < y;
+                     });
+    build(spheres, order, first, middle);
+    const std::size_t right = nodes_.size();
+    build(spheres, order, middle, last);
+
+    // The ball about the two children grows loose up the tree, the one about the box's middle does not.
+    Node& node = nodes_[self];
+    node.right = static_cast<std::uint32_t>(right);
+    enclose(nodes_[self + 1], nodes_[right], node.centre, node.radius);
+    const Vec3 centre = box.center();
+    double radius = 0;
+    for (std::size_t k = first; k < last; ++k)
+        radius = std::max(radius, (spheres[order[k]].centre - centre).norm() + spheres[order[k]].radius);
+    if (radius < node.radius) {
+        node.centre = centre;
+        node.radius = radius;
+    }
+    // A few units in the last place, so that rounding cannot leave a sphere sticking out.
+    node.radius += 1e-15 * (node.radius + node.centre.norm());
+}
+
+} // namespace tss

@@ -1,0 +1,32 @@
+#pragma once
+#include "bake/spheres/SphereSet.h"
+
+#include <cstdint>
+
+namespace tss {
+
+/// A binary tree of balls over a sphere set: each node's ball holds the spheres below it whole. Balls stay
+/// balls under a rigid motion, so one tree serves every pose.
+class SphereTree {
+public:
+    struct Node {
+        Vec3 centre = Vec3::Zero();
+        double radius = 0;
+        std::uint32_t right = 0;  ///< the left child follows its parent; 0: this is a leaf
+        std::uint32_t sphere = 0; ///< index in the set (leaf)
+        bool leaf() const { return right == 0; }
+    };
+
+    explicit SphereTree(const SphereSet& spheres);
+
+    bool empty() const { return nodes_.empty(); }
+    const Node& operator[](std::uint32_t i) const { return nodes_[i]; }
+    std::size_t size() const { return nodes_.size(); } ///< 2 #spheres - 1; the root is node 0
+
+private:
+    void build(const SphereSet& spheres, std::vector<std::uint32_t>& order, std::size_t first,
+               std::size_t last);
+    std::vector<Node> nodes_;
+};
+
+} // namespace tss

@@ -1,0 +1,42 @@
+#pragma once
+#include "bake/motion/Motion.h"
+#include "bake/search/SphereTree.h"
+
+#include <vector>
+
+namespace tss {
+
+/// Calls visit(i, j, gap) for every sphere i of A and j of B whose gap at the pose is <= reach, in an order
+/// that depends on the trees alone.
+template <typename Visit>
+void visitPairsWithin(const SphereTree& a, const SphereTree& b, const Pose& pose, double reach,
+                      Visit&& visit) {
+    if (a.empty() || b.empty()) return;
+    struct Item {
+        std::uint32_t a, b;
+        Vec3 centreB; ///< of node b, in A's frame
+    };
+    std::vector<Item> stack{{0, 0, pose * b[0].centre}};
+    while (!stack.empty()) {
+        const Item item = stack.back();
+        stack.pop_back();
+        const SphereTree::Node &na = a[item.a], &nb = b[item.b];
+        const double sum = na.radius + nb.radius;
+        const double limit = sum + reach;
+        if (limit < 0) continue;
+        const double squared = (item.centreB - na.centre).squaredNorm();
+        if (squared > limit * limit * (1 + 1e-14)) continue;
+        if (na.leaf() && nb.leaf()) {
+            const double gap = std::sqrt(squared) - sum;
+            if (gap <= reach) visit(na.sphere, nb.sphere, gap);
+        } else if (!na.leaf() && (nb.leaf() || na.radius >= nb.radius)) {
+            stack.push_back({na.right, item.b, item.centreB});
+            stack.push_back({item.a + 1, item.b, item.centreB});
+        } else {
+            stack.push_back({item.a, nb.right, pose * b[nb.right].centre});
+            stack.push_back({item.a, item.b + 1, pose * b[item.b + 1].centre});
+        }
+    }
+}
+
+} // namespace tss

@@ -1,0 +1,103 @@
+#include "bake/search/SampledSearch.h"
+#include "bake/base/Parallel.h"
+#include "bake/search/ExploredPoses.h"
+#include "bake/table/Query.h"
+#include "tests/search/Scenes.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+
+using namespace tss;
+
+namespace {
+
+std::set<SpherePair> everyCollidingPair(const scenes::Scene& scene,
+                                        const std::vector<std::vector<double>>& poses) {
+    std::set<SpherePair> found;
+    for (const auto& q : poses) {
+        const Pose t = pose(scene.motion, q);
+        for (std::uint32_t i = 0; i < scene.a.size(); ++i)
+            for (std::uint32_t j = 0; j < scene.b.size(); ++j)
+                if ((t * scene.b[j].centre - scene.a[i].centre).norm() <=
+                    scene.a[i].radius + scene.b[j].radius)
+                    found.insert({i, j});
+    }
+    return found;
+}
+
+} // namespace
+
+TEST_CASE("the sampled search records every pair that collides at an explored pose and no other") {
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        const auto scene = scenes::randomScene(seed, 1 + int(seed % 4), 60, seed % 2);
+        INFO("seed " << seed);
+        SampledSearchOptions options;
+        options.samples = 300;
+        options.atRest = AtRest::Collide;
+        const auto found = searchSampled(scene.a, scene.b, scene.motion, options);
+        const auto expected = everyCollidingPair(scene, exploredPoses(scene.motion, 300, options.seed));
+        CHECK(std::vector<SpherePair>(expected.begin(), expected.end()) == found.pairs);
+        std::set<std::uint32_t> usedA;
+        for (const auto& p : found.pairs) usedA.insert(p.a);
+        CHECK(found.spheresA == usedA.size());
+        CHECK_FALSE(found.certified);
+    }
+}
+
+TEST_CASE("explored poses include both limits, stay inside the planes and repeat with the seed") {
+    auto scene = scenes::randomScene(3, 2, 1);
+    scene.motion.planes.push_back({{1, 1}, 0.1});
+    const auto poses = exploredPoses(scene.motion, 1000, 7);
+    CHECK(poses.size() > 300);
+    CHECK(poses == exploredPoses(scene.motion, 1000, 7));
+    CHECK(poses != exploredPoses(scene.motion, 1000, 8));
+    const auto lowest = std::vector<double>{scene.motion.dofs[0].lower, scene.motion.dofs[1].lower};
+    CHECK(std::find(poses.begin(), poses.end(), lowest) != poses.end());
+    for (const auto& q : poses) CHECK(withinLimits(scene.motion, q));
+}
+
+TEST_CASE("a motion without freedom is explored at its one pose") {
+    Motion fixed;
+    CHECK(exploredPoses(fixed, 100, 1).size() == 1);
+    fixed.dofs.push_back(scenes::rotation({0, 0, 0}, {0, 0, 1}, 0.3, 0.3));
+    CHECK(exploredPoses(fixed, 100, 1) == std::vector<std::vector<double>>{{0.3}});
+}
+
+TEST_CASE("the sampled search finds the same pairs with one thread and with two") {
+    const auto scene = scenes::jawLike(300, 300);
+    SampledSearchOptions options;
+    options.samples = 500;
+    const auto two = searchSampled(scene.a, scene.b, scene.motion, options);
+    const ThreadLimit one(1);
+    const auto single = searchSampled(scene.a, scene.b, scene.motion, options);
+    CHECK(two.pairs == single.pairs);
+    CHECK(two.colliding == single.colliding);
+    CHECK(two.colliding > 0);
+}
+
+TEST_CASE("empty sphere sets have no candidates") {
+    const auto scene = scenes::randomScene(1, 2, 5);
+    CHECK(searchSampled({}, scene.b, scene.motion).pairs.empty());
+    CHECK(searchSampled(scene.a, {}, scene.motion).pairs.empty());
+}
+
+TEST_CASE("a pair that overlaps at rest counts from its gap at rest, or not at all, or as any other") {
+    SphereSet a{{{0, 0, 0}, 1}}, b{{{1.5, 0, 0}, 1}};
+    Motion slide;
+    slide.dofs.push_back(scenes::translation({-1, 0, 0}, -3, 1));
+    SampledSearchOptions options;
+    const auto offset = searchSampled(a, b, slide, options);
+    REQUIRE(offset.pairs.size() == 1);
+    CHECK(offset.restGaps[0] == Approx(-0.5).margin(1e-5));
+    CHECK(offset.restGaps[0] < -0.5);
+    options.atRest = AtRest::Ignore;
+    const auto ignored = searchSampled(a, b, slide, options);
+    CHECK(ignored.pairs.empty());
+    CHECK(ignored.atRest.size() == 1);
+    options.atRest = AtRest::Collide;
+    const auto collide = searchSampled(a, b, slide, options);
+    CHECK(collide.pairs.size() == 1);
+    CHECK(collide.restGaps.empty());
+    CHECK(offset.colliding < collide.colliding);
+}
