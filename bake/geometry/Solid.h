@@ -1,0 +1,48 @@
+#pragma once
+#include "bake/geometry/MeshQuery.h"
+
+#include <string>
+
+namespace tss {
+
+/// Fans of triangles that close the openings of a mesh: over each connected set of edges that triangles do
+/// not run through equally often in both directions, a cone to the mean of its vertices. With them every
+/// mesh, also a misoriented or non-manifold one and a soup of triangles, has an integer winding number off
+/// its surface. Vertices of the mesh first, one apex an opening after them; the triangles are the fans'
+/// alone.
+TriangleMesh closingFans(const TriangleMesh& mesh);
+
+/// The body that a mesh bounds: all points whose winding number about the mesh and its closing fans is not 0,
+/// and the surface itself. Several closed components count as their union, cavities stay cavities.
+/// Its boundary lies on the triangles and the fans, so that for every point p inside, the ball about p of
+/// radius distance(p) is inside: this is what the protrusion of spheres is proven with.
+class Solid {
+public:
+    /// Throws InputError as checkIndices() does.
+    explicit Solid(const TriangleMesh& mesh);
+
+    /// The mesh alone, without fans.
+    const TriangleMesh& mesh() const { return mesh_; }
+
+    /// Triangles and fans together.
+    const MeshQuery& boundary() const { return boundary_; }
+
+    bool inside(const Vec3& p) const { return boundary_.inside(p); }
+
+    /// A bound on how far a point of the ball lies from the solid, >= 0; 0 for a ball that is inside.
+    double protrusion(const Vec3& centre, double radius) const;
+
+    /// Bounding diagonal of the mesh, scene units.
+    double diagonal() const { return diagonal_; }
+
+    /// What was taken for granted about an imperfect mesh, for people; empty for a closed one.
+    const std::string& assumptions() const { return assumptions_; }
+
+private:
+    TriangleMesh mesh_;
+    MeshQuery boundary_;
+    double diagonal_ = 0;
+    std::string assumptions_;
+};
+
+} // namespace tss

@@ -1,0 +1,114 @@
+#include "bake/spheres/GenerateSpheres.h"
+
+#include "bake/base/Error.h"
+#include "bake/geometry/MeshAudit.h"
+#include "bake/spheres/Growth.h"
+#include "bake/spheres/MedialSpheres.h"
+#include "bake/spheres/SurfaceSpheres.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tss {
+
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+void checkOptions(const SphereOptions& o) {
+    const auto need = [](bool good, const char* what) {
+        if (!good) throw InputError(fmt::format("sphere options: {}", what));
+    };
+    need(std::isfinite(o.tolerance) && o.tolerance >= 0, "the tolerance must be a number >= 0");
+    need(o.maxSpheres >= 0, "the largest number of spheres must be >= 0");
+    need(o.medial.slackFactor > 0 && o.medial.slackFactor <= 0.5, "slackFactor must be in (0, 0.5]");
+    need(o.medial.sizeFactor > 0 && o.medial.sizeFactor <= 1, "sizeFactor must be in (0, 1]");
+    need(o.growth.start > 0 && o.growth.step > 0 && o.growth.end >= o.growth.start &&
+             o.growth.maxRadius > 0 && std::isfinite(o.growth.end / o.growth.step),
+         "growth needs start, step, maximum radius > 0 and end >= start");
+    need(std::isfinite(o.surface.radius) && o.surface.radius >= 0,
+         "the surface radius must be a number >= 0");
+    need(std::isfinite(o.surface.edgeFactor) && o.surface.edgeFactor > 0, "edgeFactor must be > 0");
+}
+
+SphereFit medialFit(const Solid& solid, const SphereOptions& options, double tolerance,
+                    const Progress& progress) {
+    const double protrusion = protrusionFor(tolerance, magnitude(solid.mesh()));
+    const auto make = options.method == SphereMethod::Medial ? medialSpheres : shrinkingSpheres;
+    SphereFit fit;
+    fit.spheres = make(solid, patchesOf(solid.mesh()), protrusion, options.medial, progress);
+    fit.protrusion = options.conservative ? protrusion : 0;
+    fit.coverage = options.conservative ? 0 : protrusion;
+    if (!options.conservative) fit.spheres = inscribed(std::move(fit.spheres), protrusion);
+    return fit;
+}
+
+SphereFit surfaceFit(const Solid& solid, const SphereOptions& options, double tolerance) {
+    SphereFit fit;
+    fit.spheres = surfaceSpheres(solid.mesh(), options.surface, options.conservative);
+    for (const Sphere& s : fit.spheres) fit.protrusion = std::max(fit.protrusion, s.radius);
+    fit.coverage = options.conservative ? 0 : unbounded;
+    if (options.tolerance > 0 && fit.protrusion > tolerance)
+        fit.note = fmt::format(
+            "tolerance {} not reached: surface spheres stand on the vertices and have radii up to {}",
+            tolerance, fit.protrusion);
+    return fit;
+}
+
+SphereFit growthFit(const Solid& solid, const SphereOptions& options, const Progress& progress) {
+    SphereFit fit;
+    for (const GrowthTrace& trace : growSpheres(solid.mesh(), options.growth, progress))
+        fit.spheres.push_back(trace.sphere);
+    for (const Sphere& s : fit.spheres)
+        fit.protrusion = std::max(fit.protrusion, solid.protrusion(s.centre, s.radius));
+    fit.coverage = unbounded;
+    if (fit.spheres.empty())
+        fit.note = "growth made no sphere: with these lengths no ball met a second triangle centroid";
+    return fit;
+}
+
+SphereFit fitOnce(const Solid& solid, const SphereOptions& options, double tolerance,
+                  const Progress& progress) {
+    switch (options.method) {
+    case SphereMethod::Surface:
+        return surfaceFit(solid, options, tolerance);
+    case SphereMethod::Growth:
+        return growthFit(solid, options, progress);
+    default:
+        return medialFit(solid, options, tolerance, progress);
+    }
+}
+
+} // namespace
+
+double magnitude(const TriangleMesh& mesh) {
+    double m = 0;
+    for (const Vec3& v : mesh.vertices) m = std::max(m, v.cwiseAbs().maxCoeff());
+    return m;
+}
+
+double protrusionFor(double tolerance, double magnitude) {
+    // Rounding moves a centre by at most sqrt(3) half units in the last place; the radius grows by as much
+    // and by half a unit of its own. Where floats are coarser than the tolerance they cannot carry it: not
+    // reserved for.
+    const double rounding = 8 * std::ldexp(magnitude, -24);
+    return tolerance * (1 - 1e-4) - std::min(rounding, 0.1 * tolerance);
+}
+
+SphereFit fitSpheres(const TriangleMesh& mesh, const SphereOptions& options, const Progress& progress) {
+    checkOptions(options);
+    const Solid solid(cleaned(mesh));
+    const double tolerance = options.tolerance > 0 ? options.tolerance : solid.diagonal() / 400;
+    SphereFit fit = fitOnce(solid, options, tolerance, progress);
+    if (!solid.assumptions().empty())
+        fit.note = fit.note.empty() ? solid.assumptions() : solid.assumptions() + "; " + fit.note;
+    return fit;
+}
+
+SphereSet generateSpheres(const TriangleMesh& mesh, const SphereOptions& options, const Progress& progress) {
+    return fitSpheres(mesh, options, progress).spheres;
+}
+
+} // namespace tss

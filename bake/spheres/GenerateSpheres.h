@@ -1,0 +1,35 @@
+#pragma once
+#include "bake/base/Progress.h"
+#include "bake/geometry/Solid.h"
+#include "bake/spheres/SphereOptions.h"
+#include "bake/spheres/SphereSet.h"
+
+namespace tss {
+
+/// The spheres and what is proven of them.
+struct SphereFit {
+    SphereSet spheres;
+    double protrusion =
+        0; ///< no point of a sphere is farther from the body (METHOD 1.5); infinity: not bounded here
+    double coverage = 0; ///< no point of the surface is farther from the union; infinity: not bounded here
+    std::string note;    ///< what was assumed of the mesh and what could not be reached; empty: nothing
+};
+
+/// Fills a body with spheres by the method of the options. The mesh may be open, inside out, non-manifold or
+/// a soup of triangles: the note says what was assumed (see Solid). The same spheres for any number of
+/// threads. Stopped through `progress`, the result is still conservative, with more spheres than need be.
+/// Throws InputError for a mesh that cannot be used (see cleaned()) and for options out of range.
+SphereFit fitSpheres(const TriangleMesh& mesh, const SphereOptions& options, const Progress& progress = {});
+
+/// The spheres of fitSpheres() alone.
+SphereSet generateSpheres(const TriangleMesh& mesh, const SphereOptions& options,
+                          const Progress& progress = {});
+
+/// P, the protrusion to build with for a tolerance L on a body with coordinates up to `magnitude`: less than
+/// L by what rounding the spheres to float may add.
+double protrusionFor(double tolerance, double magnitude);
+
+/// The largest coordinate of the mesh, by absolute value.
+double magnitude(const TriangleMesh& mesh);
+
+} // namespace tss

@@ -1,0 +1,49 @@
+#include "bake/spheres/MedialBall.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tss {
+
+double largestBall(const MeshQuery& boundary, const Vec3& p, const Vec3& n, double slack, double longest,
+                   double hint) {
+    double r = hint > 0 ? std::min(hint, longest) : longest;
+    bool shrunk = false;
+    for (int round = 0; round < 100; ++round) {
+        if (r <= slack) return r; // no point can be in the way of so small a ball
+        const ClosestPoint near = boundary.closest(p - r * n, r - slack);
+        if (near.triangle < 0) {
+            if (shrunk || r >= longest) return r;
+            r = std::min(2 * r, longest);
+            continue;
+        }
+        shrunk = true;
+        // The ball that reaches `slack` through the point in the way; the largest one is no larger.
+        const Vec3 v = p - near.point;
+        const double next = (v.squaredNorm() - slack * slack) / (2 * (v.dot(n) - slack));
+        // Not below slack, where nothing is in the way; a little less each time, so that rounding cannot hold
+        // it.
+        r = std::max(slack, std::min(next, r * (1 - 1e-9)));
+    }
+    return 0;
+}
+
+Sphere medialBall(const Solid& solid, const Vec3& p, const Vec3& n, double protrusion, double slack,
+                  double hint) {
+    const double longest = solid.diagonal() / 2;
+    for (int attempt = 0; attempt < 3; ++attempt, slack /= 32) {
+        // A misoriented triangle has its inside on the other side.
+        for (const Vec3& direction : {n, Vec3(-n)}) {
+            const double r =
+                largestBall(solid.boundary(), p, direction, slack, longest, attempt == 0 ? hint : 0);
+            if (!(r > 0)) continue;
+            const Vec3 centre = p - r * direction;
+            if (!solid.inside(centre)) continue;
+            const double distance = solid.boundary().distance(centre);
+            if (r - distance <= 2 * slack) return {centre, distance + protrusion};
+        }
+    }
+    return {p, protrusion};
+}
+
+} // namespace tss

@@ -1,0 +1,22 @@
+#pragma once
+#include "bake/geometry/Solid.h"
+#include "bake/spheres/SphereSet.h"
+
+namespace tss {
+
+/// The largest r <= longest for which the ball about p - r n reaches at most `slack` through the boundary,
+/// r - dist(p - r n) <= slack: monotone in r, found by shrinking onto the points in the way. The distance is
+/// exact, nothing is sampled. n of unit length. hint > 0: where to start. (METHOD 1.3)
+/// Returns r, or 0 where none was found.
+double largestBall(const MeshQuery& boundary, const Vec3& p, const Vec3& n, double slack, double longest,
+                   double hint);
+
+/// The sphere that stands for the surface about p, which lies on the boundary, seen along -n (METHOD 1.3): a
+/// ball inside the solid grown by `protrusion`. It contains every point within protrusion - slack of p and
+/// its proven protrusion is `protrusion`. Where no centre inside is found (a feature thinner than the slack,
+/// an open sheet) it is the ball about p itself. slack: > 0, much less than the protrusion. hint: a radius
+/// expected, or 0.
+Sphere medialBall(const Solid& solid, const Vec3& p, const Vec3& n, double protrusion, double slack,
+                  double hint);
+
+} // namespace tss

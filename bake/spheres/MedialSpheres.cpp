@@ -1,0 +1,32 @@
+#include "bake/spheres/MedialSpheres.h"
+
+#include "bake/spheres/Cover.h"
+
+#include <algorithm>
+
+namespace tss {
+
+SphereSet medialSpheres(const Solid& solid, std::span<const Patch> patches, double protrusion,
+                        const MedialOptions& options, const Progress& progress) {
+    const PatchOptions patchOptions{protrusion, options.slackFactor, options.sizeFactor};
+    const FittedPatches fitted = fitPatches(solid, patches, patchOptions, progress);
+    const CoverSets sets = coverSets(fitted.candidates, fitted.patches);
+    SphereSet spheres;
+    for (const std::uint32_t i : greedyCover(sets, fitted.patches.size()))
+        spheres.push_back(fitted.candidates[i]);
+    report(progress, "cover", 1);
+    return spheres;
+}
+
+SphereSet shrinkingSpheres(const Solid& solid, std::span<const Patch> patches, double protrusion,
+                           const MedialOptions& options, const Progress& progress) {
+    const PatchOptions patchOptions{protrusion, std::min(options.slackFactor, 1e-3), 1};
+    return fitPatches(solid, patches, patchOptions, progress).candidates;
+}
+
+SphereSet inscribed(SphereSet spheres, double protrusion) {
+    for (Sphere& s : spheres) s.radius = std::max(0.0, s.radius - protrusion);
+    return spheres;
+}
+
+} // namespace tss

@@ -1,0 +1,115 @@
+#include "bake/spheres/Patches.h"
+
+#include "bake/base/Parallel.h"
+#include "bake/geometry/MeshAudit.h"
+#include "bake/spheres/MedialBall.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tss {
+
+double Patch::radius() const {
+    const Vec3 c = centre();
+    return std::sqrt(std::max(
+        {(corners[0] - c).squaredNorm(), (corners[1] - c).squaredNorm(), (corners[2] - c).squaredNorm()}));
+}
+
+double Patch::area() const {
+    return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+}
+
+std::array<Patch, 2> halves(const Patch& patch) {
+    int longest = 0;
+    double best = -1;
+    for (int k = 0; k < 3; ++k) {
+        const double length2 = (patch.corners[(k + 1) % 3] - patch.corners[k]).squaredNorm();
+        if (length2 > best) {
+            best = length2;
+            longest = k;
+        }
+    }
+    const Vec3 &a = patch.corners[longest], &b = patch.corners[(longest + 1) % 3],
+               &c = patch.corners[(longest + 2) % 3];
+    const Vec3 middle = 0.5 * (a + b);
+    return {Patch{{a, middle, c}, patch.normal}, Patch{{middle, b, c}, patch.normal}};
+}
+
+std::vector<Patch> patchesOf(const TriangleMesh& mesh) {
+    std::vector<Patch> patches;
+    patches.reserve(mesh.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Vec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
+        if (!hasZeroArea(a, b, c)) patches.push_back({{a, b, c}, (b - a).cross(c - a).stableNormalized()});
+    }
+    return patches;
+}
+
+bool covers(const Sphere& sphere, const Patch& patch) {
+    const double r = sphere.radius * (1 - 1e-12), r2 = r * r;
+    return (patch.corners[0] - sphere.centre).squaredNorm() <= r2 &&
+           (patch.corners[1] - sphere.centre).squaredNorm() <= r2 &&
+           (patch.corners[2] - sphere.centre).squaredNorm() <= r2;
+}
+
+namespace {
+
+/// Splits one patch as far as needed.
+class Splitter {
+public:
+    Splitter(const Solid& solid, const PatchOptions& options) : solid_(solid), options_(options) {}
+
+    void add(const Patch& patch, double radiusExpected) {
+        const double radius = patch.radius();
+        // Not worth a ball of its own while far larger than the balls about it allow.
+        if (radiusExpected > 0 && radius > 1.5 * largest(radiusExpected)) return split(patch, radiusExpected);
+        const Sphere ball = medialBall(solid_, patch.centre(), patch.normal, options_.protrusion,
+                                       options_.slackFactor * options_.protrusion,
+                                       radiusExpected > 0 ? 1.1 * radiusExpected : 4 * radius);
+        if (radius <= largest(ball.radius) && covers(ball, patch)) {
+            result.patches.push_back(patch);
+            result.candidates.push_back(ball);
+        } else {
+            split(patch, ball.radius);
+        }
+    }
+
+    FittedPatches result;
+
+private:
+    double largest(double ballRadius) const {
+        return options_.sizeFactor * std::sqrt(2 * ballRadius * options_.protrusion);
+    }
+
+    void split(const Patch& patch, double radiusExpected) {
+        for (const Patch& half : halves(patch)) add(half, radiusExpected);
+    }
+
+    const Solid& solid_;
+    const PatchOptions& options_;
+};
+
+} // namespace
+
+FittedPatches fitPatches(const Solid& solid, std::span<const Patch> patches, const PatchOptions& options,
+                         const Progress& progress) {
+    constexpr std::size_t block = 64;
+    const std::size_t blocks = (patches.size() + block - 1) / block;
+    std::vector<FittedPatches> parts(blocks);
+    parallelFor(blocks, [&](std::size_t b) {
+        Splitter splitter(solid, options);
+        for (std::size_t i = b * block; i < std::min(patches.size(), (b + 1) * block); ++i)
+            splitter.add(patches[i], 0);
+        parts[b] = std::move(splitter.result);
+    });
+    report(progress, "patches", 1);
+    FittedPatches all;
+    for (FittedPatches& part : parts) {
+        all.patches.insert(all.patches.end(), part.patches.begin(), part.patches.end());
+        all.candidates.insert(all.candidates.end(), part.candidates.begin(), part.candidates.end());
+        part = {};
+    }
+    return all;
+}
+
+} // namespace tss

@@ -1,0 +1,49 @@
+#pragma once
+#include "bake/base/Progress.h"
+#include "bake/geometry/Solid.h"
+#include "bake/spheres/SphereSet.h"
+
+#include <array>
+#include <span>
+
+namespace tss {
+
+/// A piece of a triangle, the element that spheres must cover: a sphere that contains its three corners
+/// contains all of it.
+struct Patch {
+    std::array<Vec3, 3> corners;
+    Vec3 normal; ///< unit length, that of its triangle
+
+    Vec3 centre() const { return (corners[0] + corners[1] + corners[2]) / 3; }
+    double radius() const; ///< largest distance of a corner from the centre
+    double area() const;
+};
+
+/// Cuts the longest edge in half.
+std::array<Patch, 2> halves(const Patch& patch);
+
+/// The triangles of a mesh as patches, those without an area left out.
+std::vector<Patch> patchesOf(const TriangleMesh& mesh);
+
+/// Contains all three corners, with a little to spare for rounding.
+bool covers(const Sphere& sphere, const Patch& patch);
+
+/// How candidate spheres are found for patches (METHOD 1.3).
+struct PatchOptions {
+    double protrusion = 0;     ///< P, scene units, > 0
+    double slackFactor = 0.02; ///< tau / P, in (0, 0.5]
+    double sizeFactor = 0.4;   ///< k: a patch is split until its radius is at most k sqrt(2 R P)
+};
+
+/// Patches fine enough, each with the sphere found from its own centre, which covers it.
+struct FittedPatches {
+    std::vector<Patch> patches;
+    SphereSet candidates; ///< one a patch
+};
+
+/// Splits the patches until the sphere of each covers it and the patch is small beside the sphere.
+/// Ends for every input: a patch smaller than (1 - tau/P) P is covered by its sphere whatever that is.
+FittedPatches fitPatches(const Solid& solid, std::span<const Patch> patches, const PatchOptions& options,
+                         const Progress& progress = {});
+
+} // namespace tss

@@ -1,0 +1,51 @@
+#pragma once
+#include <string>
+
+namespace tss {
+
+/// The generators of METHOD 1.
+enum class SphereMethod {
+    Medial,    ///< 1.3: balls inside the body, few, coverage by construction (the default)
+    Shrinking, ///< 1.3: one plain shrinking ball a triangle, none left out
+    Surface,   ///< 1.2 [paper]: one sphere a vertex
+    Growth,    ///< 1.1 [paper]: growth from triangle centroids into the body
+};
+
+/// How finely the medial and shrinking generators work (METHOD 1.3).
+struct MedialOptions {
+    double slackFactor = 0.02; ///< tau / P, in (0, 0.5]; above 0.1 it takes many more spheres
+    double sizeFactor = 0.4;   ///< k: a patch has at most the radius k sqrt(2 R P); in (0, 1]
+};
+
+/// The rule for radii of the surface generator (METHOD 1.2).
+struct SurfaceOptions {
+    double radius = 0;       ///< scene units; > 0: the same for every sphere
+    double edgeFactor = 0.5; ///< else this times the mean length of the edges at the vertex
+};
+
+/// Every parameter of the paper's growth (METHOD 1.1), with the paper's values.
+struct GrowthOptions {
+    double start = 0.01;        ///< T_min: where the growth along a line begins
+    double step = 0.01;         ///< delta t
+    double end = 0.101;         ///< T_max: where it ends
+    double maxRadius = 0.02;    ///< the threshold radius
+    bool relative = true;       ///< the four above are fractions of the bounding diagonal, else scene units
+    bool keepUnbounded = false; ///< keep spheres that came to the threshold radius before they met a second
+                                ///< point: without them, spheres stand in the narrow regions only
+    bool seedEveryTriangle = false; ///< seed also at centroids that an earlier sphere has met
+};
+
+/// What spheres are asked for.
+struct SphereOptions {
+    SphereMethod method = SphereMethod::Medial;
+    double tolerance =
+        0; ///< L, scene units: the spheres stick out of the body at most this far; 0: diagonal/400
+    int maxSpheres = 0;       ///< > 0: the best tolerance for at most so many, not finer than `tolerance`
+    bool conservative = true; ///< the union contains the surface; else the spheres are inside the body
+                              ///< (medial and shrinking; METHOD 1.6)
+    MedialOptions medial;
+    SurfaceOptions surface;
+    GrowthOptions growth;
+};
+
+} // namespace tss
