@@ -2,61 +2,12 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/search/ExploredPoses.h"
+#include "bake/search/PairBits.h"
 #include "bake/search/TreePair.h"
 
 #include <algorithm>
-#include <atomic>
-#include <bit>
-#include <memory>
 
 namespace tss {
-
-namespace {
-
-/// A set of sphere pairs that threads fill at once: one bit a pair, rows made when first touched.
-class PairBits {
-public:
-    PairBits(std::size_t rows, std::size_t columns) : rows_(rows), words_((columns + 63) / 64) {}
-
-    ~PairBits() {
-        for (auto& row : rows_) delete[] row.load();
-    }
-
-    void insert(std::uint32_t i, std::uint32_t j) {
-        Word* row = rows_[i].load(std::memory_order_acquire);
-        if (!row) row = make(rows_[i]);
-        const std::uint64_t bit = std::uint64_t{1} << (j % 64);
-        Word& word = row[j / 64];
-        if (!(word.load(std::memory_order_relaxed) & bit)) word.fetch_or(bit, std::memory_order_relaxed);
-    }
-
-    std::vector<SpherePair> sorted() const {
-        std::vector<SpherePair> pairs;
-        for (std::uint32_t i = 0; i < rows_.size(); ++i) {
-            const Word* row = rows_[i].load();
-            for (std::uint32_t w = 0; row && w < words_; ++w)
-                for (std::uint64_t bits = row[w].load(); bits; bits &= bits - 1)
-                    pairs.push_back({i, 64 * w + static_cast<std::uint32_t>(std::countr_zero(bits))});
-        }
-        return pairs;
-    }
-
-private:
-    using Word = std::atomic<std::uint64_t>;
-
-    Word* make(std::atomic<Word*>& slot) {
-        Word* fresh = new Word[words_]();
-        Word* expected = nullptr;
-        if (slot.compare_exchange_strong(expected, fresh)) return fresh;
-        delete[] fresh;
-        return expected;
-    }
-
-    std::vector<std::atomic<Word*>> rows_;
-    std::size_t words_;
-};
-
-} // namespace
 
 CandidatePairs searchSampled(const SphereSet& a, const SphereSet& b, const Motion& motion,
                              const SampledSearchOptions& options, const Progress& progress) {
@@ -76,7 +27,7 @@ CandidatePairs searchSampled(const SphereSet& a, const SphereSet& b, const Motio
             visitPairsWithin(treeA, treeB, pose(motion, poses[first + k]), 0,
                              [&](std::uint32_t i, std::uint32_t j, double gap) {
                                  if (!rule.touches({i, j}, gap)) return;
-                                 found.insert(i, j);
+                                 found.insert({i, j});
                                  hit[first + k] = 1;
                              });
         });

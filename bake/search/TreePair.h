@@ -2,6 +2,7 @@
 #include "bake/motion/Motion.h"
 #include "bake/search/SphereTree.h"
 
+#include <utility>
 #include <vector>
 
 namespace tss {
@@ -37,6 +38,36 @@ void visitPairsWithin(const SphereTree& a, const SphereTree& b, const Pose& pose
             stack.push_back({item.a, item.b + 1, pose * b[item.b + 1].centre});
         }
     }
+}
+
+/// The smallest gap over all pairs at the pose, or `atMost` when none is smaller.
+inline double smallestGap(const SphereTree& a, const SphereTree& b, const Pose& pose, double atMost) {
+    if (a.empty() || b.empty()) return atMost;
+    struct Item {
+        std::uint32_t a, b;
+        double lower; ///< no pair below has a smaller gap
+    };
+    const auto item = [&](std::uint32_t na, std::uint32_t nb) {
+        return Item{na, nb, (pose * b[nb].centre - a[na].centre).norm() - a[na].radius - b[nb].radius};
+    };
+    std::vector<Item> stack{item(0, 0)};
+    while (!stack.empty()) {
+        const Item at = stack.back();
+        stack.pop_back();
+        if (at.lower >= atMost) continue;
+        const SphereTree::Node &na = a[at.a], &nb = b[at.b];
+        if (na.leaf() && nb.leaf()) {
+            atMost = at.lower;
+            continue;
+        }
+        const bool openA = !na.leaf() && (nb.leaf() || na.radius >= nb.radius);
+        Item near = openA ? item(at.a + 1, at.b) : item(at.a, at.b + 1);
+        Item far = openA ? item(na.right, at.b) : item(at.a, nb.right);
+        if (near.lower > far.lower) std::swap(near, far);
+        stack.push_back(far);
+        stack.push_back(near);
+    }
+    return atMost;
 }
 
 } // namespace tss

@@ -1,0 +1,240 @@
+#include "bake/search/CertifiedSearch.h"
+
+#include "bake/base/Parallel.h"
+#include "bake/search/CellTools.h"
+#include "bake/search/ExploredPoses.h"
+#include "bake/search/PairAt.h"
+#include "bake/search/PairBits.h"
+#include "bake/search/SampledSearch.h"
+#include "bake/search/TreePair.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <memory>
+
+namespace tss {
+
+namespace {
+
+struct NodePair {
+    std::uint32_t a, b;
+};
+
+/// What every part of one search shares and none writes.
+struct Problem {
+    const SphereSet &a, &b;
+    const SphereTree &treeA, &treeB;
+    const MotionRates& rates;
+    const ContactRule& rule;
+    double margin, tolerance;
+    const PairBits& known; ///< pairs found before, by sampling
+    bool firstOnly;        ///< one pair is enough
+};
+
+/// The search through one part of Q. Which cells a pair is looked for in depends on the cell alone and not on
+/// what else was found, so that the parts may run in any order.
+class PartSearch {
+public:
+    PartSearch(const Problem& problem, const std::atomic<bool>& stop)
+        : p_(problem), stop_(stop), found_(problem.a.size(), problem.b.size()) {}
+
+    void run(const Cell& cell, const std::vector<NodePair>& open) {
+        Cell inside = cell;
+        if (stop_ || done() || !shrinkToPlanes(p_.rates.motion(), inside)) return;
+        ++cells_;
+        const CellMotion motion(p_.rates, inside);
+        std::vector<NodePair> left, stack(open);
+        while (!stack.empty()) {
+            const NodePair pair = stack.back();
+            stack.pop_back();
+            judge(motion, pair, stack, left);
+        }
+        if (left.empty()) return;
+        const auto [lower, upper] = splitCell(p_.rates, inside, widest(motion));
+        run(lower, left);
+        run(upper, left);
+    }
+
+    const PairBits& found() const { return found_; }
+    bool any() const { return any_; }
+    std::uint64_t cells() const { return cells_; }
+
+private:
+    bool done() const { return p_.firstOnly && any_; }
+
+    void judge(const CellMotion& motion, NodePair pair, std::vector<NodePair>& stack,
+               std::vector<NodePair>& left) {
+        const SphereTree::Node &na = p_.treeA[pair.a], &nb = p_.treeB[pair.b];
+        const Vec3 x = motion.centrePose() * nb.centre;
+        const CellMotion::Reach reach = motion.reach(x);
+        const double sum = na.radius + nb.radius;
+        if (na.leaf() && nb.leaf()) return judgeSpheres(motion, pair, x, reach, left);
+        if ((x - na.centre).norm() - reach.move > sum + p_.margin) return;
+        // Smaller balls do not help where the motion is what blurs the answer.
+        if (sum < reach.move && reach.move > p_.tolerance) {
+            left.push_back(pair);
+        } else if (!na.leaf() && (nb.leaf() || na.radius >= nb.radius)) {
+            stack.push_back({na.right, pair.b});
+            stack.push_back({pair.a + 1, pair.b});
+        } else {
+            stack.push_back({pair.a, nb.right});
+            stack.push_back({pair.a, pair.b + 1});
+        }
+    }
+
+    void judgeSpheres(const CellMotion& motion, NodePair nodes, const Vec3& x, const CellMotion::Reach& reach,
+                      std::vector<NodePair>& left) {
+        const SpherePair pair{p_.treeA[nodes.a].sphere, p_.treeB[nodes.b].sphere};
+        const Sphere &sa = p_.a[pair.a], &sb = p_.b[pair.b];
+        const double limit = sa.radius + sb.radius + p_.rule.threshold(pair) + p_.margin;
+        if (limit < 0 || found_.contains(pair) || p_.known.contains(pair)) return;
+        const PairAt at(motion, x, reach, sa.centre);
+        if (at.staysAbove(limit)) return;
+        if (reach.move <= p_.tolerance ||
+            (at.distance <= limit && withinLimits(p_.rates.motion(), motion.centre()))) {
+            found_.insert(pair);
+            any_ = true;
+        } else {
+            left.push_back(nodes);
+        }
+    }
+
+    /// The DOF that moves body B most, in this cell.
+    std::size_t widest(const CellMotion& motion) const {
+        const auto& root = p_.treeB[0];
+        const auto share = motion.shares(motion.centrePose() * root.centre + root.radius * Vec3::UnitX());
+        return static_cast<std::size_t>(std::max_element(share.begin(), share.begin() + motion.dofs()) -
+                                        share.begin());
+    }
+
+    const Problem& p_;
+    const std::atomic<bool>& stop_;
+    PairBits found_;
+    bool any_ = false;
+    std::uint64_t cells_ = 0;
+};
+
+/// Q in about `count` parts of equal shape, by cutting the DOFs in turn where they have any width.
+std::vector<Cell> parts(const MotionRates& rates, std::size_t count) {
+    std::vector<Cell> cells{wholeBox(rates.motion())};
+    std::vector<std::size_t> wide;
+    for (std::size_t k = 0; k < rates.motion().dofCount(); ++k)
+        if (cells[0].upper[k] > cells[0].lower[k]) wide.push_back(k);
+    for (std::size_t turn = 0; !wide.empty() && cells.size() < count; ++turn) {
+        std::vector<Cell> halves;
+        for (const Cell& cell : cells) {
+            const auto [lower, upper] = splitCell(rates, cell, wide[turn % wide.size()]);
+            halves.push_back(lower);
+            halves.push_back(upper);
+        }
+        cells = std::move(halves);
+    }
+    return cells;
+}
+
+struct Found {
+    bool complete = true;
+    std::uint64_t cells = 0;
+    std::vector<SpherePair> pairs;
+};
+
+Found search(const Problem& problem, const Progress& progress) {
+    Found result;
+    const auto cells = parts(problem.rates, 64);
+    PairBits all(problem.a.size(), problem.b.size());
+    all.insertAll(problem.known);
+    std::atomic<bool> stop{false};
+    constexpr std::size_t batch = 8;
+    bool any = false;
+    for (std::size_t first = 0; first < cells.size() && !(problem.firstOnly && any); first += batch) {
+        if (!report(progress, "certified search", double(first) / double(cells.size()))) stop = true;
+        std::vector<std::unique_ptr<PartSearch>> part(batch);
+        parallelFor(batch, [&](std::size_t k) {
+            part[k] = std::make_unique<PartSearch>(problem, stop);
+            if (first + k < cells.size()) part[k]->run(cells[first + k], {{0, 0}});
+        });
+        for (const auto& p : part) {
+            result.cells += p->cells();
+            any |= p->any();
+            all.insertAll(p->found());
+        }
+    }
+    result.complete = !stop;
+    result.pairs = all.sorted();
+    return result;
+}
+
+double meanRadius(const SphereSet& a, const SphereSet& b) {
+    double sum = 0;
+    for (const SphereSet* set : {&a, &b})
+        for (const Sphere& s : *set) sum += s.radius;
+    return sum / double(a.size() + b.size());
+}
+
+/// The smallest gap at the explored poses: nothing can be proven beyond it.
+double smallestGapSeen(const Problem& problem) {
+    double best = std::numeric_limits<double>::infinity();
+    for (const auto& q : exploredPoses(problem.rates.motion(), 512, 1))
+        best =
+            std::min(best, smallestGap(problem.treeA, problem.treeB, pose(problem.rates.motion(), q), best));
+    return best;
+}
+
+/// A distance that the bodies keep everywhere, as large as a few tries prove.
+double measureClearance(Problem problem, std::uint64_t& cells, const Progress& progress) {
+    const double seen = smallestGapSeen(problem);
+    problem.firstOnly = true;
+    for (double share : {0.9, 0.7, 0.5, 0.25, 0.1, 0.01}) {
+        problem.margin = share * seen;
+        problem.tolerance = 0.05 * problem.margin;
+        const Found found = search(problem, progress);
+        if (!found.complete) return 0;
+        if (found.pairs.empty()) {
+            cells += found.cells;
+            return problem.margin;
+        }
+    }
+    return 0;
+}
+
+} // namespace
+
+CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Motion& motion,
+                               const CertifiedSearchOptions& options, const Progress& progress) {
+    const MotionRates rates(motion);
+    wholeBox(motion); // refuses chains that are too long
+    CandidatePairs result;
+    result.certified = true;
+    if (a.empty() || b.empty()) {
+        result.clearance = std::numeric_limits<double>::infinity();
+        return result;
+    }
+    const ContactRule rule(a, b, motion, options.atRest);
+    const SphereTree treeA(a), treeB(b);
+    PairBits known(a.size(), b.size());
+    if (rule.mode() != AtRest::Ignore) {
+        SampledSearchOptions sampling;
+        sampling.samples = 1024;
+        sampling.atRest = options.atRest;
+        for (const SpherePair& pair : searchSampled(a, b, motion, sampling).pairs) known.insert(pair);
+    }
+    const double tolerance = options.tolerance >= 0 ? options.tolerance : 0.01 * meanRadius(a, b);
+    const Problem problem{a, b, treeA, treeB, rates, rule, options.margin, tolerance, known, false};
+    Found found = search(problem, progress);
+    result.atRest = rule.atRest();
+    result.certified = found.complete;
+    result.explored = found.cells;
+    result.pairs = std::move(found.pairs);
+    result.restGaps = rule.thresholds(result.pairs);
+    if (result.pairs.empty() && result.certified) {
+        result.clearance = options.margin;
+        if (options.measureClearance)
+            result.clearance =
+                std::max(result.clearance, measureClearance(problem, result.explored, progress));
+    }
+    countSpheres(result);
+    return result;
+}
+
+} // namespace tss

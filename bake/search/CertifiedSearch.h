@@ -1,0 +1,22 @@
+#pragma once
+#include "bake/base/Progress.h"
+#include "bake/search/CandidatePairs.h"
+
+namespace tss {
+
+struct CertifiedSearchOptions {
+    double margin = 0;     ///< pairs whose gap gets this small are wanted, scene units, >= 0
+    double tolerance = -1; ///< tau: no pair is listed whose gap stays above margin + tau; < 0: a hundredth of
+                           ///< the mean radius
+    AtRest atRest = AtRest::Offset;
+    bool measureClearance = true; ///< when nothing collides, find out how far apart the bodies stay
+};
+
+/// Tc without holes (METHOD 2.2): branch and bound over Q and the two sphere trees. Every pair whose gap gets
+/// <= margin (its gap at rest plus margin, for pairs that overlap there) somewhere in Q is listed, and none
+/// whose gap stays > margin + tau. An empty list is a proof that the bodies never collide (2.3). Stopped
+/// early by progress it is not certified. The same result for any number of threads.
+CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Motion& motion,
+                               const CertifiedSearchOptions& options = {}, const Progress& progress = {});
+
+} // namespace tss

@@ -1,0 +1,37 @@
+#pragma once
+#include "bake/motion/MotionBound.h"
+
+#include <cmath>
+
+namespace tss {
+
+/// A sphere pair at the centre of a cell, with what bounds its distance over the whole cell. x is the centre
+/// of the sphere of B in A's frame; with y = x - c_i:
+///   |y| - move                               <= |y(q)| <= |y| + move
+///   |y|^2 - 2|slope|.h - 2|y| remainder      <= |y(q)|^2 <= |y|^2 + 2|slope|.h + 2|y| remainder + move^2
+struct PairAt {
+    Vec3 x, y;
+    double squared, distance; ///< |y|^2 and |y|
+    double move, remainder;
+    double tilt;                       ///< |slope| . h
+    std::array<double, maxDofs> slope; ///< y . J: half the slope of |y|^2
+
+    PairAt(const CellMotion& cell, const Vec3& x, const CellMotion::Reach& reach, const Vec3& centreA)
+        : x(x), y(x - centreA), squared(y.squaredNorm()), distance(std::sqrt(squared)), move(reach.move),
+          remainder(reach.remainder), tilt(0) {
+        cell.slope(x, y, slope.data());
+        for (std::size_t k = 0; k < cell.dofs(); ++k) tilt += std::abs(slope[k]) * cell.half(k);
+    }
+
+    /// The pair's distance is larger than this all over the cell. limit >= 0.
+    bool staysAbove(double limit) const {
+        return distance - move > limit || squared - 2 * tilt - 2 * distance * remainder > limit * limit;
+    }
+    /// The pair's distance is smaller than this all over the cell.
+    bool staysBelow(double limit) const {
+        return limit > 0 && (distance + move < limit ||
+                             squared + 2 * tilt + 2 * distance * remainder + move * move < limit * limit);
+    }
+};
+
+} // namespace tss

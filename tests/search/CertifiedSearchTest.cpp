@@ -1,0 +1,152 @@
+#include "bake/search/CertifiedSearch.h"
+#include "bake/base/Error.h"
+#include "bake/base/Parallel.h"
+#include "bake/search/CellTools.h"
+#include "bake/search/SampledSearch.h"
+#include "bake/table/Query.h"
+#include "tests/search/Scenes.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+using namespace tss;
+
+namespace {
+
+CertifiedSearchOptions colliding(double tolerance = -1) {
+    CertifiedSearchOptions options;
+    options.atRest = AtRest::Collide;
+    options.tolerance = tolerance;
+    return options;
+}
+
+} // namespace
+
+TEST_CASE("the certified search finds every pair that any sampled pose shows") {
+    for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+        INFO("seed " << seed);
+        const auto scene = scenes::randomScene(seed, 1 + int(seed % 3), 40, seed % 2);
+        const auto certified = searchCertified(scene.a, scene.b, scene.motion, colliding());
+        SampledSearchOptions options;
+        options.samples = 4000;
+        options.seed = seed + 100;
+        options.atRest = AtRest::Collide;
+        const auto sampled = searchSampled(scene.a, scene.b, scene.motion, options);
+        CHECK(certified.certified);
+        CHECK(std::includes(certified.pairs.begin(), certified.pairs.end(), sampled.pairs.begin(),
+                            sampled.pairs.end()));
+    }
+}
+
+TEST_CASE("no pair is listed whose gap stays above margin and tolerance") {
+    // One DOF, so that a fine grid knows every pair's smallest gap.
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        INFO("seed " << seed);
+        const auto scene = scenes::randomScene(seed, 1, 30, true);
+        auto options = colliding(0.002);
+        options.margin = 0.01;
+        const auto found = searchCertified(scene.a, scene.b, scene.motion, options);
+        const Dof& dof = scene.motion.dofs[0];
+        std::vector<Pose> poses;
+        for (int k = 0; k <= 4000; ++k) {
+            const double q = dof.lower + (dof.upper - dof.lower) * k / 4000.0;
+            poses.push_back(pose(scene.motion, std::vector<double>{q}));
+        }
+        for (std::uint32_t i = 0; i < scene.a.size(); ++i)
+            for (std::uint32_t j = 0; j < scene.b.size(); ++j) {
+                double smallest = 1e9;
+                for (const Pose& t : poses)
+                    smallest = std::min(smallest, (t * scene.b[j].centre - scene.a[i].centre).norm() -
+                                                      scene.a[i].radius - scene.b[j].radius);
+                const bool listed =
+                    std::binary_search(found.pairs.begin(), found.pairs.end(), SpherePair{i, j});
+                if (smallest <= 0.01) CHECK(listed);
+                if (smallest > 0.012 + 0.001)
+                    CHECK_FALSE(listed); // the grid's own step moves less than 0.001
+            }
+    }
+}
+
+TEST_CASE("a hinge pair that never meets gets a proof with a clearance that holds") {
+    auto scene = scenes::randomScene(4, 1, 60);
+    scene.motion.dofs = {scenes::rotation({0, 0, 0}, {0, 0, 1}, -3, 3)};
+    scene.motion.base.translation() = Vec3(0, 0, 2);
+    const auto proof = searchCertified(scene.a, scene.b, scene.motion, colliding());
+    REQUIRE(proof.certified);
+    CHECK(proof.pairs.empty());
+    CHECK(proof.clearance > 0);
+    CHECK(proof.explored > 0);
+    double smallest = 1e9;
+    scenes::Random random(9);
+    for (int k = 0; k < 500; ++k)
+        smallest =
+            std::min(smallest, queryAllPairs(scene.a, scene.b,
+                                             pose(scene.motion, scenes::randomPose(random, scene.motion)))
+                                   .gap);
+    CHECK(proof.clearance <= smallest);
+    CHECK(proof.clearance > 0.5 * smallest);
+}
+
+TEST_CASE("poses beyond a limit plane do not count") {
+    // B slides towards A along x and would meet it at x + y > 1 only.
+    const SphereSet a{{{0, 0, 0}, 0.5}}, b{{{-2, 0, 0}, 0.5}};
+    Motion motion;
+    motion.dofs = {scenes::translation({1, 0, 0}, 0, 2), scenes::translation({1, 0, 0}, 0, 2)};
+    motion.planes = {{{1, 1}, 0.9}};
+    CHECK(searchCertified(a, b, motion, colliding()).pairs.empty());
+    motion.planes[0].bound = 1.1;
+    CHECK(searchCertified(a, b, motion, colliding()).pairs.size() == 1);
+}
+
+TEST_CASE("a cell is shrunk to what the planes leave of it") {
+    Motion motion;
+    motion.dofs = {scenes::translation({1, 0, 0}, 0, 1), scenes::translation({0, 1, 0}, 0, 1)};
+    motion.planes = {{{1, 2}, 0.5}};
+    Cell cell = wholeBox(motion);
+    REQUIRE(shrinkToPlanes(motion, cell));
+    CHECK(cell.upper[0] == Approx(0.5));
+    CHECK(cell.upper[1] == Approx(0.25));
+    cell.lower = {0.4, 0.2};
+    cell.upper = {1, 1};
+    CHECK_FALSE(shrinkToPlanes(motion, cell));
+}
+
+TEST_CASE("the certified search is the same with one thread and with two") {
+    const auto scene = scenes::jawLike(250, 250);
+    const auto two = searchCertified(scene.a, scene.b, scene.motion);
+    const ThreadLimit one(1);
+    const auto single = searchCertified(scene.a, scene.b, scene.motion);
+    CHECK(two.pairs == single.pairs);
+    CHECK(two.explored == single.explored);
+    CHECK(!two.pairs.empty());
+}
+
+TEST_CASE("a search that is stopped is not certified") {
+    const auto scene = scenes::jawLike(100, 100);
+    const auto stopped =
+        searchCertified(scene.a, scene.b, scene.motion, {}, [](std::string_view, double) { return false; });
+    CHECK_FALSE(stopped.certified);
+}
+
+TEST_CASE("degenerate input: no spheres, no freedom, limits of zero width, too many DOFs") {
+    auto scene = scenes::randomScene(1, 2, 20);
+    CHECK(searchCertified({}, scene.b, scene.motion).certified);
+    CHECK(searchCertified(scene.a, {}, scene.motion).pairs.empty());
+
+    Motion fixed;
+    fixed.base.translation() = Vec3(0.3, 0, 0);
+    const auto still = searchCertified(scene.a, scene.b, fixed, colliding());
+    std::size_t expected = 0;
+    for (const Sphere& s : scene.a)
+        for (const Sphere& t : scene.b)
+            expected += (fixed.base * t.centre - s.centre).norm() <= s.radius + t.radius;
+    CHECK(still.pairs.size() == expected);
+
+    for (Dof& dof : fixed.dofs) dof.upper = dof.lower;
+    fixed.dofs.push_back(scenes::rotation({0, 0, 0}, {0, 0, 1}, 0, 0));
+    CHECK(searchCertified(scene.a, scene.b, fixed, colliding()).pairs.size() == expected);
+
+    Motion endless;
+    for (int k = 0; k < 13; ++k) endless.dofs.push_back(scenes::translation({1, 0, 0}, 0, 1));
+    CHECK_THROWS_AS(searchCertified(scene.a, scene.b, endless), InputError);
+}
