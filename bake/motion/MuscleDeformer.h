@@ -1,0 +1,75 @@
+#pragma once
+#include "bake/motion/Muscle.h"
+#include "bake/motion/MuscleFibre.h"
+#include "bake/motion/MuscleLocator.h"
+
+namespace tss {
+
+/// A point as the muscle carries it: what map() needs, found once by bind().
+struct MusclePoint {
+    Vec3 rest;                  ///< at activation 0
+    double s = 0;               ///< fibre parameter
+    Vec3 offset = Vec3::Zero(); ///< what thickens: from the fibre line (tube) or medial surface (sheet)
+    Vec3 normal = Vec3::Zero(); ///< outward, of the nearest surface
+    double height = 0;          ///< above the surface, negative inside, scene units
+};
+
+/// A muscle at one activation.
+struct MuscleState {
+    double activation = 0;
+    double thickening = 1; ///< factor on the local thickening that keeps the volume of the mesh; near 1
+};
+
+/// The deformation of a muscle by its activation a (METHOD 6.1), exact and without history:
+///   x(a) = x + C(s') - C(s) + k(a) (g(s, a) - 1) o(x),   s' = s - a c_max (I(s) - I(s_anchor))
+/// C is the fibre, I the integral of a bump with smooth ends, g the factor that makes up for the local
+/// shortening 1 - a c_max I'(s): its inverse across a sheet, the square root of that about a tube. k is
+/// solved so that the volume enclosed by the mesh is kept to rounding. a = 0 gives the rest shape bit for
+/// bit; a < 0 stretches.
+class MuscleDeformer {
+public:
+    /// Throws InputError: an open or inside-out surface, a bad fibre, a contraction that would turn the
+    /// muscle over within its activation range.
+    explicit MuscleDeformer(Muscle muscle);
+    MuscleDeformer(const MuscleDeformer&) = delete;
+    MuscleDeformer& operator=(const MuscleDeformer&) = delete;
+
+    const Muscle& muscle() const { return muscle_; }
+    const MuscleFibre& fibre() const { return fibre_; }
+    double restVolume() const { return volume_; }
+
+    /// a is clamped to the muscle's activation range; NaN counts as 0.
+    MuscleState state(double activation) const;
+
+    /// #V surface vertices at an activation.
+    std::vector<Vec3> vertices(const MuscleState& state) const;
+    std::vector<Vec3> vertices(double activation) const { return vertices(state(activation)); }
+
+    /// #V: the surface vertices, bound.
+    const std::vector<MusclePoint>& surfacePoints() const { return points_; }
+
+    /// Takes hold of any point. Inside the muscle it thickens with it; outside it rides on the surface.
+    MusclePoint bind(const Vec3& rest) const;
+    Vec3 map(const MusclePoint& point, const MuscleState& state) const;
+    Vec3 map(const Vec3& rest, double activation) const { return map(bind(rest), state(activation)); }
+
+    /// Local factor of the thickness at a fibre parameter: what the radius of a sphere inside grows by.
+    double thickness(double s, const MuscleState& state) const;
+
+private:
+    Vec3 slide(double s, double activation) const;
+    double gain(double s, double activation) const;
+
+    Muscle muscle_;
+    MuscleFibre fibre_;
+    MuscleLocator locator_;
+    std::vector<Vec3> normals_;       ///< #V
+    std::vector<MusclePoint> points_; ///< #V
+    double anchorIntegral_ = 0;
+    double volume_ = 0;
+};
+
+/// The volume enclosed by a closed mesh, positive when it is outward oriented.
+double enclosedVolume(const std::vector<Vec3>& vertices, const std::vector<Tri>& triangles);
+
+} // namespace tss

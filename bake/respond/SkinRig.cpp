@@ -1,0 +1,245 @@
+#include "bake/respond/SkinRig.h"
+
+#include "bake/base/Error.h"
+#include "bake/respond/SkinContact.h"
+#include "bake/respond/SkinRigParts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tss {
+namespace {
+
+using rig::Closeness;
+
+constexpr double carryReach = 4;   ///< in thicknesses: height at which a muscle lets go of the skin
+constexpr double sheetReach = 24;  ///< in thicknesses: how far beyond what is held or hit the sheet moves
+constexpr double rimStiffness = 8; ///< extra hold at the edge of the touched part, falling off inwards
+
+void checkNumber(double value, const char* what) {
+    if (!(value >= 0) || !std::isfinite(value))
+        throw InputError(std::string(what) + " of a skin must be finite and at least 0");
+}
+
+void check(const TriangleMesh& skin, const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
+           const SkinTable& table, const SkinParameters& p) {
+    checkNumber(p.stretchCompliance, "the stretch compliance");
+    checkNumber(p.bendCompliance, "the bend compliance");
+    checkNumber(p.fascia, "the fascia stiffness");
+    checkNumber(p.attachment, "the attachment stiffness");
+    for (const auto* weights : {&p.tether, &p.attach}) {
+        if (!weights->empty() && weights->size() != skin.vertices.size())
+            throw InputError("tether and attach of a skin need one value a vertex");
+        for (const double w : *weights)
+            if (!(w >= 0 && w <= 1)) throw InputError("tether and attach of a skin lie in [0, 1]");
+    }
+    if (p.iterations < 1) throw InputError("a skin needs at least one iteration");
+    const Table& t = table.table;
+    if (table.skinVertices.size() != t.a.size() || table.muscleOf.size() != t.b.size() ||
+        t.rowOffsets.size() != t.a.size() + 1)
+        throw InputError("the table of a skin is incomplete");
+    for (const std::uint32_t v : table.skinVertices)
+        if (v >= skin.vertices.size())
+            throw InputError("the table of a skin names a vertex that it does not have");
+    for (const std::uint32_t m : table.muscleOf)
+        if (m >= muscles.size()) throw InputError("the table of a skin names a muscle that it does not have");
+    for (const std::uint32_t c : t.columns)
+        if (c >= t.b.size()) throw InputError("the table of a skin names a sphere that it does not have");
+}
+
+double largestRadius(const Table& table) {
+    double radius = 0;
+    for (const Sphere& s : table.a) radius = std::max(radius, s.radius);
+    return radius;
+}
+
+/// The touched vertices, their rest places, and how they are held.
+struct Touched {
+    std::vector<std::uint32_t> indexOf; ///< of a skin vertex in rig.vertices, or past its end
+    std::vector<double> distance;       ///< along the sheet from what is held or hit
+    double reach = 0;
+};
+
+Touched touch(SkinRig& rig, const TriangleMesh& skin, const rig::Rings& rings, const SkinTable& table,
+              const std::vector<std::vector<Closeness>>& close, double thickness) {
+    std::vector<std::uint32_t> sources = table.skinVertices;
+    for (const auto& list : close)
+        for (const Closeness& c : list) sources.push_back(c.vertex);
+    std::sort(sources.begin(), sources.end());
+    sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
+
+    Touched touched;
+    touched.reach = rig.parameters.faithful ? 0 : sheetReach * thickness;
+    touched.distance = edgeDistances(skin, rings, sources, touched.reach);
+    // The ring around them does not move, but its normals turn.
+    std::vector<bool> keep(skin.vertices.size(), false);
+    for (std::uint32_t v = 0; v < skin.vertices.size(); ++v) {
+        if (!std::isfinite(touched.distance[v])) continue;
+        keep[v] = true;
+        for (const std::uint32_t w : rings.ring[v]) keep[w] = true;
+    }
+    touched.indexOf.assign(skin.vertices.size(), std::numeric_limits<std::uint32_t>::max());
+    const std::vector<Vec3> normals = vertexNormals(skin);
+    for (std::uint32_t v = 0; v < skin.vertices.size(); ++v) {
+        if (!keep[v]) continue;
+        touched.indexOf[v] = static_cast<std::uint32_t>(rig.vertices.size());
+        rig.vertices.push_back(v);
+        rig.rest.push_back(skin.vertices[v]);
+        rig.restNormals.push_back(normals[v]);
+    }
+    return touched;
+}
+
+/// Splits the triangles: those of touched vertices only, and those that bear on a normal.
+void addTriangles(SkinRig& rig, const TriangleMesh& skin, const Touched& touched) {
+    std::vector<std::uint32_t> borderOf(skin.vertices.size(), std::numeric_limits<std::uint32_t>::max());
+    for (const Tri& t : skin.triangles) {
+        int inside = 0;
+        Tri local;
+        for (int k = 0; k < 3; ++k) inside += touched.indexOf[t[k]] < rig.vertices.size();
+        if (inside == 0) continue;
+        for (int k = 0; k < 3; ++k) {
+            std::uint32_t index = touched.indexOf[t[k]];
+            if (index >= rig.vertices.size()) {
+                std::uint32_t& border = borderOf[t[k]];
+                if (border >= rig.border.size()) {
+                    border = static_cast<std::uint32_t>(rig.border.size());
+                    rig.border.push_back(skin.vertices[t[k]]);
+                }
+                index = static_cast<std::uint32_t>(rig.vertices.size()) + border;
+            }
+            local[k] = static_cast<int>(index);
+        }
+        if (inside == 3) rig.triangles.push_back(local);
+        rig.normalTriangles.push_back(local);
+    }
+}
+
+/// Mass of a vertex from its area, 1 on average, so that the sheet behaves alike on meshes of uneven density.
+std::vector<double> areaMasses(const SkinRig& rig) {
+    std::vector<double> areas(rig.vertices.size(), 0);
+    for (const Tri& t : rig.triangles) {
+        const double area = (rig.rest[t[1]] - rig.rest[t[0]]).cross(rig.rest[t[2]] - rig.rest[t[0]]).norm();
+        for (int k = 0; k < 3; ++k) areas[t[k]] += area;
+    }
+    double mean = 0;
+    for (const double a : areas) mean += a / static_cast<double>(areas.size());
+    for (double& a : areas) a = mean > 0 ? std::clamp(a / mean, 0.1, 10.0) : 1;
+    return areas;
+}
+
+void addHolds(SkinRig& rig, const Touched& touched, const std::vector<std::vector<Closeness>>& close) {
+    const SkinParameters& p = rig.parameters;
+    const std::vector<double> areas = areaMasses(rig);
+    std::vector<double> total(rig.vertices.size(), 0), held(rig.vertices.size());
+    for (const auto& list : close)
+        for (const Closeness& c : list) total[touched.indexOf[c.vertex]] += c.close;
+    for (std::size_t i = 0; i < rig.vertices.size(); ++i) {
+        const std::uint32_t v = rig.vertices[i];
+        const double tether = p.tether.empty() ? 0 : p.tether[v];
+        const double out = touched.reach > 0 ? std::min(1.0, touched.distance[v] / touched.reach) : 0;
+        held[i] = areas[i] * (1 + rimStiffness * out * out + p.attachment * tether / (1.001 - tether));
+    }
+    for (std::size_t m = 0; m < close.size(); ++m)
+        for (const Closeness& c : close[m]) {
+            const std::uint32_t i = touched.indexOf[c.vertex];
+            const double share = c.close / std::max(1.0, total[i]);
+            const double attach = p.attach.empty() ? c.attach : share * p.attach[c.vertex];
+            const double stiffness = areas[i] * (p.fascia * share + p.attachment * attach);
+            held[i] += stiffness;
+            rig.muscles[m].carried.push_back(
+                {i, static_cast<std::uint32_t>(rig.muscles[m].carried.size()), share, stiffness});
+        }
+    for (std::size_t i = 0; i < rig.vertices.size(); ++i)
+        rig.inverseMass.push_back(std::isfinite(touched.distance[rig.vertices[i]]) ? 1 / held[i] : 0);
+}
+
+void addTracks(SkinRig& rig, const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
+               const SkinTable& table, const std::vector<std::vector<Closeness>>& close) {
+    std::vector<std::vector<Sphere>> spheres(muscles.size());
+    std::vector<std::uint32_t> own(table.table.b.size());
+    for (std::size_t b = 0; b < table.table.b.size(); ++b) {
+        auto& list = spheres[table.muscleOf[b]];
+        own[b] = static_cast<std::uint32_t>(list.size());
+        list.push_back(table.table.b[b]);
+    }
+    for (std::size_t m = 0; m < muscles.size(); ++m) {
+        const MuscleDeformer& deformer = *muscles[m];
+        SkinMuscle& muscle = rig.muscles[m];
+        const std::vector<double> nodes =
+            activationNodes(deformer.muscle().activationLower, deformer.muscle().activationUpper);
+        std::vector<MusclePoint> points;
+        for (const Sphere& s : spheres[m]) {
+            points.push_back(deformer.bind(s.centre));
+            muscle.radii.push_back(s.radius);
+        }
+        muscle.spheres = makeTrack(deformer, points, nodes);
+        muscle.surface = makeTrack(deformer, deformer.surfacePoints(), nodes);
+        points.clear();
+        for (const Closeness& c : close[m]) points.push_back(c.point);
+        muscle.skin = makeTrack(deformer, points, nodes);
+        muscle.triangles = deformer.muscle().surface.triangles;
+        rig::addBehind(muscle, deformer.muscle().surface, spheres[m]);
+    }
+    const Table& t = table.table;
+    for (const SpherePair& pair : tests(t)) {
+        const std::size_t k = rig.tests.size();
+        rig.tests.push_back({table.muscleOf[pair.b], own[pair.b], t.restGaps.empty() ? 0 : t.restGaps[k]});
+    }
+}
+
+/// What each row and poke keeps: its own distance at rest where that is less than the thickness. Found by the
+/// look-up of the run time, or the skin would never come back to rest (METHOD 6.2).
+void addOffsets(SkinRig& rig) {
+    SkinScene scene;
+    placeMuscles(rig, std::vector<double>(rig.muscles.size(), 0.0), {}, scene);
+    for (std::size_t i = 0; i < rig.rows.size(); ++i) {
+        const SkinContact c = rowContact(rig, scene, i);
+        rig.rowOffsets.push_back(c.found() ? std::min(-c.bound, rig.rows[i].radius) : rig.rows[i].radius);
+    }
+    for (std::size_t i = 0; i < rig.pokes.size(); ++i) {
+        const SkinContact c = pokeContact(rig, scene, i);
+        rig.pokeOffsets.push_back(c.found() ? std::min(-c.bound, rig.pokes[i].radius) : rig.pokes[i].radius);
+    }
+}
+
+} // namespace
+
+std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
+                                           const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
+                                           const SkinTable& table, const SkinParameters& parameters) {
+    check(skin, muscles, table, parameters);
+    auto result = std::make_shared<SkinRig>();
+    SkinRig& rig = *result;
+    rig.parameters = parameters;
+    rig.size = skin.vertices.empty() ? 0 : bounds(skin).diagonal().norm();
+    rig.travel = table.travel;
+    rig.muscles.resize(muscles.size());
+    const double thickness = largestRadius(table.table);
+    const double reach = carryReach * thickness;
+
+    const rig::Rings rings = rig::rings(skin);
+    const std::vector<Vec3> normals = vertexNormals(skin);
+    std::vector<std::vector<Closeness>> close(muscles.size());
+    if (!parameters.faithful)
+        for (std::size_t m = 0; m < muscles.size(); ++m)
+            close[m] = rig::closeness(skin, normals, *muscles[m], reach);
+
+    const Touched touched = touch(rig, skin, rings, table, close, thickness);
+    addTriangles(rig, skin, touched);
+    addHolds(rig, touched, close);
+    addTracks(rig, muscles, table, close);
+    for (std::size_t i = 0; i < table.table.a.size(); ++i)
+        rig.rows.push_back({touched.indexOf[table.skinVertices[i]], table.table.rowOffsets[i],
+                            table.table.rowOffsets[i + 1], table.table.a[i].radius});
+    if (!parameters.faithful) {
+        rig::addSheet(rig, rings, touched.indexOf);
+        for (std::uint32_t m = 0; m < muscles.size(); ++m)
+            rig::addPokes(rig, *muscles[m], m, thickness, reach);
+    }
+    addOffsets(rig);
+    return result;
+}
+
+} // namespace tss

@@ -1,0 +1,157 @@
+#include "bake/motion/MuscleDeformer.h"
+#include "bake/base/Error.h"
+#include "bake/motion/MuscleEllipsoid.h"
+#include "bake/motion/MuscleTrack.h"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+#include <random>
+
+using namespace tss;
+
+namespace {
+
+Muscle bentMuscle(MuscleForm form, double height, double bend = 0.3) {
+    BentEllipsoid shape;
+    shape.bend = bend;
+    shape.halfWidth = 0.3;
+    shape.halfHeight = height;
+    Muscle muscle = bentEllipsoid(shape);
+    muscle.form = form;
+    muscle.maxContraction = 0.3;
+    muscle.activationLower = -0.5;
+    return muscle;
+}
+
+double length(const std::vector<Vec3>& vertices, const Vec3& along) {
+    double lower = 1e300, upper = -1e300;
+    for (const Vec3& v : vertices) {
+        lower = std::min(lower, v.dot(along));
+        upper = std::max(upper, v.dot(along));
+    }
+    return upper - lower;
+}
+
+} // namespace
+
+TEST_CASE("a bent ellipsoid has the volume of the straight one") {
+    BentEllipsoid shape;
+    shape.rings = shape.sectors = 128;
+    shape.halfWidth = 0.2;
+    shape.halfHeight = 0.1;
+    const double exact = 4.0 / 3 * std::numbers::pi * 0.2 * 0.1;
+    for (const double bend : {0.0, 0.5, -0.2}) {
+        shape.bend = bend;
+        const Muscle muscle = bentEllipsoid(shape);
+        CHECK(enclosedVolume(muscle.surface.vertices, muscle.surface.triangles) ==
+              Approx(exact).epsilon(2e-3));
+    }
+}
+
+TEST_CASE("a muscle keeps its volume at every activation") {
+    const auto form = GENERATE(MuscleForm::Tube, MuscleForm::Sheet);
+    const MuscleDeformer muscle(bentMuscle(form, form == MuscleForm::Sheet ? 0.05 : 0.2));
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> activation(-0.5, 1);
+    for (int i = 0; i < 50; ++i) {
+        const double a = activation(random);
+        const double volume = enclosedVolume(muscle.vertices(a), muscle.muscle().surface.triangles);
+        INFO("seed 7, activation " << a);
+        CHECK(volume == Approx(muscle.restVolume()).epsilon(1e-12));
+        CHECK(muscle.state(a).thickening == Approx(1).epsilon(0.2));
+    }
+}
+
+TEST_CASE("at activation 0 a muscle is its rest shape bit for bit") {
+    const MuscleDeformer muscle(bentMuscle(MuscleForm::Sheet, 0.05));
+    const std::vector<Vec3> vertices = muscle.vertices(0);
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+        CHECK(vertices[v] == muscle.muscle().surface.vertices[v]);
+    CHECK(muscle.map(Vec3(0.1, 0.2, 5), 0) == Vec3(0.1, 0.2, 5));
+}
+
+TEST_CASE("a muscle shortens by its contraction and thickens") {
+    Muscle source = bentMuscle(MuscleForm::Tube, 0.2, 0);
+    const MuscleDeformer muscle(source);
+    const std::vector<Vec3> rest = muscle.vertices(0), tight = muscle.vertices(1),
+                            loose = muscle.vertices(-0.5);
+    CHECK(length(tight, Vec3::UnitX()) == Approx(0.7 * length(rest, Vec3::UnitX())).epsilon(1e-9));
+    CHECK(length(loose, Vec3::UnitX()) == Approx(1.15 * length(rest, Vec3::UnitX())).epsilon(1e-9));
+    CHECK(length(tight, Vec3::UnitZ()) > 1.1 * length(rest, Vec3::UnitZ()));
+    CHECK(length(loose, Vec3::UnitZ()) < 0.97 * length(rest, Vec3::UnitZ()));
+}
+
+TEST_CASE("the anchor stays where it is") {
+    for (const double anchor : {0.0, 0.35, 1.0}) {
+        Muscle source = bentMuscle(MuscleForm::Tube, 0.2);
+        source.anchor = anchor;
+        const MuscleDeformer muscle(source);
+        const Vec3 point = muscle.fibre().point(anchor);
+        CHECK((muscle.map(point, 0.8) - point).norm() < 1e-12);
+    }
+}
+
+TEST_CASE("a sheet thickens across, not along its width") {
+    const MuscleDeformer muscle(bentMuscle(MuscleForm::Sheet, 0.03, 0));
+    const std::vector<Vec3> rest = muscle.vertices(0), tight = muscle.vertices(1);
+    CHECK(length(tight, Vec3::UnitZ()) > 1.2 * length(rest, Vec3::UnitZ()));
+    CHECK(length(tight, Vec3::UnitY()) < 1.1 * length(rest, Vec3::UnitY()));
+}
+
+TEST_CASE("a point that the muscle carries moves with the surface below it") {
+    const MuscleDeformer muscle(bentMuscle(MuscleForm::Tube, 0.2));
+    const std::vector<Vec3> normals = vertexNormals(muscle.muscle().surface);
+    const std::vector<Vec3>& rest = muscle.muscle().surface.vertices;
+    const std::vector<Vec3> tight = muscle.vertices(1);
+    for (std::size_t v = 0; v < rest.size(); ++v) {
+        const Vec3 above = rest[v] + 1e-6 * normals[v], below = rest[v] - 1e-6 * normals[v];
+        CHECK((muscle.map(above, 1) - tight[v]).norm() < 1e-4);
+        CHECK((muscle.map(below, 1) - tight[v]).norm() < 1e-4);
+    }
+}
+
+TEST_CASE("a track meets the exact deformation at its nodes and says how far it is off between them") {
+    const MuscleDeformer muscle(bentMuscle(MuscleForm::Tube, 0.2));
+    const std::vector<double> nodes = activationNodes(-0.5, 1, 24);
+    CHECK(std::count(nodes.begin(), nodes.end(), 0.0) == 1);
+    const MuscleTrack track = makeTrack(muscle, muscle.surfacePoints(), nodes);
+    CHECK(track.error > 0);
+    CHECK(track.error < 2e-4);
+    for (const double a : {-0.5, -0.31, 0.0, 0.013, 0.77, 1.0}) {
+        const std::vector<Vec3> exact = muscle.vertices(a);
+        const TrackPlace place = locate(nodes, a);
+        for (std::size_t v = 0; v < exact.size(); ++v)
+            CHECK((trackPosition(track, place, v) - exact[v]).norm() <= 1.1 * track.error);
+    }
+    CHECK(locate(nodes, 7).node == nodes.size() - 1);
+    CHECK(trackPosition(track, locate(nodes, std::nan("")), 3) == muscle.muscle().surface.vertices[3]);
+}
+
+TEST_CASE("muscles that cannot be served are refused") {
+    Muscle muscle = bentMuscle(MuscleForm::Tube, 0.2);
+    SECTION("open") {
+        muscle.surface.triangles.pop_back();
+    }
+    SECTION("inside out") {
+        for (Tri& t : muscle.surface.triangles) std::swap(t[0], t[1]);
+    }
+    SECTION("no fibre") {
+        muscle.fibre.resize(1);
+    }
+    SECTION("a fibre of no length") {
+        muscle.fibre = {Vec3::Zero(), Vec3::Ones(), Vec3::Zero()};
+    }
+    SECTION("shortened to nothing") {
+        muscle.maxContraction = 0.9;
+    }
+    SECTION("no activation range") {
+        muscle.activationLower = 2;
+    }
+    SECTION("a vertex that is not a number") {
+        muscle.surface.vertices[3][1] = std::nan("");
+    }
+    SECTION("an index out of range") {
+        muscle.surface.triangles[0][2] = 100000;
+    }
+    CHECK_THROWS_AS(MuscleDeformer(std::move(muscle)), InputError);
+}

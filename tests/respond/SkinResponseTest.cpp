@@ -1,0 +1,255 @@
+#include "SkinShapes.h"
+
+#include "bake/base/Error.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace tss;
+
+namespace {
+
+double largestMove(const SkinResponse& response) {
+    double most = 0;
+    for (std::size_t i = 0; i < response.positions().size(); ++i)
+        most = std::max(most, (response.positions()[i] - response.rig().rest[i]).norm());
+    return most;
+}
+
+void run(SkinResponse& response, double activation, int frames) {
+    for (int f = 0; f < frames; ++f) response.update(std::vector<double>{activation});
+}
+
+bool exactlyAtRest(const SkinResponse& response) {
+    for (std::size_t i = 0; i < response.positions().size(); ++i)
+        if (response.positions()[i] != response.rig().rest[i] ||
+            response.normals()[i] != response.rig().restNormals[i])
+            return false;
+    return true;
+}
+
+} // namespace
+
+TEST_CASE("skin over a resting muscle is exactly at rest and costs nothing") {
+    SkinResponse response(skins::usual().rig());
+    const SkinUpdate update = response.update(std::vector<double>{0});
+    CHECK(update.rest);
+    CHECK_FALSE(update.moved);
+    CHECK(exactlyAtRest(response));
+}
+
+TEST_CASE("a contracting muscle lifts the skin above it") {
+    SkinResponse response(skins::usual().rig());
+    for (int f = 1; f <= 40; ++f) {
+        const SkinUpdate update = response.update(std::vector<double>{f / 40.0});
+        CHECK(update.moved);
+    }
+    run(response, 1, 50);
+    double lift = 0;
+    for (std::size_t i = 0; i < response.positions().size(); ++i)
+        lift = std::max(lift, response.positions()[i].z() - response.rig().rest[i].z());
+    CHECK(lift > 0.01);
+    CHECK(lift < 0.1);
+}
+
+TEST_CASE("skin keeps the distance to the muscle that it had at rest, up to its thickness") {
+    const skins::Couple couple = skins::usual();
+    SkinResponse response(couple.rig());
+    for (int f = 1; f <= 60; ++f) response.update(std::vector<double>{f / 60.0});
+    run(response, 1, 200);
+    const MuscleDeformer& muscle = *couple.muscles[0];
+    const TriangleMesh tight{muscle.vertices(1), muscle.muscle().surface.triangles};
+    const MuscleLocator before(muscle.muscle().surface), after(tight);
+    const auto height = [](const MuscleLocator& locator, const TriangleMesh& mesh, const Vec3& x) {
+        const NearestPoint p = locator.nearest(x, 1e9);
+        const Vec3 n = (mesh.corner(p.triangle, 1) - mesh.corner(p.triangle, 0))
+                           .cross(mesh.corner(p.triangle, 2) - mesh.corner(p.triangle, 0));
+        return (x - p.point).dot(n) < 0 ? -p.distance : p.distance;
+    };
+    for (const SkinRow& row : response.rig().rows) {
+        const double kept =
+            std::min(0.0, height(before, muscle.muscle().surface, response.rig().rest[row.vertex]));
+        CHECK(height(after, tight, response.positions()[row.vertex]) > kept - 0.002);
+    }
+}
+
+TEST_CASE("the skin is exactly at rest again after 0, 1, 0") {
+    SkinResponse response(skins::usual().rig());
+    for (int round = 0; round < 3; ++round) {
+        run(response, 1, 3);
+        CHECK(largestMove(response) > 0.01);
+        const SkinUpdate update = response.update(std::vector<double>{0});
+        CHECK(update.moved);
+        CHECK(exactlyAtRest(response));
+        CHECK_FALSE(response.update(std::vector<double>{0}).moved);
+    }
+}
+
+TEST_CASE("the skin comes back on its own, not because it is told to be at rest") {
+    // 1e-9 is not 0: nothing is reset, the multipliers must die away.
+    SkinResponse response(skins::usual().rig());
+    run(response, 1, 100);
+    run(response, 1e-9, 100);
+    CHECK(largestMove(response) < 1e-6 * response.rig().size);
+}
+
+TEST_CASE("an unchanged activation changes nothing once the skin has settled") {
+    SkinResponse response(skins::usual().rig());
+    run(response, 0.5, 400);
+    const std::vector<Vec3> before(response.positions().begin(), response.positions().end());
+    CHECK_FALSE(response.update(std::vector<double>{0.5}).moved);
+    CHECK(std::equal(before.begin(), before.end(), response.positions().begin()));
+}
+
+TEST_CASE("any compliance, any jump: the skin stays bounded and comes back") {
+    const skins::Couple couple = skins::usual();
+    for (const double compliance : {0.0, 1e-12, 1e-6, 1e-3, 1.0, 1e3, 1e12}) {
+        SkinParameters parameters;
+        parameters.stretchCompliance = compliance;
+        parameters.bendCompliance = compliance;
+        SkinResponse response(couple.rig(parameters));
+        std::mt19937_64 random(11);
+        std::uniform_real_distribution<double> activation(0, 1);
+        double most = 0;
+        for (int f = 0; f < 60; ++f) {
+            const double a = f % 3 == 0 ? 0.001 : f % 3 == 1 ? 1 : activation(random);
+            response.update(std::vector<double>{a});
+            most = std::max(most, largestMove(response));
+        }
+        INFO("compliance " << compliance << ", seed 11");
+        CHECK(most > 0.005);
+        CHECK(most < 0.3); // the fibre shortens by 0.3
+        run(response, 1e-12, 200);
+        CHECK(largestMove(response) < 1e-5);
+    }
+}
+
+TEST_CASE("a symmetric skin over a symmetric muscle moves symmetrically") {
+    const skins::Couple couple = skins::usual();
+    SkinResponse response(couple.rig());
+    run(response, 1, 400);
+    const double most = largestMove(response);
+    // Where each touched vertex's mirror image in y stands.
+    const int n = 32;
+    std::vector<int> indexOf(couple.skin.vertices.size(), -1);
+    for (std::size_t i = 0; i < response.rig().vertices.size(); ++i)
+        indexOf[response.rig().vertices[i]] = static_cast<int>(i);
+    for (std::size_t i = 0; i < response.positions().size(); ++i) {
+        const int v = static_cast<int>(response.rig().vertices[i]);
+        const int mirror = indexOf[(n - v / (n + 1)) * (n + 1) + v % (n + 1)];
+        REQUIRE(mirror >= 0);
+        const Vec3 a = response.positions()[i];
+        const Vec3 b = response.positions()[mirror].cwiseProduct(Vec3(1, -1, 1));
+        CHECK((a - b).norm() < 1e-3 * most);
+    }
+}
+
+TEST_CASE("two runs of the same calls give the same bits") {
+    const skins::Couple couple = skins::usual();
+    SkinResponse first(couple.rig()), second(couple.rig());
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> activation(0, 1);
+    for (int f = 0; f < 30; ++f) {
+        const std::vector<double> a{activation(random)};
+        first.update(a);
+        second.update(a);
+        CHECK(std::equal(first.positions().begin(), first.positions().end(), second.positions().begin()));
+        CHECK(std::equal(first.normals().begin(), first.normals().end(), second.normals().begin()));
+    }
+}
+
+TEST_CASE("activations outside the range are clamped, and what is no number counts as none") {
+    const skins::Couple couple = skins::usual();
+    SkinResponse asked(couple.rig()), clamped(couple.rig());
+    asked.update(std::vector<double>{1e9});
+    clamped.update(std::vector<double>{1});
+    CHECK(std::equal(asked.positions().begin(), asked.positions().end(), clamped.positions().begin()));
+    CHECK(asked.update(std::vector<double>{std::nan("")}).rest);
+    CHECK(asked.update({}).rest);
+}
+
+TEST_CASE("without the elastic sheet only skin of the table moves; with it the move dies away around") {
+    const skins::Couple couple = skins::usual();
+    SkinParameters faithful;
+    faithful.faithful = true;
+    SkinResponse spheres(couple.rig(faithful)), sheet(couple.rig());
+    run(spheres, 1, 1);
+    run(sheet, 1, 100);
+    CHECK(largestMove(spheres) > 0.005);
+    std::vector<bool> inTable(couple.skin.vertices.size(), false);
+    for (const std::uint32_t v : couple.table.skinVertices) inTable[v] = true;
+    for (std::size_t i = 0; i < spheres.positions().size(); ++i)
+        if (!inTable[spheres.rig().vertices[i]]) CHECK(spheres.positions()[i] == spheres.rig().rest[i]);
+    bool linked = false;
+    for (std::size_t i = 0; i < sheet.positions().size(); ++i) {
+        const double move = (sheet.positions()[i] - sheet.rig().rest[i]).norm();
+        linked = linked || (!inTable[sheet.rig().vertices[i]] && move > 0.001);
+        if (sheet.rig().inverseMass[i] == 0) CHECK(move == 0);
+    }
+    CHECK(linked);
+}
+
+TEST_CASE("tethered skin stays where no contact pushes it") {
+    const skins::Couple couple =
+        skins::couple(skins::vaultedSheet(32, 1, 0.01, 0.3), {skins::muscleBelow(0.05)});
+    SkinParameters parameters;
+    SkinResponse freely(couple.rig(parameters));
+    parameters.tether.assign(couple.skin.vertices.size(), 1);
+    SkinResponse held(couple.rig(parameters));
+    run(held, 0.1, 100);
+    run(freely, 0.1, 100);
+    CHECK(largestMove(freely) > 1e-3);
+    CHECK(largestMove(held) < 0.01 * largestMove(freely));
+}
+
+TEST_CASE("a muscle that rides on a bone takes the skin along") {
+    const skins::Couple couple = skins::usual();
+    SkinResponse response(couple.rig());
+    Pose pose = Pose::Identity();
+    pose.translation() = Vec3(0, 0, 0.05);
+    for (int f = 0; f < 100; ++f) response.update(std::vector<double>{0}, std::vector<Pose>{pose});
+    double lift = 0;
+    for (std::size_t i = 0; i < response.positions().size(); ++i)
+        lift = std::max(lift, response.positions()[i].z() - response.rig().rest[i].z());
+    CHECK(lift == Approx(0.05).margin(0.01));
+    CHECK(response.update(std::vector<double>{0}, std::vector<Pose>{Pose::Identity()}).rest);
+    CHECK(exactlyAtRest(response));
+}
+
+TEST_CASE("a skin, its muscles and its table must fit each other") {
+    skins::Couple couple = skins::usual();
+    SkinParameters parameters;
+    SECTION("a vertex that is not there") {
+        couple.table.skinVertices[0] = 1000000;
+    }
+    SECTION("a muscle that is not there") {
+        couple.table.muscleOf[0] = 1;
+    }
+    SECTION("a sphere that is not there") {
+        couple.table.table.columns[0] = 1000000;
+    }
+    SECTION("tethers of another skin") {
+        parameters.tether = {0.5};
+    }
+    SECTION("a tether over 1") {
+        parameters.tether.assign(couple.skin.vertices.size(), 1.5);
+    }
+    SECTION("a negative compliance") {
+        parameters.stretchCompliance = -1;
+    }
+    SECTION("a compliance that is no number") {
+        parameters.bendCompliance = std::nan("");
+    }
+    SECTION("no iterations") {
+        parameters.iterations = 0;
+    }
+    CHECK_THROWS_AS(couple.rig(parameters), InputError);
+}
+
+TEST_CASE("a skin that no muscle reaches has nothing to do") {
+    const skins::Couple couple = skins::couple(skins::vaultedSheet(8, 1, 5, 0.1), {skins::muscleBelow(0)});
+    CHECK(couple.table.table.testCount() == 0);
+    SkinResponse response(couple.rig());
+    response.update(std::vector<double>{1});
+    CHECK(response.positions().empty());
+}
