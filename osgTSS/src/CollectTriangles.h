@@ -1,0 +1,15 @@
+#pragma once
+#include "bake/geometry/TriangleMesh.h"
+
+#include <osg/Drawable>
+#include <osg/Matrixd>
+
+namespace osgTSS {
+
+/// Adds the triangles of a drawable to a mesh, every point times the matrix and then the scale. Equal points
+/// of one drawable become one vertex; a matrix that mirrors turns the triangles round, so that outside stays
+/// outside.
+void collectTriangles(const osg::Drawable& drawable, const osg::Matrixd& matrix, double scale,
+                      tss::TriangleMesh& mesh);
+
+} // namespace osgTSS

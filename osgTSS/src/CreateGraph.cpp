@@ -1,0 +1,126 @@
+#include "BodyGeometry.h"
+
+#include <osg/LightSource>
+#include <osg/MatrixTransform>
+#include <osg/Notify>
+#include <osgTSS/Convert>
+#include <osgTSS/CreateGraph>
+#include <osgTSS/DriveCallback>
+#include <osgTSS/JointTransform>
+
+#include <algorithm>
+
+namespace osgTSS {
+
+namespace {
+
+std::string lastName(const std::string& path) {
+    return path.substr(path.rfind('/') + 1);
+}
+
+/// From above and beside, so that shapes read where the headlight of a viewer flattens them. With that
+/// headlight (0.8 diffuse) 60 degrees away the two add up to 0.98 at most; 0.2 of ambient comes on top.
+osg::ref_ptr<osg::LightSource> makeKeyLight() {
+    constexpr float strength = 0.3f;
+    osg::ref_ptr<osg::Light> light = new osg::Light;
+    light->setLightNum(1);
+    light->setPosition(osg::Vec4(-0.45f, -0.45f, 0.8f, 0)); // left, towards a viewer in front, up
+    light->setAmbient(osg::Vec4(0, 0, 0, 1));
+    light->setDiffuse(osg::Vec4(strength, strength, strength, 1));
+    light->setSpecular(osg::Vec4(strength, strength, strength, 1));
+    osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
+    source->setName("KeyLight");
+    source->setLight(light);
+    return source;
+}
+
+class GraphMaker {
+public:
+    GraphMaker(Scene& scene, osg::Group& world)
+        : _scene(scene), _model(scene.getModel()), _world(world), _groups(_model.bodies.size()) {}
+
+    void make() {
+        findMovers();
+        for (std::size_t body = 0; body < _groups.size(); ++body) group(static_cast<int>(body));
+    }
+
+private:
+    /// The joint that moves each body, -1 for none: the first in file order that does not close a loop.
+    void findMovers() {
+        _mover.assign(_model.bodies.size(), -1);
+        for (std::size_t j = 0; j < _model.joints.size(); ++j) {
+            const tss::Joint& joint = _model.joints[j];
+            if (!joint.enabled || joint.body1 < 0) continue;
+            int above = joint.body0;
+            while (above >= 0 && above != joint.body1 && _mover[above] >= 0)
+                above = _model.joints[_mover[above]].body0;
+            if (_mover[joint.body1] >= 0 || above == joint.body1) {
+                OSG_NOTICE << "osgTSS: joint " << joint.path << " is not played: body "
+                           << _model.bodies[joint.body1].path << " is moved by other joints already"
+                           << std::endl;
+                continue;
+            }
+            _mover[joint.body1] = static_cast<int>(j);
+        }
+    }
+
+    osg::Group* group(int body) {
+        if (body < 0) return &_world;
+        osg::ref_ptr<osg::Group>& made = _groups[body];
+        if (made) return made;
+        const tss::Body& model = _model.bodies[body];
+        if (_mover[body] < 0) {
+            made = new osg::MatrixTransform(toOsg(model.placement));
+            _world.addChild(made);
+        } else {
+            made = new osg::Group;
+            makeJoint(_model.joints[_mover[body]])->addChild(made);
+        }
+        made->setName(model.displayName.empty() ? lastName(model.path) : model.displayName);
+        made->setDataVariance(osg::Object::DYNAMIC);
+        if (!model.mesh.empty()) made->addChild(makeBodyNode(model));
+        return made;
+    }
+
+    JointTransform* makeJoint(const tss::Joint& joint) {
+        osg::ref_ptr<JointTransform> transform = new JointTransform(joint);
+        transform->setName(lastName(joint.path));
+        const bool driven = std::any_of(joint.drives.begin(), joint.drives.end(),
+                                        [](const tss::TimeSamples& drive) { return !drive.empty(); });
+        if (driven) transform->addUpdateCallback(new DriveCallback(&_scene));
+        group(joint.body0)->addChild(transform);
+        return transform;
+    }
+
+    Scene& _scene;
+    const tss::SceneModel& _model;
+    osg::Group& _world;
+    std::vector<int> _mover;
+    std::vector<osg::ref_ptr<osg::Group>> _groups;
+};
+
+} // namespace
+
+osg::ref_ptr<osg::Group> createGraph(Scene& scene, const GraphOptions& options) {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->setName(scene.getModel().defaultPrim);
+    // Keeps the root, and with it the scene, through osgUtil::Optimizer.
+    root->setDataVariance(osg::Object::DYNAMIC);
+    osg::ref_ptr<osg::Group> world = root;
+    if (options.rotateUp && scene.getModel().upAxis == 'Y') {
+        world = new osg::MatrixTransform(osg::Matrixd::rotate(osg::PI_2, osg::X_AXIS));
+        world->setName("YUpToZUp");
+        world->setDataVariance(osg::Object::DYNAMIC);
+        root->addChild(world);
+    }
+    GraphMaker(scene, *world).make();
+    if (options.keyLight) {
+        osg::ref_ptr<osg::LightSource> light = makeKeyLight();
+        light->setStateSetModes(*root->getOrCreateStateSet(), osg::StateAttribute::ON);
+        root->addChild(light);
+    }
+    scene.attachTo(*root);
+    return root;
+}
+
+} // namespace osgTSS

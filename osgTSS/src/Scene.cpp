@@ -1,0 +1,36 @@
+#include <osg/UserDataContainer>
+#include <osgTSS/Scene>
+
+namespace osgTSS {
+
+Scene::Scene() : _model(std::make_shared<tss::SceneModel>()), _clock(*_model) {}
+
+Scene::Scene(std::shared_ptr<const tss::SceneModel> model, Clock::Source source)
+    : _model(std::move(model)), _clock(*_model, source) {}
+
+Scene::Scene(const Scene& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), _model(other._model), _clock(other._clock) {}
+
+void Scene::setModel(std::shared_ptr<const tss::SceneModel> model) {
+    _model = std::move(model);
+    _clock = Clock(*_model, _clock.source);
+}
+
+void Scene::attachTo(osg::Node& node) {
+    osg::ref_ptr<Scene> keep = this;
+    osg::UserDataContainer* container = node.getOrCreateUserDataContainer();
+    for (unsigned int i = container->getNumUserObjects(); i-- > 0;)
+        if (dynamic_cast<Scene*>(container->getUserObject(i))) container->removeUserObject(i);
+    container->addUserObject(this);
+}
+
+Scene* Scene::on(const osg::Node& node) {
+    const osg::UserDataContainer* container = node.getUserDataContainer();
+    if (!container) return nullptr;
+    for (unsigned int i = 0; i < container->getNumUserObjects(); ++i)
+        if (auto* scene = dynamic_cast<const Scene*>(container->getUserObject(i)))
+            return const_cast<Scene*>(scene);
+    return nullptr;
+}
+
+} // namespace osgTSS
