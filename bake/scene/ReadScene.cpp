@@ -1,0 +1,78 @@
+#include "bake/scene/ReadScene.h"
+
+#include "bake/scene/SceneReading.h"
+
+#include <cmath>
+
+namespace tss {
+
+namespace {
+
+Place metadataPlace(const char* key) {
+    return Place() / std::string("metadata") / std::string(key);
+}
+
+double number(const SceneReading& reading, const char* key, double fallback, bool positive = false) {
+    const auto found = reading.layer.metadata.find(key);
+    if (found == reading.layer.metadata.end()) return fallback;
+    const double* value = found->second.as<double>();
+    if (value && (!positive || *value > 0)) return *value;
+    reading.problems.add(metadataPlace(key), std::string("expected a number") + (positive ? " above 0" : "") +
+                                                 ", found " + describe(found->second));
+    return fallback;
+}
+
+std::string text(const SceneReading& reading, const char* key, const std::string& fallback) {
+    const auto found = reading.layer.metadata.find(key);
+    if (found == reading.layer.metadata.end()) return fallback;
+    if (const auto* value = found->second.as<std::string>()) return *value;
+    reading.problems.add(metadataPlace(key), "expected a string, found " + describe(found->second));
+    return fallback;
+}
+
+/// The layer's metadata; what is absent has USD's fallback (centimetres, Y up).
+void readMetadata(SceneReading& reading) {
+    SceneModel& scene = reading.scene;
+    const auto& prims = reading.layer.children;
+    scene.defaultPrim = text(reading, "defaultPrim", prims.empty() ? "Scene" : prims.front().name);
+    if (reading.layer.metadata.contains("defaultPrim") && !findPrim(reading.layer, "/" + scene.defaultPrim))
+        reading.problems.add(metadataPlace("defaultPrim"),
+                             "expected the name of a root prim, found \"" + scene.defaultPrim + "\"");
+    scene.metersPerUnit = number(reading, "metersPerUnit", 0.01, true);
+    scene.timeCodesPerSecond = number(reading, "timeCodesPerSecond", 24, true);
+    scene.startTimeCode = number(reading, "startTimeCode", 0);
+    scene.endTimeCode = number(reading, "endTimeCode", scene.startTimeCode);
+    if (scene.endTimeCode < scene.startTimeCode)
+        reading.problems.add(metadataPlace("endTimeCode"),
+                             "expected a time that is not before startTimeCode");
+    const std::string up = text(reading, "upAxis", "Y");
+    if (up != "Y" && up != "Z")
+        reading.problems.add(metadataPlace("upAxis"), "expected \"Y\" or \"Z\", found \"" + up + "\"");
+    scene.upAxis = up == "Z" ? 'Z' : 'Y';
+}
+
+} // namespace
+
+SceneModel readScene(std::shared_ptr<const Layer> layer, Problems& problems) {
+    SceneReading reading(*layer, problems);
+    readMetadata(reading);
+    readBodies(reading);
+    readJoints(reading);
+    readPairs(reading);
+    readMuscles(reading);
+    readSkins(reading);
+    readTables(reading);
+    reading.scene.layer = std::move(layer);
+    return std::move(reading.scene);
+}
+
+SceneModel readScene(std::shared_ptr<const Layer> layer, const std::string& fileName) {
+    Problems problems(fileName);
+    return readScene(std::move(layer), problems);
+}
+
+SceneModel readScene(const Layer& layer, const std::string& fileName) {
+    return readScene(std::make_shared<const Layer>(layer), fileName);
+}
+
+} // namespace tss

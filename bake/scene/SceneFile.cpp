@@ -1,0 +1,44 @@
+#include "bake/scene/SceneFile.h"
+
+#include "bake/base/AtomicFile.h"
+#include "bake/scene/ReadLayer.h"
+#include "bake/scene/ReadScene.h"
+#include "bake/scene/StoreTables.h"
+#include "bake/scene/ToLayer.h"
+#include "bake/scene/WriteLayer.h"
+
+namespace tss {
+
+SceneModel loadScene(const std::string& file) {
+    return readScene(std::make_shared<const Layer>(readLayer(file)), file);
+}
+
+Layer layerOf(const SceneModel& scene) {
+    if (!scene.layer) return toLayer(scene);
+    Layer layer = *scene.layer;
+    storeTables(layer, scene);
+    return layer;
+}
+
+void saveScene(const SceneModel& scene, const std::string& file) {
+    try {
+        saveLayer(layerOf(scene), file);
+    } catch (const InputError& error) {
+        if (!error.where.file.empty()) throw;
+        throw InputError({file, error.where.pointer, error.where.path}, error.message);
+    }
+}
+
+std::vector<InputError> validateScene(const std::string& file, std::vector<InputError>* warnings) {
+    Problems problems(file, Problems::Mode::Collect);
+    try {
+        const auto layer = std::make_shared<const Layer>(parseLayer(readWholeFile(file), file, problems));
+        readScene(layer, problems);
+    } catch (const InputError& error) {
+        problems.errors.push_back(error); // the text itself cannot be read on
+    }
+    if (warnings) *warnings = std::move(problems.warnings);
+    return std::move(problems.errors);
+}
+
+} // namespace tss

@@ -1,0 +1,23 @@
+#pragma once
+#include "bake/base/Error.h"
+#include "bake/scene/Layer.h"
+#include "bake/scene/SceneModel.h"
+
+namespace tss {
+
+/// Reads a scene file. Throws InputError with file, JSON pointer, prim or property path and what was
+/// expected; never leaves half a scene.
+SceneModel loadScene(const std::string& file);
+
+/// Writes the scene: into a copy of the layer that it was read from, of which only tables, proofs and hashes
+/// change; or a whole new layer when there is none. The file is whole or not written. Throws InputError.
+void saveScene(const SceneModel& scene, const std::string& file);
+
+/// The layer that saveScene() writes.
+Layer layerOf(const SceneModel& scene);
+
+/// Everything wrong with a scene file, not only the first thing; empty for a good one. What only deserves a
+/// warning goes to `warnings` when given.
+std::vector<InputError> validateScene(const std::string& file, std::vector<InputError>* warnings = nullptr);
+
+} // namespace tss

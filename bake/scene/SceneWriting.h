@@ -1,0 +1,20 @@
+#pragma once
+#include "bake/scene/PrimWriter.h"
+#include "bake/scene/SceneModel.h"
+
+namespace tss {
+
+void writeBodies(Layer& layer, const SceneModel& scene);
+void writeJoints(Layer& layer, const SceneModel& scene);
+/// The DOFs of a joint, its limits, couplings and desired motion; decides the type of its prim.
+void writeDofs(PrimWriter& prim, const Joint& joint);
+void writePairs(Layer& layer, const SceneModel& scene);
+void writeMuscles(Layer& layer, const SceneModel& scene);
+void writeSkins(Layer& layer, const SceneModel& scene);
+
+/// The spheres as a guide that viewers do not render: centres and diameters. Throws std::logic_error when one
+/// is not exact in float: what was proven of a table holds for the numbers that are stored (see
+/// roundToFloat()).
+void writeSpheres(Layer& layer, const std::string& path, const SphereSet& spheres);
+
+} // namespace tss

@@ -1,0 +1,102 @@
+#include "bake/scene/ToLayer.h"
+
+#include "bake/scene/SceneWriting.h"
+#include "bake/scene/StoreTables.h"
+
+#include <algorithm>
+
+namespace tss {
+
+namespace {
+
+void writeMetadata(Layer& layer, const SceneModel& scene) {
+    layer.metadata["defaultPrim"] = scene.defaultPrim;
+    layer.metadata["metersPerUnit"] = scene.metersPerUnit;
+    layer.metadata["upAxis"] = std::string(1, scene.upAxis);
+    if (scene.timeCodesPerSecond != 24) layer.metadata["timeCodesPerSecond"] = scene.timeCodesPerSecond;
+    if (scene.startTimeCode == 0 && scene.endTimeCode == 0) return;
+    layer.metadata["startTimeCode"] = scene.startTimeCode;
+    layer.metadata["endTimeCode"] = scene.endTimeCode;
+}
+
+void writeSettings(PrimWriter& prim, const BakeSettings& settings) {
+    for (const auto& [key, text] : settings) {
+        std::string name = schema::bakePrefix + key;
+        std::replace(name.begin(), name.end(), '-', '_');
+        prim.set(Attribute{name.c_str(), "string", true}, Value(text));
+    }
+}
+
+template <class Items>
+std::vector<std::string> pathsOf(const Items& items, const std::vector<int>& indices) {
+    std::vector<std::string> paths;
+    for (int index : indices) paths.push_back(items[index].path);
+    return paths;
+}
+
+} // namespace
+
+void writePairs(Layer& layer, const SceneModel& scene) {
+    for (const Pair& pair : scene.pairs) {
+        const bool ofJoint = pair.joints.size() == 1 && scene.joints[pair.joints[0]].path == pair.path;
+        PrimWriter prim(makePrim(layer, pair.path, "Scope"));
+        addApi(prim.prim(), "TssPairAPI");
+        if (!ofJoint) prim.setTargets(schema::bodies, pathsOf(scene.bodies, {pair.bodyA, pair.bodyB}));
+        writeSettings(prim, pair.settings);
+    }
+}
+
+void writeMuscles(Layer& layer, const SceneModel& scene) {
+    const Muscle plain;
+    for (const MuscleModel& model : scene.muscles) {
+        PrimWriter prim(makePrim(layer, model.path, "TssMuscle"));
+        const Muscle& muscle = model.muscle;
+        prim.setTargets(schema::surface, pathsOf(scene.bodies, {model.body}));
+        if (model.bone >= 0) prim.setTargets(schema::bone, pathsOf(scene.bodies, {model.bone}));
+        prim.set(schema::origin, muscle.fibre.at(0));
+        prim.set(schema::insertion, muscle.fibre.back());
+        if (muscle.fibre.size() > 2)
+            prim.set(schema::fibre, std::vector<Vec3>(muscle.fibre.begin() + 1, muscle.fibre.end() - 1));
+        prim.setUnless(schema::form, muscle.form == MuscleForm::Sheet ? "sheet" : "tube", "tube");
+        prim.setUnless(schema::anchor, muscle.anchor, plain.anchor);
+        prim.setUnless(schema::maxContraction, muscle.maxContraction, plain.maxContraction);
+        if (muscle.activationLower != plain.activationLower ||
+            muscle.activationUpper != plain.activationUpper)
+            prim.set(schema::activationRange, std::vector{muscle.activationLower, muscle.activationUpper});
+        prim.set(schema::activation, model.activation);
+    }
+}
+
+void writeSkins(Layer& layer, const SceneModel& scene) {
+    for (const SkinModel& skin : scene.skins) {
+        PrimWriter prim(makePrim(layer, skin.path, "Mesh"));
+        addApi(prim.prim(), "TssSkinAPI");
+        prim.setTargets(schema::muscles, pathsOf(scene.muscles, skin.muscles));
+        prim.setUnless(schema::thickness, skin.thickness, 0.0);
+        prim.setUnless(schema::travel, skin.travel, 0.0);
+        prim.setUnless(schema::stretchCompliance, skin.stretchCompliance, 0.0);
+        prim.setUnless(schema::bendCompliance, skin.bendCompliance, 0.0);
+        for (const auto& [attribute, weights] :
+             {std::pair(schema::tether, &skin.tether), std::pair(schema::attach, &skin.attach)})
+            if (!weights->empty()) {
+                prim.set(attribute, *weights);
+                prim.setMetadata(attribute, "interpolation", "vertex");
+            }
+        writeSettings(prim, skin.settings);
+    }
+}
+
+Layer toLayer(const SceneModel& scene) {
+    Layer layer;
+    writeMetadata(layer, scene);
+    makePrim(layer, "/" + scene.defaultPrim, "Xform");
+    writeBodies(layer, scene);
+    writeJoints(layer, scene);
+    writePairs(layer, scene);
+    writeMuscles(layer, scene);
+    writeSkins(layer, scene);
+    storeTables(layer, scene);
+    return layer;
+}
+
+} // namespace tss
