@@ -9,6 +9,7 @@ enum class JointStatus {
     Slid,      ///< stopped, then slid along the contact
     Separated, ///< started in collision and was led out, or less deep
     Stuck,     ///< started in collision and stayed there
+    Returning, ///< started deeper than the table knows: one bounded step towards a pose known to be free
 };
 
 const char* name(JointStatus status);
@@ -25,8 +26,10 @@ struct JointResult {
     JointStatus status = JointStatus::Free;
 };
 
-/// Keeps a joint out of collision (METHOD 5): never through an obstacle, never farther from the asked pose
-/// than the start; no stiffness, no time step, the same bits for the same input.
+/// Keeps a joint out of collision (METHOD 5): never through an obstacle; from a free start never into
+/// collision and never farther from the asked pose than the start; no stiffness, no time step, the same bits
+/// for the same input. The simple entry: it prepares everything anew at each call. At run time use a
+/// JointResponder.
 JointResult respond(const Table& table, const JointRequest& request);
 
 } // namespace tss

@@ -1,0 +1,108 @@
+#include "bake/respond/JointAdvance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tss {
+
+namespace {
+
+/// Gap and rate of every near pair at q; thresholds rise as pairs free themselves.
+void observe(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws) {
+    placeGroups(model, q, way, ws);
+    std::uint32_t at = ~0u;
+    JointTwist whole;
+    for (std::size_t i = 0; i < ws.nearCount; ++i) {
+        NearPair& near = ws.near[i];
+        const JointModel::Pair& pair = model.pairs[near.pair];
+        const JointFrame& frame = ws.frames[pair.group];
+        if (pair.group != at) {
+            at = pair.group;
+            whole = JointTwist();
+            const std::vector<int>& dofs = model.groups[at].dofs;
+            for (std::size_t k = 0; k < dofs.size(); ++k) {
+                whole.turn += way[dofs[k]] * frame.twists[k].turn;
+                whole.slide += way[dofs[k]] * frame.twists[k].slide;
+            }
+        }
+        Vec3 centre, normal;
+        near.gap = pairGap(pair, frame.pose, centre, normal);
+        near.rate = normal.dot(whole.velocity(centre));
+        if (!ws.common) near.threshold = std::max(near.threshold, std::min(model.off, near.gap));
+    }
+}
+
+/// Time until a gap g >= 0 that changes at `rate` can have closed when its rate falls by `acceleration` a
+/// unit of time: the positive root of g + rate t - acceleration t^2 / 2, written without cancellation.
+double closingTime(double g, double rate, double acceleration) {
+    const double root = std::sqrt(rate * rate + 2 * acceleration * g);
+    if (rate <= 0) return 2 * g / (root - rate);
+    return acceleration > 0 ? (rate + root) / acceleration : HUGE_VAL;
+}
+
+/// Time until some path DOF reaches its next row, where its rate jumps.
+double timeToRow(const JointModel::Group& group, const JointValues& q, const JointValues& way) {
+    double time = HUGE_VAL;
+    if (!group.paths) return time;
+    for (std::size_t k = 0; k < group.dofs.size(); ++k) {
+        const int l = group.dofs[k];
+        if (way[l] != 0) time = std::min(time, (nextRow(group.motion.dofs[k], q[l], way[l]) - q[l]) / way[l]);
+    }
+    return time;
+}
+
+/// The time for which no near pair can reach its threshold, 0 when one is there.
+double freeTime(const JointModel& model, const JointValues& q, const JointValues& way, double left,
+                JointWorkspace& ws) {
+    double time = left;
+    std::uint32_t at = ~0u;
+    double row = HUGE_VAL;
+    for (std::size_t i = 0; i < ws.nearCount; ++i) {
+        const NearPair& near = ws.near[i];
+        const double room = near.gap - near.threshold;
+        if (near.speed * time < room) continue;
+        if (near.rate < 0 && room < 0.05 * model.off) return 0;
+        if (const std::uint32_t group = model.pairs[near.pair].group; group != at) {
+            at = group;
+            row = timeToRow(model.groups[group], q, way);
+        }
+        const double g = std::max(room, 0.0);
+        const double first = near.speed > 0 ? g / near.speed : HUGE_VAL;
+        const double second = std::min(closingTime(g, near.rate, near.acceleration), row);
+        time = std::min(time, std::max(first, second) * (1 - 1e-7));
+    }
+    return time;
+}
+
+} // namespace
+
+void boundMotion(const JointModel& model, const JointValues& way, NearPair& near) {
+    const JointModel::Group& group = model.groups[model.pairs[near.pair].group];
+    const double* speed = model.speed(near.pair);
+    near.speed = near.acceleration = 0;
+    double turning = 0; // by the DOFs nearer to A
+    for (std::size_t k = 0; k < group.dofs.size(); ++k) {
+        const double change = std::abs(way[group.dofs[k]]);
+        const double turn = group.turnRates[k] * change;
+        const double moved = speed[group.dofs[k]] * change;
+        near.speed += moved;
+        near.acceleration += moved * (turn + 2 * turning);
+        turning += turn;
+    }
+}
+
+double advance(const JointModel& model, const JointValues& way, JointValues& q, JointWorkspace& ws) {
+    const JointValues start = q;
+    for (std::size_t i = 0; i < ws.nearCount; ++i) boundMotion(model, way, ws.near[i]);
+    double t = 0;
+    for (int round = 0; round < 60 && t < 1; ++round) {
+        observe(model, q, way, ws);
+        const double step = freeTime(model, q, way, 1 - t, ws);
+        if (step <= 1e-13) break;
+        t = step >= 1 - t ? 1 : t + step;
+        for (int l = 0; l < model.dofCount; ++l) q[l] = start[l] + t * way[l];
+    }
+    return t;
+}
+
+} // namespace tss

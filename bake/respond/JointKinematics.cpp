@@ -1,0 +1,138 @@
+#include "bake/respond/JointKinematics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tss {
+
+namespace {
+
+/// A value this near to a row stands on it: rounding must not hold a joint just before a row for ever.
+double nudged(const std::vector<PathRow>& rows, double value, double way) {
+    return value + std::copysign(1e-9 * (rows.back().value - rows.front().value), way);
+}
+
+/// The two rows about a value, the segment ahead of it at a row.
+const PathRow* segment(const std::vector<PathRow>& rows, double value, double way) {
+    const auto first = rows.begin() + 1, last = rows.end() - 1;
+    const auto next = way < 0 ? std::lower_bound(first, last, value,
+                                                 [](const PathRow& row, double v) { return row.value < v; })
+                              : std::upper_bound(first, last, value,
+                                                 [](double v, const PathRow& row) { return v < row.value; });
+    return &*(next - 1);
+}
+
+/// The turn from one row to the next as a rotation vector in the first row's own frame (the short way round,
+/// as slerp takes it).
+Vec3 turnBetween(const PathRow& r0, const PathRow& r1) {
+    Eigen::Quaterniond turn = r0.rotation.conjugate() * r1.rotation;
+    if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
+    const double sine = turn.vec().norm();
+    return sine > 0 ? Vec3(turn.vec() * (2 * std::atan2(sine, turn.w()) / sine)) : Vec3::Zero();
+}
+
+/// `where` is the DOF's own frame in A: the poses of all DOFs before it.
+JointTwist twist(const Dof& dof, double q, double way, const Pose& where, const Pose& own) {
+    JointTwist t;
+    switch (dof.kind) {
+    case DofKind::Rotation:
+        t.turn = where.linear() * dof.axis;
+        t.slide = (where * dof.origin).cross(t.turn);
+        break;
+    case DofKind::Translation:
+        t.slide = where.linear() * dof.axis;
+        break;
+    case DofKind::Path: {
+        const PathRow* rows = segment(dof.path, nudged(dof.path, q, way), way);
+        const double span = rows[1].value - rows[0].value;
+        const Pose frame = where * dof.frame;
+        t.turn = frame.linear() * (rows[0].rotation * turnBetween(rows[0], rows[1])) / span;
+        // The point of B that is at the path's origin moves with the rows' translation.
+        const Vec3 moving = where * (own * (dof.frame * Vec3::Zero()));
+        t.slide = frame.linear() * (rows[1].translation - rows[0].translation) / span - t.turn.cross(moving);
+        break;
+    }
+    }
+    return t;
+}
+
+/// Largest slide and turn per unit over the segments within the limits.
+void pathRates(const Dof& dof, double& slide, double& turn) {
+    slide = turn = 0;
+    for (std::size_t i = 0; i + 1 < dof.path.size(); ++i) {
+        const PathRow &r0 = dof.path[i], &r1 = dof.path[i + 1];
+        if (r1.value < dof.lower || r0.value > dof.upper) continue;
+        const double span = r1.value - r0.value;
+        slide = std::max(slide, (r1.translation - r0.translation).norm() / span);
+        turn = std::max(turn, turnBetween(r0, r1).norm() / span);
+    }
+}
+
+} // namespace
+
+void evaluate(const Motion& motion, const double* q, const double* direction, JointFrame& frame) {
+    Pose before = Pose::Identity();
+    for (std::size_t k = 0; k < motion.dofs.size(); ++k) {
+        const Pose own = dofPose(motion.dofs[k], q[k]);
+        frame.twists[k] = twist(motion.dofs[k], q[k], direction[k], before, own);
+        before = before * own;
+    }
+    frame.pose = before * motion.base;
+}
+
+void speedBounds(const Motion& motion, const Vec3& point, double* speeds) {
+    // y: the point as the DOFs within place it at the middle of their limits, give or take `stray`.
+    Vec3 y = motion.base * point;
+    double stray = 0;
+    for (std::size_t k = motion.dofs.size(); k-- > 0;) {
+        const Dof& dof = motion.dofs[k];
+        const double half = 0.5 * (dof.upper - dof.lower);
+        const double middle = dof.lower + half;
+        const Vec3 centre = dofPose(dof, middle) * y;
+        switch (dof.kind) {
+        case DofKind::Rotation:
+            speeds[k] = (y - dof.origin).cross(dof.axis).norm() + stray;
+            stray += 2 * speeds[k] * std::sin(0.5 * std::min(half, 3.14159265358979323846));
+            break;
+        case DofKind::Translation:
+            speeds[k] = dof.axis.norm();
+            stray += speeds[k] * half;
+            break;
+        case DofKind::Path: {
+            double slide = 0, turn = 0;
+            pathRates(dof, slide, turn);
+            speeds[k] = slide + turn * ((dof.frame.inverse(Eigen::Isometry) * y).norm() + stray);
+            stray += speeds[k] * half;
+            break;
+        }
+        }
+        // Room for the rounding of these sums themselves.
+        speeds[k] *= 1 + 1e-12;
+        y = centre;
+    }
+}
+
+double turnBound(const Dof& dof) {
+    if (dof.kind == DofKind::Rotation) return 1;
+    if (dof.kind == DofKind::Translation) return 0;
+    double slide = 0, turn = 0;
+    pathRates(dof, slide, turn);
+    return turn;
+}
+
+double nextRow(const Dof& dof, double q, double way) {
+    const double none = std::copysign(std::numeric_limits<double>::infinity(), way);
+    if (dof.kind != DofKind::Path || way == 0) return none;
+    q = nudged(dof.path, q, way);
+    if (way > 0) {
+        const auto row = std::upper_bound(dof.path.begin(), dof.path.end(), q,
+                                          [](double v, const PathRow& r) { return v < r.value; });
+        return row == dof.path.end() ? none : row->value;
+    }
+    const auto row = std::lower_bound(dof.path.begin(), dof.path.end(), q,
+                                      [](const PathRow& r, double v) { return r.value < v; });
+    return row == dof.path.begin() ? none : (row - 1)->value;
+}
+
+} // namespace tss

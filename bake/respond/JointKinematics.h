@@ -1,0 +1,40 @@
+#pragma once
+#include "bake/motion/Motion.h"
+
+#include <array>
+
+namespace tss {
+
+/// A joint that is resolved at run time has at most this many DOFs; the work space is of fixed size.
+inline constexpr int maxJointDofs = 12;
+using JointValues = std::array<double, maxJointDofs>;
+
+/// How one DOF moves a point x of A's frame, per unit of its value: x' = turn x x + slide.
+struct JointTwist {
+    Vec3 turn = Vec3::Zero();
+    Vec3 slide = Vec3::Zero();
+    Vec3 velocity(const Vec3& x) const { return turn.cross(x) + slide; }
+};
+
+/// Where body B stands, and how each DOF of the motion would move it from there.
+struct JointFrame {
+    Pose pose = Pose::Identity();
+    std::array<JointTwist, maxJointDofs> twists;
+};
+
+/// T(q), the same bits as pose(motion, q), and the twists there. q, direction: one value a DOF of the motion;
+/// at a row of a path the segment that lies in `direction` is meant.
+void evaluate(const Motion& motion, const double* q, const double* direction, JointFrame& frame);
+
+/// How fast a point of B can move anywhere in the limits: speed per unit of each DOF's value (the lever of a
+/// turn, METHOD 2.2), found from the last DOF inwards. point: in B's frame. speeds: one a DOF.
+void speedBounds(const Motion& motion, const Vec3& point, double* speeds);
+
+/// The most that a DOF turns per unit of its value: 1, 0 for a translation.
+double turnBound(const Dof& dof);
+
+/// The value of the next row of the path strictly beyond q in the direction of `way`; infinity with its sign
+/// where there is none, or for a DOF that is no path.
+double nextRow(const Dof& dof, double q, double way);
+
+} // namespace tss

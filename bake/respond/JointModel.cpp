@@ -1,0 +1,237 @@
+#include "bake/respond/JointModel.h"
+
+#include "bake/base/Error.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace tss {
+
+namespace {
+
+void checkFit(const TableOnJoint& entry, int dofCount) {
+    const Motion& motion = entry.table->motion;
+    if (entry.dofs.size() != motion.dofCount())
+        throw InputError("joint: expected a place among its values for each DOF of each table's motion");
+    for (std::size_t k = 0; k < entry.dofs.size(); ++k)
+        if (entry.dofs[k] < 0 || entry.dofs[k] >= dofCount ||
+            std::count(entry.dofs.begin(), entry.dofs.end(), entry.dofs[k]) != 1)
+            throw InputError("joint: expected places of DOFs in [0, " + std::to_string(dofCount) +
+                             "), each once");
+}
+
+void addPairs(const Table& table, std::uint32_t group, JointModel& model) {
+    const std::vector<int>& dofs = model.groups[group].dofs;
+    const std::vector<SpherePair> list = tests(table);
+    for (std::uint32_t k = 0; k < list.size(); ++k) {
+        const Sphere &a = table.a[list[k].a], &b = table.b[list[k].b];
+        const double rest = table.restGaps.empty() ? 0 : table.restGaps[k];
+        model.pairs.push_back(
+            {a.centre, b.centre, a.radius, b.radius, rest, a.radius + b.radius + rest, group, k});
+        JointValues own;
+        speedBounds(table.motion, b.centre, own.data());
+        const std::size_t row = model.speeds.size();
+        model.speeds.resize(row + model.dofCount, 0.0);
+        for (std::size_t l = 0; l < dofs.size(); ++l) {
+            model.speeds[row + dofs[l]] = own[l];
+            model.weights[dofs[l]] = std::max(model.weights[dofs[l]], own[l]);
+        }
+    }
+}
+
+void addTable(const TableOnJoint& entry, int index, JointModel& model) {
+    const Motion& motion = entry.table->motion;
+    JointModel::Group group;
+    group.motion = motion;
+    group.dofs = entry.dofs;
+    group.table = index;
+    for (std::size_t k = 0; k < motion.dofs.size(); ++k) {
+        const Dof& dof = motion.dofs[k];
+        group.turnRates.push_back(turnBound(dof));
+        group.paths = group.paths || dof.kind == DofKind::Path;
+        model.lower[entry.dofs[k]] = std::max(model.lower[entry.dofs[k]], dof.lower);
+        model.upper[entry.dofs[k]] = std::min(model.upper[entry.dofs[k]], dof.upper);
+    }
+    for (const LimitPlane& plane : motion.planes) {
+        LimitPlane whole{std::vector<double>(model.dofCount, 0.0), plane.bound};
+        for (std::size_t k = 0; k < motion.dofs.size(); ++k)
+            whole.coefficients[entry.dofs[k]] = plane.coefficients[k];
+        model.planes.push_back(whole);
+    }
+    group.firstPair = static_cast<std::uint32_t>(model.pairs.size());
+    model.groups.push_back(group);
+    addPairs(*entry.table, static_cast<std::uint32_t>(model.groups.size() - 1), model);
+    model.groups.back().lastPair = static_cast<std::uint32_t>(model.pairs.size());
+}
+
+/// off = 1.5 epsilon (METHOD 5.3); for a lossless table a distance far above the rounding of a gap and far
+/// below anything seen.
+double keptGap(const JointModel& model, double epsilon) {
+    double size = 0, coordinate = 0;
+    for (const JointModel::Pair& p : model.pairs) {
+        size = std::max(size, p.radiusA + p.radiusB);
+        coordinate = std::max({coordinate, p.a.norm(), p.b.norm()});
+    }
+    for (const JointModel::Group& g : model.groups) {
+        coordinate = std::max(coordinate, g.motion.base.translation().norm());
+        for (const Dof& dof : g.motion.dofs) coordinate = std::max(coordinate, dof.origin.norm());
+    }
+    return std::max({1.5 * epsilon, 1e-6 * size, 1e-13 * coordinate, std::numeric_limits<double>::min()});
+}
+
+QpRow boundRow(int n, int dof, double sign, double bound) {
+    QpRow row;
+    std::fill_n(row.normal.begin(), n, 0.0);
+    row.normal[dof] = sign;
+    row.bound = bound;
+    return row;
+}
+
+} // namespace
+
+JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount) {
+    if (dofCount < 0 || dofCount > maxJointDofs)
+        throw InputError("joint: expected at most " + std::to_string(maxJointDofs) + " DOFs, not " +
+                         std::to_string(dofCount));
+    JointModel model;
+    model.dofCount = dofCount;
+    model.lower.fill(-std::numeric_limits<double>::infinity());
+    model.upper.fill(std::numeric_limits<double>::infinity());
+    double epsilon = 0;
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        checkFit(tables[i], dofCount);
+        addTable(tables[i], static_cast<int>(i), model);
+        epsilon = std::max(epsilon, tables[i].table->epsilon);
+    }
+    for (int l = 0; l < dofCount; ++l)
+        if (!(model.lower[l] <= model.upper[l]))
+            throw InputError("joint: expected limits of its tables that overlap");
+    // A DOF that moves no sphere still needs a weight: the metric must be one.
+    const double largest = *std::max_element(model.weights.begin(), model.weights.end());
+    for (int l = 0; l < dofCount; ++l)
+        model.weights[l] = std::max(model.weights[l], largest > 0 ? 1e-6 * largest : 1.0);
+    model.scale = weightedDistance(model, model.upper, model.lower);
+    model.off = keptGap(model, epsilon);
+    return model;
+}
+
+void placeGroups(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws) {
+    for (std::size_t g = 0; g < model.groups.size(); ++g) {
+        const JointModel::Group& group = model.groups[g];
+        JointValues own, direction;
+        for (std::size_t k = 0; k < group.dofs.size(); ++k) {
+            own[k] = q[group.dofs[k]];
+            direction[k] = way[group.dofs[k]];
+        }
+        evaluate(group.motion, own.data(), direction.data(), ws.frames[g]);
+    }
+}
+
+double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& centre, Vec3& normal) {
+    centre = pose * pair.b;
+    normal = centre - pair.a;
+    const double distance = normal.norm();
+    normal = distance > 0 ? Vec3(normal / distance) : Vec3::UnitX();
+    return distance - pair.reach;
+}
+
+void cull(const JointModel& model, const JointValues& q, const JointValues& reach, JointWorkspace& ws) {
+    placeGroups(model, q, reach, ws);
+    ws.nearCount = 0;
+    const int n = model.dofCount;
+    for (const JointModel::Group& group : model.groups) {
+        const Pose& pose = ws.frames[&group - model.groups.data()].pose;
+        for (std::uint32_t p = group.firstPair; p < group.lastPair; ++p) {
+            const JointModel::Pair& pair = model.pairs[p];
+            const double* speed = model.speed(p);
+            double far = pair.reach + 2 * model.off;
+            for (int l = 0; l < n; ++l) far += speed[l] * reach[l];
+            const double squared = (pose * pair.b - pair.a).squaredNorm();
+            if (far < 0 || squared > far * far) continue;
+            NearPair& near = ws.near[ws.nearCount++];
+            near.pair = p;
+            near.gap = std::sqrt(squared) - pair.reach;
+            near.threshold = std::min(model.off, near.gap);
+        }
+    }
+}
+
+void linearise(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws) {
+    placeGroups(model, q, way, ws);
+    for (std::size_t i = 0; i < ws.nearCount; ++i) {
+        NearPair& near = ws.near[i];
+        const JointModel::Pair& pair = model.pairs[near.pair];
+        const JointModel::Group& group = model.groups[pair.group];
+        const JointFrame& frame = ws.frames[pair.group];
+        Vec3 centre, normal;
+        near.gap = pairGap(pair, frame.pose, centre, normal);
+        if (!ws.common) near.threshold = std::min(near.threshold, near.gap);
+        std::fill_n(near.gradient.begin(), model.dofCount, 0.0);
+        for (std::size_t k = 0; k < group.dofs.size(); ++k)
+            near.gradient[group.dofs[k]] = normal.dot(frame.twists[k].velocity(centre));
+    }
+}
+
+double smallestGap(const JointModel& model, const JointValues& q, JointWorkspace& ws, int* pair) {
+    placeGroups(model, q, q, ws);
+    double smallest = std::numeric_limits<double>::infinity();
+    int found = -1;
+    Vec3 centre, normal;
+    for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+        const double gap = pairGap(model.pairs[p], ws.frames[model.pairs[p].group].pose, centre, normal);
+        if (gap < smallest) {
+            smallest = gap;
+            found = static_cast<int>(p);
+        }
+    }
+    if (pair) *pair = found;
+    return smallest;
+}
+
+JointValues clampToLimits(const JointModel& model, const double* asked, JointWorkspace& ws) {
+    const int n = model.dofCount;
+    JointValues q{};
+    for (int l = 0; l < n; ++l) q[l] = std::clamp(asked[l], model.lower[l], model.upper[l]);
+    const auto within = [&](const LimitPlane& plane) {
+        double sum = -plane.bound;
+        for (int l = 0; l < n; ++l) sum += plane.coefficients[l] * q[l];
+        return sum <= 0;
+    };
+    if (std::all_of(model.planes.begin(), model.planes.end(), within)) return q;
+    int count = 0;
+    for (int l = 0; l < n; ++l) {
+        ws.rows[count++] = boundRow(n, l, 1, model.weights[l] * (model.lower[l] - q[l]));
+        ws.rows[count++] = boundRow(n, l, -1, -model.weights[l] * (model.upper[l] - q[l]));
+    }
+    for (const LimitPlane& plane : model.planes) {
+        QpRow row;
+        double value = -plane.bound, length = 0;
+        for (int l = 0; l < n; ++l) {
+            row.normal[l] = -plane.coefficients[l] / model.weights[l];
+            value += plane.coefficients[l] * q[l];
+            length += row.normal[l] * row.normal[l];
+        }
+        length = std::sqrt(length);
+        for (int l = 0; l < n; ++l) row.normal[l] /= length;
+        row.bound = value / length;
+        ws.rows[count++] = row;
+    }
+    JointValues y;
+    if (!nearestToOrigin(n, ws.rows.data(), count, 1e-12 * model.scale, y)) return q;
+    for (int l = 0; l < n; ++l)
+        q[l] = std::clamp(q[l] + y[l] / model.weights[l], model.lower[l], model.upper[l]);
+    return q;
+}
+
+double weightedDistance(const JointModel& model, const JointValues& x, const JointValues& y) {
+    double sum = 0;
+    for (int l = 0; l < model.dofCount; ++l) {
+        const double d = model.weights[l] * (x[l] - y[l]);
+        sum += d * d;
+    }
+    return std::sqrt(sum);
+}
+
+} // namespace tss

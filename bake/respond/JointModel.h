@@ -1,0 +1,98 @@
+#pragma once
+#include "bake/respond/JointKinematics.h"
+#include "bake/respond/JointQp.h"
+#include "bake/table/Table.h"
+
+namespace tss {
+
+/// A table that bears on a joint: dofs[k] is the place of DOF k of the table's motion among the joint's
+/// values. Several tables may share a joint (a mandible against a skull, a tooth guard against both).
+struct TableOnJoint {
+    const Table* table = nullptr;
+    std::vector<int> dofs;
+};
+
+/// What the response needs to know of the tables on one joint. Immutable; shared between threads.
+struct JointModel {
+    struct Group {
+        Motion motion;
+        std::vector<int> dofs;         ///< place of each DOF of the motion among the joint's values
+        std::vector<double> turnRates; ///< turnBound of each
+        bool paths = false;            ///< some DOF is a path, whose rate jumps at its rows
+        std::uint32_t firstPair = 0, lastPair = 0;
+        int table = 0;
+    };
+    struct Pair {
+        Vec3 a, b; ///< centres, each in its own body's frame
+        double radiusA = 0, radiusB = 0, rest = 0;
+        double reach = 0; ///< radiusA + radiusB + rest: the distance of the centres at contact
+        std::uint32_t group = 0;
+        std::uint32_t test = 0; ///< index in its table
+    };
+
+    int dofCount = 0;
+    JointValues lower{}, upper{};
+    JointValues weights{}; ///< largest lever of each DOF, scene units a unit of the DOF: z = w q (METHOD 5.4)
+    std::vector<LimitPlane> planes;
+    std::vector<Group> groups;
+    std::vector<Pair> pairs;    ///< by group
+    std::vector<double> speeds; ///< #pairs by dofCount: speed bound per unit of each value of the joint
+    double scale = 0;           ///< length of the limits' diagonal in the weighted metric, scene units
+    double off = 0; ///< gap that a joint is kept at: above epsilon, so that the models are free too
+
+    const double* speed(std::uint32_t pair) const {
+        return speeds.data() + std::size_t(pair) * std::size_t(dofCount);
+    }
+};
+
+/// Throws InputError where the tables do not fit one joint: an index that is none, limits without overlap,
+/// more than maxJointDofs DOFs.
+JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount);
+
+/// A pair that can matter on the way, and the threshold its gap is held above.
+struct NearPair {
+    std::uint32_t pair = 0;
+    double threshold = 0;
+    double gap = 0;
+    double rate = 0;         ///< of the gap, per unit of the way, set by `advance`
+    double speed = 0;        ///< bound of |rate| on the way
+    double acceleration = 0; ///< bound of -rate' on the way
+    double lift = 0;         ///< what a slide asks above the threshold, room for the bend of its way
+    JointValues gradient;    ///< of the gap, set by `linearise`
+};
+
+/// Room for one response, made once per thread by JointResponder::workspace.
+struct JointWorkspace {
+    std::vector<NearPair> near;
+    std::size_t nearCount = 0;
+    bool common =
+        false; ///< all thresholds are one, that of a start in collision: they do not rise by themselves
+    std::vector<QpRow> rows;
+    std::vector<JointFrame> frames; ///< one a group
+};
+
+/// Places every group at q (values of the joint) into ws.frames.
+void placeGroups(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws);
+
+/// Gap of a pair with the group's pose; normal (unit or less, from A to B) and the centre of B in A's frame.
+double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& centre, Vec3& normal);
+
+/// Fills ws.near with the pairs whose gap can fall to their threshold when each DOF changes by at most
+/// reach[l] from q. Thresholds are min(model.off, gap at q).
+void cull(const JointModel& model, const JointValues& q, const JointValues& reach, JointWorkspace& ws);
+
+/// Gap and gradient of every near pair at q, one-sided towards `way` at rows of paths. Thresholds above the
+/// gap fall to it, unless they are common.
+void linearise(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws);
+
+/// Smallest gap of all pairs of the model at q, and its pair (-1: no pairs).
+double smallestGap(const JointModel& model, const JointValues& q, JointWorkspace& ws, int* pair = nullptr);
+
+/// Clamps into the box of limits, then, where a plane is broken, to the nearest point inside in the weighted
+/// metric (planes hold to 1e-12 of the range).
+JointValues clampToLimits(const JointModel& model, const double* asked, JointWorkspace& ws);
+
+/// |w (x - y)|.
+double weightedDistance(const JointModel& model, const JointValues& x, const JointValues& y);
+
+} // namespace tss

@@ -1,0 +1,175 @@
+#include "bake/respond/JointResponder.h"
+
+#include "bake/respond/JointSlide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace tss {
+
+namespace {
+
+/// How far a joint goes in one response towards its free pose, as a share of the limits' diagonal.
+constexpr double returnShare = 0.05;
+
+TableOnJoint wholeJoint(const Table& table) {
+    TableOnJoint entry{&table, std::vector<int>(table.motion.dofCount())};
+    std::iota(entry.dofs.begin(), entry.dofs.end(), 0);
+    return entry;
+}
+
+/// The gap exactly as the plain query computes it.
+double queryGap(const JointModel::Pair& pair, const Pose& inverse) {
+    const Vec3 centre = inverse * pair.a;
+    return (pair.b - centre).norm() - pair.radiusA - pair.radiusB - pair.rest;
+}
+
+} // namespace
+
+JointResponder::JointResponder(const Table& table, FreePose freePose)
+    : JointResponder(std::vector<TableOnJoint>{wholeJoint(table)}, static_cast<int>(table.motion.dofCount()),
+                     freePose) {}
+
+JointResponder::JointResponder(std::span<const TableOnJoint> tables, int dofCount, FreePose freePose)
+    : model_(makeJointModel(tables, dofCount)) {
+    knownDepth_ = std::numeric_limits<double>::infinity();
+    JointValues rest{};
+    for (const TableOnJoint& entry : tables) {
+        knownDepth_ = std::min(knownDepth_, entry.table->gapDepth);
+        for (std::size_t k = 0; k < entry.dofs.size(); ++k)
+            rest[entry.dofs[k]] = entry.table->motion.dofs[k].rest;
+    }
+    if (freePose == FreePose::Find) findFreePose(rest);
+}
+
+JointWorkspace JointResponder::workspace() const {
+    JointWorkspace ws;
+    ws.near.resize(model_.pairs.size());
+    ws.rows.resize(model_.pairs.size() + 2 * std::size_t(model_.dofCount) + model_.planes.size());
+    ws.frames.resize(model_.groups.size());
+    return ws;
+}
+
+void JointResponder::findFreePose(const JointValues& rest) {
+    JointWorkspace ws = workspace();
+    freePose_ = clampToLimits(model_, rest.data(), ws);
+    double best = smallestGap(model_, freePose_, ws);
+    // A grid of some thousand poses at most, inner points and borders alike.
+    const int n = model_.dofCount;
+    const int side = n == 0 ? 1 : std::max(2, static_cast<int>(std::pow(1000.0, 1.0 / n)));
+    long count = 1;
+    for (int l = 0; l < n && count < 5000; ++l) count *= side;
+    for (long i = 0; i < count && best <= 2 * model_.off; ++i) {
+        JointValues q{};
+        long rest_ = i;
+        for (int l = 0; l < n; ++l, rest_ /= side)
+            q[l] = model_.lower[l] +
+                   (model_.upper[l] - model_.lower[l]) * double(rest_ % side) / std::max(1, side - 1);
+        q = clampToLimits(model_, q.data(), ws);
+        const double gap = smallestGap(model_, q, ws);
+        if (gap > best) {
+            best = gap;
+            freePose_ = q;
+        }
+    }
+    hasFreePose_ = best > 0;
+}
+
+JointAnswer JointResponder::judged(const JointValues& q, JointStatus status, JointWorkspace& ws) const {
+    JointAnswer answer;
+    answer.q = q;
+    answer.status = status;
+    answer.gap = std::numeric_limits<double>::infinity();
+    placeGroups(model_, q, q, ws);
+    std::uint32_t at = ~0u;
+    Pose inverse = Pose::Identity();
+    for (std::size_t i = 0; i < ws.nearCount; ++i) {
+        const JointModel::Pair& pair = model_.pairs[ws.near[i].pair];
+        if (pair.group != at) {
+            at = pair.group;
+            inverse = ws.frames[at].pose.inverse(Eigen::Isometry);
+        }
+        const double gap = queryGap(pair, inverse);
+        if (gap < answer.gap) {
+            answer.gap = gap;
+            answer.table = model_.groups[at].table;
+            answer.test = static_cast<int>(pair.test);
+        }
+    }
+    return answer;
+}
+
+JointAnswer JointResponder::fromFree(const JointValues& start, const JointValues& goal,
+                                     JointWorkspace& ws) const {
+    JointValues q = start, way{}, reach{};
+    for (int l = 0; l < model_.dofCount; ++l) way[l] = goal[l] - start[l];
+    if (advance(model_, way, q, ws) == 1) {
+        q = goal;
+        const JointAnswer free = judged(q, JointStatus::Free, ws);
+        if (free.gap > 0) return free;
+        q = start;
+    }
+    const double before = weightedDistance(model_, q, goal);
+    for (int l = 0; l < model_.dofCount; ++l) reach[l] = 2 * before / model_.weights[l];
+    cull(model_, q, reach, ws);
+    slide(model_, goal, q, ws);
+    const double after = weightedDistance(model_, q, goal);
+    const bool slid = after < before - 1e-6 * model_.scale;
+    JointAnswer answer = judged(q, slid ? JointStatus::Slid : JointStatus::Blocked, ws);
+    // The guard: rounding may not undo the promise.
+    if (!(answer.gap > 0) || !(after <= weightedDistance(model_, start, goal)))
+        answer = judged(start, JointStatus::Blocked, ws);
+    return answer;
+}
+
+JointAnswer JointResponder::fromCollision(const JointValues& start, const JointValues& goal, double depth,
+                                          JointWorkspace& ws) const {
+    JointValues q = start;
+    const bool deep = knownDepth_ > 0 && depth < -knownDepth_ && hasFreePose_;
+    const double pushed = deep ? depth : pushOut(model_, q, ws);
+    if (pushed > 0) {
+        JointValues reach{};
+        for (int l = 0; l < model_.dofCount; ++l) reach[l] = std::abs(goal[l] - q[l]);
+        cull(model_, q, reach, ws);
+        JointAnswer answer = fromFree(q, goal, ws);
+        answer.status = JointStatus::Separated;
+        if (answer.gap > 0) return answer;
+    }
+    // Less than this is rounding, not a way out.
+    JointStatus status = pushed > depth + 1e-3 * model_.off ? JointStatus::Separated : JointStatus::Stuck;
+    if (hasFreePose_) {
+        // From the start, not from where pushes ended: the next response would be pushed back there.
+        const double far = weightedDistance(model_, start, freePose_);
+        const double t = far > 0 ? std::min(1.0, returnShare * model_.scale / far) : 1;
+        for (int l = 0; l < model_.dofCount; ++l)
+            q[l] = t == 1 ? freePose_[l] : start[l] + t * (freePose_[l] - start[l]);
+        status = JointStatus::Returning;
+    }
+    JointValues everything{};
+    for (int l = 0; l < model_.dofCount; ++l) everything[l] = model_.upper[l] - model_.lower[l];
+    cull(model_, q, everything, ws);
+    JointAnswer answer = judged(q, status, ws);
+    if (answer.gap > 0) answer.status = JointStatus::Separated;
+    return answer;
+}
+
+JointAnswer JointResponder::respond(const double* last, const double* asked, JointWorkspace& ws) const {
+    const JointValues start = clampToLimits(model_, last, ws);
+    const JointValues goal = clampToLimits(model_, asked, ws);
+    JointValues reach{};
+    for (int l = 0; l < model_.dofCount; ++l) reach[l] = std::abs(goal[l] - start[l]);
+    ws.common = false;
+    cull(model_, start, reach, ws);
+    if (ws.nearCount == 0) {
+        JointAnswer free;
+        free.q = goal;
+        free.gap = std::numeric_limits<double>::infinity();
+        return free;
+    }
+    const double gap = judged(start, JointStatus::Free, ws).gap;
+    return gap > 0 ? fromFree(start, goal, ws) : fromCollision(start, goal, gap, ws);
+}
+
+} // namespace tss

@@ -1,0 +1,58 @@
+#pragma once
+#include "bake/respond/JointModel.h"
+#include "bake/respond/JointResponse.h"
+
+namespace tss {
+
+/// A resolved pose. Only the first dofCount values of q mean anything.
+struct JointAnswer {
+    JointValues q{};
+    JointStatus status = JointStatus::Free;
+    double gap = 0; ///< smallest gap at q of the pairs that were near; infinity when none was
+    int table = -1; ///< index of the table of that pair, -1 when none was near
+    int test = -1;  ///< its test in that table
+};
+
+/// What keeps a joint out of collision at run time: everything a response needs, prepared once from the
+/// tables on the joint (METHOD 5). Immutable; one responder serves any number of threads and instances, each
+/// thread with a workspace of its own. A response allocates nothing, locks nothing and throws nothing.
+///
+/// Of a free start it promises: the result is free by the exact query of each table (gap > 0), so is every
+/// pose on the way there, and it is no farther from the asked pose (as the limits clamp it) than the start,
+/// in the metric |w (q - asked)|, w = weights(). The same input gives the same bits.
+class JointResponder {
+public:
+    enum class FreePose { Find, None };
+
+    /// A joint with one table; the joint's values are those of its motion.
+    explicit JointResponder(const Table& table, FreePose freePose = FreePose::Find);
+
+    /// A joint that several tables bear on; dofCount values. Throws InputError where they do not fit.
+    JointResponder(std::span<const TableOnJoint> tables, int dofCount, FreePose freePose = FreePose::Find);
+
+    JointWorkspace workspace() const;
+
+    /// last, asked: dofCount values each, finite. Both are clamped into the limits first.
+    JointAnswer respond(const double* last, const double* asked, JointWorkspace& workspace) const;
+
+    int dofCount() const { return model_.dofCount; }
+    const JointValues& weights() const { return model_.weights; }
+    /// The gap that a joint is kept at: 1.5 epsilon, or a millionth of the largest spheres.
+    double keptGap() const { return model_.off; }
+    /// A pose known to be free, towards which a joint returns from deeper than the tables know.
+    const JointValues* freePose() const { return hasFreePose_ ? &freePose_ : nullptr; }
+
+private:
+    void findFreePose(const JointValues& rest);
+    JointAnswer fromFree(const JointValues& start, const JointValues& goal, JointWorkspace& ws) const;
+    JointAnswer fromCollision(const JointValues& start, const JointValues& goal, double depth,
+                              JointWorkspace& ws) const;
+    JointAnswer judged(const JointValues& q, JointStatus status, JointWorkspace& ws) const;
+
+    JointModel model_;
+    JointValues freePose_{};
+    bool hasFreePose_ = false;
+    double knownDepth_ = 0; ///< least gapDepth of the tables
+};
+
+} // namespace tss

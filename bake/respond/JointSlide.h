@@ -1,0 +1,18 @@
+#pragma once
+#include "bake/respond/JointAdvance.h"
+
+namespace tss {
+
+/// From a pose that is held by contact on towards the goal along the contact (METHOD 5.4): the nearest pose
+/// under linearised gaps, limits and couplings, each move guarded by `advance`, at most 20 rounds. q comes
+/// never farther from the goal in the weighted metric. The result is a local optimum: a bay of the obstacle
+/// keeps the joint although there may be a nearer pose around it. ws.near must be complete for all poses as
+/// near to the goal as q.
+void slide(const JointModel& model, const JointValues& goal, JointValues& q, JointWorkspace& ws);
+
+/// Leads a joint out of collision by the shortest moves (METHOD 5.6): one common threshold, the deepest gap,
+/// which each move raises; demands are shortened where they cannot all be met. Returns the smallest gap at
+/// q then; > 0: it is out.
+double pushOut(const JointModel& model, JointValues& q, JointWorkspace& ws);
+
+} // namespace tss
