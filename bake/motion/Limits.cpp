@@ -54,7 +54,10 @@ std::vector<double> clampToLimits(const Motion& motion, std::span<const double> 
             q[k] = std::clamp(q[k], motion.dofs[k].lower, motion.dofs[k].upper);
     };
     clampBox();
-    for (int round = 0; round < 100 && !withinLimits(motion, q); ++round) {
+    double range = 0;
+    for (const Dof& dof : motion.dofs) range = std::max(range, dof.upper - dof.lower);
+    // Planes at a sharp angle draw the projections out; a round costs some nanoseconds.
+    for (int round = 0; round < 10000 && !withinLimits(motion, q, 1e-13 * range); ++round) {
         for (const LimitPlane& plane : motion.planes) {
             const double over = excess(plane, q);
             if (over <= 0) continue;

@@ -1,0 +1,113 @@
+#include "bake/base/Error.h"
+#include "bake/motion/Motion.h"
+#include "tests/table/RandomTable.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tss;
+using random_table::Random;
+
+namespace {
+
+Motion twoSlides() {
+    Motion m;
+    for (int k = 0; k < 2; ++k) {
+        Dof d;
+        d.kind = DofKind::Translation;
+        d.axis = Vec3::Unit(k);
+        d.lower = -1;
+        d.upper = 2;
+        m.dofs.push_back(d);
+    }
+    return m;
+}
+
+/// checkMotion's complaint about a motion changed by `spoil`.
+template <class Spoil>
+bool refused(Spoil spoil) {
+    Motion m = twoSlides();
+    spoil(m);
+    try {
+        checkMotion(m);
+    } catch (const InputError&) {
+        return true;
+    }
+    return false;
+}
+
+} // namespace
+
+TEST_CASE("values within the limits stay, others are clamped to them") {
+    const Motion m = twoSlides();
+    const std::vector<double> inside{0.5, -0.5}, outside{3, -7};
+    CHECK(withinLimits(m, inside));
+    CHECK(clampToLimits(m, inside) == inside);
+    CHECK_FALSE(withinLimits(m, outside));
+    CHECK(clampToLimits(m, outside) == std::vector<double>{2, -1});
+    CHECK(withinLimits(m, std::vector<double>{2.05, 0}, 0.1));
+}
+
+TEST_CASE("a value that is not a number is not within limits") {
+    CHECK_FALSE(withinLimits(twoSlides(), std::vector<double>{NAN, 0}));
+}
+
+TEST_CASE("planes cut the box and pull values back") {
+    Motion m = twoSlides();
+    m.planes = {{{1.0, 1.0}, 1.0}};
+    CHECK_FALSE(withinLimits(m, std::vector<double>{1, 1}));
+    const std::vector<double> q = clampToLimits(m, std::vector<double>{1, 1});
+    CHECK(q[0] == Approx(0.5));
+    CHECK(q[1] == Approx(0.5));
+}
+
+TEST_CASE("clamped values meet the limits and planes of random motions") {
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        Random random(seed);
+        CAPTURE(seed);
+        Motion m = random_table::motion(random, 1 + int(random() % 3), 10);
+        const std::vector<double> inside = random_table::values(random, m);
+        for (int i = 0; i < 2; ++i) {
+            LimitPlane plane;
+            for (std::size_t k = 0; k < inside.size(); ++k) {
+                plane.coefficients.push_back(random_table::between(random, -1, 1));
+                plane.bound += plane.coefficients[k] * inside[k];
+            }
+            plane.bound += 0.05;
+            m.planes.push_back(plane);
+        }
+        std::vector<double> q = inside;
+        for (double& v : q) v += random_table::between(random, -20, 20);
+        REQUIRE(withinLimits(m, clampToLimits(m, q), 1e-6));
+    }
+}
+
+TEST_CASE("a motion that cannot be served is refused") {
+    const double infinity = std::numeric_limits<double>::infinity();
+    CHECK_FALSE(refused([](Motion&) {}));
+    CHECK(refused([](Motion& m) { std::swap(m.dofs[0].lower, m.dofs[0].upper); }));
+    CHECK(refused([&](Motion& m) { m.dofs[0].upper = infinity; }));
+    CHECK(refused([](Motion& m) { m.dofs[1].lower = NAN; }));
+    CHECK(refused([](Motion& m) { m.dofs[1].rest = NAN; }));
+    CHECK(refused([](Motion& m) { m.dofs[0].axis.setZero(); }));
+    CHECK(refused([](Motion& m) {
+        m.dofs[0].kind = DofKind::Rotation;
+        m.dofs[0].axis = Vec3(0, 0, 2);
+    }));
+    CHECK(refused([](Motion& m) { m.base.translation().x() = NAN; }));
+    CHECK(refused([](Motion& m) { m.planes = {{{1.0}, 1.0}}; }));
+    CHECK(refused([](Motion& m) { m.planes = {{{0.0, 0.0}, 1.0}}; }));
+    CHECK(refused([](Motion& m) { m.dofs[0].kind = DofKind::Path; }));
+    CHECK(refused([](Motion& m) {
+        m.dofs[0].kind = DofKind::Path;
+        m.dofs[0].path.resize(3);
+        m.dofs[0].path[0].value = m.dofs[0].path[1].value = -1;
+        m.dofs[0].path[2].value = 2;
+    }));
+    CHECK(refused([](Motion& m) {
+        m.dofs[0].kind = DofKind::Path;
+        m.dofs[0].path = {{0, Vec3::Zero(), Eigen::Quaterniond::Identity()},
+                          {1, Vec3::Zero(), Eigen::Quaterniond::Identity()}};
+    }));
+    // Limits of zero width are a joint that is held, not an error.
+    CHECK_FALSE(refused([](Motion& m) { m.dofs[0].upper = m.dofs[0].lower; }));
+}
