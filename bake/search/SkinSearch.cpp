@@ -189,6 +189,10 @@ SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscl
     for (const std::uint32_t b : usedB) result.muscleOf.push_back(muscleOf[b]);
     result.travel = options.travel;
 
+    result.table.record.spheresA = skinSpheres.size();
+    result.table.record.spheresB = muscleSpheres.size();
+    result.table.record.candidatePairs = pairs.size();
+
     count.skinSpheres = skinSpheres.size();
     count.muscleSpheres = muscleSpheres.size();
     count.usedSkin = result.table.a.size();
