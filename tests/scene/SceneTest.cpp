@@ -1,70 +1,24 @@
 #include "bake/base/Error.h"
-#include "bake/scene/AddPair.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/ToLayer.h"
 #include "bake/scene/WriteLayer.h"
 
-#include <catch2/catch.hpp>
+#include "tests/scene/Samples.h"
 
-#include <cmath>
-#include <numbers>
+#include <catch2/catch.hpp>
 
 using namespace tss;
 
-namespace {
-
-TriangleMesh tetrahedron() {
-    TriangleMesh mesh;
-    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-    return mesh;
-}
-
-SceneModel twoBodies() {
-    SceneModel scene;
-    for (const char* name : {"A", "B"}) {
-        Body body;
-        body.path = std::string("/Scene/") + name;
-        body.mesh = tetrahedron();
-        scene.bodies.push_back(body);
-    }
-    return scene;
-}
-
-SceneModel reread(const SceneModel& scene) {
-    return readScene(toLayer(scene), "test.tss");
-}
-
-Motion jawMotion() {
-    Motion motion;
-    Dof open, lateral;
-    open.name = "open";
-    open.origin = {0.3, 0, 0.7};
-    open.axis = Vec3::UnitY();
-    open.lower = -0.3;
-    open.upper = 0.4;
-    lateral.name = "lateral";
-    lateral.kind = DofKind::Translation;
-    lateral.axis = {0, 0.002, 0};
-    lateral.lower = -1;
-    lateral.upper = 1;
-    motion.dofs = {open, lateral};
-    return motion;
-}
-
-} // namespace
-
 TEST_CASE("a model written and read again is the same scene") {
-    SceneModel scene = twoBodies();
+    SceneModel scene = samples::jaw();
     scene.metersPerUnit = 0.001;
     scene.bodies[0].displayName = "bone \"one\"";
     scene.bodies[1].doubleSided = true;
-    const int pair = addPair(scene, 0, 1, jawMotion(), "Jaw");
-    scene.pairs[pair].settings["max-spheres"] = "100";
+    scene.pairs[0].settings["max-spheres"] = "100";
     scene.joints[0].drives[0] = {{0, 24}, {0, -0.25}};
-    const SceneModel back = reread(scene);
+    const SceneModel back = samples::fromFile(scene);
     REQUIRE(back.bodies.size() == 2);
     CHECK(back.metersPerUnit == 0.001);
     CHECK(back.upAxis == 'Z');
@@ -82,37 +36,33 @@ TEST_CASE("a model written and read again is the same scene") {
     CHECK(motion.dofs[0].upper == Approx(0.4));
     CHECK(back.joints[0].drives[0].at(24) == Approx(-0.25));
     const std::vector<double> q = {0.2, 0.5};
-    CHECK((pose(motion, q).matrix() - pose(jawMotion(), q).matrix()).norm() < 1e-6);
+    CHECK((pose(motion, q).matrix() - pose(samples::jawMotion(), q).matrix()).norm() < 1e-6);
 }
 
 TEST_CASE("what was rounded once is not rounded again") {
-    SceneModel scene = twoBodies();
-    addPair(scene, 0, 1, jawMotion(), "Jaw");
-    const Layer once = toLayer(reread(scene));
+    const Layer once = toLayer(samples::fromFile(samples::jaw()));
     SceneModel second = readScene(once, "");
     second.layer = nullptr;
     CHECK(writeJson(toLayer(second)) == writeJson(once));
 }
 
 TEST_CASE("a table comes back number by number") {
-    SceneModel scene = twoBodies();
-    const int pair = addPair(scene, 0, 1, jawMotion(), "Jaw");
-    scene = reread(scene);
+    SceneModel scene = samples::fromFile(samples::jaw());
     Table table;
     table.a = {{Vec3(0.5, 0.25, 0), 0.125}, {Vec3(1, 0, 0), 1}};
     table.b = {{Vec3(double(0.1f), 0, 0), double(0.3f) / 2}};
     table.rowOffsets = {0, 1, 2};
     table.columns = {0, 0};
     table.restGaps = {0, -0.1};
-    table.motion = pairMotion(scene, scene.pairs[pair]);
+    table.motion = pairMotion(scene, scene.pairs[0]);
     table.epsilon = 1e-9;
     table.boundMiss = 0;
     table.certified = true;
     table.method = "medial/certified/cover";
     table.record.spheresA = 10;
     table.record.fitA.coverage = 0;
-    scene.pairs[pair].table = std::make_shared<Table>(table);
-    scene.pairs[pair].sourceHash = "abc";
+    scene.pairs[0].table = std::make_shared<Table>(table);
+    scene.pairs[0].sourceHash = "abc";
     const Layer layer = layerOf(scene);
     const SceneModel back = readScene(parseLayer(writeJson(layer), ""), "");
     REQUIRE(back.pairs[0].table);
@@ -138,11 +88,91 @@ TEST_CASE("a table comes back number by number") {
 }
 
 TEST_CASE("spheres that a file cannot hold exactly are not stored") {
-    SceneModel scene = twoBodies();
-    const int pair = addPair(scene, 0, 1, jawMotion(), "Jaw");
+    SceneModel scene = samples::jaw();
     Table table;
     table.a = {{Vec3(0.1, 0, 0), 1}};
     table.rowOffsets = {0, 0};
-    scene.pairs[pair].table = std::make_shared<Table>(table);
+    scene.pairs[0].table = std::make_shared<Table>(table);
     CHECK_THROWS_AS(layerOf(scene), std::logic_error);
+}
+
+TEST_CASE("muscles and skins come back as they were") {
+    const SceneModel scene = samples::brow();
+    const SceneModel back = samples::fromFile(scene);
+    REQUIRE(back.muscles.size() == 1);
+    const MuscleModel& muscle = back.muscles[0];
+    CHECK(muscle.path == "/Scene/Frontalis");
+    CHECK(back.bodies[muscle.body].path == "/Scene/Surface");
+    CHECK(back.bodies[muscle.bone].path == "/Scene/Bone");
+    CHECK(muscle.muscle.fibre == scene.muscles[0].muscle.fibre);
+    CHECK(muscle.muscle.form == MuscleForm::Sheet);
+    CHECK(muscle.muscle.maxContraction == 0.3);
+    CHECK(muscle.activation.at(12) == 0.5);
+    CHECK(muscle.muscle.surface.triangles == samples::tetrahedron().triangles);
+    REQUIRE(back.skins.size() == 1);
+    CHECK(back.skins[0].muscles == std::vector<int>{0});
+    CHECK(back.skins[0].thickness == 0.5);
+    CHECK(back.skins[0].tether == scene.skins[0].tether);
+    CHECK(back.skins[0].attach.empty());
+    CHECK(back.skins[0].settings == scene.skins[0].settings);
+}
+
+TEST_CASE("a skin's table comes back number by number") {
+    SceneModel scene = samples::fromFile(samples::brow());
+    auto table = std::make_shared<SkinTable>();
+    table->table.a = {{Vec3(1, 0, 0), 0.5}};
+    table->table.b = {{Vec3(0, 0, 0), 0.5}, {Vec3(0, 1, 0), 0.25}};
+    table->table.rowOffsets = {0, 2};
+    table->table.columns = {0, 1};
+    table->skinVertices = {3};
+    table->muscleOf = {0, 0};
+    table->travel = 0.1;
+    scene.skins[0].table = table;
+    scene.skins[0].sourceHash = "abc";
+    const std::string saved = writeJson(layerOf(scene));
+    const SceneModel back = readScene(parseLayer(saved, ""), "");
+    REQUIRE(back.skins[0].table);
+    CHECK(back.skins[0].table->skinVertices == table->skinVertices);
+    CHECK(back.skins[0].table->muscleOf == table->muscleOf);
+    CHECK(back.skins[0].table->travel == 0.1);
+    CHECK(back.skins[0].table->table.columns == table->table.columns);
+    CHECK(back.skins[0].sourceHash == "abc");
+    CHECK(writeJson(layerOf(back)) == saved);
+}
+
+TEST_CASE("a pair that lost its table has none in the file") {
+    SceneModel scene = samples::fromFile(samples::jaw());
+    const std::string before = writeJson(layerOf(scene));
+    auto proof = std::make_shared<NeverCollides>();
+    proof->clearance = 0.5;
+    proof->cells = 7;
+    scene.pairs[0].proof = proof;
+    SceneModel back = readScene(layerOf(scene), "");
+    REQUIRE(back.pairs[0].proof);
+    CHECK(back.pairs[0].proof->clearance == 0.5);
+    CHECK(back.pairs[0].proof->cells == 7);
+    back.pairs[0].proof = nullptr;
+    CHECK(readScene(layerOf(back), "").pairs[0].proof); // only not loaded
+    back.pairs[0].tablePath.clear();
+    CHECK(writeJson(layerOf(back)) == before);
+}
+
+TEST_CASE("an ordinary hinge needs no key that is not USD's own, and none about skins or muscles") {
+    SceneModel scene;
+    samples::addBody(scene, "A");
+    samples::addBody(scene, "B");
+    Motion motion;
+    motion.dofs.resize(1);
+    motion.dofs[0].upper = 0.5;
+    motion.dofs[0].name = "rotX";
+    addPair(scene, 0, 1, motion, "Hinge");
+    const std::string text = writeJson(toLayer(scene));
+    INFO(text);
+    CHECK(text.find("PhysicsRevoluteJoint") != std::string::npos);
+    CHECK(text.find("tss:") == std::string::npos);
+    CHECK(text.find("Skin") == std::string::npos);
+    CHECK(text.find("Muscle") == std::string::npos);
+    CHECK(text.find("\"subdivisionScheme\"") != std::string::npos);
+    CHECK(text.find("\"physics:collisionEnabled\": {\"typeName\": \"bool\", \"default\": true}") !=
+          std::string::npos);
 }

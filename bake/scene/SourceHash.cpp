@@ -1,0 +1,147 @@
+#include "bake/scene/SourceHash.h"
+
+#include "bake/base/Error.h"
+#include "bake/scene/Sha256.h"
+
+#include <bit>
+
+namespace tss {
+
+namespace {
+
+/// Hashes numbers by their bits in little-endian order, so that every machine gives the same.
+class PartHash {
+public:
+    PartHash& add(std::uint64_t number) {
+        std::uint8_t bytes[8];
+        for (int k = 0; k < 8; ++k) bytes[k] = static_cast<std::uint8_t>(number >> (8 * k));
+        hash_.add(bytes);
+        return *this;
+    }
+    PartHash& add(double number) { return add(std::bit_cast<std::uint64_t>(number)); }
+    PartHash& add(const std::string& text) {
+        add(std::uint64_t(text.size()));
+        hash_.add({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+        return *this;
+    }
+    /// As the float that a file holds; both zeros are one.
+    PartHash& addFloat(double number) {
+        return add(std::uint64_t(std::bit_cast<std::uint32_t>(float(number) + 0.0f)));
+    }
+    PartHash& add(const Vec3& vector) {
+        return addFloat(vector.x()).addFloat(vector.y()).addFloat(vector.z());
+    }
+    PartHash& add(const Pose& pose) {
+        for (int column = 0; column < 3; ++column) add(Vec3(pose.linear().col(column)));
+        return add(Vec3(pose.translation()));
+    }
+    PartHash& add(const TriangleMesh& mesh) {
+        add(std::uint64_t(mesh.vertices.size())).add(std::uint64_t(mesh.triangles.size()));
+        for (const Vec3& vertex : mesh.vertices) add(vertex);
+        for (const Tri& triangle : mesh.triangles)
+            for (int index : triangle) add(std::uint64_t(index));
+        return *this;
+    }
+    PartHash& add(const BakeSettings& settings) {
+        for (const auto& [key, text] : settings) add(key).add(text);
+        return *this;
+    }
+    std::string text() { return hash_.hex().substr(0, 32); }
+
+private:
+    Sha256 hash_;
+};
+
+std::string framesHash(const Motion& motion) {
+    PartHash hash;
+    hash.add(motion.base);
+    for (const Dof& dof : motion.dofs) {
+        hash.add(std::uint64_t(dof.kind)).add(dof.origin).add(dof.axis).add(dof.frame).add(dof.rest);
+        for (const PathRow& row : dof.path) {
+            hash.add(row.value).add(row.translation);
+            for (double part : row.rotation.coeffs()) hash.addFloat(part);
+        }
+    }
+    return hash.text();
+}
+
+std::string limitsHash(const Motion& motion) {
+    PartHash hash;
+    for (const Dof& dof : motion.dofs) hash.add(dof.lower).add(dof.upper);
+    for (const LimitPlane& plane : motion.planes) {
+        for (double coefficient : plane.coefficients) hash.add(coefficient);
+        hash.add(plane.bound);
+    }
+    return hash.text();
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+    std::string text;
+    for (const std::string& part : parts) text += (text.empty() ? "" : "-") + part;
+    return text;
+}
+
+/// What has changed, from two hashes of the same form and the names of their parts.
+std::string difference(const std::string& stored, const std::string& now,
+                       const std::vector<std::string>& names) {
+    if (stored == now) return "";
+    if (stored.empty()) return "its table does not say what it was baked from (tss:sourceHash)";
+    if (stored.size() != now.size()) return "its table was baked from something else";
+    std::string changed;
+    const std::size_t step = now.size() / names.size() + 1;
+    for (std::size_t k = 0; k < names.size(); ++k)
+        if (stored.compare(k * step, step - 1, now, k * step, step - 1) != 0)
+            changed += (changed.empty() ? "" : " and ") + names[k];
+    return changed + " changed since its table was baked";
+}
+
+} // namespace
+
+std::string sourceHash(const SceneModel& scene, const Pair& pair) {
+    const Motion motion = pairMotion(scene, pair);
+    return joined({PartHash().add(scene.bodies[pair.bodyA].mesh).text(),
+                   PartHash().add(scene.bodies[pair.bodyB].mesh).text(), framesHash(motion),
+                   limitsHash(motion), PartHash().add(pair.settings).text()});
+}
+
+std::string sourceHash(const SceneModel& scene, const SkinModel& skin) {
+    PartHash meshes, forms, travel;
+    const Body& body = scene.bodies[skin.body];
+    for (int index : skin.muscles) {
+        const MuscleModel& model = scene.muscles[index];
+        const Muscle& muscle = model.muscle;
+        meshes.add(Pose(body.placement.inverse() * scene.bodies[model.body].placement)).add(muscle.surface);
+        for (const Vec3& point : muscle.fibre) forms.add(point);
+        forms.add(std::uint64_t(muscle.form)).add(muscle.anchor).add(muscle.maxContraction);
+        travel.add(muscle.activationLower).add(muscle.activationUpper);
+    }
+    travel.add(skin.thickness).add(skin.travel);
+    return joined({PartHash().add(body.mesh).text(), meshes.text(), forms.text(), travel.text(),
+                   PartHash().add(skin.settings).text()});
+}
+
+std::string staleness(const SceneModel& scene, const Pair& pair) {
+    if (!pair.table && !pair.proof) return "";
+    return difference(pair.sourceHash, sourceHash(scene, pair),
+                      {"the mesh of " + scene.bodies[pair.bodyA].path,
+                       "the mesh of " + scene.bodies[pair.bodyB].path, "the joint", "the limits",
+                       "the settings"});
+}
+
+std::string staleness(const SceneModel& scene, const SkinModel& skin) {
+    if (!skin.table) return "";
+    return difference(skin.sourceHash, sourceHash(scene, skin),
+                      {"the skin's mesh", "the muscles' meshes", "the muscles' fibres or forms",
+                       "the activations, thickness or travel", "the settings"});
+}
+
+void requireFresh(const SceneModel& scene, const std::string& fileName) {
+    const auto require = [&](const std::string& path, const std::string& why) {
+        if (!why.empty())
+            throw InputError({fileName, "", path}, why + ": expected a fresh table, bake it again");
+    };
+    for (const Pair& pair : scene.pairs) require(pair.path, staleness(scene, pair));
+    for (const SkinModel& skin : scene.skins) require(skin.path, staleness(scene, skin));
+}
+
+} // namespace tss
