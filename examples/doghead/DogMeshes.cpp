@@ -1,0 +1,84 @@
+#include "examples/doghead/DogMeshes.h"
+
+#include "examples/doghead/anatomy/Frontalis.h"
+#include "examples/doghead/anatomy/Head.h"
+#include "examples/doghead/anatomy/Mandible.h"
+#include "examples/doghead/anatomy/Skull.h"
+#include "examples/doghead/mesh/Polygonize.h"
+#include "examples/doghead/mesh/Remesh.h"
+#include "examples/doghead/mesh/Trim.h"
+
+#include <cmath>
+
+namespace doghead {
+namespace {
+
+TriangleMesh rounded(TriangleMesh mesh) {
+    for (Vec3& v : mesh.vertices) v = (v * 1000).array().round() / 1000;
+    return mesh;
+}
+
+TriangleMesh meshOf(const Field& field, const Detail& detail, const RemeshOptions& options) {
+    RemeshOptions wanted = options;
+    wanted.deviation = detail.deviation;
+    return rounded(remesh(polygonize(field, detail.cell), field, wanted));
+}
+
+Field balls(const Vec3& centre, double radius) {
+    return mirrored(ellipsoid(centre, Vec3::Constant(radius)));
+}
+
+} // namespace
+
+TriangleMesh skullMesh(const Detail& detail) {
+    return meshOf(skull(), detail, {.shortest = 0.8});
+}
+
+TriangleMesh mandibleMesh(const Detail& detail) {
+    return meshOf(mandible(), detail, {.shortest = 0.8});
+}
+
+TriangleMesh frontalisMesh(const Detail& detail) {
+    return meshOf(frontalis(), detail, {.shortest = 1, .longest = 2.5});
+}
+
+TriangleMesh nosePadMesh(const Detail& detail) {
+    return meshOf(nosePad(), detail, {.longest = 2.5});
+}
+
+TriangleMesh eyesMesh() {
+    return meshOf(balls(eyeCentre, eyeRadius), {1, 0.08}, {});
+}
+
+TriangleMesh irisesMesh() {
+    return meshOf(balls(eyeCentre + 4.8 * gaze, 6.2), {1, 0.06}, {});
+}
+
+TriangleMesh leftSkinMesh(const Detail& detail) {
+    const Field head = headSkin();
+    RemeshOptions options{.shortest = 1.1, .longest = 4.5};
+    options.limit = [muscle = frontalis()](const Vec3& p) { return std::max(2.2, 1 + 0.25 * muscle(p)); };
+    options.deviation = detail.deviation;
+    const TriangleMesh whole = remesh(polygonize(head, detail.cell), head, options);
+    const TriangleMesh withNeck = trim(whole, Vec3(-52, 0, -36), Vec3(-0.8, 0, -0.55));
+    return rounded(trim(withNeck, Vec3(0, -3, 0), -Vec3::UnitY()));
+}
+
+tss::Motion jawMotion() {
+    const double degree = M_PI / 180;
+    tss::Dof lateral, open;
+    lateral.name = "lateral";
+    lateral.axis = Vec3::UnitZ();
+    lateral.lower = -4 * degree;
+    lateral.upper = 4 * degree;
+    open.name = "open";
+    open.axis = Vec3::UnitY();
+    open.lower = -4 * degree;
+    open.upper = 34 * degree;
+    open.rest = 16 * degree;
+    tss::Motion motion;
+    motion.dofs = {lateral, open};
+    return motion;
+}
+
+} // namespace doghead

@@ -1,0 +1,14 @@
+#pragma once
+#include "bake/scene/SceneModel.h"
+
+namespace doghead {
+
+/// A skull and a mandible that chews for four seconds: it opens wide, then is asked to close and to grind
+/// sideways through the point where the teeth meet.
+tss::SceneModel jawScene();
+
+/// The frontalis on its skull, tightening and letting go in three seconds, under the skin of the left half of
+/// the head; the right half lies open. The mandible, the nose and the eyes are there to be looked at.
+tss::SceneModel frontalisScene();
+
+} // namespace doghead

@@ -1,0 +1,19 @@
+#pragma once
+#include "examples/doghead/implicit/Field.h"
+
+namespace doghead {
+
+/// Middle of the left eyeball and the way it looks; its radius.
+inline const Vec3 eyeCentre{58, 24.5, 19};
+inline const Vec3 gaze = Vec3(0.74, 0.62, 0.16).normalized();
+constexpr double eyeRadius = 10.2;
+
+/// The outside of the head with the mouth closed: muzzle, lips with a mouth line, eyelids around open eyes,
+/// brow, cheeks, upright ears, and the neck far enough back to be cut. The skull's frame; it lies outside
+/// skull, mandible and frontalis().
+Field headSkin();
+
+/// The nose pad with its nostrils: a body of its own, let into the muzzle's tip.
+Field nosePad();
+
+} // namespace doghead

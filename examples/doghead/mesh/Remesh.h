@@ -1,0 +1,24 @@
+#pragma once
+#include "examples/doghead/implicit/Field.h"
+
+namespace doghead {
+
+/// How fine a mesh follows its field.
+struct RemeshOptions {
+    double deviation =
+        0.1; ///< how far an edge may leave the surface it spans, mm; sets the edge length by curvature
+    double shortest = 0.6;  ///< least edge length, mm
+    double longest = 5;     ///< greatest edge length, mm
+    double gradation = 0.5; ///< how fast the edge length may grow along the surface, mm a mm
+    int rounds = 10;
+    std::function<double(const Vec3&)> limit =
+        {}; ///< greatest edge length at a place, mm; empty: longest everywhere
+};
+
+/// A well shaped mesh of the same surface: edges are split, collapsed and flipped towards the length that the
+/// curvature asks for, vertices are evened out along the surface and brought back onto the field after each
+/// round. Closed in, closed out; no triangle turns over. (After Botsch and Kobbelt, "A remeshing approach to
+/// multiresolution modeling", 2004.)
+tss::TriangleMesh remesh(const tss::TriangleMesh& raw, const Field& field, const RemeshOptions& options);
+
+} // namespace doghead

@@ -1,0 +1,67 @@
+#include "examples/doghead/mesh/Trim.h"
+
+#include <algorithm>
+#include <map>
+
+namespace doghead {
+
+using tss::Tri;
+using tss::Vec3;
+
+tss::TriangleMesh trim(const tss::TriangleMesh& mesh, const Vec3& point, const Vec3& outward) {
+    const Vec3 n = outward.normalized();
+    tss::TriangleMesh cut = mesh;
+    std::vector<double> reach(mesh.vertices.size(), 1e300); ///< a third of the shortest edge at a vertex
+    for (const Tri& t : mesh.triangles)
+        for (int k = 0; k < 3; ++k) {
+            const double third = (mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]).norm() / 3;
+            reach[t[k]] = std::min(reach[t[k]], third);
+            reach[t[(k + 1) % 3]] = std::min(reach[t[(k + 1) % 3]], third);
+        }
+    std::vector<double> side(cut.vertices.size());
+    for (std::size_t i = 0; i < side.size(); ++i) {
+        side[i] = n.dot(cut.vertices[i] - point);
+        if (std::abs(side[i]) >= reach[i]) continue;
+        cut.vertices[i] -= side[i] * n;
+        side[i] = 0;
+    }
+
+    std::map<std::pair<int, int>, int> crossings;
+    const auto crossing = [&](int a, int b) {
+        const auto [place, isNew] = crossings.try_emplace(std::minmax(a, b), int(cut.vertices.size()));
+        if (isNew) {
+            const double t = side[a] / (side[a] - side[b]);
+            const Vec3 at = (1 - t) * cut.vertices[a] + t * cut.vertices[b];
+            cut.vertices.push_back(at);
+        }
+        return place->second;
+    };
+    std::vector<Tri> kept;
+    for (const Tri& t : mesh.triangles) {
+        std::vector<int> polygon; // the triangle's part behind the plane, Sutherland and Hodgman
+        bool behind = false;
+        for (int k = 0; k < 3; ++k) {
+            const int a = t[k], b = t[(k + 1) % 3];
+            behind |= side[a] < 0;
+            if (side[a] <= 0) polygon.push_back(a);
+            if (side[a] * side[b] < 0) polygon.push_back(crossing(a, b));
+        }
+        for (std::size_t k = 2; behind && k < polygon.size(); ++k)
+            kept.push_back({polygon[0], polygon[k - 1], polygon[k]});
+    }
+
+    tss::TriangleMesh result;
+    std::vector<int> index(cut.vertices.size(), -1);
+    for (Tri& t : kept)
+        for (int k = 0; k < 3; ++k) {
+            if (index[t[k]] < 0) {
+                index[t[k]] = int(result.vertices.size());
+                result.vertices.push_back(cut.vertices[t[k]]);
+            }
+            t[k] = index[t[k]];
+        }
+    result.triangles = std::move(kept);
+    return result;
+}
+
+} // namespace doghead
