@@ -125,8 +125,7 @@ void MeshQuery::buildDipoles() {
     }
 }
 
-double MeshQuery::approximateWinding(const Vec3& local) const {
-    constexpr double beta = 2.5; // farther than this many radii a dipole stands for the triangles
+double MeshQuery::approximateWinding(const Vec3& local, double beta) const {
     double sum = 0;
     std::array<std::uint32_t, 128> stack;
     std::size_t top = 0;
@@ -161,8 +160,11 @@ double MeshQuery::exactWinding(const Vec3& local) const {
 
 double MeshQuery::windingNumber(const Vec3& p) const {
     const Vec3 local = p - origin_;
-    const double w = approximateWinding(local);
-    return std::abs(w - std::round(w)) <= 0.2 ? w : exactWinding(local);
+    for (const double beta : {2.0, 6.0}) {
+        const double w = approximateWinding(local, beta);
+        if (std::abs(w - std::round(w)) <= 0.2) return w;
+    }
+    return exactWinding(local);
 }
 
 bool MeshQuery::inside(const Vec3& p) const {

@@ -64,7 +64,8 @@ private:
 
     void buildDipoles();
     double exactWinding(const Vec3& local) const;
-    double approximateWinding(const Vec3& local) const;
+    /// A node's dipole stands for its triangles when it is farther than beta of its radii.
+    double approximateWinding(const Vec3& local, double beta) const;
 
     Vec3 origin_ = Vec3::Zero();
     std::vector<Corners> corners_;

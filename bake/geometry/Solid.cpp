@@ -108,7 +108,9 @@ Solid::Solid(const TriangleMesh& mesh)
 
 double Solid::protrusion(const Vec3& centre, double radius) const {
     const double distance = boundary_.distance(centre);
-    return std::max(0.0, inside(centre) ? radius - distance : radius + distance);
+    // On the surface the side makes no difference, and is the one thing that is slow to tell.
+    const bool out = distance <= 1e-9 * radius || !inside(centre);
+    return std::max(0.0, out ? radius + distance : radius - distance);
 }
 
 } // namespace tss

@@ -3,37 +3,46 @@
 #include "bake/base/Parallel.h"
 
 #include <algorithm>
+#include <numeric>
 #include <queue>
 
 namespace tss {
 
-CoverSets coverSets(std::span<const Sphere> spheres, std::span<const Patch> patches) {
+CoverSets coverSets(std::span<const Sphere> candidates, std::span<const Patch> patches, int enough) {
     std::vector<Eigen::AlignedBox3d> centres;
     centres.reserve(patches.size());
     for (const Patch& patch : patches) centres.emplace_back(patch.centre());
     const Bvh tree = buildBvh(centres, 8);
+    std::vector<std::uint32_t> order(candidates.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](auto a, auto b) { return candidates[a].radius > candidates[b].radius; });
 
-    constexpr std::size_t block = 256;
-    const std::size_t blocks = (spheres.size() + block - 1) / block;
-    std::vector<std::vector<std::uint32_t>> found(blocks);
-    std::vector<std::size_t> counts(spheres.size());
-    parallelFor(blocks, [&](std::size_t b) {
-        for (std::size_t i = b * block; i < std::min(spheres.size(), (b + 1) * block); ++i) {
-            const std::size_t before = found[b].size();
-            visitBall(tree, spheres[i].centre, spheres[i].radius, [&](std::uint32_t patch) {
-                if (covers(spheres[i], patches[patch])) found[b].push_back(patch);
-            });
-            std::sort(found[b].begin() + static_cast<std::ptrdiff_t>(before), found[b].end());
-            counts[i] = found[b].size() - before;
-        }
-    });
     CoverSets sets;
     sets.first.push_back(0);
-    for (const std::size_t count : counts) sets.first.push_back(sets.first.back() + count);
-    sets.patches.reserve(sets.first.back());
-    for (std::vector<std::uint32_t>& part : found) {
-        sets.patches.insert(sets.patches.end(), part.begin(), part.end());
-        part = {};
+    std::vector<int> counts(patches.size(), 0);
+    constexpr std::size_t block = 512; // of fixed size, so that the outcome does not depend on threads
+    std::vector<std::vector<std::uint32_t>> found(block);
+    std::vector<std::uint32_t> batch;
+    for (std::size_t at = 0; at < order.size();) {
+        batch.clear();
+        for (; at < order.size() && batch.size() < block; ++at)
+            if (counts[order[at]] < enough) batch.push_back(order[at]);
+        parallelFor(batch.size(), [&](std::size_t i) {
+            const Sphere& sphere = candidates[batch[i]];
+            found[i].clear();
+            visitBall(tree, sphere.centre, sphere.radius, [&](std::uint32_t patch) {
+                if (covers(sphere, patches[patch])) found[i].push_back(patch);
+            });
+            std::sort(found[i].begin(), found[i].end());
+        });
+        for (std::size_t i = 0; i < batch.size(); ++i) {
+            if (counts[batch[i]] >= enough) continue;
+            for (const std::uint32_t patch : found[i]) ++counts[patch];
+            sets.spheres.push_back(batch[i]);
+            sets.patches.insert(sets.patches.end(), found[i].begin(), found[i].end());
+            sets.first.push_back(sets.patches.size());
+        }
     }
     return sets;
 }
@@ -72,7 +81,7 @@ std::vector<std::uint32_t> greedyCover(const CoverSets& sets, std::size_t patchC
         bool operator<(const Offer& o) const { return gain != o.gain ? gain < o.gain : sphere > o.sphere; }
     };
     std::vector<Offer> offers;
-    for (std::uint32_t i = 0; i + 1 < sets.first.size(); ++i)
+    for (std::uint32_t i = 0; i < sets.spheres.size(); ++i)
         if (!sets.of(i).empty()) offers.push_back({sets.of(i).size(), i});
     std::priority_queue<Offer> queue(std::less<Offer>(), std::move(offers));
 
@@ -96,6 +105,7 @@ std::vector<std::uint32_t> greedyCover(const CoverSets& sets, std::size_t patchC
             counts.change(chosen[i], -1);
             chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(i));
         }
+    for (std::uint32_t& i : chosen) i = sets.spheres[i];
     std::sort(chosen.begin(), chosen.end());
     return chosen;
 }

@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/spheres/Growth.h"
+#include "bake/spheres/MaxSpheres.h"
 #include "bake/spheres/MedialSpheres.h"
 #include "bake/spheres/SurfaceSpheres.h"
 
@@ -81,6 +82,37 @@ SphereFit fitOnce(const Solid& solid, const SphereOptions& options, double toler
     }
 }
 
+double asked(const Solid& solid, const SphereOptions& options) {
+    return options.tolerance > 0 ? options.tolerance : solid.diagonal() / 400;
+}
+
+void addNote(SphereFit& fit, const std::string& note) {
+    if (!note.empty()) fit.note += (fit.note.empty() ? "" : "; ") + note;
+}
+
+SphereFit limitedFit(const Solid& solid, const SphereOptions& options, const Progress& progress) {
+    const auto limit = static_cast<std::size_t>(options.maxSpheres);
+    // Without a tolerance asked for, finer than this is not worth the time.
+    const double finest = options.tolerance > 0 ? options.tolerance : solid.diagonal() * 1e-5;
+    SphereFit best;
+    double bestTolerance = std::numeric_limits<double>::infinity();
+    const auto count = [&](double tolerance) {
+        SphereFit fit = fitOnce(solid, options, tolerance, {});
+        const std::size_t n = fit.spheres.size();
+        if (n <= limit && tolerance < bestTolerance) {
+            best = std::move(fit);
+            bestTolerance = tolerance;
+        }
+        return n;
+    };
+    const double reached = toleranceFor(limit, finest, 2 * solid.diagonal(), count, progress);
+    if (best.spheres.empty()) best = fitOnce(solid, options, reached, progress);
+    if (options.tolerance > 0 && reached > options.tolerance)
+        addNote(best, fmt::format("tolerance {} not reached: {} spheres allow {:.4g}", options.tolerance,
+                                  limit, reached));
+    return best;
+}
+
 } // namespace
 
 double magnitude(const TriangleMesh& mesh) {
@@ -100,10 +132,14 @@ double protrusionFor(double tolerance, double magnitude) {
 SphereFit fitSpheres(const TriangleMesh& mesh, const SphereOptions& options, const Progress& progress) {
     checkOptions(options);
     const Solid solid(cleaned(mesh));
-    const double tolerance = options.tolerance > 0 ? options.tolerance : solid.diagonal() / 400;
-    SphereFit fit = fitOnce(solid, options, tolerance, progress);
-    if (!solid.assumptions().empty())
-        fit.note = fit.note.empty() ? solid.assumptions() : solid.assumptions() + "; " + fit.note;
+    const bool tunable = options.method == SphereMethod::Medial || options.method == SphereMethod::Shrinking;
+    SphereFit fit = tunable && options.maxSpheres > 0
+                        ? limitedFit(solid, options, progress)
+                        : fitOnce(solid, options, asked(solid, options), progress);
+    if (options.maxSpheres > 0 && fit.spheres.size() > static_cast<std::size_t>(options.maxSpheres))
+        addNote(fit, fmt::format("{} spheres instead of {}: this method has no tolerance to widen",
+                                 fit.spheres.size(), options.maxSpheres));
+    addNote(fit, solid.assumptions());
     return fit;
 }
 

@@ -38,8 +38,9 @@ Sphere medialBall(const Solid& solid, const Vec3& p, const Vec3& n, double protr
                 largestBall(solid.boundary(), p, direction, slack, longest, attempt == 0 ? hint : 0);
             if (!(r > 0)) continue;
             const Vec3 centre = p - r * direction;
-            if (!solid.inside(centre)) continue;
             const double distance = solid.boundary().distance(centre);
+            // On the surface itself the side is a matter of rounding, and the ball about p does as well.
+            if (distance <= 1e-6 * protrusion || !solid.inside(centre)) continue;
             if (r - distance <= 2 * slack) return {centre, distance + protrusion};
         }
     }

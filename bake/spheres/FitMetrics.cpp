@@ -1,0 +1,177 @@
+#include "bake/spheres/FitMetrics.h"
+
+#include "bake/base/Parallel.h"
+#include "bake/spheres/SphereTree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tss {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What one look at a patch tells of the largest distance from it to the union.
+struct Look {
+    double lower; ///< reached at the centre
+    double upper; ///< of all its points
+};
+
+Look look(const SphereTree& tree, const Patch& patch) {
+    const Vec3 centre = patch.centre();
+    const double radius = patch.radius();
+    // A sphere that holds the ball about the patch holds the patch: no need to know the nearest one.
+    const SphereTree::Nearest nearest = tree.nearest(centre, -1.001 * radius);
+    const Sphere& s = tree[nearest.sphere];
+    double corner2 = 0, size = 0;
+    for (const Vec3& c : patch.corners) {
+        corner2 = std::max(corner2, (c - s.centre).squaredNorm());
+        size = std::max(size, c.cwiseAbs().maxCoeff() + s.centre.cwiseAbs().maxCoeff());
+    }
+    // Convex along the patch for this sphere; and for all of them no point gains more than its way from the
+    // centre.
+    const double upper = std::min(std::sqrt(corner2) - s.radius, nearest.gap + radius);
+    const double rounding = 8 * std::numeric_limits<double>::epsilon() * (size + s.radius);
+    return {nearest.gap - rounding, upper > 0 ? upper + rounding : upper};
+}
+
+/// The bound for one patch, halved until it is within 2 % of the largest value known.
+double refined(const SphereTree& tree, const Patch& patch, double known) {
+    constexpr int budget = 20000; // looks; what is left then keeps the bound it has
+    const double settled = 1e-6 * patch.radius();
+    std::vector<Patch> stack{patch};
+    double bound = 0;
+    for (int looks = 0; !stack.empty(); ++looks) {
+        const Patch top = stack.back();
+        stack.pop_back();
+        const Look l = look(tree, top);
+        known = std::max(known, l.lower);
+        if (l.upper <= std::max(1.02 * known, 0.0)) {
+            bound = std::max(bound, l.upper);
+        } else if (looks >= budget || top.radius() < settled) {
+            bound = std::max(bound, l.upper);
+        } else {
+            for (const Patch& half : halves(top)) stack.push_back(half);
+        }
+    }
+    return bound;
+}
+
+/// Points spread evenly over the patches by area, always the same ones: the additive recurrence of the
+/// plastic number within each patch.
+std::vector<Vec3> samplesOf(std::span<const Patch> patches, std::size_t count) {
+    double total = 0;
+    for (const Patch& patch : patches) total += patch.area();
+    std::vector<Vec3> samples;
+    double owed = 0.5, u = 0.5, v = 0.5;
+    for (const Patch& patch : patches) {
+        owed += total > 0 ? patch.area() / total * static_cast<double>(count) : 0;
+        for (; owed >= 1; owed -= 1) {
+            u = std::fmod(u + 0.7548776662466927, 1.0);
+            v = std::fmod(v + 0.5698402909980532, 1.0);
+            const double s = u + v > 1 ? 1 - u : u, t = u + v > 1 ? 1 - v : v;
+            samples.push_back(patch.corners[0] + s * (patch.corners[1] - patch.corners[0]) +
+                              t * (patch.corners[2] - patch.corners[0]));
+        }
+    }
+    return samples;
+}
+
+struct Spread {
+    double mean = 0, p95 = 0;
+};
+
+Spread spread(std::vector<double> values) {
+    if (values.empty()) return {};
+    std::sort(values.begin(), values.end());
+    const std::size_t at = (values.size() * 95 + 99) / 100 - 1;
+    return {std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()),
+            values[at]};
+}
+
+void measureCoverage(FitMetrics& metrics, std::span<const Sphere> spheres, std::span<const Patch> patches) {
+    metrics.coverage = coverageBound(spheres, patches);
+    const SphereTree tree(spheres);
+    const std::vector<Vec3> samples = samplesOf(patches, 20000);
+    std::vector<double> distances(samples.size());
+    parallelFor(samples.size(),
+                [&](std::size_t i) { distances[i] = std::max(0.0, tree.nearest(samples[i], 0).gap); });
+    const Spread s = spread(std::move(distances));
+    metrics.coverageMean = s.mean;
+    metrics.coverageP95 = s.p95;
+}
+
+void measureProtrusion(FitMetrics& metrics, const Solid& solid, std::span<const Sphere> spheres) {
+    std::vector<double> bounds(spheres.size());
+    parallelFor(spheres.size(),
+                [&](std::size_t i) { bounds[i] = solid.protrusion(spheres[i].centre, spheres[i].radius); });
+    for (const double b : bounds) metrics.protrusion = std::max(metrics.protrusion, b);
+    const Spread s = spread(std::move(bounds));
+    metrics.protrusionMean = s.mean;
+    metrics.protrusionP95 = s.p95;
+}
+
+void measureVolumes(FitMetrics& metrics, const Solid& solid, std::span<const Sphere> spheres) {
+    constexpr std::size_t count = 1 << 16;
+    Eigen::AlignedBox3d box = bounds(solid.mesh());
+    for (const Sphere& s : spheres) {
+        box.extend(s.centre + Vec3::Constant(s.radius));
+        box.extend(s.centre - Vec3::Constant(s.radius));
+    }
+    const SphereTree tree(spheres);
+    std::vector<char> inSpheres(count), inBody(count);
+    parallelFor(count, [&](std::size_t i) {
+        const double k = static_cast<double>(i) + 0.5;
+        const Vec3 u(std::fmod(k * 0.8191725133961645, 1.0), std::fmod(k * 0.6710436067037893, 1.0),
+                     std::fmod(k * 0.5497004779019703, 1.0));
+        const Vec3 p = box.min() + u.cwiseProduct(box.sizes());
+        inSpheres[i] = tree.contains(p);
+        inBody[i] = solid.inside(p);
+    });
+    const double each = box.volume() / static_cast<double>(count);
+    metrics.sphereVolume = each * static_cast<double>(std::count(inSpheres.begin(), inSpheres.end(), 1));
+    metrics.bodyVolume = each * static_cast<double>(std::count(inBody.begin(), inBody.end(), 1));
+    metrics.volumeRatio = metrics.bodyVolume > 0 ? metrics.sphereVolume / metrics.bodyVolume : 0;
+}
+
+} // namespace
+
+double coverageBound(std::span<const Sphere> spheres, std::span<const Patch> patches) {
+    if (patches.empty()) return 0;
+    if (spheres.empty()) return infinity;
+    const SphereTree tree(spheres);
+    std::vector<Look> looks(patches.size());
+    parallelFor(patches.size(), [&](std::size_t i) { looks[i] = look(tree, patches[i]); });
+    double known = 0;
+    for (const Look& l : looks) known = std::max(known, l.lower);
+    std::vector<double> bounds(patches.size());
+    parallelFor(patches.size(), [&](std::size_t i) {
+        bounds[i] = looks[i].upper <= 1.02 * known ? looks[i].upper : refined(tree, patches[i], known);
+    });
+    double bound = 0;
+    for (const double b : bounds) bound = std::max(bound, b);
+    return bound;
+}
+
+FitMetrics measureFit(const Solid& solid, std::span<const Sphere> spheres, std::span<const Patch> zone) {
+    FitMetrics metrics;
+    metrics.spheres = spheres.size();
+    metrics.assumptions = solid.assumptions();
+    if (spheres.empty()) {
+        metrics.coverage = metrics.coverageMean = metrics.coverageP95 = zone.empty() ? 0 : infinity;
+        return metrics;
+    }
+    measureCoverage(metrics, spheres, zone);
+    measureProtrusion(metrics, solid, spheres);
+    return metrics;
+}
+
+FitMetrics measureFit(const Solid& solid, std::span<const Sphere> spheres) {
+    FitMetrics metrics = measureFit(solid, spheres, patchesOf(solid.mesh()));
+    measureVolumes(metrics, solid, spheres);
+    return metrics;
+}
+
+} // namespace tss

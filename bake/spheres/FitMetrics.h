@@ -1,0 +1,37 @@
+#pragma once
+#include "bake/geometry/Solid.h"
+#include "bake/spheres/Patches.h"
+#include "bake/spheres/SphereSet.h"
+
+#include <span>
+
+namespace tss {
+
+/// How well spheres stand for a body (METHOD 1.5). Lengths in scene units, >= 0.
+struct FitMetrics {
+    double coverage = 0;     ///< delta: no point of the surface is farther outside the union (a proven bound)
+    double coverageMean = 0; ///< over the surface, sampled
+    double coverageP95 = 0;
+    double protrusion = 0;     ///< pi: no point of a sphere is farther from the body (a proven bound)
+    double protrusionMean = 0; ///< of the bounds of the spheres
+    double protrusionP95 = 0;
+    double sphereVolume =
+        0; ///< of the union of the spheres, sampled: right to about 1 % of the larger of the two
+    double bodyVolume = 0;  ///< of the body with its openings closed
+    double volumeRatio = 0; ///< spheres to body; 0 for a body without volume
+    std::size_t spheres = 0;
+    std::string assumptions; ///< see Solid::assumptions()
+};
+
+/// The fit of spheres to all of a body. No sphere at all: the coverage is infinite.
+FitMetrics measureFit(const Solid& solid, std::span<const Sphere> spheres);
+
+/// The same with the coverage of these patches only (a contact zone) and without volumes.
+FitMetrics measureFit(const Solid& solid, std::span<const Sphere> spheres, std::span<const Patch> zone);
+
+/// delta of the patches, within 2 % of the truth where that is not below 1e-6 of their size. On a patch the
+/// distance to one sphere is convex, so its largest value is at a corner; patches are halved where the bound
+/// is worst. 0: the union contains all of them.
+double coverageBound(std::span<const Sphere> spheres, std::span<const Patch> patches);
+
+} // namespace tss

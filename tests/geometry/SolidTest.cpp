@@ -1,0 +1,69 @@
+#include "bake/geometry/Solid.h"
+
+#include "bake/geometry/MeshAudit.h"
+#include "tests/geometry/TestMeshes.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tss;
+using namespace tss::test;
+
+TEST_CASE("fans close what is open") {
+    TriangleMesh mesh = boxMesh({0, 0, 0}, {1, 1, 1});
+    mesh.triangles.erase(mesh.triangles.begin() + 2, mesh.triangles.begin() + 4);
+    const TriangleMesh fans = closingFans(mesh);
+    CHECK(fans.triangles.size() == 4);
+    TriangleMesh closed = mesh;
+    closed.vertices = fans.vertices;
+    closed.triangles.insert(closed.triangles.end(), fans.triangles.begin(), fans.triangles.end());
+    CHECK(auditMesh(closed).watertight);
+    CHECK(auditMesh(closed).signedVolume == Approx(1));
+    CHECK(closingFans(closed).triangles.empty());
+}
+
+TEST_CASE("an opened box is solid up to its opening") {
+    TriangleMesh mesh = boxMesh({-1, -1, -1}, {1, 1, 1});
+    mesh.triangles.erase(mesh.triangles.begin() + 2, mesh.triangles.begin() + 4);
+    const Solid solid(mesh);
+    CHECK(solid.inside({0, 0, 0.99}));
+    CHECK_FALSE(solid.inside({0, 0, 1.01}));
+    CHECK(solid.boundary().distance({0, 0, 0.9}) == Approx(0.1));
+    CHECK_FALSE(solid.assumptions().empty());
+}
+
+TEST_CASE("the winding number about any heap of triangles and its fans is an integer") {
+    const std::uint64_t seed = GENERATE(1u, 2u, 3u);
+    CAPTURE(seed);
+    std::mt19937_64 random(seed);
+    TriangleMesh mesh = lumpyMesh(random, 3, 0.3);
+    // Triangles lost, turned over and repeated, edges of three and more triangles.
+    for (int i = 0; i < 60; ++i) {
+        Tri& t = mesh.triangles[random() % mesh.triangles.size()];
+        if (i % 3 == 0) std::swap(t[0], t[1]);
+        if (i % 3 == 1) t = Tri(t[0], t[1], static_cast<int>(random() % mesh.vertices.size()));
+        if (i % 3 == 2) mesh.triangles.pop_back();
+    }
+    const Solid solid(mesh);
+    for (int i = 0; i < 200; ++i) {
+        const double w = solid.boundary().windingNumber(uniformPoint(random, 1.3));
+        CHECK(std::abs(w - std::round(w)) < 0.2);
+    }
+}
+
+TEST_CASE("a cavity is outside, an overlap of two components inside") {
+    TriangleMesh hollow = boxMesh({0, 0, 0}, {4, 4, 4});
+    append(hollow, turnedInsideOut(boxMesh({1, 1, 1}, {3, 3, 3})));
+    CHECK(Solid(hollow).inside({0.5, 2, 2}));
+    CHECK_FALSE(Solid(hollow).inside({2, 2, 2}));
+    TriangleMesh overlapping = boxMesh({0, 0, 0}, {2, 2, 2});
+    append(overlapping, boxMesh({1, 0, 0}, {3, 2, 2}));
+    CHECK(Solid(overlapping).inside({1.5, 1, 1}));
+}
+
+TEST_CASE("a ball inside does not protrude, one outside does with all of it") {
+    const Solid solid(boxMesh({0, 0, 0}, {1, 1, 1}));
+    CHECK(solid.protrusion({0.5, 0.5, 0.5}, 0.5) == 0);
+    CHECK(solid.protrusion({0.5, 0.5, 0.5}, 0.7) == Approx(0.2));
+    CHECK(solid.protrusion({0.5, 0.5, 2}, 0.25) == Approx(1.25));
+    CHECK(solid.protrusion({0.5, 0.5, 1}, 0.25) == Approx(0.25));
+}
