@@ -32,10 +32,10 @@ std::string textAt(const Value::Object& object, const char* key, const char* fal
 void checkVersion(const std::string& version, const Place& place, Problems& problems) {
     int major = 0, minor = 0;
     const char* const end = version.data() + version.size();
-    const auto [dot, error] = std::from_chars(version.data(), end, major);
-    const bool hasMinor = error == std::errc() && dot != end && *dot == '.';
-    if (!hasMinor || std::from_chars(dot + 1, end, minor).ptr != end || major < 0 || minor < 0 ||
-        dot + 1 == end)
+    const auto whole = std::from_chars(version.data(), end, major);
+    const bool dotted = whole.ec == std::errc() && whole.ptr != end && *whole.ptr == '.';
+    const auto part = dotted ? std::from_chars(whole.ptr + 1, end, minor) : whole;
+    if (!dotted || part.ec != std::errc() || part.ptr != end || major < 0 || minor < 0)
         return problems.add(place, "expected a version \"major.minor\", found \"" + version + "\"");
     if (major != knownMajor)
         problems.add(place, "expected version 1.x, found " + version + ": this program cannot read it");
@@ -106,7 +106,10 @@ std::vector<Prim> takeChildren(Value::Object& keys, const Place& place, Problems
     if (it == keys.end()) return prims;
     const Place at = place / std::string("primChildren");
     auto* array = it->second.as<Value::Array>();
-    if (!array) problems.add(at, "expected an array of prims, found " + describe(it->second));
+    if (const auto* numbers = it->second.as<Numbers>())
+        problems.add(at / std::size_t(0), "expected an object, found " + describe(numbers->element(0)));
+    else if (!array)
+        problems.add(at, "expected an array of prims, found " + describe(it->second));
     std::set<std::string> names;
     for (std::size_t i = 0; array && i < array->size(); ++i) {
         Place of = at / i;

@@ -19,6 +19,11 @@ std::vector<Property::Sample> splitSamples(Value& value, const Place& place, Pro
             samples.push_back({pairs->values[i], Value(pairs->values[i + 1])});
         return samples;
     }
+    if (const Numbers* numbers = value.as<Numbers>()) {
+        problems.add(place / std::size_t(0),
+                     "expected a [time, value] pair, found " + describe(numbers->element(0)));
+        return samples;
+    }
     auto* array = value.as<Value::Array>();
     if (!array) {
         problems.add(place, "expected an array of [time, value] pairs, found " + describe(value));
@@ -108,13 +113,16 @@ void checkList(const Value& value, const Place& place, const std::string& wanted
             if (std::find(listOps.begin(), listOps.end(), key) == listOps.end())
                 problems.add(place / key,
                              "expected prepend, append, delete or explicit, found \"" + key + "\"");
-            else if (!items.as<Value::Array>())
+            else if (items.as<Value::Object>())
                 problems.add(place / key, "expected an array of " + wanted + ", found " + describe(items));
             else
                 checkList(items, place / key, wanted, problems);
         }
         return;
     }
+    if (const auto* numbers = value.as<Numbers>())
+        return problems.add(place / std::size_t(0),
+                            "expected a string, found " + describe(numbers->element(0)));
     const auto* array = value.as<Value::Array>();
     if (!array) return problems.add(place, "expected an array of " + wanted + ", found " + describe(value));
     for (std::size_t i = 0; i < array->size(); ++i)

@@ -24,6 +24,12 @@ Value& Value::operator=(const Value&) = default;
 Value& Value::operator=(Value&&) noexcept = default;
 Value::~Value() = default;
 
+Value Numbers::element(std::size_t index) const {
+    if (width == 0) return Value(values[index]);
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(index * width);
+    return Value(Numbers{{first, first + width}, 0});
+}
+
 Value::Value(std::int64_t number) {
     constexpr std::int64_t exact = std::int64_t(1) << 53;
     if (number >= -exact && number <= exact)

@@ -7,6 +7,8 @@
 
 namespace tss {
 
+struct Value;
+
 /// Many numbers in one block: an array of numbers (width 0), or an array of tuples of `width` numbers each.
 /// Never empty; each is a double, or an integer that a double holds exactly.
 struct Numbers {
@@ -14,6 +16,7 @@ struct Numbers {
     int width = 0;
 
     std::size_t count() const { return width == 0 ? values.size() : values.size() / width; }
+    Value element(std::size_t index) const;
     friend bool operator==(const Numbers&, const Numbers&) = default;
 };
 
