@@ -1,3 +1,8 @@
+#include "bake/scene/ReadLayer.h"
+#include "bake/scene/ReadScene.h"
+#include "bake/scene/SceneFile.h"
+#include "bake/scene/WriteLayer.h"
+
 #include <osg/UserDataContainer>
 #include <osgTSS/Scene>
 
@@ -14,6 +19,16 @@ Scene::Scene(const Scene& other, const osg::CopyOp& copyop)
 void Scene::setModel(std::shared_ptr<const tss::SceneModel> model) {
     _model = std::move(model);
     _clock = Clock(*_model, _clock.source);
+}
+
+void Scene::setText(const std::string& text) {
+    const std::string name = getName().empty() ? "scene in memory" : getName();
+    auto layer = std::make_shared<const tss::Layer>(tss::parseLayer(text, name));
+    setModel(std::make_shared<const tss::SceneModel>(tss::readScene(layer, name)));
+}
+
+std::string Scene::getText() const {
+    return tss::writeJson(tss::layerOf(*_model));
 }
 
 void Scene::attachTo(osg::Node& node) {

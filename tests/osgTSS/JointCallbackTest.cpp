@@ -65,9 +65,9 @@ TEST_CASE("with a table the joint stops at contact and comes back") {
     for (unsigned int frame = 0; frame <= 48; ++frame) {
         playback.frame(*rig.root, frame);
         const double time = frame % 24, asked = 1.4 * (time <= 12 ? time : 24 - time) / 12;
-        CHECK(rig.joint->getValue(0) < scenes::contactAngle());
+        CHECK(rig.joint->getValue(0) < scenes::contactAngle() + 1e-6);
         CHECK(rig.joint->getAskedValues()[0] == Approx(asked));
-        if (asked < scenes::contactAngle()) CHECK(rig.joint->getValue(0) == Approx(asked));
+        if (asked < scenes::contactAngle() - 1e-3) CHECK(rig.joint->getValue(0) == Approx(asked));
         farthest = std::max(farthest, rig.joint->getValue(0));
     }
     CHECK(farthest == Approx(scenes::contactAngle()).margin(1e-3));
@@ -86,7 +86,7 @@ TEST_CASE("the joint resolves after whatever animates it, early or late, added b
             Playback playback;
             playback.frames(*rig.root, 1, 3);
             CHECK(rig.joint->getValue(0) == Approx(scenes::contactAngle()).margin(1e-3));
-            CHECK(rig.joint->getValue(0) < scenes::contactAngle());
+            CHECK(rig.joint->getValue(0) < scenes::contactAngle() + 1e-6);
         }
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("a wish is remembered, not the place where it was stopped") {
     Playback playback;
     rig.joint->setValue(0, 1.3);
     playback.frames(*rig.root, 1, 2);
-    CHECK(rig.joint->getValue(0) < scenes::contactAngle());
+    CHECK(rig.joint->getValue(0) < scenes::contactAngle() + 1e-6);
     CHECK(rig.joint->getAskedValues()[0] == 1.3);
     const auto results = find<JointTransform>(*rig.root, "Hinge");
     auto* callback = dynamic_cast<JointCallback*>(results->getUpdateCallback());
@@ -198,7 +198,7 @@ TEST_CASE("the state depends on what was asked frame by frame, also when time ju
         a.frame(*rig.root, frame);
         b.frame(*again.root, frame);
         CHECK(rig.joint->getValues() == again.joint->getValues());
-        CHECK(rig.joint->getValue(0) < scenes::contactAngle());
+        CHECK(rig.joint->getValue(0) < scenes::contactAngle() + 1e-6);
     }
 }
 

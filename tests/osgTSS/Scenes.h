@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 /// Small scenes with tables made by hand, so that contact is known in closed form.
 namespace scenes {
@@ -23,13 +24,14 @@ inline double contactAngle() {
     return stopAngle - 2 * std::asin(0.5 / 2 / 2);
 }
 
-/// An arm on a hinge about Y through the origin, from 0 to 1.5 radians, asked to go from 0 to 1.4 and back
+/// An arm on a hinge about Y through the origin, from 0 to 86 degrees, asked to go from 0 to 1.4 and back
 /// within 24 time codes. A sphere at its end, 2 from the axis, meets a sphere of the frame at contactAngle().
 inline tss::SceneModel hinge(bool withTable = true) {
     tss::SceneModel scene;
     scene.defaultPrim = "Rig";
     scene.endTimeCode = 24;
-    const tss::Vec3 stop(2 * std::cos(stopAngle), 0, -2 * std::sin(stopAngle));
+    // A file keeps spheres as floats.
+    const tss::Vec3 stop(float(2 * std::cos(stopAngle)), 0, float(-2 * std::sin(stopAngle)));
     tss::Body frame, arm;
     frame.path = "/Rig/Frame";
     frame.mesh = box(stop, {0.2, 0.2, 0.2});
@@ -47,7 +49,7 @@ inline tss::SceneModel hinge(bool withTable = true) {
     tss::Dof dof;
     dof.name = "rotY";
     dof.axis = tss::Vec3::UnitY();
-    dof.upper = 1.5;
+    dof.upper = 86 * std::numbers::pi / 180;
     joint.dofs = {dof};
     joint.drives = {{{0, 12, 24}, {0, 1.4, 0}}};
     scene.joints = {joint};
@@ -60,7 +62,7 @@ inline tss::SceneModel hinge(bool withTable = true) {
     scene.pairs = {pair};
     if (withTable)
         scene.pairs[0].table = std::make_shared<tss::Table>(tss::makeTable(
-            {{stop, 0.2}}, {{tss::Vec3(2, 0, 0), 0.3}}, {{0, 0}}, {}, pairMotion(scene, scene.pairs[0])));
+            {{stop, 0.25}}, {{tss::Vec3(2, 0, 0), 0.25}}, {{0, 0}}, {}, pairMotion(scene, scene.pairs[0])));
     return scene;
 }
 

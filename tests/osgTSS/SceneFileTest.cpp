@@ -1,0 +1,141 @@
+#include "Playback.h"
+#include "Scenes.h"
+
+#include <catch2/catch.hpp>
+#include <osg/ValueObject>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+#include <osgDB/WriteFile>
+#include <osgTSS/JointCallback>
+#include <osgTSS/JointTransform>
+#include <osgTSS/Scene>
+#include <osgUtil/Optimizer>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "bake/scene/SceneFile.h"
+
+namespace {
+
+/// A folder of this process's own, empty.
+std::filesystem::path scratch() {
+    const std::filesystem::path folder = std::filesystem::path(OSGTSS_BINARY_DIR) / "test-osgTSS";
+    std::filesystem::create_directories(folder);
+    return folder;
+}
+
+/// The plugins of this build, before those that are installed.
+void usePlugins() {
+    osgDB::FilePathList& paths = osgDB::Registry::instance()->getLibraryFilePathList();
+    const std::string own = std::string(OSGTSS_BINARY_DIR) + "/lib";
+    if (paths.empty() || paths.front() != own) paths.push_front(own);
+}
+
+osg::ref_ptr<osg::Node> load(const std::filesystem::path& file, const std::string& words = "clock=frame") {
+    usePlugins();
+    osg::ref_ptr<osgDB::Options> options = new osgDB::Options(words);
+    return osgDB::readRefNodeFile(file.string(), options);
+}
+
+std::filesystem::path saveHinge(bool withTable = true) {
+    const auto file = scratch() / "hinge.tss";
+    tss::saveScene(scenes::hinge(withTable), file.string());
+    return file;
+}
+
+/// The arm's matrix to the world, frame by frame.
+std::vector<osg::Matrixd> states(osg::Node& root) {
+    auto* joint = find<osgTSS::JointTransform>(root, "Hinge");
+    REQUIRE(joint);
+    Playback playback;
+    std::vector<osg::Matrixd> matrices;
+    for (unsigned int frame = 0; frame < 30; ++frame) {
+        playback.frame(root, frame);
+        matrices.push_back(joint->getWorldMatrices().at(0));
+    }
+    return matrices;
+}
+
+/// The joint is stopped in some frames and moves in others.
+void checkPlays(osg::Node& root) {
+    auto* joint = find<osgTSS::JointTransform>(root, "Hinge");
+    REQUIRE(joint);
+    Playback playback;
+    double farthest = 0;
+    for (unsigned int frame = 0; frame < 24; ++frame) {
+        playback.frame(root, frame);
+        farthest = std::max(farthest, joint->getValue(0));
+    }
+    CHECK(farthest == Approx(scenes::contactAngle()).margin(1e-3));
+}
+
+} // namespace
+
+TEST_CASE("a .tss file is read as a graph that plays and stops at contact") {
+    const osg::ref_ptr<osg::Node> root = load(saveHinge());
+    REQUIRE(root);
+    CHECK(osgTSS::Scene::on(*root));
+    checkPlays(*root);
+}
+
+TEST_CASE("readObject answers as readNode does") {
+    usePlugins();
+    const osg::ref_ptr<osg::Object> object = osgDB::readRefObjectFile(saveHinge().string());
+    REQUIRE(object);
+    CHECK(object->asNode());
+}
+
+TEST_CASE("a graph written as .tss and read again has the same states at the same frames") {
+    const osg::ref_ptr<osg::Node> first = load(saveHinge());
+    REQUIRE(first);
+    const auto copy = scratch() / "copy.tss";
+    REQUIRE(osgDB::writeNodeFile(*first, copy.string()));
+    const osg::ref_ptr<osg::Node> second = load(copy);
+    REQUIRE(second);
+    CHECK(states(*first) == states(*second));
+    SECTION("also when it was written in the middle of playing") {
+        REQUIRE(osgDB::writeNodeFile(*first, copy.string()));
+        CHECK(states(*load(saveHinge())) == states(*load(copy)));
+    }
+}
+
+TEST_CASE("after osgUtil::Optimizer with everything on, the states are the same") {
+    const osg::ref_ptr<osg::Node> plain = load(saveHinge());
+    osg::ref_ptr<osg::Group> world = new osg::Group;
+    world->addChild(load(saveHinge()));
+    osgUtil::Optimizer optimizer;
+    optimizer.optimize(world, osgUtil::Optimizer::ALL_OPTIMIZATIONS);
+    CHECK(states(*plain) == states(*world));
+    const auto copy = scratch() / "optimized.tss";
+    REQUIRE(osgDB::writeNodeFile(*world, copy.string()));
+    CHECK(states(*plain) == states(*load(copy)));
+}
+
+TEST_CASE("a file with a mistake is refused with its place") {
+    const auto file = scratch() / "broken.tss";
+    std::ofstream(file)
+        << R"({"format": "osgtss", "formatVersion": "1.0", "primChildren": [{"specifier": "def", "name": "A", "typeName": 5}]})";
+    usePlugins();
+    const auto result = osgDB::Registry::instance()->readNode(file.string(), nullptr);
+    CHECK(result.status() == osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE);
+    CHECK(result.message().find("broken.tss") != std::string::npos);
+    CHECK(result.message().find("/primChildren/0") != std::string::npos);
+}
+
+TEST_CASE("an option with a wrong value is refused") {
+    usePlugins();
+    osg::ref_ptr<osgDB::Options> options = new osgDB::Options("clock=sundial");
+    const auto result = osgDB::Registry::instance()->readNode(saveHinge().string(), options);
+    CHECK(result.status() == osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE);
+    CHECK(result.message().find("sundial") != std::string::npos);
+}
+
+TEST_CASE("the environment says which clock where no option does") {
+    setenv("OSGTSS_CLOCK", "frame", 1);
+    const osg::ref_ptr<osg::Node> root = load(saveHinge(), "");
+    unsetenv("OSGTSS_CLOCK");
+    CHECK(osgTSS::Scene::on(*root)->getClock().source == osgTSS::Clock::FRAME_NUMBER);
+    CHECK(osgTSS::Scene::on(*load(saveHinge(), ""))->getClock().source == osgTSS::Clock::SIMULATION_TIME);
+}
