@@ -1,0 +1,128 @@
+#include "bake/BakeOptions.h"
+
+#include "bake/base/Error.h"
+
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <initializer_list>
+#include <utility>
+
+namespace tss {
+
+namespace {
+
+template <class Value>
+Value choice(const std::string& key, const std::string& text,
+             std::initializer_list<std::pair<const char*, Value>> choices) {
+    std::string expected;
+    for (const auto& [name, value] : choices) {
+        if (text == name) return value;
+        expected += (expected.empty() ? "" : ", ") + std::string(name);
+    }
+    throw InputError("--" + key + ": expected one of " + expected + ", found \"" + text + "\"");
+}
+
+int count(const std::string& key, const std::string& text, int least) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < least)
+        throw InputError("--" + key + ": expected a whole number of at least " + std::to_string(least) +
+                         ", found \"" + text + "\"");
+    return value;
+}
+
+double length(const std::string& key, const std::string& text, double metersPerUnit, bool zeroAllowed) {
+    const double value = parseLength(text, metersPerUnit);
+    if (value < 0 || (value == 0 && !zeroAllowed))
+        throw InputError("--" + key + ": expected a length " + (zeroAllowed ? ">= 0" : "> 0") + ", found \"" +
+                         text + "\"");
+    return value;
+}
+
+bool flag(const std::string& key, const std::string& text) {
+    return choice<bool>(key, text, {{"true", true}, {"false", false}});
+}
+
+} // namespace
+
+double parseNumber(const std::string& text, const std::string& what) {
+    double value = 0;
+    const char* begin = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
+    const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+        throw InputError(what + ": expected a finite number, found \"" + text + "\"");
+    return value;
+}
+
+double parseLength(const std::string& text, double metersPerUnit) {
+    static constexpr std::pair<const char*, double> units[] = {
+        {"um", 1e-6}, {"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"in", 0.0254}, {"ft", 0.3048}, {"m", 1}};
+    for (const auto& [unit, meters] : units) {
+        const std::string suffix = unit;
+        if (text.size() <= suffix.size() ||
+            text.compare(text.size() - suffix.size(), suffix.size(), suffix) != 0)
+            continue;
+        return parseNumber(text.substr(0, text.size() - suffix.size()), "length \"" + text + "\"") * meters /
+               metersPerUnit;
+    }
+    return parseNumber(text, "length (a number, or a number with um, mm, cm, m, km, in or ft)");
+}
+
+void setOption(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit) {
+    using Setter = std::function<void()>;
+    const std::pair<const char*, Setter> setters[] = {
+        {"spheres",
+         [&] {
+             options.spheres = choice<SphereMethod>(key, text,
+                                                    {{"medial", SphereMethod::Medial},
+                                                     {"shrinking", SphereMethod::Shrinking},
+                                                     {"growth", SphereMethod::Growth},
+                                                     {"surface", SphereMethod::Surface}});
+         }},
+        {"search",
+         [&] {
+             options.search = choice<SearchMethod>(
+                 key, text, {{"certified", SearchMethod::Certified}, {"sampled", SearchMethod::Sampled}});
+         }},
+        {"reduce",
+         [&] {
+             options.reduce = choice<ReduceMethod>(key, text,
+                                                   {{"cover", ReduceMethod::Cover},
+                                                    {"cooccurrence", ReduceMethod::Cooccurrence},
+                                                    {"minimal", ReduceMethod::Minimal},
+                                                    {"none", ReduceMethod::None}});
+         }},
+        {"at-rest",
+         [&] {
+             options.atRest = choice<AtRest>(
+                 key, text,
+                 {{"offset", AtRest::Offset}, {"ignore", AtRest::Ignore}, {"collide", AtRest::Collide}});
+         }},
+        {"tolerance", [&] { options.tolerance = length(key, text, metersPerUnit, false); }},
+        {"epsilon", [&] { options.epsilon = length(key, text, metersPerUnit, true); }},
+        {"depth", [&] { options.depth = length(key, text, metersPerUnit, true); }},
+        {"max-spheres", [&] { options.maxSpheres = count(key, text, 1); }},
+        {"samples", [&] { options.samples = count(key, text, 1); }},
+        {"conservative", [&] { options.conservative = flag(key, text); }},
+        {"keep-spheres", [&] { options.keepSpheres = flag(key, text); }},
+        {"budget",
+         [&] {
+             options.budget = parseNumber(text, "--budget");
+             if (options.budget < 0)
+                 throw InputError("--budget: expected seconds >= 0, found \"" + text + "\"");
+         }},
+    };
+    for (const auto& [name, set] : setters)
+        if (key == name) return set();
+    throw InputError("bake setting \"" + key + "\" is not known");
+}
+
+BakeOptions optionsFor(const BakeSettings& ofScene, const BakeSettings& given, double metersPerUnit) {
+    BakeOptions options;
+    for (const auto& [key, text] : ofScene) setOption(options, key, text, metersPerUnit);
+    for (const auto& [key, text] : given) setOption(options, key, text, metersPerUnit);
+    return options;
+}
+
+} // namespace tss

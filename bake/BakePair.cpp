@@ -1,0 +1,154 @@
+#include "bake/BakePair.h"
+
+#include "bake/base/Error.h"
+#include "bake/geometry/MeshAudit.h"
+#include "bake/reduce/Cooccurrence.h"
+#include "bake/reduce/Minimal.h"
+#include "bake/scene/SourceHash.h"
+#include "bake/search/CertifiedSearch.h"
+#include "bake/search/SampledSearch.h"
+#include "bake/spheres/GenerateSpheres.h"
+#include "bake/spheres/RoundToFloat.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace tss {
+
+namespace {
+
+const char* name(SphereMethod method) {
+    switch (method) {
+    case SphereMethod::Medial:
+        return "medial";
+    case SphereMethod::Shrinking:
+        return "shrinking";
+    case SphereMethod::Surface:
+        return "surface";
+    case SphereMethod::Growth:
+        return "growth";
+    }
+    return "?";
+}
+
+const char* name(ReduceMethod method) {
+    switch (method) {
+    case ReduceMethod::Cover:
+        return "cover";
+    case ReduceMethod::Cooccurrence:
+        return "cooccurrence";
+    case ReduceMethod::Minimal:
+        return "minimal";
+    case ReduceMethod::None:
+        return "none";
+    }
+    return "?";
+}
+
+/// The spheres of one body as the file can hold them, with what is proven of them; the mesh's defects go into
+/// the notes.
+SphereFit bodySpheres(const Body& body, const BakeOptions& options, double tolerance, PairReport& report,
+                      const Progress& progress) {
+    if (body.mesh.empty()) throw InputError(Where{"", "", body.path}, "expected a mesh, the body has none");
+    SphereOptions how;
+    how.method = options.spheres;
+    how.tolerance = tolerance;
+    how.maxSpheres = options.maxSpheres;
+    how.conservative = options.conservative;
+    SphereFit fit = fitSpheres(cleaned(body.mesh), how, progress);
+    for (Sphere& sphere : fit.spheres) sphere = roundToFloat(sphere);
+    if (!fit.note.empty()) report.notes.push_back(body.path + ": " + fit.note);
+    return fit;
+}
+
+double known(double bound) {
+    return std::isfinite(bound) ? bound : -1;
+}
+
+SampledSearchOptions sampled(const BakeOptions& options) {
+    SampledSearchOptions search;
+    search.samples = static_cast<std::size_t>(options.samples);
+    search.atRest = options.atRest;
+    return search;
+}
+
+double defaultTolerance(const Body& a, const Body& b) {
+    return std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm()) / 500;
+}
+
+CandidatePairs search(const SphereSet& a, const SphereSet& b, const Motion& motion,
+                      const BakeOptions& options, const Progress& progress) {
+    if (options.search == SearchMethod::Sampled)
+        return searchSampled(a, b, motion, sampled(options), progress);
+    CertifiedSearchOptions certified;
+    certified.atRest = options.atRest;
+    return searchCertified(a, b, motion, certified, progress);
+}
+
+std::string methodName(const BakeOptions& options) {
+    return std::string(name(options.spheres)) +
+           (options.search == SearchMethod::Sampled ? "/sampled/" : "/certified/") + name(options.reduce);
+}
+
+void noteOverlap(const CandidatePairs& candidates, const BakeOptions& options, PairReport& report) {
+    if (candidates.atRest.empty() || options.atRest == AtRest::Collide) return;
+    double deepest = 0;
+    for (const RestPair& pair : candidates.atRest) deepest = std::min(deepest, pair.gap);
+    report.notes.push_back(fmt::format(
+        "{} sphere pairs overlap at rest, at most {:.4g} deep; {} (--at-rest collide makes no exception)",
+        candidates.atRest.size(), -deepest,
+        options.atRest == AtRest::Offset ? "contact of those begins where they go deeper"
+                                         : "those are left out"));
+}
+
+std::shared_ptr<const Table> makePairTable(const SphereFit& a, const SphereFit& b,
+                                           const CandidatePairs& candidates, const Motion& motion,
+                                           const BakeOptions& options, BakeRecord record,
+                                           const Progress& progress) {
+    Reduced reduced;
+    reduced.pairs = candidates.pairs;
+    reduced.restGaps = candidates.restGaps;
+    if (options.reduce == ReduceMethod::Cooccurrence) reduced = reduceCooccurrence(candidates);
+    if (options.reduce == ReduceMethod::Minimal)
+        reduced = reduceMinimal(a.spheres, b.spheres, motion, sampled(options), progress);
+    auto table =
+        std::make_shared<Table>(makeTable(a.spheres, b.spheres, reduced.pairs, reduced.restGaps, motion));
+    table->method = methodName(options);
+    table->record = record;
+    table->record.lowerBound = static_cast<std::uint64_t>(std::ceil(reduced.lowerBound));
+    return table;
+}
+
+} // namespace
+
+void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairReport& report,
+              const Progress& progress) {
+    const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
+    const Motion motion = pairMotion(scene, pair);
+    checkMotion(motion);
+    const double tolerance = options.tolerance.value_or(defaultTolerance(a, b));
+    const SphereFit fitA = bodySpheres(a, options, tolerance, report, progress);
+    const SphereFit fitB = bodySpheres(b, options, tolerance, report, progress);
+
+    const CandidatePairs candidates = search(fitA.spheres, fitB.spheres, motion, options, progress);
+    BakeRecord record;
+    record.spheresA = fitA.spheres.size();
+    record.spheresB = fitB.spheres.size();
+    record.candidatePairs = candidates.pairs.size();
+    record.fitA = {known(fitA.coverage), known(fitA.protrusion)};
+    record.fitB = {known(fitB.coverage), known(fitB.protrusion)};
+    noteOverlap(candidates, options, report);
+    const std::string method = methodName(options);
+    pair.table = nullptr;
+    pair.proof = nullptr;
+    if (candidates.certified && candidates.pairs.empty()) {
+        pair.proof = std::make_shared<NeverCollides>(
+            NeverCollides{candidates.clearance, candidates.explored, method, record});
+    } else {
+        pair.table = makePairTable(fitA, fitB, candidates, motion, options, record, progress);
+    }
+    pair.sourceHash = sourceHash(scene, pair);
+}
+
+} // namespace tss

@@ -1,0 +1,39 @@
+#pragma once
+#include "bake/base/Progress.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace tss::tool {
+
+using Json = nlohmann::ordered_json;
+
+/// What every command has: --json, --quiet, and how it ends.
+struct Console {
+    bool json = false;  ///< one JSON object on stdout, everything else on stderr
+    bool quiet = false; ///< nothing but errors and what was asked for
+    int exitCode = 0;   ///< 0 done, 1 the input is at fault
+
+    /// A line for people: on stdout, or on stderr with --json; nothing with --quiet.
+    void say(const std::string& text) const;
+    /// The result with --json.
+    void print(const Json& result) const;
+    /// A progress bar on stderr when that is a terminal; nothing otherwise.
+    Progress progress() const;
+};
+
+/// Adds --json and --quiet to a command.
+CLI::App* addCommand(CLI::App& app, Console& console, const std::string& name,
+                     const std::string& description);
+
+// One function a command, in a file of its name.
+void addMake(CLI::App& app, Console& console);
+void addBake(CLI::App& app, Console& console);
+void addMerge(CLI::App& app, Console& console);
+void addInfo(CLI::App& app, Console& console);
+void addQuery(CLI::App& app, Console& console);
+void addPlay(CLI::App& app, Console& console);
+void addValidate(CLI::App& app, Console& console);
+
+} // namespace tss::tool

@@ -1,0 +1,39 @@
+#include "bake/tool/Command.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <unistd.h>
+
+namespace tss::tool {
+
+void Console::say(const std::string& text) const {
+    if (!quiet) fmt::print(json ? stderr : stdout, "{}\n", text);
+}
+
+void Console::print(const Json& result) const {
+    if (json) fmt::print("{}\n", result.dump());
+}
+
+Progress Console::progress() const {
+    if (quiet || !isatty(STDERR_FILENO)) return {};
+    return [last = std::make_shared<std::string>()](std::string_view step, double done) {
+        constexpr int width = 30;
+        const int filled = static_cast<int>(width * (done < 0 ? 0 : done > 1 ? 1 : done));
+        const std::string line = fmt::format("\r{:<36.36} [{:=<{}}{:<{}}] {:3.0f} %", step, "", filled, "",
+                                             width - filled, 100 * done);
+        if (line == *last) return true;
+        *last = line;
+        fmt::print(stderr, "{}{}", line, done >= 1 ? "\r\033[K" : "");
+        return true;
+    };
+}
+
+CLI::App* addCommand(CLI::App& app, Console& console, const std::string& name,
+                     const std::string& description) {
+    CLI::App* command = app.add_subcommand(name, description);
+    command->add_flag("--json", console.json, "one JSON object on stdout, everything else on stderr");
+    command->add_flag("--quiet", console.quiet, "nothing but errors and what was asked for");
+    return command;
+}
+
+} // namespace tss::tool

@@ -1,0 +1,61 @@
+#include "bake/tool/Csv.h"
+
+#include "bake/BakeOptions.h"
+#include "bake/base/AtomicFile.h"
+#include "bake/base/Error.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/format.h>
+#include <sstream>
+
+namespace tss::tool {
+
+namespace {
+
+std::vector<std::string> split(const std::string& line) {
+    std::vector<std::string> cells;
+    std::string cell;
+    std::istringstream stream(line);
+    while (std::getline(stream, cell, ',')) {
+        const auto blank = [](unsigned char c) { return std::isspace(c) || c == '"'; };
+        cell.erase(cell.begin(), std::find_if_not(cell.begin(), cell.end(), blank));
+        cell.erase(std::find_if_not(cell.rbegin(), cell.rend(), blank).base(), cell.end());
+        cells.push_back(cell);
+    }
+    if (!line.empty() && line.back() == ',') cells.emplace_back();
+    return cells;
+}
+
+bool isName(const std::string& cell) {
+    return cell.empty() || std::isalpha(static_cast<unsigned char>(cell[0])) || cell[0] == '_' ||
+           cell[0] == '/';
+}
+
+} // namespace
+
+Csv readCsv(const std::string& file, std::size_t columns) {
+    Csv csv;
+    std::istringstream stream(readWholeFile(file));
+    std::string line;
+    for (int number = 1; std::getline(stream, line); ++number) {
+        if (!line.empty() && line.back() == '\r') line.pop_back();
+        if (line.find_first_not_of(" \t") == std::string::npos || line[0] == '#') continue;
+        const std::vector<std::string> cells = split(line);
+        if (csv.rows.empty() && csv.header.empty() && std::all_of(cells.begin(), cells.end(), isName)) {
+            csv.header = cells;
+            continue;
+        }
+        const std::size_t expected = columns ? columns : csv.rows.empty() ? cells.size() : csv.rows[0].size();
+        if (cells.size() != expected)
+            throw InputError(
+                fmt::format("{}:{}: expected {} columns, found {}", file, number, expected, cells.size()));
+        std::vector<double> row;
+        for (std::size_t k = 0; k < cells.size(); ++k)
+            row.push_back(parseNumber(cells[k], fmt::format("{}:{}: column {}", file, number, k + 1)));
+        csv.rows.push_back(std::move(row));
+    }
+    return csv;
+}
+
+} // namespace tss::tool

@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace tss::tool {
+
+/// Rows of numbers, each with the same number of columns.
+struct Csv {
+    std::vector<std::string> header; ///< empty when the file has none
+    std::vector<std::vector<double>> rows;
+};
+
+/// Reads a CSV file of finite numbers: an optional first line of names, empty lines and lines starting with #
+/// skipped. columns > 0: each row must have so many. Throws InputError with file, line and column.
+Csv readCsv(const std::string& file, std::size_t columns = 0);
+
+} // namespace tss::tool

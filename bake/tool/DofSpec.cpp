@@ -1,0 +1,105 @@
+#include "bake/tool/DofSpec.h"
+
+#include "bake/BakeOptions.h"
+#include "bake/base/Error.h"
+#include "bake/tool/Csv.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace tss::tool {
+
+namespace {
+
+constexpr double degree = M_PI / 180;
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::string part;
+    std::istringstream stream(text);
+    while (std::getline(stream, part, separator)) parts.push_back(part);
+    return parts;
+}
+
+Vec3 parseAxis(const std::string& text, const std::string& what) {
+    const Vec3 axis = parseVector(text, what);
+    if (!(axis.norm() > 0))
+        throw InputError(what + ": expected an axis that is not zero, found \"" + text + "\"");
+    return axis;
+}
+
+double limit(const std::string& text, const std::string& what, double metersPerUnit, double axisLength) {
+    const bool unit = !text.empty() && std::isalpha(static_cast<unsigned char>(text.back()));
+    return unit ? parseLength(text, metersPerUnit) / axisLength : parseNumber(text, what);
+}
+
+std::vector<PathRow> readPath(const std::string& file) {
+    const Csv csv = readCsv(file);
+    std::vector<PathRow> rows;
+    for (const auto& row : csv.rows) {
+        if (row.size() != 4 && row.size() != 7)
+            throw InputError(Where{file, "", ""}, "expected 4 or 7 columns: value,tx,ty,tz[,rx,ry,rz]");
+        PathRow path;
+        path.value = row[0];
+        path.translation = Vec3(row[1], row[2], row[3]);
+        const Vec3 turn = row.size() == 7 ? Vec3(degree * Vec3(row[4], row[5], row[6])) : Vec3(Vec3::Zero());
+        if (turn.norm() > 0)
+            path.rotation = Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+        rows.push_back(path);
+    }
+    return rows;
+}
+
+} // namespace
+
+std::vector<double> parseNumbers(const std::string& text, const std::string& what) {
+    std::vector<double> numbers;
+    for (const std::string& part : split(text, ',')) numbers.push_back(parseNumber(part, what));
+    return numbers;
+}
+
+Vec3 parseVector(const std::string& text, const std::string& what) {
+    const std::vector<double> numbers = parseNumbers(text, what);
+    if (numbers.size() != 3) throw InputError(what + ": expected x,y,z, found \"" + text + "\"");
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+Dof parseDof(const std::string& text, double metersPerUnit) {
+    const std::string what = "--dof " + text;
+    const std::vector<std::string> parts = split(text, ':');
+    const std::string kind = parts.empty() ? "" : parts[0];
+    Dof dof;
+    double unit = 1;
+    if (kind == "rot" && parts.size() == 5) {
+        dof.kind = DofKind::Rotation;
+        dof.origin = parseVector(parts[1], what);
+        dof.axis = parseAxis(parts[2], what).normalized();
+        unit = degree;
+        dof.lower = unit * parseNumber(parts[3], what);
+        dof.upper = unit * parseNumber(parts[4], what);
+    } else if (kind == "trans" && parts.size() == 4) {
+        dof.kind = DofKind::Translation;
+        dof.axis = parseAxis(parts[1], what);
+        dof.lower = limit(parts[2], what, metersPerUnit, dof.axis.norm());
+        dof.upper = limit(parts[3], what, metersPerUnit, dof.axis.norm());
+    } else if (kind == "path" && parts.size() == 4) {
+        dof.kind = DofKind::Path;
+        dof.path = readPath(parts[1]);
+        dof.lower = parseNumber(parts[2], what);
+        dof.upper = parseNumber(parts[3], what);
+    } else {
+        throw InputError(what + ": expected rot:ORIGIN:AXIS:LO:HI, trans:AXIS:LO:HI or path:FILE.csv:LO:HI");
+    }
+    dof.name = kind;
+    if (dof.lower > dof.upper) throw InputError(what + ": expected LO <= HI");
+    return dof;
+}
+
+double toUser(const Dof& dof, double q) {
+    return dof.kind == DofKind::Rotation ? q / degree : q;
+}
+double fromUser(const Dof& dof, double value) {
+    return dof.kind == DofKind::Rotation ? value * degree : value;
+}
+
+} // namespace tss::tool

@@ -1,0 +1,103 @@
+#include "bake/BakeOptions.h"
+#include "bake/base/Error.h"
+#include "bake/geometry/Import.h"
+#include "bake/geometry/MeshAudit.h"
+#include "bake/scene/AddPair.h"
+#include "bake/scene/SceneFile.h"
+#include "bake/tool/Command.h"
+#include "bake/tool/DofSpec.h"
+
+#include <filesystem>
+
+namespace tss::tool {
+
+namespace {
+
+struct MakeArguments {
+    std::string output, a, b, offset = "0,0,0", rest;
+    double metersPerUnit = 1;
+    std::vector<std::string> dofs;
+};
+
+int addBody(SceneModel& scene, const std::string& file, const Vec3& color, Json& audits,
+            const Console& console) {
+    Body body;
+    body.mesh = importMesh(file);
+    const MeshAudit audit = auditMesh(body.mesh);
+    console.say(file + ": " + text(audit));
+    audits.push_back({{"file", file},
+                      {"vertices", body.mesh.vertices.size()},
+                      {"triangles", body.mesh.triangles.size()},
+                      {"watertight", audit.watertight},
+                      {"text", text(audit)}});
+    body.path =
+        "/" + scene.defaultPrim + "/" + freePrimName(scene, std::filesystem::path(file).stem().string());
+    body.displayColor = color;
+    body.rigid = true;
+    scene.bodies.push_back(body);
+    return static_cast<int>(scene.bodies.size()) - 1;
+}
+
+Motion parseMotion(const MakeArguments& arguments) {
+    Motion motion;
+    for (const std::string& text : arguments.dofs)
+        motion.dofs.push_back(parseDof(text, arguments.metersPerUnit));
+    motion.base.translation() = parseVector(arguments.offset, "--b-offset");
+    std::vector<double> rest(motion.dofCount(), 0.0);
+    if (!arguments.rest.empty()) rest = parseNumbers(arguments.rest, "--rest");
+    if (rest.size() != motion.dofCount())
+        throw InputError("--rest: expected one value for each of the " + std::to_string(motion.dofCount()) +
+                         " DOFs");
+    for (std::size_t k = 0; k < rest.size(); ++k) {
+        Dof& dof = motion.dofs[k];
+        const double value = fromUser(dof, rest[k]);
+        if (!arguments.rest.empty() && (value < dof.lower || value > dof.upper))
+            throw InputError("--rest: expected values within the limits of each DOF");
+        dof.rest = std::clamp(value, dof.lower, dof.upper);
+    }
+    return motion;
+}
+
+void make(const MakeArguments& arguments, const Console& console) {
+    if (!(arguments.metersPerUnit > 0) || !std::isfinite(arguments.metersPerUnit))
+        throw InputError("--meters-per-unit: expected a number > 0");
+    SceneModel scene;
+    scene.metersPerUnit = arguments.metersPerUnit;
+    scene.defaultPrim = freePrimName(scene, std::filesystem::path(arguments.output).stem().string());
+    Json audits = Json::array();
+    const Motion motion = parseMotion(arguments);
+    const int a = addBody(scene, arguments.a, {0.82, 0.77, 0.66}, audits, console);
+    const int b = addBody(scene, arguments.b, {0.74, 0.64, 0.48}, audits, console);
+    const int pair = addPair(scene, a, b, motion, "Joint");
+    saveScene(scene, arguments.output);
+    console.say("wrote " + arguments.output + "; next: tss bake " + arguments.output + " -o BAKED.tss");
+    console.print({{"output", arguments.output}, {"pair", scene.pairs[pair].path}, {"meshes", audits}});
+}
+
+} // namespace
+
+void addMake(CLI::App& app, Console& console) {
+    CLI::App* command =
+        addCommand(app, console, "make", "a scene from two meshes and the motion between them");
+    auto arguments = std::make_shared<MakeArguments>();
+    command->add_option("-o,--output", arguments->output, "the scene to write")->required();
+    command->add_option("--a", arguments->a, "mesh of the body that stays, any format that assimp reads")
+        ->required();
+    command->add_option("--b", arguments->b, "mesh of the body that moves")->required();
+    command->add_option("--meters-per-unit", arguments->metersPerUnit, "length of the meshes' unit in metres")
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--dof", arguments->dofs,
+            "rot:ORIGIN:AXIS:LO:HI, trans:AXIS:LO:HI or path:FILE.csv:LO:HI; repeat: x' = D1 D2 ... x")
+        ->required()
+        ->expected(1, -1);
+    command->add_option("--b-offset", arguments->offset, "x,y,z added to the points of B first");
+    command->add_option("--rest", arguments->rest,
+                        "DOF values at which the bodies rest (default 0, or the limit next to it)");
+    command->footer("Example, a hinge of 30 degrees about the Y axis through 0.3,0,0.7:\n"
+                    "  tss make -o jaw.tss --a skull.obj --b mandible.obj --dof rot:0.3,0,0.7:0,1,0:-24:6");
+    command->callback([arguments, &console] { make(*arguments, console); });
+}
+
+} // namespace tss::tool

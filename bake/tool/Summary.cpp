@@ -1,0 +1,140 @@
+#include "bake/tool/Summary.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace tss::tool {
+
+namespace {
+
+Json knownOrNull(double value) {
+    return value < 0 ? Json() : Json(value);
+}
+
+/// Bytes that a table's data takes: spheres, CSR and rest gaps.
+std::size_t bytes(const Table& table) {
+    return (table.a.size() + table.b.size()) * sizeof(Sphere) +
+           (table.rowOffsets.size() + table.columns.size()) * sizeof(std::uint32_t) +
+           table.restGaps.size() * sizeof(double);
+}
+
+void addRecord(Json& json, const BakeRecord& record) {
+    json["spheresA"] = record.spheresA;
+    json["spheresB"] = record.spheresB;
+    json["candidatePairs"] = record.candidatePairs;
+    json["fit"] = {{"A",
+                    {{"coverage", knownOrNull(record.fitA.coverage)},
+                     {"protrusion", knownOrNull(record.fitA.protrusion)}}},
+                   {"B",
+                    {{"coverage", knownOrNull(record.fitB.coverage)},
+                     {"protrusion", knownOrNull(record.fitB.protrusion)}}}};
+}
+
+void addTable(Json& json, const Table& table) {
+    addRecord(json, table.record);
+    json["usedA"] = table.a.size();
+    json["usedB"] = table.b.size();
+    json["tests"] = table.testCount();
+    json["products"] = 4 * table.testCount(); // 3 squares and the squared radius, as the paper counts
+    json["lowerBound"] = table.record.lowerBound ? Json(table.record.lowerBound) : Json();
+    json["boundMiss"] = knownOrNull(table.boundMiss);
+    json["boundEarly"] = knownOrNull(table.boundEarly);
+    json["epsilon"] = table.epsilon;
+    json["certified"] = table.certified;
+    json["overlapAtRest"] =
+        std::count_if(table.restGaps.begin(), table.restGaps.end(), [](double g) { return g < 0; });
+    json["method"] = table.method;
+    json["bytes"] = bytes(table);
+}
+
+std::string length(const Json& value) {
+    return value.is_null() ? "not known" : fmt::format("{:.4g}", value.get<double>());
+}
+
+} // namespace
+
+Json summary(const SceneModel& scene, const Pair& pair) {
+    Json json = {{"path", pair.path},
+                 {"bodyA", scene.bodies[pair.bodyA].path},
+                 {"bodyB", scene.bodies[pair.bodyB].path},
+                 {"dofs", pairMotion(scene, pair).dofCount()},
+                 {"baked", pair.table || pair.proof},
+                 {"neverCollides", pair.proof != nullptr},
+                 {"seconds", nullptr}};
+    if (pair.table) addTable(json, *pair.table);
+    if (pair.proof) {
+        addRecord(json, pair.proof->record);
+        json.update({{"usedA", 0},
+                     {"usedB", 0},
+                     {"tests", 0},
+                     {"boundMiss", 0},
+                     {"boundEarly", 0},
+                     {"epsilon", 0},
+                     {"certified", true},
+                     {"bytes", 0},
+                     {"clearance", pair.proof->clearance},
+                     {"method", pair.proof->method}});
+    }
+    return json;
+}
+
+Json summary(const SceneModel& scene, const SkinModel& skin) {
+    Json json = {{"path", skin.path},
+                 {"baked", skin.table != nullptr},
+                 {"muscles", Json::array()},
+                 {"seconds", nullptr}};
+    for (int muscle : skin.muscles) json["muscles"].push_back(scene.muscles[muscle].path);
+    if (skin.table) {
+        addTable(json, skin.table->table);
+        json["travel"] = skin.table->travel;
+    }
+    return json;
+}
+
+Json summary(const SceneModel& scene) {
+    Json json = {{"pairs", Json::array()}, {"skins", Json::array()}};
+    for (const Pair& pair : scene.pairs) json["pairs"].push_back(summary(scene, pair));
+    for (const SkinModel& skin : scene.skins) json["skins"].push_back(summary(scene, skin));
+    json["metersPerUnit"] = scene.metersPerUnit;
+    return json;
+}
+
+std::string describe(const Json& scene) {
+    std::string text;
+    for (const char* kind : {"pairs", "skins"})
+        for (const Json& item : scene[kind]) {
+            text += item["path"].get<std::string>() + "\n";
+            if (!item["baked"].get<bool>()) {
+                text += "  not baked yet\n";
+                continue;
+            }
+            text += fmt::format("  spheres      {} + {}\n", item["spheresA"].dump(), item["spheresB"].dump());
+            if (item.value("neverCollides", false)) {
+                text += fmt::format(
+                    "  never collide: the spheres stay {} apart over the whole motion; no table, no "
+                    "callback\n",
+                    length(item["clearance"]));
+            } else {
+                text += fmt::format("  used         {} + {}\n  tests a step {} ({} products)\n",
+                                    item["usedA"].dump(), item["usedB"].dump(), item["tests"].dump(),
+                                    item["products"].dump());
+                text += fmt::format("  can meet     {} pairs; no table has fewer than {} tests\n",
+                                    item["candidatePairs"].dump(),
+                                    item["lowerBound"].is_null() ? "(not known)" : item["lowerBound"].dump());
+                text += fmt::format(
+                    "  bounds       miss {}, early {}, epsilon {}, {}\n", length(item["boundMiss"]),
+                    length(item["boundEarly"]), length(item["epsilon"]),
+                    item["certified"].get<bool>() ? "certified for every pose" : "sampled poses only");
+                if (item["overlapAtRest"].get<int>() > 0)
+                    text += fmt::format("  at rest      {} tests overlap and count from there\n",
+                                        item["overlapAtRest"].dump());
+            }
+            text += fmt::format("  made by      {}, {} bytes", item["method"].get<std::string>(),
+                                item["bytes"].dump());
+            if (!item["seconds"].is_null()) text += fmt::format(", {:.2f} s", item["seconds"].get<double>());
+            text += "\n";
+        }
+    return text.empty() ? "no pairs and no skins in this scene\n" : text;
+}
+
+} // namespace tss::tool

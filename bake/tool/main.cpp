@@ -1,0 +1,49 @@
+// The `tss` command: tables of sphere pairs from the shell. Exit 0 done, 1 the input is at fault, 2 usage, 3
+// internal.
+#include "bake/base/Error.h"
+#include "bake/tool/Command.h"
+
+#include <fmt/format.h>
+
+namespace {
+
+int fail(const tss::tool::Console& console, int code, const std::string& message,
+         const tss::Where& where = {}) {
+    fmt::print(stderr, "tss: {}\n", message);
+    console.print(
+        {{"error",
+          {{"message", message}, {"file", where.file}, {"pointer", where.pointer}, {"path", where.path}}},
+         {"exit", code}});
+    return code;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    using namespace tss::tool;
+    CLI::App app{"Tabulated sphere subsets: collisions between things whose motion is constrained.", "tss"};
+    app.require_subcommand(1);
+    app.set_version_flag("--version", std::string("tss ") + OSGTSS_VERSION);
+    app.footer("Lengths take a unit (0.2mm, 1cm) or are scene units; angles are degrees.\n"
+               "Exit: 0 done, 1 the input is at fault, 2 usage, 3 internal error.");
+    Console console;
+    addMake(app, console);
+    addBake(app, console);
+    addMerge(app, console);
+    addInfo(app, console);
+    addQuery(app, console);
+    addPlay(app, console);
+    addValidate(app, console);
+    try {
+        app.parse(argc, argv);
+        return console.exitCode;
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    } catch (const tss::InputError& error) {
+        return fail(console, 1, error.what(), error.where);
+    } catch (const std::bad_alloc&) {
+        return fail(console, 1, "not enough memory for this input");
+    } catch (const std::exception& error) {
+        return fail(console, 3, std::string("internal error: ") + error.what());
+    }
+}

@@ -1,0 +1,141 @@
+#include "tests/Shapes.h"
+#include "tests/tool/Shell.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+using Json = nlohmann::json;
+
+namespace {
+
+/// A ball of radius 10 and one of radius 5 that swings about the Z axis and can hit it.
+void writeSwing(const Folder& folder) {
+    writeObj(ballMesh({0, 0, 0}, 10, 3), folder / "still.obj");
+    writeObj(ballMesh({0, 30, 0}, 5, 3), folder / "swing.obj");
+    const Ran made = tss("make -o swing.tss --a still.obj --b swing.obj --meters-per-unit 0.001 "
+                         "--dof rot:25,0,0:0,0,1:-40:90",
+                         folder.path());
+    INFO(made.err);
+    REQUIRE(made.exit == 0);
+}
+
+} // namespace
+
+TEST_CASE("every command answers --help with exit 0, and an unknown one is a usage error") {
+    const Folder folder;
+    for (const char* command : {"make", "bake", "merge", "info", "verify", "query", "play", "validate"}) {
+        const Ran help = tss(std::string(command) + " --help", folder.path());
+        CHECK(help.exit == 0);
+        CHECK(help.out.find("--json") != std::string::npos);
+    }
+    CHECK(tss("--help", folder.path()).exit == 0);
+    CHECK(tss("", folder.path()).exit == 2);
+    CHECK(tss("nonsense", folder.path()).exit == 2);
+    CHECK(tss("bake", folder.path()).exit == 2);
+    CHECK(tss("info --nonsense x.tss", folder.path()).exit == 2);
+}
+
+TEST_CASE("two meshes and a hinge become a table that stops the motion where the meshes meet") {
+    const Folder folder;
+    writeSwing(folder);
+    const Ran baked = tss("bake swing.tss -o baked.tss --tolerance 0.2mm --json", folder.path());
+    INFO(baked.err);
+    REQUIRE(baked.exit == 0);
+    const Json pair = Json::parse(baked.out)["pairs"][0];
+    CHECK(pair["certified"] == true);
+    CHECK(pair["tests"].get<int>() > 0);
+    CHECK(pair["boundMiss"].get<double>() <= 1e-3);
+    CHECK(pair["boundEarly"].get<double>() <= 0.4 + 1e-3);
+
+    // The balls touch where their centres are 15 apart; the small one circles (25,0,0) at |(−25,30,0)|.
+    std::string poses;
+    for (int angle = -40; angle <= 90; ++angle) poses += std::to_string(angle) + "\n";
+    writeText(folder.path() / "q.csv", poses);
+    REQUIRE(tss("query baked.tss --poses q.csv -o r.csv", folder.path()).exit == 0);
+    std::istringstream rows(readText(folder.path() / "r.csv"));
+    std::string line;
+    std::getline(rows, line);
+    CHECK(line == "gap,hit,pair,px,py,pz,nx,ny,nz");
+    int wrong = 0, hits = 0;
+    for (int angle = -40; angle <= 90; ++angle) {
+        REQUIRE(std::getline(rows, line));
+        const bool hit = line[line.find(',') + 1] == '1';
+        const tss::Vec3 centre =
+            Eigen::AngleAxisd(angle * M_PI / 180, tss::Vec3::UnitZ()) * tss::Vec3(-25, 30, 0) +
+            tss::Vec3(25, 0, 0);
+        const double clearance = centre.norm() - 15;
+        hits += hit;
+        wrong += hit ? clearance > 0.8 : clearance < -0.2; // the balls are polyhedra, up to 0.2 inside
+    }
+    CHECK(hits > 0);
+    CHECK(hits < 131);
+    CHECK(wrong == 0);
+
+    writeText(folder.path() / "m.csv", "0\n20\n40\n60\n90\n");
+    REQUIRE(tss("play baked.tss --motion m.csv -o played.csv --mesh-out f_%02d.obj", folder.path()).exit ==
+            0);
+    CHECK(std::filesystem::exists(folder.path() / "f_04.obj"));
+    CHECK(readText(folder.path() / "played.csv").find("blocked") != std::string::npos);
+}
+
+TEST_CASE("the same bake gives the same bytes with one thread and with two") {
+    const Folder folder;
+    writeSwing(folder);
+    REQUIRE(tss("bake swing.tss -o one.tss --tolerance 0.3 --threads 1 --quiet", folder.path()).exit == 0);
+    REQUIRE(tss("bake swing.tss -o two.tss --tolerance 0.3 --threads 2 --quiet", folder.path()).exit == 0);
+    CHECK(readText(folder.path() / "one.tss") == readText(folder.path() / "two.tss"));
+}
+
+TEST_CASE("bodies that cannot meet get a proof, no table, and play as asked") {
+    const Folder folder;
+    writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
+    writeObj(boxMesh({5, -1, -1}, {6, 1, 1}), folder / "b.obj");
+    REQUIRE(tss("make -o far.tss --a a.obj --b b.obj --dof trans:1,0,0:0:3", folder.path()).exit == 0);
+    const Ran baked = tss("bake far.tss -o baked.tss --tolerance 0.1 --json", folder.path());
+    INFO(baked.err);
+    REQUIRE(baked.exit == 0);
+    CHECK(Json::parse(baked.out)["pairs"][0]["neverCollides"] == true);
+    CHECK(readText(folder.path() / "baked.tss").find("TssNeverCollides") != std::string::npos);
+    CHECK(readText(folder.path() / "baked.tss").find("\"TssTable\"") == std::string::npos);
+}
+
+TEST_CASE("bad input is exit 1 with a message that says where, and leaves no file") {
+    const Folder folder;
+    writeObj(boxMesh({0, 0, 0}, {1, 1, 1}), folder / "a.obj");
+    writeText(folder.path() / "bad.tss",
+              R"({"format": "osgtss", "formatVersion": "1.0", "primChildren": 7})");
+    writeText(folder.path() / "empty.obj", "");
+    const auto refused = [&](const std::string& arguments, const std::string& expected) {
+        const Ran ran = tss(arguments, folder.path());
+        INFO(arguments << "\n" << ran.err);
+        CHECK(ran.exit == 1);
+        CHECK(ran.err.find(expected) != std::string::npos);
+    };
+    refused("info missing.tss", "missing.tss");
+    refused("info bad.tss", "/primChildren");
+    refused("bake bad.tss -o out.tss", "/primChildren");
+    refused("validate bad.tss", "/primChildren");
+    refused("make -o out.tss --a missing.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", "missing.obj");
+    refused("make -o out.tss --a empty.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", "empty.obj");
+    refused("make -o out.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,0:0:1", "axis that is not zero");
+    refused("make -o out.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:5:1", "LO <= HI");
+    refused("make -o out.tss --a a.obj --b a.obj --dof trans:0,0,1:nan:1", "finite number");
+    refused("make -o out.tss --a a.obj --b a.obj --dof swing:0,0,1:0:1", "rot:ORIGIN");
+    CHECK(fileCount(folder.path()) == 3);
+
+    REQUIRE(tss("make -o ok.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", folder.path()).exit == 0);
+    refused("query ok.tss --poses bad.tss -o r.csv", "no table");
+    refused("bake ok.tss -o out.tss --tolerance -1mm", "--tolerance");
+    refused("bake ok.tss -o out.tss --tolerance 1furlong", "length");
+    refused("bake ok.tss -o out.tss --spheres cubes", "medial");
+    refused("bake ok.tss -o no/such/folder/out.tss --tolerance 0.1", "no/such/folder");
+    CHECK(fileCount(folder.path()) == 4);
+}
+
+TEST_CASE("with --json one object stands on stdout, also when it fails") {
+    const Folder folder;
+    const Ran ran = tss("info missing.tss --json", folder.path());
+    CHECK(ran.exit == 1);
+    const Json error = Json::parse(ran.out);
+    CHECK(error["error"]["file"] == "missing.tss");
+}
