@@ -1,5 +1,7 @@
 #include "bake/scene/ValueType.h"
 
+#include "bake/base/NearestFloat.h"
+
 #include <cmath>
 #include <limits>
 #include <map>
@@ -64,13 +66,17 @@ public:
         if (std::abs(number) > limit)
             problems_.add(place(), "expected a number of at most " + describe(Value(limit)).substr(7) +
                                        " in a " + std::string(name_) + ", found " + describe(Value(number)));
-        return static_cast<float>(number);
+        return nearestFloat(number);
     }
 
     /// A number, or the word for one that JSON cannot write.
     template <class PlaceOf>
     double read(const Value& value, const PlaceOf& place) const {
         if (const double* number = value.as<double>()) return stored(*number, place);
+        if (const auto* big = value.as<std::int64_t>(); big && type_.isReal())
+            return stored(static_cast<double>(*big), place);
+        if (const auto* huge = value.as<std::uint64_t>(); huge && type_.isReal())
+            return stored(static_cast<double>(*huge), place);
         const std::string* word = value.as<std::string>();
         if (word && type_.isReal()) {
             if (*word == "inf") return std::numeric_limits<double>::infinity();

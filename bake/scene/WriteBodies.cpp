@@ -1,5 +1,7 @@
 #include "bake/scene/SceneWriting.h"
 
+#include "bake/base/NearestFloat.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -80,9 +82,8 @@ void writeSpheres(Layer& layer, const std::string& path, const SphereSet& sphere
     std::vector<Vec3> centres;
     std::vector<double> widths;
     for (const Sphere& sphere : spheres) {
-        const auto exact = [](double x) { return static_cast<double>(static_cast<float>(x)) == x; };
         const Vec3& c = sphere.centre;
-        if (!exact(c.x()) || !exact(c.y()) || !exact(c.z()) || !exact(2 * sphere.radius))
+        if (!isFloat(c.x()) || !isFloat(c.y()) || !isFloat(c.z()) || !isFloat(2 * sphere.radius))
             throw std::logic_error(path + ": spheres of a table must be exact in float; use roundToFloat()");
         centres.push_back(c);
         widths.push_back(2 * sphere.radius);

@@ -8,9 +8,10 @@ namespace tss {
 
 namespace {
 
+constexpr double exactIntegers = 9007199254740992.0; // 2^53
+
 /// Everything that is written the same way in a float and in a double slot.
 bool appendPlain(std::string& text, double number) {
-    constexpr double exactIntegers = 9007199254740992.0; // 2^53
     if (std::isnan(number)) {
         text += "nan";
     } else if (std::isinf(number)) {
@@ -27,10 +28,14 @@ bool appendPlain(std::string& text, double number) {
     return true;
 }
 
+/// With an exponent where digits alone would read back as an integer that no double holds.
 template <class Real>
 std::string_view shortest(char (&digits)[40], Real number) {
-    return {digits,
-            static_cast<std::size_t>(std::to_chars(digits, digits + sizeof digits, number).ptr - digits)};
+    const auto end = digits + sizeof digits;
+    const auto written = std::abs(number) > exactIntegers
+                             ? std::to_chars(digits, end, number, std::chars_format::scientific)
+                             : std::to_chars(digits, end, number);
+    return {digits, static_cast<std::size_t>(written.ptr - digits)};
 }
 
 } // namespace

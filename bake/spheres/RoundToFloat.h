@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/base/NearestFloat.h"
 #include "bake/spheres/SphereSet.h"
 
 #include <cmath>
@@ -17,9 +18,8 @@ inline float floatAbove(double number) {
 /// diameter. A table's proof is about exact numbers: round before the search, not after it.
 inline Sphere roundToFloat(const Sphere& sphere) {
     Sphere rounded;
-    rounded.centre = sphere.centre.cast<float>().cast<double>();
-    if (rounded.centre == sphere.centre && double(float(2 * sphere.radius)) == 2 * sphere.radius)
-        return sphere;
+    for (int k = 0; k < 3; ++k) rounded.centre[k] = nearestFloat(sphere.centre[k]);
+    if (rounded.centre == sphere.centre && isFloat(2 * sphere.radius)) return sphere;
     const double shift = (rounded.centre - sphere.centre).norm();
     const double grown = (sphere.radius + shift) * (1 + 4 * std::numeric_limits<double>::epsilon());
     rounded.radius = double(floatAbove(2 * grown)) / 2;
