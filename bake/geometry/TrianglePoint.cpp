@@ -17,11 +17,19 @@ Vec3 closestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
 
 namespace {
 
-/// The best of the three edges and of a given point inside.
-Vec3 closestOfEdgesAnd(Vec3 best, const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+/// For slivers and for points far away, where differences of long products cancel: the best of the edges and
+/// of the foot on the plane, which is compared with the edges from nearby.
+Vec3 closestByEdges(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+    Vec3 best = a;
     for (const Vec3& q : {closestOnSegment(p, a, b), closestOnSegment(p, b, c), closestOnSegment(p, c, a)})
         if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
-    return best;
+    const Vec3 normal = (b - a).cross(c - a);
+    const double area2 = normal.squaredNorm();
+    if (!(area2 > 0)) return best;
+    const Vec3 foot = p - (normal.dot(p - a) / area2) * normal;
+    const bool inside = (b - a).cross(foot - a).dot(normal) >= 0 &&
+                        (c - b).cross(foot - b).dot(normal) >= 0 && (a - c).cross(foot - c).dot(normal) >= 0;
+    return inside && (foot - p).squaredNorm() < (best - p).squaredNorm() ? foot : best;
 }
 
 } // namespace
@@ -50,10 +58,9 @@ Vec3 closestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& 
         if (vb <= 0 && d2 >= 0 && d6 <= 0) return closestOnSegment(p, a, c);
         if (va <= 0 && d4 >= d3 && d5 >= d6) return closestOnSegment(p, b, c);
     }
-    const bool within = va > 0 && vb > 0 && vc > 0;
     const double sum = va + vb + vc;
-    const Vec3 inside = within ? Vec3(a + (vb / sum) * ab + (vc / sum) * ac) : a;
-    return sound && within ? inside : closestOfEdgesAnd(inside, p, a, b, c);
+    if (!sound || !(va > 0 && vb > 0 && vc > 0)) return closestByEdges(p, a, b, c);
+    return a + (vb / sum) * ab + (vc / sum) * ac;
 }
 
 double solidAngle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -1,7 +1,7 @@
 #include "bake/spheres/FitMetrics.h"
 
 #include "bake/base/Parallel.h"
-#include "bake/spheres/SphereTree.h"
+#include "bake/spheres/SphereQuery.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,11 +19,11 @@ struct Look {
     double upper; ///< of all its points
 };
 
-Look look(const SphereTree& tree, const Patch& patch) {
+Look look(const SphereQuery& tree, const Patch& patch) {
     const Vec3 centre = patch.centre();
     const double radius = patch.radius();
     // A sphere that holds the ball about the patch holds the patch: no need to know the nearest one.
-    const SphereTree::Nearest nearest = tree.nearest(centre, -1.001 * radius);
+    const SphereQuery::Nearest nearest = tree.nearest(centre, -1.001 * radius);
     const Sphere& s = tree[nearest.sphere];
     double corner2 = 0, size = 0;
     for (const Vec3& c : patch.corners) {
@@ -38,7 +38,7 @@ Look look(const SphereTree& tree, const Patch& patch) {
 }
 
 /// The bound for one patch, halved until it is within 2 % of the largest value known.
-double refined(const SphereTree& tree, const Patch& patch, double known) {
+double refined(const SphereQuery& tree, const Patch& patch, double known) {
     constexpr int budget = 20000; // looks; what is left then keeps the bound it has
     const double settled = 1e-6 * patch.radius();
     std::vector<Patch> stack{patch};
@@ -93,7 +93,7 @@ Spread spread(std::vector<double> values) {
 
 void measureCoverage(FitMetrics& metrics, std::span<const Sphere> spheres, std::span<const Patch> patches) {
     metrics.coverage = coverageBound(spheres, patches);
-    const SphereTree tree(spheres);
+    const SphereQuery tree(spheres);
     const std::vector<Vec3> samples = samplesOf(patches, 20000);
     std::vector<double> distances(samples.size());
     parallelFor(samples.size(),
@@ -120,7 +120,7 @@ void measureVolumes(FitMetrics& metrics, const Solid& solid, std::span<const Sph
         box.extend(s.centre + Vec3::Constant(s.radius));
         box.extend(s.centre - Vec3::Constant(s.radius));
     }
-    const SphereTree tree(spheres);
+    const SphereQuery tree(spheres);
     std::vector<char> inSpheres(count), inBody(count);
     parallelFor(count, [&](std::size_t i) {
         const double k = static_cast<double>(i) + 0.5;
@@ -141,7 +141,7 @@ void measureVolumes(FitMetrics& metrics, const Solid& solid, std::span<const Sph
 double coverageBound(std::span<const Sphere> spheres, std::span<const Patch> patches) {
     if (patches.empty()) return 0;
     if (spheres.empty()) return infinity;
-    const SphereTree tree(spheres);
+    const SphereQuery tree(spheres);
     std::vector<Look> looks(patches.size());
     parallelFor(patches.size(), [&](std::size_t i) { looks[i] = look(tree, patches[i]); });
     double known = 0;

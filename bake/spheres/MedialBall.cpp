@@ -28,8 +28,17 @@ double largestBall(const MeshQuery& boundary, const Vec3& p, const Vec3& n, doub
     return 0;
 }
 
+namespace {
+
+bool inside(const Solid& solid, const Vec3& p, const KnownInside& known) {
+    if ((p - known.centre).squaredNorm() < known.radius * known.radius * (1 - 1e-9)) return true;
+    return solid.inside(p);
+}
+
+} // namespace
+
 Sphere medialBall(const Solid& solid, const Vec3& p, const Vec3& n, double protrusion, double slack,
-                  double hint) {
+                  double hint, KnownInside& known) {
     const double longest = solid.diagonal() / 2;
     for (int attempt = 0; attempt < 3; ++attempt, slack /= 32) {
         // A misoriented triangle has its inside on the other side.
@@ -38,10 +47,12 @@ Sphere medialBall(const Solid& solid, const Vec3& p, const Vec3& n, double protr
                 largestBall(solid.boundary(), p, direction, slack, longest, attempt == 0 ? hint : 0);
             if (!(r > 0)) continue;
             const Vec3 centre = p - r * direction;
-            const double distance = solid.boundary().distance(centre);
+            const double distance = solid.boundary().distance(centre, 2 * r);
             // On the surface itself the side is a matter of rounding, and the ball about p does as well.
-            if (distance <= 1e-6 * protrusion || !solid.inside(centre)) continue;
-            if (r - distance <= 2 * slack) return {centre, distance + protrusion};
+            if (distance <= 1e-6 * protrusion || r - distance > 2 * slack) continue;
+            if (!inside(solid, centre, known)) continue;
+            known = {centre, distance};
+            return {centre, distance + protrusion};
         }
     }
     return {p, protrusion};

@@ -11,12 +11,19 @@ namespace tss {
 double largestBall(const MeshQuery& boundary, const Vec3& p, const Vec3& n, double slack, double longest,
                    double hint);
 
+/// A ball known to lie inside the solid, empty at first. A point nearer to its centre than its radius is
+/// inside too, which spares a winding number.
+struct KnownInside {
+    Vec3 centre = Vec3::Zero();
+    double radius = 0;
+};
+
 /// The sphere that stands for the surface about p, which lies on the boundary, seen along -n (METHOD 1.3): a
 /// ball inside the solid grown by `protrusion`. It contains every point within protrusion - slack of p and
 /// its proven protrusion is `protrusion`. Where no centre inside is found (a feature thinner than the slack,
 /// an open sheet) it is the ball about p itself. slack: > 0, much less than the protrusion. hint: a radius
-/// expected, or 0.
+/// expected, or 0. known: read, and replaced by the ball found.
 Sphere medialBall(const Solid& solid, const Vec3& p, const Vec3& n, double protrusion, double slack,
-                  double hint);
+                  double hint, KnownInside& known);
 
 } // namespace tss

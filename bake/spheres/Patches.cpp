@@ -65,7 +65,7 @@ public:
         if (radiusExpected > 0 && radius > 1.5 * largest(radiusExpected)) return split(patch, radiusExpected);
         const Sphere ball = medialBall(solid_, patch.centre(), patch.normal, options_.protrusion,
                                        options_.slackFactor * options_.protrusion,
-                                       radiusExpected > 0 ? 1.1 * radiusExpected : 4 * radius);
+                                       radiusExpected > 0 ? 1.1 * radiusExpected : 4 * radius, known_);
         if (radius <= largest(ball.radius) && covers(ball, patch)) {
             result.patches.push_back(patch);
             result.candidates.push_back(ball);
@@ -87,6 +87,7 @@ private:
 
     const Solid& solid_;
     const PatchOptions& options_;
+    KnownInside known_;
 };
 
 } // namespace

@@ -7,9 +7,9 @@
 namespace tss {
 
 /// Finds the sphere of a set whose surface is nearest to a point. Keeps a copy of the spheres; immutable.
-class SphereTree {
+class SphereQuery {
 public:
-    explicit SphereTree(std::span<const Sphere> spheres);
+    explicit SphereQuery(std::span<const Sphere> spheres);
 
     struct Nearest {
         double gap =

@@ -1,11 +1,11 @@
-#include "bake/spheres/SphereTree.h"
+#include "bake/spheres/SphereQuery.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace tss {
 
-SphereTree::SphereTree(std::span<const Sphere> spheres) : spheres_(spheres.begin(), spheres.end()) {
+SphereQuery::SphereQuery(std::span<const Sphere> spheres) : spheres_(spheres.begin(), spheres.end()) {
     std::vector<Eigen::AlignedBox3d> boxes;
     boxes.reserve(spheres.size());
     for (const Sphere& s : spheres)
@@ -28,13 +28,13 @@ SphereTree::SphereTree(std::span<const Sphere> spheres) : spheres_(spheres.begin
     }
 }
 
-double SphereTree::lowerBound(std::uint32_t node, const Vec3& x) const {
+double SphereQuery::lowerBound(std::uint32_t node, const Vec3& x) const {
     const double box2 = squaredDistance(bvh_.nodes[node], x);
     if (box2 > 0) return std::sqrt(box2);
     return std::sqrt(centres_[node].squaredExteriorDistance(x)) - largest_[node];
 }
 
-SphereTree::Nearest SphereTree::nearest(const Vec3& x, double enough) const {
+SphereQuery::Nearest SphereQuery::nearest(const Vec3& x, double enough) const {
     Nearest best;
     std::array<std::pair<double, std::uint32_t>, 128> stack;
     std::size_t top = 0;
@@ -59,7 +59,7 @@ SphereTree::Nearest SphereTree::nearest(const Vec3& x, double enough) const {
     return best;
 }
 
-bool SphereTree::contains(const Vec3& x) const {
+bool SphereQuery::contains(const Vec3& x) const {
     return nearest(x, 0).gap <= 0;
 }
 
