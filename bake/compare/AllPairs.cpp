@@ -1,0 +1,59 @@
+#include "bake/compare/Methods.h"
+
+#include "bake/table/Query.h"
+
+#include <cmath>
+
+namespace tss::compare {
+
+namespace {
+
+class AllPairs final : public RivalLoop<AllPairs> {
+public:
+    explicit AllPairs(const Problem& problem) : problem_(problem) {
+        description() = {"all-pairs",
+                         "all pairs",
+                         "every sphere of A against every sphere of B, scalar doubles, first hit out",
+                         {missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)},
+                         (problem.a.size() + problem.b.size()) * sizeof(Sphere),
+                         0};
+    }
+
+    bool hit(const PoseQuery& query) const override {
+        IgnoreWork none;
+        return test(query, none);
+    }
+    std::optional<double> gap(const PoseQuery& query) const override {
+        return queryAllPairs(problem_.a, problem_.b, query.pose).gap;
+    }
+    std::optional<Work> work(const PoseQuery& query) const override {
+        CountWork counter;
+        test(query, counter);
+        return counter.work;
+    }
+
+private:
+    template <class Counter>
+    bool test(const PoseQuery& query, Counter& counter) const {
+        const Pose inverse = query.pose.inverse(Eigen::Isometry);
+        for (const Sphere& a : problem_.a) {
+            const Vec3 centre = inverse * a.centre;
+            for (const Sphere& b : problem_.b) {
+                counter.sphereTest();
+                const double sum = a.radius + b.radius;
+                if ((b.centre - centre).squaredNorm() <= sum * sum) return true;
+            }
+        }
+        return false;
+    }
+
+    const Problem& problem_;
+};
+
+} // namespace
+
+std::unique_ptr<Rival> makeAllPairs(const Problem& problem) {
+    return std::make_unique<AllPairs>(problem);
+}
+
+} // namespace tss::compare

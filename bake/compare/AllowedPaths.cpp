@@ -1,0 +1,118 @@
+#include "bake/compare/Methods.h"
+
+#include "bake/base/Parallel.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace tss::compare {
+
+namespace {
+
+/// A stretch of the leading DOF in which nothing touches.
+struct Stretch {
+    double lower, upper;
+};
+
+class AllowedPaths final : public RivalLoop<AllowedPaths> {
+public:
+    AllowedPaths(const Problem& problem, const Oracle& oracle, int paths, int steps)
+        : leading_(leadingDof(problem)) {
+        const auto start = std::chrono::steady_clock::now();
+        std::size_t count = 1;
+        for (std::size_t k = 0; k < problem.motion.dofCount(); ++k) {
+            const Dof& dof = problem.motion.dofs[k];
+            const int n = k == leading_ || dof.upper == dof.lower ? 1 : paths;
+            axes_.push_back({dof.lower, n > 1 ? (n - 1) / (dof.upper - dof.lower) : 0, n});
+            count *= static_cast<std::size_t>(n);
+        }
+        std::vector<std::vector<Stretch>> found(count);
+        parallelFor(count, [&](std::size_t i) { found[i] = trace(problem, oracle, i, steps); });
+        first_.push_back(0);
+        for (const auto& path : found) {
+            stretches_.insert(stretches_.end(), path.begin(), path.end());
+            first_.push_back(static_cast<std::uint32_t>(stretches_.size()));
+        }
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        description() = {"allowed-paths-" + std::to_string(count),
+                         "allowed paths",
+                         std::to_string(count) + " paths along " + problem.motion.dofs[leading_].name +
+                             ", their free stretches stored, " + std::to_string(steps) +
+                             " samples a path and bisected ends; a query takes the nearest path",
+                         {},
+                         first_.size() * sizeof(first_[0]) + stretches_.size() * sizeof(Stretch),
+                         seconds.count()};
+    }
+
+    bool hit(const PoseQuery& query) const override {
+        std::size_t path = 0;
+        for (std::size_t k = 0; k < axes_.size(); ++k) {
+            const double x = std::round((query.q[k] - axes_[k].lower) * axes_[k].scale);
+            path = path * static_cast<std::size_t>(axes_[k].count) +
+                   static_cast<std::size_t>(std::clamp(x, 0.0, static_cast<double>(axes_[k].count - 1)));
+        }
+        const double q = query.q[leading_];
+        for (std::uint32_t s = first_[path]; s < first_[path + 1]; ++s)
+            if (q >= stretches_[s].lower && q <= stretches_[s].upper) return false;
+        return true;
+    }
+    std::optional<Work> work(const PoseQuery&) const override { return Work{}; }
+
+private:
+    struct Axis {
+        double lower, scale; ///< index = round((q - lower) * scale)
+        int count;
+    };
+
+    std::vector<Stretch> trace(const Problem& problem, const Oracle& oracle, std::size_t index,
+                               int steps) const {
+        PoseQuery query{std::vector<double>(axes_.size()), Pose::Identity()};
+        for (std::size_t k = axes_.size(); k-- > 0;) {
+            const auto n = static_cast<std::size_t>(axes_[k].count);
+            query.q[k] = axes_[k].scale > 0
+                             ? axes_[k].lower + static_cast<double>(index % n) / axes_[k].scale
+                             : 0.5 * (problem.motion.dofs[k].lower + problem.motion.dofs[k].upper);
+            index /= n;
+        }
+        const auto touches = [&](double q) {
+            query.q[leading_] = q;
+            query.pose = pose(problem.motion, query.q);
+            return oracle(query);
+        };
+        const auto border = [&](double free, double hit) { // the last free value
+            for (int k = 0; k < 30; ++k) {
+                const double middle = 0.5 * (free + hit);
+                (touches(middle) ? hit : free) = middle;
+            }
+            return free;
+        };
+        const Dof& dof = problem.motion.dofs[leading_];
+        std::vector<Stretch> found;
+        bool wasHit = true;
+        double before = dof.lower;
+        for (int k = 0; k < steps; ++k) {
+            const double q = dof.lower + (dof.upper - dof.lower) * k / (steps - 1);
+            const bool isHit = touches(q);
+            if (!isHit && wasHit) found.push_back({k == 0 ? q : border(q, before), q});
+            if (!isHit) found.back().upper = q;
+            if (isHit && !wasHit) found.back().upper = border(before, q);
+            wasHit = isHit;
+            before = q;
+        }
+        return found;
+    }
+
+    std::size_t leading_;
+    std::vector<Axis> axes_; ///< one a DOF; the leading one has one entry
+    std::vector<std::uint32_t> first_;
+    std::vector<Stretch> stretches_;
+};
+
+} // namespace
+
+std::unique_ptr<Rival> makeAllowedPaths(const Problem& problem, const Oracle& oracle, int paths, int steps) {
+    return std::make_unique<AllowedPaths>(problem, oracle, paths, steps);
+}
+
+} // namespace tss::compare

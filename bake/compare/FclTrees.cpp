@@ -1,0 +1,72 @@
+#include "bake/compare/Methods.h"
+
+#include <chrono>
+#include <fcl/fcl.h>
+
+namespace tss::compare {
+
+namespace {
+
+template <class Volume>
+class FclRival final : public RivalLoop<FclRival<Volume>> {
+public:
+    FclRival(const Problem& problem, const std::string& name) {
+        const auto start = std::chrono::steady_clock::now();
+        fill(a_, problem.meshA);
+        fill(b_, problem.meshB);
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        this->description() = {"fcl-" + name,
+                               "mesh tree (FCL)",
+                               "FCL's tree of " + name + " volumes on the triangles, first contact out",
+                               {0, 0},
+                               static_cast<std::size_t>(a_.memUsage(0)) +
+                                   static_cast<std::size_t>(b_.memUsage(0)),
+                               seconds.count()};
+    }
+
+    bool hit(const PoseQuery& query) const override {
+        fcl::CollisionResultd result;
+        return fcl::collide(&a_, fcl::Transform3d::Identity(), &b_, place(query.pose), request_, result) > 0;
+    }
+    std::optional<double> gap(const PoseQuery& query) const override {
+        if (hit(query)) return 0;
+        const fcl::DistanceRequestd request;
+        fcl::DistanceResultd result;
+        return fcl::distance(&a_, fcl::Transform3d::Identity(), &b_, place(query.pose), request, result);
+    }
+
+private:
+    static fcl::Transform3d place(const Pose& pose) {
+        fcl::Transform3d transform;
+        transform.matrix() = pose.matrix();
+        return transform;
+    }
+    static void fill(fcl::BVHModel<Volume>& model, const TriangleMesh& mesh) {
+        std::vector<fcl::Triangle> triangles;
+        for (const Tri& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+        model.beginModel();
+        model.addSubModel(mesh.vertices, triangles);
+        model.endModel();
+    }
+
+    fcl::BVHModel<Volume> a_, b_;
+    fcl::CollisionRequestd request_{1, false};
+};
+
+} // namespace
+
+std::unique_ptr<Rival> makeFcl(const Problem& problem, FclTree tree) {
+    switch (tree) {
+    case FclTree::Obb:
+        return std::make_unique<FclRival<fcl::OBBd>>(problem, "obb");
+    case FclTree::Rss:
+        return std::make_unique<FclRival<fcl::RSSd>>(problem, "rss");
+    case FclTree::Aabb:
+        return std::make_unique<FclRival<fcl::AABBd>>(problem, "aabb");
+    case FclTree::Obbrss:
+        break;
+    }
+    return std::make_unique<FclRival<fcl::OBBRSSd>>(problem, "obbrss");
+}
+
+} // namespace tss::compare

@@ -1,0 +1,119 @@
+#include "bake/compare/Methods.h"
+
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
+#include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
+#include <BulletCollision/Gimpact/btGImpactShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <chrono>
+
+namespace tss::compare {
+
+namespace {
+
+/// A body as Bullet wants it. Bullet's own thresholds are made for things about a unit in size, so both
+/// bodies are scaled to that and set about a common centre.
+struct GimpactBody {
+    GimpactBody(const TriangleMesh& mesh, const Vec3& centre, double scale) {
+        for (const Vec3& v : mesh.vertices)
+            for (int k = 0; k < 3; ++k) points.push_back(static_cast<btScalar>((v[k] - centre[k]) * scale));
+        for (const Tri& t : mesh.triangles) indices.insert(indices.end(), {t[0], t[1], t[2]});
+        array = std::make_unique<btTriangleIndexVertexArray>(
+            static_cast<int>(mesh.triangles.size()), indices.data(), static_cast<int>(3 * sizeof(int)),
+            static_cast<int>(mesh.vertices.size()), points.data(), static_cast<int>(3 * sizeof(btScalar)));
+        shape = std::make_unique<btGImpactMeshShape>(array.get());
+        shape->setMargin(0);
+        shape->updateBound();
+        object.setCollisionShape(shape.get());
+    }
+    std::size_t bytes() const { // and one node of the quantised tree for each leaf and inner node
+        return points.size() * sizeof(btScalar) + indices.size() * sizeof(int) +
+               2 * (indices.size() / 3) * sizeof(BT_QUANTIZED_BVH_NODE);
+    }
+
+    std::vector<btScalar> points;
+    std::vector<int> indices;
+    std::unique_ptr<btTriangleIndexVertexArray> array;
+    std::unique_ptr<btGImpactMeshShape> shape;
+    btCollisionObject object;
+};
+
+/// Takes note of a contact and stores none.
+struct AnyContact : btManifoldResult {
+    using btManifoldResult::btManifoldResult;
+    void addContactPoint(const btVector3&, const btVector3&, btScalar depth) override {
+        touched = touched || depth <= 0;
+    }
+    bool touched = false;
+};
+
+class Gimpact final : public RivalLoop<Gimpact> {
+public:
+    explicit Gimpact(const Problem& problem) {
+        const auto start = std::chrono::steady_clock::now();
+        const Eigen::AlignedBox3d box = bounds(problem.meshA);
+        centre_ = box.center();
+        scale_ = 10 / box.diagonal().norm();
+        a_ = std::make_unique<GimpactBody>(problem.meshA, centre_, scale_);
+        b_ = std::make_unique<GimpactBody>(problem.meshB, centre_, scale_);
+        dispatcher_ = std::make_unique<btCollisionDispatcher>(&configuration_);
+        btGImpactCollisionAlgorithm::registerAlgorithm(dispatcher_.get());
+        const btCollisionObjectWrapper a(nullptr, a_->shape.get(), &a_->object,
+                                         a_->object.getWorldTransform(), -1, -1);
+        const btCollisionObjectWrapper b(nullptr, b_->shape.get(), &b_->object,
+                                         b_->object.getWorldTransform(), -1, -1);
+        algorithm_ = dispatcher_->findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        // Single precision, boxes quantised to 16 bits outwards: the triangles are judged in floats.
+        const double band = 1e-5 * box.diagonal().norm();
+        description() = {
+            "bullet-gimpact",
+            "mesh tree (Bullet)",
+            "Bullet's GImpact on the triangles, single precision, every contact (it has no early out)",
+            {band, band},
+            a_->bytes() + b_->bytes(),
+            seconds.count()};
+    }
+    ~Gimpact() override {
+        algorithm_->~btCollisionAlgorithm();
+        dispatcher_->freeCollisionAlgorithm(algorithm_);
+    }
+
+    bool hit(const PoseQuery& query) const override {
+        const Eigen::Matrix3d r = query.pose.linear();
+        // x' = R x + t with x = centre + y / scale
+        const Vec3 t = (r * centre_ + query.pose.translation() - centre_) * scale_;
+        const btMatrix3x3 rotation(
+            static_cast<btScalar>(r(0, 0)), static_cast<btScalar>(r(0, 1)), static_cast<btScalar>(r(0, 2)),
+            static_cast<btScalar>(r(1, 0)), static_cast<btScalar>(r(1, 1)), static_cast<btScalar>(r(1, 2)),
+            static_cast<btScalar>(r(2, 0)), static_cast<btScalar>(r(2, 1)), static_cast<btScalar>(r(2, 2)));
+        b_->object.setWorldTransform(
+            btTransform(rotation, btVector3(static_cast<btScalar>(t.x()), static_cast<btScalar>(t.y()),
+                                            static_cast<btScalar>(t.z()))));
+        const btCollisionObjectWrapper a(nullptr, a_->shape.get(), &a_->object,
+                                         a_->object.getWorldTransform(), -1, -1);
+        const btCollisionObjectWrapper b(nullptr, b_->shape.get(), &b_->object,
+                                         b_->object.getWorldTransform(), -1, -1);
+        AnyContact result(&a, &b);
+        algorithm_->processCollision(&a, &b, dispatchInfo_, &result);
+        return result.touched;
+    }
+
+private:
+    Vec3 centre_ = Vec3::Zero();
+    double scale_ = 1;
+    std::unique_ptr<GimpactBody> a_, b_;
+    btDefaultCollisionConfiguration configuration_;
+    std::unique_ptr<btCollisionDispatcher> dispatcher_;
+    btCollisionAlgorithm* algorithm_ = nullptr;
+    btDispatcherInfo dispatchInfo_;
+};
+
+} // namespace
+
+std::unique_ptr<Rival> makeGimpact(const Problem& problem) {
+    return std::make_unique<Gimpact>(problem);
+}
+
+} // namespace tss::compare

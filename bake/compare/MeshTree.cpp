@@ -1,0 +1,149 @@
+#include "bake/compare/MeshTree.h"
+
+#include "bake/base/Parallel.h"
+#include "bake/compare/InnerPoles.h"
+
+#include <algorithm>
+#include <map>
+
+namespace tss::compare {
+
+namespace {
+
+class MeshTreeRival final : public RivalLoop<MeshTreeRival> {
+public:
+    MeshTreeRival(MeshTrees trees, Description about) : trees_(std::move(trees)) {
+        description() = std::move(about);
+    }
+    bool hit(const PoseQuery& query) const override {
+        IgnoreWork none;
+        return treesTouch(trees_.a, trees_.b, query.pose, none);
+    }
+    std::optional<Work> work(const PoseQuery& query) const override {
+        CountWork counter;
+        treesTouch(trees_.a, trees_.b, query.pose, counter);
+        return counter.work;
+    }
+
+private:
+    MeshTrees trees_;
+};
+
+using Element = std::array<Vec3, 3>;
+
+/// Halves the longest edge until none is longer than `longest`; triangles without an area stay as they are.
+void splitInto(const Element& element, double longest, std::vector<Element>& elements) {
+    int edge = 0;
+    double length = -1;
+    for (int k = 0; k < 3; ++k) {
+        const double l = (element[(k + 1) % 3] - element[k]).norm();
+        if (l > length) {
+            length = l;
+            edge = k;
+        }
+    }
+    if (length <= longest) {
+        elements.push_back(element);
+        return;
+    }
+    const Vec3 &p = element[edge], &q = element[(edge + 1) % 3], &r = element[(edge + 2) % 3];
+    const Vec3 middle = 0.5 * (p + q);
+    splitInto({p, middle, r}, longest, elements);
+    splitInto({middle, q, r}, longest, elements);
+}
+
+/// The corners of all elements, each place once, with the area-weighted normal there.
+struct Corners {
+    std::vector<Vec3> points, normals;
+    std::vector<std::array<std::uint32_t, 3>> of; ///< #elements
+};
+
+Corners cornersOf(const std::vector<Element>& elements) {
+    Corners corners;
+    std::map<std::array<double, 3>, std::uint32_t> known;
+    for (const Element& element : elements) {
+        const Vec3 area = (element[1] - element[0]).cross(element[2] - element[0]);
+        std::array<std::uint32_t, 3> ids{};
+        for (int k = 0; k < 3; ++k) {
+            const auto [place, isNew] = known.try_emplace({element[k].x(), element[k].y(), element[k].z()},
+                                                          static_cast<std::uint32_t>(corners.points.size()));
+            if (isNew) {
+                corners.points.push_back(element[k]);
+                corners.normals.push_back(Vec3::Zero());
+            }
+            ids[k] = place->second;
+            corners.normals[ids[k]] += area;
+        }
+        corners.of.push_back(ids);
+    }
+    return corners;
+}
+
+double reach(const Vec3& centre, const Element& element) {
+    return std::sqrt(std::max({(element[0] - centre).squaredNorm(), (element[1] - centre).squaredNorm(),
+                               (element[2] - centre).squaredNorm()}));
+}
+
+} // namespace
+
+std::unique_ptr<Rival> makeMeshTreeRival(MeshTrees trees, Description description) {
+    return std::make_unique<MeshTreeRival>(std::move(trees), std::move(description));
+}
+
+double leafProtrusion(const BallTree& tree, const Solid& solid) {
+    std::vector<double> each(tree.nodes.size(), 0.0);
+    parallelFor(each.size(), [&](std::size_t i) {
+        const BallTree::Node& node = tree.nodes[i];
+        if (node.count == 0) each[i] = solid.protrusion(node.centre, node.radius);
+    });
+    return each.empty() ? 0 : *std::max_element(each.begin(), each.end());
+}
+
+MedialSurface medialSurface(const TriangleMesh& mesh, const Solid& solid) {
+    MedialSurface surface;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        splitInto({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, solid.diagonal() / 40,
+                  surface.elements);
+    const Corners corners = cornersOf(surface.elements);
+    surface.balls = innerPoles(corners.points, corners.normals);
+    std::vector<std::uint32_t> last(corners.points.size(), UINT32_MAX);
+    for (std::uint32_t e = 0; e < surface.elements.size(); ++e) {
+        std::uint32_t best = corners.of[e][0];
+        double least = std::numeric_limits<double>::infinity();
+        for (const std::uint32_t corner : corners.of[e]) {
+            const Sphere& ball = surface.balls[corner];
+            const double needed =
+                ball.radius > 0 ? reach(ball.centre, surface.elements[e]) - ball.radius : 1e300;
+            if (needed < least) {
+                least = needed;
+                best = corner;
+            }
+            if (last[corner] != UINT32_MAX) surface.neighbours.emplace_back(last[corner], e);
+            last[corner] = e;
+        }
+        surface.ballOf.push_back(best);
+    }
+    return surface;
+}
+
+Sphere fitBall(const MedialSurface& surface, const Solid& solid, std::span<const std::uint32_t> elements,
+               std::span<const Vec3> centres) {
+    SphereSet points;
+    for (const std::uint32_t e : elements)
+        for (const Vec3& corner : surface.elements[e]) points.push_back({corner, 0});
+    Sphere best = coreSetBall(points, 0.2);
+    double least = solid.protrusion(best.centre, best.radius);
+    for (const Vec3& centre : centres) {
+        double radius = 0;
+        for (const std::uint32_t e : elements) radius = std::max(radius, reach(centre, surface.elements[e]));
+        radius *= 1 + 1e-12;
+        const double protrusion = solid.protrusion(centre, radius);
+        if (protrusion < least) {
+            least = protrusion;
+            best = {centre, radius};
+        }
+    }
+    return best;
+}
+
+} // namespace tss::compare

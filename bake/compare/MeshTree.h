@@ -1,0 +1,53 @@
+#pragma once
+#include "bake/compare/BallTree.h"
+#include "bake/compare/Methods.h"
+#include "bake/geometry/Solid.h"
+
+#include <array>
+#include <span>
+
+namespace tss::compare {
+
+// Sphere trees made from a mesh: each node's ball contains the piece of surface below it, but not the balls
+// below it. What touches is found all the same, since every ball above a common point contains it.
+
+BallTree buildOctree(const TriangleMesh& mesh, int levels);
+BallTree buildHubbard(const TriangleMesh& mesh, const Solid& solid, int levels);
+BallTree buildAdaptiveMedial(const TriangleMesh& mesh, const Solid& solid, int levels);
+
+/// The largest sphere that rests against the middle of each triangle from inside, one a triangle; radius 0:
+/// none. (No ball inside can rest against a convex corner.)
+SphereSet restingSpheres(const TriangleMesh& mesh, const Solid& solid);
+
+struct MeshTrees {
+    BallTree a, b;
+};
+
+std::unique_ptr<Rival> makeMeshTreeRival(MeshTrees trees, Description description);
+
+inline std::size_t leafCount(const BallTree& tree) {
+    std::size_t leaves = 0;
+    for (const BallTree::Node& node : tree.nodes) leaves += node.count == 0 ? 1 : 0;
+    return leaves;
+}
+
+/// Largest protrusion of a leaf from the solid.
+double leafProtrusion(const BallTree& tree, const Solid& solid);
+
+/// Elements of the surface (triangles, split where they are large), each with the inner medial ball nearest
+/// to it: what Hubbard's and Bradshaw and O'Sullivan's trees are made from.
+struct MedialSurface {
+    std::vector<std::array<Vec3, 3>> elements;
+    std::vector<Sphere> balls; ///< inner medial balls, by the Voronoi vertices of the elements' corners
+    std::vector<std::uint32_t> ballOf; ///< #elements
+    std::vector<std::pair<std::uint32_t, std::uint32_t>>
+        neighbours; ///< elements that share an edge or corner
+};
+MedialSurface medialSurface(const TriangleMesh& mesh, const Solid& solid);
+
+/// The ball about a set of elements that sticks out of the solid least, among those about the medial centres
+/// given and the minimal ball of the corners.
+Sphere fitBall(const MedialSurface& surface, const Solid& solid, std::span<const std::uint32_t> elements,
+               std::span<const Vec3> centres);
+
+} // namespace tss::compare

@@ -1,0 +1,100 @@
+#include "bake/compare/MeshTruth.h"
+
+#include <fcl/fcl.h>
+#include <optional>
+#include <random>
+
+namespace tss::compare {
+
+namespace {
+
+using Model = fcl::BVHModel<fcl::OBBRSSd>;
+
+std::unique_ptr<Model> makeModel(const TriangleMesh& mesh) {
+    auto model = std::make_unique<Model>();
+    std::vector<fcl::Triangle> triangles;
+    for (const Tri& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+    model->beginModel();
+    model->addSubModel(mesh.vertices, triangles);
+    model->endModel();
+    return model;
+}
+
+fcl::Transform3d place(const Pose& pose) {
+    fcl::Transform3d transform;
+    transform.matrix() = pose.matrix();
+    return transform;
+}
+
+double largestShare(const Motion& motion, const std::vector<double>& p, const std::vector<double>& q) {
+    double most = 0;
+    for (std::size_t k = 0; k < q.size(); ++k) {
+        const double range = motion.dofs[k].upper - motion.dofs[k].lower;
+        if (range > 0) most = std::max(most, std::abs(p[k] - q[k]) / range);
+    }
+    return most;
+}
+
+} // namespace
+
+struct MeshTruth::Models {
+    std::unique_ptr<Model> a, b;
+};
+
+MeshTruth::MeshTruth(const TriangleMesh& a, const TriangleMesh& b)
+    : models_(new Models{makeModel(a), makeModel(b)}) {}
+
+MeshTruth::~MeshTruth() = default;
+
+bool MeshTruth::touches(const Pose& pose) const {
+    const fcl::CollisionRequestd request(1, false);
+    fcl::CollisionResultd result;
+    return fcl::collide(models_->a.get(), fcl::Transform3d::Identity(), models_->b.get(), place(pose),
+                        request, result) > 0;
+}
+
+double MeshTruth::distance(const Pose& pose) const {
+    if (touches(pose)) return 0;
+    const fcl::DistanceRequestd request;
+    fcl::DistanceResultd result;
+    return fcl::distance(models_->a.get(), fcl::Transform3d::Identity(), models_->b.get(), place(pose),
+                         request, result);
+}
+
+std::vector<std::vector<double>> randomPoses(const Motion& motion, std::size_t count, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::vector<std::vector<double>> poses;
+    poses.reserve(count);
+    // Planes that leave less than a thousandth of the box would make this loop long: then take what came.
+    for (std::size_t tries = 0; poses.size() < count && tries < 1000 * count; ++tries) {
+        std::vector<double> q;
+        for (const Dof& dof : motion.dofs)
+            q.push_back(std::uniform_real_distribution<double>(dof.lower, dof.upper)(random));
+        if (motion.planes.empty() || withinLimits(motion, q)) poses.push_back(std::move(q));
+    }
+    return poses;
+}
+
+std::vector<std::vector<double>> nearContactPoses(const MeshTruth& truth, const Motion& motion,
+                                                  std::size_t count, double width, std::uint64_t seed) {
+    std::vector<std::vector<double>> poses;
+    std::optional<std::vector<double>> free, hit;
+    for (const auto& q : randomPoses(motion, 20 * count + 1000, seed)) {
+        (truth.touches(pose(motion, q)) ? hit : free) = q;
+        if (!free || !hit) continue;
+        std::vector<double> inside = *hit, outside = *free;
+        while (largestShare(motion, inside, outside) > width) {
+            std::vector<double> middle(q.size());
+            for (std::size_t k = 0; k < q.size(); ++k) middle[k] = 0.5 * (inside[k] + outside[k]);
+            (truth.touches(pose(motion, middle)) ? inside : outside) = middle;
+        }
+        poses.push_back(inside);
+        poses.push_back(outside);
+        if (poses.size() >= count) break;
+        free.reset();
+        hit.reset();
+    }
+    return poses;
+}
+
+} // namespace tss::compare

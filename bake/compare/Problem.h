@@ -1,0 +1,29 @@
+#pragma once
+#include "bake/motion/Motion.h"
+#include "bake/table/Table.h"
+
+#include <optional>
+
+namespace tss::compare {
+
+/// Two bodies as all methods are given them. B's frame moves in A's by the motion.
+struct Problem {
+    TriangleMesh meshA, meshB;
+    Motion motion;
+    SphereSet a, b;       ///< the whole sphere sets (the paper's Ms)
+    FitRecord fitA, fitB; ///< of a and b, or < 0 where it is not known
+    Table table;          ///< the reduced pairs, and which spheres of a and b they use
+};
+
+/// What a yes/no over the whole sphere sets can promise against the meshes. A contact is a common point: with
+/// spheres that lack at most `coverage` of each surface the gap there is at most the sum of both, so only
+/// spheres that contain the surface miss nothing; with protrusion, spheres touch where the meshes are as near
+/// as both protrusions together.
+inline double earlyOf(const FitRecord& a, const FitRecord& b) {
+    return a.protrusion < 0 || b.protrusion < 0 ? -1 : a.protrusion + b.protrusion;
+}
+inline double missOf(const FitRecord& a, const FitRecord& b) {
+    return a.coverage < 0 || b.coverage < 0 ? -1 : std::max(0.0, a.coverage + b.coverage);
+}
+
+} // namespace tss::compare

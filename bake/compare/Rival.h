@@ -1,0 +1,92 @@
+#pragma once
+#include "bake/motion/Motion.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tss::compare {
+
+/// A pose to ask about: the DOF values and T(q), both made before any clock starts.
+struct PoseQuery {
+    std::vector<double> q;
+    Pose pose;
+};
+
+std::vector<PoseQuery> poseQueries(const Motion& motion, const std::vector<std::vector<double>>& values);
+
+/// Work as the paper counts it: a test of two spheres is 3 products for the squared distance of the centres
+/// and 1 for the squared sum of the radii. What it takes to place the spheres is not counted.
+struct Work {
+    std::uint64_t tests = 0;
+    std::uint64_t products = 0;
+};
+inline constexpr std::uint64_t productsPerSphereTest = 4;
+
+/// What a method promises against the meshes; a negative number: it promises nothing.
+struct StatedError {
+    double miss = -1;  ///< a contact of the meshes deeper than this is reported, scene units
+    double early = -1; ///< contact is reported only where the meshes are this near, scene units
+};
+
+/// What every method says about itself.
+struct Description {
+    std::string name;   ///< short, without spaces: the row's key, e.g. "tree-all-8-balls"
+    std::string family; ///< for the plots: "sphere tree", "TSS", ...
+    std::string about;  ///< one sentence: what was built, and what was simplified
+    StatedError stated;
+    std::size_t bytes = 0; ///< what a query reads, without the code
+    double buildSeconds = 0;
+};
+
+/// Another way to ask whether two bodies touch at a pose. Immutable once made; threads may share one unless
+/// `about` says otherwise. A problem that a rival was made from must outlive it.
+class Rival {
+public:
+    virtual ~Rival() = default;
+    virtual bool hit(const PoseQuery& query) const = 0;
+
+    /// Number of hits: the loop that is timed, free of virtual calls inside.
+    virtual std::size_t countHits(std::span<const PoseQuery> queries) const = 0;
+
+    /// Smallest gap, negative in contact, where the method gives one.
+    virtual std::optional<double> gap(const PoseQuery&) const { return std::nullopt; }
+
+    /// The work of hit(), where it is countable.
+    virtual std::optional<Work> work(const PoseQuery&) const { return std::nullopt; }
+
+    const Description& description() const { return description_; }
+    Description& description() { return description_; }
+
+private:
+    Description description_;
+};
+
+/// Gives a rival its loop. Method has `bool hit(const PoseQuery&) const`, marked final.
+template <class Method>
+class RivalLoop : public Rival {
+public:
+    std::size_t countHits(std::span<const PoseQuery> queries) const final {
+        const Method& method = static_cast<const Method&>(*this);
+        std::size_t hits = 0;
+        for (const PoseQuery& query : queries) hits += method.hit(query) ? 1 : 0;
+        return hits;
+    }
+};
+
+/// Work counters for a traversal: either counts, or costs nothing.
+struct CountWork {
+    Work work;
+    void sphereTest() {
+        ++work.tests;
+        work.products += productsPerSphereTest;
+    }
+};
+struct IgnoreWork {
+    void sphereTest() {}
+};
+
+} // namespace tss::compare

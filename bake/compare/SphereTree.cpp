@@ -1,0 +1,69 @@
+#include "bake/compare/BallTree.h"
+#include "bake/compare/Methods.h"
+
+#include <chrono>
+
+namespace tss::compare {
+
+namespace {
+
+std::string enclosureName(Enclosure enclosure) {
+    switch (enclosure) {
+    case Enclosure::Box:
+        return "box";
+    case Enclosure::Points:
+        return "points";
+    case Enclosure::Balls:
+        return "balls";
+    case Enclosure::CoreSet:
+        break;
+    }
+    return "coreset";
+}
+
+class SphereTreeRival final : public RivalLoop<SphereTreeRival> {
+public:
+    SphereTreeRival(const Problem& problem, TreeOf of, int arity, Enclosure enclosure) {
+        const auto start = std::chrono::steady_clock::now();
+        const bool all = of == TreeOf::All;
+        a_ = buildBallTree(all ? problem.a : problem.table.a, arity, enclosure);
+        b_ = buildBallTree(all ? problem.b : problem.table.b, arity, enclosure);
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        const std::string how = enclosureName(enclosure);
+        const Table& table = problem.table;
+        // The spheres that a table uses all belong to the model: every one of their contacts is one of the
+        // model's, and they contain the table's own tests.
+        StatedError stated{missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)};
+        if (!all) stated.miss = table.certified ? table.boundMiss : -1;
+        description() = {std::string(all ? "tree-all-" : "tree-used-") + std::to_string(arity) + "-" + how,
+                         all ? "sphere tree, all spheres" : "sphere tree, used spheres",
+                         std::to_string(arity) + "-ary tree of " +
+                             (all ? "all spheres (case 1)" : "the table's spheres (case 2)") +
+                             ", median split, inner balls: " + how,
+                         stated,
+                         a_.bytes() + b_.bytes(),
+                         seconds.count()};
+    }
+
+    bool hit(const PoseQuery& query) const override {
+        IgnoreWork none;
+        return treesTouch(a_, b_, query.pose, none);
+    }
+    std::optional<double> gap(const PoseQuery& query) const override { return treesGap(a_, b_, query.pose); }
+    std::optional<Work> work(const PoseQuery& query) const override {
+        CountWork counter;
+        treesTouch(a_, b_, query.pose, counter);
+        return counter.work;
+    }
+
+private:
+    BallTree a_, b_;
+};
+
+} // namespace
+
+std::unique_ptr<Rival> makeSphereTree(const Problem& problem, TreeOf of, int arity, Enclosure enclosure) {
+    return std::make_unique<SphereTreeRival>(problem, of, arity, enclosure);
+}
+
+} // namespace tss::compare

@@ -1,0 +1,86 @@
+#include "bake/compare/Methods.h"
+
+#include "bake/table/Query.h"
+
+#include <cmath>
+
+namespace tss::compare {
+
+namespace {
+
+std::size_t tableBytes(const Table& table) {
+    return (table.a.size() + table.b.size()) * sizeof(Sphere) +
+           (table.rowOffsets.size() + table.columns.size()) * sizeof(std::uint32_t) +
+           table.restGaps.size() * sizeof(double);
+}
+
+StatedError statedOf(const Table& table) {
+    return {table.certified ? table.boundMiss : -1, table.certified ? table.boundEarly : -1};
+}
+
+/// As the paper runs it: for each sphere of A its row of spheres of B, through indices.
+class PairList final : public RivalLoop<PairList> {
+public:
+    explicit PairList(const Problem& problem) : table_(problem.table) {
+        description() = {
+            "tss-scalar",
+            "TSS",
+            "the table's tests through indices, scalar doubles, first hit out (the paper's loop)",
+            statedOf(table_),
+            tableBytes(table_),
+            0};
+    }
+    bool hit(const PoseQuery& query) const override {
+        const Pose inverse = query.pose.inverse(Eigen::Isometry);
+        for (std::uint32_t i = 0; i + 1 < table_.rowOffsets.size(); ++i) {
+            const Vec3 centre = inverse * table_.a[i].centre;
+            for (std::uint32_t k = table_.rowOffsets[i]; k < table_.rowOffsets[i + 1]; ++k) {
+                const Sphere& b = table_.b[table_.columns[k]];
+                const double rest = table_.restGaps.empty() ? 0 : table_.restGaps[k];
+                const double sum = std::max(0.0, table_.a[i].radius + b.radius + rest);
+                if ((b.centre - centre).squaredNorm() <= sum * sum) return true;
+            }
+        }
+        return false;
+    }
+    /// A step of the paper makes every test of the table, whatever the outcome.
+    std::optional<Work> work(const PoseQuery&) const override {
+        return Work{table_.testCount(), table_.testCount() * productsPerSphereTest};
+    }
+
+private:
+    const Table& table_;
+};
+
+class PlainTable final : public RivalLoop<PlainTable> {
+public:
+    explicit PlainTable(const Problem& problem) : table_(problem.table) {
+        description() = {"tss-plain",
+                         "TSS",
+                         "the table's plain query: every test, with gap, contact point and normal",
+                         statedOf(table_),
+                         tableBytes(table_),
+                         0};
+    }
+    bool hit(const PoseQuery& query) const override { return tss::query(table_, query.pose).hit(); }
+    std::optional<double> gap(const PoseQuery& query) const override {
+        return tss::query(table_, query.pose).gap;
+    }
+    std::optional<Work> work(const PoseQuery&) const override {
+        return Work{table_.testCount(), table_.testCount() * productsPerSphereTest};
+    }
+
+private:
+    const Table& table_;
+};
+
+} // namespace
+
+std::unique_ptr<Rival> makePairList(const Problem& problem) {
+    return std::make_unique<PairList>(problem);
+}
+std::unique_ptr<Rival> makePlainTable(const Problem& problem) {
+    return std::make_unique<PlainTable>(problem);
+}
+
+} // namespace tss::compare

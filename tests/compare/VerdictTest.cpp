@@ -1,0 +1,176 @@
+#include "bake/compare/BallTree.h"
+#include "bake/table/Query.h"
+#include "tests/compare/Problems.h"
+
+#include <cmath>
+
+using namespace tss;
+using namespace tss::compare;
+
+namespace {
+
+/// Poses over all of Q and where contact begins, with what the meshes say there.
+struct Judged {
+    std::vector<PoseQuery> queries;
+    std::vector<char> hits;
+    std::vector<double> distances;
+    int free = 0, touching = 0;
+};
+
+Judged judge(const Problem& problem, std::size_t count) {
+    const MeshTruth truth(problem.meshA, problem.meshB);
+    Judged judged;
+    auto values = randomPoses(problem.motion, count, 11);
+    for (auto& q : nearContactPoses(truth, problem.motion, count / 2, 1e-7, 12)) values.push_back(q);
+    judged.queries = poseQueries(problem.motion, values);
+    for (const PoseQuery& query : judged.queries) {
+        judged.hits.push_back(truth.touches(query.pose));
+        judged.distances.push_back(truth.distance(query.pose));
+        (judged.hits.back() ? judged.touching : judged.free) += 1;
+    }
+    return judged;
+}
+
+/// The method's verdicts keep what it states. `slack`: of FCL's distance itself.
+void checkStated(const Rival& rival, const Judged& judged, double slack) {
+    INFO(rival.description().name << ": " << rival.description().about);
+    const StatedError stated = rival.description().stated;
+    std::size_t missed = 0, hits = 0;
+    double earliest = 0;
+    for (std::size_t i = 0; i < judged.queries.size(); ++i) {
+        const bool hit = rival.hit(judged.queries[i]);
+        hits += hit;
+        missed += judged.hits[i] && !hit;
+        if (hit && !judged.hits[i]) earliest = std::max(earliest, judged.distances[i]);
+    }
+    CHECK(rival.countHits(judged.queries) == hits);
+    if (stated.miss == 0) CHECK(missed == 0);
+    if (stated.early >= 0) CHECK(earliest <= stated.early + slack);
+    CHECK(hits > 0);
+    CHECK(hits < judged.queries.size());
+}
+
+} // namespace
+
+TEST_CASE("each method's verdicts agree with the meshes within its own stated error") {
+    const Problem problem = lidOverBall();
+    const Judged judged = judge(problem, 300);
+    REQUIRE(judged.free > 50);
+    REQUIRE(judged.touching > 50);
+    std::vector<std::unique_ptr<Rival>> rivals;
+    rivals.push_back(makeAllPairs(problem));
+    rivals.push_back(makeAllPairsSimd(problem));
+    rivals.push_back(makePairList(problem));
+    rivals.push_back(makePlainTable(problem));
+    for (const TreeOf of : {TreeOf::All, TreeOf::Used})
+        for (const Enclosure enclosure :
+             {Enclosure::Box, Enclosure::Points, Enclosure::Balls, Enclosure::CoreSet})
+            rivals.push_back(makeSphereTree(problem, of, 8, enclosure));
+    rivals.push_back(makeSphereTree(problem, TreeOf::All, 2, Enclosure::Balls));
+    rivals.push_back(makeOctree(problem, 5));
+    rivals.push_back(makeHubbard(problem, 3));
+    rivals.push_back(makeAdaptiveMedial(problem, 3));
+    rivals.push_back(makeOrourkeBadler(problem));
+    for (const FclTree tree : {FclTree::Obbrss, FclTree::Obb, FclTree::Rss, FclTree::Aabb})
+        rivals.push_back(makeFcl(problem, tree));
+    rivals.push_back(makeGimpact(problem));
+    const BallTree a = buildBallTree(problem.a, 8, Enclosure::Balls),
+                   b = buildBallTree(problem.b, 8, Enclosure::Balls);
+    rivals.push_back(makeGapGrid(problem, [&](const PoseQuery& query) { return treesGap(a, b, query.pose); },
+                                 65,
+                                 {missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)}));
+    for (const auto& rival : rivals) checkStated(*rival, judged, 1e-9);
+}
+
+TEST_CASE("methods over the same spheres give one verdict and one gap") {
+    const Problem problem = lidOverBall();
+    const auto queries = poseQueries(problem.motion, randomPoses(problem.motion, 200, 5));
+    const auto reference = makeAllPairs(problem);
+    std::vector<std::unique_ptr<Rival>> same;
+    same.push_back(makePairList(problem));
+    same.push_back(makePlainTable(problem));
+    for (const int arity : {2, 4, 8})
+        for (const Enclosure enclosure :
+             {Enclosure::Box, Enclosure::Points, Enclosure::Balls, Enclosure::CoreSet})
+            same.push_back(makeSphereTree(problem, TreeOf::All, arity, enclosure));
+    for (const PoseQuery& query : queries) {
+        const double gap = *reference->gap(query);
+        CHECK(reference->hit(query) == (gap <= 0));
+        for (const auto& rival : same) {
+            INFO(rival->description().name);
+            CHECK(rival->hit(query) == (gap <= 0));
+            if (const auto other = rival->gap(query)) CHECK(*other == Approx(gap).margin(1e-12));
+        }
+    }
+}
+
+TEST_CASE("a tree tests fewer spheres than all pairs and counts four products each") {
+    const Problem problem = lidOverBall();
+    const auto all = makeAllPairs(problem);
+    const auto tree = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
+    std::uint64_t ofAll = 0, ofTree = 0;
+    for (const PoseQuery& query : poseQueries(problem.motion, randomPoses(problem.motion, 100, 6))) {
+        const Work work = *tree->work(query);
+        CHECK(work.products == 4 * work.tests);
+        ofAll += all->work(query)->tests;
+        ofTree += work.tests;
+    }
+    CHECK(ofTree < ofAll);
+}
+
+TEST_CASE("a method that only knows the leading DOF is right for a hinge but for one slice") {
+    const Problem problem = lidHinged();
+    const auto model = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
+    const Oracle oracle = [&](const PoseQuery& query) { return model->hit(query); };
+    const int bins = 128;
+    const auto region = makeAngularRegion(problem, oracle, bins, 9, 3);
+    const auto mixed =
+        makeMixedRegion(problem, oracle, bins, 9, 3, std::shared_ptr<const Rival>(makePairList(problem)));
+    const auto paths = makeAllowedPaths(problem, oracle, 1, 200);
+    const double slice = (problem.motion.dofs[0].upper - problem.motion.dofs[0].lower) / bins;
+    int judged = 0;
+    for (const PoseQuery& query : poseQueries(problem.motion, randomPoses(problem.motion, 500, 8))) {
+        const auto at = [&](double q) { return oracle({{q}, pose(problem.motion, std::vector<double>{q})}); };
+        const bool hit = oracle(query);
+        CHECK(mixed->hit(query) == hit);
+        if (at(query.q[0] - slice) != hit || at(query.q[0] + slice) != hit) continue;
+        ++judged;
+        CHECK(region->hit(query) == hit);
+        CHECK(paths->hit(query) == hit);
+    }
+    CHECK(judged > 400);
+}
+
+TEST_CASE("mixed regions ask for spheres only where the leading DOF leaves it open") {
+    const Problem problem = lidOverBall();
+    const auto model = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
+    const Oracle oracle = [&](const PoseQuery& query) { return model->hit(query); };
+    const auto mixed =
+        makeMixedRegion(problem, oracle, 64, 40, 3, std::shared_ptr<const Rival>(makePairList(problem)));
+    int asked = 0, wrong = 0;
+    const auto queries = poseQueries(problem.motion, randomPoses(problem.motion, 400, 9));
+    for (const PoseQuery& query : queries) {
+        asked += mixed->work(query)->tests > 0;
+        wrong += mixed->hit(query) != oracle(query);
+    }
+    CHECK(asked > 0);
+    CHECK(asked < 400);
+    CHECK(wrong <= 8); // slices of 40 samples can be wrong at their edges
+}
+
+TEST_CASE("a grid of gaps comes nearer to the model as it gets finer, always within its bound") {
+    const Problem problem = lidOverBall();
+    const auto model = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
+    const GapOracle oracle = [&](const PoseQuery& query) { return *model->gap(query); };
+    const auto queries = poseQueries(problem.motion, randomPoses(problem.motion, 200, 10));
+    double before = INFINITY;
+    for (const int points : {9, 33, 129}) {
+        const auto grid = makeGapGrid(problem, oracle, points, {0, 0});
+        double worst = 0;
+        for (const PoseQuery& query : queries)
+            worst = std::max(worst, std::abs(*grid->gap(query) - *model->gap(query)));
+        CHECK(worst <= grid->description().stated.miss);
+        CHECK(worst < before);
+        before = worst;
+    }
+}
