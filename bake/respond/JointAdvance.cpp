@@ -11,14 +11,14 @@ namespace {
 void observe(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws) {
     placeGroups(model, q, way, ws);
     std::uint32_t at = ~0u;
-    JointTwist whole;
+    DofTwist whole;
     for (std::size_t i = 0; i < ws.nearCount; ++i) {
         NearPair& near = ws.near[i];
         const JointModel::Pair& pair = model.pairs[near.pair];
-        const JointFrame& frame = ws.frames[pair.group];
+        const MotionFrame& frame = ws.frames[pair.group];
         if (pair.group != at) {
             at = pair.group;
-            whole = JointTwist();
+            whole = DofTwist();
             const std::vector<int>& dofs = model.groups[at].dofs;
             for (std::size_t k = 0; k < dofs.size(); ++k) {
                 whole.turn += way[dofs[k]] * frame.twists[k].turn;

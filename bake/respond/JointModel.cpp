@@ -92,8 +92,8 @@ QpRow boundRow(int n, int dof, double sign, double bound) {
 } // namespace
 
 JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount) {
-    if (dofCount < 0 || dofCount > maxJointDofs)
-        throw InputError("joint: expected at most " + std::to_string(maxJointDofs) + " DOFs, not " +
+    if (dofCount < 0 || dofCount > static_cast<int>(maxDofs))
+        throw InputError("joint: expected at most " + std::to_string(maxDofs) + " DOFs, not " +
                          std::to_string(dofCount));
     JointModel model;
     model.dofCount = dofCount;
@@ -125,7 +125,7 @@ void placeGroups(const JointModel& model, const JointValues& q, const JointValue
             own[k] = q[group.dofs[k]];
             direction[k] = way[group.dofs[k]];
         }
-        evaluate(group.motion, own.data(), direction.data(), ws.frames[g]);
+        evaluateFrame(group.motion, own.data(), direction.data(), ws.frames[g]);
     }
 }
 
@@ -164,7 +164,7 @@ void linearise(const JointModel& model, const JointValues& q, const JointValues&
         NearPair& near = ws.near[i];
         const JointModel::Pair& pair = model.pairs[near.pair];
         const JointModel::Group& group = model.groups[pair.group];
-        const JointFrame& frame = ws.frames[pair.group];
+        const MotionFrame& frame = ws.frames[pair.group];
         Vec3 centre, normal;
         near.gap = pairGap(pair, frame.pose, centre, normal);
         if (!ws.common) near.threshold = std::min(near.threshold, near.gap);

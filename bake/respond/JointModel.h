@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/respond/JointKinematics.h"
+#include "bake/motion/MotionFrame.h"
 #include "bake/respond/JointQp.h"
 #include "bake/table/Table.h"
 
@@ -46,7 +46,7 @@ struct JointModel {
 };
 
 /// Throws InputError where the tables do not fit one joint: an index that is none, limits without overlap,
-/// more than maxJointDofs DOFs.
+/// more than maxDofs DOFs.
 JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount);
 
 /// A pair that can matter on the way, and the threshold its gap is held above.
@@ -68,7 +68,7 @@ struct JointWorkspace {
     bool common =
         false; ///< all thresholds are one, that of a start in collision: they do not rise by themselves
     std::vector<QpRow> rows;
-    std::vector<JointFrame> frames; ///< one a group
+    std::vector<MotionFrame> frames; ///< one a group
 };
 
 /// Places every group at q (values of the joint) into ws.frames.

@@ -17,10 +17,10 @@ double dot(int n, const JointValues& a, const JointValues& b) {
 /// The rows that hold with equality, their multipliers, and the QR factors of their normals.
 struct ActiveSet {
     int n = 0, count = 0;
-    std::array<int, maxJointDofs> row{};
+    std::array<int, maxDofs> row{};
     JointValues multiplier{};
-    std::array<JointValues, maxJointDofs> basis{}; ///< orthonormal, one a member
-    std::array<JointValues, maxJointDofs> upper{}; ///< upper[j][i], i <= j: normal j in that basis
+    std::array<JointValues, maxDofs> basis{}; ///< orthonormal, one a member
+    std::array<JointValues, maxDofs> upper{}; ///< upper[j][i], i <= j: normal j in that basis
 
     /// Splits a normal into its part along the basis (coefficients) and the rest; twice, for orthogonality.
     JointValues split(const JointValues& normal, JointValues& rest) const {

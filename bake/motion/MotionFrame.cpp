@@ -1,4 +1,4 @@
-#include "bake/respond/JointKinematics.h"
+#include "bake/motion/MotionFrame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,8 +33,8 @@ Vec3 turnBetween(const PathRow& r0, const PathRow& r1) {
 }
 
 /// `where` is the DOF's own frame in A: the poses of all DOFs before it.
-JointTwist twist(const Dof& dof, double q, double way, const Pose& where, const Pose& own) {
-    JointTwist t;
+DofTwist twist(const Dof& dof, double q, double way, const Pose& where, const Pose& own) {
+    DofTwist t;
     switch (dof.kind) {
     case DofKind::Rotation:
         t.turn = where.linear() * dof.axis;
@@ -71,7 +71,7 @@ void pathRates(const Dof& dof, double& slide, double& turn) {
 
 } // namespace
 
-void evaluate(const Motion& motion, const double* q, const double* direction, JointFrame& frame) {
+void evaluateFrame(const Motion& motion, const double* q, const double* direction, MotionFrame& frame) {
     Pose before = Pose::Identity();
     for (std::size_t k = 0; k < motion.dofs.size(); ++k) {
         const Pose own = dofPose(motion.dofs[k], q[k]);

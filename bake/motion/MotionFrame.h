@@ -1,30 +1,27 @@
 #pragma once
-#include "bake/motion/Motion.h"
-
-#include <array>
+#include "bake/motion/MotionBound.h"
 
 namespace tss {
 
-/// A joint that is resolved at run time has at most this many DOFs; the work space is of fixed size.
-inline constexpr int maxJointDofs = 12;
-using JointValues = std::array<double, maxJointDofs>;
+/// Values or changes of DOFs, room for the longest chain.
+using DofValues = std::array<double, maxDofs>;
 
 /// How one DOF moves a point x of A's frame, per unit of its value: x' = turn x x + slide.
-struct JointTwist {
+struct DofTwist {
     Vec3 turn = Vec3::Zero();
     Vec3 slide = Vec3::Zero();
     Vec3 velocity(const Vec3& x) const { return turn.cross(x) + slide; }
 };
 
 /// Where body B stands, and how each DOF of the motion would move it from there.
-struct JointFrame {
+struct MotionFrame {
     Pose pose = Pose::Identity();
-    std::array<JointTwist, maxJointDofs> twists;
+    std::array<DofTwist, maxDofs> twists;
 };
 
 /// T(q), the same bits as pose(motion, q), and the twists there. q, direction: one value a DOF of the motion;
 /// at a row of a path the segment that lies in `direction` is meant.
-void evaluate(const Motion& motion, const double* q, const double* direction, JointFrame& frame);
+void evaluateFrame(const Motion& motion, const double* q, const double* direction, MotionFrame& frame);
 
 /// How fast a point of B can move anywhere in the limits: speed per unit of each DOF's value (the lever of a
 /// turn, METHOD 2.2), found from the last DOF inwards. point: in B's frame. speeds: one a DOF.

@@ -1,4 +1,4 @@
-#include "bake/respond/JointKinematics.h"
+#include "bake/motion/MotionFrame.h"
 #include "tests/table/RandomTable.h"
 
 #include <catch2/catch.hpp>
@@ -12,10 +12,10 @@ TEST_CASE("a joint's frame is its pose, and its twists are the derivatives of po
         CAPTURE(seed);
         const Motion m = random_table::motion(random, 1 + int(random() % 4), 10);
         const std::vector<double> q = random_table::values(random, m);
-        JointValues way{};
+        DofValues way{};
         for (std::size_t k = 0; k < q.size(); ++k) way[k] = random() % 2 ? 1 : -1;
-        JointFrame frame;
-        evaluate(m, q.data(), way.data(), frame);
+        MotionFrame frame;
+        evaluateFrame(m, q.data(), way.data(), frame);
         REQUIRE(frame.pose.matrix() == pose(m, q).matrix());
         const Vec3 y = random_table::inBall(random, 10), x = frame.pose * y;
         for (std::size_t k = 0; k < q.size(); ++k) {
@@ -36,14 +36,14 @@ TEST_CASE("no point moves faster than its speed bounds") {
         CAPTURE(seed);
         const Motion m = random_table::motion(random, 1 + int(random() % 4), 10);
         const Vec3 y = random_table::inBall(random, 10);
-        JointValues bounds;
+        DofValues bounds;
         speedBounds(m, y, bounds.data());
         for (int i = 0; i < 50; ++i) {
             const std::vector<double> q = random_table::values(random, m);
-            JointValues way;
+            DofValues way;
             way.fill(1);
-            JointFrame frame;
-            evaluate(m, q.data(), way.data(), frame);
+            MotionFrame frame;
+            evaluateFrame(m, q.data(), way.data(), frame);
             const Vec3 x = frame.pose * y;
             for (std::size_t k = 0; k < q.size(); ++k) {
                 const double speed = frame.twists[k].velocity(x).norm();

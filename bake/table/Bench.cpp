@@ -1,0 +1,70 @@
+#include "bake/table/Bench.h"
+
+#include <chrono>
+
+namespace tss {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double nanoseconds(Clock::time_point from, Clock::time_point to, double count) {
+    return count > 0 ? std::chrono::duration<double, std::nano>(to - from).count() / count : 0;
+}
+
+/// Calls query(i) for the poses in turn. A loop of its own for each kind of query.
+template <class Query>
+void repeat(std::uint64_t queries, std::size_t poses, Query query) {
+    for (std::size_t i = 0; queries > 0; --queries) {
+        query(i);
+        if (++i == poses) i = 0;
+    }
+}
+
+} // namespace
+
+bool benchWith(std::string_view name, BenchWith& with) {
+    if (name == "hit") return with = BenchWith::Hit, true;
+    if (name == "gap") return with = BenchWith::Gap, true;
+    if (name == "contact") return with = BenchWith::Contact, true;
+    return false;
+}
+
+BenchResult benchQueries(const PreparedTable& table, const Motion& motion, std::uint64_t queries,
+                         BenchWith with) {
+    constexpr int poseCount = 512;
+    const std::vector<std::vector<double>> poses = latticePoses(motion, poseCount);
+    std::vector<TableFeatures> features(poses.size());
+    std::vector<MotionFrame> frames(poses.size());
+    const auto begin = Clock::now();
+    for (std::size_t i = 0; i < poses.size(); ++i) table.features(poses[i].data(), features[i]);
+    const auto made = Clock::now();
+    for (std::size_t i = 0; i < poses.size(); ++i) table.frame(poses[i].data(), frames[i]);
+
+    BenchResult result;
+    const auto start = Clock::now();
+    switch (with) {
+    case BenchWith::Hit:
+        repeat(queries, poses.size(), [&](std::size_t i) { result.hits += table.hit(features[i]); });
+        break;
+    case BenchWith::Gap:
+        repeat(queries, poses.size(), [&](std::size_t i) {
+            const TableGap g = table.gap(features[i]);
+            result.hits += g.gap <= 0;
+            result.checksum += g.gap;
+        });
+        break;
+    case BenchWith::Contact:
+        repeat(queries, poses.size(), [&](std::size_t i) {
+            const TableContact c = table.contact(features[i], frames[i]);
+            result.hits += c.gap <= 0;
+            result.checksum += c.gap + c.point.x() + c.normal.x() + c.gradient[0];
+        });
+        break;
+    }
+    result.nanoseconds = nanoseconds(start, Clock::now(), static_cast<double>(queries));
+    result.featureNanoseconds = nanoseconds(begin, made, static_cast<double>(poses.size()));
+    return result;
+}
+
+} // namespace tss

@@ -1,0 +1,234 @@
+#include "bake/table/Fold.h"
+
+#include "bake/table/RoundingBand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tss {
+
+namespace {
+
+struct Interval {
+    double low = 1, high = 1;
+    Interval times(Interval o) const {
+        const double p[] = {low * o.low, low * o.high, high * o.low, high * o.high};
+        return {*std::min_element(p, p + 4), *std::max_element(p, p + 4)};
+    }
+    double magnitude() const { return std::max(std::abs(low), std::abs(high)); }
+};
+
+/// Values of a DOF's factor over its limits.
+Interval factorRange(const DofFactor& factor, double half, int which) {
+    if (which == 0) return {};
+    if (!factor.turn) return which == 1 ? Interval{-half, half} : Interval{0, half * half};
+    const double sine = half < 0.5 * std::numbers::pi ? std::sin(half) : 1;
+    if (which == 1) return {-sine, sine};
+    const double s = std::sin(0.5 * std::min(half, std::numbers::pi));
+    return {0, 2 * s * s};
+}
+
+/// All products of factors, their weights in every pair, found from 3 poses a DOF: d^2 is linear in each
+/// DOF's (1, first, second) with the others held.
+struct Products {
+    std::vector<Fold::Feature> features;
+    std::vector<Interval> ranges;
+    Eigen::MatrixXd weights; ///< #pairs by #features, the first of them the constant
+};
+
+Products allProducts(const Motion& motion, std::span<const TablePair> pairs,
+                     const std::vector<DofFactor>& factors) {
+    const int d = static_cast<int>(motion.dofCount());
+    int count = 1;
+    for (int k = 0; k < d; ++k) count *= 3;
+    std::vector<double> half, node;
+    for (int k = 0; k < d; ++k) {
+        half.push_back(0.5 * (motion.dofs[k].upper - motion.dofs[k].lower));
+        node.push_back(factors[k].turn ? std::min(half[k], 1.5) : half[k]);
+    }
+    Products all;
+    all.weights.resize(static_cast<Eigen::Index>(pairs.size()), count);
+    for (int i = 0; i < count; ++i) {
+        std::vector<double> q;
+        Fold::Feature feature;
+        Interval range;
+        for (int k = 0, rest = i; k < d; ++k, rest /= 3) {
+            const int which = rest % 3;
+            q.push_back(factors[k].middle + (which == 0 ? 0 : which == 1 ? node[k] : -node[k]));
+            feature.factor[k] = static_cast<std::uint8_t>(which);
+            range = range.times(factorRange(factors[k], half[k], which));
+        }
+        all.features.push_back(feature);
+        all.ranges.push_back(range);
+        const Pose at = pose(motion, q);
+        for (std::size_t p = 0; p < pairs.size(); ++p)
+            all.weights(Eigen::Index(p), i) = (at * pairs[p].b - pairs[p].a).squaredNorm();
+    }
+    // Values at (0, +, -) become weights of (1, first, second), one DOF after the other.
+    for (int k = 0, stride = 1; k < d; ++k, stride *= 3) {
+        double first = 0, second = 0;
+        factors[k].evaluate(factors[k].middle + node[k], first, second);
+        for (int i = 0; i < count; ++i) {
+            if (i / stride % 3 != 0) continue;
+            auto v0 = all.weights.col(i), v1 = all.weights.col(i + stride),
+                 v2 = all.weights.col(i + 2 * stride);
+            const Eigen::VectorXd odd = v1 - v2, even = v1 + v2 - 2 * v0;
+            if (node[k] > 0) {
+                v1 = odd / (2 * first);
+                v2 = even / (2 * second);
+            } else {
+                v1.setZero();
+                v2.setZero();
+            }
+        }
+    }
+    return all;
+}
+
+/// The value of a product of factors.
+double product(const Fold::Feature& feature, const double (*u)[3], std::size_t dofs) {
+    double value = u[0][feature.factor[0]];
+    for (std::size_t k = 1; k < dofs; ++k) value *= u[k][feature.factor[k]];
+    return value;
+}
+
+void factorsAt(const std::vector<DofFactor>& factors, const double* q, double (*u)[3]) {
+    for (std::size_t k = 0; k < factors.size(); ++k) {
+        u[k][0] = 1;
+        factors[k].evaluate(q[k], u[k][1], u[k][2]);
+    }
+}
+
+/// Moves the features' zero to their mean over the contact poses.
+void centre(Fold& fold, const std::vector<Interval>& ranges, const std::vector<Interval>& sharedRanges,
+            std::span<const std::vector<double>> contacts) {
+    double u[Fold::maxDofs][3] = {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}};
+    const auto settle = [&](Fold::Feature& f, const Interval& range) {
+        double sum = 0;
+        for (const std::vector<double>& q : contacts) {
+            factorsAt(fold.factors, q.data(), u);
+            sum += product(f, u, fold.factors.size());
+        }
+        f.centre = contacts.empty() ? 0 : std::clamp(sum / double(contacts.size()), range.low, range.high);
+        f.range = std::max(range.high - f.centre, f.centre - range.low);
+    };
+    for (std::size_t k = 0; k < fold.features.size(); ++k) {
+        settle(fold.features[k], ranges[k]);
+        fold.constants += fold.weights.col(Eigen::Index(k)) * fold.features[k].centre;
+    }
+    for (std::size_t k = 0; k < fold.sharedFeatures.size(); ++k) {
+        settle(fold.sharedFeatures[k], sharedRanges[k]);
+        fold.constants.array() += fold.sharedWeights[k] * fold.sharedFeatures[k].centre;
+    }
+}
+
+std::vector<double> products(const Fold& fold, Eigen::Index pair) {
+    std::vector<double> c;
+    for (Eigen::Index k = 0; k < fold.weights.cols(); ++k)
+        c.push_back(std::abs(fold.weights(pair, k)) * fold.features[std::size_t(k)].range);
+    if (!fold.sharedFeatures.empty()) c.push_back(fold.sharedRange());
+    return c;
+}
+
+} // namespace
+
+double Fold::sharedRange() const {
+    double range = 0;
+    for (std::size_t k = 0; k < sharedFeatures.size(); ++k)
+        range += std::abs(sharedWeights[k]) * sharedFeatures[k].range;
+    return range;
+}
+
+void Fold::evaluate(const double* q, double* out, double& shared) const {
+    const std::size_t dofs = factors.size();
+    shared = 0;
+    if (dofs == 0) return;
+    double u[maxDofs][3];
+    factorsAt(factors, q, u);
+    for (std::size_t k = 0; k < features.size(); ++k)
+        out[k] = product(features[k], u, dofs) - features[k].centre;
+    for (std::size_t k = 0; k < sharedFeatures.size(); ++k)
+        shared += sharedWeights[k] * (product(sharedFeatures[k], u, dofs) - sharedFeatures[k].centre);
+}
+
+double Fold::signError(double u, Eigen::Index pair, double reach) const {
+    const double constant = constants(pair) - reach * std::abs(reach);
+    const std::vector<double> c = products(*this, pair);
+    const double error = sumError(u, constant, c, 0);
+    return sumError(u, constant, c, 2 * error) + dropped(pair);
+}
+
+double Fold::squareError(double u, Eigen::Index pair, double distance) const {
+    return sumError(u, constants(pair), products(*this, pair), distance * distance) + dropped(pair);
+}
+
+std::optional<Fold> makeFold(const Motion& motion, std::span<const TablePair> pairs,
+                             std::span<const std::vector<double>> contacts) {
+    if (motion.dofCount() > Fold::maxDofs) return std::nullopt;
+    for (const Dof& dof : motion.dofs)
+        if (dof.kind == DofKind::Path) return std::nullopt;
+    Fold fold;
+    for (const Dof& dof : motion.dofs) fold.factors.push_back(dofFactor(dof));
+    const Products all = allProducts(motion, pairs, fold.factors);
+    fold.constants = all.weights.col(0);
+    fold.dropped = Eigen::VectorXd::Zero(fold.constants.size());
+    if (pairs.empty()) return fold;
+
+    // Columns by what they can contribute; those at the level of rounding are left out.
+    std::vector<std::pair<double, Eigen::Index>> order;
+    double scale = fold.constants.cwiseAbs().maxCoeff();
+    for (Eigen::Index k = 1; k < all.weights.cols(); ++k) {
+        const double most = all.weights.col(k).cwiseAbs().maxCoeff() * all.ranges[std::size_t(k)].magnitude();
+        order.push_back({most, k});
+        scale = std::max(scale, most);
+    }
+    std::sort(order.begin(), order.end(),
+              [](auto& x, auto& y) { return x.first != y.first ? x.first > y.first : x.second < y.second; });
+    std::vector<Interval> ranges, sharedRanges;
+    std::vector<Eigen::Index> columns;
+    for (const auto& [most, k] : order) {
+        const auto column = all.weights.col(k);
+        const double reach = all.ranges[std::size_t(k)].magnitude();
+        if (most <= 1e-14 * scale) {
+            fold.dropped += column.cwiseAbs() * reach;
+            continue;
+        }
+        const double mean = column.mean();
+        const double spread = (column.array() - mean).abs().maxCoeff();
+        if (pairs.size() > 1 && spread * reach <= 1e-14 * scale) {
+            fold.sharedFeatures.push_back(all.features[std::size_t(k)]);
+            fold.sharedWeights.push_back(mean);
+            sharedRanges.push_back(all.ranges[std::size_t(k)]);
+            fold.dropped.array() += (column.array() - mean).abs() * reach;
+            continue;
+        }
+        columns.push_back(k);
+        fold.features.push_back(all.features[std::size_t(k)]);
+        ranges.push_back(all.ranges[std::size_t(k)]);
+    }
+    if (static_cast<int>(columns.size()) > Fold::maxFeatures) return std::nullopt;
+    fold.weights.resize(fold.constants.size(), Eigen::Index(columns.size()));
+    for (std::size_t k = 0; k < columns.size(); ++k)
+        fold.weights.col(Eigen::Index(k)) = all.weights.col(columns[k]);
+    centre(fold, ranges, sharedRanges, contacts);
+    return fold;
+}
+
+double foldMismatch(const Fold& fold, const Motion& motion, std::span<const TablePair> pairs,
+                    std::span<const std::vector<double>> poses) {
+    double most = 0;
+    Eigen::VectorXd features(Eigen::Index(fold.features.size()));
+    for (const std::vector<double>& q : poses) {
+        double shared = 0;
+        fold.evaluate(q.data(), features.data(), shared);
+        const Eigen::VectorXd squares = (fold.constants + fold.weights * features).array() + shared;
+        const Pose at = pose(motion, q);
+        for (std::size_t p = 0; p < pairs.size(); ++p)
+            most = std::max(
+                most, std::abs(squares(Eigen::Index(p)) - (at * pairs[p].b - pairs[p].a).squaredNorm()));
+    }
+    return most;
+}
+
+} // namespace tss

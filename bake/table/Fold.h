@@ -1,0 +1,52 @@
+#pragma once
+#include "bake/table/DofFactors.h"
+#include "bake/table/TablePairs.h"
+
+#include <Eigen/Dense>
+
+namespace tss {
+
+/// Squared distances of all pairs as a product of a matrix with a few features of the joint's values
+/// (METHOD 4): d^2 = constants + weights * features + shared. Features are products of one factor a DOF
+/// (DofFactor), less their values where the bodies are near contact; a feature that weighs the same in every
+/// pair (|t|^2 of a slide) is in `shared`.
+struct Fold {
+    static constexpr int maxDofs = 3;      ///< 3^d products: beyond, the direct kernel is the cheaper one
+    static constexpr int maxFeatures = 10; ///< likewise (METHOD 4, two kernels)
+
+    struct Feature {
+        std::array<std::uint8_t, maxDofs> factor{}; ///< per DOF: 0 none, 1 first, 2 second
+        double centre = 0;                          ///< subtracted
+        double range = 0;                           ///< largest |feature - centre| over the limits
+    };
+
+    std::vector<DofFactor> factors; ///< one a DOF
+    std::vector<Feature> features;  ///< those that weigh most first
+    std::vector<Feature> sharedFeatures;
+    std::vector<double> sharedWeights;
+    Eigen::MatrixXd weights;   ///< #pairs by #features
+    Eigen::VectorXd constants; ///< #pairs: d^2 where all features are 0
+    Eigen::VectorXd dropped;   ///< #pairs: bound of what columns too small to keep leave out
+
+    double sharedRange() const;
+
+    /// Features and the shared term at q. features: #features values. Allocates nothing.
+    void evaluate(const double* q, double* features, double& shared) const;
+
+    /// Bounds of the rounding error of d^2 - reach^2 (where that is about 0) and of d^2 (for distances about
+    /// `distance`), of one pair.
+    double signError(double u, Eigen::Index pair, double reach) const;
+    double squareError(double u, Eigen::Index pair, double distance) const;
+};
+
+/// The fold of pairs over a motion, or nothing where there is none that pays: paths, too many DOFs, more
+/// than maxFeatures features. `contacts`: poses near contact, to centre features at; may be empty.
+std::optional<Fold> makeFold(const Motion& motion, std::span<const TablePair> pairs,
+                             std::span<const std::vector<double>> contacts);
+
+/// The largest difference of the fold's squared distances from T(q)'s over some poses (METHOD 4: check
+/// against T(q)).
+double foldMismatch(const Fold& fold, const Motion& motion, std::span<const TablePair> pairs,
+                    std::span<const std::vector<double>> poses);
+
+} // namespace tss

@@ -1,0 +1,252 @@
+#include "bake/table/PreparedTable.h"
+
+#include "bake/base/Error.h"
+#include "bake/table/RoundingBand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tss {
+
+namespace {
+
+/// What stands for a pair that is none: never under a margin, farther than any other.
+constexpr double farOffset = 3e37, farReach = -1e18;
+
+/// Poses at which the bodies are nearest to touching: a twentieth of a lattice over the limits.
+std::vector<std::vector<double>> nearContact(const Motion& motion, const std::vector<TablePair>& pairs) {
+    const int count = std::clamp(static_cast<int>(1000000 / (pairs.size() + 1)), 64, 2000);
+    const std::vector<std::vector<double>> poses = latticePoses(motion, count);
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const Pose at = pose(motion, poses[i]);
+        double least = std::numeric_limits<double>::infinity();
+        for (const TablePair& p : pairs) least = std::min(least, centreDistance(p, at) - p.reach);
+        order.push_back({std::abs(least), i});
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<std::vector<double>> contacts;
+    for (std::size_t i = 0; i < order.size() / 20 + 1; ++i) contacts.push_back(poses[order[i].second]);
+    return contacts;
+}
+
+template <class T>
+T* column(T* block, std::uint32_t lanes, std::uint32_t k) {
+    return block + std::size_t(k) * lanes;
+}
+
+} // namespace
+
+const char* name(KernelForm form) {
+    return form == KernelForm::Fold ? "fold" : "direct";
+}
+const char* name(KernelPrecision precision) {
+    return precision == KernelPrecision::Float ? "float" : "double";
+}
+
+PreparedTable::PreparedTable(const Table& table, const PrepareOptions& options)
+    : motion_(table.motion), pairs_(tablePairs(table)), epsilon_(table.epsilon), depth_(table.gapDepth),
+      margin_(table.gapMargin) {
+    if (!available(options.target))
+        throw InputError("kernel '" + std::string(name(options.target)) +
+                         "': expected one that this build and this processor have");
+    target_ = options.target == KernelTarget::Best ? bestTarget() : options.target;
+    if (motion_.dofCount() > maxDofs)
+        throw InputError("table: expected at most " + std::to_string(maxDofs) + " DOFs");
+
+    const std::vector<std::vector<double>> contacts = nearContact(motion_, pairs_);
+    // Both origins where the touching is, so that t and the centres are small there.
+    for (const TablePair& p : pairs_) originB_ += p.b / double(pairs_.size());
+    for (const std::vector<double>& q : contacts)
+        originA_ += pose(motion_, q) * originB_ / double(contacts.size());
+    MotionFrame middle;
+    DofValues q{}, speeds{}, way{};
+    for (std::size_t k = 0; k < motion_.dofCount(); ++k)
+        q[k] = motion_.dofs[k].lower + 0.5 * (motion_.dofs[k].upper - motion_.dofs[k].lower);
+    evaluateFrame(motion_, q.data(), way.data(), middle);
+    speedBounds(motion_, originB_, speeds.data());
+    farthestT_ = (middle.pose * originB_ - originA_).norm();
+    for (std::size_t k = 0; k < motion_.dofCount(); ++k)
+        farthestT_ += 0.5 * speeds[k] * (motion_.dofs[k].upper - motion_.dofs[k].lower);
+    recipe_ = PoseRecipe(motion_, originA_, originB_);
+
+    if (options.form != KernelForm::Direct) {
+        fold_ = makeFold(motion_, pairs_, contacts);
+        if (fold_ && !pairs_.empty()) {
+            // Features centred near contact round better, unless that leaves their far end too far away.
+            const double centred = foldBands(floatRoundoff).sign;
+            std::optional<Fold> plain = makeFold(motion_, pairs_, {});
+            std::swap(fold_, plain);
+            if (foldBands(floatRoundoff).sign >= centred) std::swap(fold_, plain);
+            double largest = 0;
+            const std::vector<std::vector<double>> poses = latticePoses(motion_, 50);
+            for (const std::vector<double>& at : poses) {
+                const Pose p = pose(motion_, at);
+                for (const TablePair& pair : pairs_)
+                    largest = std::max(largest, (p * pair.b - pair.a).squaredNorm());
+            }
+            if (!(foldMismatch(*fold_, motion_, pairs_, poses) <= 1e-11 * largest)) fold_.reset();
+        }
+    }
+    choose(options);
+    if (float_)
+        prepareKernels(floatSet_, floatData_, floatRows_);
+    else
+        prepareKernels(doubleSet_, doubleData_, doubleRows_);
+}
+
+PreparedTable::Bands PreparedTable::foldBands(double u) const {
+    Bands bands;
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+        const double reach = pairs_[p].reach;
+        bands.sign = std::max(bands.sign, tss::signBand(fold_->signError(u, Eigen::Index(p), reach), reach));
+        for (double gap : {-depth_, 0.0, margin_}) {
+            const double error = fold_->squareError(u, Eigen::Index(p), std::max(0.0, reach + gap));
+            bands.gap = std::max(bands.gap, tss::gapBand(u, error, reach, gap));
+        }
+    }
+    return bands;
+}
+
+PreparedTable::Bands PreparedTable::directBands(double u) const {
+    Bands bands;
+    for (const TablePair& p : pairs_) {
+        const double a = (p.a - originA_).norm(), b = (p.b - originB_).norm();
+        const double sign = directError(u, a, b, farthestT_, std::abs(p.reach), p.reach);
+        bands.sign = std::max(bands.sign, tss::signBand(sign, p.reach));
+        for (double gap : {-depth_, 0.0, margin_}) {
+            const double error = directError(u, a, b, farthestT_, std::max(0.0, p.reach + gap), p.reach);
+            bands.gap = std::max(bands.gap, tss::gapBand(u, error, p.reach, gap));
+        }
+    }
+    return bands;
+}
+
+void PreparedTable::choose(const PrepareOptions& options) {
+    if (options.form == KernelForm::Fold && !fold_)
+        throw InputError("kernel: expected a motion that folds: no path, at most 3 DOFs, few features");
+    // A lossless table has no epsilon to hide rounding in; it states its band, kept far below its spheres.
+    double allowed = 0.1 * epsilon_;
+    if (epsilon_ == 0) {
+        allowed = std::numeric_limits<double>::infinity();
+        for (const TablePair& p : pairs_) allowed = std::min(allowed, 1e-4 * (p.radiusA + p.radiusB));
+    }
+    struct Choice {
+        KernelForm form;
+        bool single;
+    };
+    const Choice order[] = {{KernelForm::Fold, true},
+                            {KernelForm::Direct, true},
+                            {KernelForm::Fold, false},
+                            {KernelForm::Direct, false}};
+    bool any = false;
+    Bands bands;
+    for (const Choice& choice : order) {
+        if (choice.form == KernelForm::Fold && !fold_) continue;
+        if (options.form && *options.form != choice.form) continue;
+        if (options.precision && (*options.precision == KernelPrecision::Float) != choice.single) continue;
+        // Features are made in double: rounded to float once, but some times over in double itself.
+        const double u = choice.single ? floatRoundoff : 8 * doubleRoundoff;
+        const Bands here = choice.form == KernelForm::Fold ? foldBands(u) : directBands(u);
+        if (any && !(here.sign < bands.sign)) continue;
+        any = true;
+        bands = here;
+        form_ = choice.form;
+        float_ = choice.single;
+        if (std::max(bands.sign, bands.gap) <= allowed) break;
+    }
+    signBand_ = bands.sign;
+    gapBand_ = bands.gap;
+    if (form_ == KernelForm::Direct) fold_.reset();
+}
+
+template <class T>
+void PreparedTable::fill(std::uint32_t lanes, std::vector<Chunk>& store, KernelData<T>& data) const {
+    data.columns = fold_ ? std::uint32_t(fold_->features.size()) : 0;
+    const std::uint32_t columns = fold_ ? foldColumns(data.columns) : directColumns;
+    data.blockCount = std::max<std::uint32_t>(1, std::uint32_t((pairs_.size() + lanes - 1) / lanes));
+    const std::size_t step = std::size_t(columns) * lanes;
+    store.assign((data.blockCount * step * sizeof(T) + sizeof(Chunk) - 1) / sizeof(Chunk), Chunk{});
+    T* blocks = reinterpret_cast<T*>(store.data());
+    data.blocks = blocks;
+    for (std::size_t i = 0; i < std::size_t(data.blockCount) * lanes; ++i) {
+        T* block = blocks + i / lanes * step + i % lanes;
+        const bool real = i < pairs_.size();
+        const double reach = real ? pairs_[i].reach : farReach;
+        *column(block, lanes, columns - 1) = T(reach);
+        if (fold_) {
+            const double constant = real ? fold_->constants(Eigen::Index(i)) : 0;
+            block[0] = T(real ? constant - reach * std::abs(reach) : farOffset);
+            for (std::uint32_t k = 0; k < data.columns && real; ++k)
+                *column(block, lanes, k + 1) = T(fold_->weights(Eigen::Index(i), k));
+            *column(block, lanes, columns - 2) = T(constant);
+            continue;
+        }
+        for (int k = 0; k < 3 && real; ++k) {
+            *column(block, lanes, std::uint32_t(k)) = T(pairs_[i].b[k] - originB_[k]);
+            *column(block, lanes, std::uint32_t(k) + 3) = T(pairs_[i].a[k] - originA_[k]);
+        }
+        *column(block, lanes, 6) = T(real ? reach * std::abs(reach) : -farOffset);
+    }
+}
+
+template <class T>
+void PreparedTable::prepareKernels(KernelSet<T>& set, KernelData<T>& data, KernelData<T>& rows) {
+    set = fold_ ? foldKernels<T>(target_, std::uint32_t(fold_->features.size())) : directKernels<T>(target_);
+    fill(set.lanes, blocks_, data);
+    fill(1, rowStore_, rows);
+    room_ = std::size_t(data.blockCount) * set.lanes;
+}
+
+std::size_t PreparedTable::bytes() const {
+    return blocks_.size() * sizeof(Chunk);
+}
+
+void PreparedTable::features(const double* q, TableFeatures& out) const {
+    if (fold_) {
+        fold_->evaluate(q, out.doubles.data(), out.shared);
+        if (float_)
+            for (std::size_t k = 0; k < fold_->features.size(); ++k) out.floats[k] = float(out.doubles[k]);
+        return;
+    }
+    PoseRecipe::Matrix pose;
+    recipe_.evaluate(q, pose);
+    out.shared = 0;
+    for (std::size_t k = 0; k < 12; ++k) {
+        out.doubles[k] = pose[k];
+        out.floats[k] = float(pose[k]);
+    }
+}
+
+void PreparedTable::frame(const double* q, MotionFrame& out) const {
+    DofValues way;
+    way.fill(1);
+    evaluateFrame(motion_, q, way.data(), out);
+}
+
+TableContact PreparedTable::contact(const TableFeatures& f, const MotionFrame& frame) const {
+    TableContact contact;
+    contact.test = gap(f).test;
+    contact.gap = std::numeric_limits<double>::infinity();
+    if (contact.test < 0) return contact;
+    const TablePair& pair = pairs_[std::size_t(contact.test)];
+    const Vec3 centre = frame.pose * pair.b, between = centre - pair.a;
+    const double distance = between.norm();
+    contact.gap = distance - pair.reach;
+    contact.normal = distance > 0 ? Vec3(between / distance) : Vec3::UnitX();
+    contact.point = pair.a + contact.normal * (0.5 * (pair.radiusA + distance - pair.radiusB));
+    for (std::size_t k = 0; k < motion_.dofCount(); ++k)
+        contact.gradient[k] = contact.normal.dot(frame.twists[k].velocity(centre));
+    return contact;
+}
+
+std::uint32_t PreparedTable::under(const TableFeatures& f, double margin, std::uint32_t* out) const {
+    // Rounding grows with the margin; twice the band at 0 and some roundoffs of the margin cover it.
+    const double wide = margin + 2 * std::max(signBand_, gapBand_) + 1e-6 * margin;
+    return float_ ? floatSet_.under(floatData_, f.floats.data(), float(f.shared),
+                                    std::nextafter(float(wide), HUGE_VALF), out)
+                  : doubleSet_.under(doubleData_, f.doubles.data(), f.shared, wide, out);
+}
+
+} // namespace tss

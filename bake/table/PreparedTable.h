@@ -1,0 +1,161 @@
+#pragma once
+#include "bake/motion/MotionFrame.h"
+#include "bake/table/Fold.h"
+#include "bake/table/Kernels.h"
+#include "bake/table/PoseRecipe.h"
+
+#include <optional>
+
+namespace tss {
+
+enum class KernelForm { Fold, Direct };
+enum class KernelPrecision { Float, Double };
+
+const char* name(KernelForm form);
+const char* name(KernelPrecision precision);
+
+/// What to prepare a table for. What is not given is chosen by METHOD 4: the fold up to 10 features, float
+/// where its rounding band is within epsilon / 10.
+struct PrepareOptions {
+    KernelTarget target = KernelTarget::Best; ///< must be available
+    std::optional<KernelForm> form;           ///< Fold is not to be had for every motion
+    std::optional<KernelPrecision> precision;
+};
+
+/// A pose as the kernels want it. Made by PreparedTable::features, good for that table only.
+struct TableFeatures {
+    static constexpr std::size_t room = 16;
+    alignas(64) std::array<double, room> doubles{};
+    alignas(64) std::array<float, room> floats{};
+    double shared = 0;
+};
+
+struct TableGap {
+    double gap = 0; ///< smallest gap, off by at most gapBand(); the largest float or more for an empty table
+    int test = -1;  ///< index of the test that gives it, -1 for an empty table
+};
+
+/// Everything about the nearest test, in double from T(q) itself.
+struct TableContact {
+    double gap = 0;
+    int test = -1;
+    Vec3 point = Vec3::Zero();  ///< A's frame, half way between the two sphere surfaces
+    Vec3 normal = Vec3::Zero(); ///< unit, A's frame, from A towards B
+    DofValues gradient{};       ///< d gap / d q, one a DOF
+};
+
+/// Poses of many instances, each value of all of them contiguous.
+struct InstanceFeatures {
+    std::vector<float> floats;
+    std::vector<double> doubles;
+    std::vector<float> sharedFloats;
+    std::vector<double> sharedDoubles;
+    std::uint32_t count = 0, stride = 0;
+};
+
+/// A table as it is queried at run time (METHOD 4): squared distances linear in a few features of the pose,
+/// or the direct transform, in float where that is exact enough, with the instructions of this processor.
+/// Immutable once made; any number of threads and instances share one. No query allocates, locks, throws or
+/// calls anything virtual; the kernels are chosen when it is made.
+class PreparedTable {
+public:
+    /// Throws InputError where the options ask for what this table, build or processor does not have.
+    explicit PreparedTable(const Table& table, const PrepareOptions& options = {});
+    PreparedTable(PreparedTable&&) = default;
+    PreparedTable& operator=(PreparedTable&&) = default;
+    PreparedTable(const PreparedTable&) = delete;
+    PreparedTable& operator=(const PreparedTable&) = delete;
+
+    /// Features of a pose. q: one finite value a DOF, within the limits.
+    void features(const double* q, TableFeatures& out) const;
+
+    /// Some test touches: its gap is <= 0, within signBand().
+    bool hit(const TableFeatures& f) const {
+        return float_ ? floatSet_.hit(floatData_, f.floats.data(), float(f.shared))
+                      : doubleSet_.hit(doubleData_, f.doubles.data(), f.shared);
+    }
+
+    /// The smallest gap, within gapBand() for gaps up to the table's margin, and its test.
+    TableGap gap(const TableFeatures& f) const {
+        if (float_) {
+            const KernelGap<float> g = floatSet_.gap(floatData_, f.floats.data(), float(f.shared));
+            return {g.gap, g.test};
+        }
+        const KernelGap<double> g = doubleSet_.gap(doubleData_, f.doubles.data(), f.shared);
+        return {g.gap, g.test};
+    }
+
+    /// The smallest gap with point, normal and gradient; `frame` is motionFrame(q) of the same pose.
+    TableContact contact(const TableFeatures& f, const MotionFrame& frame) const;
+
+    /// T(q) and how each DOF moves B from there, for `contact`.
+    void frame(const double* q, MotionFrame& out) const;
+
+    /// Numbers of all tests whose gap may be at most margin (>= 0; none is missed within the band), rising.
+    /// out: room for testRoom() numbers. Returns how many.
+    std::uint32_t under(const TableFeatures& f, double margin, std::uint32_t* out) const;
+
+    /// Many instances at once. q: count rows of one value a DOF. Allocates when `out` has to grow.
+    void instanceFeatures(const double* q, std::uint32_t count, InstanceFeatures& out) const;
+    /// hit[i] = 1 where instance i touches. hit: room for f.count.
+    void hits(const InstanceFeatures& f, std::uint8_t* hit) const;
+    /// Smallest gap and its test of every instance.
+    void gaps(const InstanceFeatures& f, float* gap, std::int32_t* test) const;
+
+    std::size_t testCount() const { return pairs_.size(); }
+    std::size_t testRoom() const { return room_; }
+    std::size_t dofCount() const { return motion_.dofCount(); }
+    const TablePair& pair(std::size_t test) const { return pairs_[test]; }
+
+    KernelForm form() const { return form_; }
+    KernelPrecision precision() const { return float_ ? KernelPrecision::Float : KernelPrecision::Double; }
+    KernelTarget target() const { return target_; }
+    /// Features a pose has: columns without the constant and the shared term; 12 for direct.
+    std::size_t featureCount() const { return fold_ ? fold_->features.size() : 12; }
+    bool hasShared() const { return fold_ && !fold_->sharedFeatures.empty(); }
+    std::size_t bytes() const; ///< of what a query reads
+
+    /// No verdict of `hit` is wrong where the table's gap is farther than this from 0, scene units.
+    double signBand() const { return signBand_; }
+    /// `gap` is off by no more than this for gaps down to -depth and up to margin of the table.
+    double gapBand() const { return gapBand_; }
+
+private:
+    struct alignas(64) Chunk {
+        std::array<std::byte, 64> bytes;
+    };
+    struct Bands {
+        double sign = 0, gap = 0;
+    };
+
+    Bands foldBands(double u) const;
+    Bands directBands(double u) const;
+    void choose(const PrepareOptions& options);
+    template <class T>
+    void fill(std::uint32_t lanes, std::vector<Chunk>& store, KernelData<T>& data) const;
+    template <class T>
+    void prepareKernels(KernelSet<T>& set, KernelData<T>& data, KernelData<T>& rows);
+
+    Motion motion_;
+    std::vector<TablePair> pairs_;
+    double epsilon_ = 0, depth_ = 0, margin_ = 0;
+    Vec3 originA_ = Vec3::Zero(), originB_ = Vec3::Zero();
+    double farthestT_ = 0; ///< bound of |T(q) originB - originA|
+    std::optional<Fold> fold_;
+    PoseRecipe recipe_;
+
+    KernelForm form_ = KernelForm::Direct;
+    KernelTarget target_ = KernelTarget::Scalar;
+    bool float_ = true;
+    double signBand_ = 0, gapBand_ = 0;
+    std::size_t room_ = 0;
+
+    // A vector's storage stays where it is when the table is moved, so the data may point into it.
+    std::vector<Chunk> blocks_, rowStore_;
+    KernelSet<float> floatSet_;
+    KernelSet<double> doubleSet_;
+    KernelData<float> floatData_, floatRows_;
+    KernelData<double> doubleData_, doubleRows_;
+};
+
+} // namespace tss

@@ -1,0 +1,56 @@
+#include "bake/table/RoundingBand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tss {
+
+namespace {
+
+/// Room for terms of second order in u and for the rounding of the bounds themselves.
+constexpr double room = 1 + 1e-5;
+
+} // namespace
+
+double sumError(double u, double constant, std::span<const double> products, double result) {
+    double after = 0;
+    for (double c : products) after += c;
+    // The constant rounds once, each product's factors once each, and the product once where not fused.
+    double error = std::abs(constant) + 3 * after;
+    double before = std::abs(constant);
+    for (double c : products) {
+        before += c;
+        after -= c;
+        error += std::min(before, std::abs(result) + std::max(after, 0.0));
+    }
+    return room * u * error;
+}
+
+double directError(double u, double a, double b, double t, double distance, double reach) {
+    // Where the pair is at this distance, t is no longer than a, b and it together.
+    t = std::min(t, a + b + distance);
+    // Per axis: t and a round, their difference rounds, three products (2 factors, 1 product each; by Cauchy
+    // no longer than b together) and three sums round.
+    const double axis = u * (5 * (t + a) + 6 * b);
+    const double vector = std::sqrt(3.0) * axis;
+    const double squares = u * (4 * (distance + vector) * (distance + vector) + 2 * reach * reach);
+    return room * (2 * distance * vector + vector * vector + squares);
+}
+
+double gapBand(double u, double error, double reach, double gap) {
+    const double distance = std::max(reach + gap, 0.0);
+    const double squared = distance * distance;
+    const double whole = error + u * (squared + error);
+    const double root = distance + std::sqrt(std::max(0.0, squared - whole));
+    const double off = root > 0 ? whole / root : std::sqrt(whole);
+    return room * (off + 2 * u * (distance + std::abs(reach) + std::abs(gap)));
+}
+
+double signBand(double error, double reach) {
+    const double squared = reach * reach;
+    const double root = std::abs(reach) + std::sqrt(std::max(0.0, squared - error));
+    return root > 0 ? error / root : std::sqrt(error);
+}
+
+} // namespace tss

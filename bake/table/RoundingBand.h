@@ -1,0 +1,26 @@
+#pragma once
+#include <span>
+
+namespace tss {
+
+/// Unit roundoffs.
+inline constexpr double floatRoundoff = 0x1p-24, doubleRoundoff = 0x1p-53;
+
+/// Bound of the rounding error of constant + sum_k w_k f_k summed in that order with weights, features and
+/// constant each rounded once, with or without fused products (METHOD 4, Float). products: |w_k| max |f_k|
+/// for each k in the order of summation; result: the largest |sum| of interest, which bounds the late partial
+/// sums. The error of values whose exact |sum| is larger is not bounded by this.
+double sumError(double u, double constant, std::span<const double> products, double result);
+
+/// The same for a sum of 12 + 3 products as the direct kernel takes it: |R b + t - a|^2 - reach^2, with
+/// lengths of a, b and t as given, for squared distances up to distance^2.
+double directError(double u, double a, double b, double t, double distance, double reach);
+
+/// By how much a gap found from a squared distance d^2 with error E is off: sqrt(d^2) - reach, with gaps up
+/// to |gap|.
+double gapBand(double u, double error, double reach, double gap);
+
+/// The gaps at which the sign of d^2 - reach^2 known to E may be wrong.
+double signBand(double error, double reach);
+
+} // namespace tss
