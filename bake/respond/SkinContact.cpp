@@ -2,25 +2,36 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace tss {
 namespace {
 
-constexpr int selected = 2; ///< spheres whose triangles are looked at
+constexpr int selected = 2;         ///< spheres whose triangles are looked at
+constexpr int walkSteps = 6;        ///< triangles that a poke walks over, at most
+constexpr double leastFacing = 0.1; ///< cosine between muscle and skin at which a contact is not believed ...
+constexpr double fullFacing = 0.5;  ///< ... and from which on it is
+
+double trust(double facing) {
+    const double t = std::clamp((facing - leastFacing) / (fullFacing - leastFacing), 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
 
 bool isIdentity(const Pose& pose) {
     return pose.matrix() == Pose::Identity().matrix();
 }
 
 /// Normals of a closed muscle, weighted by area: smooth enough, and cheap.
-void areaNormals(const std::vector<Vec3>& vertices, const std::vector<Tri>& triangles,
-                 std::vector<Vec3>& normals) {
-    normals.assign(vertices.size(), Vec3::Zero());
-    for (const Tri& t : triangles) {
-        const Vec3 n = (vertices[t[1]] - vertices[t[0]]).cross(vertices[t[2]] - vertices[t[0]]);
-        for (int k = 0; k < 3; ++k) normals[t[k]] += n;
+void findNormals(const std::vector<Tri>& triangles, PlacedMuscle& placed) {
+    placed.normals.assign(placed.surface.size(), Vec3::Zero());
+    placed.faces.resize(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const Tri& t = triangles[i];
+        const Vec3& a = placed.surface[t[0]];
+        placed.faces[i] = (placed.surface[t[1]] - a).cross(placed.surface[t[2]] - a);
+        for (int k = 0; k < 3; ++k) placed.normals[t[k]] += placed.faces[i];
     }
-    for (Vec3& n : normals) n.normalize();
+    for (Vec3& n : placed.normals) n.normalize();
 }
 
 void follow(const MuscleTrack& track, double activation, const Pose* pose, std::vector<Vec3>& places) {
@@ -30,6 +41,33 @@ void follow(const MuscleTrack& track, double activation, const Pose* pose, std::
         const Vec3 x = trackPosition(track, place, i);
         places[i] = pose ? Vec3(*pose * x) : x;
     }
+}
+
+void place(const SkinMuscle& muscle, double activation, const Pose& pose, PlacedMuscle& placed) {
+    if (placed.activation == activation && placed.pose.matrix() == pose.matrix()) return;
+    placed.activation = activation;
+    placed.pose = pose;
+    placed.dragPlace = locate(muscle.drag.nodes, activation);
+    const Pose* moved = isIdentity(pose) ? nullptr : &pose;
+    follow(muscle.surface, activation, moved, placed.surface);
+    follow(muscle.spheres, activation, moved, placed.centres);
+    findNormals(muscle.triangles, placed);
+    placed.moved.resize(placed.surface.size());
+    for (std::size_t v = 0; v < placed.moved.size(); ++v)
+        placed.moved[v] = (placed.surface[v] - muscle.rest[v]).norm();
+    placed.radii.resize(muscle.radii.size());
+    const TrackPlace at = locate(muscle.spheres.nodes, activation);
+    for (std::size_t i = 0; i < placed.radii.size(); ++i)
+        placed.radii[i] = muscle.radii[i] * trackThickness(muscle.spheres, at, i);
+}
+
+void addDrag(const SkinDrag& drag, const TrackPlace& place, std::vector<Move>& sum) {
+    const std::size_t count = drag.vertices.size();
+    if (count == 0) return;
+    const Move* from = &drag.moves[place.node * count];
+    const Move* to = place.t == 0 ? from : from + count;
+    const float t = static_cast<float>(place.t);
+    for (std::size_t k = 0; k < count; ++k) sum[drag.vertices[k]] += from[k] + t * (to[k] - from[k]);
 }
 
 /// Turns a nearest point into the direction in which the surface pushes: its smooth normal; from beside a rim
@@ -46,29 +84,23 @@ Vec3 pushDirection(const Vec3& smooth, const Vec3& away, double radius) {
 void placeMuscles(const SkinRig& rig, std::span<const double> activations, std::span<const Pose> poses,
                   SkinScene& scene) {
     scene.muscles.resize(rig.muscles.size());
-    scene.predicted = rig.rest;
-    scene.reference.assign(rig.rest.size(), Vec3::Zero());
-    std::vector<Vec3> carried;
+    scene.drag.assign(rig.rest.size(), Move::Zero());
+    scene.reference.assign(rig.rest.size(), Move::Zero());
     for (std::size_t m = 0; m < rig.muscles.size(); ++m) {
         const SkinMuscle& muscle = rig.muscles[m];
-        PlacedMuscle& placed = scene.muscles[m];
-        const double activation = m < activations.size() ? activations[m] : 0;
-        const Pose* pose = m < poses.size() && !isIdentity(poses[m]) ? &poses[m] : nullptr;
-        follow(muscle.surface, activation, pose, placed.surface);
-        follow(muscle.spheres, activation, pose, placed.centres);
-        areaNormals(placed.surface, muscle.triangles, placed.normals);
-        placed.radii.resize(muscle.radii.size());
-        const TrackPlace place = locate(muscle.spheres.nodes, activation);
-        for (std::size_t i = 0; i < placed.radii.size(); ++i)
-            placed.radii[i] = muscle.radii[i] * trackThickness(muscle.spheres, place, i);
-
-        follow(muscle.skin, activation, pose, carried);
-        for (const SkinCarry& c : muscle.carried) {
-            const Vec3 d = carried[c.point] - rig.rest[c.vertex];
-            scene.predicted[c.vertex] += c.share * d;
-            scene.reference[c.vertex] += c.stiffness * rig.inverseMass[c.vertex] * d;
+        place(muscle, activations[m], poses[m], scene.muscles[m]);
+        addDrag(muscle.drag, scene.muscles[m].dragPlace, scene.drag);
+        if (isIdentity(poses[m])) continue;
+        const TrackPlace at = locate(muscle.skin.nodes, activations[m]);
+        for (std::size_t i = 0; i < muscle.carried.size(); ++i) {
+            const Vec3 x = trackPosition(muscle.skin, at, i);
+            const SkinCarry& c = muscle.carried[i];
+            scene.reference[c.vertex].head<3>() += c.pull * (poses[m] * x - x).cast<float>();
         }
     }
+    scene.predicted.resize(rig.rest.size());
+    for (std::size_t v = 0; v < rig.rest.size(); ++v)
+        scene.predicted[v] = rig.rest[v] + (scene.drag[v] + scene.reference[v]).head<3>().cast<double>();
 }
 
 SkinContact rowContact(const SkinRig& rig, const SkinScene& scene, std::size_t index) {
@@ -92,8 +124,8 @@ SkinContact rowContact(const SkinRig& rig, const SkinScene& scene, std::size_t i
     }
 
     double nearest = std::numeric_limits<double>::infinity();
-    Vec3 weights, point;
-    Tri corners;
+    Vec3 weights = Vec3::Zero(), point = Vec3::Zero();
+    Tri corners = Tri::Zero();
     const PlacedMuscle* on = nullptr;
     for (const SkinTest* test : best) {
         if (!test) continue;
@@ -101,9 +133,9 @@ SkinContact rowContact(const SkinRig& rig, const SkinScene& scene, std::size_t i
         const PlacedMuscle& placed = scene.muscles[test->muscle];
         for (std::uint32_t k = muscle.behindStart[test->sphere]; k < muscle.behindStart[test->sphere + 1];
              ++k) {
+            if (placed.faces[muscle.behind[k]].dot(facing) <= 0) continue;
             const Tri& t = muscle.triangles[muscle.behind[k]];
             const Vec3 &a = placed.surface[t[0]], &b = placed.surface[t[1]], &c = placed.surface[t[2]];
-            if ((b - a).cross(c - a).dot(facing) <= 0) continue;
             const Vec3 w = nearestOnTriangle(x, a, b, c);
             const Vec3 p = w[0] * a + w[1] * b + w[2] * c;
             const double d = (x - p).squaredNorm();
@@ -121,9 +153,12 @@ SkinContact rowContact(const SkinRig& rig, const SkinScene& scene, std::size_t i
                          weights[2] * on->normals[corners[2]])
                             .normalized();
     contact.normal = pushDirection(smooth, x - point, row.radius);
+    contact.trust = trust(smooth.dot(facing));
     for (std::uint32_t& v : contact.vertex) v = row.vertex;
     contact.weight[0] = 1;
-    contact.bound = contact.normal.dot(point - rig.rest[row.vertex]);
+    contact.distance = contact.normal.dot(rig.rest[row.vertex] - point);
+    contact.moved = (x - rig.rest[row.vertex]).norm();
+    for (int k = 0; k < 3; ++k) contact.moved += weights[k] * on->moved[corners[k]];
     return contact;
 }
 
@@ -131,28 +166,50 @@ SkinContact pokeContact(const SkinRig& rig, const SkinScene& scene, std::size_t 
     const SkinPoke& poke = rig.pokes[index];
     const PlacedMuscle& muscle = scene.muscles[poke.muscle];
     const Vec3& x = muscle.surface[poke.vertex];
-    const Vec3& normal = muscle.normals[poke.vertex];
-    const auto place = [&](std::uint32_t v) -> const Vec3& { return scene.predicted[v]; };
+    const auto at = [&](int v) -> const Vec3& { return scene.predicted[v]; };
 
     SkinContact contact;
+    int triangle = rig.pokeTriangles[poke.first + muscle.dragPlace.node];
+    if (triangle < 0 && muscle.dragPlace.t > 0)
+        triangle = rig.pokeTriangles[poke.first + muscle.dragPlace.node + 1];
+    if (triangle < 0) return contact;
+    // From the triangle known at the node downhill to the nearest one.
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::uint32_t k = poke.first; k < poke.last; ++k) {
-        const Tri& t = rig.triangles[rig.pokeTriangles[k]];
-        const Vec3 &a = place(t[0]), &b = place(t[1]), &c = place(t[2]);
-        const Vec3 w = nearestOnTriangle(x, a, b, c);
-        const double d = (x - w[0] * a - w[1] * b - w[2] * c).squaredNorm();
-        if (!(d < nearest)) continue;
-        nearest = d;
-        contact.normal = normal;
-        for (int i = 0; i < 3; ++i) {
-            contact.vertex[i] = static_cast<std::uint32_t>(t[i]);
-            contact.weight[i] = w[i];
+    Vec3 weights = Vec3::Zero(), point = Vec3::Zero();
+    Tri corners = Tri::Zero();
+    for (int step = 0, next = triangle; step < walkSteps && next >= 0; ++step) {
+        const int from = std::exchange(next, -1);
+        for (int k = step == 0 ? -1 : 0; k < 3; ++k) {
+            const int candidate = k < 0 ? from : rig.across[from][k];
+            if (candidate < 0) continue;
+            const Tri& t = rig.triangles[candidate];
+            const Vec3 w = nearestOnTriangle(x, at(t[0]), at(t[1]), at(t[2]));
+            const Vec3 p = w[0] * at(t[0]) + w[1] * at(t[1]) + w[2] * at(t[2]);
+            const double d = (x - p).squaredNorm();
+            if (!(d < nearest)) continue;
+            nearest = d;
+            weights = w;
+            point = p;
+            corners = t;
+            next = candidate;
         }
     }
-    if (!contact.found()) return contact;
+    Vec3 normal = Vec3::Zero();
+    for (int i = 0; i < 3; ++i) normal += weights[i] * rig.restNormals[corners[i]];
+    normal.normalize();
+    contact.trust = trust(normal.dot(muscle.normals[poke.vertex]));
+    if (!(contact.trust > 0)) return contact;
+    contact.normal =
+        pushDirection((normal + muscle.normals[poke.vertex]).normalized(), point - x, poke.radius);
     Vec3 onSkin = Vec3::Zero();
-    for (int i = 0; i < 3; ++i) onSkin += contact.weight[i] * rig.rest[contact.vertex[i]];
-    contact.bound = normal.dot(x - onSkin);
+    contact.moved = muscle.moved[poke.vertex];
+    for (int i = 0; i < 3; ++i) {
+        contact.vertex[i] = static_cast<std::uint32_t>(corners[i]);
+        contact.weight[i] = weights[i];
+        onSkin += weights[i] * rig.rest[corners[i]];
+        contact.moved += weights[i] * (at(corners[i]) - rig.rest[corners[i]]).norm();
+    }
+    contact.distance = contact.normal.dot(onSkin - x);
     return contact;
 }
 

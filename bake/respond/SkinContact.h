@@ -2,40 +2,48 @@
 #include "bake/motion/Motion.h"
 #include "bake/respond/SkinRig.h"
 
+#include <limits>
 #include <span>
 
 namespace tss {
 
 /// One muscle of a rig as it stands.
 struct PlacedMuscle {
+    double activation = std::numeric_limits<double>::quiet_NaN(); ///< NaN: not placed yet
+    Pose pose = Pose::Identity();
+    TrackPlace dragPlace;      ///< between the nodes of its drag
     std::vector<Vec3> surface; ///< #V, skin's frame
-    std::vector<Vec3> normals; ///< #V, outward, length of no meaning
+    std::vector<double> moved; ///< #V, distance from rest
+    std::vector<Vec3> normals; ///< #V, outward, unit
+    std::vector<Vec3> faces;   ///< #F, outward, length of no meaning
     std::vector<Vec3> centres; ///< #spheres
     std::vector<double> radii; ///< #spheres
 };
 
-/// All muscles at given activations, and the skin as they would carry it.
+/// All muscles at given activations, and the skin as they drag it along without contact.
 struct SkinScene {
     std::vector<PlacedMuscle> muscles;
-    std::vector<Vec3> predicted; ///< #touched: where contacts are looked up, rest carried by the muscles
-    std::vector<Vec3> reference; ///< #touched: displacement at which the holds on each vertex balance
+    std::vector<Move> drag;      ///< #touched: displacement, the sum over the muscles
+    std::vector<Move> reference; ///< #touched: what poses add to the holds, as a displacement without a sheet
+    std::vector<Vec3> predicted; ///< #touched: rest and both of these; where contacts are looked up
 };
 
-/// A plane: distance(u) = normal . sum weight_k u_k - bound >= the offset of its row, u the displacements of
-/// touched vertices.
+/// Moves the muscles and the skin's prediction. activations, poses (motion of each muscle since rest in the
+/// skin's frame): one a muscle, within its range.
+void placeMuscles(const SkinRig& rig, std::span<const double> activations, std::span<const Pose> poses,
+                  SkinScene& scene);
+
+/// normal . sum weight_k (rest + u)_k >= level + offset of its row.
 struct SkinContact {
     std::uint32_t vertex[3] = {0, 0, 0};
     double weight[3] = {0, 0, 0}; ///< sum 1
     Vec3 normal = Vec3::Zero();   ///< unit; zero: nothing within reach
-    double bound = 0;
+    double distance = 0;          ///< of the rest places from the plane: normal . sum weight_k rest_k - level
+    double moved = 0; ///< how far skin and muscle have come here since rest, both added
+    double trust = 1; ///< 0..1: 1 where skin and surface face the same way, falling smoothly to 0
 
     bool found() const { return normal != Vec3::Zero(); }
 };
-
-/// Moves the muscles and the skin's prediction. activations: one a muscle, missing ones 0. poses: motion of
-/// each muscle since rest in the skin's frame, one a muscle or none at all.
-void placeMuscles(const SkinRig& rig, std::span<const double> activations, std::span<const Pose> poses,
-                  SkinScene& scene);
 
 /// The plane that row `row` of the table meets, seen from its predicted place: the spheres select, the
 /// surface answers (METHOD 6.2). Triangles that face away from the skin are not seen.

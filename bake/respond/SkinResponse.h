@@ -50,28 +50,16 @@ private:
     void toRest();
     void pushOut();
     void solve();
-    std::size_t findContacts();
-    void warmStart();
-    void sweep();
-    void finish();
-
-    struct Plane {
-        SkinContact contact;
-        double bound = 0; ///< with the offset of its row
-        double compliance = 0;
-        double mass = 0;            ///< sum of w times weight squared
-        double multiplier = 0;      ///< >= 0
-        Vec3 before = Vec3::Zero(); ///< normal at the last update
-    };
+    void findContacts();
+    void findNormals();
 
     std::shared_ptr<const SkinRig> rig_;
     SkinScene scene_;
-    std::vector<Vec3> displacements_, positions_, normals_;
-    std::vector<double> stretch_; ///< multipliers, one an edge
-    std::vector<Vec3> bend_;      ///< multipliers, one a bend
-    std::vector<Plane> planes_;   ///< rows, then pokes
-    std::vector<double> lastActivations_;
-    std::vector<Pose> lastPoses_;
+    SkinSolver solver_;
+    std::vector<SheetPlane> planes_; ///< rows, then pokes
+    std::vector<Vec3> positions_, normals_;
+    std::vector<double> activations_;
+    std::vector<Pose> poses_;
     double residual_ = 0;
     bool atRest_ = true, settled_ = false;
 };

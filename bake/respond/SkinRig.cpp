@@ -62,7 +62,8 @@ struct Touched {
 };
 
 Touched touch(SkinRig& rig, const TriangleMesh& skin, const rig::Rings& rings, const SkinTable& table,
-              const std::vector<std::vector<Closeness>>& close, double thickness) {
+              const std::vector<std::vector<Closeness>>& close, double thickness,
+              const std::vector<Vec3>& normals) {
     std::vector<std::uint32_t> sources = table.skinVertices;
     for (const auto& list : close)
         for (const Closeness& c : list) sources.push_back(c.vertex);
@@ -80,7 +81,6 @@ Touched touch(SkinRig& rig, const TriangleMesh& skin, const rig::Rings& rings, c
         for (const std::uint32_t w : rings.ring[v]) keep[w] = true;
     }
     touched.indexOf.assign(skin.vertices.size(), std::numeric_limits<std::uint32_t>::max());
-    const std::vector<Vec3> normals = vertexNormals(skin);
     for (std::uint32_t v = 0; v < skin.vertices.size(); ++v) {
         if (!keep[v]) continue;
         touched.indexOf[v] = static_cast<std::uint32_t>(rig.vertices.size());
@@ -148,11 +148,13 @@ void addHolds(SkinRig& rig, const Touched& touched, const std::vector<std::vecto
             const double attach = p.attach.empty() ? c.attach : share * p.attach[c.vertex];
             const double stiffness = areas[i] * (p.fascia * share + p.attachment * attach);
             held[i] += stiffness;
-            rig.muscles[m].carried.push_back(
-                {i, static_cast<std::uint32_t>(rig.muscles[m].carried.size()), share, stiffness});
+            rig.muscles[m].carried.push_back({i, static_cast<float>(stiffness)});
         }
     for (std::size_t i = 0; i < rig.vertices.size(); ++i)
-        rig.inverseMass.push_back(std::isfinite(touched.distance[rig.vertices[i]]) ? 1 / held[i] : 0);
+        rig.sheet.inverseMass.push_back(
+            std::isfinite(touched.distance[rig.vertices[i]]) ? static_cast<float>(1 / held[i]) : 0);
+    for (SkinMuscle& muscle : rig.muscles)
+        for (SkinCarry& c : muscle.carried) c.pull *= rig.sheet.inverseMass[c.vertex];
 }
 
 void addTracks(SkinRig& rig, const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
@@ -179,6 +181,7 @@ void addTracks(SkinRig& rig, const std::vector<std::shared_ptr<const MuscleDefor
         points.clear();
         for (const Closeness& c : close[m]) points.push_back(c.point);
         muscle.skin = makeTrack(deformer, points, nodes);
+        muscle.rest = deformer.muscle().surface.vertices;
         muscle.triangles = deformer.muscle().surface.triangles;
         rig::addBehind(muscle, deformer.muscle().surface, spheres[m]);
     }
@@ -191,20 +194,35 @@ void addTracks(SkinRig& rig, const std::vector<std::shared_ptr<const MuscleDefor
 
 /// What each row and poke keeps: its own distance at rest where that is less than the thickness. Found by the
 /// look-up of the run time, or the skin would never come back to rest (METHOD 6.2).
-void addOffsets(SkinRig& rig) {
+void addOffsets(SkinRig& rig, double reach) {
     SkinScene scene;
-    placeMuscles(rig, std::vector<double>(rig.muscles.size(), 0.0), {}, scene);
+    const std::vector<double> none(rig.muscles.size(), 0.0);
+    placeMuscles(rig, none, std::vector<Pose>(rig.muscles.size(), Pose::Identity()), scene);
     for (std::size_t i = 0; i < rig.rows.size(); ++i) {
+        const double radius = rig.rows[i].radius;
         const SkinContact c = rowContact(rig, scene, i);
-        rig.rowOffsets.push_back(c.found() ? std::min(-c.bound, rig.rows[i].radius) : rig.rows[i].radius);
+        rig.rowDistances.push_back(c.found() ? c.distance : radius + std::max(rig.travel, radius));
+        rig.rowOffsets.push_back(std::min(rig.rowDistances.back(), radius));
     }
     for (std::size_t i = 0; i < rig.pokes.size(); ++i) {
         const SkinContact c = pokeContact(rig, scene, i);
-        rig.pokeOffsets.push_back(c.found() ? std::min(-c.bound, rig.pokes[i].radius) : rig.pokes[i].radius);
+        rig.pokeDistances.push_back(c.found() ? c.distance : reach);
+        rig.pokeOffsets.push_back(std::min(rig.pokeDistances.back(), rig.pokes[i].radius));
     }
 }
 
 } // namespace
+
+std::vector<Vec3> skinNormals(const TriangleMesh& skin) {
+    std::vector<Vec3> normals(skin.vertices.size(), Vec3::Zero());
+    for (const Tri& t : skin.triangles) {
+        const Vec3& a = skin.vertices[t[0]];
+        const Vec3 n = (skin.vertices[t[1]] - a).cross(skin.vertices[t[2]] - a);
+        for (int k = 0; k < 3; ++k) normals[t[k]] += n;
+    }
+    for (Vec3& n : normals) n.normalize();
+    return normals;
+}
 
 std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
                                            const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
@@ -220,13 +238,13 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     const double reach = carryReach * thickness;
 
     const rig::Rings rings = rig::rings(skin);
-    const std::vector<Vec3> normals = vertexNormals(skin);
+    const std::vector<Vec3> normals = skinNormals(skin);
     std::vector<std::vector<Closeness>> close(muscles.size());
     if (!parameters.faithful)
         for (std::size_t m = 0; m < muscles.size(); ++m)
             close[m] = rig::closeness(skin, normals, *muscles[m], reach);
 
-    const Touched touched = touch(rig, skin, rings, table, close, thickness);
+    const Touched touched = touch(rig, skin, rings, table, close, thickness, normals);
     addTriangles(rig, skin, touched);
     addHolds(rig, touched, close);
     addTracks(rig, muscles, table, close);
@@ -235,10 +253,12 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
                             table.table.rowOffsets[i + 1], table.table.a[i].radius});
     if (!parameters.faithful) {
         rig::addSheet(rig, rings, touched.indexOf);
+        rig::addAcross(rig);
+        rig::addDrag(rig, muscles);
         for (std::uint32_t m = 0; m < muscles.size(); ++m)
             rig::addPokes(rig, *muscles[m], m, thickness, reach);
     }
-    addOffsets(rig);
+    addOffsets(rig, reach);
     return result;
 }
 

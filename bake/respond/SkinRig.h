@@ -1,5 +1,6 @@
 #pragma once
 #include "bake/motion/MuscleTrack.h"
+#include "bake/respond/SkinSolver.h"
 #include "bake/table/SkinTable.h"
 
 #include <memory>
@@ -16,28 +17,36 @@ struct SkinParameters {
     std::vector<double> tether;   ///< #V in [0,1], how firmly a vertex keeps its rest place; empty: 0
     std::vector<double> attach;   ///< #V in [0,1], how firmly the muscle below carries it; empty: falls off
                                   ///< smoothly around the end of the fibre that moves
-    int iterations = 12;          ///< sweeps over all constraints an update, >= 1
+    int iterations = 12;          ///< most sweeps over all constraints an update, >= 1
     bool faithful = false;        ///< [paper] spheres push spheres out, no elastic sheet
 };
 
 /// A hold of a skin vertex on a muscle.
 struct SkinCarry {
     std::uint32_t vertex = 0; ///< index into SkinRig::vertices
-    std::uint32_t point = 0;  ///< index into the muscle's skin track
-    double share = 0;         ///< of this muscle in where the vertex is looked for, 0..1
-    double stiffness = 0;     ///< relative to the hold
+    float pull = 0;           ///< share of the muscle's move that the vertex makes without any sheet, 0..1
+};
+
+/// How a muscle alone moves the skin through its holds, without contact, tabulated over its activation: the
+/// problem is linear there, so muscles add up. Only vertices that it moves.
+struct SkinDrag {
+    std::vector<double> nodes;
+    std::vector<std::uint32_t> vertices; ///< indices into SkinRig::vertices
+    std::vector<Move> moves;             ///< #nodes blocks of #vertices, scene units
 };
 
 /// What a rig keeps of one muscle. Everything in the skin's frame.
 struct SkinMuscle {
     std::vector<Tri> triangles;
+    std::vector<Vec3> rest;                 ///< #V
     MuscleTrack surface;                    ///< #V of the muscle
     MuscleTrack spheres;                    ///< the spheres of the table that are its own
     MuscleTrack skin;                       ///< the skin vertices that it carries
     std::vector<double> radii;              ///< #spheres, at activation 0
     std::vector<std::uint32_t> behindStart; ///< #spheres + 1, CSR:
     std::vector<std::uint32_t> behind;      ///< ... triangles that reach into each sphere
-    std::vector<SkinCarry> carried;
+    std::vector<SkinCarry> carried;         ///< one a point of `skin`
+    SkinDrag drag;
 };
 
 /// A row of the table: a skin vertex and its tests, grouped by muscle.
@@ -52,22 +61,12 @@ struct SkinTest {
     double restGap = 0;
 };
 
-/// A muscle vertex that could poke through between skin vertices.
+/// A muscle vertex that could poke through between skin vertices, with the skin triangle nearest to it at
+/// each node of its muscle's drag, -1 where none is within reach.
 struct SkinPoke {
     std::uint32_t muscle = 0, vertex = 0;
-    std::uint32_t first = 0, last = 0; ///< range in SkinRig::pokeTriangles
+    std::uint32_t first = 0; ///< in SkinRig::pokeTriangles, one a node
     double radius = 0;
-};
-
-struct SkinEdge {
-    std::uint32_t i = 0, j = 0;
-    Vec3 direction; ///< unit, at rest
-    double compliance = 0;
-};
-
-struct SkinBend {
-    std::uint32_t centre = 0, first = 0, last = 0; ///< ring: range in SkinRig::ring
-    double compliance = 0, weight = 0;             ///< weight: sum of w times gradient squared
 };
 
 /// The part of a skin that never changes: which vertices may move, what holds them, which tests they take.
@@ -81,7 +80,7 @@ struct SkinRig {
     std::vector<std::uint32_t> vertices; ///< rising; indices into the skin mesh
     std::vector<Vec3> rest;              ///< places of the touched vertices
     std::vector<Vec3> restNormals;       ///< unit
-    std::vector<double> inverseMass;     ///< with holds, tethers and attachments; 0 for the fixed rim
+    SkinSheet sheet;                     ///< of the touched vertices; a fixed rim has inverse mass 0
     std::vector<Tri> triangles;          ///< of touched vertices only
     std::vector<Tri> normalTriangles;    ///< all that bear on a normal, into vertices then border
     std::vector<Vec3> border;            ///< places of the untouched corners of normalTriangles
@@ -90,16 +89,18 @@ struct SkinRig {
     std::vector<SkinRow> rows;
     std::vector<SkinTest> tests;
     std::vector<SkinPoke> pokes;
-    std::vector<std::uint32_t> pokeTriangles; ///< into triangles
+    std::vector<int> pokeTriangles; ///< into triangles
+    std::vector<Tri> across;        ///< per triangle the one beyond each edge (k, k+1), -1: none
 
-    std::vector<SkinEdge> edges;
-    std::vector<SkinBend> bends;
-    std::vector<std::uint32_t> ring;
-
+    /// Distance of each row and poke at rest, or the least it can be where the look-up finds nothing there.
+    std::vector<double> rowDistances, pokeDistances;
     std::vector<double>
         rowOffsets; ///< signed distance that each row keeps, found by the run-time look-up at rest
     std::vector<double> pokeOffsets; ///< the same for the pokes
 };
+
+/// Unit normals of all vertices, weighted by area: those of SkinResponse at rest.
+std::vector<Vec3> skinNormals(const TriangleMesh& skin);
 
 /// Makes a rig. skin: the mesh the table was made for. muscles: in the order the table knows them, in the
 /// skin's frame. Throws InputError when they do not fit each other.

@@ -8,6 +8,9 @@ namespace tss::rig {
 namespace {
 
 constexpr double attachReach = 0.3; ///< share of the fibre around its moving end over which it is attached
+constexpr int dragSteps = 8;        ///< nodes of a drag, without the first
+constexpr int dragSweeps = 400;
+constexpr double dragTolerance = 1e-7; ///< in sizes of the skin
 
 /// 1 at 0, 0 from 1 on, smooth.
 double falloff(double t) {
@@ -65,31 +68,64 @@ void addBehind(SkinMuscle& muscle, const TriangleMesh& surface, const SphereSet&
     }
 }
 
-void addPokes(SkinRig& rig, const MuscleDeformer& muscle, std::uint32_t index, double radius, double reach) {
-    const TriangleMesh touched{rig.rest, rig.triangles};
-    const MuscleLocator locator(touched);
-    std::vector<std::vector<std::uint32_t>> around(rig.rest.size());
-    for (std::uint32_t t = 0; t < rig.triangles.size(); ++t)
-        for (int k = 0; k < 3; ++k) around[rig.triangles[t][k]].push_back(t);
-
-    const TriangleMesh& surface = muscle.muscle().surface;
-    const std::vector<Vec3> normals = vertexNormals(surface);
-    for (std::uint32_t v = 0; v < surface.vertices.size(); ++v) {
-        const NearestPoint near = locator.nearestFacing(surface.vertices[v], reach, normals[v]);
-        if (near.triangle < 0) continue;
-        std::vector<std::uint32_t> candidates;
-        bool moves = false;
-        for (int k = 0; k < 3; ++k) {
-            const int corner = rig.triangles[near.triangle][k];
-            moves = moves || rig.inverseMass[corner] > 0;
-            candidates.insert(candidates.end(), around[corner].begin(), around[corner].end());
+void addDrag(SkinRig& rig, const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles) {
+    const std::size_t count = rig.rest.size();
+    const float tolerance = static_cast<float>(dragTolerance * rig.size);
+    std::vector<SheetPlane> none;
+    for (std::size_t m = 0; m < rig.muscles.size(); ++m) {
+        SkinMuscle& muscle = rig.muscles[m];
+        const Muscle& source = muscles[m]->muscle();
+        muscle.drag.nodes = activationNodes(source.activationLower, source.activationUpper, dragSteps);
+        SkinSolver solver(rig.sheet);
+        std::vector<std::vector<Move>> solved;
+        std::vector<float> most(count, 0);
+        for (const double a : muscle.drag.nodes) {
+            std::vector<Move> reference(count, Move::Zero());
+            const TrackPlace place = locate(muscle.skin.nodes, a);
+            for (std::size_t i = 0; i < muscle.carried.size(); ++i) {
+                const SkinCarry& c = muscle.carried[i];
+                const Vec3 d = trackPosition(muscle.skin, place, i) - rig.rest[c.vertex];
+                reference[c.vertex].head<3>() += c.pull * d.cast<float>();
+            }
+            if (a == 0)
+                solver.reset();
+            else
+                solver.solve(reference, none, dragSweeps, tolerance);
+            solved.emplace_back(solver.displacements().begin(), solver.displacements().end());
+            for (std::size_t v = 0; v < count; ++v) most[v] = std::max(most[v], solved.back()[v].norm());
         }
-        if (!moves) continue;
-        std::sort(candidates.begin(), candidates.end());
-        candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-        const auto first = static_cast<std::uint32_t>(rig.pokeTriangles.size());
-        rig.pokeTriangles.insert(rig.pokeTriangles.end(), candidates.begin(), candidates.end());
-        rig.pokes.push_back({index, v, first, static_cast<std::uint32_t>(rig.pokeTriangles.size()), radius});
+        for (std::uint32_t v = 0; v < count; ++v)
+            if (most[v] > tolerance) muscle.drag.vertices.push_back(v);
+        for (const auto& moves : solved)
+            for (const std::uint32_t v : muscle.drag.vertices) muscle.drag.moves.push_back(moves[v]);
+    }
+}
+
+void addPokes(SkinRig& rig, const MuscleDeformer& muscle, std::uint32_t index, double radius, double reach) {
+    const SkinDrag& drag = rig.muscles[index].drag;
+    const std::vector<Vec3>& rest = muscle.muscle().surface.vertices;
+    std::vector<std::vector<int>> nearest(rest.size(), std::vector<int>(drag.nodes.size(), -1));
+    std::vector<bool> needed(rest.size(), false);
+    for (std::size_t n = 0; n < drag.nodes.size(); ++n) {
+        TriangleMesh skin{rig.rest, rig.triangles};
+        for (std::size_t k = 0; k < drag.vertices.size(); ++k)
+            skin.vertices[drag.vertices[k]] +=
+                drag.moves[n * drag.vertices.size() + k].head<3>().cast<double>();
+        const TriangleMesh surface{muscle.vertices(drag.nodes[n]), muscle.muscle().surface.triangles};
+        const std::vector<Vec3> normals = vertexNormals(surface);
+        const MuscleLocator locator(skin);
+        for (std::size_t v = 0; v < rest.size(); ++v) {
+            const NearestPoint near = locator.nearestFacing(surface.vertices[v], reach, normals[v]);
+            nearest[v][n] = near.triangle;
+            if (near.triangle < 0) continue;
+            for (int k = 0; k < 3; ++k)
+                needed[v] = needed[v] || rig.sheet.inverseMass[rig.triangles[near.triangle][k]] > 0;
+        }
+    }
+    for (std::uint32_t v = 0; v < rest.size(); ++v) {
+        if (!needed[v]) continue;
+        rig.pokes.push_back({index, v, static_cast<std::uint32_t>(rig.pokeTriangles.size()), radius});
+        rig.pokeTriangles.insert(rig.pokeTriangles.end(), nearest[v].begin(), nearest[v].end());
     }
 }
 

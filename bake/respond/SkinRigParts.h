@@ -27,15 +27,20 @@ std::vector<Closeness> closeness(const TriangleMesh& skin, const std::vector<Vec
 std::vector<double> edgeDistances(const TriangleMesh& skin, const Rings& rings,
                                   const std::vector<std::uint32_t>& sources, double limit);
 
-/// Fills edges, bends and ring for the touched vertices.
+/// Fills edges, bends and ring of the sheet of the touched vertices. Its inverse masses are there already.
 void addSheet(SkinRig& rig, const Rings& rings, const std::vector<std::uint32_t>& indexOf);
+
+/// Solves the drag of each muscle for its nodes.
+void addDrag(SkinRig& rig, const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles);
 
 /// The triangles behind each sphere: those that reach into it; a triangle that reaches into none goes to the
 /// nearest one.
 void addBehind(SkinMuscle& muscle, const TriangleMesh& surface, const SphereSet& spheres);
 
-/// The muscle vertices that could poke through the skin at rest or carried, with the skin triangles around
-/// the nearest one.
+/// The muscle vertices that could poke through the skin, and where under it they are at each node.
 void addPokes(SkinRig& rig, const MuscleDeformer& muscle, std::uint32_t index, double radius, double reach);
+
+/// Fills rig.across.
+void addAcross(SkinRig& rig);
 
 } // namespace tss::rig

@@ -54,34 +54,65 @@ std::vector<double> edgeDistances(const TriangleMesh& skin, const Rings& rings,
 
 void addSheet(SkinRig& rig, const Rings& rings, const std::vector<std::uint32_t>& indexOf) {
     const auto count = static_cast<std::uint32_t>(rig.vertices.size());
+    const auto compliance = [](double asked, double mass) {
+        // Beyond the largest float a constraint has no effect anyway.
+        return static_cast<float>(std::min(std::max(asked, complianceFloor * mass), 1e30));
+    };
+    SkinSheet& sheet = rig.sheet;
+    const std::vector<float>& w = sheet.inverseMass;
     for (std::uint32_t i = 0; i < count; ++i) {
         const auto& ring = rings.ring[rig.vertices[i]];
-        double ringMass = 0;
+        float ringMass = 0;
         bool whole = true;
-        const auto first = static_cast<std::uint32_t>(rig.ring.size());
+        const auto first = static_cast<std::uint32_t>(sheet.ring.size());
         for (const std::uint32_t neighbour : ring) {
             const std::uint32_t j = indexOf[neighbour];
             if (j >= count) {
                 whole = false;
                 continue;
             }
-            rig.ring.push_back(j);
-            ringMass += rig.inverseMass[j];
-            const double mass = rig.inverseMass[i] + rig.inverseMass[j];
+            sheet.ring.push_back(j);
+            ringMass += w[j];
+            const float mass = w[i] + w[j];
             const Vec3 d = rig.rest[i] - rig.rest[j];
             if (i > j || !(mass > 0) || !(d.norm() > 0)) continue;
-            const double compliance = std::max(rig.parameters.stretchCompliance, complianceFloor * mass);
-            rig.edges.push_back({i, j, d.normalized(), compliance});
+            SheetEdge edge;
+            edge.direction.head<3>() = d.normalized().cast<float>();
+            edge.direction[3] = 0;
+            edge.i = i;
+            edge.j = j;
+            edge.compliance = compliance(rig.parameters.stretchCompliance, mass);
+            edge.inverse = 1 / (mass + edge.compliance);
+            edge.massI = w[i];
+            edge.massJ = w[j];
+            sheet.edges.push_back(edge);
         }
         // A rim has no Laplacian to speak of, and the vertices around the touched part do not move.
-        if (!whole || rings.rim[rig.vertices[i]] || ring.empty() || !(rig.inverseMass[i] > 0)) {
-            rig.ring.resize(first);
+        if (!whole || rings.rim[rig.vertices[i]] || ring.empty() || !(w[i] > 0)) {
+            sheet.ring.resize(first);
             continue;
         }
-        const double n = static_cast<double>(ring.size());
-        const double mass = rig.inverseMass[i] + ringMass / (n * n);
-        const double compliance = std::max(rig.parameters.bendCompliance, complianceFloor * mass);
-        rig.bends.push_back({i, first, static_cast<std::uint32_t>(rig.ring.size()), compliance, mass});
+        SheetBend bend;
+        bend.centre = i;
+        bend.first = first;
+        bend.last = static_cast<std::uint32_t>(sheet.ring.size());
+        bend.share = 1.0f / static_cast<float>(ring.size());
+        const float mass = w[i] + ringMass * bend.share * bend.share;
+        bend.compliance = compliance(rig.parameters.bendCompliance, mass);
+        bend.inverse = 1 / (mass + bend.compliance);
+        bend.mass = w[i];
+        sheet.bends.push_back(bend);
+    }
+}
+
+void addAcross(SkinRig& rig) {
+    std::map<std::pair<int, int>, std::pair<int, int>> sides; // directed edge -> triangle, edge
+    rig.across.assign(rig.triangles.size(), Tri(-1, -1, -1));
+    for (int t = 0; t < static_cast<int>(rig.triangles.size()); ++t)
+        for (int k = 0; k < 3; ++k) sides[{rig.triangles[t][k], rig.triangles[t][(k + 1) % 3]}] = {t, k};
+    for (const auto& [edge, side] : sides) {
+        const auto other = sides.find({edge.second, edge.first});
+        if (other != sides.end()) rig.across[side.first][side.second] = other->second.first;
     }
 }
 
