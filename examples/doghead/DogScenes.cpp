@@ -81,9 +81,8 @@ tss::SceneModel jawScene() {
 
 tss::SceneModel frontalisScene() {
     tss::SceneModel scene = emptyScene("DogFrontalis", 72);
-    const Detail plain{1.0, 0.3};
-    const int skull = addBody(scene, "Skull", skullMesh(plain), ivory);
-    const int mandible = addBody(scene, "Mandible", mandibleMesh(plain), paleBone);
+    const int skull = addBody(scene, "Skull", skullMesh(), ivory);
+    const int mandible = addBody(scene, "Mandible", mandibleMesh(), paleBone);
     scene.bodies[mandible].placement.rotate(
         Eigen::AngleAxisd(1.5 * degree, Vec3::UnitY())); // teeth just apart
     const int muscle = addBody(scene, "FrontalisSurface", frontalisMesh({0.8, 0.12}), flesh);

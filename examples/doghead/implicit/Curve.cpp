@@ -44,7 +44,7 @@ using Row = Eigen::Matrix<double, 5, 1>; ///< x, y, z, across, along
 /// The curve of a sweep: Catmull-Rom, the end tangents along the first and last chords.
 class Spine {
 public:
-    Spine(const std::vector<Station>& stations, const Vec3& up) : up_(up) {
+    Spine(const std::vector<Station>& stations, const Vec3& up, bool flat) : up_(up), flat_(flat) {
         for (const Station& s : stations) rows_.push_back((Row() << s.centre, s.across, s.along).finished());
         for (int i = 0; i <= spans() * coarse; ++i) polyline_.push_back(at(double(i) / coarse).head<3>());
     }
@@ -60,6 +60,7 @@ private:
     std::vector<Row> rows_;
     std::vector<Vec3> polyline_;
     Vec3 up_;
+    bool flat_; ///< parallel sides instead of an ellipse
 };
 
 Row Spine::at(double u, Row* slope) const {
@@ -104,6 +105,10 @@ double Spine::distance(const Vec3& p) const {
     if (r[3] == r[4]) return offset.norm() - r[3];
     const Vec3 tangent = slope.head<3>().normalized();
     const Vec3 across = up_.cross(tangent).normalized(), along = tangent.cross(across);
+    if (flat_) {
+        const double beyond = std::max(0., std::abs(offset.dot(along)) - std::max(0., r[4] - r[3]));
+        return Vec3(offset.dot(across), beyond, offset.dot(tangent)).norm() - r[3];
+    }
     const double least = std::min(r[3], r[4]);
     const Vec3 scaled(offset.dot(across) / r[3], offset.dot(along) / r[4], offset.dot(tangent) / least);
     const double k0 = scaled.norm(), k1 = scaled.cwiseQuotient(Vec3(r[3], r[4], least)).norm();
@@ -112,8 +117,8 @@ double Spine::distance(const Vec3& p) const {
 
 } // namespace
 
-Field sweep(const std::vector<Station>& stations, const Vec3& up) {
-    const auto spine = std::make_shared<const Spine>(stations, up);
+static Field swept(const std::vector<Station>& stations, const Vec3& up, bool flat) {
+    const auto spine = std::make_shared<const Spine>(stations, up, flat);
     Box box;
     for (int i = 0; i <= 8 * spine->spans(); ++i) {
         const Row row = spine->at(i / 8.);
@@ -121,6 +126,14 @@ Field sweep(const std::vector<Station>& stations, const Vec3& up) {
         box.extend(Box(centre - r, centre + r));
     }
     return {[spine](const Vec3& p) { return spine->distance(p); }, box};
+}
+
+Field sweep(const std::vector<Station>& stations, const Vec3& up) {
+    return swept(stations, up, false);
+}
+
+Field ribbon(const std::vector<Station>& stations, const Vec3& up) {
+    return swept(stations, up, true);
 }
 
 Field tube(const std::vector<Vec3>& points, const std::vector<double>& radii) {

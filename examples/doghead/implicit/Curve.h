@@ -36,6 +36,10 @@ struct Station {
 /// off.
 Field sweep(const std::vector<Station>& stations, const Vec3& up);
 
+/// The same with a section of two parallel sides and round rims (across <= along): for ridges and arches,
+/// whose edges an ellipse would make too sharp.
+Field ribbon(const std::vector<Station>& stations, const Vec3& up);
+
 /// A round tube through points with radii.
 Field tube(const std::vector<Vec3>& points, const std::vector<double>& radii);
 

@@ -100,12 +100,13 @@ int EditableMesh::split(const Edge& edge, const Vec3& at) {
     return middle;
 }
 
-bool EditableMesh::turnsOver(int vertex, const Vec3& at, int except1, int except2) const {
+bool EditableMesh::turnsOver(int vertex, const Vec3& at, const Edge& except, const Vec3* facing) const {
     for (int t : around[vertex]) {
-        if (t == except1 || t == except2) continue;
+        if (t == except.left || t == except.right) continue;
         Vec3 corner[3];
         for (int k = 0; k < 3; ++k) corner[k] = triangles[t][k] == vertex ? at : vertices[triangles[t][k]];
-        const Vec3 before = areaNormal(t), after = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+        const Vec3 before = facing ? *facing : areaNormal(t);
+        const Vec3 after = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
         // 75 degrees at most, and no needle that was none before
         if (after.dot(before) < 0.26 * after.norm() * before.norm()) return true;
         const Tri& i = triangles[t];
@@ -115,7 +116,7 @@ bool EditableMesh::turnsOver(int vertex, const Vec3& at, int except1, int except
     return false;
 }
 
-bool EditableMesh::collapse(const Edge& edge, const Vec3& at, double longest) {
+bool EditableMesh::collapse(const Edge& edge, const Vec3& at, double longest, const Vec3* facing) {
     const std::vector<int> ringA = neighbours(edge.a), ringB = neighbours(edge.b);
     std::vector<int> shared;
     std::set_intersection(ringA.begin(), ringA.end(), ringB.begin(), ringB.end(), std::back_inserter(shared));
@@ -125,8 +126,7 @@ bool EditableMesh::collapse(const Edge& edge, const Vec3& at, double longest) {
     for (const auto* ring : {&ringA, &ringB})
         for (int v : *ring)
             if (v != edge.a && v != edge.b && (vertices[v] - at).norm() > longest) return false;
-    if (turnsOver(edge.a, at, edge.left, edge.right) || turnsOver(edge.b, at, edge.left, edge.right))
-        return false;
+    if (turnsOver(edge.a, at, edge, facing) || turnsOver(edge.b, at, edge, facing)) return false;
 
     dropTriangle(edge.left);
     dropTriangle(edge.right);

@@ -34,12 +34,14 @@ public:
     std::vector<int> neighbours(int vertex) const; ///< sorted
 
     int split(const Edge& edge, const Vec3& at);
-    /// b is drawn into a, which moves to `at`.
-    bool collapse(const Edge& edge, const Vec3& at, double longest);
+    /// b is drawn into a, which moves to `at`. No edge gets longer than `longest`. With `facing` the
+    /// triangles left need not face as they did, only to the side of that normal: this is how a fold is taken
+    /// out.
+    bool collapse(const Edge& edge, const Vec3& at, double longest, const Vec3* facing = nullptr);
     bool flip(const Edge& edge, double leastQuality);
 
 private:
-    bool turnsOver(int vertex, const Vec3& at, int except1, int except2) const;
+    bool turnsOver(int vertex, const Vec3& at, const Edge& except, const Vec3* facing) const;
     void dropTriangle(int triangle);
 };
 

@@ -55,6 +55,7 @@ private:
     void collapseShort();
     void flipEdges();
     void smooth();
+    void removePyramids();
 
     EditableMesh mesh_;
     const Field& field_;
@@ -127,9 +128,22 @@ void Remesher::smooth() {
     }
 }
 
+/// A vertex with three triangles is drawn into a neighbour, which leaves one triangle in their place.
+void Remesher::removePyramids() {
+    for (int v = 0; v < int(mesh_.vertices.size()); ++v) {
+        if (mesh_.around[v].size() != 3) continue;
+        EditableMesh::Edge edge;
+        for (int neighbour : mesh_.neighbours(v)) {
+            const Vec3 at = mesh_.vertices[neighbour], facing = normal(field_, at);
+            if (mesh_.find(neighbour, v, edge) && mesh_.collapse(edge, at, 1e9, &facing)) break;
+        }
+    }
+}
+
 void Remesher::removeNeedles() {
     for (int pass = 0; pass < 6; ++pass) {
         int left = 0;
+        removePyramids();
         for (int t = 0; t < int(mesh_.triangles.size()); ++t) {
             if (mesh_.triangles[t][0] < 0 || qualityOf(t) > 0.35) continue;
             ++left;
@@ -149,7 +163,9 @@ void Remesher::removeNeedles() {
                 if (mesh_.flip(edge, worst + 0.02)) continue;
             }
             const int a = corner[shortest], b = corner[(shortest + 1) % 3];
-            if (mesh_.find(a, b, edge)) mesh_.collapse(edge, onSurface(field_, middle(a, b), 1), 1e9);
+            if (!mesh_.find(a, b, edge)) continue;
+            const Vec3 at = onSurface(field_, middle(a, b), 1), facing = normal(field_, at);
+            if (!mesh_.collapse(edge, at, 1e9)) mesh_.collapse(edge, at, 1e9, &facing);
         }
         if (left == 0) return;
         smooth();

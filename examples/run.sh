@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# The main job, from a bare Debian 12 and a clean clone: installs what is missing, builds, bakes the repository's two
+# dog scenes, and has stock osgviewer render them off screen. Everything it makes is in build/ and out/.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+root=$PWD
+source tests/setup.sh
+
+[ $# -eq 0 ] || {
+    echo "usage: examples/run.sh" >&2
+    exit 2
+}
+
+install_packages
+build_release
+
+export OSG_LIBRARY_PATH="$root/build/lib:$root/build/lib/osgPlugins-$(pkg-config --modversion openscenegraph)"
+export LD_LIBRARY_PATH="$root/build/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+tss=$root/build/bin/tss
+
+# bake <scene>: out/<scene>_baked.tss from scenes/<scene>.tss
+bake() {
+    say "Baking $1"
+    "$tss" bake "scenes/$1.tss" -o "out/$1_baked.tss"
+    "$tss" info "out/$1_baked.tss"
+}
+
+# pictures <scene> <frames> <every>: PNG frames of the baked scene, one time code a frame
+pictures() {
+    say "Rendering $1: frames 0 to $2, every ${3}th"
+    rm -f "out/$1"_*.png
+    # The capture pseudo-loader of examples/capture saves what osgviewer draws; -noreset, or Xvfb may end with the
+    # first program that leaves it.
+    LIBGL_ALWAYS_SOFTWARE=1 OSG_RUN_FRAME_COUNT=$(($2 + 1)) \
+        xvfb-run -a -s "-screen 0 1024x768x24 -noreset" \
+        osgviewer --SingleThreaded --samples 4 --clear-color 0.16,0.18,0.22 --borderless-window 0 0 1024 768 \
+        -p "examples/views/$1.path" -O "clock=frame capture=out/$1_%04d.png every=$3" "out/$1_baked.tss.capture"
+    ls "out/$1"_*.png >/dev/null || {
+        echo "examples/run.sh: osgviewer left no pictures of $1" >&2
+        exit 1
+    }
+}
+
+mkdir -p out
+bake dog_jaw
+bake dog_frontalis
+pictures dog_jaw 96 8
+pictures dog_frontalis 72 8
+
+say "Error against run time"
+if "$tss" report --help >/dev/null 2>&1; then
+    "$tss" report out/dog_jaw_baked.tss -o out/report --quick
+    report="$root/out/report/report.md"
+else
+    report="(this build has no report)"
+fi
+
+say "Done"
+echo "pictures: $root/out/dog_jaw_*.png ($(ls out/dog_jaw_*.png | wc -l)), $root/out/dog_frontalis_*.png ($(ls out/dog_frontalis_*.png | wc -l))"
+echo "scenes:   $root/out/dog_jaw_baked.tss, $root/out/dog_frontalis_baked.tss (osgviewer plays them)"
+echo "report:   $report"
