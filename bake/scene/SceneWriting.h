@@ -11,6 +11,8 @@ void writeDofs(PrimWriter& prim, const Joint& joint);
 void writePairs(Layer& layer, const SceneModel& scene);
 void writeMuscles(Layer& layer, const SceneModel& scene);
 void writeSkins(Layer& layer, const SceneModel& scene);
+/// The bake settings of a pair or a skin, in place of those that the prim had.
+void writeSettings(Prim& prim, const BakeSettings& settings);
 
 /// The spheres as a guide that viewers do not render: centres and diameters. Throws std::logic_error when one
 /// is not exact in float: what was proven of a table holds for the numbers that are stored (see

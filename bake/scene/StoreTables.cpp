@@ -4,6 +4,8 @@
 #include "bake/scene/Degrees.h"
 #include "bake/scene/SceneWriting.h"
 
+#include <algorithm>
+
 namespace tss {
 
 namespace {
@@ -117,6 +119,7 @@ void writeProof(Layer& layer, const std::string& path, const NeverCollides& proo
 
 void storePair(Layer& layer, const Pair& pair) {
     Prim& owner = ownerPrim(layer, pair.path);
+    writeSettings(owner, pair.settings);
     if (!pair.table && !pair.proof) {
         if (pair.tablePath.empty()) removeTable(layer, owner);
         return;
@@ -131,6 +134,7 @@ void storePair(Layer& layer, const Pair& pair) {
 
 void storeSkin(Layer& layer, const SkinModel& skin) {
     Prim& owner = ownerPrim(layer, skin.path);
+    writeSettings(owner, skin.settings);
     if (!skin.table) {
         if (skin.tablePath.empty()) removeTable(layer, owner);
         return;
@@ -145,6 +149,16 @@ void storeSkin(Layer& layer, const SkinModel& skin) {
 }
 
 } // namespace
+
+void writeSettings(Prim& prim, const BakeSettings& settings) {
+    std::erase_if(prim.properties,
+                  [](const auto& property) { return property.first.starts_with(schema::bakePrefix); });
+    for (const auto& [key, text] : settings) {
+        std::string name = schema::bakePrefix + key;
+        std::replace(name.begin(), name.end(), '-', '_');
+        PrimWriter(prim).set(Attribute{name.c_str(), "string", true}, Value(text));
+    }
+}
 
 void storeTables(Layer& layer, const SceneModel& scene) {
     for (const Pair& pair : scene.pairs) storePair(layer, pair);

@@ -3,8 +3,6 @@
 #include "bake/scene/SceneWriting.h"
 #include "bake/scene/StoreTables.h"
 
-#include <algorithm>
-
 namespace tss {
 
 namespace {
@@ -17,14 +15,6 @@ void writeMetadata(Layer& layer, const SceneModel& scene) {
     if (scene.startTimeCode == 0 && scene.endTimeCode == 0) return;
     layer.metadata["startTimeCode"] = scene.startTimeCode;
     layer.metadata["endTimeCode"] = scene.endTimeCode;
-}
-
-void writeSettings(PrimWriter& prim, const BakeSettings& settings) {
-    for (const auto& [key, text] : settings) {
-        std::string name = schema::bakePrefix + key;
-        std::replace(name.begin(), name.end(), '-', '_');
-        prim.set(Attribute{name.c_str(), "string", true}, Value(text));
-    }
 }
 
 template <class Items>
@@ -42,7 +32,7 @@ void writePairs(Layer& layer, const SceneModel& scene) {
         PrimWriter prim(makePrim(layer, pair.path, "Scope"));
         addApi(prim.prim(), "TssPairAPI");
         if (!ofJoint) prim.setTargets(schema::bodies, pathsOf(scene.bodies, {pair.bodyA, pair.bodyB}));
-        writeSettings(prim, pair.settings);
+        writeSettings(prim.prim(), pair.settings);
     }
 }
 
@@ -82,7 +72,7 @@ void writeSkins(Layer& layer, const SceneModel& scene) {
                 prim.set(attribute, *weights);
                 prim.setMetadata(attribute, "interpolation", "vertex");
             }
-        writeSettings(prim, skin.settings);
+        writeSettings(prim.prim(), skin.settings);
     }
 }
 
