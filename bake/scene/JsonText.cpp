@@ -58,4 +58,23 @@ void appendQuoted(std::string& out, std::string_view text) {
     out += '"';
 }
 
+bool isUtf8(std::string_view text) {
+    while (!text.empty()) {
+        const std::size_t length = sequenceLength(text);
+        if (length == 0) return false;
+        text.remove_prefix(length);
+    }
+    return true;
+}
+
+std::string repairedUtf8(std::string_view text) {
+    std::string good;
+    while (!text.empty()) {
+        const std::size_t length = sequenceLength(text);
+        good += length == 0 ? "\xEF\xBF\xBD" : text.substr(0, length);
+        text.remove_prefix(length == 0 ? 1 : length);
+    }
+    return good;
+}
+
 } // namespace tss

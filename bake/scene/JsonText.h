@@ -8,4 +8,10 @@ namespace tss {
 /// be read.
 void appendQuoted(std::string& out, std::string_view text);
 
+/// The whole text is UTF-8.
+bool isUtf8(std::string_view text);
+
+/// The text with each byte that is not UTF-8 replaced by U+FFFD.
+std::string repairedUtf8(std::string_view text);
+
 } // namespace tss

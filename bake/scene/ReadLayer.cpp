@@ -1,6 +1,7 @@
 #include "bake/scene/ReadLayer.h"
 
 #include "bake/base/AtomicFile.h"
+#include "bake/scene/ParseCbor.h"
 #include "bake/scene/ParseJson.h"
 #include "bake/scene/ReadProperty.h"
 
@@ -151,7 +152,8 @@ Layer layerFromValue(Value root, Problems& problems) {
 }
 
 Layer parseLayer(std::string_view text, const std::string& fileName, Problems& problems) {
-    return layerFromValue(parseJson(text, fileName), problems);
+    return layerFromValue(looksLikeCbor(text) ? parseCbor(text, fileName) : parseJson(text, fileName),
+                          problems);
 }
 
 Layer parseLayer(std::string_view text, const std::string& fileName) {

@@ -210,8 +210,8 @@ std::string writeJson(const Layer& layer) {
     return std::move(writer.out);
 }
 
-void saveLayer(const Layer& layer, const std::string& file) {
-    writeFileAtomically(file, writeJson(layer));
+void saveLayer(const Layer& layer, const std::string& file, Encoding encoding) {
+    writeFileAtomically(file, encoding == Encoding::Cbor ? writeCbor(layer) : writeJson(layer));
 }
 
 } // namespace tss

@@ -1,3 +1,4 @@
+#include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadScene.h"
@@ -175,4 +176,14 @@ TEST_CASE("an ordinary hinge needs no key that is not USD's own, and none about 
     CHECK(text.find("\"subdivisionScheme\"") != std::string::npos);
     CHECK(text.find("\"physics:collisionEnabled\": {\"typeName\": \"bool\", \"default\": true}") !=
           std::string::npos);
+}
+
+TEST_CASE("the smallest scene of the documentation is a scene with a pair") {
+    const std::string page = readWholeFile(std::string(OSGTSS_SOURCE_DIR) + "/docs/FORMAT.md");
+    const auto begin = page.find("```json\n") + 8;
+    const std::string text = page.substr(begin, page.find("```", begin) - begin);
+    const SceneModel scene = readScene(parseLayer(text, "docs/FORMAT.md"), "docs/FORMAT.md");
+    CHECK(scene.bodies.size() == 2);
+    REQUIRE(scene.pairs.size() == 1);
+    CHECK(pairMotion(scene, scene.pairs[0]).dofs[0].upper == Approx(0.5236).epsilon(1e-4));
 }
