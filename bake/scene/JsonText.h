@@ -1,5 +1,6 @@
 #pragma once
-#include <string>
+#include "bake/scene/Value.h"
+
 #include <string_view>
 
 namespace tss {
@@ -7,6 +8,9 @@ namespace tss {
 /// Appends a JSON string literal. Bytes that are not UTF-8 are written as U+FFFD, so that the text can always
 /// be read.
 void appendQuoted(std::string& out, std::string_view text);
+
+/// A value as JSON on one line.
+std::string jsonText(const Value& value);
 
 /// The whole text is UTF-8.
 bool isUtf8(std::string_view text);

@@ -39,6 +39,8 @@ public:
         }
     }
 
+    void writeLine(const Value& value) { inlineNode(value, std::string::npos, false); }
+
 private:
     std::size_t column() const { return out.size() - lineStart_; }
 
@@ -202,6 +204,12 @@ private:
 };
 
 } // namespace
+
+std::string jsonText(const Value& value) {
+    JsonWriter writer;
+    writer.writeLine(value);
+    return std::move(writer.out);
+}
 
 std::string writeJson(const Layer& layer) {
     JsonWriter writer;

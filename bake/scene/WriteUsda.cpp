@@ -1,0 +1,245 @@
+#include "bake/scene/WriteUsda.h"
+
+#include "bake/scene/JsonText.h"
+#include "bake/scene/UsdaValue.h"
+#include "bake/scene/WriteNumber.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tss {
+
+namespace {
+
+/// Metadata that the text form knows by name, with the type of its value ("list": a list op, "dictionary").
+struct Known {
+    const char* key;
+    const char* type;
+    const char* word = nullptr; ///< when .usda calls it something else
+};
+
+constexpr std::array layerMetadata = {Known{"defaultPrim", "token"},
+                                      Known{"metersPerUnit", "double"},
+                                      Known{"kilogramsPerUnit", "double"},
+                                      Known{"upAxis", "token"},
+                                      Known{"timeCodesPerSecond", "double"},
+                                      Known{"framesPerSecond", "double"},
+                                      Known{"startTimeCode", "double"},
+                                      Known{"endTimeCode", "double"},
+                                      Known{"comment", "string"},
+                                      Known{"documentation", "string", "doc"},
+                                      Known{"customLayerData", "dictionary"}};
+constexpr std::array primMetadata = {
+    Known{"apiSchemas", "list"},       Known{"kind", "token"},
+    Known{"active", "bool"},           Known{"instanceable", "bool"},
+    Known{"hidden", "bool"},           Known{"displayName", "string"},
+    Known{"comment", "string"},        Known{"assetInfo", "dictionary"},
+    Known{"customData", "dictionary"}, Known{"documentation", "string", "doc"}};
+constexpr std::array propertyMetadata = {
+    Known{"interpolation", "token"},   Known{"elementSize", "int"},
+    Known{"hidden", "bool"},           Known{"displayName", "string"},
+    Known{"displayGroup", "string"},   Known{"comment", "string"},
+    Known{"customData", "dictionary"}, Known{"documentation", "string", "doc"}};
+
+class UsdaWriter {
+public:
+    std::string out = "#usda 1.0\n";
+
+    void write(const Layer& layer) {
+        Value::Object all = layer.metadata;
+        if (!layer.other.empty()) keepUnknown(all, "customLayerData", layer.other);
+        metadata(all, layerMetadata, "customLayerData");
+        for (const Prim& prim : layer.children) {
+            out += '\n';
+            write(prim);
+        }
+    }
+
+private:
+    void line(const std::string& text) {
+        out.append(indent_, ' ');
+        out += text;
+    }
+
+    /// What has no word of its own goes as JSON text into a dictionary that has one.
+    static void keepUnknown(Value::Object& metadata, const char* dictionary, const Value::Object& unknown) {
+        Value& data = metadata[dictionary];
+        if (!data.as<Value::Object>()) data = Value(Value::Object());
+        (*data.as<Value::Object>())["osgtssJson"] = Value(jsonText(Value(unknown)));
+    }
+
+    template <class Table>
+    static const Known* find(const Table& known, const std::string& key, const Value& value) {
+        for (const Known& entry : known) {
+            if (key != entry.key) continue;
+            const std::string type = entry.type;
+            if (type == "list")
+                return value.as<Value::Array>() || value.as<Value::Object>() ? &entry : nullptr;
+            if (type == "dictionary") return value.as<Value::Object>() ? &entry : nullptr;
+            if (type == "bool") return value.as<bool>() ? &entry : nullptr;
+            if (type == "token" || type == "string") return value.as<std::string>() ? &entry : nullptr;
+            return value.as<double>() ? &entry : nullptr;
+        }
+        return nullptr;
+    }
+
+    void listOp(const std::string& word, const Value& value) {
+        const auto items = [&](const std::string& op, const Value& list) {
+            line(op + word + " = [");
+            bool first = true;
+            for (const std::string& item : listItems(list)) {
+                if (!first) out += ", ";
+                first = false;
+                appendUsdaString(out, item);
+            }
+            out += "]\n";
+        };
+        const auto* ops = value.as<Value::Object>();
+        if (!ops) return items("", value);
+        for (const auto& [op, list] : *ops) items(op == "explicit" ? "" : op + " ", list);
+    }
+
+    template <class Table>
+    void metadata(Value::Object all, const Table& known, const char* dictionary) {
+        Value::Object unknown;
+        for (auto it = all.begin(); it != all.end();) {
+            if (find(known, it->first, it->second)) {
+                ++it;
+                continue;
+            }
+            unknown.insert(std::move(*it));
+            it = all.erase(it);
+        }
+        if (!unknown.empty()) keepUnknown(all, dictionary, unknown);
+        if (all.empty()) return;
+        out.pop_back(); // the line break: the parenthesis follows on the same line, except after the first
+                        // line
+        out += out == "#usda 1.0" ? "\n(\n" : " (\n";
+        indent_ += 4;
+        for (const auto& [key, value] : all) entry(*find(known, key, value), value);
+        indent_ -= 4;
+        line(")\n");
+    }
+
+    void entry(const Known& known, const Value& value) {
+        const std::string word = known.word ? known.word : known.key, type = known.type;
+        if (type == "list") return listOp(word, value);
+        line(word + " = ");
+        if (type == "dictionary")
+            appendUsdaDictionary(out, *value.as<Value::Object>(), indent_);
+        else if (type == "bool")
+            out += *value.as<bool>() ? "true" : "false";
+        else
+            appendUsda(out, value, *valueType(type), type);
+        out += '\n';
+    }
+
+    void write(const Prim& prim) {
+        line(prim.specifier + (prim.typeName.empty() ? "" : " " + prim.typeName) + " \"" + prim.name +
+             "\"\n");
+        Value::Object all = prim.metadata;
+        if (!prim.other.empty()) keepUnknown(all, "customData", prim.other);
+        metadata(all, primMetadata, "customData");
+        line("{\n");
+        indent_ += 4;
+        for (const auto& [name, property] : prim.properties) write(name, property);
+        for (const Prim& child : prim.children) {
+            if (&child != &prim.children.front() || !prim.properties.empty()) out += '\n';
+            write(child);
+        }
+        indent_ -= 4;
+        line("}\n");
+    }
+
+    void write(const std::string& name, const Property& property) {
+        Value::Object all = property.other;
+        std::string prefix;
+        const auto take = [&](const char* key, const Value& value, const char* word) {
+            const auto found = all.find(key);
+            if (found == all.end() || found->second != value) return;
+            all.erase(found);
+            prefix += word;
+        };
+        take("custom", Value(true), "custom ");
+        take("custom", Value(false), "");
+        take("variability", Value("uniform"), "uniform ");
+        take("variability", Value("varying"), "");
+        if (property.isRelationship()) {
+            relationship(prefix, name, *property.targetPaths, all);
+        } else if (const auto type = valueType(property.typeName)) {
+            attribute(prefix, name, property, *type, all);
+        } else {
+            line("custom string " + name + " = ");
+            appendUsdaString(out, unknownText(property));
+            out += '\n';
+        }
+    }
+
+    /// An attribute of a type that USD does not have.
+    static std::string unknownText(const Property& property) {
+        Value::Object object = property.other;
+        object["typeName"] = Value(property.typeName);
+        if (property.defaultValue) object["default"] = *property.defaultValue;
+        Value::Array samples;
+        for (const auto& sample : property.timeSamples)
+            samples.push_back(Value(Value::Array{Value(sample.time), sample.value}));
+        if (!samples.empty()) object["timeSamples"] = Value(std::move(samples));
+        return jsonText(Value(std::move(object)));
+    }
+
+    void relationship(const std::string& prefix, const std::string& name, const Value& paths,
+                      const Value::Object& rest) {
+        const auto write = [&](const std::string& op, const Value& list, bool withMetadata) {
+            const auto targets = listItems(list);
+            line(op + prefix + "rel " + name + " = ");
+            if (targets.size() != 1) out += '[';
+            for (std::size_t i = 0; i < targets.size(); ++i) out += (i > 0 ? ", <" : "<") + targets[i] + ">";
+            if (targets.size() != 1) out += ']';
+            out += '\n';
+            if (withMetadata) metadata(rest, propertyMetadata, "customData");
+        };
+        const auto* ops = paths.as<Value::Object>();
+        if (!ops) return write("", paths, true);
+        bool first = true;
+        for (const auto& [op, list] : *ops) {
+            write(op == "explicit" ? "" : op + " ", list, first);
+            first = false;
+        }
+    }
+
+    void attribute(const std::string& prefix, const std::string& name, const Property& property,
+                   const ValueType& type, const Value::Object& rest) {
+        const std::string head = prefix + property.typeName + " " + name;
+        if (property.defaultValue || property.timeSamples.empty() || !rest.empty()) {
+            line(head);
+            if (property.defaultValue) {
+                out += " = ";
+                appendUsda(out, *property.defaultValue, type, property.typeName);
+            }
+            out += '\n';
+            metadata(rest, propertyMetadata, "customData");
+        }
+        if (property.timeSamples.empty()) return;
+        line(head + ".timeSamples = {\n");
+        for (const Property::Sample& sample : property.timeSamples) {
+            line("    ");
+            appendNumber(out, sample.time);
+            out += ": ";
+            appendUsda(out, sample.value, type, property.typeName);
+            out += ",\n";
+        }
+        line("}\n");
+    }
+
+    std::size_t indent_ = 0;
+};
+
+} // namespace
+
+std::string writeUsda(const Layer& layer) {
+    UsdaWriter writer;
+    writer.write(layer);
+    return std::move(writer.out);
+}
+
+} // namespace tss

@@ -1,0 +1,77 @@
+#include "bake/scene/ReadLayer.h"
+#include "bake/scene/WriteUsda.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tss;
+
+TEST_CASE("a layer is written in USD's own text form") {
+    const std::string json = R"({"format": "osgtss", "formatVersion": "1.0", "theirs": 3,
+    "metadata": {"defaultPrim": "Jaw", "metersPerUnit": 0.001, "upAxis": "Z", "customLayerData": {"a": 1, "b": [1, 2.5]}},
+    "primChildren": [{"typeName": "Xform", "name": "Jaw", "metadata": {"kind": "assembly", "active": true,
+        "customData": {"osgName": "the \"jaw\"\n\u0001\\u00", "deep": {"x": ["a", "b"]}}, "mine": null},
+      "properties": {
+        "points": {"typeName": "point3f[]", "default": [[0, 0.1, -0.0], [1, "inf", 2]], "interpolation": "vertex"},
+        "empty": {"typeName": "int[]", "default": []},
+        "turn": {"typeName": "float", "default": null, "timeSamples": [[0, 1.5], [24, null]]},
+        "order": {"typeName": "token[]", "default": ["a", "b"], "variability": "uniform"},
+        "m": {"typeName": "matrix2d", "default": [[1, 2], [3, 4]]},
+        "file": {"typeName": "asset", "default": "a.obj", "custom": true},
+        "flag": {"typeName": "bool", "default": true},
+        "undefined": {"typeName": "double"},
+        "odd": {"typeName": "their[]", "default": [1, "x"]},
+        "physics:body0": {"targetPaths": ["/Jaw"]},
+        "many": {"targetPaths": {"prepend": ["/Jaw", "/Jaw/A"]}}},
+      "primChildren": [{"specifier": "over", "name": "A"}, {"specifier": "class", "name": "B"}]}]})";
+    CHECK(writeUsda(parseLayer(json, "")) == R"usda(#usda 1.0
+(
+    customLayerData = {
+        int "a" = 1
+        double[] "b" = [1, 2.5]
+        string "osgtssJson" = "{\"theirs\": 3}"
+    }
+    defaultPrim = "Jaw"
+    metersPerUnit = 0.001
+    upAxis = "Z"
+)
+
+def Xform "Jaw" (
+    active = true
+    customData = {
+        dictionary "deep" = {
+            string[] "x" = ["a", "b"]
+        }
+        string "osgName" = "the \"jaw\"\n\x01\\u00"
+        string "osgtssJson" = "{\"mine\": null}"
+    }
+    kind = "assembly"
+)
+{
+    int[] empty = []
+    custom asset file = @a.obj@
+    bool flag = 1
+    matrix2d m = ((1, 2), (3, 4))
+    prepend rel many = [</Jaw>, </Jaw/A>]
+    custom string odd = "{\"default\": [1, \"x\"], \"typeName\": \"their[]\"}"
+    uniform token[] order = ["a", "b"]
+    rel physics:body0 = </Jaw>
+    point3f[] points = [(0, 0.1, -0.0), (1, inf, 2)] (
+        interpolation = "vertex"
+    )
+    float turn = None
+    float turn.timeSamples = {
+        0: 1.5,
+        24: None,
+    }
+    double undefined
+
+    over "A"
+    {
+    }
+
+    class "B"
+    {
+    }
+}
+)usda");
+}
