@@ -1,4 +1,5 @@
 #include <osg/Camera>
+#include <osg/GraphicsContext>
 #include <osg/Group>
 #include <osgDB/FileNameUtils>
 #include <osgDB/ReadFile>
@@ -18,10 +19,10 @@ public:
 
     void operator()(osg::RenderInfo& info) const override {
         const osg::FrameStamp* stamp = info.getState()->getFrameStamp();
-        const osg::Viewport* view = info.getState()->getCurrentViewport();
-        if (!stamp || !view || stamp->getFrameNumber() % every_ != 0) return;
+        const osg::GraphicsContext* window = info.getState()->getGraphicsContext();
+        if (!stamp || !window || !window->getTraits() || stamp->getFrameNumber() % every_ != 0) return;
         osg::ref_ptr<osg::Image> image = new osg::Image;
-        image->readPixels(int(view->x()), int(view->y()), int(view->width()), int(view->height()), GL_RGB,
+        image->readPixels(0, 0, window->getTraits()->width, window->getTraits()->height, GL_RGB,
                           GL_UNSIGNED_BYTE);
         char name[4096];
         std::snprintf(name, sizeof name, pattern_.c_str(), stamp->getFrameNumber());

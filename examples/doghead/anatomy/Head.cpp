@@ -23,21 +23,21 @@ Field muzzle() {
                               {153, -36, -5, 11, 0, 2.2}});
     const Field lower = loft({{20, -70, -22, 40, 0, 2.3},
                               {44, -69, -22, 37, 0, 2.3},
-                              {70, -66.5, -26, 31, 0, 2.3},
-                              {96, -64.5, -30, 25, 0, 2.3},
-                              {118, -61.5, -34, 20.5, 0, 2.3},
+                              {70, -68, -26, 31.5, 0, 2.5},
+                              {96, -66.5, -30, 26, 0, 2.5},
+                              {118, -63, -34, 21.5, 0, 2.4},
                               {132, -57.5, -36, 16.5, 0, 2.3},
                               {142, -51, -38, 10, 0, 2.2}});
     return Sculpture().add(upper).add(lower, 2).field();
 }
 
-/// A thin sheet where the lips meet, from the nose's foot to the corner of the mouth.
+/// A thin sheet where the lips meet, from the nose's foot to the corner of the mouth, a few millimetres deep.
 Field mouthLine() {
     const Profile height({{76, -41}, {90, -45.5}, {112, -48}, {130, -46}, {142, -42.5}, {152, -38}});
     const Box box(Vec3(76, -60, -52), Vec3(170, 60, -38));
-    const auto distance = [height](const Vec3& p) {
+    const auto distance = [height, flesh = grown(muzzle(), -4.5)](const Vec3& p) {
         const double sheet = std::abs(p.z() - height(p.x())) - 0.9;
-        return -smoothMin(-sheet, p.x() - 78, 2);
+        return -smoothMin(-sheet, std::min(p.x() - 78, flesh(p)), 2);
     };
     return {distance, box};
 }
@@ -46,6 +46,7 @@ Field cheeksAndBrow() {
     return Sculpture()
         .add(grown(cranium(), 5.6))
         .add(mirrored(ellipsoid({-4, 19, 31}, {33, 22, 25})), 10)  // temporalis
+        .add(ellipsoid({-12, 0, 30}, {36, 26, 28.5}), 10)          // over the crests
         .add(mirrored(ellipsoid({22, 31, -22}, {30, 17, 32})), 14) // masseter
         .add(mirrored(turned(ellipsoid({30, 37, 8}, {36, 14.5, 14}), {30, 37, 8}, Vec3::UnitZ(), -8)),
              14) // arch
