@@ -2,6 +2,7 @@
 
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
+#include "bake/reduce/CertifiedCover.h"
 #include "bake/reduce/Cooccurrence.h"
 #include "bake/reduce/Minimal.h"
 #include "bake/scene/SourceHash.h"
@@ -102,22 +103,54 @@ void noteOverlap(const CandidatePairs& candidates, const BakeOptions& options, P
                                          : "those are left out"));
 }
 
-std::shared_ptr<const Table> makePairTable(const SphereFit& a, const SphereFit& b,
-                                           const CandidatePairs& candidates, const Motion& motion,
-                                           const BakeOptions& options, BakeRecord record,
-                                           const Progress& progress) {
+/// The table's tests by the method asked for. Only the cover proves something about every pose.
+struct Selection {
     Reduced reduced;
-    reduced.pairs = candidates.pairs;
-    reduced.restGaps = candidates.restGaps;
-    if (options.reduce == ReduceMethod::Cooccurrence) reduced = reduceCooccurrence(candidates);
-    if (options.reduce == ReduceMethod::Minimal)
-        reduced = reduceMinimal(a.spheres, b.spheres, motion, sampled(options), progress);
-    auto table =
-        std::make_shared<Table>(makeTable(a.spheres, b.spheres, reduced.pairs, reduced.restGaps, motion));
-    table->method = methodName(options);
-    table->record = record;
-    table->record.lowerBound = static_cast<std::uint64_t>(std::ceil(reduced.lowerBound));
-    return table;
+    double epsilon = 0;
+    bool certified = false;
+};
+
+Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& candidates,
+                 const Motion& motion, const BakeOptions& options, PairReport& report,
+                 const Progress& progress) {
+    Selection selection;
+    switch (options.reduce) {
+    case ReduceMethod::Cooccurrence:
+        selection.reduced = reduceCooccurrence(candidates);
+        break;
+    case ReduceMethod::Minimal:
+        selection.reduced = reduceMinimal(a, b, motion, sampled(options), progress);
+        break;
+    case ReduceMethod::None:
+        selection.reduced.pairs = candidates.pairs;
+        selection.reduced.restGaps = candidates.restGaps;
+        selection.certified = candidates.certified;
+        break;
+    case ReduceMethod::Cover: {
+        CoverOptions cover;
+        cover.epsilon = options.epsilon;
+        cover.gapDepth = options.depth;
+        cover.atRest = options.atRest;
+        cover.seconds = options.budget;
+        const CoverResult result = certifiedCover(a, b, &candidates, motion, cover, progress);
+        selection.reduced = result;
+        selection.epsilon = result.epsilon;
+        selection.certified = candidates.certified && std::isfinite(result.epsilon);
+        if (!result.complete)
+            report.notes.push_back(fmt::format("the budget ended first: epsilon {} was reached, not {}",
+                                               result.epsilon, options.epsilon));
+        break;
+    }
+    }
+    return selection;
+}
+
+/// What the meshes may expect of a certified table (METHOD 3.5). Pairs that overlap at rest are outside of
+/// it.
+void setBounds(Table& table, const SphereFit& a, const SphereFit& b) {
+    if (!table.certified) return;
+    table.boundMiss = known(a.coverage + b.coverage + table.epsilon);
+    table.boundEarly = known(a.protrusion + b.protrusion + table.epsilon);
 }
 
 } // namespace
@@ -146,7 +179,19 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
         pair.proof = std::make_shared<NeverCollides>(
             NeverCollides{candidates.clearance, candidates.explored, method, record});
     } else {
-        pair.table = makePairTable(fitA, fitB, candidates, motion, options, record, progress);
+        const Selection selection =
+            select(fitA.spheres, fitB.spheres, candidates, motion, options, report, progress);
+        auto table = std::make_shared<Table>(makeTable(fitA.spheres, fitB.spheres, selection.reduced.pairs,
+                                                       selection.reduced.restGaps, motion));
+        table->method = method;
+        table->epsilon = selection.epsilon;
+        table->gapDepth = options.reduce == ReduceMethod::Cover ? options.depth : 0;
+        table->certified = selection.certified;
+        table->record = record;
+        table->record.lowerBound = static_cast<std::uint64_t>(std::ceil(selection.reduced.lowerBound));
+        setBounds(*table, fitA, fitB);
+        report.epsilon = table->epsilon;
+        pair.table = table;
     }
     pair.sourceHash = sourceHash(scene, pair);
 }

@@ -27,7 +27,7 @@ void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, Pa
         muscles.push_back({deformer.get(), roundToFloat(fit.spheres)});
     }
     SkinSearchOptions search;
-    search.thickness = skin.thickness;
+    search.thickness = floatAbove(2 * (skin.thickness > 0 ? skin.thickness : skinThickness(mesh))) / 2.0;
     search.travel = skin.travel;
     SkinSearchCounts counts;
     auto table = std::make_shared<SkinTable>(searchSkin(mesh, muscles, search, progress, &counts));

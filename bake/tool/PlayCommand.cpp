@@ -1,16 +1,14 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
-#include "bake/respond/JointResponse.h"
-#include "bake/scene/Kinematics.h"
 #include "bake/scene/SceneFile.h"
-#include "bake/table/Query.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/Csv.h"
 #include "bake/tool/DofSpec.h"
+#include "bake/tool/Player.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <limits>
+#include <map>
 
 namespace tss::tool {
 
@@ -52,38 +50,18 @@ std::vector<std::vector<double>> askedSteps(const SceneModel& scene, const PlayA
     return steps;
 }
 
-/// Columns of the scene-wide row that the DOFs of a pair's chain stand in.
-std::vector<std::size_t> columnsOf(const SceneModel& scene, const Pair& pair) {
-    std::vector<std::size_t> first{0};
-    for (const Joint& joint : scene.joints) first.push_back(first.back() + joint.dofs.size());
-    std::vector<std::size_t> columns;
-    for (int joint : pair.joints)
-        for (std::size_t k = 0; k < scene.joints[joint].dofs.size(); ++k) columns.push_back(first[joint] + k);
-    return columns;
-}
-
-std::vector<double> pick(const std::vector<double>& row, const std::vector<std::size_t>& columns) {
-    std::vector<double> values;
-    for (std::size_t column : columns) values.push_back(row[column]);
-    return values;
-}
-
-/// Bodies as they stand at the joints' values, in one OBJ with a group each.
-std::string posedMeshes(const SceneModel& scene, const std::vector<double>& row) {
-    const std::vector<Pose> placements = posedBodies(scene, row);
+/// All bodies in one OBJ with a group each.
+std::string objText(const SceneModel& scene, const std::vector<TriangleMesh>& meshes) {
     std::string text;
     std::size_t first = 1;
-    for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-        const Body& body = scene.bodies[k];
-        if (body.mesh.empty()) continue;
-        text += fmt::format("g {}\n", body.path.substr(body.path.rfind('/') + 1));
-        for (const Vec3& vertex : body.mesh.vertices) {
-            const Vec3 x = placements[k] * vertex;
-            text += fmt::format("v {} {} {}\n", x.x(), x.y(), x.z());
-        }
-        for (const Tri& t : body.mesh.triangles)
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        if (meshes[k].empty()) continue;
+        const std::string& path = scene.bodies[k].path;
+        text += fmt::format("g {}\n", path.substr(path.rfind('/') + 1));
+        for (const Vec3& x : meshes[k].vertices) text += fmt::format("v {} {} {}\n", x.x(), x.y(), x.z());
+        for (const Tri& t : meshes[k].triangles)
             text += fmt::format("f {} {} {}\n", first + t[0], first + t[1], first + t[2]);
-        first += body.mesh.vertices.size();
+        first += meshes[k].vertices.size();
     }
     return text;
 }
@@ -111,58 +89,53 @@ std::string header(const SceneModel& scene) {
             for (const Dof& dof : joint.dofs)
                 text +=
                     fmt::format(",{}{}:{}", prefix, joint.path.substr(joint.path.rfind('/') + 1), dof.name);
-    return text + ",gap,status\n";
+    text += ",gap,status";
+    for (const SkinModel& skin : scene.skins)
+        if (skin.table) text += fmt::format(",residual_{}", skin.path.substr(skin.path.rfind('/') + 1));
+    return text + "\n";
 }
 
 /// One line of the result: asked and resolved values as people write them.
-std::string line(const SceneModel& scene, std::size_t step, const std::vector<double>& asked,
-                 const std::vector<double>& resolved, double gap, JointStatus status) {
-    std::string text = std::to_string(step);
-    for (const auto* row : {&asked, &resolved}) {
+std::string line(const SceneModel& scene, std::size_t number, const std::vector<double>& asked,
+                 const Player::Step& step) {
+    std::string text = std::to_string(number);
+    for (const auto* row : {&asked, &step.values}) {
         std::size_t column = 0;
         for (const Joint& joint : scene.joints)
             for (const Dof& dof : joint.dofs) text += fmt::format(",{}", toUser(dof, (*row)[column++]));
     }
-    return text + fmt::format(",{},{}\n", gap, name(status));
-}
-
-/// Lets every pair with a table have its say on the way from `row` to `asked`, in file order.
-JointResult step(const SceneModel& scene, std::vector<double>& row, const std::vector<double>& asked) {
-    std::vector<double> want = asked;
-    JointResult worst;
-    worst.gap = std::numeric_limits<double>::infinity();
-    for (const Pair& pair : scene.pairs) {
-        const std::vector<std::size_t> columns = columnsOf(scene, pair);
-        if (!pair.table) continue;
-        const std::vector<double> last = pick(row, columns), goal = pick(want, columns);
-        JointResult result = respond(*pair.table, {last, goal});
-        for (std::size_t k = 0; k < columns.size(); ++k) want[columns[k]] = result.q[k];
-        if (result.gap < worst.gap) worst = result;
-    }
-    row = want;
-    return worst;
+    text += fmt::format(",{},{}", step.gap, name(step.status));
+    for (double depth : step.residualDepths) text += fmt::format(",{}", depth);
+    return text + "\n";
 }
 
 void play(const PlayArguments& arguments, const Console& console) {
     const SceneModel scene = loadScene(arguments.scene);
     const auto steps = askedSteps(scene, arguments);
-    std::vector<double> row;
-    for (const Joint& joint : scene.joints)
-        for (const Dof& dof : joint.dofs) row.push_back(dof.rest);
+    std::vector<std::string> warnings;
+    Player player(scene, warnings);
+    for (const std::string& warning : warnings) console.say(warning);
 
     std::string text = header(scene);
     std::map<std::string, int> statuses;
+    double deepest = 0;
     for (std::size_t k = 0; k < steps.size(); ++k) {
-        const JointResult result = step(scene, row, steps[k]);
-        text += line(scene, k, steps[k], row, result.gap, result.status);
-        ++statuses[name(result.status)];
+        const Player::Step step = player.step(steps[k], scene.startTimeCode + static_cast<double>(k));
+        text += line(scene, k, steps[k], step);
+        ++statuses[name(step.status)];
+        for (double depth : step.residualDepths) deepest = std::max(deepest, depth);
         if (!arguments.meshes.empty())
-            writeFileAtomically(numbered(arguments.meshes, k), posedMeshes(scene, row));
+            writeFileAtomically(numbered(arguments.meshes, k), objText(scene, player.worldMeshes()));
     }
     writeFileAtomically(arguments.output, text);
     console.say(fmt::format("{} steps, wrote {}", steps.size(), arguments.output));
     for (const auto& [status, count] : statuses) console.say(fmt::format("  {:<10}{}", status, count));
-    console.print({{"steps", steps.size()}, {"statuses", statuses}, {"output", arguments.output}});
+    if (!scene.skins.empty()) console.say(fmt::format("  deepest residual of a skin {:.4g}", deepest));
+    console.print({{"steps", steps.size()},
+                   {"statuses", statuses},
+                   {"residualDepth", deepest},
+                   {"warnings", warnings},
+                   {"output", arguments.output}});
 }
 
 } // namespace

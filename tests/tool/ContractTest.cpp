@@ -12,9 +12,9 @@ namespace {
 void writeSwing(const Folder& folder) {
     writeObj(ballMesh({0, 0, 0}, 10, 3), folder / "still.obj");
     writeObj(ballMesh({0, 30, 0}, 5, 3), folder / "swing.obj");
-    const Ran made = tss("make -o swing.tss --a still.obj --b swing.obj --meters-per-unit 0.001 "
-                         "--dof rot:25,0,0:0,0,1:-40:90",
-                         folder.path());
+    const Ran made = runTss("make -o swing.tss --a still.obj --b swing.obj --meters-per-unit 0.001 "
+                            "--dof rot:25,0,0:0,0,1:-40:90",
+                            folder.path());
     INFO(made.err);
     REQUIRE(made.exit == 0);
 }
@@ -24,21 +24,21 @@ void writeSwing(const Folder& folder) {
 TEST_CASE("every command answers --help with exit 0, and an unknown one is a usage error") {
     const Folder folder;
     for (const char* command : {"make", "bake", "merge", "info", "verify", "query", "play", "validate"}) {
-        const Ran help = tss(std::string(command) + " --help", folder.path());
+        const Ran help = runTss(std::string(command) + " --help", folder.path());
         CHECK(help.exit == 0);
         CHECK(help.out.find("--json") != std::string::npos);
     }
-    CHECK(tss("--help", folder.path()).exit == 0);
-    CHECK(tss("", folder.path()).exit == 2);
-    CHECK(tss("nonsense", folder.path()).exit == 2);
-    CHECK(tss("bake", folder.path()).exit == 2);
-    CHECK(tss("info --nonsense x.tss", folder.path()).exit == 2);
+    CHECK(runTss("--help", folder.path()).exit == 0);
+    CHECK(runTss("", folder.path()).exit == 2);
+    CHECK(runTss("nonsense", folder.path()).exit == 2);
+    CHECK(runTss("bake", folder.path()).exit == 2);
+    CHECK(runTss("info --nonsense x.tss", folder.path()).exit == 2);
 }
 
 TEST_CASE("two meshes and a hinge become a table that stops the motion where the meshes meet") {
     const Folder folder;
     writeSwing(folder);
-    const Ran baked = tss("bake swing.tss -o baked.tss --tolerance 0.2mm --json", folder.path());
+    const Ran baked = runTss("bake swing.tss -o baked.tss --tolerance 0.2mm --json", folder.path());
     INFO(baked.err);
     REQUIRE(baked.exit == 0);
     const Json pair = Json::parse(baked.out)["pairs"][0];
@@ -51,7 +51,7 @@ TEST_CASE("two meshes and a hinge become a table that stops the motion where the
     std::string poses;
     for (int angle = -40; angle <= 90; ++angle) poses += std::to_string(angle) + "\n";
     writeText(folder.path() / "q.csv", poses);
-    REQUIRE(tss("query baked.tss --poses q.csv -o r.csv", folder.path()).exit == 0);
+    REQUIRE(runTss("query baked.tss --poses q.csv -o r.csv", folder.path()).exit == 0);
     std::istringstream rows(readText(folder.path() / "r.csv"));
     std::string line;
     std::getline(rows, line);
@@ -72,7 +72,7 @@ TEST_CASE("two meshes and a hinge become a table that stops the motion where the
     CHECK(wrong == 0);
 
     writeText(folder.path() / "m.csv", "0\n20\n40\n60\n90\n");
-    REQUIRE(tss("play baked.tss --motion m.csv -o played.csv --mesh-out f_%02d.obj", folder.path()).exit ==
+    REQUIRE(runTss("play baked.tss --motion m.csv -o played.csv --mesh-out f_%02d.obj", folder.path()).exit ==
             0);
     CHECK(std::filesystem::exists(folder.path() / "f_04.obj"));
     CHECK(readText(folder.path() / "played.csv").find("blocked") != std::string::npos);
@@ -81,8 +81,8 @@ TEST_CASE("two meshes and a hinge become a table that stops the motion where the
 TEST_CASE("the same bake gives the same bytes with one thread and with two") {
     const Folder folder;
     writeSwing(folder);
-    REQUIRE(tss("bake swing.tss -o one.tss --tolerance 0.3 --threads 1 --quiet", folder.path()).exit == 0);
-    REQUIRE(tss("bake swing.tss -o two.tss --tolerance 0.3 --threads 2 --quiet", folder.path()).exit == 0);
+    REQUIRE(runTss("bake swing.tss -o one.tss --tolerance 0.3 --threads 1 --quiet", folder.path()).exit == 0);
+    REQUIRE(runTss("bake swing.tss -o two.tss --tolerance 0.3 --threads 2 --quiet", folder.path()).exit == 0);
     CHECK(readText(folder.path() / "one.tss") == readText(folder.path() / "two.tss"));
 }
 
@@ -90,8 +90,8 @@ TEST_CASE("bodies that cannot meet get a proof, no table, and play as asked") {
     const Folder folder;
     writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
     writeObj(boxMesh({5, -1, -1}, {6, 1, 1}), folder / "b.obj");
-    REQUIRE(tss("make -o far.tss --a a.obj --b b.obj --dof trans:1,0,0:0:3", folder.path()).exit == 0);
-    const Ran baked = tss("bake far.tss -o baked.tss --tolerance 0.1 --json", folder.path());
+    REQUIRE(runTss("make -o far.tss --a a.obj --b b.obj --dof trans:1,0,0:0:3", folder.path()).exit == 0);
+    const Ran baked = runTss("bake far.tss -o baked.tss --tolerance 0.1 --json", folder.path());
     INFO(baked.err);
     REQUIRE(baked.exit == 0);
     CHECK(Json::parse(baked.out)["pairs"][0]["neverCollides"] == true);
@@ -106,7 +106,7 @@ TEST_CASE("bad input is exit 1 with a message that says where, and leaves no fil
               R"({"format": "osgtss", "formatVersion": "1.0", "primChildren": 7})");
     writeText(folder.path() / "empty.obj", "");
     const auto refused = [&](const std::string& arguments, const std::string& expected) {
-        const Ran ran = tss(arguments, folder.path());
+        const Ran ran = runTss(arguments, folder.path());
         INFO(arguments << "\n" << ran.err);
         CHECK(ran.exit == 1);
         CHECK(ran.err.find(expected) != std::string::npos);
@@ -123,7 +123,7 @@ TEST_CASE("bad input is exit 1 with a message that says where, and leaves no fil
     refused("make -o out.tss --a a.obj --b a.obj --dof swing:0,0,1:0:1", "rot:ORIGIN");
     CHECK(fileCount(folder.path()) == 3);
 
-    REQUIRE(tss("make -o ok.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", folder.path()).exit == 0);
+    REQUIRE(runTss("make -o ok.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", folder.path()).exit == 0);
     refused("query ok.tss --poses bad.tss -o r.csv", "no table");
     refused("bake ok.tss -o out.tss --tolerance -1mm", "--tolerance");
     refused("bake ok.tss -o out.tss --tolerance 1furlong", "length");
@@ -134,7 +134,7 @@ TEST_CASE("bad input is exit 1 with a message that says where, and leaves no fil
 
 TEST_CASE("with --json one object stands on stdout, also when it fails") {
     const Folder folder;
-    const Ran ran = tss("info missing.tss --json", folder.path());
+    const Ran ran = runTss("info missing.tss --json", folder.path());
     CHECK(ran.exit == 1);
     const Json error = Json::parse(ran.out);
     CHECK(error["error"]["file"] == "missing.tss");

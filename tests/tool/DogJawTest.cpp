@@ -26,9 +26,9 @@ std::string makeJaw() {
 TEST_CASE("the real dog's jaw: two meshes to a verified table that misses no contact of the meshes") {
     REQUIRE_SHARED_MESHES();
     const Folder folder;
-    REQUIRE(tss(makeJaw(), folder.path()).exit == 0);
+    REQUIRE(runTss(makeJaw(), folder.path()).exit == 0);
     const Ran baked =
-        tss("bake jaw.tss -o baked.tss --tolerance 0.4mm --at-rest collide --json", folder.path());
+        runTss("bake jaw.tss -o baked.tss --tolerance 0.4mm --at-rest collide --json", folder.path());
     INFO(baked.err);
     REQUIRE(baked.exit == 0);
     const Json info = Json::parse(baked.out)["pairs"][0];
@@ -71,12 +71,12 @@ TEST_CASE("the real dog's jaw: two meshes to a verified table that misses no con
 TEST_CASE("the real dog's jaw stops before its teeth meet when it closes") {
     REQUIRE_SHARED_MESHES();
     const Folder folder;
-    REQUIRE(tss(makeJaw(), folder.path()).exit == 0);
-    REQUIRE(tss("bake jaw.tss -o baked.tss --tolerance 0.4mm --quiet", folder.path()).exit == 0);
+    REQUIRE(runTss(makeJaw(), folder.path()).exit == 0);
+    REQUIRE(runTss("bake jaw.tss -o baked.tss --tolerance 0.4mm --quiet", folder.path()).exit == 0);
     std::string motion;
     for (int step = 0; step <= 48; ++step) motion += "0," + std::to_string(10 - 34.0 * step / 48) + "\n";
     writeText(folder.path() / "close.csv", motion);
-    REQUIRE(tss("play baked.tss --motion close.csv -o played.csv", folder.path()).exit == 0);
+    REQUIRE(runTss("play baked.tss --motion close.csv -o played.csv", folder.path()).exit == 0);
 
     const tss::SceneModel scene = tss::loadScene(folder / "baked.tss");
     const tss::Motion pairMotion_ = pairMotion(scene, scene.pairs[0]);

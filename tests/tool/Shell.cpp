@@ -33,7 +33,7 @@ std::size_t fileCount(const fs::path& folder) {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-Ran tss(const std::string& arguments, const fs::path& folder) {
+Ran runTss(const std::string& arguments, const fs::path& folder) {
     const Folder capture;
     const std::string command = "cd '" + folder.string() + "' && '" TSS_PROGRAM "' " + arguments + " >'" +
                                 (capture / "out") + "' 2>'" + (capture / "err") + "' </dev/null";

@@ -9,7 +9,7 @@ struct Ran {
 };
 
 /// Runs `tss <arguments>` through the shell, in `folder`.
-Ran tss(const std::string& arguments, const std::filesystem::path& folder);
+Ran runTss(const std::string& arguments, const std::filesystem::path& folder);
 
 /// A new empty folder that is removed with the object.
 class Folder {
