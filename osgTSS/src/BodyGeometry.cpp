@@ -2,6 +2,8 @@
 
 #include "SmoothNormals.h"
 
+#include "bake/motion/MuscleLocator.h"
+
 #include <osg/LightModel>
 #include <osg/Material>
 #include <osg/MatrixTransform>
@@ -22,7 +24,7 @@ constexpr double farAway = 100;
 osg::ref_ptr<osg::StateSet> makeBodyState(const tss::Vec3& linearColor, bool doubleSided) {
     // Headlight, key light and ambient add up to a little over one at most (see makeKeyLight); a body takes
     // as much of it as keeps white from burning out.
-    constexpr float diffuse = 0.85f, specular = 0.12f, shininess = 24;
+    constexpr float diffuse = 0.8f, specular = 0.12f, shininess = 24;
     const osg::Vec4 color = toDisplayColor(linearColor);
     osg::ref_ptr<osg::Material> material = new osg::Material;
     material->setColorMode(osg::Material::OFF);
@@ -79,6 +81,16 @@ osg::ref_ptr<osg::Node> makeBodyNode(const tss::Body& body) {
     transform->setDataVariance(osg::Object::DYNAMIC); // flattening would bring the far coordinates back
     transform->addChild(geometry);
     return transform;
+}
+
+osg::ref_ptr<SkinGeometry> makeDeformingNode(const tss::Body& body) {
+    osg::ref_ptr<SkinGeometry> skin = new SkinGeometry;
+    skin->setPath(body.path);
+    skin->setRestGeometry(makeGeometry(*toOsg(body.mesh.vertices), *toOsg(tss::vertexNormals(body.mesh)),
+                                       body.mesh.triangles, body.displayColor));
+    skin->setStateSet(makeBodyState(body.displayColor, body.doubleSided));
+    if (!body.visible) skin->setNodeMask(0);
+    return skin;
 }
 
 } // namespace osgTSS

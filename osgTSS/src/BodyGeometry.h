@@ -4,6 +4,7 @@
 #include <osg/Geometry>
 #include <osg/Node>
 #include <osg/StateSet>
+#include <osgTSS/SkinGeometry>
 
 namespace osgTSS {
 
@@ -11,6 +12,9 @@ namespace osgTSS {
 /// mesh near the origin that stands too far away for float coordinates. Hidden by its node mask when the body
 /// is not visible.
 osg::ref_ptr<osg::Node> makeBodyNode(const tss::Body& body);
+
+/// The same as a SkinGeometry, with the vertices of the mesh as they are.
+osg::ref_ptr<SkinGeometry> makeDeformingNode(const tss::Body& body);
 
 /// Material and sides of a body.
 osg::ref_ptr<osg::StateSet> makeBodyState(const tss::Vec3& linearColor, bool doubleSided);

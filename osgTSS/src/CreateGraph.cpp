@@ -1,4 +1,5 @@
 #include "BodyGeometry.h"
+#include "BodyNodes.h"
 
 #include <osg/LightSource>
 #include <osg/MatrixTransform>
@@ -7,6 +8,7 @@
 #include <osgTSS/CreateGraph>
 #include <osgTSS/DriveCallback>
 #include <osgTSS/JointTransform>
+#include <osgTSS/MuscleCallback>
 
 #include <algorithm>
 
@@ -19,13 +21,14 @@ std::string lastName(const std::string& path) {
 }
 
 /// From above and beside, so that shapes read where the headlight of a viewer flattens them. With that
-/// headlight (0.8 diffuse) 60 degrees away the two add up to 0.98 at most; 0.2 of ambient comes on top.
+/// headlight (0.8 diffuse) 64 degrees away the two add up to 1.0 at most; the ambient of both, 0.1 and 0.12,
+/// comes on top.
 osg::ref_ptr<osg::LightSource> makeKeyLight() {
-    constexpr float strength = 0.3f;
+    constexpr float strength = 0.35f, fill = 0.12f;
     osg::ref_ptr<osg::Light> light = new osg::Light;
     light->setLightNum(1);
     light->setPosition(osg::Vec4(-0.45f, -0.45f, 0.8f, 0)); // left, towards a viewer in front, up
-    light->setAmbient(osg::Vec4(0, 0, 0, 1));
+    light->setAmbient(osg::Vec4(fill, fill, fill, 1));
     light->setDiffuse(osg::Vec4(strength, strength, strength, 1));
     light->setSpecular(osg::Vec4(strength, strength, strength, 1));
     osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
@@ -40,6 +43,13 @@ public:
         : _scene(scene), _model(scene.getModel()), _world(world), _groups(_model.bodies.size()) {}
 
     void make() {
+        _muscle.assign(_model.bodies.size(), -1);
+        _deforms.assign(_model.bodies.size(), false);
+        for (std::size_t m = 0; m < _model.muscles.size(); ++m) {
+            _muscle[_model.muscles[m].body] = static_cast<int>(m);
+            _deforms[_model.muscles[m].body] = true;
+        }
+        for (const tss::SkinModel& skin : _model.skins) _deforms[skin.body] = true;
         findMovers();
         for (std::size_t body = 0; body < _groups.size(); ++body) group(static_cast<int>(body));
     }
@@ -69,17 +79,32 @@ private:
         osg::ref_ptr<osg::Group>& made = _groups[body];
         if (made) return made;
         const tss::Body& model = _model.bodies[body];
-        if (_mover[body] < 0) {
-            made = new osg::MatrixTransform(toOsg(model.placement));
-            _world.addChild(made);
-        } else {
+        const int bone = _muscle[body] < 0 ? -1 : _model.muscles[_muscle[body]].bone;
+        if (_mover[body] >= 0) {
             made = new osg::Group;
             makeJoint(_model.joints[_mover[body]])->addChild(made);
+        } else if (bone >= 0 && bone != body) {
+            const tss::Pose onBone = _model.bodies[bone].placement.inverse(Eigen::Isometry) * model.placement;
+            made = new osg::MatrixTransform(toOsg(onBone));
+            group(bone)->addChild(made);
+        } else {
+            made = new osg::MatrixTransform(toOsg(model.placement));
+            _world.addChild(made);
         }
         made->setName(model.displayName.empty() ? lastName(model.path) : model.displayName);
         made->setDataVariance(osg::Object::DYNAMIC);
-        if (!model.mesh.empty()) made->addChild(makeBodyNode(model));
+        tagBody(*made, model.path);
+        if (!model.mesh.empty()) made->addChild(shape(body));
         return made;
+    }
+
+    osg::ref_ptr<osg::Node> shape(int body) {
+        const tss::Body& model = _model.bodies[body];
+        if (!_deforms[body]) return makeBodyNode(model);
+        osg::ref_ptr<SkinGeometry> skin = makeDeformingNode(model);
+        if (_muscle[body] >= 0)
+            skin->addUpdateCallback(new MuscleCallback(&_scene, _model.muscles[_muscle[body]].path));
+        return skin;
     }
 
     JointTransform* makeJoint(const tss::Joint& joint) {
@@ -96,6 +121,8 @@ private:
     const tss::SceneModel& _model;
     osg::Group& _world;
     std::vector<int> _mover;
+    std::vector<int> _muscle;   ///< whose surface each body is, -1: none's
+    std::vector<bool> _deforms; ///< a muscle's surface, or a skin
     std::vector<osg::ref_ptr<osg::Group>> _groups;
 };
 

@@ -5,6 +5,7 @@
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/Install>
 #include <osgTSS/JointCallback>
+#include <osgTSS/SkinCallback>
 
 #include <algorithm>
 #include <numeric>
@@ -79,7 +80,9 @@ public:
         osg::ref_ptr<osg::Callback> callback = node.getUpdateCallback();
         while (callback) {
             osg::ref_ptr<osg::Callback> next = callback->getNestedCallback();
-            if (dynamic_cast<JointCallback*>(callback.get())) node.removeUpdateCallback(callback);
+            const bool ours =
+                dynamic_cast<JointCallback*>(callback.get()) || dynamic_cast<SkinCallback*>(callback.get());
+            if (ours) node.removeUpdateCallback(callback);
             callback = next;
         }
         traverse(node);
@@ -121,6 +124,19 @@ void installGroup(osg::Node& root, Scene& scene, const std::vector<int>& pairs,
     callback->start(node);
 }
 
+/// On the root: a skin is deformed after everything else of the scene has found its place.
+void installSkins(osg::Node& root, Scene& scene, Installed& installed) {
+    for (const tss::SkinModel& skin : scene.getModel().skins) {
+        if (!skin.table) {
+            ++installed.unbaked;
+            continue;
+        }
+        osg::ref_ptr<SkinCallback> callback = new SkinCallback(&scene, skin.path);
+        addOutermost(root, *callback);
+        ++installed.skins;
+    }
+}
+
 } // namespace
 
 Installed install(osg::Node& root, Scene& scene) {
@@ -132,9 +148,6 @@ Installed install(osg::Node& root, Scene& scene) {
         if (pair.proof) ++installed.proven;
         if (!pair.proof && !pair.table) ++installed.unbaked;
     }
-    if (installed.unbaked > 0)
-        OSG_NOTICE << "osgTSS: " << installed.unbaked << " of " << model.pairs.size()
-                   << " pairs have no table and are not kept apart; 'tss bake' makes tables" << std::endl;
     const auto groups = groupPairs(model);
     auto nodes = findJointNodes(root);
     if (!allFound(model, groups, nodes)) {
@@ -142,6 +155,11 @@ Installed install(osg::Node& root, Scene& scene) {
         nodes = findJointNodes(root);
     }
     for (const auto& pairs : groups) installGroup(root, scene, pairs, nodes, installed);
+    installSkins(root, scene, installed);
+    if (installed.unbaked > 0)
+        OSG_NOTICE << "osgTSS: " << installed.unbaked << " of " << model.pairs.size() + model.skins.size()
+                   << " pairs and skins have no table and are not kept apart; 'tss bake' makes tables"
+                   << std::endl;
     return installed;
 }
 

@@ -1,5 +1,5 @@
 #include "JointNodes.h"
-#include "JointResolver.h"
+#include "SceneCache.h"
 
 #include <osg/Node>
 #include <osg/NodeVisitor>
@@ -15,86 +15,70 @@ namespace osgTSS {
 struct JointCallback::Binding {
     osg::observer_ptr<osg::Node> node;
     std::shared_ptr<const tss::SceneModel> model; ///< that the rest was made from
-    std::vector<std::unique_ptr<JointNode>> joints;
-    std::vector<ResolverPair> pairs;
-    std::vector<double> q; ///< of all joints, one after the other: where they are
-    std::vector<tss::JointResult> results;
+    std::shared_ptr<const JointPlan> plan;
+    std::vector<std::unique_ptr<JointNode>> joints; ///< of the plan's; empty when one is missing
+    std::vector<tss::JointWorkspace> workspaces;
+    std::vector<double> q; ///< where the joints are
+    std::vector<Answer> answers;
     unsigned int traversal = 0, frame = 0; ///< of the last update
     bool updated = false;                  ///< there was one
 
-    Binding(osg::Node& node, std::shared_ptr<const tss::SceneModel> model,
-            const std::vector<std::string>& pairPaths);
+    Binding(osg::Node& node, const Scene& scene, const std::vector<std::string>& pairPaths);
 
-    bool stillGood(const std::shared_ptr<const tss::SceneModel>& current) const {
-        return model == current &&
+    bool stillGood(const Scene& scene) const {
+        return model == scene.shareModel() &&
                std::all_of(joints.begin(), joints.end(), [](const auto& joint) { return joint->valid(); });
     }
-    std::vector<double> asked() const;
+    void resolve();
     void show() const;
 };
 
-namespace {
-
-struct Offsets {
-    std::vector<int> ofJoint; ///< first value of each joint of the model, -1: not in use
-    std::size_t count = 0;
-};
-
-} // namespace
-
-JointCallback::Binding::Binding(osg::Node& owner, std::shared_ptr<const tss::SceneModel> scene,
+JointCallback::Binding::Binding(osg::Node& owner, const Scene& scene,
                                 const std::vector<std::string>& pairPaths)
-    : node(&owner), model(std::move(scene)) {
+    : node(&owner), model(scene.shareModel()), plan(scene.getCache().plan(pairPaths)),
+      workspaces(osgTSS::workspaces(*plan)) {
     const auto nodes = findJointNodes(owner);
-    Offsets offsets{std::vector<int>(model->joints.size(), -1), 0};
-    const auto bind = [&](int index) {
-        if (offsets.ofJoint[index] >= 0) return true;
+    for (int index : plan->joints) {
         const tss::Joint& joint = model->joints[index];
         const auto found = nodes.find(joint.path);
         auto access = found == nodes.end() ? nullptr : makeJointNode(*found->second, joint);
-        if (!access) return false;
-        offsets.ofJoint[index] = static_cast<int>(offsets.count);
-        offsets.count += access->dofCount();
+        if (!access) {
+            OSG_WARN << "osgTSS: nothing below node \"" << owner.getName() << "\" carries joint "
+                     << joint.path << "; its pairs are not kept apart" << std::endl;
+            joints.clear();
+            q.clear();
+            return;
+        }
         const std::vector<double> values = access->shown();
         q.insert(q.end(), values.begin(), values.end());
         joints.push_back(std::move(access));
-        return true;
-    };
-    for (const std::string& path : pairPaths) {
-        const int index = tss::findPair(*model, path);
-        if (index < 0 || !model->pairs[index].table) continue;
-        const tss::Pair& pair = model->pairs[index];
-        ResolverPair resolved{pair.table, {}};
-        bool complete = true;
-        for (int joint : pair.joints) {
-            complete = complete && bind(joint);
-            if (!complete) break;
-            for (std::size_t k = 0; k < model->joints[joint].dofs.size(); ++k)
-                resolved.slots.push_back(offsets.ofJoint[joint] + k);
-        }
-        if (complete && resolved.slots.size() == pair.table->motion.dofCount())
-            pairs.push_back(std::move(resolved));
-        else
-            OSG_WARN << "osgTSS: pair " << path << " is not resolved: its joints are not below node \""
-                     << owner.getName() << "\", or have other degrees of freedom than its table" << std::endl;
     }
 }
 
-std::vector<double> JointCallback::Binding::asked() const {
-    std::vector<double> values;
-    values.reserve(q.size());
+void JointCallback::Binding::resolve() {
+    if (joints.empty()) return;
+    std::vector<double> asked;
+    asked.reserve(q.size());
     for (const auto& joint : joints) {
-        const std::vector<double> asked = joint->asked();
-        values.insert(values.end(), asked.begin(), asked.end());
+        const std::vector<double> values = joint->asked();
+        asked.insert(asked.end(), values.begin(), values.end());
     }
-    return values;
+    const std::vector<tss::JointAnswer> found = osgTSS::resolve(*plan, q, asked, workspaces);
+    q = std::move(asked);
+    answers.resize(found.size());
+    for (std::size_t g = 0; g < found.size(); ++g) {
+        const int table = found[g].table;
+        const std::string path = table < 0 ? "" : model->pairs[plan->groups[g].pairs[table]].path;
+        answers[g] = {found[g].status, found[g].gap, path, found[g].test};
+    }
 }
 
 void JointCallback::Binding::show() const {
     auto next = q.begin();
     for (const auto& joint : joints) {
-        joint->show(std::vector<double>(next, next + static_cast<std::ptrdiff_t>(joint->dofCount())));
-        next += static_cast<std::ptrdiff_t>(joint->dofCount());
+        const auto end = next + static_cast<std::ptrdiff_t>(joint->dofCount());
+        joint->show(std::vector<double>(next, end));
+        next = end;
     }
 }
 
@@ -118,10 +102,11 @@ void JointCallback::setPairPaths(std::vector<std::string> paths) {
     _bindings.clear();
 }
 
-std::vector<tss::JointResult> JointCallback::getResults(const osg::Node& node) const {
+const std::vector<JointCallback::Answer>& JointCallback::getAnswers(const osg::Node& node) const {
+    static const std::vector<Answer> none;
     for (const auto& binding : _bindings)
-        if (binding->node == &node) return binding->results;
-    return {};
+        if (binding->node == &node) return binding->answers;
+    return none;
 }
 
 void JointCallback::start(osg::Node& node) {
@@ -133,13 +118,13 @@ JointCallback::Binding& JointCallback::bindingOf(osg::Node& node) {
     std::erase_if(_bindings, [](const auto& binding) { return !binding->node.valid(); });
     for (auto& binding : _bindings) {
         if (binding->node != &node) continue;
-        if (binding->updated && binding->stillGood(_scene->shareModel())) return *binding;
-        auto again = std::make_unique<Binding>(node, _scene->shareModel(), _pairPaths);
+        if (binding->updated && binding->stillGood(*_scene)) return *binding;
+        auto again = std::make_unique<Binding>(node, *_scene, _pairPaths);
         if (again->q.size() == binding->q.size()) again->q = binding->q;
         binding = std::move(again);
         return *binding;
     }
-    _bindings.push_back(std::make_unique<Binding>(node, _scene->shareModel(), _pairPaths));
+    _bindings.push_back(std::make_unique<Binding>(node, *_scene, _pairPaths));
     return *_bindings.back();
 }
 
@@ -160,12 +145,8 @@ bool JointCallback::run(osg::Object* object, osg::Object* data) {
     if (!again)
         for (const auto& joint : binding.joints) joint->restoreAsked();
     const bool result = traverse(object, data);
-    if (!binding.stillGood(_scene->shareModel())) return result; // the animation took a joint away
-    if (!again) {
-        std::vector<double> q = binding.asked();
-        binding.results = resolveJoints(binding.pairs, binding.q, q);
-        binding.q = std::move(q);
-    }
+    if (!binding.stillGood(*_scene)) return result; // the animation took a joint away
+    if (!again) binding.resolve();
     binding.show();
     return result;
 }

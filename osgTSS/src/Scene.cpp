@@ -1,3 +1,5 @@
+#include "SceneCache.h"
+
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
@@ -6,19 +8,35 @@
 #include <osg/UserDataContainer>
 #include <osgTSS/Scene>
 
+#include <cmath>
+
 namespace osgTSS {
 
-Scene::Scene() : _model(std::make_shared<tss::SceneModel>()), _clock(*_model) {}
+Scene::Scene() : Scene(std::make_shared<tss::SceneModel>()) {}
+
+Scene::~Scene() = default;
 
 Scene::Scene(std::shared_ptr<const tss::SceneModel> model, Clock::Source source)
-    : _model(std::move(model)), _clock(*_model, source) {}
+    : _model(std::move(model)), _clock(*_model, source), _cache(std::make_shared<Cache>(_model)) {}
 
 Scene::Scene(const Scene& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), _model(other._model), _clock(other._clock) {}
+    : osg::Object(other, copyop), _model(other._model), _clock(other._clock),
+      _activations(other._activations), _cache(other._cache) {}
 
 void Scene::setModel(std::shared_ptr<const tss::SceneModel> model) {
     _model = std::move(model);
     _clock = Clock(*_model, _clock.source);
+    _activations.clear();
+    _cache = std::make_shared<Cache>(_model);
+}
+
+double Scene::getActivation(int muscle, double timeCode) const {
+    const auto set = _activations.find(muscle);
+    return set != _activations.end() ? set->second : _model->muscles[muscle].activation.at(timeCode);
+}
+
+void Scene::setActivation(int muscle, double activation) {
+    if (std::isfinite(activation)) _activations[muscle] = activation;
 }
 
 void Scene::setText(const std::string& text) {

@@ -100,11 +100,14 @@ TEST_CASE("a wish is remembered, not the place where it was stopped") {
     playback.frames(*rig.root, 1, 2);
     CHECK(rig.joint->getValue(0) < scenes::contactAngle() + 1e-6);
     CHECK(rig.joint->getAskedValues()[0] == 1.3);
-    const auto results = find<JointTransform>(*rig.root, "Hinge");
-    auto* callback = dynamic_cast<JointCallback*>(results->getUpdateCallback());
+    auto* callback = dynamic_cast<JointCallback*>(rig.joint->getUpdateCallback());
     REQUIRE(callback);
-    REQUIRE(callback->getResults(*results).size() == 1);
-    CHECK(callback->getResults(*results)[0].status != tss::JointStatus::Free);
+    REQUIRE(callback->getAnswers(*rig.joint).size() == 1);
+    const JointCallback::Answer& answer = callback->getAnswers(*rig.joint)[0];
+    CHECK(answer.status == tss::JointStatus::Blocked);
+    CHECK(answer.pairPath == "/Rig/Hinge");
+    CHECK(answer.gap > 0);
+    CHECK(answer.gap < 1e-3);
 }
 
 TEST_CASE("nothing is installed for a pair proven never to collide") {

@@ -1,62 +1,15 @@
-#include "Playback.h"
-#include "Scenes.h"
+#include "Files.h"
 
-#include <catch2/catch.hpp>
-#include <osg/ValueObject>
-#include <osgDB/ReadFile>
-#include <osgDB/Registry>
-#include <osgDB/WriteFile>
 #include <osgTSS/JointCallback>
-#include <osgTSS/JointTransform>
 #include <osgTSS/Scene>
 #include <osgUtil/Optimizer>
 
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 
-#include "bake/scene/SceneFile.h"
+using namespace files;
 
 namespace {
-
-/// A folder of this process's own, empty.
-std::filesystem::path scratch() {
-    const std::filesystem::path folder = std::filesystem::path(OSGTSS_BINARY_DIR) / "test-osgTSS";
-    std::filesystem::create_directories(folder);
-    return folder;
-}
-
-/// The plugins of this build, before those that are installed.
-void usePlugins() {
-    osgDB::FilePathList& paths = osgDB::Registry::instance()->getLibraryFilePathList();
-    const std::string own = std::string(OSGTSS_BINARY_DIR) + "/lib";
-    if (paths.empty() || paths.front() != own) paths.push_front(own);
-}
-
-osg::ref_ptr<osg::Node> load(const std::filesystem::path& file, const std::string& words = "clock=frame") {
-    usePlugins();
-    osg::ref_ptr<osgDB::Options> options = new osgDB::Options(words);
-    return osgDB::readRefNodeFile(file.string(), options);
-}
-
-std::filesystem::path saveHinge(bool withTable = true) {
-    const auto file = scratch() / "hinge.tss";
-    tss::saveScene(scenes::hinge(withTable), file.string());
-    return file;
-}
-
-/// The arm's matrix to the world, frame by frame.
-std::vector<osg::Matrixd> states(osg::Node& root) {
-    auto* joint = find<osgTSS::JointTransform>(root, "Hinge");
-    REQUIRE(joint);
-    Playback playback;
-    std::vector<osg::Matrixd> matrices;
-    for (unsigned int frame = 0; frame < 30; ++frame) {
-        playback.frame(root, frame);
-        matrices.push_back(joint->getWorldMatrices().at(0));
-    }
-    return matrices;
-}
 
 /// The joint is stopped in some frames and moves in others.
 void checkPlays(osg::Node& root) {

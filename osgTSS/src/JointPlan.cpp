@@ -1,0 +1,128 @@
+#include "JointPlan.h"
+
+#include "bake/base/Error.h"
+
+#include <osg/Notify>
+
+#include <algorithm>
+
+namespace osgTSS {
+
+namespace {
+
+/// A table with the places of its DOFs among all values.
+struct Placed {
+    int pair;
+    std::vector<std::size_t> slots;
+};
+
+/// Adds the joints of the pair to the plan where they are not in it yet.
+Placed place(const tss::SceneModel& scene, int pair, JointPlan& plan) {
+    Placed placed{pair, {}};
+    for (int joint : scene.pairs[pair].joints) {
+        const auto known = std::find(plan.joints.begin(), plan.joints.end(), joint);
+        const std::size_t index = static_cast<std::size_t>(known - plan.joints.begin());
+        if (known == plan.joints.end()) {
+            plan.joints.push_back(joint);
+            plan.firstValue.push_back(plan.valueCount);
+            plan.valueCount += scene.joints[joint].dofs.size();
+        }
+        for (std::size_t k = 0; k < scene.joints[joint].dofs.size(); ++k)
+            placed.slots.push_back(plan.firstValue[index] + k);
+    }
+    return placed;
+}
+
+void addGroup(const tss::SceneModel& scene, const std::vector<Placed>& tables, JointPlan& plan) {
+    std::vector<std::size_t> slots;
+    for (const Placed& table : tables) slots.insert(slots.end(), table.slots.begin(), table.slots.end());
+    std::sort(slots.begin(), slots.end());
+    slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+    std::vector<tss::TableOnJoint> entries;
+    std::vector<int> pairs;
+    for (const Placed& table : tables) {
+        tss::TableOnJoint entry{scene.pairs[table.pair].table.get(), {}};
+        for (std::size_t slot : table.slots)
+            entry.dofs.push_back(
+                static_cast<int>(std::find(slots.begin(), slots.end(), slot) - slots.begin()));
+        entries.push_back(entry);
+        pairs.push_back(table.pair);
+    }
+    plan.groups.push_back({pairs, slots, tss::JointResponder(entries, static_cast<int>(slots.size()))});
+}
+
+void warn(const tss::Pair& pair, const std::string& why) {
+    OSG_WARN << "osgTSS: pair " << pair.path << " is not kept apart: " << why << std::endl;
+}
+
+} // namespace
+
+std::shared_ptr<const JointPlan> makeJointPlan(const tss::SceneModel& scene,
+                                               const std::vector<std::string>& pairPaths) {
+    auto plan = std::make_shared<JointPlan>();
+    std::vector<Placed> tables;
+    for (const std::string& path : pairPaths) {
+        const int index = tss::findPair(scene, path);
+        if (index < 0 || !scene.pairs[index].table) continue;
+        const Placed table = place(scene, index, *plan);
+        if (table.slots.size() == scene.pairs[index].table->motion.dofCount())
+            tables.push_back(table);
+        else
+            warn(scene.pairs[index], "its joints have other degrees of freedom than its table");
+    }
+    if (tables.empty()) return plan;
+    try {
+        addGroup(scene, tables, *plan);
+        return plan;
+    } catch (const tss::InputError& error) {
+        if (tables.size() == 1) {
+            warn(scene.pairs[tables[0].pair], error.what());
+            return plan;
+        }
+    }
+    for (const Placed& table : tables) {
+        try {
+            addGroup(scene, {table}, *plan);
+        } catch (const tss::InputError& error) {
+            warn(scene.pairs[table.pair], error.what());
+        }
+    }
+    return plan;
+}
+
+std::vector<tss::JointWorkspace> workspaces(const JointPlan& plan) {
+    std::vector<tss::JointWorkspace> made;
+    for (const JointPlan::Group& group : plan.groups) made.push_back(group.responder.workspace());
+    return made;
+}
+
+std::vector<tss::JointAnswer> resolve(const JointPlan& plan, const std::vector<double>& last,
+                                      std::vector<double>& q, std::vector<tss::JointWorkspace>& workspaces) {
+    constexpr int mostRounds = 16;
+    std::vector<tss::JointAnswer> answers(plan.groups.size());
+    bool settled = false;
+    for (int round = 0; round < mostRounds && !settled; ++round) {
+        settled = true;
+        for (std::size_t g = 0; g < plan.groups.size(); ++g) {
+            const JointPlan::Group& group = plan.groups[g];
+            tss::JointValues from{}, asked{};
+            for (std::size_t k = 0; k < group.slots.size(); ++k) {
+                from[k] = last[group.slots[k]];
+                asked[k] = q[group.slots[k]];
+            }
+            const tss::JointAnswer answer = group.responder.respond(from.data(), asked.data(), workspaces[g]);
+            bool changed = false;
+            for (std::size_t k = 0; k < group.slots.size(); ++k) {
+                changed = changed || answer.q[k] != asked[k];
+                q[group.slots[k]] = answer.q[k];
+            }
+            // The first word of a group tells whether it stopped its joints; later rounds only confirm.
+            if (round == 0 || changed) answers[g] = answer;
+            if (changed && plan.groups.size() > 1) settled = false;
+        }
+    }
+    if (!settled) q = last;
+    return answers;
+}
+
+} // namespace osgTSS

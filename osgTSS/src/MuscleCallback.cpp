@@ -1,0 +1,75 @@
+#include "PerNode.h"
+#include "SceneCache.h"
+
+#include "bake/base/Error.h"
+
+#include <osg/NodeVisitor>
+#include <osg/Notify>
+#include <osgTSS/MuscleCallback>
+#include <osgTSS/SkinGeometry>
+
+#include <cmath>
+#include <limits>
+
+namespace osgTSS {
+
+namespace {
+
+/// A muscle as one drawable shows it.
+struct Shown {
+    std::shared_ptr<const tss::SceneModel> model;
+    int muscle = -1;
+    std::shared_ptr<const tss::MuscleDeformer> deformer; ///< null: not to be played
+    tss::TriangleMesh mesh;
+    double activation = std::numeric_limits<double>::quiet_NaN();
+
+    Shown(const Scene& scene, const std::string& path) : model(scene.shareModel()) {
+        for (std::size_t m = 0; m < model->muscles.size(); ++m)
+            if (model->muscles[m].path == path) muscle = static_cast<int>(m);
+        if (muscle < 0) return;
+        try {
+            deformer = scene.getCache().muscle(muscle);
+            mesh = deformer->muscle().surface;
+        } catch (const tss::InputError& error) {
+            OSG_WARN << "osgTSS: muscle " << path << " does not play: " << error.what() << std::endl;
+        }
+    }
+};
+
+} // namespace
+
+struct MuscleCallback::States : PerNode<Shown> {};
+
+MuscleCallback::MuscleCallback() : _states(std::make_unique<States>()) {}
+MuscleCallback::~MuscleCallback() = default;
+
+MuscleCallback::MuscleCallback(Scene* scene, std::string musclePath) : MuscleCallback() {
+    _scene = scene;
+    _musclePath = std::move(musclePath);
+}
+
+MuscleCallback::MuscleCallback(const MuscleCallback& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), osg::Callback(other, copyop), _scene(other._scene),
+      _musclePath(other._musclePath), _states(std::make_unique<States>()) {}
+
+bool MuscleCallback::run(osg::Object* object, osg::Object* data) {
+    const bool result = traverse(object, data);
+    auto* geometry = dynamic_cast<SkinGeometry*>(object);
+    osg::NodeVisitor* visitor = data ? data->asNodeVisitor() : nullptr;
+    if (!geometry || !visitor || !visitor->getFrameStamp() || !_scene) return result;
+    Shown& shown = _states->of(
+        *geometry, [&] { return std::make_unique<Shown>(*_scene, _musclePath); },
+        [&](const Shown& state) { return state.model == _scene->shareModel(); });
+    if (!shown.deformer || !geometry->getVertices() ||
+        geometry->getVertices()->size() != shown.mesh.vertices.size())
+        return result;
+    const double time = _scene->getClock().timeCode(*visitor->getFrameStamp());
+    const double activation = _scene->getActivation(shown.muscle, time);
+    if (activation == shown.activation) return result;
+    shown.activation = activation;
+    shown.mesh.vertices = shown.deformer->vertices(activation);
+    geometry->deform(shown.mesh.vertices, tss::vertexNormals(shown.mesh));
+    return result;
+}
+
+} // namespace osgTSS

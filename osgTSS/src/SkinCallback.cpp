@@ -1,0 +1,146 @@
+#include "BodyNodes.h"
+#include "PerNode.h"
+#include "SceneCache.h"
+
+#include "bake/base/Error.h"
+#include "bake/respond/SkinResponse.h"
+
+#include <osg/NodeVisitor>
+#include <osg/Notify>
+#include <osgTSS/Convert>
+#include <osgTSS/SkinCallback>
+
+namespace osgTSS {
+
+namespace {
+
+/// A bone that a muscle rides on.
+struct Bone {
+    osg::observer_ptr<osg::Node> node; ///< null: the muscle does not move with anything
+    tss::Pose restInverse;             ///< skin to bone, at rest
+};
+
+/// A skin as it plays below one node.
+struct Played {
+    std::shared_ptr<const tss::SceneModel> model;
+    const tss::SkinModel* skin = nullptr;
+    osg::observer_ptr<SkinGeometry> geometry;
+    osg::observer_ptr<osg::Node> frame; ///< of the skin
+    std::vector<Bone> bones;            ///< one a muscle
+    bool riding = false;                ///< some muscle has a bone
+    std::unique_ptr<tss::SkinResponse> response;
+    std::vector<double> activations;
+    std::vector<tss::Pose> poses;
+    unsigned int traversal = 0, frameNumber = 0; ///< of the last update
+    bool updated = false;
+
+    Played(osg::Node& owner, const Scene& scene, const std::string& path);
+    void findBones(const BodyNodes& nodes);
+    void pose(osg::Node& owner);
+    void update(osg::Node& owner, const Scene& scene, double time);
+};
+
+Played::Played(osg::Node& owner, const Scene& scene, const std::string& path) : model(scene.shareModel()) {
+    int index = -1;
+    for (std::size_t s = 0; s < model->skins.size(); ++s)
+        if (model->skins[s].path == path) index = static_cast<int>(s);
+    if (index < 0) return;
+    skin = &model->skins[index];
+    const BodyNodes nodes = findBodyNodes(owner);
+    const std::string& body = model->bodies[skin->body].path;
+    const auto shape = nodes.shapes.find(body);
+    const auto at = nodes.frames.find(body);
+    if (shape == nodes.shapes.end() || at == nodes.frames.end()) {
+        OSG_WARN << "osgTSS: nothing below node \"" << owner.getName() << "\" shows skin " << path
+                 << std::endl;
+        return;
+    }
+    geometry = shape->second;
+    frame = at->second;
+    findBones(nodes);
+    try {
+        if (const auto rig = scene.getCache().rig(index)) response = std::make_unique<tss::SkinResponse>(rig);
+    } catch (const tss::InputError& error) {
+        OSG_WARN << "osgTSS: skin " << path << " does not play: " << error.what() << std::endl;
+    }
+}
+
+void Played::findBones(const BodyNodes& nodes) {
+    const tss::Pose skinInverse = model->bodies[skin->body].placement.inverse(Eigen::Isometry);
+    for (int m : skin->muscles) {
+        Bone bone;
+        const int body = model->muscles[m].bone;
+        const auto found = body < 0 ? nodes.frames.end() : nodes.frames.find(model->bodies[body].path);
+        if (found != nodes.frames.end()) {
+            bone.node = found->second;
+            bone.restInverse = (skinInverse * model->bodies[body].placement).inverse(Eigen::Isometry);
+            riding = true;
+        }
+        bones.push_back(bone);
+    }
+}
+
+/// How far each muscle has been carried since rest, in the skin's frame; exactly nothing for less than
+/// rounding.
+void Played::pose(osg::Node& owner) {
+    constexpr double rounding = 1e-12;
+    poses.assign(bones.size(), tss::Pose::Identity());
+    const osg::Matrixd toSkin = osg::Matrixd::inverse(frame->getWorldMatrices(&owner).at(0));
+    for (std::size_t k = 0; k < bones.size(); ++k) {
+        if (!bones[k].node.valid()) continue;
+        const auto now = toSimilarity(bones[k].node->getWorldMatrices(&owner).at(0) * toSkin);
+        if (!now) continue;
+        const tss::Pose moved = now->pose * bones[k].restInverse;
+        const double size = 1 + now->pose.translation().cwiseAbs().maxCoeff();
+        if ((moved.matrix() - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff() > rounding * size)
+            poses[k] = moved;
+    }
+}
+
+void Played::update(osg::Node& owner, const Scene& scene, double time) {
+    activations.clear();
+    for (int m : skin->muscles) activations.push_back(scene.getActivation(m, time));
+    if (riding) pose(owner);
+    if (!response->update(activations, poses).moved) return;
+    geometry->deform(response->rig().vertices, response->positions(), response->normals());
+}
+
+} // namespace
+
+struct SkinCallback::States : PerNode<Played> {};
+
+SkinCallback::SkinCallback() : _states(std::make_unique<States>()) {}
+SkinCallback::~SkinCallback() = default;
+
+SkinCallback::SkinCallback(Scene* scene, std::string skinPath) : SkinCallback() {
+    _scene = scene;
+    _skinPath = std::move(skinPath);
+}
+
+SkinCallback::SkinCallback(const SkinCallback& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), osg::Callback(other, copyop), _scene(other._scene),
+      _skinPath(other._skinPath), _states(std::make_unique<States>()) {}
+
+bool SkinCallback::run(osg::Object* object, osg::Object* data) {
+    const bool result = traverse(object, data);
+    osg::Node* node = object ? object->asNode() : nullptr;
+    osg::NodeVisitor* visitor = data ? data->asNodeVisitor() : nullptr;
+    const osg::FrameStamp* stamp = visitor ? visitor->getFrameStamp() : nullptr;
+    if (!node || !stamp || !_scene) return result;
+    Played& played = _states->of(
+        *node, [&] { return std::make_unique<Played>(*node, *_scene, _skinPath); },
+        [&](const Played& state) {
+            return state.model == _scene->shareModel() &&
+                   (!state.response || (state.geometry.valid() && state.frame.valid()));
+        });
+    if (!played.response) return result;
+    const unsigned int traversal = visitor->getTraversalNumber(), frame = stamp->getFrameNumber();
+    if (played.updated && played.traversal == traversal && played.frameNumber == frame) return result;
+    played.updated = true;
+    played.traversal = traversal;
+    played.frameNumber = frame;
+    played.update(*node, *_scene, _scene->getClock().timeCode(*stamp));
+    return result;
+}
+
+} // namespace osgTSS

@@ -1,0 +1,179 @@
+#include <OpenThreads/ScopedLock>
+#include <osg/NodeVisitor>
+#include <osgTSS/Convert>
+#include <osgTSS/SkinGeometry>
+
+#include <cassert>
+
+namespace osgTSS {
+
+namespace {
+
+/// The bound of a geometry in the pair is that of the drawable that owns it.
+class BoundOfOwner : public osg::Drawable::ComputeBoundingBoxCallback {
+public:
+    explicit BoundOfOwner(const SkinGeometry& owner) : _owner(owner) {}
+    osg::BoundingBox computeBound(const osg::Drawable&) const override { return _owner.computeBoundingBox(); }
+
+private:
+    const SkinGeometry& _owner; ///< outlives the geometries it owns
+};
+
+/// A geometry like the one at rest over arrays of its own.
+osg::ref_ptr<osg::Geometry> over(const osg::Geometry& rest, osg::Vec3Array& vertices,
+                                 osg::Vec3Array& normals) {
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry(rest, osg::CopyOp::SHALLOW_COPY);
+    geometry->setUpdateCallback(nullptr);
+    geometry->setVertexArray(&vertices);
+    geometry->setNormalArray(&normals, osg::Array::BIND_PER_VERTEX);
+    return geometry;
+}
+
+const osg::Vec3Array* vec3Array(const osg::Array* array) {
+    return dynamic_cast<const osg::Vec3Array*>(array);
+}
+
+} // namespace
+
+SkinGeometry::SkinGeometry() {
+    setDataVariance(DYNAMIC);
+    setUseDisplayList(false);
+    setSupportsDisplayList(false);
+}
+
+SkinGeometry::SkinGeometry(const SkinGeometry& other, const osg::CopyOp& copyop)
+    : osg::Drawable(other, copyop), _path(other._path) {
+    setDataVariance(DYNAMIC);
+    if (!other._rest) return;
+    const bool deep = (copyop.getCopyFlags() & osg::CopyOp::DEEP_COPY_ARRAYS) != 0;
+    setRestGeometry(deep ? osg::clone(other._rest.get(), copyop) : other._rest.get());
+    *_vertices = *other._vertices;
+    *_normals = *other._normals;
+    changed(other._box);
+}
+
+void SkinGeometry::setRestGeometry(osg::Geometry* geometry) {
+    const osg::ref_ptr<osg::Geometry> rest = geometry;
+    const osg::Vec3Array* vertices = rest ? vec3Array(rest->getVertexArray()) : nullptr;
+    const osg::Vec3Array* normals = rest ? vec3Array(rest->getNormalArray()) : nullptr;
+    if (!vertices || !normals || vertices->size() != normals->size()) return;
+    _rest = rest;
+    _vertices = new osg::Vec3Array(*vertices, osg::CopyOp::DEEP_COPY_ALL);
+    _normals = new osg::Vec3Array(*normals, osg::CopyOp::DEEP_COPY_ALL);
+    _staged = over(*rest, *_vertices, *_normals);
+    for (osg::ref_ptr<osg::Geometry>& frame : _frames) {
+        osg::ref_ptr<osg::Vec3Array> v = new osg::Vec3Array(*vertices, osg::CopyOp::DEEP_COPY_ALL);
+        osg::ref_ptr<osg::Vec3Array> n = new osg::Vec3Array(*normals, osg::CopyOp::DEEP_COPY_ALL);
+        osg::ref_ptr<osg::VertexBufferObject> buffer = new osg::VertexBufferObject;
+        buffer->setUsage(GL_DYNAMIC_DRAW_ARB);
+        v->setVertexBufferObject(buffer);
+        n->setVertexBufferObject(buffer);
+        frame = over(*rest, *v, *n);
+        frame->setUseDisplayList(false);
+        frame->setUseVertexBufferObjects(true);
+        frame->setDataVariance(STATIC); // written only while nothing draws it: no viewer need wait for it
+        frame->setComputeBoundingBoxCallback(new BoundOfOwner(*this));
+    }
+    _box.init();
+    osg::BoundingBox box;
+    for (const osg::Vec3& vertex : *vertices) box.expandBy(vertex);
+    changed(box);
+}
+
+void SkinGeometry::deform(std::span<const std::uint32_t> vertices, std::span<const tss::Vec3> positions,
+                          std::span<const tss::Vec3> normals) {
+    assert(vertices.size() == positions.size() && vertices.size() == normals.size());
+    osg::BoundingBox box;
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+        osg::Vec3& vertex = (*_vertices)[vertices[k]];
+        vertex = osg::Vec3(toOsg(positions[k]));
+        (*_normals)[vertices[k]] = osg::Vec3(toOsg(normals[k]));
+        box.expandBy(vertex);
+    }
+    changed(box);
+}
+
+void SkinGeometry::deform(std::span<const tss::Vec3> positions, std::span<const tss::Vec3> normals) {
+    copyTo(*_vertices, positions);
+    copyTo(*_normals, normals);
+    osg::BoundingBox box;
+    for (const osg::Vec3& vertex : *_vertices) box.expandBy(vertex);
+    changed(box);
+}
+
+void SkinGeometry::changed(const osg::BoundingBox& box) {
+    ++_version;
+    if (!box.valid() || (_box.valid() && _box.contains(box._min) && _box.contains(box._max))) return;
+    _box.expandBy(box);
+    dirtyBound();
+    for (const osg::ref_ptr<osg::Geometry>& frame : _frames) frame->dirtyBound();
+}
+
+osg::Geometry* SkinGeometry::geometryToDraw() {
+    const OpenThreads::ScopedLock<OpenThreads::Mutex> lock(_mutex);
+    if (!_frames[0]) return nullptr;
+    if (_drawnVersion != _version) {
+        _drawnVersion = _version;
+        _current = 1 - _current;
+        osg::Geometry& next = *_frames[_current];
+        auto& vertices = static_cast<osg::Vec3Array&>(*next.getVertexArray());
+        auto& normals = static_cast<osg::Vec3Array&>(*next.getNormalArray());
+        std::copy(_vertices->begin(), _vertices->end(), vertices.begin());
+        std::copy(_normals->begin(), _normals->end(), normals.begin());
+        vertices.dirty();
+        normals.dirty();
+    }
+    osg::Geometry* geometry = _frames[_current];
+    if (geometry->getStateSet() != getStateSet()) geometry->setStateSet(getStateSet());
+    if (geometry->getCullCallback() != getCullCallback()) geometry->setCullCallback(getCullCallback());
+    return geometry;
+}
+
+void SkinGeometry::accept(osg::NodeVisitor& visitor) {
+    if (!visitor.validNodeMask(*this)) return;
+    visitor.pushOntoNodePath(this);
+    osg::Geometry* drawn =
+        visitor.getVisitorType() == osg::NodeVisitor::CULL_VISITOR ? geometryToDraw() : nullptr;
+    if (drawn)
+        visitor.apply(*drawn);
+    else
+        visitor.apply(*this);
+    visitor.popFromNodePath();
+}
+
+void SkinGeometry::accept(osg::PrimitiveFunctor& functor) const {
+    if (_staged) _staged->accept(functor);
+}
+
+void SkinGeometry::accept(osg::PrimitiveIndexFunctor& functor) const {
+    if (_staged) _staged->accept(functor);
+}
+
+void SkinGeometry::drawImplementation(osg::RenderInfo& info) const {
+    if (_frames[_current]) _frames[_current]->drawImplementation(info);
+}
+
+void SkinGeometry::compileGLObjects(osg::RenderInfo& info) const {
+    for (const osg::ref_ptr<osg::Geometry>& frame : _frames)
+        if (frame) frame->compileGLObjects(info);
+}
+
+void SkinGeometry::resizeGLObjectBuffers(unsigned int size) {
+    osg::Drawable::resizeGLObjectBuffers(size);
+    for (const osg::ref_ptr<osg::Geometry>& frame : _frames)
+        if (frame) frame->resizeGLObjectBuffers(size);
+}
+
+void SkinGeometry::releaseGLObjects(osg::State* state) const {
+    osg::Drawable::releaseGLObjects(state);
+    for (const osg::ref_ptr<osg::Geometry>& frame : _frames)
+        if (frame) frame->releaseGLObjects(state);
+}
+
+void SkinGeometry::setThreadSafeRefUnref(bool threadSafe) {
+    osg::Drawable::setThreadSafeRefUnref(threadSafe);
+    for (const osg::ref_ptr<osg::Geometry>& frame : _frames)
+        if (frame) frame->setThreadSafeRefUnref(threadSafe);
+}
+
+} // namespace osgTSS
