@@ -1,5 +1,6 @@
 #include "bake/table/Bench.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace tss {
@@ -12,12 +13,13 @@ double nanoseconds(Clock::time_point from, Clock::time_point to, double count) {
     return count > 0 ? std::chrono::duration<double, std::nano>(to - from).count() / count : 0;
 }
 
-/// Calls query(i) for the poses in turn. A loop of its own for each kind of query.
+/// Calls query(i) for the poses in turn, pass after pass.
 template <class Query>
 void repeat(std::uint64_t queries, std::size_t poses, Query query) {
-    for (std::size_t i = 0; queries > 0; --queries) {
-        query(i);
-        if (++i == poses) i = 0;
+    while (queries > 0) {
+        const std::size_t pass = std::min<std::uint64_t>(queries, poses);
+        for (std::size_t i = 0; i < pass; ++i) query(i);
+        queries -= pass;
     }
 }
 
@@ -42,6 +44,7 @@ BenchResult benchQueries(const PreparedTable& table, const Motion& motion, std::
     for (std::size_t i = 0; i < poses.size(); ++i) table.frame(poses[i].data(), frames[i]);
 
     BenchResult result;
+    TableContact c;
     const auto start = Clock::now();
     switch (with) {
     case BenchWith::Hit:
@@ -56,7 +59,7 @@ BenchResult benchQueries(const PreparedTable& table, const Motion& motion, std::
         break;
     case BenchWith::Contact:
         repeat(queries, poses.size(), [&](std::size_t i) {
-            const TableContact c = table.contact(features[i], frames[i]);
+            table.contact(features[i], frames[i], c);
             result.hits += c.gap <= 0;
             result.checksum += c.gap + c.point.x() + c.normal.x() + c.gradient[0];
         });

@@ -45,18 +45,18 @@ KernelTarget bestTarget() {
 }
 
 template <class T>
-KernelSet<T> foldKernels(KernelTarget target, std::uint32_t features) {
+KernelSet foldKernels(KernelTarget target, std::uint32_t features) {
     if (target == KernelTarget::Best) target = bestTarget();
     return target == KernelTarget::Scalar ? scalarFoldKernels<T>() : vectorFoldKernels<T>(target, features);
 }
 template <class T>
-KernelSet<T> directKernels(KernelTarget target) {
+KernelSet directKernels(KernelTarget target) {
     if (target == KernelTarget::Best) target = bestTarget();
     return target == KernelTarget::Scalar ? scalarDirectKernels<T>() : vectorDirectKernels<T>(target);
 }
-template KernelSet<float> foldKernels<float>(KernelTarget, std::uint32_t);
-template KernelSet<double> foldKernels<double>(KernelTarget, std::uint32_t);
-template KernelSet<float> directKernels<float>(KernelTarget);
-template KernelSet<double> directKernels<double>(KernelTarget);
+template KernelSet foldKernels<float>(KernelTarget, std::uint32_t);
+template KernelSet foldKernels<double>(KernelTarget, std::uint32_t);
+template KernelSet directKernels<float>(KernelTarget);
+template KernelSet directKernels<double>(KernelTarget);
 
 } // namespace tss

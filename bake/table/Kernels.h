@@ -19,56 +19,55 @@ bool available(KernelTarget target);
 /// The widest available one.
 KernelTarget bestTarget();
 
-/// Pairs as the kernels read them. Blocks of `lanes` pairs, each column of a block contiguous:
-///   fold:   [constant - reach|reach|] [weights of feature 0] ... [constant] [reach]
-///   direct: [b.x] [b.y] [b.z] [a.x] [a.y] [a.z] [reach|reach|] [reach]
-/// Lanes beyond the last pair are far away from everything.
-template <class T>
+/// Pairs as the kernels read them, floats or doubles. Blocks of `lanes` pairs, each column of a block
+/// contiguous:
+///   fold:   [constant - reach|reach|] [weights of feature 0] ... [constant] [reach] [number of the test]
+///   direct: [b.x] [b.y] [b.z] [a.x] [a.y] [a.z] [reach|reach|] [reach] [number of the test]
+/// The number is an integer of the same width. At least one block; lanes beyond the last pair are far away
+/// from everything.
 struct KernelData {
-    const T* blocks = nullptr;
-    std::uint32_t blockCount = 0;
+    const void* blocks = nullptr;
+    const void* end = nullptr;
     std::uint32_t columns = 0; ///< features of the fold
 };
 
-template <class T>
 struct KernelGap {
-    T gap = 0;
+    double gap = 0;
     std::int32_t test = -1;
 };
 
-/// The queries of one target, form and number of features; plain function pointers, fetched once per table.
-/// pose: the features (fold), or the 12 numbers of R and t, row-major (direct); shared: the fold's shared
-/// term, 0 for direct.
-template <class T>
+/// The queries of one target, form, precision and number of features; plain function pointers, fetched once
+/// per table. pose: floats or doubles, first less the fold's shared term (0 for direct), then the features,
+/// or the 12 numbers of R and t, row-major.
 struct KernelSet {
     std::uint32_t lanes = 1;
 
-    bool (*hit)(const KernelData<T>& data, const T* pose, T shared) = nullptr;
-    KernelGap<T> (*gap)(const KernelData<T>& data, const T* pose, T shared) = nullptr;
+    bool (*hit)(const KernelData& data, const void* pose) = nullptr;
+    KernelGap (*gap)(const KernelData& data, const void* pose) = nullptr;
 
     /// Numbers of the tests whose gap is at most `margin` >= 0, rising, into `out` (room for all lanes of
     /// all blocks). Returns how many; lanes beyond the last pair never qualify.
-    std::uint32_t (*under)(const KernelData<T>& data, const T* pose, T shared, T margin,
+    std::uint32_t (*under)(const KernelData& data, const void* pose, double margin,
                            std::uint32_t* out) = nullptr;
 
-    /// Many poses at once against data of lanes 1: value k of pose i at poses[k * stride + i], shared terms
-    /// at shared[i]; i up to count rounded up to 16. least: smallest d^2 - reach^2 of each pose (<= 0: hit).
-    void (*hits)(const KernelData<T>& rows, const T* poses, std::uint32_t stride, const T* shared,
-                 std::uint32_t count, T* least) = nullptr;
+    /// Many poses at once against data of lanes 1: value k of pose i at poses[k * stride + i], i up to count
+    /// rounded up to 16; so much is written, too. hit: 1 or 0.
+    void (*hits)(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count,
+                 std::uint8_t* hit) = nullptr;
     /// Smallest gap and its test, likewise.
-    void (*gaps)(const KernelData<T>& rows, const T* poses, std::uint32_t stride, const T* shared,
-                 std::uint32_t count, T* gap, std::int32_t* test) = nullptr;
+    void (*gaps)(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count,
+                 float* gap, std::int32_t* test) = nullptr;
 };
 
-inline constexpr std::uint32_t directColumns = 8;
+inline constexpr std::uint32_t directColumns = 9;
 inline constexpr std::uint32_t foldColumns(std::uint32_t features) {
-    return features + 3;
+    return features + 4;
 }
 
-/// The kernels of a target that is available. features: up to 10 for the fold.
+/// The kernels of a target that is available, for T float or double. features: up to 10 for the fold.
 template <class T>
-KernelSet<T> foldKernels(KernelTarget target, std::uint32_t features);
+KernelSet foldKernels(KernelTarget target, std::uint32_t features);
 template <class T>
-KernelSet<T> directKernels(KernelTarget target);
+KernelSet directKernels(KernelTarget target);
 
 } // namespace tss

@@ -40,84 +40,92 @@ struct DirectRow {
 };
 
 template <class T, class Row>
-T leastOffset(const KernelData<T>& data, const T* pose, std::uint32_t stride) {
+T leastOffset(const KernelData& data, const T* pose, std::uint32_t stride) {
     T least = std::numeric_limits<T>::max();
-    const std::uint32_t width = Row::width(data.columns);
-    for (std::uint32_t i = 0; i < data.blockCount; ++i)
-        least = std::min(least, Row::offset(data.blocks + i * width, pose, stride, data.columns));
+    const T* end = static_cast<const T*>(data.end);
+    for (const T* row = static_cast<const T*>(data.blocks); row < end; row += Row::width(data.columns))
+        least = std::min(least, Row::offset(row, pose + stride, stride, data.columns));
     return least;
 }
 
 template <class T, class Row>
-KernelGap<T> leastGap(const KernelData<T>& data, const T* pose, std::uint32_t stride, T shared) {
-    KernelGap<T> best{std::numeric_limits<T>::max(), -1};
-    const std::uint32_t width = Row::width(data.columns);
-    for (std::uint32_t i = 0; i < data.blockCount; ++i) {
-        const T* row = data.blocks + i * width;
-        const T square = Row::square(row, pose, stride, data.columns) + shared;
+KernelGap leastGap(const KernelData& data, const T* pose, std::uint32_t stride) {
+    T best = std::numeric_limits<T>::max();
+    std::int32_t test = -1, number = 0;
+    const T* end = static_cast<const T*>(data.end);
+    for (const T* row = static_cast<const T*>(data.blocks); row < end; row += Row::width(data.columns)) {
+        const T square = Row::square(row, pose + stride, stride, data.columns) - pose[0];
         const T gap = std::sqrt(std::max(square, T(0))) - Row::reach(row, data.columns);
-        if (gap < best.gap) best = {gap, static_cast<std::int32_t>(i)};
+        if (gap < best) {
+            best = gap;
+            test = number;
+        }
+        ++number;
     }
-    return best;
+    return {static_cast<double>(best), test};
 }
 
 template <class T, class Row>
-bool hit(const KernelData<T>& data, const T* pose, T shared) {
-    return leastOffset<T, Row>(data, pose, 1) <= -shared;
+bool hit(const KernelData& data, const void* pose) {
+    const T* values = static_cast<const T*>(pose);
+    return leastOffset<T, Row>(data, values, 1) <= values[0];
 }
 
 template <class T, class Row>
-KernelGap<T> gap(const KernelData<T>& data, const T* pose, T shared) {
-    return leastGap<T, Row>(data, pose, 1, shared);
+KernelGap gap(const KernelData& data, const void* pose) {
+    return leastGap<T, Row>(data, static_cast<const T*>(pose), 1);
 }
 
 template <class T, class Row>
-std::uint32_t under(const KernelData<T>& data, const T* pose, T shared, T margin, std::uint32_t* out) {
-    std::uint32_t count = 0;
-    const std::uint32_t width = Row::width(data.columns);
-    for (std::uint32_t i = 0; i < data.blockCount; ++i) {
-        const T* row = data.blocks + i * width;
-        const T allowed = margin * (2 * Row::reach(row, data.columns) + margin) - shared;
-        if (Row::offset(row, pose, 1, data.columns) <= allowed) out[count++] = i;
+std::uint32_t under(const KernelData& data, const void* pose, double marginWide, std::uint32_t* out) {
+    const T* values = static_cast<const T*>(pose);
+    const T margin = static_cast<T>(marginWide);
+    std::uint32_t count = 0, number = 0;
+    const T* end = static_cast<const T*>(data.end);
+    for (const T* row = static_cast<const T*>(data.blocks); row < end; row += Row::width(data.columns)) {
+        const T allowed = margin * (2 * Row::reach(row, data.columns) + margin) + values[0];
+        if (Row::offset(row, values + 1, 1, data.columns) <= allowed) out[count++] = number;
+        ++number;
     }
     return count;
 }
 
 template <class T, class Row>
-void hits(const KernelData<T>& rows, const T* poses, std::uint32_t stride, const T* shared,
-          std::uint32_t count, T* least) {
+void hits(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count,
+          std::uint8_t* hit) {
+    const T* values = static_cast<const T*>(poses);
     for (std::uint32_t i = 0; i < count; ++i)
-        least[i] = leastOffset<T, Row>(rows, poses + i, stride) + shared[i];
+        hit[i] = leastOffset<T, Row>(rows, values + i, stride) <= values[i];
 }
 
 template <class T, class Row>
-void gaps(const KernelData<T>& rows, const T* poses, std::uint32_t stride, const T* shared,
-          std::uint32_t count, T* gap, std::int32_t* test) {
+void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count, float* gap,
+          std::int32_t* test) {
     for (std::uint32_t i = 0; i < count; ++i) {
-        const KernelGap<T> best = leastGap<T, Row>(rows, poses + i, stride, shared[i]);
-        gap[i] = best.gap;
+        const KernelGap best = leastGap<T, Row>(rows, static_cast<const T*>(poses) + i, stride);
+        gap[i] = static_cast<float>(best.gap);
         test[i] = best.test;
     }
 }
 
 template <class T, class Row>
-KernelSet<T> kernels() {
+KernelSet kernels() {
     return {1, hit<T, Row>, gap<T, Row>, under<T, Row>, hits<T, Row>, gaps<T, Row>};
 }
 
 } // namespace
 
 template <class T>
-KernelSet<T> scalarFoldKernels() {
+KernelSet scalarFoldKernels() {
     return kernels<T, FoldRow<T>>();
 }
 template <class T>
-KernelSet<T> scalarDirectKernels() {
+KernelSet scalarDirectKernels() {
     return kernels<T, DirectRow<T>>();
 }
-template KernelSet<float> scalarFoldKernels<float>();
-template KernelSet<double> scalarFoldKernels<double>();
-template KernelSet<float> scalarDirectKernels<float>();
-template KernelSet<double> scalarDirectKernels<double>();
+template KernelSet scalarFoldKernels<float>();
+template KernelSet scalarFoldKernels<double>();
+template KernelSet scalarDirectKernels<float>();
+template KernelSet scalarDirectKernels<double>();
 
 } // namespace tss

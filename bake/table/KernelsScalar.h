@@ -5,14 +5,14 @@ namespace tss {
 
 /// The kernels in plain C++, a pair at a time: what every processor has, and what the others are held to.
 template <class T>
-KernelSet<T> scalarFoldKernels();
+KernelSet scalarFoldKernels();
 template <class T>
-KernelSet<T> scalarDirectKernels();
+KernelSet scalarDirectKernels();
 
 /// The kernels of a vector target; empty pointers where the build has none.
 template <class T>
-KernelSet<T> vectorFoldKernels(KernelTarget target, std::uint32_t features);
+KernelSet vectorFoldKernels(KernelTarget target, std::uint32_t features);
 template <class T>
-KernelSet<T> vectorDirectKernels(KernelTarget target);
+KernelSet vectorDirectKernels(KernelTarget target);
 
 } // namespace tss

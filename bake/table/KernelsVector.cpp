@@ -90,66 +90,86 @@ struct BroadcastColumn {
     HWY_INLINE V<T> operator()(std::uint32_t k) const { return hn::Set(Lanes<T>(), row[k]); }
 };
 
+/// The pose's values, each in all lanes; the first is less the shared term.
+template <class T, std::uint32_t count>
+struct Broadcast {
+    V<T> values[count + 1];
+    explicit HWY_INLINE Broadcast(const void* pose) {
+        for (std::uint32_t k = 0; k <= count; ++k)
+            values[k] = hn::Set(Lanes<T>(), static_cast<const T*>(pose)[k]);
+    }
+};
+
 template <class T, class Form>
-bool hit(const KernelData<T>& data, const T* pose, T shared) {
+bool hit(const KernelData& data, const void* pose) {
     const Lanes<T> d;
-    V<T> p[Form::values > 0 ? Form::values : 1];
-    for (std::uint32_t k = 0; k < Form::values; ++k) p[k] = hn::Set(d, pose[k]);
+    const Broadcast<T, Form::values> p(pose);
     const std::size_t step = Form::columns * hn::Lanes(d);
-    const T *block = data.blocks, *end = block + data.blockCount * step;
-    V<T> least = farthest<T>();
-    V<T> other = least;
-    // Two sums at a time, so that one need not wait for the other.
+    const T *block = static_cast<const T*>(data.blocks), *end = static_cast<const T*>(data.end);
+    // The first block starts the minimum; then two sums at a time, so that one need not wait for the other.
+    V<T> least = Form::offset(p.values + 1, LoadColumn<T>{block});
+    block += step;
     for (const T* last = end - step; block < last; block += 2 * step) {
-        least = hn::Min(least, Form::offset(p, LoadColumn<T>{block}));
-        other = hn::Min(other, Form::offset(p, LoadColumn<T>{block + step}));
+        const V<T> one = Form::offset(p.values + 1, LoadColumn<T>{block});
+        const V<T> two = Form::offset(p.values + 1, LoadColumn<T>{block + step});
+        least = hn::Min(least, hn::Min(one, two));
     }
-    if (block < end) other = hn::Min(other, Form::offset(p, LoadColumn<T>{block}));
-    return !hn::AllFalse(d, hn::Le(hn::Min(least, other), hn::Set(d, -shared)));
+    if (block != end) least = hn::Min(least, Form::offset(p.values + 1, LoadColumn<T>{block}));
+    return !hn::AllFalse(d, hn::Le(least, p.values[0]));
+}
+
+/// Smallest gap so far and the number of its test, in every lane.
+template <class T>
+struct Nearest {
+    V<T> gap, number;
+    HWY_INLINE void take(V<T> otherGap, V<T> otherNumber) {
+        number = hn::IfThenElse(hn::Lt(otherGap, gap), otherNumber, number);
+        gap = hn::Min(otherGap, gap);
+    }
+};
+
+template <class T, class Form, class Column>
+HWY_INLINE V<T> gapOf(const V<T>* pose, Column column) {
+    const V<T> square = hn::Sub(Form::square(pose + 1, column), pose[0]);
+    return hn::Sub(hn::Sqrt(hn::Max(square, hn::Zero(Lanes<T>()))), column(Form::reach));
 }
 
 template <class T, class Form>
-KernelGap<T> gap(const KernelData<T>& data, const T* pose, T shared) {
+KernelGap gap(const KernelData& data, const void* pose) {
+    using Number = hwy::MakeSigned<T>;
     const Lanes<T> d;
-    const hn::RebindToSigned<Lanes<T>> di;
-    V<T> p[Form::values > 0 ? Form::values : 1];
-    for (std::uint32_t k = 0; k < Form::values; ++k) p[k] = hn::Set(d, pose[k]);
+    const Broadcast<T, Form::values> p(pose);
     const std::size_t step = Form::columns * hn::Lanes(d);
-    const V<T> sharedAll = hn::Set(d, shared), zero = hn::Zero(d);
-    V<T> best = farthest<T>();
-    auto bestBlock = hn::Set(di, -1), number = hn::Zero(di);
-    const auto one = hn::Set(di, 1);
-    const T* block = data.blocks;
-    for (const T* end = block + data.blockCount * step; block < end; block += step) {
+    const T *block = static_cast<const T*>(data.blocks), *end = static_cast<const T*>(data.end);
+    const LoadColumn<T> first{block};
+    Nearest<T> nearest{gapOf<T, Form>(p.values, first), first(Form::reach + 1)};
+    for (block += step; block < end; block += step) {
         const LoadColumn<T> column{block};
-        const V<T> square = hn::Max(hn::Add(Form::square(p, column), sharedAll), zero);
-        const V<T> gap = hn::Sub(hn::Sqrt(square), column(Form::reach));
-        const auto nearer = hn::Lt(gap, best);
-        best = hn::Min(gap, best);
-        bestBlock = hn::IfThenElse(hn::RebindMask(di, nearer), number, bestBlock);
-        number = hn::Add(number, one);
+        nearest.take(gapOf<T, Form>(p.values, column), column(Form::reach + 1));
     }
-    const V<T> least = hn::MinOfLanes(d, best);
-    const auto at = hn::FindFirstTrue(d, hn::Eq(best, least));
-    if (at < 0) return {};
-    HWY_ALIGN hwy::MakeSigned<T> blocks[hn::MaxLanes(Lanes<T>())];
-    hn::Store(bestBlock, di, blocks);
-    return {hn::GetLane(least),
-            static_cast<std::int32_t>(blocks[at] * static_cast<std::int32_t>(hn::Lanes(d)) + at)};
+    const V<T> least = hn::MinOfLanes(d, nearest.gap);
+    // A pose that is not a number equals nothing: whatever lane that gives is as good as any.
+    const auto equal = hn::Eq(nearest.gap, least);
+    const std::size_t at = static_cast<std::size_t>(hn::FindFirstTrue(d, equal)) & (hn::Lanes(d) - 1);
+    Number numbers[hn::MaxLanes(Lanes<T>())];
+    hn::StoreU(hn::BitCast(hn::RebindToSigned<Lanes<T>>(), nearest.number), hn::RebindToSigned<Lanes<T>>(),
+               numbers);
+    return {static_cast<double>(hn::GetLane(least)), static_cast<std::int32_t>(numbers[at])};
 }
 
 template <class T, class Form>
-std::uint32_t under(const KernelData<T>& data, const T* pose, T shared, T margin, std::uint32_t* out) {
+std::uint32_t under(const KernelData& data, const void* pose, double marginWide, std::uint32_t* out) {
     const Lanes<T> d;
-    V<T> p[Form::values > 0 ? Form::values : 1];
-    for (std::uint32_t k = 0; k < Form::values; ++k) p[k] = hn::Set(d, pose[k]);
+    const Broadcast<T, Form::values> p(pose);
+    const T margin = static_cast<T>(marginWide);
     const std::size_t step = Form::columns * hn::Lanes(d);
-    const V<T> twice = hn::Set(d, 2 * margin), rest = hn::Set(d, margin * margin - shared);
+    const V<T> twice = hn::Set(d, 2 * margin), rest = hn::Add(hn::Set(d, margin * margin), p.values[0]);
     std::uint32_t count = 0, first = 0;
-    const T* block = data.blocks;
-    for (const T* end = block + data.blockCount * step; block < end; block += step) {
+    const T *block = static_cast<const T*>(data.blocks), *end = static_cast<const T*>(data.end);
+    for (; block < end; block += step) {
         const LoadColumn<T> column{block};
-        const auto in = hn::Le(Form::offset(p, column), hn::MulAdd(column(Form::reach), twice, rest));
+        const auto in =
+            hn::Le(Form::offset(p.values + 1, column), hn::MulAdd(column(Form::reach), twice, rest));
         if (!hn::AllFalse(d, in)) {
             std::uint8_t bytes[8] = {};
             hn::StoreMaskBits(d, in, bytes);
@@ -162,51 +182,53 @@ std::uint32_t under(const KernelData<T>& data, const T* pose, T shared, T margin
 }
 
 template <class T, class Form>
-void hits(const KernelData<T>& rows, const T* poses, std::uint32_t stride, const T* shared,
-          std::uint32_t count, T* least) {
+void hits(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count,
+          std::uint8_t* hit) {
     const Lanes<T> d;
     const std::uint32_t n = static_cast<std::uint32_t>(hn::Lanes(d));
+    const T* end = static_cast<const T*>(rows.end);
     for (std::uint32_t i = 0; i < count; i += n) {
-        V<T> p[Form::values > 0 ? Form::values : 1];
-        for (std::uint32_t k = 0; k < Form::values; ++k) p[k] = hn::LoadU(d, poses + k * stride + i);
-        V<T> best = farthest<T>();
-        const T* row = rows.blocks;
-        for (const T* end = row + rows.blockCount * Form::columns; row < end; row += Form::columns)
-            best = hn::Min(best, Form::offset(p, BroadcastColumn<T>{row}));
-        hn::StoreU(hn::Add(best, hn::LoadU(d, shared + i)), d, least + i);
+        V<T> p[Form::values + 1];
+        for (std::uint32_t k = 0; k <= Form::values; ++k)
+            p[k] = hn::LoadU(d, static_cast<const T*>(poses) + std::size_t(k) * stride + i);
+        V<T> least = farthest<T>();
+        for (const T* row = static_cast<const T*>(rows.blocks); row < end; row += Form::columns)
+            least = hn::Min(least, Form::offset(p + 1, BroadcastColumn<T>{row}));
+        std::uint8_t bytes[8] = {};
+        hn::StoreMaskBits(d, hn::Le(least, p[0]), bytes);
+        for (std::uint32_t k = 0; k < n; ++k) hit[i + k] = bytes[k / 8] >> (k % 8) & 1;
     }
 }
 
 template <class T, class Form>
-void gaps(const KernelData<T>& rows, const T* poses, std::uint32_t stride, const T* shared,
-          std::uint32_t count, T* gap, std::int32_t* test) {
+void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count, float* gap,
+          std::int32_t* test) {
     const Lanes<T> d;
     const hn::RebindToSigned<Lanes<T>> di;
     const std::uint32_t n = static_cast<std::uint32_t>(hn::Lanes(d));
+    const T* end = static_cast<const T*>(rows.end);
     HWY_ALIGN hwy::MakeSigned<T> tests[hn::MaxLanes(Lanes<T>())];
+    HWY_ALIGN T least[hn::MaxLanes(Lanes<T>())];
     for (std::uint32_t i = 0; i < count; i += n) {
-        V<T> p[Form::values > 0 ? Form::values : 1];
-        for (std::uint32_t k = 0; k < Form::values; ++k) p[k] = hn::LoadU(d, poses + k * stride + i);
-        const V<T> sharedThese = hn::LoadU(d, shared + i);
-        V<T> best = farthest<T>();
-        auto bestTest = hn::Set(di, -1), number = hn::Zero(di);
-        const T* row = rows.blocks;
-        for (const T* end = row + rows.blockCount * Form::columns; row < end; row += Form::columns) {
+        V<T> p[Form::values + 1];
+        for (std::uint32_t k = 0; k <= Form::values; ++k)
+            p[k] = hn::LoadU(d, static_cast<const T*>(poses) + std::size_t(k) * stride + i);
+        Nearest<T> nearest{farthest<T>(), hn::BitCast(d, hn::Set(di, -1))};
+        for (const T* row = static_cast<const T*>(rows.blocks); row < end; row += Form::columns) {
             const BroadcastColumn<T> column{row};
-            const V<T> square = hn::Max(hn::Add(Form::square(p, column), sharedThese), hn::Zero(d));
-            const V<T> here = hn::Sub(hn::Sqrt(square), column(Form::reach));
-            bestTest = hn::IfThenElse(hn::RebindMask(di, hn::Lt(here, best)), number, bestTest);
-            best = hn::Min(here, best);
-            number = hn::Add(number, hn::Set(di, 1));
+            nearest.take(gapOf<T, Form>(p, column), column(Form::reach + 1));
         }
-        hn::StoreU(best, d, gap + i);
-        hn::Store(bestTest, di, tests);
-        for (std::uint32_t k = 0; k < n; ++k) test[i + k] = static_cast<std::int32_t>(tests[k]);
+        hn::Store(nearest.gap, d, least);
+        hn::Store(hn::BitCast(di, nearest.number), di, tests);
+        for (std::uint32_t k = 0; k < n; ++k) {
+            gap[i + k] = static_cast<float>(least[k]);
+            test[i + k] = static_cast<std::int32_t>(tests[k]);
+        }
     }
 }
 
 template <class T, class Form>
-KernelSet<T> kernels() {
+KernelSet kernels() {
     return {static_cast<std::uint32_t>(hn::Lanes(Lanes<T>())),
             hit<T, Form>,
             gap<T, Form>,
@@ -216,7 +238,7 @@ KernelSet<T> kernels() {
 }
 
 template <class T>
-KernelSet<T> fold(std::uint32_t features) {
+KernelSet fold(std::uint32_t features) {
     switch (features) {
     case 0:
         return kernels<T, FoldForm<T, 0>>();
@@ -245,7 +267,7 @@ KernelSet<T> fold(std::uint32_t features) {
 }
 
 template <class T>
-KernelSet<T> direct() {
+KernelSet direct() {
     return kernels<T, DirectForm<T>>();
 }
 
@@ -306,21 +328,21 @@ bool available(KernelTarget target) {
 #define TSS_TARGETS(call) TSS_SSE2(call) TSS_AVX2(call) TSS_AVX512(call) TSS_NEON(call)
 
 template <class T>
-KernelSet<T> vectorFoldKernels(KernelTarget target, std::uint32_t features) {
+KernelSet vectorFoldKernels(KernelTarget target, std::uint32_t features) {
     TSS_TARGETS(fold<T>(features))
     (void)target, (void)features;
     return {};
 }
 template <class T>
-KernelSet<T> vectorDirectKernels(KernelTarget target) {
+KernelSet vectorDirectKernels(KernelTarget target) {
     TSS_TARGETS(direct<T>())
     (void)target;
     return {};
 }
-template KernelSet<float> vectorFoldKernels<float>(KernelTarget, std::uint32_t);
-template KernelSet<double> vectorFoldKernels<double>(KernelTarget, std::uint32_t);
-template KernelSet<float> vectorDirectKernels<float>(KernelTarget);
-template KernelSet<double> vectorDirectKernels<double>(KernelTarget);
+template KernelSet vectorFoldKernels<float>(KernelTarget, std::uint32_t);
+template KernelSet vectorFoldKernels<double>(KernelTarget, std::uint32_t);
+template KernelSet vectorDirectKernels<float>(KernelTarget);
+template KernelSet vectorDirectKernels<double>(KernelTarget);
 
 } // namespace tss
 #endif

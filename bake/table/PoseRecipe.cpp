@@ -1,5 +1,7 @@
 #include "bake/table/PoseRecipe.h"
 
+#include <algorithm>
+
 namespace tss {
 
 namespace {
@@ -62,11 +64,8 @@ PoseRecipe::PoseRecipe(const Motion& motion, const Vec3& originA, const Vec3& or
     }
 }
 
-void PoseRecipe::evaluate(const double* q, Matrix& out) const {
-    if (steps_.empty()) {
-        out = fixed_;
-        return;
-    }
+void PoseRecipe::evaluate(const double* q, double* out) const {
+    Matrix whole = fixed_;
     for (std::size_t k = steps_.size(); k-- > 0;) {
         const Step& step = steps_[k];
         Matrix own;
@@ -80,13 +79,14 @@ void PoseRecipe::evaluate(const double* q, Matrix& out) const {
                 own[i] = step.constant[i] + (first * step.first[i] + second * step.second[i]);
         }
         if (k + 1 == steps_.size()) {
-            out = own;
+            whole = own;
         } else {
             Matrix product;
-            compose(own, out, product);
-            out = product;
+            compose(own, whole, product);
+            whole = product;
         }
     }
+    std::copy(whole.begin(), whole.end(), out);
 }
 
 } // namespace tss

@@ -13,8 +13,8 @@ public:
     /// x in B about originB -> T(q) x in A about originA.
     PoseRecipe(const Motion& motion, const Vec3& originA, const Vec3& originB);
 
-    /// q: one value a DOF, finite. Allocates nothing.
-    void evaluate(const double* q, Matrix& out) const;
+    /// q: one value a DOF, finite. out: 12 numbers. Allocates nothing.
+    void evaluate(const double* q, double* out) const;
 
 private:
     struct Step {

@@ -4,68 +4,65 @@
 
 namespace tss {
 
+namespace {
+
+/// Kernels take whole vectors of poses, 16 at most.
+constexpr std::uint32_t vectorRoom = 16;
+
+template <class T>
+const T* from(const std::vector<T>& values, std::uint32_t first) {
+    return values.data() + first;
+}
+
+} // namespace
+
 void PreparedTable::instanceFeatures(const double* q, std::uint32_t count, InstanceFeatures& out) const {
-    // Kernels take whole vectors of poses, 16 at most; what is beyond the count is computed and not looked
-    // at.
+    // What is beyond the count is computed and not looked at.
     out.count = count;
-    out.stride = (count + 15) / 16 * 16;
-    const std::size_t n = featureCount(), dofs = dofCount();
-    if (float_) {
-        out.floats.resize(n * out.stride);
-        out.sharedFloats.resize(out.stride);
-    } else {
-        out.doubles.resize(n * out.stride);
-        out.sharedDoubles.resize(out.stride);
-    }
+    out.stride = (count + vectorRoom - 1) / vectorRoom * vectorRoom;
+    const std::size_t values = featureCount() + 1, dofs = dofCount();
     TableFeatures one;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        features(q + i * dofs, one);
-        if (float_) {
-            for (std::size_t k = 0; k < n; ++k) out.floats[k * out.stride + i] = one.floats[k];
-            out.sharedFloats[i] = float(one.shared);
-        } else {
-            for (std::size_t k = 0; k < n; ++k) out.doubles[k * out.stride + i] = one.doubles[k];
-            out.sharedDoubles[i] = one.shared;
+    if (float_) {
+        out.floats.resize(values * out.stride);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            features(q + i * dofs, one);
+            for (std::size_t k = 0; k < values; ++k) out.floats[k * out.stride + i] = one.floats[k];
+        }
+    } else {
+        out.doubles.resize(values * out.stride);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            features(q + i * dofs, one);
+            for (std::size_t k = 0; k < values; ++k) out.doubles[k * out.stride + i] = one.doubles[k];
         }
     }
 }
 
 void PreparedTable::hits(const InstanceFeatures& f, std::uint8_t* hit) const {
-    constexpr std::uint32_t chunk = 256;
-    for (std::uint32_t first = 0; first < f.count; first += chunk) {
-        const std::uint32_t n = std::min(chunk, f.count - first);
-        if (float_) {
-            alignas(64) float least[chunk];
-            floatSet_.hits(floatRows_, f.floats.data() + first, f.stride, f.sharedFloats.data() + first, n,
-                           least);
-            for (std::uint32_t i = 0; i < n; ++i) hit[first + i] = least[i] <= 0;
-        } else {
-            alignas(64) double least[chunk];
-            doubleSet_.hits(doubleRows_, f.doubles.data() + first, f.stride, f.sharedDoubles.data() + first,
-                            n, least);
-            for (std::uint32_t i = 0; i < n; ++i) hit[first + i] = least[i] <= 0;
-        }
-    }
+    const std::uint32_t whole = f.count / vectorRoom * vectorRoom, rest = f.count - whole;
+    const auto run = [&](std::uint32_t first, std::uint32_t count, std::uint8_t* out) {
+        if (count == 0) return;
+        const void* poses = float_ ? static_cast<const void*>(from(f.floats, first)) : from(f.doubles, first);
+        kernels_.hits(rows_, poses, f.stride, count, out);
+    };
+    run(0, whole, hit);
+    std::uint8_t last[vectorRoom];
+    run(whole, rest, last);
+    std::copy_n(last, rest, hit + whole);
 }
 
 void PreparedTable::gaps(const InstanceFeatures& f, float* gap, std::int32_t* test) const {
-    constexpr std::uint32_t chunk = 256;
-    alignas(64) std::int32_t tests[chunk];
-    for (std::uint32_t first = 0; first < f.count; first += chunk) {
-        const std::uint32_t n = std::min(chunk, f.count - first);
-        if (float_) {
-            alignas(64) float least[chunk];
-            floatSet_.gaps(floatRows_, f.floats.data() + first, f.stride, f.sharedFloats.data() + first, n,
-                           least, tests);
-            std::copy_n(least, n, gap + first);
-        } else {
-            alignas(64) double least[chunk];
-            doubleSet_.gaps(doubleRows_, f.doubles.data() + first, f.stride, f.sharedDoubles.data() + first,
-                            n, least, tests);
-            std::transform(least, least + n, gap + first, [](double g) { return float(g); });
-        }
-        std::copy_n(tests, n, test + first);
-    }
+    const std::uint32_t whole = f.count / vectorRoom * vectorRoom, rest = f.count - whole;
+    const auto run = [&](std::uint32_t first, std::uint32_t count, float* outGap, std::int32_t* outTest) {
+        if (count == 0) return;
+        const void* poses = float_ ? static_cast<const void*>(from(f.floats, first)) : from(f.doubles, first);
+        kernels_.gaps(rows_, poses, f.stride, count, outGap, outTest);
+    };
+    run(0, whole, gap, test);
+    float lastGap[vectorRoom];
+    std::int32_t lastTest[vectorRoom];
+    run(whole, rest, lastGap, lastTest);
+    std::copy_n(lastGap, rest, gap + whole);
+    std::copy_n(lastTest, rest, test + whole);
 }
 
 } // namespace tss

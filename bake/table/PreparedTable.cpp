@@ -4,6 +4,7 @@
 #include "bake/table/RoundingBand.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -91,9 +92,9 @@ PreparedTable::PreparedTable(const Table& table, const PrepareOptions& options)
     }
     choose(options);
     if (float_)
-        prepareKernels(floatSet_, floatData_, floatRows_);
+        prepareKernels<float>();
     else
-        prepareKernels(doubleSet_, doubleData_, doubleRows_);
+        prepareKernels<double>();
 }
 
 PreparedTable::Bands PreparedTable::foldBands(double u) const {
@@ -162,41 +163,45 @@ void PreparedTable::choose(const PrepareOptions& options) {
 }
 
 template <class T>
-void PreparedTable::fill(std::uint32_t lanes, std::vector<Chunk>& store, KernelData<T>& data) const {
+void PreparedTable::fill(std::uint32_t lanes, std::vector<Chunk>& store, KernelData& data) const {
+    using Number = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
     data.columns = fold_ ? std::uint32_t(fold_->features.size()) : 0;
     const std::uint32_t columns = fold_ ? foldColumns(data.columns) : directColumns;
-    data.blockCount = std::max<std::uint32_t>(1, std::uint32_t((pairs_.size() + lanes - 1) / lanes));
+    const std::size_t count = std::max<std::size_t>(1, (pairs_.size() + lanes - 1) / lanes);
     const std::size_t step = std::size_t(columns) * lanes;
-    store.assign((data.blockCount * step * sizeof(T) + sizeof(Chunk) - 1) / sizeof(Chunk), Chunk{});
+    store.assign((count * step * sizeof(T) + sizeof(Chunk) - 1) / sizeof(Chunk), Chunk{});
     T* blocks = reinterpret_cast<T*>(store.data());
     data.blocks = blocks;
-    for (std::size_t i = 0; i < std::size_t(data.blockCount) * lanes; ++i) {
+    data.end = blocks + count * step;
+    for (std::size_t i = 0; i < count * lanes; ++i) {
         T* block = blocks + i / lanes * step + i % lanes;
         const bool real = i < pairs_.size();
         const double reach = real ? pairs_[i].reach : farReach;
-        *column(block, lanes, columns - 1) = T(reach);
+        *column(block, lanes, columns - 1) = std::bit_cast<T>(real ? Number(i) : Number(-1));
+        *column(block, lanes, columns - 2) = T(reach);
         if (fold_) {
             const double constant = real ? fold_->constants(Eigen::Index(i)) : 0;
             block[0] = T(real ? constant - reach * std::abs(reach) : farOffset);
             for (std::uint32_t k = 0; k < data.columns && real; ++k)
                 *column(block, lanes, k + 1) = T(fold_->weights(Eigen::Index(i), k));
-            *column(block, lanes, columns - 2) = T(constant);
+            *column(block, lanes, columns - 3) = T(constant);
             continue;
         }
         for (int k = 0; k < 3 && real; ++k) {
             *column(block, lanes, std::uint32_t(k)) = T(pairs_[i].b[k] - originB_[k]);
             *column(block, lanes, std::uint32_t(k) + 3) = T(pairs_[i].a[k] - originA_[k]);
         }
-        *column(block, lanes, 6) = T(real ? reach * std::abs(reach) : -farOffset);
+        *column(block, lanes, columns - 3) = T(real ? reach * std::abs(reach) : -farOffset);
     }
 }
 
 template <class T>
-void PreparedTable::prepareKernels(KernelSet<T>& set, KernelData<T>& data, KernelData<T>& rows) {
-    set = fold_ ? foldKernels<T>(target_, std::uint32_t(fold_->features.size())) : directKernels<T>(target_);
-    fill(set.lanes, blocks_, data);
-    fill(1, rowStore_, rows);
-    room_ = std::size_t(data.blockCount) * set.lanes;
+void PreparedTable::prepareKernels() {
+    kernels_ =
+        fold_ ? foldKernels<T>(target_, std::uint32_t(fold_->features.size())) : directKernels<T>(target_);
+    fill<T>(kernels_.lanes, blocks_, data_);
+    fill<T>(1, rowStore_, rows_);
+    room_ = std::max<std::size_t>(1, (pairs_.size() + kernels_.lanes - 1) / kernels_.lanes) * kernels_.lanes;
 }
 
 std::size_t PreparedTable::bytes() const {
@@ -204,18 +209,19 @@ std::size_t PreparedTable::bytes() const {
 }
 
 void PreparedTable::features(const double* q, TableFeatures& out) const {
-    if (fold_) {
-        fold_->evaluate(q, out.doubles.data(), out.shared);
-        if (float_)
-            for (std::size_t k = 0; k < fold_->features.size(); ++k) out.floats[k] = float(out.doubles[k]);
-        return;
-    }
-    PoseRecipe::Matrix pose;
-    recipe_.evaluate(q, pose);
-    out.shared = 0;
-    for (std::size_t k = 0; k < 12; ++k) {
-        out.doubles[k] = pose[k];
-        out.floats[k] = float(pose[k]);
+    std::array<double, TableFeatures::room> values;
+    double shared = 0;
+    if (fold_)
+        fold_->evaluate(q, values.data(), shared);
+    else
+        recipe_.evaluate(q, values.data());
+    const std::size_t count = featureCount();
+    if (float_) {
+        out.floats[0] = float(-shared);
+        for (std::size_t k = 0; k < count; ++k) out.floats[k + 1] = float(values[k]);
+    } else {
+        out.doubles[0] = -shared;
+        for (std::size_t k = 0; k < count; ++k) out.doubles[k + 1] = values[k];
     }
 }
 
@@ -225,28 +231,28 @@ void PreparedTable::frame(const double* q, MotionFrame& out) const {
     evaluateFrame(motion_, q, way.data(), out);
 }
 
-TableContact PreparedTable::contact(const TableFeatures& f, const MotionFrame& frame) const {
-    TableContact contact;
-    contact.test = gap(f).test;
-    contact.gap = std::numeric_limits<double>::infinity();
-    if (contact.test < 0) return contact;
-    const TablePair& pair = pairs_[std::size_t(contact.test)];
+void PreparedTable::contact(const TableFeatures& f, const MotionFrame& frame, TableContact& out) const {
+    out.test = kernels_.gap(data_, f.doubles).test;
+    if (out.test < 0) {
+        out.gap = std::numeric_limits<double>::infinity();
+        return;
+    }
+    const TablePair& pair = pairs_[std::size_t(out.test)];
     const Vec3 centre = frame.pose * pair.b, between = centre - pair.a;
     const double distance = between.norm();
-    contact.gap = distance - pair.reach;
-    contact.normal = distance > 0 ? Vec3(between / distance) : Vec3::UnitX();
-    contact.point = pair.a + contact.normal * (0.5 * (pair.radiusA + distance - pair.radiusB));
-    for (std::size_t k = 0; k < motion_.dofCount(); ++k)
-        contact.gradient[k] = contact.normal.dot(frame.twists[k].velocity(centre));
-    return contact;
+    const Vec3 normal = distance > 0 ? Vec3(between * (1 / distance)) : Vec3::UnitX();
+    out.gap = distance - pair.reach;
+    out.normal = normal;
+    out.point = pair.a + normal * (0.5 * (pair.radiusA + distance - pair.radiusB));
+    // n . (turn x x + slide), with the part that all DOFs share in front.
+    const Vec3 arm = centre.cross(normal);
+    for (std::size_t k = 0; k < motion_.dofs.size(); ++k)
+        out.gradient[k] = frame.twists[k].turn.dot(arm) + frame.twists[k].slide.dot(normal);
 }
 
 std::uint32_t PreparedTable::under(const TableFeatures& f, double margin, std::uint32_t* out) const {
     // Rounding grows with the margin; twice the band at 0 and some roundoffs of the margin cover it.
-    const double wide = margin + 2 * std::max(signBand_, gapBand_) + 1e-6 * margin;
-    return float_ ? floatSet_.under(floatData_, f.floats.data(), float(f.shared),
-                                    std::nextafter(float(wide), HUGE_VALF), out)
-                  : doubleSet_.under(doubleData_, f.doubles.data(), f.shared, wide, out);
+    return kernels_.under(data_, f.doubles, margin + 2 * std::max(signBand_, gapBand_) + 2e-6 * margin, out);
 }
 
 } // namespace tss

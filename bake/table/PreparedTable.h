@@ -25,9 +25,11 @@ struct PrepareOptions {
 /// A pose as the kernels want it. Made by PreparedTable::features, good for that table only.
 struct TableFeatures {
     static constexpr std::size_t room = 16;
-    alignas(64) std::array<double, room> doubles{};
-    alignas(64) std::array<float, room> floats{};
-    double shared = 0;
+    union {
+        alignas(64) double doubles[room];
+        float floats[room];
+    };
+    TableFeatures() : doubles{} {}
 };
 
 struct TableGap {
@@ -44,12 +46,10 @@ struct TableContact {
     DofValues gradient{};       ///< d gap / d q, one a DOF
 };
 
-/// Poses of many instances, each value of all of them contiguous.
+/// Poses of many instances, each value of all of them contiguous: floats or doubles as the table takes them.
 struct InstanceFeatures {
     std::vector<float> floats;
     std::vector<double> doubles;
-    std::vector<float> sharedFloats;
-    std::vector<double> sharedDoubles;
     std::uint32_t count = 0, stride = 0;
 };
 
@@ -70,23 +70,18 @@ public:
     void features(const double* q, TableFeatures& out) const;
 
     /// Some test touches: its gap is <= 0, within signBand().
-    bool hit(const TableFeatures& f) const {
-        return float_ ? floatSet_.hit(floatData_, f.floats.data(), float(f.shared))
-                      : doubleSet_.hit(doubleData_, f.doubles.data(), f.shared);
-    }
+    bool hit(const TableFeatures& f) const { return kernels_.hit(data_, f.doubles); }
 
     /// The smallest gap, within gapBand() for gaps up to the table's margin, and its test.
     TableGap gap(const TableFeatures& f) const {
-        if (float_) {
-            const KernelGap<float> g = floatSet_.gap(floatData_, f.floats.data(), float(f.shared));
-            return {g.gap, g.test};
-        }
-        const KernelGap<double> g = doubleSet_.gap(doubleData_, f.doubles.data(), f.shared);
+        const KernelGap g = kernels_.gap(data_, f.doubles);
         return {g.gap, g.test};
     }
 
-    /// The smallest gap with point, normal and gradient; `frame` is motionFrame(q) of the same pose.
-    TableContact contact(const TableFeatures& f, const MotionFrame& frame) const;
+    /// The smallest gap with point, normal and gradient; `frame` is frame(q) of the same pose. Of the
+    /// gradient dofCount() values are written. For an empty table only gap (infinity) and test (-1) mean
+    /// anything.
+    void contact(const TableFeatures& f, const MotionFrame& frame, TableContact& out) const;
 
     /// T(q) and how each DOF moves B from there, for `contact`.
     void frame(const double* q, MotionFrame& out) const;
@@ -97,7 +92,7 @@ public:
 
     /// Many instances at once. q: count rows of one value a DOF. Allocates when `out` has to grow.
     void instanceFeatures(const double* q, std::uint32_t count, InstanceFeatures& out) const;
-    /// hit[i] = 1 where instance i touches. hit: room for f.count.
+    /// hit[i] = 1 where instance i touches, else 0. hit: room for f.count.
     void hits(const InstanceFeatures& f, std::uint8_t* hit) const;
     /// Smallest gap and its test of every instance.
     void gaps(const InstanceFeatures& f, float* gap, std::int32_t* test) const;
@@ -132,9 +127,9 @@ private:
     Bands directBands(double u) const;
     void choose(const PrepareOptions& options);
     template <class T>
-    void fill(std::uint32_t lanes, std::vector<Chunk>& store, KernelData<T>& data) const;
+    void fill(std::uint32_t lanes, std::vector<Chunk>& store, KernelData& data) const;
     template <class T>
-    void prepareKernels(KernelSet<T>& set, KernelData<T>& data, KernelData<T>& rows);
+    void prepareKernels();
 
     Motion motion_;
     std::vector<TablePair> pairs_;
@@ -152,10 +147,8 @@ private:
 
     // A vector's storage stays where it is when the table is moved, so the data may point into it.
     std::vector<Chunk> blocks_, rowStore_;
-    KernelSet<float> floatSet_;
-    KernelSet<double> doubleSet_;
-    KernelData<float> floatData_, floatRows_;
-    KernelData<double> doubleData_, doubleRows_;
+    KernelSet kernels_;
+    KernelData data_, rows_;
 };
 
 } // namespace tss

@@ -9,16 +9,13 @@ namespace tss {
 namespace {
 
 /// The spheres that `used` marks, and where each went (new index by old).
-SphereSet keepUsed(const SphereSet& all, const std::vector<bool>& used, std::vector<std::uint32_t>& place,
-                   std::vector<std::uint32_t>* kept) {
+SphereSet keepUsed(const SphereSet& all, const std::vector<bool>& used, std::vector<std::uint32_t>& place) {
     SphereSet set;
     place.assign(all.size(), 0);
-    if (kept) kept->clear();
     for (std::uint32_t i = 0; i < all.size(); ++i) {
         if (!used[i]) continue;
         place[i] = static_cast<std::uint32_t>(set.size());
         set.push_back(all[i]);
-        if (kept) kept->push_back(i);
     }
     return set;
 }
@@ -34,9 +31,18 @@ std::vector<SpherePair> tests(const Table& table) {
     return pairs;
 }
 
-Table makeTable(const SphereSet& a, const SphereSet& b, std::vector<SpherePair> pairs,
-                const std::vector<double>& restGaps, const Motion& motion, std::vector<std::uint32_t>* usedA,
-                std::vector<std::uint32_t>* usedB) {
+UsedSpheres usedSpheres(const Table& table) {
+    UsedSpheres used;
+    for (std::size_t i = 0; i + 1 < table.rowOffsets.size(); ++i)
+        used.a += table.rowOffsets[i] < table.rowOffsets[i + 1];
+    std::vector<bool> seen(table.b.size());
+    for (std::uint32_t column : table.columns) seen[column] = true;
+    used.b = static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
+    return used;
+}
+
+Table makeTable(const SphereSet& a, const SphereSet& b, const std::vector<SpherePair>& pairs,
+                const std::vector<double>& restGaps, const Motion& motion, Keep keep) {
     assert(restGaps.empty() || restGaps.size() == pairs.size());
     std::vector<std::size_t> order(pairs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -45,12 +51,12 @@ Table makeTable(const SphereSet& a, const SphereSet& b, std::vector<SpherePair> 
                             [&](std::size_t x, std::size_t y) { return pairs[x] == pairs[y]; }),
                 order.end());
 
-    std::vector<bool> inA(a.size()), inB(b.size());
+    std::vector<bool> inA(a.size(), keep == Keep::All), inB(b.size(), keep == Keep::All);
     for (const SpherePair& p : pairs) inA[p.a] = inB[p.b] = true;
     std::vector<std::uint32_t> placeA, placeB;
     Table table;
-    table.a = keepUsed(a, inA, placeA, usedA);
-    table.b = keepUsed(b, inB, placeB, usedB);
+    table.a = keepUsed(a, inA, placeA);
+    table.b = keepUsed(b, inB, placeB);
     table.motion = motion;
     table.rowOffsets.assign(table.a.size() + 1, 0);
     const bool rest = std::any_of(restGaps.begin(), restGaps.end(), [](double g) { return g != 0; });

@@ -67,11 +67,18 @@ struct SpherePair {
 };
 std::vector<SpherePair> tests(const Table& table);
 
-/// Makes the CSR of a table from pairs of indices into whole sphere sets: keeps the used spheres only, in
-/// rising order of their index. usedA, usedB when given receive the index in the whole set of each kept
-/// sphere. restGaps (one a pair, or empty) follow their pairs.
-Table makeTable(const SphereSet& a, const SphereSet& b, std::vector<SpherePair> pairs,
-                const std::vector<double>& restGaps, const Motion& motion,
-                std::vector<std::uint32_t>* usedA = nullptr, std::vector<std::uint32_t>* usedB = nullptr);
+/// Which spheres makeTable() keeps.
+enum class Keep { Used, All };
+
+/// Makes the CSR of a table from pairs of indices into whole sphere sets, the kept spheres in rising order of their
+/// index. restGaps (one a pair, or empty) follow their pairs.
+Table makeTable(const SphereSet& a, const SphereSet& b, const std::vector<SpherePair>& pairs,
+                const std::vector<double>& restGaps, const Motion& motion, Keep keep = Keep::Used);
+
+/// How many spheres of each body some test names.
+struct UsedSpheres {
+    std::size_t a = 0, b = 0;
+};
+UsedSpheres usedSpheres(const Table& table);
 
 } // namespace tss

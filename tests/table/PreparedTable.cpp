@@ -190,7 +190,8 @@ TEST_CASE("contact gives the query's point and normal, and the gap's gradient") 
             MotionFrame frame;
             t.features(q.data(), f);
             t.frame(q.data(), frame);
-            const TableContact c = t.contact(f, frame);
+            TableContact c;
+            t.contact(f, frame, c);
             const QueryResult plain = query(table, q);
             if (c.test != plain.test) {
                 REQUIRE(c.gap == Approx(plain.gap).margin(2 * t.gapBand() + 1e-5 * std::abs(plain.gap)));
