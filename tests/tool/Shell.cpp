@@ -17,7 +17,7 @@ Folder::Folder() {
 
 Folder::~Folder() {
     std::error_code ignored;
-    fs::remove_all(path_, ignored);
+    if (!std::getenv("TSS_TEST_KEEP")) fs::remove_all(path_, ignored);
 }
 
 std::string readText(const fs::path& file) {

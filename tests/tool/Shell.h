@@ -11,7 +11,7 @@ struct Ran {
 /// Runs `tss <arguments>` through the shell, in `folder`.
 Ran runTss(const std::string& arguments, const std::filesystem::path& folder);
 
-/// A new empty folder that is removed with the object.
+/// A new empty folder that is removed with the object, unless TSS_TEST_KEEP is set in the environment.
 class Folder {
 public:
     Folder();
