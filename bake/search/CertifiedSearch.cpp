@@ -181,23 +181,6 @@ double smallestGapSeen(const Problem& problem) {
     return best;
 }
 
-/// A distance that the bodies keep everywhere, as large as a few tries prove.
-double measureClearance(Problem problem, std::uint64_t& cells, const Progress& progress) {
-    const double seen = smallestGapSeen(problem);
-    problem.firstOnly = true;
-    for (double share : {0.9, 0.7, 0.5, 0.25, 0.1, 0.01}) {
-        problem.margin = share * seen;
-        problem.tolerance = 0.05 * problem.margin;
-        const Found found = search(problem, progress);
-        if (!found.complete) return 0;
-        if (found.pairs.empty()) {
-            cells += found.cells;
-            return problem.margin;
-        }
-    }
-    return 0;
-}
-
 } // namespace
 
 CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Motion& motion,
@@ -219,7 +202,8 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
         sampling.atRest = options.atRest;
         for (const SpherePair& pair : searchSampled(a, b, motion, sampling).pairs) known.insert(pair);
     }
-    const double tolerance = options.tolerance >= 0 ? options.tolerance : 0.01 * meanRadius(a, b);
+    const double tolerance = std::max(options.tolerance >= 0 ? options.tolerance : 0.01 * meanRadius(a, b),
+                                      1e-9 * (treeA[0].radius + treeB[0].radius));
     const Problem problem{a, b, treeA, treeB, rates, rule, options.margin, tolerance, known, false};
     Found found = search(problem, progress);
     result.atRest = rule.atRest();
@@ -231,10 +215,33 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
         result.clearance = options.margin;
         if (options.measureClearance)
             result.clearance =
-                std::max(result.clearance, measureClearance(problem, result.explored, progress));
+                std::max(result.clearance, provenClearance(a, b, motion, &result.explored, progress));
     }
     countSpheres(result);
     return result;
+}
+
+double provenClearance(const SphereSet& a, const SphereSet& b, const Motion& motion, std::uint64_t* cells,
+                       const Progress& progress) {
+    if (a.empty() || b.empty()) return std::numeric_limits<double>::infinity();
+    const MotionRates rates(motion);
+    const ContactRule rule(a, b, motion, AtRest::Collide);
+    const SphereTree treeA(a), treeB(b);
+    const PairBits none(a.size(), b.size());
+    Problem problem{a, b, treeA, treeB, rates, rule, 0, 0, none, true};
+    const double seen = smallestGapSeen(problem);
+    if (!(seen > 0) || !std::isfinite(seen)) return 0;
+    for (double share : {0.9, 0.7, 0.5, 0.25, 0.1, 0.01}) {
+        problem.margin = share * seen;
+        problem.tolerance = 0.05 * problem.margin;
+        const Found found = search(problem, progress);
+        if (!found.complete) return 0;
+        if (found.pairs.empty()) {
+            if (cells) *cells += found.cells;
+            return problem.margin;
+        }
+    }
+    return 0;
 }
 
 } // namespace tss

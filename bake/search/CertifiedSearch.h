@@ -19,4 +19,10 @@ struct CertifiedSearchOptions {
 CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Motion& motion,
                                const CertifiedSearchOptions& options = {}, const Progress& progress = {});
 
+/// A distance that two bodies which never meet are proven to keep at every pose of Q: within a few tens of
+/// percent of the true one; 0 when none could be shown. Infinite where one of them has no spheres. cells,
+/// when given, is raised by the cells of Q that the proof took.
+double provenClearance(const SphereSet& a, const SphereSet& b, const Motion& motion,
+                       std::uint64_t* cells = nullptr, const Progress& progress = {});
+
 } // namespace tss

@@ -31,6 +31,9 @@ SphereTree::SphereTree(const SphereSet& spheres) {
     std::vector<std::uint32_t> order(spheres.size());
     std::iota(order.begin(), order.end(), 0u);
     build(spheres, order, 0, order.size());
+    leaves_.resize(spheres.size());
+    for (std::uint32_t n = 0; n < nodes_.size(); ++n)
+        if (nodes_[n].leaf()) leaves_[nodes_[n].sphere] = n;
 }
 
 void SphereTree::build(const SphereSet& spheres, std::vector<std::uint32_t>& order, std::size_t first,

@@ -22,11 +22,13 @@ public:
     bool empty() const { return nodes_.empty(); }
     const Node& operator[](std::uint32_t i) const { return nodes_[i]; }
     std::size_t size() const { return nodes_.size(); } ///< 2 #spheres - 1; the root is node 0
+    std::uint32_t leafOf(std::uint32_t sphere) const { return leaves_[sphere]; }
 
 private:
     void build(const SphereSet& spheres, std::vector<std::uint32_t>& order, std::size_t first,
                std::size_t last);
     std::vector<Node> nodes_;
+    std::vector<std::uint32_t> leaves_;
 };
 
 } // namespace tss

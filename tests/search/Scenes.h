@@ -80,7 +80,7 @@ inline Scene randomScene(std::uint64_t seed, int dofs, int spheres, bool paths =
     for (auto* set : {&scene.a, &scene.b})
         for (int k = 0; k < spheres; ++k) set->push_back({random.inBox(0.5), random.in(0.02, 0.12)});
     const tss::Vec3 away = random.direction();
-    scene.motion.base.translation() = 1.3 * away;
+    scene.motion.base.translation() = 1.05 * away;
     for (int k = 0; k < dofs; ++k) {
         const int kind = random.below(paths ? 3 : 2);
         if (kind == 0)
@@ -95,32 +95,40 @@ inline Scene randomScene(std::uint64_t seed, int dofs, int spheres, bool paths =
     return scene;
 }
 
-/// Two arches of teeth, about 100 units across, that a hinge with a large turn, a second with a small one and
-/// a slide bring together, as a jaw does. The spheres lie on bumpy tooth-like surfaces along a parabola.
+/// Two arches of teeth on their bone, about 100 units across, that a slide, a small turn and a hinge bring
+/// together, as a jaw does. Each tooth has one or two cusps, chains of spheres that widen from the tip to the
+/// root; the bone is a thick tube along the parabola that the teeth stand on.
 inline Scene jawLike(int spheresA, int spheresB, std::uint64_t seed = 1) {
     Random random(seed);
     Scene scene;
-    const auto arch = [&](tss::SphereSet& set, int count, double side) {
+    const auto onArch = [](double along) { return tss::Vec3(80 * (1 - along * along) + 20, 45 * along, 0); };
+    const auto arch = [&](tss::SphereSet& set, int count, double side, double shift) {
         const int teeth = 14;
         for (int k = 0; k < count; ++k) {
+            if (k % 5 < 2) {
+                const tss::Vec3 bone = onArch(random.in(-1, 1)) + tss::Vec3(0, 0, side * 18);
+                set.push_back({bone + random.inBox(2), random.in(2, 4)});
+                continue;
+            }
             const int tooth = random.below(teeth);
-            const double along = (tooth + 0.5) / teeth * 2 - 1; // -1 .. 1 from right to left
-            const double x = 80 * (1 - along * along) + 20, y = 45 * along;
-            const double width = 3.2, height = 9 + 2 * std::cos(3.0 * tooth);
-            const double u = random.in(-1, 1), v = random.in(-1, 1), w = random.in(0, 1);
-            // Cusps: the crown is a bumpy cap on a block that ends in the bone.
-            const double crown =
-                height * (0.75 + 0.25 * std::cos(4 * u) * std::cos(4 * v)) * (1 - 0.3 * (u * u + v * v) / 2);
-            const double z = w < 0.7 ? crown : random.in(0, crown);
-            set.push_back({{x + width * u, y + width * v, side * (12 - z)}, random.in(0.5, 1.1)});
+            const double along = (tooth + 0.5 + shift) / teeth * 2 - 1;
+            const bool molar = std::abs(along) > 0.5;
+            const double height = molar ? 9 : 10 + 2 * std::cos(5.0 * tooth);
+            const double cusp = molar ? (random.below(2) ? 1.8 : -1.8) : 0;
+            const double down = random.in(0, 1); // 0 at the tip
+            const double radius = 0.7 + 2.0 * down;
+            const double z = 15 - height + radius + down * (height - 3);
+            set.push_back(
+                {onArch(along) + tss::Vec3(0.1 * cusp, cusp * (1 - down), side * z) + random.inBox(0.6),
+                 radius});
         }
     };
-    arch(scene.a, spheresA, 1);
-    arch(scene.b, spheresB, -1);
+    arch(scene.a, spheresA, 1, 0);
+    arch(scene.b, spheresB, -1, 0.3);
     const double degree = std::numbers::pi / 180;
-    scene.motion.dofs = {translation({1, 0, -0.2}, -4, 4),
-                         rotation({0, 0, 0}, {0, 0, 1}, -3 * degree, 3 * degree),
-                         rotation({-20, 0, 10}, {0, 1, 0}, -4 * degree, 25 * degree)};
+    scene.motion.dofs = {translation({1, 0, -0.2}, -1.5, 1.5),
+                         rotation({0, 0, 0}, {0, 0, 1}, -1 * degree, 1 * degree),
+                         rotation({-20, 0, 10}, {0, 1, 0}, -9 * degree, 12 * degree)};
     return scene;
 }
 

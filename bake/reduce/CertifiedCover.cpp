@@ -1,0 +1,155 @@
+#include "bake/reduce/CertifiedCover.h"
+
+#include "bake/base/Error.h"
+#include "bake/base/Parallel.h"
+#include "bake/reduce/CoverProof.h"
+#include "bake/reduce/LowerBound.h"
+#include "bake/search/CertifiedSearch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tss {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Poses with more answers than this say little about how small a table can be and cost much.
+constexpr std::size_t mostAnswers = 2000;
+
+/// One cover from the first proof to the result.
+class CoverSearch {
+public:
+    CoverSearch(const CoverProblem& problem, const CoverOptions& options, const Progress& progress)
+        : problem_(problem), owed_{options.epsilon, options.gapDepth, options.gapMargin}, options_(options),
+          cover_(problem) {
+        budget_.cells = options.cells;
+        budget_.seconds = options.seconds;
+        budget_.progress = progress;
+    }
+
+    CoverResult run() {
+        const CoverProof first = prove(owed_, cover_, 0.6);
+        result_.before = cover_.members().size();
+        result_.forced = first.forced;
+        if (first.complete) {
+            result_.epsilon = owed_.epsilon;
+            makeSmaller();
+        } else {
+            result_.epsilon = std::min(epsilonLeft(first.left), climbDown());
+        }
+        return finish();
+    }
+
+private:
+    /// A proof over all of Q within a share of the budget that is left.
+    CoverProof prove(const Obligation& owed, Cover& cover, double share) {
+        CoverBudget part = budget_;
+        const std::chrono::duration<double> used = std::chrono::steady_clock::now() - budget_.start;
+        if (budget_.seconds > 0) part.seconds = used.count() + share * (budget_.seconds - used.count());
+        if (budget_.cells > 0)
+            part.cells = std::max<std::uint64_t>(
+                1, static_cast<std::uint64_t>(
+                       share * double(budget_.cells - std::min(budget_.cells, result_.cells))));
+        CoverProof proof =
+            proveCover(problem_, owed, cover, {wholeProblem(problem_)}, WhenLacking::Add, part);
+        result_.cells += proof.cells;
+        // What a pose demands at a coarser epsilon it demands at the one asked for too, only of fewer pairs.
+        const auto more = demandsAt(problem_, owed_, proof.facts, mostAnswers);
+        demands_.insert(demands_.end(), more.begin(), more.end());
+        return proof;
+    }
+
+    /// Starts again and again from the smallest list that meets all poses known to matter; each proof finds
+    /// the poses that this list still misses, until it misses none or is as small as its bound nearly.
+    void makeSmaller() {
+        for (int round = 0; round < options_.rounds; ++round) {
+            const DemandCover smallest = coverDemands(demands_);
+            if (double(cover_.members().size()) <= 1.02 * smallest.lowerBound) return;
+            Cover next(problem_);
+            for (const SpherePair& pair : smallest.pairs) {
+                ReachPair member;
+                problem_.countsAtAll(pair, member);
+                next.add(member);
+            }
+            const CoverProof proof = prove(owed_, next, 1);
+            if (!proof.complete) return;
+            if (next.members().size() < cover_.members().size()) {
+                cover_ = std::move(next);
+                result_.forced = proof.forced;
+            }
+            if (proof.facts.empty()) return;
+        }
+    }
+
+    /// What the cover answers with over the cells that were left: the worst of them.
+    double epsilonLeft(const std::vector<OpenCell>& left) const {
+        std::vector<double> worst(left.size());
+        parallelFor(left.size(), [&](std::size_t k) {
+            worst[k] = CellExaminer(problem_, owed_, cover_.members(), cover_.set()).epsilonOver(left[k]);
+        });
+        return worst.empty() ? owed_.epsilon : *std::max_element(worst.begin(), worst.end());
+    }
+
+    /// The budget did not reach for the epsilon asked for: proves coarser ones, each half of the last, as far
+    /// as it does reach.
+    double climbDown() {
+        double reached = infinity;
+        for (double epsilon = problem_.size; epsilon > owed_.epsilon; epsilon *= 0.5) {
+            Obligation coarser = owed_;
+            coarser.epsilon = epsilon;
+            if (!prove(coarser, cover_, 1).complete) break;
+            reached = epsilon;
+        }
+        return reached;
+    }
+
+    CoverResult finish() {
+        result_.complete = result_.epsilon <= owed_.epsilon;
+        CandidatePairs chosen;
+        for (const ReachPair& member : cover_.members()) chosen.pairs.push_back(member.pair);
+        std::sort(chosen.pairs.begin(), chosen.pairs.end());
+        countSpheres(chosen);
+        result_.pairs = chosen.pairs;
+        result_.restGaps = problem_.rule.thresholds(chosen.pairs);
+        result_.spheresA = chosen.spheresA;
+        result_.spheresB = chosen.spheresB;
+        result_.lowerBound = coverDemands(demands_).lowerBound;
+        return result_;
+    }
+
+    const CoverProblem& problem_;
+    const Obligation owed_;
+    const CoverOptions& options_;
+    CoverBudget budget_;
+    Cover cover_;
+    std::vector<Demand> demands_;
+    CoverResult result_;
+};
+
+void check(const CoverOptions& options) {
+    for (const auto& [name, value] : {std::pair{"epsilon", options.epsilon},
+                                      {"gap depth", options.gapDepth},
+                                      {"gap margin", options.gapMargin},
+                                      {"time budget", options.seconds}})
+        if (!std::isfinite(value) || value < 0)
+            throw InputError(std::string(name) + ": expected a finite number, not negative");
+}
+
+} // namespace
+
+CoverResult certifiedCover(const SphereSet& a, const SphereSet& b, const CandidatePairs* candidates,
+                           const Motion& motion, const CoverOptions& options, const Progress& progress) {
+    check(options);
+    const ContactRule rule(a, b, motion, options.atRest);
+    const CoverProblem problem(a, b, motion, rule, candidates ? &candidates->pairs : nullptr);
+    CoverResult result = CoverSearch(problem, options, progress).run();
+    if (result.complete && result.pairs.empty() && !candidates)
+        result.clearance =
+            std::max(options.gapMargin, provenClearance(a, b, motion, &result.cells, progress));
+    return result;
+}
+
+} // namespace tss

@@ -1,0 +1,40 @@
+#pragma once
+#include "bake/base/Progress.h"
+#include "bake/reduce/Reduced.h"
+#include "bake/search/CandidatePairs.h"
+
+namespace tss {
+
+struct CoverOptions {
+    double epsilon = 0;   ///< how far the table's answer may lag, scene units; 0: lossless
+    double gapDepth = 0;  ///< gap-true down to this depth (METHOD 3.4) ...
+    double gapMargin = 0; ///< ... and up to this clearance; both 0: a yes/no table
+    AtRest atRest = AtRest::Offset;
+    double seconds = 0;      ///< time budget, 0: none. A search cut short by time may differ from run to run
+    std::uint64_t cells = 0; ///< the same in cells of Q: the same result every time
+    int rounds = 8; ///< at most so many further proofs to make a proven table smaller; it ends when the table
+                    ///< is within 2 % of its lower bound
+};
+
+/// A cover and what is proven about it.
+struct CoverResult : Reduced {
+    /// At every pose of Q where the sphere models' gap is <= gapMargin, the gap of the pairs is
+    /// <= max(gap of the models, -gapDepth) + epsilon. What was reached, whether or not it is what was asked
+    /// for; infinite when nothing is proven.
+    double epsilon = 0;
+    bool complete = false;   ///< epsilon is not larger than the one asked for
+    double clearance = 0;    ///< no pairs: the sphere models stay farther apart than this (METHOD 2.3)
+    std::uint64_t cells = 0; ///< cells of Q looked at, all steps together
+    std::size_t before = 0;  ///< pairs of the first cover, before it was made smaller
+    std::size_t forced = 0; ///< pairs taken in cells too small to split, without a pose that shows their need
+};
+
+/// The smallest list of pairs found that answers like all of them, for every pose of Q and not for samples
+/// (METHOD 3.3, 3.4). candidates null: all pairs of the two sets, found from the two sphere trees. With
+/// candidates the answer is about those pairs alone. No pairs in a complete result: a proof that the models
+/// never collide. lowerBound is what every such list needs.
+CoverResult certifiedCover(const SphereSet& a, const SphereSet& b, const CandidatePairs* candidates,
+                           const Motion& motion, const CoverOptions& options = {},
+                           const Progress& progress = {});
+
+} // namespace tss

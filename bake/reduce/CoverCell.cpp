@@ -1,0 +1,350 @@
+#include "bake/reduce/CoverCell.h"
+
+#include "bake/search/CellTools.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace tss {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool deeper(const PairHere& x, const PairHere& y) {
+    return x.gap != y.gap ? x.gap < y.gap : x.reachPair.pair < y.reachPair.pair;
+}
+
+/// The offset from the centre, in the cell, that by the slopes makes (gap of k - weight * gap of p) largest
+/// while the gap of p is <= level: a linear program with one row, solved by turning the DOFs that cost least.
+/// k null: where p is deepest. answer: what the value must exceed to matter.
+std::array<double, maxDofs> extremeOffset(const CellMotion& motion, const PairHere* k, const PairHere& p,
+                                          double weight, double level, double answer) {
+    std::array<double, maxDofs> offset{}, price{};
+    std::array<std::size_t, maxDofs> turn{};
+    std::size_t count = 0;
+    double gap = p.gap;
+    for (std::size_t l = 0; l < motion.dofs(); ++l) {
+        const double slope = p.slope[l] / p.distance;
+        const double wish = k ? k->slope[l] / k->distance - weight * slope : -slope;
+        offset[l] = wish > 0 ? motion.half(l) : -motion.half(l);
+        gap += slope * offset[l];
+        if (slope * offset[l] <= 0) continue;
+        price[l] = std::abs(wish / slope);
+        turn[count++] = l;
+    }
+    if (!k) return offset;
+    std::sort(turn.begin(), turn.begin() + count, [&](auto x, auto y) { return price[x] < price[y]; });
+    const auto turned = [&](double until) {
+        auto moved = offset;
+        double left = gap;
+        for (std::size_t n = 0; n < count && left > until; ++n) {
+            const std::size_t l = turn[n];
+            const double fall = 2 * p.slope[l] / p.distance * offset[l];
+            moved[l] *= 1 - 2 * std::min(1.0, (left - until) / fall);
+            left -= std::min(fall, left - until);
+        }
+        return moved;
+    };
+    // The extreme itself lies on the edge of what is owed; aim a part of the excess inside.
+    const auto edge = turned(level);
+    double excess = k->gap - weight * p.gap - answer;
+    for (std::size_t l = 0; l < motion.dofs(); ++l)
+        excess += (k->slope[l] / k->distance - weight * p.slope[l] / p.distance) * edge[l];
+    return excess > 0 ? turned(level - 0.25 * excess) : edge;
+}
+
+} // namespace
+
+OpenCell wholeProblem(const CoverProblem& problem) {
+    auto lists = std::make_shared<CellLists>();
+    if (!problem.treeA.empty() && !problem.treeB.empty()) lists->nodes.push_back({0, 0});
+    return {wholeBox(problem.motion), std::move(lists)};
+}
+
+CellVerdict CellExaminer::examine(const OpenCell& whole) {
+    OpenCell cell = whole;
+    if (!shrinkToPlanes(p_.motion, cell.box)) return {};
+    const CellMotion motion(p_.rates, cell.box);
+    const auto seen = static_cast<std::uint32_t>(members_.size());
+    ++cellNumber_;
+    if (weighMembers(motion, *cell.lists)) return {};
+    here_.clear();
+    for (const ReachPair& pair : cell.lists->open) weigh(motion, pair);
+    openNodes(motion, cell.lists->nodes);
+    dropAnswered(motion);
+    if (here_.empty() && nodes_.empty()) return {};
+
+    if (auto lacking = lackingAtCentre(motion)) return {std::move(lacking), {}};
+    if (nodes_.empty()) {
+        if (auto lacking = lackingElsewhere(motion)) return {std::move(lacking), {}};
+        double widest = 0;
+        for (const PairHere& pair : here_) widest = std::max(widest, pair.move);
+        if (widest < p_.floor) return {Lacking{here_.front().reachPair, {}}, {}};
+    }
+    return split(cell, motion, seen);
+}
+
+/// True: some member answers all over the cell for everything.
+bool CellExaminer::weighMembers(const CellMotion& motion, const CellLists& lists) {
+    near_.clear();
+    bestMember_ = infinity;
+    const auto look = [&](std::uint32_t k) {
+        const ReachPair& pair = members_[k];
+        const Moved& b = moved(motion, p_.treeB.leafOf(pair.pair.b));
+        const double distance = (b.x - p_.a[pair.pair.a].centre).norm();
+        if (distance - b.reach.move > pair.reach + owed_.margin + owed_.epsilon + p_.band) {
+            bestMember_ = std::min(bestMember_, distance - pair.reach);
+            return false;
+        }
+        PairHere here(motion, b.x, b.reach, p_.a[pair.pair.a].centre, pair);
+        here.member = k;
+        bestMember_ = std::min(bestMember_, here.gap);
+        if (here.staysBelow(pair.reach - owed_.depth + owed_.epsilon - p_.band)) return true;
+        if (!here.staysAbove(pair.reach + owed_.margin + owed_.epsilon + p_.band)) near_.push_back(here);
+        return false;
+    };
+    for (std::uint32_t k : lists.members)
+        if (look(k)) return true;
+    for (std::uint32_t k = lists.membersSeen; k < members_.size(); ++k)
+        if (look(k)) return true;
+    if (!near_.empty()) std::iter_swap(near_.begin(), std::min_element(near_.begin(), near_.end(), deeper));
+    return false;
+}
+
+const CellExaminer::Moved& CellExaminer::moved(const CellMotion& motion, std::uint32_t node) {
+    Moved& at = moved_[node];
+    if (at.cell != cellNumber_) {
+        at.cell = cellNumber_;
+        at.x = motion.centrePose() * p_.treeB[node].centre;
+        at.reach = motion.reach(at.x);
+    }
+    return at;
+}
+
+void CellExaminer::weigh(const CellMotion& motion, const ReachPair& pair) {
+    if (inCover_.contains(pair.pair)) return;
+    const Moved& b = moved(motion, p_.treeB.leafOf(pair.pair.b));
+    if ((b.x - p_.a[pair.pair.a].centre).norm() - b.reach.move > pair.reach + owed_.margin + p_.band) return;
+    const PairHere here(motion, b.x, b.reach, p_.a[pair.pair.a].centre, pair);
+    if (!here.staysAbove(pair.reach + owed_.margin + p_.band)) here_.push_back(here);
+}
+
+/// Goes down the trees as far as the size of the cell gives smaller balls a meaning.
+void CellExaminer::openNodes(const CellMotion& motion, const std::vector<NodePair>& nodes) {
+    nodes_.clear();
+    stack_ = nodes;
+    while (!stack_.empty()) {
+        const NodePair pair = stack_.back();
+        stack_.pop_back();
+        const SphereTree::Node &na = p_.treeA[pair.a], &nb = p_.treeB[pair.b];
+        if (na.leaf() && nb.leaf()) {
+            ReachPair spheres;
+            if (p_.admit({na.sphere, nb.sphere}, spheres)) weigh(motion, spheres);
+            continue;
+        }
+        const Moved& b = moved(motion, pair.b);
+        const double move = b.reach.move;
+        const double sum = na.radius + nb.radius;
+        if ((b.x - na.centre).norm() - move > sum + owed_.margin + p_.band) continue;
+        if (sum < 2 * move && move > p_.floor) {
+            nodes_.push_back(pair);
+        } else if (!na.leaf() && (nb.leaf() || na.radius >= nb.radius)) {
+            stack_.push_back({na.right, pair.b});
+            stack_.push_back({pair.a + 1, pair.b});
+        } else {
+            stack_.push_back({pair.a, nb.right});
+            stack_.push_back({pair.a, pair.b + 1});
+        }
+    }
+}
+
+/// Drops the pairs that a member answers for, then those that some deeper pair still open makes superfluous:
+/// what answers for that one answers for them.
+void CellExaminer::dropAnswered(const CellMotion& motion) {
+    std::size_t recent = 0;
+    const auto answered = [&](const PairHere& p) {
+        if (recent < near_.size() && dominates(motion, near_[recent], p, owed_, p_.band)) return true;
+        for (std::size_t k = 0; k < near_.size(); ++k)
+            if (k != recent && dominates(motion, near_[k], p, owed_, p_.band)) {
+                recent = k;
+                return true;
+            }
+        return false;
+    };
+    std::erase_if(here_, answered);
+
+    Obligation exact = owed_;
+    exact.epsilon = 0;
+    constexpr std::size_t leaders = 4;
+    for (std::size_t lead = 0; lead < std::min(leaders, here_.size()); ++lead) {
+        const auto place = here_.begin() + static_cast<std::ptrdiff_t>(lead);
+        std::iter_swap(place, std::min_element(place, here_.end(), deeper));
+        const PairHere leader = *place;
+        const auto first = place + 1;
+        here_.erase(
+            std::remove_if(first, here_.end(),
+                           [&](const PairHere& p) { return dominates(motion, leader, p, exact, p_.band); }),
+            here_.end());
+    }
+}
+
+/// Where the models touch at the centre of the cell and no member answers: the deepest pair there.
+std::optional<Lacking> CellExaminer::lackingAtCentre(const CellMotion& motion) const {
+    if (bestMember_ <= owed_.answer(-infinity)) return {};
+    ReachPair best;
+    double gap = infinity;
+    if (!here_.empty()) {
+        best = here_.front().reachPair;
+        gap = here_.front().gap;
+    }
+    if (!nodes_.empty()) deepestBelow(motion, best, gap);
+    if (gap > owed_.margin || bestMember_ <= owed_.answer(gap)) return {};
+    if (!withinLimits(p_.motion, motion.centre())) return {};
+    return Lacking{best, {motion.centre().begin(), motion.centre().end()}};
+}
+
+/// The same away from the centre, where an answer is most likely to lack: where the deepest open pair is
+/// deepest, and where it just owes an answer and the member that answers there is farthest. A region without
+/// an answer that only just clips the cell would be chased down to the smallest cells otherwise.
+std::optional<Lacking> CellExaminer::lackingElsewhere(const CellMotion& motion) const {
+    const PairHere& pair = here_.front();
+    const PairHere* answering = nullptr;
+    if (auto found = lackingAt(motion, extremeOffset(motion, nullptr, pair, 0, 0, 0), answering))
+        return found;
+    const double owedFrom = owed_.yesNo() ? 0 : -owed_.depth;
+    for (int round = 0; round < 3 && answering; ++round) {
+        const PairHere& member = *answering;
+        if (auto found =
+                lackingAt(motion, extremeOffset(motion, &member, pair, 0, owedFrom, owed_.answer(-infinity)),
+                          answering))
+            return found;
+        if (owed_.yesNo()) continue;
+        if (auto found = lackingAt(
+                motion, extremeOffset(motion, &member, pair, 1, owed_.margin, owed_.epsilon), answering))
+            return found;
+    }
+    return {};
+}
+
+/// Whether the models touch at an offset from the centre and no member answers there; else the member that
+/// answers best.
+std::optional<Lacking> CellExaminer::lackingAt(const CellMotion& motion,
+                                               const std::array<double, maxDofs>& offset,
+                                               const PairHere*& answering) const {
+    std::vector<double> q(motion.dofs());
+    for (std::size_t k = 0; k < q.size(); ++k)
+        q[k] = std::clamp(motion.centre()[k] + offset[k], p_.motion.dofs[k].lower, p_.motion.dofs[k].upper);
+    answering = nullptr;
+    if (!withinLimits(p_.motion, q)) return {};
+    const Pose at = pose(p_.motion, q);
+    double member = infinity;
+    for (const PairHere& pair : near_)
+        if (const double own = p_.gap(pair.reachPair, at); own < member) {
+            member = own;
+            answering = &pair;
+        }
+    ReachPair best;
+    double gap = infinity;
+    for (const PairHere& pair : here_)
+        if (const double own = p_.gap(pair.reachPair, at); own < gap) {
+            gap = own;
+            best = pair.reachPair;
+        }
+    if (gap > owed_.margin || member <= owed_.answer(gap)) return {};
+    return Lacking{best, q};
+}
+
+/// The deepest pair at the centre below the nodes not opened, when deeper than the one given.
+void CellExaminer::deepestBelow(const CellMotion& motion, ReachPair& best, double& gap) const {
+    struct Item {
+        NodePair nodes;
+        double lower;
+    };
+    const auto item = [&](std::uint32_t a, std::uint32_t b) {
+        const SphereTree::Node &na = p_.treeA[a], &nb = p_.treeB[b];
+        return Item{{a, b}, (motion.centrePose() * nb.centre - na.centre).norm() - na.radius - nb.radius};
+    };
+    std::vector<Item> stack;
+    for (const NodePair& pair : nodes_) stack.push_back(item(pair.a, pair.b));
+    while (!stack.empty()) {
+        const Item at = stack.back();
+        stack.pop_back();
+        if (at.lower >= gap || at.lower > owed_.margin) continue;
+        const SphereTree::Node &na = p_.treeA[at.nodes.a], &nb = p_.treeB[at.nodes.b];
+        if (na.leaf() && nb.leaf()) {
+            ReachPair pair;
+            if (!p_.admit({na.sphere, nb.sphere}, pair)) continue;
+            const double own = p_.gap(pair, motion.centrePose());
+            if (own < gap) {
+                gap = own;
+                best = pair;
+            }
+            continue;
+        }
+        const bool openA = !na.leaf() && (nb.leaf() || na.radius >= nb.radius);
+        Item near = openA ? item(at.nodes.a + 1, at.nodes.b) : item(at.nodes.a, at.nodes.b + 1);
+        Item far = openA ? item(na.right, at.nodes.b) : item(at.nodes.a, nb.right);
+        if (near.lower > far.lower) std::swap(near, far);
+        stack.push_back(far);
+        stack.push_back(near);
+    }
+}
+
+/// The DOF that moves the deepest pair most; another pair when that one hardly moves at all.
+std::size_t CellExaminer::widestDof(const CellMotion& motion) const {
+    Vec3 x;
+    if (here_.empty()) {
+        x = motion.centrePose() * p_.treeB[nodes_.front().b].centre;
+    } else {
+        const auto fastest = std::max_element(here_.begin(), here_.end(),
+                                              [](const auto& p, const auto& q) { return p.move < q.move; });
+        x = here_.front().move >= 0.5 * fastest->move ? here_.front().x : fastest->x;
+    }
+    const auto share = motion.shares(x);
+    return static_cast<std::size_t>(
+        std::max_element(share.begin(), share.begin() + static_cast<std::ptrdiff_t>(motion.dofs())) -
+        share.begin());
+}
+
+CellVerdict CellExaminer::split(const OpenCell& cell, const CellMotion& motion, std::uint32_t seen) const {
+    auto lists = std::make_shared<CellLists>();
+    lists->nodes = nodes_;
+    lists->open.reserve(here_.size());
+    for (const PairHere& pair : here_) lists->open.push_back(pair.reachPair);
+    lists->members.reserve(near_.size());
+    for (const PairHere& pair : near_) lists->members.push_back(pair.member);
+    lists->membersSeen = seen;
+
+    const std::size_t widest = widestDof(motion);
+    const auto [lower, upper] = splitCell(p_.rates, cell.box, widest);
+    return {{}, {{lower, lists}, {upper, lists}}};
+}
+
+double CellExaminer::epsilonOver(const OpenCell& whole) {
+    OpenCell cell = whole;
+    if (!shrinkToPlanes(p_.motion, cell.box)) return 0;
+    const CellMotion motion(p_.rates, cell.box);
+    ++cellNumber_;
+    if (weighMembers(motion, *cell.lists)) return owed_.epsilon;
+    double table = infinity;
+    for (const ReachPair& pair : members_) {
+        const Vec3 x = motion.centrePose() * p_.b[pair.pair.b].centre;
+        table = std::min(table, (x - p_.a[pair.pair.a].centre).norm() - pair.reach + motion.reach(x).move);
+    }
+    here_.clear();
+    for (const ReachPair& pair : cell.lists->open) weigh(motion, pair);
+    openNodes(motion, cell.lists->nodes);
+    dropAnswered(motion);
+    double models = infinity;
+    for (const PairHere& pair : here_) models = std::min(models, pair.gap - pair.move);
+    for (const NodePair& pair : nodes_) {
+        const SphereTree::Node &na = p_.treeA[pair.a], &nb = p_.treeB[pair.b];
+        const Vec3 x = motion.centrePose() * nb.centre;
+        models = std::min(models, (x - na.centre).norm() - na.radius - nb.radius - motion.reach(x).move);
+    }
+    if (models > owed_.margin) return owed_.epsilon;
+    return std::max(owed_.epsilon, table - std::max(models, -owed_.depth) + p_.band);
+}
+
+} // namespace tss

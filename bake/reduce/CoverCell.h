@@ -1,0 +1,93 @@
+#pragma once
+#include "bake/reduce/Domination.h"
+
+#include <memory>
+#include <optional>
+
+namespace tss {
+
+/// A pair of nodes of the two sphere trees.
+struct NodePair {
+    std::uint32_t a = 0, b = 0;
+};
+
+/// What a cell inherits from its parent: what may still owe an answer in it, and who may give it.
+struct CellLists {
+    std::vector<NodePair> nodes;        ///< not yet opened
+    std::vector<ReachPair> open;        ///< sphere pairs not yet answered
+    std::vector<std::uint32_t> members; ///< members of the cover that are near
+    std::uint32_t membersSeen = 0;      ///< members up to this number are in the list if they are near
+};
+
+/// A cell of Q still to be shown.
+struct OpenCell {
+    Cell box;
+    std::shared_ptr<const CellLists> lists;
+};
+
+/// A pair that the cover lacks. With a pose it is a fact: there the models touch and the cover does not
+/// answer. Without one the cell is too small to split further and the pair is taken to end the search.
+struct Lacking {
+    ReachPair pair;
+    std::vector<double> pose;
+};
+
+/// What looking at a cell gave: answered all over (neither member below is set), a pair that the cover lacks,
+/// or two halves that inherit what is left.
+struct CellVerdict {
+    std::optional<Lacking> lacking;
+    std::vector<OpenCell> halves;
+};
+
+/// Looks at cells against one cover. Holds scratch memory: one for each thread.
+class CellExaminer {
+public:
+    /// members: the cover; inCover: the same as a set. Neither changes while this lives.
+    CellExaminer(const CoverProblem& problem, const Obligation& owed, const std::vector<ReachPair>& members,
+                 const PairBits& inCover)
+        : p_(problem), owed_(owed), members_(members), inCover_(inCover), moved_(problem.treeB.size()) {}
+
+    CellVerdict examine(const OpenCell& cell);
+
+    /// An epsilon with which the cover answers all over a cell, however it compares with the one wanted: from
+    /// the motion of the cell alone. Infinite for an empty cover.
+    double epsilonOver(const OpenCell& cell);
+
+private:
+    bool weighMembers(const CellMotion& motion, const CellLists& lists);
+    void openNodes(const CellMotion& motion, const std::vector<NodePair>& nodes);
+    void weigh(const CellMotion& motion, const ReachPair& pair);
+    void dropAnswered(const CellMotion& motion);
+    std::optional<Lacking> lackingAtCentre(const CellMotion& motion) const;
+    std::optional<Lacking> lackingElsewhere(const CellMotion& motion) const;
+    std::optional<Lacking> lackingAt(const CellMotion& motion, const std::array<double, maxDofs>& offset,
+                                     const PairHere*& answering) const;
+    void deepestBelow(const CellMotion& motion, ReachPair& best, double& gap) const;
+    std::size_t widestDof(const CellMotion& motion) const;
+    CellVerdict split(const OpenCell& cell, const CellMotion& motion, std::uint32_t seen) const;
+
+    const CoverProblem& p_;
+    const Obligation owed_;
+    const std::vector<ReachPair>& members_;
+    const PairBits& inCover_;
+
+    std::vector<PairHere> near_; ///< members
+    std::vector<PairHere> here_; ///< open pairs
+    std::vector<NodePair> nodes_, stack_;
+    double bestMember_ = 0; ///< smallest gap of a member at the centre
+
+    /// Where a node of B's tree is at the centre of the cell and how far it moves, worked out once a cell.
+    struct Moved {
+        std::uint64_t cell = 0;
+        Vec3 x;
+        CellMotion::Reach reach{};
+    };
+    const Moved& moved(const CellMotion& motion, std::uint32_t node);
+    std::vector<Moved> moved_;
+    std::uint64_t cellNumber_ = 0;
+};
+
+/// The cells that a cover of the whole problem starts from: all of Q, all of both trees.
+OpenCell wholeProblem(const CoverProblem& problem);
+
+} // namespace tss

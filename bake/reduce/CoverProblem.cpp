@@ -1,0 +1,79 @@
+#include "bake/reduce/CoverProblem.h"
+
+#include <cmath>
+#include <limits>
+
+namespace tss {
+
+namespace {
+
+/// For every sphere another of the set that holds it whole (of equal ones the first holds the others), or -1.
+std::vector<std::int32_t> holders(const SphereSet& set, const SphereTree& tree) {
+    std::vector<std::int32_t> holder(set.size(), -1);
+    for (std::uint32_t i = 0; i < set.size(); ++i) {
+        std::vector<std::uint32_t> stack{0};
+        while (!stack.empty() && holder[i] < 0) {
+            const SphereTree::Node& node = tree[stack.back()];
+            const std::uint32_t self = stack.back();
+            stack.pop_back();
+            const double distance = (node.centre - set[i].centre).norm();
+            if (distance + set[i].radius > node.radius * (1 + 1e-12)) continue;
+            if (!node.leaf()) {
+                stack.push_back(node.right);
+                stack.push_back(self + 1);
+            } else if (const double larger = node.radius - set[i].radius;
+                       node.sphere != i && distance <= larger && (larger > 0 || node.sphere < i)) {
+                holder[i] = static_cast<std::int32_t>(node.sphere);
+            }
+        }
+    }
+    return holder;
+}
+
+/// A length that no coordinate met on the way from B's frame to A's exceeds by much.
+double coordinateSize(const SphereSet& a, const SphereSet& b, const Motion& motion) {
+    double inA = 0, inB = 0;
+    for (const Sphere& s : a) inA = std::max(inA, s.centre.norm() + s.radius);
+    for (const Sphere& s : b) inB = std::max(inB, s.centre.norm() + s.radius);
+    double size = inA + inB + motion.base.translation().norm();
+    for (const Dof& dof : motion.dofs) {
+        size += dof.origin.norm() + dof.frame.translation().norm();
+        if (dof.kind == DofKind::Translation)
+            size += dof.axis.norm() * std::max(std::abs(dof.lower), std::abs(dof.upper));
+        for (const PathRow& row : dof.path) size = std::max(size, row.translation.norm());
+    }
+    return size;
+}
+
+} // namespace
+
+CoverProblem::CoverProblem(const SphereSet& a, const SphereSet& b, const Motion& motion,
+                           const ContactRule& rule, const std::vector<SpherePair>* candidates)
+    : a(a), b(b), motion(motion), rule(rule), rates(motion), treeA(a), treeB(b) {
+    wholeBox(motion); // refuses chains that are too long
+    if (a.empty() || b.empty()) return;
+    size = treeA[0].radius + treeB[0].radius;
+    band = 0x1p-48 * coordinateSize(a, b, motion);
+    floor = std::max(1e-8 * size, 100 * band);
+    holderA_ = holders(a, treeA);
+    holderB_ = holders(b, treeB);
+    if (!candidates) return;
+    candidates_ = std::make_unique<PairBits>(a.size(), b.size());
+    for (const SpherePair& pair : *candidates) candidates_->insert(pair);
+}
+
+bool CoverProblem::countsAtAll(SpherePair pair, ReachPair& out) const {
+    if (!counts(pair)) return false;
+    out = {pair, a[pair.a].radius + b[pair.b].radius + rule.threshold(pair)};
+    return out.reach >= 0;
+}
+
+bool CoverProblem::admit(SpherePair pair, ReachPair& out) const {
+    if (!countsAtAll(pair, out)) return false;
+    const auto held = [&](SpherePair by) { return counts(by) && rule.threshold(by) == 0; };
+    if (holderA_[pair.a] >= 0 && held({static_cast<std::uint32_t>(holderA_[pair.a]), pair.b})) return false;
+    if (holderB_[pair.b] >= 0 && held({pair.a, static_cast<std::uint32_t>(holderB_[pair.b])})) return false;
+    return true;
+}
+
+} // namespace tss

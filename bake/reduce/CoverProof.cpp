@@ -1,0 +1,168 @@
+#include "bake/reduce/CoverProof.h"
+
+#include "bake/base/Parallel.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <mutex>
+
+namespace tss {
+
+namespace {
+
+/// What one part of a round did with its cell: the cells it left, and the pair it found lacking.
+struct PartResult {
+    std::vector<OpenCell> left;
+    std::optional<Lacking> lacking;
+    std::uint64_t cells = 0;
+};
+
+/// Depth first from one cell, for at most `steps` cells or until something is lacking.
+PartResult runPart(CellExaminer& examiner, const OpenCell& cell, std::uint64_t steps) {
+    PartResult result;
+    result.left.push_back(cell);
+    while (!result.left.empty() && result.cells < steps) {
+        CellVerdict verdict = examiner.examine(result.left.back());
+        ++result.cells;
+        if (verdict.lacking) {
+            result.lacking = std::move(verdict.lacking);
+            break;
+        }
+        result.left.pop_back();
+        for (auto half = verdict.halves.rbegin(); half != verdict.halves.rend(); ++half)
+            result.left.push_back(std::move(*half));
+    }
+    return result;
+}
+
+/// Examiners to be used again, as many as threads want at once. Which one is used makes no difference.
+class ExaminerPool {
+public:
+    ExaminerPool(const CoverProblem& problem, const Obligation& owed, const Cover& cover)
+        : make_([&problem, owed, &cover] {
+              return std::make_unique<CellExaminer>(problem, owed, cover.members(), cover.set());
+          }) {}
+
+    class Loan {
+    public:
+        Loan(ExaminerPool& pool, std::unique_ptr<CellExaminer> one) : pool_(pool), one_(std::move(one)) {}
+        ~Loan() {
+            const std::lock_guard lock(pool_.mutex_);
+            pool_.free_.push_back(std::move(one_));
+        }
+        CellExaminer& operator*() { return *one_; }
+
+    private:
+        ExaminerPool& pool_;
+        std::unique_ptr<CellExaminer> one_;
+    };
+
+    Loan borrow() {
+        const std::lock_guard lock(mutex_);
+        if (free_.empty()) return {*this, make_()};
+        auto one = std::move(free_.back());
+        free_.pop_back();
+        return {*this, std::move(one)};
+    }
+
+private:
+    std::function<std::unique_ptr<CellExaminer>()> make_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<CellExaminer>> free_;
+};
+
+/// Adds what a round found lacking, unless what was added before in the same round answers it.
+class Additions {
+public:
+    Additions(const CoverProblem& problem, const Obligation& owed, Cover& cover, CoverProof& proof)
+        : problem_(problem), owed_(owed), cover_(cover), proof_(proof), first_(cover.members().size()) {}
+
+    void add(const Lacking& lacking) {
+        if (cover_.set().contains(lacking.pair.pair)) return;
+        if (lacking.pose.empty()) {
+            if (cover_.members().size() > first_) return; // look again at what the new members do first
+            ++proof_.forced;
+        } else {
+            const Pose at = pose(problem_.motion, lacking.pose);
+            if (cover_.gap(at, first_) <= owed_.answer(problem_.gap(lacking.pair, at))) return;
+            proof_.facts.push_back(lacking.pose);
+        }
+        cover_.add(lacking.pair);
+    }
+
+private:
+    const CoverProblem& problem_;
+    const Obligation& owed_;
+    Cover& cover_;
+    CoverProof& proof_;
+    std::size_t first_;
+};
+
+/// The share of Q that is shown, from the volumes of the cells left.
+double shareDone(const CoverProblem& problem, const std::vector<OpenCell>& left) {
+    double open = 0;
+    for (const OpenCell& cell : left) {
+        double volume = 1;
+        for (std::size_t k = 0; k < problem.motion.dofCount(); ++k) {
+            const Dof& dof = problem.motion.dofs[k];
+            if (dof.upper > dof.lower)
+                volume *= (cell.box.upper[k] - cell.box.lower[k]) / (dof.upper - dof.lower);
+        }
+        open += volume;
+    }
+    return std::clamp(1 - open, 0.0, 1.0);
+}
+
+} // namespace
+
+bool CoverBudget::spent(std::uint64_t cellsUsed, double share) const {
+    if (cells > 0 && cellsUsed >= cells) return true;
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    if (seconds > 0 && passed.count() >= seconds) return true;
+    return !report(progress, "certified cover", share);
+}
+
+double Cover::gap(const Pose& pose, std::size_t first) const {
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t k = first; k < members_.size(); ++k)
+        best = std::min(best, problem_->gap(members_[k], pose));
+    return best;
+}
+
+CoverProof proveCover(const CoverProblem& problem, const Obligation& owed, Cover& cover,
+                      std::vector<OpenCell> cells, WhenLacking whenLacking, const CoverBudget& budget) {
+    constexpr std::size_t width = 64;
+    CoverProof proof;
+    ExaminerPool examiners(problem, owed, cover);
+    proof.left = std::move(cells);
+    std::reverse(proof.left.begin(), proof.left.end());
+    while (!proof.left.empty()) {
+        if (budget.spent(proof.cells, shareDone(problem, proof.left))) return proof;
+        const std::size_t count = std::min(width, proof.left.size());
+        const std::uint64_t steps = count < width / 4 ? 16 : 256;
+        std::vector<PartResult> parts(count);
+        parallelFor(count, [&](std::size_t k) {
+            auto loan = examiners.borrow();
+            parts[k] = runPart(*loan, proof.left[proof.left.size() - 1 - k], steps);
+        });
+        proof.left.resize(proof.left.size() - count);
+        Additions additions(problem, owed, cover, proof);
+        for (std::size_t k = count; k-- > 0;) {
+            proof.cells += parts[k].cells;
+            for (OpenCell& cell : parts[k].left) proof.left.push_back(std::move(cell));
+        }
+        for (const PartResult& part : parts) {
+            if (!part.lacking) continue;
+            if (whenLacking == WhenLacking::Stop) {
+                if (!part.lacking->pose.empty()) proof.facts.push_back(part.lacking->pose);
+                return proof;
+            }
+            additions.add(*part.lacking);
+        }
+    }
+    proof.complete = true;
+    return proof;
+}
+
+} // namespace tss

@@ -1,0 +1,65 @@
+#pragma once
+#include "bake/base/Progress.h"
+#include "bake/reduce/CoverCell.h"
+
+#include <chrono>
+
+namespace tss {
+
+/// When to stop a search that is not done: after so many cells (the same result every time), after so long
+/// (not the same), or when progress says so. 0: no limit.
+struct CoverBudget {
+    std::uint64_t cells = 0;
+    double seconds = 0;
+    Progress progress;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+
+    bool spent(std::uint64_t cellsUsed, double share) const;
+};
+
+/// The cover as it grows: its members in the order they were taken, and the poses that forced them in.
+class Cover {
+public:
+    explicit Cover(const CoverProblem& problem)
+        : problem_(&problem), set_(std::make_unique<PairBits>(problem.a.size(), problem.b.size())) {}
+    Cover(const CoverProblem& problem, const std::vector<ReachPair>& members) : Cover(problem) {
+        for (const ReachPair& pair : members) add(pair);
+    }
+
+    const std::vector<ReachPair>& members() const { return members_; }
+    const PairBits& set() const { return *set_; }
+    void add(const ReachPair& pair) {
+        members_.push_back(pair);
+        set_->insert(pair.pair);
+    }
+
+    /// The smallest gap of the members from number `first` on, at a pose.
+    double gap(const Pose& pose, std::size_t first = 0) const;
+
+private:
+    const CoverProblem* problem_;
+    std::vector<ReachPair> members_;
+    std::unique_ptr<PairBits> set_;
+};
+
+/// How a proof went.
+struct CoverProof {
+    bool complete = false;      ///< every cell is answered
+    std::vector<OpenCell> left; ///< cells not yet shown, when it was stopped
+    std::uint64_t cells = 0;    ///< cells looked at
+    std::uint64_t forced = 0;   ///< members taken in cells too small to split, without a pose that needs them
+    std::vector<std::vector<double>> facts; ///< poses where the cover lacked an answer
+};
+
+enum class WhenLacking {
+    Add, ///< the pair is taken into the cover
+    Stop ///< the proof has failed: it ends, with the pose in facts if one is known
+};
+
+/// Shows, cell by cell, that the cover answers all that is owed, adding what it lacks (METHOD 3.3). Rounds of
+/// many cells in parallel against a cover that stands still, then what they lack is added one by one in a
+/// fixed order: the same bits for any number of threads.
+CoverProof proveCover(const CoverProblem& problem, const Obligation& owed, Cover& cover,
+                      std::vector<OpenCell> cells, WhenLacking whenLacking, const CoverBudget& budget);
+
+} // namespace tss

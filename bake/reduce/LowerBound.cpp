@@ -1,0 +1,69 @@
+#include "bake/reduce/LowerBound.h"
+
+#include "bake/base/Parallel.h"
+#include "bake/search/TreePair.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace tss {
+
+namespace {
+
+/// The pairs that answer at a pose; none when nothing is owed there.
+std::vector<SpherePair> answersAt(const CoverProblem& problem, const Obligation& owed, const Pose& at) {
+    double models = std::numeric_limits<double>::infinity();
+    std::vector<std::pair<double, SpherePair>> near;
+    // Gaps count from where contact begins, which at rest overlaps is deeper: none is missed by looking
+    // farther.
+    visitPairsWithin(problem.treeA, problem.treeB, at, owed.margin + owed.epsilon,
+                     [&](std::uint32_t i, std::uint32_t j, double) {
+                         ReachPair pair;
+                         if (!problem.countsAtAll({i, j}, pair)) return;
+                         const double gap = problem.gap(pair, at);
+                         near.emplace_back(gap, pair.pair);
+                         models = std::min(models, gap);
+                     });
+    std::vector<SpherePair> pairs;
+    if (models > owed.margin) return pairs;
+    for (const auto& [gap, pair] : near)
+        if (gap <= owed.answer(models) + problem.band) pairs.push_back(pair);
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+} // namespace
+
+std::vector<Demand> demandsAt(const CoverProblem& problem, const Obligation& owed,
+                              const std::vector<std::vector<double>>& poses, std::size_t most) {
+    std::vector<Demand> demands(poses.size());
+    parallelFor(poses.size(), [&](std::size_t k) {
+        demands[k] = {poses[k], answersAt(problem, owed, pose(problem.motion, poses[k]))};
+    });
+    std::erase_if(demands, [&](const Demand& d) { return d.pairs.empty() || d.pairs.size() > most; });
+    return demands;
+}
+
+DemandCover coverDemands(const std::vector<Demand>& demands) {
+    std::map<SpherePair, std::uint32_t> number;
+    for (const Demand& demand : demands)
+        for (const SpherePair& pair : demand.pairs) number.emplace(pair, 0);
+    std::vector<SpherePair> pairs;
+    for (auto& [pair, n] : number) {
+        n = static_cast<std::uint32_t>(pairs.size());
+        pairs.push_back(pair);
+    }
+    std::vector<std::vector<std::uint32_t>> rows;
+    for (const Demand& demand : demands) {
+        rows.emplace_back();
+        for (const SpherePair& pair : demand.pairs) rows.back().push_back(number[pair]);
+    }
+    const SetCover cover = coverRows(std::move(rows));
+    DemandCover result;
+    result.lowerBound = cover.lowerBound;
+    for (std::uint32_t c : cover.chosen) result.pairs.push_back(pairs[c]);
+    return result;
+}
+
+} // namespace tss

@@ -1,0 +1,216 @@
+#include "bake/search/Reach.h"
+
+#include "bake/base/Parallel.h"
+#include "bake/search/CellTools.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <memory>
+
+namespace tss {
+
+namespace {
+
+/// A node of the tree over patches, with a ball that holds all below it.
+struct Ball {
+    Vec3 centre;
+    double radius;
+};
+
+/// What all threads share. Marks are only ever set, and whether one is set does not depend on the others:
+/// they save work alone.
+struct Problem {
+    Side side;
+    const MeshQuery& other;
+    const MotionRates& rates;
+    Bvh tree;
+    std::vector<Ball> balls; ///< one a node; a leaf is one patch
+    double resolution;       ///< the motion in a cell that is small enough to settle a patch
+    double margin;
+    std::unique_ptr<std::atomic<char>[]> reached; ///< one a node: all below it is
+    std::vector<std::uint32_t> parents;
+};
+
+void buildTree(Problem& p, std::span<const Patch> patches) {
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (const Patch& patch : patches) {
+        Eigen::AlignedBox3d box(patch.corners[0]);
+        boxes.push_back(box.extend(patch.corners[1]).extend(patch.corners[2]));
+    }
+    p.tree = buildBvh(boxes, 1);
+    p.parents.resize(p.tree.nodes.size(), 0);
+    p.reached = std::make_unique<std::atomic<char>[]>(p.tree.nodes.size());
+    for (std::uint32_t n = 0; n < p.tree.nodes.size(); ++n) {
+        const Bvh::Node& node = p.tree.nodes[n];
+        if (node.count == 0) p.parents[node.first] = p.parents[node.first + 1] = n;
+        const Vec3 centre = 0.5 * (node.lower + node.upper);
+        double radius2 = (node.upper - centre).squaredNorm();
+        if (node.count == 1) {
+            const Patch& patch = patches[p.tree.items[node.first]];
+            p.balls.push_back({patch.centre(), patch.radius()});
+            continue;
+        }
+        for (std::uint32_t i = 0; i < node.count; ++i)
+            for (const Vec3& c : patches[p.tree.items[node.first + i]].corners)
+                radius2 = std::max(radius2, (c - centre).squaredNorm());
+        p.balls.push_back({centre, std::sqrt(radius2)});
+    }
+}
+
+/// How far from the other mesh, at the cell's centre pose, a ball may be and still come within the margin
+/// somewhere in the cell.
+struct Look {
+    Vec3 centre; ///< of the ball, in the other mesh's frame
+    double move; ///< of its points against the other mesh in the cell
+};
+
+Look look(const Problem& p, const CellMotion& motion, const Pose& inverse, const Ball& ball) {
+    const double spread = motion.relativeMove() * ball.radius;
+    if (p.side == Side::B) {
+        const Vec3 x = motion.centrePose() * ball.centre;
+        return {x, motion.reach(x).move + spread};
+    }
+    // A point x of A that meets y of B at pose q: at the centre pose y is where x would be taken from q to
+    // there, at most f(y) from x, and f differs between two points by at most relativeMove times their
+    // distance.
+    const double rate = motion.relativeMove();
+    const double move = rate < 1 ? (motion.reach(ball.centre).move + spread) / (1 - rate)
+                                 : std::numeric_limits<double>::infinity();
+    return {inverse * ball.centre, move};
+}
+
+class Marker {
+public:
+    explicit Marker(Problem& problem) : p_(problem) {}
+
+    void run(const CellTree& tree, const std::vector<std::uint32_t>& inherited) {
+        Cell cell = tree.cell;
+        if (!shrinkToPlanes(p_.rates.motion(), cell)) return;
+        const CellMotion motion(p_.rates, cell);
+        const Pose inverse = motion.centrePose().inverse();
+        std::vector<std::uint32_t> open, stack(inherited.rbegin(), inherited.rend());
+        while (!stack.empty()) {
+            const std::uint32_t n = stack.back();
+            stack.pop_back();
+            if (p_.reached[n].load(std::memory_order_relaxed)) continue;
+            const Ball& ball = p_.balls[n];
+            const Look at = look(p_, motion, inverse, ball);
+            const double within = (ball.radius + at.move + p_.margin) * (1 + 1e-9) + 1e-13 * at.centre.norm();
+            if (std::isfinite(within) && p_.other.closest(at.centre, within).triangle < 0) continue;
+            const Bvh::Node& node = p_.tree.nodes[n];
+            const bool settled = at.move <= p_.resolution;
+            if (node.count == 0 && (settled || ball.radius >= at.move)) {
+                stack.push_back(node.first + 1);
+                stack.push_back(node.first);
+            } else if (settled) {
+                mark(n);
+            } else {
+                open.push_back(n);
+            }
+        }
+        if (open.empty()) return;
+        if (!tree.parts.empty()) {
+            for (const CellTree& part : tree.parts) run(part, open);
+            return;
+        }
+        const auto [lower, upper] = splitCell(p_.rates, cell, widest(motion, p_.balls[open[0]]));
+        run({lower, {}}, open);
+        run({upper, {}}, open);
+    }
+
+private:
+    void mark(std::uint32_t n) {
+        p_.reached[n].store(1, std::memory_order_relaxed);
+        while (n != 0) {
+            n = p_.parents[n];
+            const Bvh::Node& node = p_.tree.nodes[n];
+            if (!p_.reached[node.first].load(std::memory_order_relaxed) ||
+                !p_.reached[node.first + 1].load(std::memory_order_relaxed))
+                return;
+            p_.reached[n].store(1, std::memory_order_relaxed);
+        }
+    }
+
+    std::size_t widest(const CellMotion& motion, const Ball& ball) const {
+        const Vec3 x = p_.side == Side::B ? Vec3(motion.centrePose() * ball.centre) : ball.centre;
+        const auto share = motion.shares(x);
+        return static_cast<std::size_t>(std::max_element(share.begin(), share.begin() + motion.dofs()) -
+                                        share.begin());
+    }
+
+    Problem& p_;
+};
+
+/// The nodes of the tree some levels down, to spread over threads.
+std::vector<std::uint32_t> topNodes(const Bvh& tree, std::size_t count) {
+    std::vector<std::uint32_t> now{0};
+    for (bool grown = true; grown && now.size() < count;) {
+        grown = false;
+        std::vector<std::uint32_t> next;
+        for (const std::uint32_t n : now) {
+            const Bvh::Node& node = tree.nodes[n];
+            if (node.count > 0) {
+                next.push_back(n);
+                continue;
+            }
+            next.insert(next.end(), {node.first, node.first + 1});
+            grown = true;
+        }
+        now = std::move(next);
+    }
+    return now;
+}
+
+/// The patches that come within reach, judged as they are.
+std::vector<Patch> reached(std::span<const Patch> patches, Side side, const MeshQuery& other,
+                           const MotionRates& rates, const CellTree& cells, double resolution,
+                           double margin) {
+    if (patches.empty()) return {};
+    Problem p{side, other, rates, {}, {}, resolution, margin, {}, {}};
+    buildTree(p, patches);
+    const std::vector<std::uint32_t> nodes = topNodes(p.tree, 64);
+    parallelFor(nodes.size(), [&](std::size_t i) { Marker(p).run(cells, {nodes[i]}); });
+    std::vector<char> keep(patches.size(), 0);
+    for (std::uint32_t n = 0; n < p.tree.nodes.size(); ++n)
+        for (std::uint32_t i = 0; i < p.tree.nodes[n].count; ++i)
+            keep[p.tree.items[p.tree.nodes[n].first + i]] = p.reached[n];
+    std::vector<Patch> kept;
+    for (std::size_t i = 0; i < patches.size(); ++i)
+        if (keep[i]) kept.push_back(patches[i]);
+    return kept;
+}
+
+void halveTo(const Patch& patch, double radius, std::vector<Patch>& out) {
+    if (patch.radius() <= radius) {
+        out.push_back(patch);
+        return;
+    }
+    for (const Patch& half : halves(patch)) halveTo(half, radius, out);
+}
+
+double largestRadius(std::span<const Patch> patches) {
+    double largest = 0;
+    for (const Patch& patch : patches) largest = std::max(largest, patch.radius());
+    return largest;
+}
+
+} // namespace
+
+std::vector<Patch> findReach(std::span<const Patch> patches, Side side, const MeshQuery& other,
+                             const Motion& motion, const CellTree& cells, double size, double margin,
+                             const Progress& progress) {
+    const MotionRates rates(motion);
+    std::vector<Patch> now(patches.begin(), patches.end());
+    // From the coarse to the fine, so that most of a mesh is let go in large pieces.
+    for (double step = std::max(size, largestRadius(now));; step = std::max(size, step / 4)) {
+        std::vector<Patch> fine;
+        for (const Patch& patch : now) halveTo(patch, step, fine);
+        now = reached(fine, side, other, rates, cells, step / 2, margin);
+        if (!report(progress, "reach", size / step) || now.empty()) break;
+        if (step <= size) break;
+    }
+    return now;
+}
+
+} // namespace tss

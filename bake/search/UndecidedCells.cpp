@@ -1,0 +1,190 @@
+#include "bake/search/UndecidedCells.h"
+
+#include "bake/base/Parallel.h"
+#include "bake/search/CellTools.h"
+#include "bake/search/SphereTree.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace tss {
+
+namespace {
+
+struct NodePair {
+    std::uint32_t a, b;
+};
+
+enum class Verdict { Hit, Free, Open };
+
+struct Problem {
+    const LevelSpheres &a, &b;
+    SphereTree treeA, treeB;
+    MotionRates rates;
+    Pose rest;
+    UndecidedOptions options;
+
+    const Motion& motion() const { return rates.motion(); }
+
+    /// Where the contact of the inscribed pair begins: 0, or its gap at rest where it overlaps there.
+    double threshold(std::uint32_t i, std::uint32_t j, double sum) const {
+        if (options.atRest == AtRest::Collide) return 0;
+        const double gap = (rest * b.spheres[j].centre - a.spheres[i].centre).norm() - sum;
+        if (gap >= 0) return 0; // the slack is no less than that of restOverlaps()
+        return options.atRest == AtRest::Offset ? gap - 2e-6 * (a.spheres[i].radius + b.spheres[j].radius)
+                                                : -std::numeric_limits<double>::infinity();
+    }
+};
+
+/// Whether a pair of inscribed spheres with the same overlap as these fires for certain all over the cell.
+bool firesEverywhere(const Problem& p, std::uint32_t i, std::uint32_t j, double distance, double move) {
+    const double inA = p.a.spheres[i].radius - p.a.protrusion, inB = p.b.spheres[j].radius - p.b.protrusion;
+    if (inA <= 0 || inB <= 0 || distance + move > inA + inB - p.options.depth) return false;
+    return distance + move <= inA + inB + p.threshold(i, j, inA + inB) - p.options.depth;
+}
+
+/// Sorts out the pairs that can touch in the cell from those inherited.
+Verdict judge(const Problem& p, const CellMotion& motion, const std::vector<NodePair>& inherited,
+              std::vector<NodePair>& open, double& largestMove) {
+    std::vector<NodePair> stack(inherited);
+    while (!stack.empty()) {
+        const NodePair pair = stack.back();
+        stack.pop_back();
+        const SphereTree::Node &na = p.treeA[pair.a], &nb = p.treeB[pair.b];
+        const Vec3 x = motion.centrePose() * nb.centre;
+        const double move = motion.reach(x).move, sum = na.radius + nb.radius;
+        const double distance = (x - na.centre).norm();
+        // The hair covers rounding: what is dropped here is taken for proven.
+        if (distance * (1 + 1e-12) - move > sum + p.options.margin + 1e-12 * x.norm()) continue;
+        if (na.leaf() && nb.leaf()) {
+            if (firesEverywhere(p, na.sphere, nb.sphere, distance, move)) return Verdict::Hit;
+            open.push_back(pair);
+            largestMove = std::max(largestMove, move);
+        } else if (sum < move && move > p.options.resolution) {
+            // Smaller balls do not help where the motion is what blurs the answer.
+            open.push_back(pair);
+            largestMove = std::max(largestMove, move);
+        } else if (!na.leaf() && (nb.leaf() || na.radius >= nb.radius)) {
+            stack.push_back({na.right, pair.b});
+            stack.push_back({pair.a + 1, pair.b});
+        } else {
+            stack.push_back({pair.a, nb.right});
+            stack.push_back({pair.a, pair.b + 1});
+        }
+    }
+    return open.empty() ? Verdict::Free : Verdict::Open;
+}
+
+std::size_t widest(const Problem& p, const CellMotion& motion) {
+    const SphereTree::Node& root = p.treeB[0];
+    const auto share = motion.shares(motion.centrePose() * root.centre + root.radius * Vec3::UnitX());
+    return static_cast<std::size_t>(std::max_element(share.begin(), share.begin() + motion.dofs()) -
+                                    share.begin());
+}
+
+class Decider {
+public:
+    Decider(const Problem& problem, const std::atomic<bool>& stop) : p_(problem), stop_(stop) {}
+
+    /// What is left of the tree, or nothing.
+    std::optional<CellTree> decide(const CellTree& tree, const std::vector<NodePair>& inherited) {
+        CellTree left{tree.cell, {}};
+        if (!shrinkToPlanes(p_.motion(), left.cell)) return std::nullopt;
+        if (stop_) return tree;
+        const CellMotion motion(p_.rates, left.cell);
+        std::vector<NodePair> open;
+        double move = 0;
+        const Verdict verdict = judge(p_, motion, inherited, open, move);
+        hits |= verdict == Verdict::Hit;
+        if (verdict != Verdict::Open) return std::nullopt;
+        if (tree.parts.empty() && move <= p_.options.resolution) return left;
+        for (const CellTree& part : tree.parts.empty() ? halves(left.cell, motion) : tree.parts)
+            if (std::optional<CellTree> kept = decide(part, open)) left.parts.push_back(std::move(*kept));
+        if (left.parts.empty()) return std::nullopt;
+        return left;
+    }
+
+    bool hits = false;
+
+private:
+    std::vector<CellTree> halves(const Cell& cell, const CellMotion& motion) const {
+        const auto [lower, upper] = splitCell(p_.rates, cell, widest(p_, motion));
+        return {CellTree{lower, {}}, CellTree{upper, {}}};
+    }
+
+    const Problem& p_;
+    const std::atomic<bool>& stop_;
+};
+
+/// The tree cut into about `count` parts of it, each of its own.
+std::vector<CellTree> pieces(const Problem& p, const CellTree& tree, std::size_t count) {
+    std::vector<CellTree> now{tree};
+    for (int round = 0; round < 16 && now.size() < count; ++round) {
+        std::vector<CellTree> next;
+        for (const CellTree& piece : now) {
+            if (!piece.parts.empty()) {
+                next.insert(next.end(), piece.parts.begin(), piece.parts.end());
+                continue;
+            }
+            const CellMotion motion(p.rates, piece.cell);
+            const std::size_t k = widest(p, motion);
+            if (!(piece.cell.upper[k] > piece.cell.lower[k])) {
+                next.push_back(piece);
+                continue;
+            }
+            const auto [lower, upper] = splitCell(p.rates, piece.cell, k);
+            next.push_back({lower, {}});
+            next.push_back({upper, {}});
+        }
+        if (next.size() == now.size()) break;
+        now = std::move(next);
+    }
+    return now;
+}
+
+} // namespace
+
+std::size_t CellTree::leaves() const {
+    if (parts.empty()) return 1;
+    std::size_t count = 0;
+    for (const CellTree& part : parts) count += part.leaves();
+    return count;
+}
+
+CellTree wholeQ(const Motion& motion) {
+    return {wholeBox(motion), {}};
+}
+
+Undecided undecidedCells(const LevelSpheres& a, const LevelSpheres& b, const Motion& motion,
+                         const CellTree& from, const UndecidedOptions& options, const Progress& progress) {
+    if (a.spheres.empty() || b.spheres.empty()) return {};
+    const Problem problem{a,
+                          b,
+                          SphereTree(a.spheres),
+                          SphereTree(b.spheres),
+                          MotionRates(motion),
+                          pose(motion, restValues(motion)),
+                          options};
+    const std::vector<CellTree> parts = pieces(problem, from, 64);
+    std::vector<std::optional<CellTree>> kept(parts.size());
+    std::vector<char> hits(parts.size(), 0);
+    std::atomic<bool> stop{false};
+    constexpr std::size_t batch = 8;
+    for (std::size_t first = 0; first < parts.size(); first += batch) {
+        if (!report(progress, "undecided cells", double(first) / double(parts.size()))) stop = true;
+        parallelFor(std::min(batch, parts.size() - first), [&](std::size_t k) {
+            Decider decider(problem, stop);
+            kept[first + k] = decider.decide(parts[first + k], {{0, 0}});
+            hits[first + k] = decider.hits;
+        });
+    }
+    Undecided result;
+    result.hits = std::count(hits.begin(), hits.end(), 1) > 0;
+    CellTree left{from.cell, {}};
+    for (std::optional<CellTree>& part : kept)
+        if (part) left.parts.push_back(std::move(*part));
+    if (!left.parts.empty()) result.cells = std::move(left);
+    return result;
+}
+
+} // namespace tss
