@@ -1,0 +1,191 @@
+#include "bake/ContactZoneFit.h"
+
+#include "bake/base/Error.h"
+#include "bake/geometry/MeshAudit.h"
+#include "bake/search/Reach.h"
+#include "bake/spheres/MedialSpheres.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace tss {
+
+namespace {
+
+double area(std::span<const Patch> patches) {
+    double sum = 0;
+    for (const Patch& patch : patches) sum += patch.area();
+    return sum;
+}
+
+/// One body while the levels go by.
+struct Body {
+    explicit Body(const TriangleMesh& mesh)
+        : solid(cleaned(mesh)), surface(solid.mesh()), magnitude(tss::magnitude(solid.mesh())) {}
+
+    Solid solid;
+    MeshQuery surface; ///< without closing fans: contact is of the mesh itself
+    double magnitude;
+    std::vector<Patch> zone;
+    LevelSpheres level;
+    SphereSet coarse; ///< inscribed spheres of the levels before
+
+    void fit(double tolerance, const MedialOptions& medial, const Progress& progress) {
+        level.protrusion = protrusionFor(tolerance, magnitude);
+        level.spheres = medialSpheres(solid, zone, level.protrusion, medial, progress);
+    }
+    /// What is left of the level's spheres when they are inside the body.
+    SphereSet innerSpheres() const {
+        SphereSet inner = inscribed(level.spheres, level.protrusion);
+        std::erase_if(inner, [](const Sphere& s) { return s.radius <= 0; });
+        return inner;
+    }
+    ContactZoneBody result(const ContactZoneOptions& options) const {
+        ContactZoneBody body;
+        body.fit.spheres = options.conservative ? level.spheres : inscribed(level.spheres, level.protrusion);
+        body.fit.protrusion = options.conservative ? level.protrusion : 0;
+        body.fit.coverage = options.conservative ? 0 : level.protrusion;
+        body.fit.note = solid.assumptions();
+        body.fine = body.fit.spheres.size();
+        body.zone = zone;
+        if (options.keepCoarse) body.fit.spheres.insert(body.fit.spheres.end(), coarse.begin(), coarse.end());
+        return body;
+    }
+};
+
+/// The tolerances of the levels, each half of the one before, from about 1/400 of the body's size.
+std::vector<double> levelTolerances(double finest, double diagonal) {
+    std::vector<double> levels{finest};
+    while (2 * levels.back() < diagonal / 300) levels.push_back(2 * levels.back());
+    std::reverse(levels.begin(), levels.end());
+    return levels;
+}
+
+class Refiner {
+public:
+    Refiner(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
+            const ContactZoneOptions& options, const Progress& progress)
+        : a_(a), b_(b), motion_(motion), options_(options), progress_(progress), cells_(wholeQ(motion)) {
+        a_.zone = patchesOf(a_.solid.mesh());
+        b_.zone = patchesOf(b_.solid.mesh());
+    }
+
+    ContactZoneFit run() {
+        const double smaller = std::min(a_.solid.diagonal(), b_.solid.diagonal());
+        const double finest = options_.tolerance > 0 ? options_.tolerance : smaller / 500;
+        for (const double tolerance : levelTolerances(finest, smaller)) {
+            if (!narrow(tolerance)) break;
+            if (!fit(tolerance)) break;
+            if (!decide(tolerance, tolerance <= finest)) break;
+        }
+        result_.a = a_.result(options_);
+        result_.b = b_.result(options_);
+        for (ContactZoneBody* body : {&result_.a, &result_.b})
+            if (!note_.empty()) body->fit.note += (body->fit.note.empty() ? "" : "; ") + note_;
+        return std::move(result_);
+    }
+
+private:
+    /// The zones within reach over what is left of Q. False: there are none.
+    bool narrow(double tolerance) {
+        std::vector<Patch> zoneA =
+            findReach(a_.zone, Side::A, b_.surface, motion_, cells_, tolerance, options_.margin, progress_);
+        std::vector<Patch> zoneB =
+            findReach(b_.zone, Side::B, a_.surface, motion_, cells_, tolerance, options_.margin, progress_);
+        if (zoneA.empty() || zoneB.empty()) {
+            // The poses left are free; what was decided before stays with the inscribed spheres.
+            result_.neverMeet = !hits_;
+            if (hits_ || result_.levels.empty()) finish(std::move(zoneA), std::move(zoneB));
+            return false;
+        }
+        a_.zone = std::move(zoneA);
+        b_.zone = std::move(zoneB);
+        return true;
+    }
+
+    void finish(std::vector<Patch> zoneA, std::vector<Patch> zoneB) {
+        keepInner();
+        a_.level.spheres.clear();
+        b_.level.spheres.clear();
+        a_.zone = std::move(zoneA);
+        b_.zone = std::move(zoneB);
+    }
+
+    void keepInner() {
+        for (Body* body : {&a_, &b_}) {
+            const SphereSet inner = body->innerSpheres();
+            body->coarse.insert(body->coarse.end(), inner.begin(), inner.end());
+        }
+    }
+
+    /// False: it took too many spheres and the level before stands.
+    bool fit(double tolerance) {
+        const Body* bodies[] = {&a_, &b_};
+        std::array<LevelSpheres, 2> before{a_.level, b_.level};
+        std::array<SphereSet, 2> coarse{a_.coarse, b_.coarse};
+        if (!result_.levels.empty()) keepInner();
+        a_.fit(tolerance, options_.medial, progress_);
+        b_.fit(tolerance, options_.medial, progress_);
+        const auto limit = static_cast<std::size_t>(options_.maxSpheres);
+        for (const Body* body : bodies)
+            if (limit > 0 && !result_.levels.empty() &&
+                body->level.spheres.size() + body->coarse.size() > limit) {
+                a_.level = before[0], a_.coarse = coarse[0];
+                b_.level = before[1], b_.coarse = coarse[1];
+                note_ = fmt::format(
+                    "tolerance {:.4g} instead of the one asked: {} spheres do not suffice for the next",
+                    result_.levels.back().tolerance, limit);
+                return false;
+            }
+        result_.levels.push_back(
+            {tolerance, a_.level.spheres.size(), b_.level.spheres.size(), area(a_.zone), area(b_.zone), 0});
+        return true;
+    }
+
+    /// False: nothing is left to refine.
+    bool decide(double tolerance, bool last) {
+        if (last) return false;
+        UndecidedOptions how;
+        how.resolution = tolerance / 2;
+        how.margin = options_.margin;
+        how.depth = options_.depth;
+        how.atRest = options_.atRest;
+        Undecided left = undecidedCells(a_.level, b_.level, motion_, cells_, how, progress_);
+        hits_ |= left.hits;
+        if (!left.cells) {
+            result_.neverMeet = !hits_;
+            return false;
+        }
+        cells_ = std::move(*left.cells);
+        result_.levels.back().undecided = cells_.leaves();
+        if (report(progress_, "contact zone", 0.5)) return true;
+        note_ = fmt::format("stopped at tolerance {:.4g}", tolerance);
+        return false;
+    }
+
+    Body a_, b_;
+    const Motion& motion_;
+    const ContactZoneOptions& options_;
+    const Progress& progress_;
+    CellTree cells_;
+    ContactZoneFit result_;
+    bool hits_ = false;
+    std::string note_;
+};
+
+} // namespace
+
+ContactZoneFit fitContactZone(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
+                              const ContactZoneOptions& options, const Progress& progress) {
+    const auto need = [](bool good, const char* what) {
+        if (!good) throw InputError(fmt::format("contact zone: {}", what));
+    };
+    need(std::isfinite(options.tolerance) && options.tolerance >= 0, "the tolerance must be a number >= 0");
+    need(std::isfinite(options.margin) && options.margin >= 0, "the margin must be a number >= 0");
+    need(std::isfinite(options.depth) && options.depth >= 0, "the depth must be a number >= 0");
+    checkMotion(motion);
+    return Refiner(a, b, motion, options, progress).run();
+}
+
+} // namespace tss
