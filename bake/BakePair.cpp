@@ -1,5 +1,6 @@
 #include "bake/BakePair.h"
 
+#include "bake/ContactZoneFit.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/reduce/CertifiedCover.h"
@@ -47,20 +48,47 @@ const char* name(ReduceMethod method) {
     return "?";
 }
 
-/// The spheres of one body as the file can hold them, with what is proven of them; the mesh's defects go into
-/// the notes.
-SphereFit bodySpheres(const Body& body, const BakeOptions& options, double tolerance, PairReport& report,
-                      const Progress& progress) {
+/// The spheres of both bodies as the file can hold them, with what is proven of them.
+struct PairSpheres {
+    SphereFit a, b;
+};
+
+const TriangleMesh& meshOf(const Body& body) {
     if (body.mesh.empty()) throw InputError(Where{"", "", body.path}, "expected a mesh, the body has none");
+    return body.mesh;
+}
+
+SphereFit wholeBody(const Body& body, const BakeOptions& options, double tolerance,
+                    const Progress& progress) {
     SphereOptions how;
     how.method = options.spheres;
     how.tolerance = tolerance;
     how.maxSpheres = options.maxSpheres;
     how.conservative = options.conservative;
-    SphereFit fit = fitSpheres(cleaned(body.mesh), how, progress);
-    for (Sphere& sphere : fit.spheres) sphere = roundToFloat(sphere);
-    if (!fit.note.empty()) report.notes.push_back(body.path + ": " + fit.note);
-    return fit;
+    return fitSpheres(cleaned(meshOf(body)), how, progress);
+}
+
+/// Medial spheres stand in the contact zone only, fine where the verdict needs it; the paper's fill the
+/// bodies.
+PairSpheres pairSpheres(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
+                        double tolerance, PairReport& report, const Progress& progress) {
+    PairSpheres spheres;
+    if (options.spheres == SphereMethod::Medial) {
+        ContactZoneOptions zone;
+        zone.tolerance = tolerance;
+        zone.depth = options.depth;
+        zone.atRest = options.atRest;
+        zone.maxSpheres = options.maxSpheres;
+        zone.conservative = options.conservative;
+        ContactZoneFit fit = fitContactZone(cleaned(meshOf(a)), cleaned(meshOf(b)), motion, zone, progress);
+        spheres = {std::move(fit.a.fit), std::move(fit.b.fit)};
+    } else {
+        spheres = {wholeBody(a, options, tolerance, progress), wholeBody(b, options, tolerance, progress)};
+    }
+    for (SphereFit* fit : {&spheres.a, &spheres.b}) fit->spheres = roundToFloat(std::move(fit->spheres));
+    if (!spheres.a.note.empty()) report.notes.push_back(a.path + ": " + spheres.a.note);
+    if (!spheres.b.note.empty()) report.notes.push_back(b.path + ": " + spheres.b.note);
+    return spheres;
 }
 
 double known(double bound) {
@@ -161,8 +189,7 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
     const Motion motion = pairMotion(scene, pair);
     checkMotion(motion);
     const double tolerance = options.tolerance.value_or(defaultTolerance(a, b));
-    const SphereFit fitA = bodySpheres(a, options, tolerance, report, progress);
-    const SphereFit fitB = bodySpheres(b, options, tolerance, report, progress);
+    const auto [fitA, fitB] = pairSpheres(a, b, motion, options, tolerance, report, progress);
 
     const CandidatePairs candidates = search(fitA.spheres, fitB.spheres, motion, options, progress);
     BakeRecord record;
@@ -182,7 +209,8 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
         const Selection selection =
             select(fitA.spheres, fitB.spheres, candidates, motion, options, report, progress);
         auto table = std::make_shared<Table>(makeTable(fitA.spheres, fitB.spheres, selection.reduced.pairs,
-                                                       selection.reduced.restGaps, motion));
+                                                       selection.reduced.restGaps, motion, nullptr, nullptr,
+                                                       options.keepSpheres ? Keep::All : Keep::Used));
         table->method = method;
         table->epsilon = selection.epsilon;
         table->gapDepth = options.reduce == ReduceMethod::Cover ? options.depth : 0;

@@ -9,13 +9,16 @@ namespace tss {
 namespace {
 
 /// The spheres that `used` marks, and where each went (new index by old).
-SphereSet keepUsed(const SphereSet& all, const std::vector<bool>& used, std::vector<std::uint32_t>& place) {
+SphereSet keepUsed(const SphereSet& all, const std::vector<bool>& used, std::vector<std::uint32_t>& place,
+                   std::vector<std::uint32_t>* kept) {
     SphereSet set;
     place.assign(all.size(), 0);
+    if (kept) kept->clear();
     for (std::uint32_t i = 0; i < all.size(); ++i) {
         if (!used[i]) continue;
         place[i] = static_cast<std::uint32_t>(set.size());
         set.push_back(all[i]);
+        if (kept) kept->push_back(i);
     }
     return set;
 }
@@ -42,7 +45,8 @@ UsedSpheres usedSpheres(const Table& table) {
 }
 
 Table makeTable(const SphereSet& a, const SphereSet& b, const std::vector<SpherePair>& pairs,
-                const std::vector<double>& restGaps, const Motion& motion, Keep keep) {
+                const std::vector<double>& restGaps, const Motion& motion, std::vector<std::uint32_t>* usedA,
+                std::vector<std::uint32_t>* usedB, Keep keep) {
     assert(restGaps.empty() || restGaps.size() == pairs.size());
     std::vector<std::size_t> order(pairs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -55,8 +59,8 @@ Table makeTable(const SphereSet& a, const SphereSet& b, const std::vector<Sphere
     for (const SpherePair& p : pairs) inA[p.a] = inB[p.b] = true;
     std::vector<std::uint32_t> placeA, placeB;
     Table table;
-    table.a = keepUsed(a, inA, placeA);
-    table.b = keepUsed(b, inB, placeB);
+    table.a = keepUsed(a, inA, placeA, usedA);
+    table.b = keepUsed(b, inB, placeB, usedB);
     table.motion = motion;
     table.rowOffsets.assign(table.a.size() + 1, 0);
     const bool rest = std::any_of(restGaps.begin(), restGaps.end(), [](double g) { return g != 0; });

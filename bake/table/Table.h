@@ -70,10 +70,13 @@ std::vector<SpherePair> tests(const Table& table);
 /// Which spheres makeTable() keeps.
 enum class Keep { Used, All };
 
-/// Makes the CSR of a table from pairs of indices into whole sphere sets, the kept spheres in rising order of their
-/// index. restGaps (one a pair, or empty) follow their pairs.
+/// Makes the CSR of a table from pairs of indices into whole sphere sets, the kept spheres in rising order of
+/// their index. usedA, usedB when given receive the index in the whole set of each kept sphere. restGaps (one
+/// a pair, or empty) follow their pairs.
 Table makeTable(const SphereSet& a, const SphereSet& b, const std::vector<SpherePair>& pairs,
-                const std::vector<double>& restGaps, const Motion& motion, Keep keep = Keep::Used);
+                const std::vector<double>& restGaps, const Motion& motion,
+                std::vector<std::uint32_t>* usedA = nullptr, std::vector<std::uint32_t>* usedB = nullptr,
+                Keep keep = Keep::Used);
 
 /// How many spheres of each body some test names.
 struct UsedSpheres {

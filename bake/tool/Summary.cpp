@@ -32,8 +32,9 @@ void addRecord(Json& json, const BakeRecord& record) {
 
 void addTable(Json& json, const Table& table) {
     addRecord(json, table.record);
-    json["usedA"] = table.a.size();
-    json["usedB"] = table.b.size();
+    const UsedSpheres used = usedSpheres(table);
+    json["usedA"] = used.a;
+    json["usedB"] = used.b;
     json["tests"] = table.testCount();
     json["products"] = 4 * table.testCount(); // 3 squares and the squared radius, as the paper counts
     json["lowerBound"] = table.record.lowerBound ? Json(table.record.lowerBound) : Json();
