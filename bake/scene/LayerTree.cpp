@@ -28,8 +28,13 @@ TreeNode node(Kind kind) {
     return node;
 }
 
+void addMember(TreeNode& to, const std::string& key, TreeNode value) {
+    value.key = key;
+    to.elements.push_back(std::move(value));
+}
+
 void addAll(TreeNode& to, const Value::Object& object) {
-    for (const auto& [key, value] : object) to.members.emplace_back(key, leaf(value));
+    for (const auto& [key, value] : object) addMember(to, key, leaf(value));
 }
 
 TreeNode object(const Value::Object& from) {
@@ -53,13 +58,13 @@ TreeNode samples(const Property& property, bool asFloat) {
 TreeNode propertyTree(const Property& property) {
     TreeNode to = node(Kind::Object);
     if (property.targetPaths) {
-        to.members.emplace_back("targetPaths", leaf(*property.targetPaths));
+        addMember(to, "targetPaths", leaf(*property.targetPaths));
     } else {
         const auto type = valueType(property.typeName);
         const bool asFloat = type && type->isFloat();
-        to.members.emplace_back("typeName", text(property.typeName));
-        if (property.defaultValue) to.members.emplace_back("default", leaf(*property.defaultValue, asFloat));
-        if (!property.timeSamples.empty()) to.members.emplace_back("timeSamples", samples(property, asFloat));
+        addMember(to, "typeName", text(property.typeName));
+        if (property.defaultValue) addMember(to, "default", leaf(*property.defaultValue, asFloat));
+        if (!property.timeSamples.empty()) addMember(to, "timeSamples", samples(property, asFloat));
     }
     addAll(to, property.other);
     return to;
@@ -69,18 +74,18 @@ TreeNode primTrees(const std::vector<Prim>& prims);
 
 TreeNode primTree(const Prim& prim) {
     TreeNode to = node(Kind::Object);
-    to.members.emplace_back("specifier", text(prim.specifier));
-    if (!prim.typeName.empty()) to.members.emplace_back("typeName", text(prim.typeName));
-    to.members.emplace_back("name", text(prim.name));
-    if (!prim.metadata.empty()) to.members.emplace_back("metadata", object(prim.metadata));
+    addMember(to, "specifier", text(prim.specifier));
+    if (!prim.typeName.empty()) addMember(to, "typeName", text(prim.typeName));
+    addMember(to, "name", text(prim.name));
+    if (!prim.metadata.empty()) addMember(to, "metadata", object(prim.metadata));
     if (!prim.properties.empty()) {
         TreeNode properties = node(Kind::Object);
         for (const auto& [name, property] : prim.properties)
-            properties.members.emplace_back(name, propertyTree(property));
-        to.members.emplace_back("properties", std::move(properties));
+            addMember(properties, name, propertyTree(property));
+        addMember(to, "properties", std::move(properties));
     }
     addAll(to, prim.other);
-    if (!prim.children.empty()) to.members.emplace_back("primChildren", primTrees(prim.children));
+    if (!prim.children.empty()) addMember(to, "primChildren", primTrees(prim.children));
     return to;
 }
 
@@ -94,11 +99,11 @@ TreeNode primTrees(const std::vector<Prim>& prims) {
 
 TreeNode layerTree(const Layer& layer) {
     TreeNode to = node(Kind::Object);
-    to.members.emplace_back("format", text("osgtss"));
-    to.members.emplace_back("formatVersion", text(layer.formatVersion));
-    if (!layer.metadata.empty()) to.members.emplace_back("metadata", object(layer.metadata));
+    addMember(to, "format", text("osgtss"));
+    addMember(to, "formatVersion", text(layer.formatVersion));
+    if (!layer.metadata.empty()) addMember(to, "metadata", object(layer.metadata));
     addAll(to, layer.other);
-    if (!layer.children.empty()) to.members.emplace_back("primChildren", primTrees(layer.children));
+    if (!layer.children.empty()) addMember(to, "primChildren", primTrees(layer.children));
     return to;
 }
 

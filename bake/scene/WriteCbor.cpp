@@ -26,7 +26,7 @@ public:
         case TreeNode::Kind::Time:
             return number(node.time);
         case TreeNode::Kind::Object:
-            return members(node.members);
+            return members(node.elements);
         case TreeNode::Kind::Array:
             return elements(node.elements);
         }
@@ -80,9 +80,9 @@ private:
     template <class Members>
     void members(const Members& members) {
         head(Map, members.size());
-        for (const auto& [key, value] : members) {
-            text(key);
-            write(value);
+        for (const auto& member : members) {
+            text(memberKey(member));
+            write(memberValue(member));
         }
     }
 

@@ -31,7 +31,7 @@ public:
         case TreeNode::Kind::Leaf:
             return write(*node.value, node.asFloat, indent);
         case TreeNode::Kind::Object:
-            return writeObject(node.members, indent);
+            return writeObject(node.elements, indent);
         case TreeNode::Kind::Array:
             return writeArray(node.elements, indent);
         default:
@@ -71,7 +71,7 @@ private:
             appendScalar(out, node.time, false);
             break;
         case TreeNode::Kind::Object:
-            return inlineObject(node.members, budget);
+            return inlineObject(node.elements, budget);
         case TreeNode::Kind::Array:
             return inlineArray(node.elements, budget, false);
         }
@@ -106,12 +106,12 @@ private:
     bool inlineObject(const Members& members, std::size_t budget) {
         out += '{';
         bool first = true;
-        for (const auto& [key, value] : members) {
+        for (const auto& member : members) {
             if (!first) out += ", ";
             first = false;
-            appendQuoted(out, key);
+            appendQuoted(out, memberKey(member));
             out += ": ";
-            if (!inlineNode(value, budget, false)) return false;
+            if (!inlineNode(memberValue(member), budget, false)) return false;
         }
         out += '}';
         return out.size() <= budget;
@@ -162,13 +162,13 @@ private:
     void writeObject(const Members& members, std::size_t indent) {
         out += '{';
         bool first = true;
-        for (const auto& [key, value] : members) {
+        for (const auto& member : members) {
             if (!first) out += ',';
             first = false;
             newLine(indent + 1);
-            appendQuoted(out, key);
+            appendQuoted(out, memberKey(member));
             out += ": ";
-            write(value, false, indent + 1);
+            write(memberValue(member), false, indent + 1);
         }
         newLine(indent);
         out += '}';
