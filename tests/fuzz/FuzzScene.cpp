@@ -1,0 +1,58 @@
+#include "bake/base/Error.h"
+#include "bake/scene/ReadLayer.h"
+#include "bake/scene/ReadScene.h"
+#include "bake/scene/SourceHash.h"
+#include "bake/scene/StoreTables.h"
+#include "bake/scene/WriteLayer.h"
+#include "bake/scene/WriteUsda.h"
+
+#include <cstdlib>
+
+using namespace tss;
+
+namespace {
+
+void require(bool holds) {
+    if (!holds) std::abort();
+}
+
+/// Whatever could be read is written so that it reads back the same, in both encodings.
+void checkRoundTrip(const Layer& layer) {
+    const std::string json = writeJson(layer), cbor = writeCbor(layer);
+    require(writeJson(parseLayer(json, "")) == json);
+    require(writeCbor(parseLayer(cbor, "")) == cbor);
+    require(writeJson(parseLayer(cbor, "")) == json);
+    require(!writeUsda(layer).empty());
+}
+
+/// A scene that was accepted can be saved, and is then the same scene.
+void checkScene(const std::shared_ptr<const Layer>& layer) {
+    const SceneModel scene = readScene(layer, "fuzz.tss");
+    for (const Pair& pair : scene.pairs) staleness(scene, pair);
+    for (const SkinModel& skin : scene.skins) staleness(scene, skin);
+    Layer saved = *layer;
+    storeTables(saved, scene);
+    const std::string once = writeJson(saved);
+    const SceneModel again = readScene(saved, "fuzz.tss");
+    storeTables(saved, again);
+    require(writeJson(saved) == once);
+}
+
+} // namespace
+
+/// libFuzzer's entry: any bytes, JSON or CBOR, are either a scene or an InputError.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+    try {
+        const auto layer = std::make_shared<const Layer>(parseLayer(bytes, "fuzz.tss"));
+        checkRoundTrip(*layer);
+        checkScene(layer);
+    } catch (const InputError&) {
+    }
+    Problems all("fuzz.tss", Problems::Mode::Collect); // reading on after a problem must be as safe
+    try {
+        readScene(std::make_shared<const Layer>(parseLayer(bytes, "fuzz.tss", all)), all);
+    } catch (const InputError&) {
+    }
+    return 0;
+}
