@@ -68,6 +68,8 @@ public:
     /// Two points of B at a distance of 1 move apart (as vectors) by no more than this, and by no more than
     /// the second away from what their Jacobians say. Both scale with the distance.
     double relativeMove() const { return relativeMove_; }
+    /// The part of relativeMove() that DOF k adds.
+    double relativeShare(std::size_t k) const { return axes_[k].chord; }
     double relativeRemainder() const { return relativeRemainder_; }
 
 private:

@@ -30,6 +30,7 @@ struct Problem {
     double margin;
     std::unique_ptr<std::atomic<char>[]> reached; ///< one a node: all below it is
     std::vector<std::uint32_t> parents;
+    std::atomic<std::uint64_t> tests{0}; ///< balls looked at
 };
 
 void buildTree(Problem& p, std::span<const Patch> patches) {
@@ -83,6 +84,7 @@ Look look(const Problem& p, const CellMotion& motion, const Pose& inverse, const
 class Marker {
 public:
     explicit Marker(Problem& problem) : p_(problem) {}
+    ~Marker() { p_.tests += tests_; }
 
     void run(const CellTree& tree, const std::vector<std::uint32_t>& inherited) {
         Cell cell = tree.cell;
@@ -94,6 +96,7 @@ public:
             const std::uint32_t n = stack.back();
             stack.pop_back();
             if (p_.reached[n].load(std::memory_order_relaxed)) continue;
+            ++tests_;
             const Ball& ball = p_.balls[n];
             const Look at = look(p_, motion, inverse, ball);
             const double within = (ball.radius + at.move + p_.margin) * (1 + 1e-9) + 1e-13 * at.centre.norm();
@@ -134,12 +137,18 @@ private:
 
     std::size_t widest(const CellMotion& motion, const Ball& ball) const {
         const Vec3 x = p_.side == Side::B ? Vec3(motion.centrePose() * ball.centre) : ball.centre;
-        const auto share = motion.shares(x);
+        auto share = motion.shares(x);
+        // The turns move the ball's points about its centre too, which may lie on an axis and have no share
+        // itself; and turns so wide that no bound exists for A are halved before anything else.
+        const bool unbounded = p_.side == Side::A && motion.relativeMove() >= 1;
+        for (std::size_t k = 0; k < motion.dofs(); ++k)
+            share[k] = unbounded ? motion.relativeShare(k) : share[k] + motion.relativeShare(k) * ball.radius;
         return static_cast<std::size_t>(std::max_element(share.begin(), share.begin() + motion.dofs()) -
                                         share.begin());
     }
 
     Problem& p_;
+    std::uint64_t tests_ = 0;
 };
 
 /// The nodes of the tree some levels down, to spread over threads.
@@ -162,10 +171,14 @@ std::vector<std::uint32_t> topNodes(const Bvh& tree, std::size_t count) {
     return now;
 }
 
+struct Kept {
+    std::vector<Patch> patches;
+    std::uint64_t tests = 0;
+};
+
 /// The patches that come within reach, judged as they are.
-std::vector<Patch> reached(std::span<const Patch> patches, Side side, const MeshQuery& other,
-                           const MotionRates& rates, const CellTree& cells, double resolution,
-                           double margin) {
+Kept reached(std::span<const Patch> patches, Side side, const MeshQuery& other, const MotionRates& rates,
+             const CellTree& cells, double resolution, double margin) {
     if (patches.empty()) return {};
     Problem p{side, other, rates, {}, {}, resolution, margin, {}, {}};
     buildTree(p, patches);
@@ -175,10 +188,26 @@ std::vector<Patch> reached(std::span<const Patch> patches, Side side, const Mesh
     for (std::uint32_t n = 0; n < p.tree.nodes.size(); ++n)
         for (std::uint32_t i = 0; i < p.tree.nodes[n].count; ++i)
             keep[p.tree.items[p.tree.nodes[n].first + i]] = p.reached[n];
-    std::vector<Patch> kept;
+    Kept kept;
     for (std::size_t i = 0; i < patches.size(); ++i)
-        if (keep[i]) kept.push_back(patches[i]);
+        if (keep[i]) kept.patches.push_back(patches[i]);
+    kept.tests = p.tests;
     return kept;
+}
+
+/// The same with cells of Q as small as pays: from large ones on, each time on what the last time left. With
+/// many DOFs the number of cells explodes; then larger ones decide, which keeps more surface than need be.
+std::vector<Patch> reachedInBudget(std::vector<Patch> patches, Side side, const MeshQuery& other,
+                                   const MotionRates& rates, const CellTree& cells, double size,
+                                   double margin) {
+    constexpr double budget = 4e6; // tests, about a microsecond each
+    const double growth = std::pow(2.0, static_cast<double>(rates.motion().dofCount()));
+    for (double resolution = 8 * size; !patches.empty(); resolution /= 2) {
+        Kept kept = reached(patches, side, other, rates, cells, resolution, margin);
+        patches = std::move(kept.patches);
+        if (resolution <= size / 2 || static_cast<double>(kept.tests) * growth > budget) break;
+    }
+    return patches;
 }
 
 void halveTo(const Patch& patch, double radius, std::vector<Patch>& out) {
@@ -206,7 +235,7 @@ std::vector<Patch> findReach(std::span<const Patch> patches, Side side, const Me
     for (double step = std::max(size, largestRadius(now));; step = std::max(size, step / 4)) {
         std::vector<Patch> fine;
         for (const Patch& patch : now) halveTo(patch, step, fine);
-        now = reached(fine, side, other, rates, cells, step / 2, margin);
+        now = reachedInBudget(std::move(fine), side, other, rates, cells, step, margin);
         if (!report(progress, "reach", size / step) || now.empty()) break;
         if (step <= size) break;
     }

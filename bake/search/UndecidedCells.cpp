@@ -75,9 +75,11 @@ Verdict judge(const Problem& p, const CellMotion& motion, const std::vector<Node
     return open.empty() ? Verdict::Free : Verdict::Open;
 }
 
+/// The DOF that moves the spheres of B most; counts their spread about the centre, which may lie on an axis.
 std::size_t widest(const Problem& p, const CellMotion& motion) {
     const SphereTree::Node& root = p.treeB[0];
-    const auto share = motion.shares(motion.centrePose() * root.centre + root.radius * Vec3::UnitX());
+    auto share = motion.shares(motion.centrePose() * root.centre);
+    for (std::size_t k = 0; k < motion.dofs(); ++k) share[k] += motion.relativeShare(k) * root.radius;
     return static_cast<std::size_t>(std::max_element(share.begin(), share.begin() + motion.dofs()) -
                                     share.begin());
 }
