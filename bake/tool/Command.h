@@ -35,5 +35,8 @@ void addInfo(CLI::App& app, Console& console);
 void addQuery(CLI::App& app, Console& console);
 void addPlay(CLI::App& app, Console& console);
 void addValidate(CLI::App& app, Console& console);
+void addConvert(CLI::App& app, Console& console);
+void addBench(CLI::App& app, Console& console);
+void addReport(CLI::App& app, Console& console); ///< only with OSGTSS_REPORT
 
 } // namespace tss::tool

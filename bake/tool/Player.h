@@ -18,7 +18,7 @@ public:
         double gap = 0;                         ///< smallest of all tables at these values
         JointStatus status = JointStatus::Free; ///< the gravest of all
         std::vector<double> residualDepths;     ///< one a skin: how deep its vertices are in the muscles'
-                                            ///< surfaces beyond their depth at rest, scene units
+                                                ///< surfaces beyond their depth at rest, scene units
     };
     Step step(const std::vector<double>& asked, double timeCode);
 

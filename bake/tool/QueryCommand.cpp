@@ -2,6 +2,7 @@
 #include "bake/base/Error.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/table/Query.h"
+#include "bake/tool/ChoosePair.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/Csv.h"
 #include "bake/tool/DofSpec.h"
@@ -15,15 +16,6 @@ namespace {
 struct QueryArguments {
     std::string scene, pair, poses, output;
 };
-
-const Pair& choosePair(const SceneModel& scene, const std::string& path, const std::string& file) {
-    if (path.empty() && scene.pairs.size() == 1) return scene.pairs[0];
-    const int found = findPair(scene, path);
-    if (found >= 0) return scene.pairs[found];
-    std::string known;
-    for (const Pair& pair : scene.pairs) known += (known.empty() ? "" : ", ") + pair.path;
-    throw InputError(Where{file, "", path}, "no such pair; expected --pair with one of: " + known);
-}
 
 void runQuery(const QueryArguments& arguments, const Console& console) {
     const SceneModel scene = loadScene(arguments.scene);

@@ -34,6 +34,11 @@ int main(int argc, char** argv) {
     addQuery(app, console);
     addPlay(app, console);
     addValidate(app, console);
+    addConvert(app, console);
+    addBench(app, console);
+#ifdef OSGTSS_HAVE_REPORT
+    addReport(app, console);
+#endif
     try {
         app.parse(argc, argv);
         return console.exitCode;

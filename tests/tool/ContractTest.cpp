@@ -23,7 +23,8 @@ void writeSwing(const Folder& folder) {
 
 TEST_CASE("every command answers --help with exit 0, and an unknown one is a usage error") {
     const Folder folder;
-    for (const char* command : {"make", "bake", "merge", "info", "verify", "query", "play", "validate"}) {
+    for (const char* command :
+         {"make", "bake", "merge", "info", "query", "play", "validate", "convert", "bench"}) {
         const Ran help = runTss(std::string(command) + " --help", folder.path());
         CHECK(help.exit == 0);
         CHECK(help.out.find("--json") != std::string::npos);
@@ -138,4 +139,27 @@ TEST_CASE("with --json one object stands on stdout, also when it fails") {
     CHECK(ran.exit == 1);
     const Json error = Json::parse(ran.out);
     CHECK(error["error"]["file"] == "missing.tss");
+}
+
+TEST_CASE("a scene goes from JSON to binary and back without a change, and to .usda") {
+    const Folder folder;
+    writeSwing(folder);
+    REQUIRE(runTss("bake swing.tss -o a.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
+    REQUIRE(runTss("convert a.tss b.tss --binary", folder.path()).exit == 0);
+    REQUIRE(runTss("convert b.tss c.tss", folder.path()).exit == 0);
+    REQUIRE(runTss("convert c.tss d.usda", folder.path()).exit == 0);
+    CHECK(readText(folder.path() / "a.tss") == readText(folder.path() / "c.tss"));
+    CHECK(readText(folder.path() / "a.tss") != readText(folder.path() / "b.tss"));
+    CHECK(readText(folder.path() / "d.usda").starts_with("#usda 1.0"));
+    CHECK(runTss("info b.tss", folder.path()).exit == 0);
+}
+
+TEST_CASE("pairs baked apart and merged give the bytes of the plain bake") {
+    const Folder folder;
+    writeSwing(folder);
+    REQUIRE(runTss("bake swing.tss -o whole.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
+    REQUIRE(runTss("bake swing.tss -o part.tss --tolerance 0.5 --pair /swing/Joint --quiet", folder.path())
+                .exit == 0);
+    REQUIRE(runTss("merge swing.tss part.tss -o merged.tss", folder.path()).exit == 0);
+    CHECK(readText(folder.path() / "whole.tss") == readText(folder.path() / "merged.tss"));
 }

@@ -1,0 +1,76 @@
+#include "bake/base/Error.h"
+#include "bake/scene/SceneFile.h"
+#include "bake/table/Bench.h"
+#include "bake/tool/ChoosePair.h"
+#include "bake/tool/Command.h"
+
+#include <fmt/format.h>
+
+namespace tss::tool {
+
+namespace {
+
+struct BenchArguments {
+    std::string scene, pair, kernel = "best", with = "hit";
+    std::uint64_t queries = 10'000'000;
+};
+
+void runBench(const BenchArguments& arguments, const Console& console) {
+    PrepareOptions options;
+    BenchWith with{};
+    if (!kernelTarget(arguments.kernel, options.target))
+        throw InputError("--kernel: expected best, scalar, sse2, avx2, avx512 or neon, found \"" +
+                         arguments.kernel + "\"");
+    if (!benchWith(arguments.with, with))
+        throw InputError("--with: expected hit, gap or contact, found \"" + arguments.with + "\"");
+    const SceneModel scene = loadScene(arguments.scene);
+    const Pair& pair = choosePair(scene, arguments.pair, arguments.scene);
+    if (!pair.table) throw InputError(Where{arguments.scene, "", pair.path}, "has no table to be timed");
+    const PreparedTable table(*pair.table, options);
+    const BenchResult result = benchQueries(table, pair.table->motion, arguments.queries, with);
+    const char* form = table.form() == KernelForm::Fold ? "fold" : "direct";
+    const char* precision = table.precision() == KernelPrecision::Float ? "float" : "double";
+    console.say(fmt::format("{}: {} tests, {} bytes; {} {} of {} features, {}", pair.path, table.testCount(),
+                            table.bytes(), precision, form, table.featureCount(), name(table.target())));
+    console.say(fmt::format("{} queries ({}): {:.2f} ns each, features of a pose {:.2f} ns more; {} hits",
+                            arguments.queries, arguments.with, result.nanoseconds, result.featureNanoseconds,
+                            result.hits));
+    console.say(fmt::format("rounding: verdicts right beyond {:.3g} of contact, gaps within {:.3g}",
+                            table.signBand(), table.gapBand()));
+    console.print({{"path", pair.path},
+                   {"tests", table.testCount()},
+                   {"bytes", table.bytes()},
+                   {"kernel", name(table.target())},
+                   {"form", form},
+                   {"precision", precision},
+                   {"features", table.featureCount()},
+                   {"with", arguments.with},
+                   {"queries", arguments.queries},
+                   {"ns", result.nanoseconds},
+                   {"featureNs", result.featureNanoseconds},
+                   {"hits", result.hits},
+                   {"signBand", table.signBand()},
+                   {"gapBand", table.gapBand()}});
+}
+
+} // namespace
+
+void addBench(CLI::App& app, Console& console) {
+    CLI::App* command =
+        addCommand(app, console, "bench", "times the query alone, over poses made beforehand");
+    auto arguments = std::make_shared<BenchArguments>();
+    command->add_option("scene", arguments->scene, "a baked scene")->required();
+    command->add_option("--pair", arguments->pair, "prim path of the pair (not needed when there is one)");
+    command->add_option("--queries", arguments->queries, "how many")->capture_default_str();
+    command->add_option("--kernel", arguments->kernel, "best, scalar, sse2, avx2, avx512 or neon")
+        ->capture_default_str();
+    command
+        ->add_option("--with", arguments->with,
+                     "hit, gap (and test) or contact (and point, normal, gradient)")
+        ->capture_default_str();
+    command->footer(
+        "Instructions a query: run under callgrind with two values of --queries and divide the difference.");
+    command->callback([arguments, &console] { runBench(*arguments, console); });
+}
+
+} // namespace tss::tool

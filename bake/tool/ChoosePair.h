@@ -1,0 +1,12 @@
+#pragma once
+#include "bake/scene/SceneModel.h"
+
+#include <string>
+
+namespace tss::tool {
+
+/// The pair of this prim path, or the only one of the scene when the path is empty. Throws InputError that
+/// names the file and the pairs there are.
+const Pair& choosePair(const SceneModel& scene, const std::string& path, const std::string& file);
+
+} // namespace tss::tool
