@@ -1,0 +1,141 @@
+#include "bake/verify/Models.h"
+
+#include "bake/verify/PoseBox.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tss::verify {
+
+namespace {
+
+/// Calls visit(i, j, gap) for the pairs that overlap at a pose.
+template <typename Visit>
+void overlaps(const Models& m, const Pose& pose, Visit&& visit) {
+    if (m.a.empty() || m.b.empty()) return;
+    std::vector<std::pair<std::int32_t, std::int32_t>> stack{{m.treeA.root(), m.treeB.root()}};
+    while (!stack.empty()) {
+        const auto [ia, ib] = stack.back();
+        stack.pop_back();
+        const auto &x = m.treeA.balls[static_cast<std::size_t>(ia)],
+                   &y = m.treeB.balls[static_cast<std::size_t>(ib)];
+        const double gap = (pose * y.centre - x.centre).norm() - x.radius - y.radius;
+        if (gap > 1e-12 * m.size) continue;
+        if (x.first < 0 && y.first < 0) {
+            visit(SpherePair{x.sphere, y.sphere}, gap);
+        } else if (y.first < 0 || (x.first >= 0 && x.radius > y.radius)) {
+            stack.push_back({x.first, ib});
+            stack.push_back({x.second, ib});
+        } else {
+            stack.push_back({ia, y.first});
+            stack.push_back({ia, y.second});
+        }
+    }
+}
+
+/// The sphere of the set that is this one to the bit, or the one that it sticks out of least, and by how
+/// much.
+struct Match {
+    std::uint32_t index = 0;
+    bool same = false;
+    double out = std::numeric_limits<double>::infinity();
+};
+
+Match matchSphere(const Sphere& sphere, const SphereSet& set) {
+    Match best;
+    for (std::uint32_t i = 0; i < set.size(); ++i) {
+        if (set[i].centre == sphere.centre && set[i].radius == sphere.radius) return {i, true, 0};
+        const double out = (set[i].centre - sphere.centre).norm() + sphere.radius - set[i].radius;
+        if (out < best.out) best = {i, false, out};
+    }
+    return best;
+}
+
+bool sameDof(const Dof& x, const Dof& y) {
+    if (x.kind != y.kind) return false;
+    if (x.kind == DofKind::Rotation) return x.axis == y.axis && x.origin == y.origin;
+    if (x.kind == DofKind::Translation) return x.axis == y.axis;
+    return x.frame.matrix() == y.frame.matrix() &&
+           std::equal(x.path.begin(), x.path.end(), y.path.begin(), y.path.end(),
+                      [](const auto& p, const auto& q) {
+                          return p.value == q.value && p.translation == q.translation &&
+                                 p.rotation.coeffs() == q.rotation.coeffs();
+                      });
+}
+
+} // namespace
+
+Models::Models(const SphereSet& a, const SphereSet& b, const Motion& motion, RestOverlaps atRest)
+    : a(a), b(b), motion(motion), treeA(a), treeB(b), atRest(atRest) {
+    double reachA = 0, reachB = 0;
+    for (const Sphere& s : a) reachA = std::max(reachA, s.centre.norm() + s.radius);
+    for (const Sphere& s : b) reachB = std::max(reachB, s.centre.norm() + s.radius);
+    size = reachA + coordinateBound(motion, reachB);
+    if (!a.empty() && !b.empty()) extent = treeA.balls.back().radius + treeB.balls.back().radius;
+    if (atRest == RestOverlaps::Collide) return;
+    const std::vector<double> rest = restValues(motion);
+    overlaps(*this, tss::pose(motion, rest), [&](SpherePair pair, double gap) {
+        if (gap < 0) restGaps[pair] = gap;
+    });
+}
+
+double Models::reach(SpherePair pair) const {
+    const double sum = a[pair.a].radius + b[pair.b].radius;
+    const auto at = restGaps.find(pair);
+    if (at == restGaps.end()) return sum;
+    if (atRest == RestOverlaps::Ignore) return -1;
+    // What the baker may leave out: a slack of 1e-6 of the radii below the gap at rest.
+    return sum + at->second - 1e-6 * sum;
+}
+
+std::vector<Test> matchTests(const Models& models, const Table& table, double band, std::string& reason) {
+    std::vector<Test> tests;
+    std::vector<Match> matchA, matchB;
+    for (const Sphere& s : table.a) matchA.push_back(matchSphere(s, models.a));
+    for (const Sphere& s : table.b) matchB.push_back(matchSphere(s, models.b));
+    const auto alien = [&](const Match& m) {
+        return !m.same && (table.epsilon == 0 || m.out > table.epsilon + band);
+    };
+    for (std::size_t i = 0; i < matchA.size() && reason.empty(); ++i)
+        if (alien(matchA[i]))
+            reason = "sphere " + std::to_string(i) + " of the table's A is none of the model's";
+    for (std::size_t j = 0; j < matchB.size() && reason.empty(); ++j)
+        if (alien(matchB[j]))
+            reason = "sphere " + std::to_string(j) + " of the table's B is none of the model's";
+    for (std::uint32_t i = 0; i + 1 < table.rowOffsets.size(); ++i)
+        for (std::uint32_t k = table.rowOffsets[i]; k < table.rowOffsets[i + 1]; ++k) {
+            const std::uint32_t j = table.columns[k];
+            const double rest = table.restGaps.empty() ? 0 : table.restGaps[k];
+            Test test{table.a[i].centre, table.b[j].centre, table.a[i].radius + table.b[j].radius + rest, {}};
+            const SpherePair pair{matchA[i].index, matchB[j].index};
+            if (matchA[i].same && matchB[j].same) test.same = pair;
+            // A pair with an offset may report as late as its slack allows, but no earlier than its own gap
+            // at rest.
+            const double sum = models.a[pair.a].radius + models.b[pair.b].radius;
+            const double latest = models.reach(pair) + (models.restGaps.count(pair) ? 2e-6 * sum : 0);
+            if (reason.empty() && test.reach > latest + 2 * table.epsilon + band)
+                reason = "test " + std::to_string(k) + " of the table reports contact before its pair does";
+            tests.push_back(test);
+        }
+    return tests;
+}
+
+std::string motionMismatch(const Motion& made, const Motion& asked) {
+    if (made.dofCount() != asked.dofCount()) return "the table was made for another number of DOFs";
+    if (made.base.matrix() != asked.base.matrix()) return "the table was made for another placement of B";
+    for (std::size_t k = 0; k < asked.dofCount(); ++k) {
+        const Dof &x = made.dofs[k], &y = asked.dofs[k];
+        if (!sameDof(x, y)) return "DOF " + std::to_string(k) + " is not the one the table was made for";
+        if (y.lower < x.lower || y.upper > x.upper)
+            return "the limits of DOF " + std::to_string(k) + " are wider than those the table was made for";
+    }
+    for (const LimitPlane& plane : made.planes)
+        if (std::none_of(asked.planes.begin(), asked.planes.end(), [&](const LimitPlane& other) {
+                return other.coefficients == plane.coefficients && other.bound <= plane.bound;
+            }))
+            return "a limit plane that the table was made for is gone";
+    return {};
+}
+
+} // namespace tss::verify

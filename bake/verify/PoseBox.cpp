@@ -1,0 +1,175 @@
+#include "bake/verify/PoseBox.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace tss::verify {
+
+namespace {
+
+/// Sums and products of bounds are themselves rounded; a relative hair, far above their error, keeps them
+/// bounds.
+constexpr double outward = 1 + 1e-12;
+
+} // namespace
+
+Box limitsOf(const Motion& motion) {
+    Box box;
+    for (const Dof& dof : motion.dofs) {
+        box.lower.push_back(dof.lower);
+        box.upper.push_back(dof.upper);
+    }
+    return box;
+}
+
+bool meetsPlanes(const Motion& motion, const Box& box) {
+    for (const LimitPlane& plane : motion.planes) {
+        double least = 0, size = std::abs(plane.bound);
+        for (std::size_t k = 0; k < box.lower.size(); ++k) {
+            const double c = plane.coefficients[k];
+            least += std::min(c * box.lower[k], c * box.upper[k]);
+            size += std::abs(c) * std::max(std::abs(box.lower[k]), std::abs(box.upper[k]));
+        }
+        if (least > plane.bound + 1e-13 * size) return false;
+    }
+    return true;
+}
+
+double coordinateBound(const Motion& motion, double reach) {
+    double bound = reach + motion.base.translation().norm();
+    for (const Dof& dof : motion.dofs) {
+        switch (dof.kind) {
+        case DofKind::Rotation:
+            bound += 2 * dof.origin.norm();
+            break;
+        case DofKind::Translation:
+            bound += dof.axis.norm() * std::max(std::abs(dof.lower), std::abs(dof.upper));
+            break;
+        case DofKind::Path: {
+            double far = 0;
+            for (const PathRow& row : dof.path) far = std::max(far, row.translation.norm());
+            bound += 2 * dof.frame.translation().norm() + far;
+            break;
+        }
+        }
+    }
+    return bound * outward;
+}
+
+PoseBox::PoseBox(const Motion& motion, const Box& box, double size) : base_(motion.base) {
+    // Each link is a rotation made from sines and cosines and a handful of products and sums of numbers <=
+    // size: 64 units of rounding a link are several times what they can add up to.
+    error_ = 64 * double(motion.dofCount() + 2) * 0x1p-53 * size;
+    // Axes and quaternions may be off unit length by what checkMotion() grants.
+    for (const Dof& dof : motion.dofs) {
+        if (dof.kind == DofKind::Rotation) error_ += 4 * std::abs(dof.axis.norm() - 1) * size;
+        double off = 0;
+        for (const PathRow& row : dof.path) off = std::max(off, std::abs(row.rotation.norm() - 1));
+        error_ += 8 * off * size;
+    }
+    double outer = 0;
+    for (std::size_t k = 0; k < motion.dofCount(); ++k) {
+        middle_.push_back(box.middle(k));
+        links_.push_back(makeLink(motion.dofs[k], box.lower[k], box.upper[k], middle_[k]));
+        const Link& link = links_.back();
+        const double angle = link.spinRate * link.half;
+        turn_ += 2 * std::sin(std::min(angle, std::numbers::pi) / 2) * outward;
+        turnBend_ += 0.5 * angle * angle + angle * outer;
+        if (link.bent) turnBend_ = std::numeric_limits<double>::infinity();
+        outer += angle;
+    }
+    turn_ = std::min(turn_, 2.0) + 1e-14;
+    turnBend_ = turnBend_ * outward + 1e-14;
+}
+
+PoseBox::Link PoseBox::makeLink(const Dof& dof, double lower, double upper, double middle) const {
+    Link link;
+    link.pose = dofPose(dof, middle);
+    link.spin = link.slide = link.centre = Vec3::Zero();
+    link.half = std::max(upper - middle, middle - lower) * outward;
+    link.cut = middle;
+    switch (dof.kind) {
+    case DofKind::Rotation:
+        link.spin = dof.axis;
+        link.centre = dof.origin;
+        link.spinRate = dof.axis.norm() * outward;
+        break;
+    case DofKind::Translation:
+        link.slide = dof.axis;
+        link.slideRate = dof.axis.norm() * outward;
+        break;
+    case DofKind::Path:
+        addPath(link, dof, lower, upper, middle);
+        break;
+    }
+    return link;
+}
+
+void PoseBox::addPath(Link& link, const Dof& dof, double lower, double upper, double middle) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < dof.path.size(); ++i) {
+        const PathRow &from = dof.path[i], &to = dof.path[i + 1];
+        if (to.value < lower || from.value > upper) continue;
+        const double width = to.value - from.value;
+        // Twice the half angle between the two quaternions, the short way, as slerp turns.
+        Eigen::Quaterniond step = to.rotation * from.rotation.conjugate();
+        if (step.w() < 0) step.coeffs() = -step.coeffs();
+        const double sine = step.vec().norm();
+        const double angle = 2 * std::atan2(sine, step.w());
+        const Vec3 axis = sine > 0 ? Vec3(step.vec() / sine) : Vec3::Zero();
+        link.spinRate = std::max(link.spinRate, angle / width * outward);
+        link.slideRate =
+            std::max(link.slideRate, (to.translation - from.translation).norm() / width * outward);
+        if (from.value > lower && from.value < upper && std::abs(from.value - middle) < nearest) {
+            nearest = std::abs(from.value - middle);
+            link.bent = true;
+            link.cut = from.value;
+        }
+        if (middle >= from.value && middle <= to.value) {
+            link.spin = dof.frame.linear() * axis * (angle / width);
+            link.slide = dof.frame.linear() * (to.translation - from.translation) / width;
+            link.centre = link.pose * dof.frame.translation();
+        }
+    }
+}
+
+MovingPoint PoseBox::carry(const Vec3& y, bool velocities) const {
+    MovingPoint point;
+    point.at = base_ * y;
+    double bend = 0;
+    if (velocities) point.velocity.assign(links_.size(), Vec3::Zero());
+    for (std::size_t k = links_.size(); k-- > 0;) {
+        const Link& link = links_[k];
+        const double angle = link.spinRate * link.half;
+        point.at = link.pose * point.at;
+        const Vec3 arm = point.at - link.centre;
+        // From the centre, or for a true axis from the axis.
+        const double lever = (link.spinRate == 0 ? 0
+                              : link.bent        ? arm.norm()
+                                                 : link.spin.cross(arm).norm() / link.spinRate * outward) +
+                             point.move + error_;
+        // Inside this link nothing has turned yet: the bend so far is carried along, rotated. The new parts
+        // are the curve of this link's own arc and the turning of what the inner links' motion adds.
+        const double speed = link.spinRate * lever + link.slideRate;
+        double inner = 0;
+        if (velocities) {
+            for (std::size_t l = k + 1; l < links_.size(); ++l) {
+                point.velocity[l] = link.pose.linear() * point.velocity[l];
+                inner += (point.velocity[l].norm() + error_) * links_[l].half;
+            }
+            point.velocity[k] = link.spin.cross(arm) + link.slide;
+            bend = (bend * (1 + angle) + 0.5 * angle * angle * lever + angle * inner) * outward;
+            if (link.bent) bend = std::numeric_limits<double>::infinity();
+        }
+        const double chord =
+            2 * std::sin(std::min(angle, std::numbers::pi) / 2) * lever + link.slideRate * link.half;
+        point.move = (point.move + std::min(chord, speed * link.half)) * outward;
+    }
+    point.move += error_;
+    point.bend = velocities ? bend + 4 * error_ : std::numeric_limits<double>::infinity();
+    return point;
+}
+
+} // namespace tss::verify

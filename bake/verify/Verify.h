@@ -1,0 +1,47 @@
+#pragma once
+#include "bake/base/Progress.h"
+#include "bake/table/Table.h"
+
+#include <optional>
+
+namespace tss {
+
+/// What the baker was told to do with sphere pairs that overlap at rest (METHOD 2.4).
+enum class RestOverlaps { Offset, Ignore, Collide };
+
+struct VerifyOptions {
+    RestOverlaps atRest = RestOverlaps::Offset;
+    double band = -1; ///< rounding band granted on top of the table's epsilon, scene units; < 0: 1e-9 of the
+                      ///< coordinates' size
+    std::uint64_t cells = 0; ///< give up after about so many cells of Q; 0: never
+};
+
+/// What came out of re-proving a table.
+struct VerifyResult {
+    bool proven = false; ///< the table keeps its promise at every pose of Q
+    std::string reason;  ///< why not, in words; empty when proven
+    std::vector<double>
+        pose;       ///< DOF values that break it, or at which nothing could be decided; may be empty
+    double lag = 0; ///< at that pose: gap of the table - what it promised, scene units
+    std::optional<SpherePair> pair; ///< at that pose: the pair of the whole sets that the table misses
+    double band = 0;                ///< rounding band that was granted
+    std::uint64_t cells = 0;        ///< cells of Q looked at
+};
+
+/// Proves again, with code of its own and without trust in the baker (METHOD 3.6):
+/// - the table was made for this motion: same DOFs, the limits not wider than its own;
+/// - its spheres are spheres of the whole sets (to the bit for epsilon 0, else not sticking out by more than
+/// epsilon)
+///   and its rest gaps are theirs: so it never reports what the models do not;
+/// - at every pose of Q where the models' gap is <= gapMargin, the table's is <= max(gap, -gapDepth) +
+/// epsilon. a, b: the whole sphere sets. Rounding errors are bounded beforehand and count against the table.
+/// Deterministic.
+VerifyResult verifyTable(const SphereSet& a, const SphereSet& b, const Table& table, const Motion& motion,
+                         const VerifyOptions& options = {}, const Progress& progress = {});
+
+/// The same for a proof that the two bodies never collide: their gap stays > clearance at every pose.
+VerifyResult verifyNeverCollides(const SphereSet& a, const SphereSet& b, double clearance,
+                                 const Motion& motion, const VerifyOptions& options = {},
+                                 const Progress& progress = {});
+
+} // namespace tss
