@@ -1,14 +1,13 @@
 #include "bake/respond/SkinContact.h"
 
+#include "bake/respond/SkinWalk.h"
+
 #include <algorithm>
-#include <limits>
-#include <utility>
 
 namespace tss {
 namespace {
 
-constexpr int selected = 2;         ///< spheres whose triangles are looked at
-constexpr int walkSteps = 6;        ///< triangles that a poke walks over, at most
+constexpr int walkSteps = 8;        ///< triangles that a look-up walks over, at most
 constexpr double leastFacing = 0.1; ///< cosine between muscle and skin at which a contact is not believed ...
 constexpr double fullFacing = 0.5;  ///< ... and from which on it is
 
@@ -24,12 +23,10 @@ bool isIdentity(const Pose& pose) {
 /// Normals of a closed muscle, weighted by area: smooth enough, and cheap.
 void findNormals(const std::vector<Tri>& triangles, PlacedMuscle& placed) {
     placed.normals.assign(placed.surface.size(), Vec3::Zero());
-    placed.faces.resize(triangles.size());
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const Tri& t = triangles[i];
+    for (const Tri& t : triangles) {
         const Vec3& a = placed.surface[t[0]];
-        placed.faces[i] = (placed.surface[t[1]] - a).cross(placed.surface[t[2]] - a);
-        for (int k = 0; k < 3; ++k) placed.normals[t[k]] += placed.faces[i];
+        const Vec3 n = (placed.surface[t[1]] - a).cross(placed.surface[t[2]] - a);
+        for (int k = 0; k < 3; ++k) placed.normals[t[k]] += n;
     }
     for (Vec3& n : placed.normals) n.normalize();
 }
@@ -43,6 +40,12 @@ void follow(const MuscleTrack& track, double activation, const Pose* pose, std::
     }
 }
 
+/// The triangle to walk from: that of the node before, or the one after where it has none.
+int startAt(const int* triangles, const TrackPlace& place) {
+    const int before = triangles[place.node];
+    return before >= 0 || place.t == 0 ? before : triangles[place.node + 1];
+}
+
 void place(const SkinMuscle& muscle, double activation, const Pose& pose, PlacedMuscle& placed) {
     if (placed.activation == activation && placed.pose.matrix() == pose.matrix()) return;
     placed.activation = activation;
@@ -52,9 +55,6 @@ void place(const SkinMuscle& muscle, double activation, const Pose& pose, Placed
     follow(muscle.surface, activation, moved, placed.surface);
     follow(muscle.spheres, activation, moved, placed.centres);
     findNormals(muscle.triangles, placed);
-    placed.moved.resize(placed.surface.size());
-    for (std::size_t v = 0; v < placed.moved.size(); ++v)
-        placed.moved[v] = (placed.surface[v] - muscle.rest[v]).norm();
     placed.radii.resize(muscle.radii.size());
     const TrackPlace at = locate(muscle.spheres.nodes, activation);
     for (std::size_t i = 0; i < placed.radii.size(); ++i)
@@ -105,60 +105,32 @@ void placeMuscles(const SkinRig& rig, std::span<const double> activations, std::
 
 SkinContact rowContact(const SkinRig& rig, const SkinScene& scene, std::size_t index) {
     const SkinRow& row = rig.rows[index];
+    const SkinMuscle& muscle = rig.muscles[row.muscle];
+    const PlacedMuscle& placed = scene.muscles[row.muscle];
     const Vec3& x = scene.predicted[row.vertex];
-    const Vec3& facing = rig.restNormals[row.vertex];
-
-    const SkinTest* best[selected] = {};
-    double gaps[selected];
-    std::fill(gaps, gaps + selected, std::max(rig.travel, row.radius));
-    for (std::uint32_t k = row.first; k < row.last; ++k) {
-        const SkinTest& test = rig.tests[k];
-        const PlacedMuscle& muscle = scene.muscles[test.muscle];
-        double gap = (x - muscle.centres[test.sphere]).norm() - muscle.radii[test.sphere] - row.radius;
-        const SkinTest* candidate = &test;
-        for (int s = 0; s < selected; ++s)
-            if (gap < gaps[s]) {
-                std::swap(gap, gaps[s]);
-                std::swap(candidate, best[s]);
-            }
-    }
-
-    double nearest = std::numeric_limits<double>::infinity();
-    Vec3 weights = Vec3::Zero(), point = Vec3::Zero();
-    Tri corners = Tri::Zero();
-    const PlacedMuscle* on = nullptr;
-    for (const SkinTest* test : best) {
-        if (!test) continue;
-        const SkinMuscle& muscle = rig.muscles[test->muscle];
-        const PlacedMuscle& placed = scene.muscles[test->muscle];
-        for (std::uint32_t k = muscle.behindStart[test->sphere]; k < muscle.behindStart[test->sphere + 1];
-             ++k) {
-            if (placed.faces[muscle.behind[k]].dot(facing) <= 0) continue;
-            const Tri& t = muscle.triangles[muscle.behind[k]];
-            const Vec3 &a = placed.surface[t[0]], &b = placed.surface[t[1]], &c = placed.surface[t[2]];
-            const Vec3 w = nearestOnTriangle(x, a, b, c);
-            const Vec3 p = w[0] * a + w[1] * b + w[2] * c;
-            const double d = (x - p).squaredNorm();
-            if (!(d < nearest)) continue;
-            nearest = d;
-            weights = w;
-            point = p;
-            corners = t;
-            on = &placed;
-        }
-    }
+    const double limit = row.radius + std::max(rig.travel, row.radius);
     SkinContact contact;
-    if (!on) return contact;
-    const Vec3 smooth = (weights[0] * on->normals[corners[0]] + weights[1] * on->normals[corners[1]] +
-                         weights[2] * on->normals[corners[2]])
-                            .normalized();
-    contact.normal = pushDirection(smooth, x - point, row.radius);
-    contact.trust = trust(smooth.dot(facing));
+    bool near = false;
+    for (std::uint32_t k = row.first; k < row.last && !near; ++k) {
+        const std::uint32_t sphere = rig.tests[k].sphere;
+        const double reach = limit + placed.radii[sphere];
+        near = (x - placed.centres[sphere]).squaredNorm() <= reach * reach;
+    }
+    const int start = near ? startAt(&rig.rowTriangles[row.triangles], placed.dragPlace) : -1;
+    if (start < 0) return contact;
+
+    const auto at = [&](int v) -> const Vec3& { return placed.surface[v]; };
+    const SurfacePoint hit = walkDownhill(x, start, muscle.triangles, muscle.across, at, walkSteps);
+    const Tri& corners = muscle.triangles[hit.triangle];
+    Vec3 smooth = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) smooth += hit.weights[k] * placed.normals[corners[k]];
+    smooth.normalize();
+    contact.trust = trust(smooth.dot(rig.restNormals[row.vertex]));
+    if (!(contact.trust > 0)) return contact;
+    contact.normal = pushDirection(smooth, x - hit.point, row.radius);
     for (std::uint32_t& v : contact.vertex) v = row.vertex;
     contact.weight[0] = 1;
-    contact.distance = contact.normal.dot(rig.rest[row.vertex] - point);
-    contact.moved = (x - rig.rest[row.vertex]).norm();
-    for (int k = 0; k < 3; ++k) contact.moved += weights[k] * on->moved[corners[k]];
+    contact.distance = contact.normal.dot(rig.rest[row.vertex] - hit.point);
     return contact;
 }
 
@@ -166,48 +138,25 @@ SkinContact pokeContact(const SkinRig& rig, const SkinScene& scene, std::size_t 
     const SkinPoke& poke = rig.pokes[index];
     const PlacedMuscle& muscle = scene.muscles[poke.muscle];
     const Vec3& x = muscle.surface[poke.vertex];
-    const auto at = [&](int v) -> const Vec3& { return scene.predicted[v]; };
-
     SkinContact contact;
-    int triangle = rig.pokeTriangles[poke.first + muscle.dragPlace.node];
-    if (triangle < 0 && muscle.dragPlace.t > 0)
-        triangle = rig.pokeTriangles[poke.first + muscle.dragPlace.node + 1];
-    if (triangle < 0) return contact;
-    // From the triangle known at the node downhill to the nearest one.
-    double nearest = std::numeric_limits<double>::infinity();
-    Vec3 weights = Vec3::Zero(), point = Vec3::Zero();
-    Tri corners = Tri::Zero();
-    for (int step = 0, next = triangle; step < walkSteps && next >= 0; ++step) {
-        const int from = std::exchange(next, -1);
-        for (int k = step == 0 ? -1 : 0; k < 3; ++k) {
-            const int candidate = k < 0 ? from : rig.across[from][k];
-            if (candidate < 0) continue;
-            const Tri& t = rig.triangles[candidate];
-            const Vec3 w = nearestOnTriangle(x, at(t[0]), at(t[1]), at(t[2]));
-            const Vec3 p = w[0] * at(t[0]) + w[1] * at(t[1]) + w[2] * at(t[2]);
-            const double d = (x - p).squaredNorm();
-            if (!(d < nearest)) continue;
-            nearest = d;
-            weights = w;
-            point = p;
-            corners = t;
-            next = candidate;
-        }
-    }
-    Vec3 normal = Vec3::Zero();
-    for (int i = 0; i < 3; ++i) normal += weights[i] * rig.restNormals[corners[i]];
-    normal.normalize();
-    contact.trust = trust(normal.dot(muscle.normals[poke.vertex]));
+    const int start = startAt(&rig.pokeTriangles[poke.triangles], muscle.dragPlace);
+    if (start < 0) return contact;
+
+    const auto at = [&](int v) -> const Vec3& { return scene.predicted[v]; };
+    const SurfacePoint hit = walkDownhill(x, start, rig.triangles, rig.across, at, walkSteps);
+    const Tri& corners = rig.triangles[hit.triangle];
+    Vec3 smooth = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) smooth += hit.weights[k] * rig.restNormals[corners[k]];
+    smooth.normalize();
+    contact.trust = trust(smooth.dot(muscle.normals[poke.vertex]));
     if (!(contact.trust > 0)) return contact;
     contact.normal =
-        pushDirection((normal + muscle.normals[poke.vertex]).normalized(), point - x, poke.radius);
+        pushDirection((smooth + muscle.normals[poke.vertex]).normalized(), hit.point - x, poke.radius);
     Vec3 onSkin = Vec3::Zero();
-    contact.moved = muscle.moved[poke.vertex];
-    for (int i = 0; i < 3; ++i) {
-        contact.vertex[i] = static_cast<std::uint32_t>(corners[i]);
-        contact.weight[i] = weights[i];
-        onSkin += weights[i] * rig.rest[corners[i]];
-        contact.moved += weights[i] * (at(corners[i]) - rig.rest[corners[i]]).norm();
+    for (int k = 0; k < 3; ++k) {
+        contact.vertex[k] = static_cast<std::uint32_t>(corners[k]);
+        contact.weight[k] = hit.weights[k];
+        onSkin += hit.weights[k] * rig.rest[corners[k]];
     }
     contact.distance = contact.normal.dot(onSkin - x);
     return contact;

@@ -13,9 +13,7 @@ struct PlacedMuscle {
     Pose pose = Pose::Identity();
     TrackPlace dragPlace;      ///< between the nodes of its drag
     std::vector<Vec3> surface; ///< #V, skin's frame
-    std::vector<double> moved; ///< #V, distance from rest
     std::vector<Vec3> normals; ///< #V, outward, unit
-    std::vector<Vec3> faces;   ///< #F, outward, length of no meaning
     std::vector<Vec3> centres; ///< #spheres
     std::vector<double> radii; ///< #spheres
 };
@@ -39,8 +37,7 @@ struct SkinContact {
     double weight[3] = {0, 0, 0}; ///< sum 1
     Vec3 normal = Vec3::Zero();   ///< unit; zero: nothing within reach
     double distance = 0;          ///< of the rest places from the plane: normal . sum weight_k rest_k - level
-    double moved = 0; ///< how far skin and muscle have come here since rest, both added
-    double trust = 1; ///< 0..1: 1 where skin and surface face the same way, falling smoothly to 0
+    double trust = 1;             ///< 0..1: 1 where skin and surface face the same way, falling smoothly to 0
 
     bool found() const { return normal != Vec3::Zero(); }
 };

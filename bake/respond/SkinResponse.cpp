@@ -7,7 +7,7 @@ namespace tss {
 namespace {
 
 /// Change of a displacement in a sweep, as a share of the skin's size, at which the skin has settled.
-constexpr double settledShare = 1e-8;
+constexpr double settledShare = 2e-9;
 constexpr int pushRounds = 8; ///< of the faithful mode
 
 double activationOf(std::span<const double> activations, const SkinMuscle& muscle, std::size_t m) {
@@ -19,9 +19,9 @@ double activationOf(std::span<const double> activations, const SkinMuscle& muscl
 } // namespace
 
 SkinResponse::SkinResponse(std::shared_ptr<const SkinRig> rig)
-    : rig_(std::move(rig)), solver_(rig_->sheet), planes_(rig_->rows.size() + rig_->pokes.size()),
-      positions_(rig_->rest), normals_(rig_->restNormals), activations_(rig_->muscles.size(), 0),
-      poses_(rig_->muscles.size(), Pose::Identity()) {}
+    : rig_(std::move(rig)), solver_(rig_->contactPatch.sheet),
+      planes_(rig_->rows.size() + rig_->pokes.size()), positions_(rig_->rest), normals_(rig_->restNormals),
+      activations_(rig_->muscles.size(), 0), poses_(rig_->muscles.size(), Pose::Identity()) {}
 
 SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<const Pose> poses) {
     bool same = true, rest = true;
@@ -67,15 +67,16 @@ void SkinResponse::toRest() {
 
 /// [paper] Each skin sphere leaves the muscle sphere that it is deepest in, until it is in none.
 void SkinResponse::pushOut() {
+    positions_ = rig_->rest;
     for (std::size_t r = 0; r < rig_->rows.size(); ++r) {
         const SkinRow& row = rig_->rows[r];
-        Vec3 x = rig_->rest[row.vertex];
+        const PlacedMuscle& muscle = scene_.muscles[row.muscle];
+        Vec3 x = positions_[row.vertex];
         for (int round = 0; round < pushRounds; ++round) {
             double deepest = 0;
             Vec3 push = Vec3::Zero();
             for (std::uint32_t k = row.first; k < row.last; ++k) {
                 const SkinTest& test = rig_->tests[k];
-                const PlacedMuscle& muscle = scene_.muscles[test.muscle];
                 const Vec3 away = x - muscle.centres[test.sphere];
                 const double distance = away.norm();
                 const double depth = muscle.radii[test.sphere] + row.radius + test.restGap - distance;
@@ -97,11 +98,15 @@ void SkinResponse::pushOut() {
 void SkinResponse::solve() {
     findContacts();
     const float tolerance = static_cast<float>(settledShare * rig_->size);
-    residual_ = solver_.solve(scene_.reference, planes_, rig_->parameters.iterations, tolerance);
+    const std::vector<std::uint32_t>& patch = rig_->contactPatch.vertices;
+    reference_.resize(patch.size());
+    for (std::size_t i = 0; i < patch.size(); ++i) reference_[i] = scene_.reference[patch[i]];
+    residual_ = solver_.solve(reference_, planes_, rig_->parameters.iterations, tolerance);
     settled_ = residual_ <= tolerance;
     const std::span<const Move> moves = solver_.displacements();
     for (std::size_t v = 0; v < positions_.size(); ++v)
-        positions_[v] = rig_->rest[v] + (scene_.drag[v] + moves[v]).head<3>().cast<double>();
+        positions_[v] = rig_->rest[v] + scene_.drag[v].head<3>().cast<double>();
+    for (std::size_t i = 0; i < patch.size(); ++i) positions_[patch[i]] += moves[i].head<3>().cast<double>();
 }
 
 void SkinResponse::findContacts() {
@@ -111,7 +116,6 @@ void SkinResponse::findContacts() {
             i < rows ? rowContact(*rig_, scene_, i) : pokeContact(*rig_, scene_, i - rows);
         const double offset = i < rows ? rig_->rowOffsets[i] : rig_->pokeOffsets[i - rows];
         const double radius = i < rows ? rig_->rows[i].radius : rig_->pokes[i - rows].radius;
-        const double before = i < rows ? rig_->rowDistances[i] : rig_->pokeDistances[i - rows];
         SheetPlane& plane = planes_[i];
         Vec3 predicted = Vec3::Zero();
         for (int k = 0; k < 3; ++k)
@@ -119,10 +123,7 @@ void SkinResponse::findContacts() {
                 contact.weight[k] * (scene_.predicted[contact.vertex[k]] - rig_->rest[contact.vertex[k]]);
         const double distance = contact.distance + contact.normal.dot(predicted);
         Move normal = Move::Zero();
-        // Distances cannot change faster than things move: what seems deeper than that was reached through
-        // some other side of the muscle or a fold of the skin, and is no contact.
-        if (distance >= before - contact.moved - 1e-12 * rig_->size)
-            normal.head<3>() = contact.normal.cast<float>();
+        normal.head<3>() = contact.normal.cast<float>();
         // A push carried over to a normal that has turned away would cycle.
         if (normal.dot(plane.normal) < 0.5f) plane.multiplier = 0;
         plane.normal = normal;
@@ -132,8 +133,10 @@ void SkinResponse::findContacts() {
         double bound = offset - contact.distance - excess;
         for (int k = 0; k < 3; ++k) {
             const std::uint32_t v = contact.vertex[k];
-            plane.vertex[k] = v;
-            plane.weight[k] = static_cast<float>(contact.weight[k]);
+            const std::uint32_t inPatch = rig_->contactIndex[v];
+            const bool moves = inPatch != SkinRig::outside;
+            plane.vertex[k] = moves ? inPatch : 0;
+            plane.weight[k] = moves ? static_cast<float>(contact.weight[k]) : 0.0f;
             bound -= contact.weight[k] * contact.normal.dot(scene_.drag[v].head<3>().cast<double>());
         }
         plane.bound = static_cast<float>(bound);

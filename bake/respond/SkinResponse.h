@@ -57,6 +57,7 @@ private:
     SkinScene scene_;
     SkinSolver solver_;
     std::vector<SheetPlane> planes_; ///< rows, then pokes
+    std::vector<Move> reference_;    ///< of the contact patch
     std::vector<Vec3> positions_, normals_;
     std::vector<double> activations_;
     std::vector<Pose> poses_;

@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/respond/SkinContact.h"
 #include "bake/respond/SkinRigParts.h"
+#include "bake/respond/SkinWalk.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +14,11 @@ namespace {
 
 using rig::Closeness;
 
-constexpr double carryReach = 4;   ///< in thicknesses: height at which a muscle lets go of the skin
-constexpr double sheetReach = 24;  ///< in thicknesses: how far beyond what is held or hit the sheet moves
-constexpr double rimStiffness = 8; ///< extra hold at the edge of the touched part, falling off inwards
+constexpr double carryReach = 6;    ///< in thicknesses: height at which a muscle lets go of the skin
+constexpr double sheetReach = 24;   ///< in thicknesses: how far beyond what is held or hit the sheet moves
+constexpr double contactReach = 12; ///< in thicknesses: how far around what may be pushed the sheet gives way
+constexpr int dragSteps = 6;        ///< nodes of a drag, without the first
+constexpr double rimStiffness = 8;  ///< extra hold at the edge of the touched part, falling off inwards
 
 void checkNumber(double value, const char* what) {
     if (!(value >= 0) || !std::isfinite(value))
@@ -157,8 +160,11 @@ void addHolds(SkinRig& rig, const Touched& touched, const std::vector<std::vecto
         for (SkinCarry& c : muscle.carried) c.pull *= rig.sheet.inverseMass[c.vertex];
 }
 
-void addTracks(SkinRig& rig, const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
-               const SkinTable& table, const std::vector<std::vector<Closeness>>& close) {
+/// Returns where each sphere of the table is among its own muscle's.
+std::vector<std::uint32_t> addTracks(SkinRig& rig,
+                                     const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
+                                     const SkinTable& table,
+                                     const std::vector<std::vector<Closeness>>& close) {
     std::vector<std::vector<Sphere>> spheres(muscles.size());
     std::vector<std::uint32_t> own(table.table.b.size());
     for (std::size_t b = 0; b < table.table.b.size(); ++b) {
@@ -183,32 +189,72 @@ void addTracks(SkinRig& rig, const std::vector<std::shared_ptr<const MuscleDefor
         muscle.skin = makeTrack(deformer, points, nodes);
         muscle.rest = deformer.muscle().surface.vertices;
         muscle.triangles = deformer.muscle().surface.triangles;
-        rig::addBehind(muscle, deformer.muscle().surface, spheres[m]);
     }
+    return own;
+}
+
+/// Splits each row of the table by the muscles that it meets.
+void addRows(SkinRig& rig, const SkinTable& table, const Touched& touched,
+             const std::vector<std::uint32_t>& own) {
     const Table& t = table.table;
-    for (const SpherePair& pair : tests(t)) {
-        const std::size_t k = rig.tests.size();
-        rig.tests.push_back({table.muscleOf[pair.b], own[pair.b], t.restGaps.empty() ? 0 : t.restGaps[k]});
-    }
+    for (std::size_t i = 0; i < t.a.size(); ++i)
+        for (std::uint32_t m = 0; m < rig.muscles.size(); ++m) {
+            SkinRow row;
+            row.vertex = touched.indexOf[table.skinVertices[i]];
+            row.muscle = m;
+            row.radius = t.a[i].radius;
+            row.first = static_cast<std::uint32_t>(rig.tests.size());
+            for (std::uint32_t k = t.rowOffsets[i]; k < t.rowOffsets[i + 1]; ++k)
+                if (table.muscleOf[t.columns[k]] == m)
+                    rig.tests.push_back({own[t.columns[k]], t.restGaps.empty() ? 0 : t.restGaps[k]});
+            row.last = static_cast<std::uint32_t>(rig.tests.size());
+            if (row.last > row.first) rig.rows.push_back(row);
+        }
 }
 
 /// What each row and poke keeps: its own distance at rest where that is less than the thickness. Found by the
 /// look-up of the run time, or the skin would never come back to rest (METHOD 6.2).
-void addOffsets(SkinRig& rig, double reach) {
+void addOffsets(SkinRig& rig) {
     SkinScene scene;
     const std::vector<double> none(rig.muscles.size(), 0.0);
     placeMuscles(rig, none, std::vector<Pose>(rig.muscles.size(), Pose::Identity()), scene);
     for (std::size_t i = 0; i < rig.rows.size(); ++i) {
         const double radius = rig.rows[i].radius;
         const SkinContact c = rowContact(rig, scene, i);
-        rig.rowDistances.push_back(c.found() ? c.distance : radius + std::max(rig.travel, radius));
-        rig.rowOffsets.push_back(std::min(rig.rowDistances.back(), radius));
+        rig.rowOffsets.push_back(c.found() ? std::min(c.distance, radius) : radius);
     }
     for (std::size_t i = 0; i < rig.pokes.size(); ++i) {
         const SkinContact c = pokeContact(rig, scene, i);
-        rig.pokeDistances.push_back(c.found() ? c.distance : reach);
-        rig.pokeOffsets.push_back(std::min(rig.pokeDistances.back(), rig.pokes[i].radius));
+        rig.pokeOffsets.push_back(c.found() ? std::min(c.distance, rig.pokes[i].radius)
+                                            : rig.pokes[i].radius);
     }
+}
+
+void addDrags(SkinRig& rig, const TriangleMesh& skin, const rig::Rings& rings,
+              const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles, double reach) {
+    for (std::size_t m = 0; m < rig.muscles.size(); ++m) {
+        SkinMuscle& muscle = rig.muscles[m];
+        const Muscle& source = muscles[m]->muscle();
+        muscle.drag.nodes = activationNodes(source.activationLower, source.activationUpper, dragSteps);
+        std::vector<std::uint32_t> carried;
+        for (const SkinCarry& c : muscle.carried) carried.push_back(c.vertex);
+        rig::addDrag(rig, rig::patchAround(rig, skin, rings, carried, reach), muscle);
+    }
+}
+
+void addContactPatch(SkinRig& rig, const TriangleMesh& skin, const rig::Rings& rings, double reach) {
+    std::vector<std::uint32_t> vertices;
+    for (const SkinRow& row : rig.rows) vertices.push_back(row.vertex);
+    for (const SkinMuscle& muscle : rig.muscles)
+        for (const SkinCarry& c : muscle.carried) vertices.push_back(c.vertex);
+    for (const int t : rig.pokeTriangles)
+        if (t >= 0)
+            for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<std::uint32_t>(rig.triangles[t][k]));
+    rig.contactPatch = rig::patchAround(rig, skin, rings, vertices, reach);
+    // The walk of a poke may end a little outside: there, and beyond, nothing moves.
+    rig.contactIndex.assign(rig.rest.size(), SkinRig::outside);
+    for (std::uint32_t i = 0; i < rig.contactPatch.vertices.size(); ++i)
+        rig.contactIndex[rig.contactPatch.vertices[i]] = i;
 }
 
 } // namespace
@@ -242,23 +288,24 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     std::vector<std::vector<Closeness>> close(muscles.size());
     if (!parameters.faithful)
         for (std::size_t m = 0; m < muscles.size(); ++m)
-            close[m] = rig::closeness(skin, normals, *muscles[m], reach);
+            close[m] = rig::closeness(skin, normals, rings, *muscles[m], reach);
 
     const Touched touched = touch(rig, skin, rings, table, close, thickness, normals);
     addTriangles(rig, skin, touched);
     addHolds(rig, touched, close);
-    addTracks(rig, muscles, table, close);
-    for (std::size_t i = 0; i < table.table.a.size(); ++i)
-        rig.rows.push_back({touched.indexOf[table.skinVertices[i]], table.table.rowOffsets[i],
-                            table.table.rowOffsets[i + 1], table.table.a[i].radius});
+    const std::vector<std::uint32_t> own = addTracks(rig, muscles, table, close);
+    addRows(rig, table, touched, own);
     if (!parameters.faithful) {
         rig::addSheet(rig, rings, touched.indexOf);
-        rig::addAcross(rig);
-        rig::addDrag(rig, muscles);
-        for (std::uint32_t m = 0; m < muscles.size(); ++m)
-            rig::addPokes(rig, *muscles[m], m, thickness, reach);
+        rig.across = trianglesAcross(rig.triangles);
+        addDrags(rig, skin, rings, muscles, touched.reach);
+        for (std::uint32_t m = 0; m < muscles.size(); ++m) {
+            rig::addRowTriangles(rig, m, reach);
+            rig::addPokes(rig, m, thickness, reach);
+        }
     }
-    addOffsets(rig, reach);
+    if (!parameters.faithful) addOffsets(rig);
+    addContactPatch(rig, skin, rings, contactReach * thickness);
     return result;
 }
 

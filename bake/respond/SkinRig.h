@@ -17,7 +17,7 @@ struct SkinParameters {
     std::vector<double> tether;   ///< #V in [0,1], how firmly a vertex keeps its rest place; empty: 0
     std::vector<double> attach;   ///< #V in [0,1], how firmly the muscle below carries it; empty: falls off
                                   ///< smoothly around the end of the fibre that moves
-    int iterations = 12;          ///< most sweeps over all constraints an update, >= 1
+    int iterations = 8;           ///< most sweeps over all constraints an update, >= 1
     bool faithful = false;        ///< [paper] spheres push spheres out, no elastic sheet
 };
 
@@ -38,26 +38,28 @@ struct SkinDrag {
 /// What a rig keeps of one muscle. Everything in the skin's frame.
 struct SkinMuscle {
     std::vector<Tri> triangles;
-    std::vector<Vec3> rest;                 ///< #V
-    MuscleTrack surface;                    ///< #V of the muscle
-    MuscleTrack spheres;                    ///< the spheres of the table that are its own
-    MuscleTrack skin;                       ///< the skin vertices that it carries
-    std::vector<double> radii;              ///< #spheres, at activation 0
-    std::vector<std::uint32_t> behindStart; ///< #spheres + 1, CSR:
-    std::vector<std::uint32_t> behind;      ///< ... triangles that reach into each sphere
-    std::vector<SkinCarry> carried;         ///< one a point of `skin`
+    std::vector<Vec3> rest;         ///< #V
+    MuscleTrack surface;            ///< #V of the muscle
+    MuscleTrack spheres;            ///< the spheres of the table that are its own
+    MuscleTrack skin;               ///< the skin vertices that it carries
+    std::vector<double> radii;      ///< #spheres, at activation 0
+    std::vector<Tri> across;        ///< per triangle the one beyond each edge (k, k+1), -1: none
+    std::vector<SkinCarry> carried; ///< one a point of `skin`
     SkinDrag drag;
 };
 
-/// A row of the table: a skin vertex and its tests, grouped by muscle.
+/// A row of the table, as far as it meets one muscle: a skin vertex and its tests. And the muscle triangle
+/// that it is in front of at each node of the muscle's drag, -1 where there is none.
 struct SkinRow {
-    std::uint32_t vertex = 0;          ///< index into SkinRig::vertices
+    std::uint32_t vertex = 0; ///< index into SkinRig::vertices
+    std::uint32_t muscle = 0;
     std::uint32_t first = 0, last = 0; ///< range in SkinRig::tests
+    std::uint32_t triangles = 0;       ///< in SkinRig::rowTriangles, one a node
     double radius = 0;
 };
 
 struct SkinTest {
-    std::uint32_t muscle = 0, sphere = 0; ///< sphere: index among the muscle's own
+    std::uint32_t sphere = 0; ///< index among the muscle's own
     double restGap = 0;
 };
 
@@ -65,7 +67,7 @@ struct SkinTest {
 /// each node of its muscle's drag, -1 where none is within reach.
 struct SkinPoke {
     std::uint32_t muscle = 0, vertex = 0;
-    std::uint32_t first = 0; ///< in SkinRig::pokeTriangles, one a node
+    std::uint32_t triangles = 0; ///< in SkinRig::pokeTriangles, one a node
     double radius = 0;
 };
 
@@ -77,23 +79,25 @@ struct SkinRig {
     double size = 0;   ///< diagonal of the skin's bounds, scene units
     double travel = 0; ///< of the table
 
-    std::vector<std::uint32_t> vertices; ///< rising; indices into the skin mesh
-    std::vector<Vec3> rest;              ///< places of the touched vertices
-    std::vector<Vec3> restNormals;       ///< unit
-    SkinSheet sheet;                     ///< of the touched vertices; a fixed rim has inverse mass 0
-    std::vector<Tri> triangles;          ///< of touched vertices only
-    std::vector<Tri> normalTriangles;    ///< all that bear on a normal, into vertices then border
-    std::vector<Vec3> border;            ///< places of the untouched corners of normalTriangles
+    std::vector<std::uint32_t> vertices;     ///< rising; indices into the skin mesh
+    std::vector<Vec3> rest;                  ///< places of the touched vertices
+    std::vector<Vec3> restNormals;           ///< unit
+    SkinSheet sheet;                         ///< of the touched vertices; a fixed rim has inverse mass 0
+    SheetPatch contactPatch;                 ///< the part of the sheet that contacts, and poses, move
+    std::vector<std::uint32_t> contactIndex; ///< of each touched vertex in it, or `outside`
+    static constexpr std::uint32_t outside = 0xffffffff;
+    std::vector<Tri> triangles;       ///< of touched vertices only
+    std::vector<Tri> normalTriangles; ///< all that bear on a normal, into vertices then border
+    std::vector<Vec3> border;         ///< places of the untouched corners of normalTriangles
 
     std::vector<SkinMuscle> muscles;
     std::vector<SkinRow> rows;
     std::vector<SkinTest> tests;
     std::vector<SkinPoke> pokes;
-    std::vector<int> pokeTriangles; ///< into triangles
+    std::vector<int> rowTriangles;  ///< into the triangles of the row's muscle
+    std::vector<int> pokeTriangles; ///< into `triangles`
     std::vector<Tri> across;        ///< per triangle the one beyond each edge (k, k+1), -1: none
 
-    /// Distance of each row and poke at rest, or the least it can be where the look-up finds nothing there.
-    std::vector<double> rowDistances, pokeDistances;
     std::vector<double>
         rowOffsets; ///< signed distance that each row keeps, found by the run-time look-up at rest
     std::vector<double> pokeOffsets; ///< the same for the pokes

@@ -8,9 +8,10 @@ namespace tss::rig {
 namespace {
 
 constexpr double attachReach = 0.3; ///< share of the fibre around its moving end over which it is attached
-constexpr int dragSteps = 8;        ///< nodes of a drag, without the first
-constexpr int dragSweeps = 400;
-constexpr double dragTolerance = 1e-7; ///< in sizes of the skin
+constexpr int spreadRounds = 8;
+constexpr double leastCloseness = 0.01;
+constexpr int dragSweeps = 150;
+constexpr double dragTolerance = 5e-7; ///< change of a displacement in a sweep, in sizes of the skin
 
 /// 1 at 0, 0 from 1 on, smooth.
 double falloff(double t) {
@@ -20,113 +21,84 @@ double falloff(double t) {
 
 } // namespace
 
+namespace {
+
+/// Averages values over the skin: folds and edges of the muscle would tear at neighbours otherwise.
+void spread(std::vector<double>& values, const Rings& rings) {
+    std::vector<double> next;
+    for (int round = 0; round < spreadRounds; ++round) {
+        next = values;
+        for (std::size_t v = 0; v < values.size(); ++v) {
+            if (rings.ring[v].empty()) continue;
+            double sum = 0;
+            for (const std::uint32_t w : rings.ring[v]) sum += values[w];
+            next[v] = (values[v] + sum / static_cast<double>(rings.ring[v].size())) / 2;
+        }
+        values.swap(next);
+    }
+}
+
+} // namespace
+
 std::vector<Closeness> closeness(const TriangleMesh& skin, const std::vector<Vec3>& normals,
-                                 const MuscleDeformer& muscle, double reach) {
+                                 const Rings& rings, const MuscleDeformer& muscle, double reach) {
     Eigen::AlignedBox3d box = bounds(muscle.muscle().surface);
     box.min().array() -= reach;
     box.max().array() += reach;
     const double movingEnd = muscle.muscle().anchor < 0.5 ? 1 : 0;
-    std::vector<Closeness> result;
+    std::vector<double> close(skin.vertices.size(), 0), attach(skin.vertices.size(), 0);
     for (std::uint32_t v = 0; v < skin.vertices.size(); ++v) {
         if (!box.contains(skin.vertices[v])) continue;
-        Closeness c{v, muscle.bind(skin.vertices[v]), 0, 0};
-        c.close =
-            falloff((c.point.height / reach - 0.25) / 0.75) * std::max(0.0, c.point.normal.dot(normals[v]));
-        if (!(c.close > 0)) continue;
-        c.attach = c.close * falloff(std::abs(c.point.s - movingEnd) / attachReach);
-        result.push_back(c);
+        const MusclePoint point = muscle.bind(skin.vertices[v]);
+        close[v] =
+            falloff((point.height / reach - 0.25) / 0.75) * std::max(0.0, point.normal.dot(normals[v]));
+        attach[v] = close[v] * falloff(std::abs(point.s - movingEnd) / attachReach);
     }
+    spread(close, rings);
+    spread(attach, rings);
+    std::vector<Closeness> result;
+    for (std::uint32_t v = 0; v < skin.vertices.size(); ++v)
+        if (close[v] > leastCloseness)
+            result.push_back({v, muscle.bind(skin.vertices[v]), close[v] - leastCloseness, attach[v]});
     return result;
 }
 
-void addBehind(SkinMuscle& muscle, const TriangleMesh& surface, const SphereSet& spheres) {
-    std::vector<std::vector<std::uint32_t>> lists(spheres.size());
-    for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
-        const Vec3 &a = surface.corner(t, 0), &b = surface.corner(t, 1), &c = surface.corner(t, 2);
-        double nearest = std::numeric_limits<double>::infinity();
-        std::size_t owner = spheres.size();
-        bool inside = false;
-        for (std::size_t s = 0; s < spheres.size(); ++s) {
-            const Vec3 w = nearestOnTriangle(spheres[s].centre, a, b, c);
-            const double gap =
-                (spheres[s].centre - w[0] * a - w[1] * b - w[2] * c).norm() - spheres[s].radius;
-            if (gap <= 0.1 * spheres[s].radius) {
-                lists[s].push_back(t);
-                inside = true;
-            }
-            if (gap < nearest) {
-                nearest = gap;
-                owner = s;
-            }
-        }
-        if (!inside && owner < spheres.size()) lists[owner].push_back(t);
-    }
-    muscle.behindStart.assign(1, 0);
-    for (const auto& list : lists) {
-        muscle.behind.insert(muscle.behind.end(), list.begin(), list.end());
-        muscle.behindStart.push_back(static_cast<std::uint32_t>(muscle.behind.size()));
-    }
-}
+/// At one node after the other, outwards from activation 0: each is nearly a multiple of the one before.
+void addDrag(const SkinRig& rig, const SheetPatch& patch, SkinMuscle& muscle) {
+    SkinDrag& drag = muscle.drag;
+    drag.vertices = patch.vertices;
+    const std::size_t count = patch.vertices.size();
+    drag.moves.assign(drag.nodes.size() * count, Move::Zero());
+    std::vector<std::uint32_t> indexOf(rig.rest.size(), 0);
+    for (std::uint32_t i = 0; i < count; ++i) indexOf[patch.vertices[i]] = i;
 
-void addDrag(SkinRig& rig, const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles) {
-    const std::size_t count = rig.rest.size();
     const float tolerance = static_cast<float>(dragTolerance * rig.size);
     std::vector<SheetPlane> none;
-    for (std::size_t m = 0; m < rig.muscles.size(); ++m) {
-        SkinMuscle& muscle = rig.muscles[m];
-        const Muscle& source = muscles[m]->muscle();
-        muscle.drag.nodes = activationNodes(source.activationLower, source.activationUpper, dragSteps);
-        SkinSolver solver(rig.sheet);
-        std::vector<std::vector<Move>> solved;
-        std::vector<float> most(count, 0);
-        for (const double a : muscle.drag.nodes) {
-            std::vector<Move> reference(count, Move::Zero());
+    std::vector<Move> reference(count);
+    const auto solveFrom = [&](std::size_t begin, std::size_t end, std::size_t step) {
+        SkinSolver solver(patch.sheet);
+        double before = 0;
+        for (std::size_t n = begin; n != end; n += step) {
+            const double a = drag.nodes[n];
+            std::fill(reference.begin(), reference.end(), Move::Zero());
             const TrackPlace place = locate(muscle.skin.nodes, a);
             for (std::size_t i = 0; i < muscle.carried.size(); ++i) {
                 const SkinCarry& c = muscle.carried[i];
                 const Vec3 d = trackPosition(muscle.skin, place, i) - rig.rest[c.vertex];
-                reference[c.vertex].head<3>() += c.pull * d.cast<float>();
+                reference[indexOf[c.vertex]].head<3>() += c.pull * d.cast<float>();
             }
-            if (a == 0)
-                solver.reset();
-            else
-                solver.solve(reference, none, dragSweeps, tolerance);
-            solved.emplace_back(solver.displacements().begin(), solver.displacements().end());
-            for (std::size_t v = 0; v < count; ++v) most[v] = std::max(most[v], solved.back()[v].norm());
+            if (before != 0) solver.scale(static_cast<float>(a / before));
+            solver.solve(reference, none, dragSweeps, tolerance);
+            std::copy(solver.displacements().begin(), solver.displacements().end(),
+                      drag.moves.begin() + static_cast<std::ptrdiff_t>(n * count));
+            before = a;
         }
-        for (std::uint32_t v = 0; v < count; ++v)
-            if (most[v] > tolerance) muscle.drag.vertices.push_back(v);
-        for (const auto& moves : solved)
-            for (const std::uint32_t v : muscle.drag.vertices) muscle.drag.moves.push_back(moves[v]);
-    }
-}
-
-void addPokes(SkinRig& rig, const MuscleDeformer& muscle, std::uint32_t index, double radius, double reach) {
-    const SkinDrag& drag = rig.muscles[index].drag;
-    const std::vector<Vec3>& rest = muscle.muscle().surface.vertices;
-    std::vector<std::vector<int>> nearest(rest.size(), std::vector<int>(drag.nodes.size(), -1));
-    std::vector<bool> needed(rest.size(), false);
-    for (std::size_t n = 0; n < drag.nodes.size(); ++n) {
-        TriangleMesh skin{rig.rest, rig.triangles};
-        for (std::size_t k = 0; k < drag.vertices.size(); ++k)
-            skin.vertices[drag.vertices[k]] +=
-                drag.moves[n * drag.vertices.size() + k].head<3>().cast<double>();
-        const TriangleMesh surface{muscle.vertices(drag.nodes[n]), muscle.muscle().surface.triangles};
-        const std::vector<Vec3> normals = vertexNormals(surface);
-        const MuscleLocator locator(skin);
-        for (std::size_t v = 0; v < rest.size(); ++v) {
-            const NearestPoint near = locator.nearestFacing(surface.vertices[v], reach, normals[v]);
-            nearest[v][n] = near.triangle;
-            if (near.triangle < 0) continue;
-            for (int k = 0; k < 3; ++k)
-                needed[v] = needed[v] || rig.sheet.inverseMass[rig.triangles[near.triangle][k]] > 0;
-        }
-    }
-    for (std::uint32_t v = 0; v < rest.size(); ++v) {
-        if (!needed[v]) continue;
-        rig.pokes.push_back({index, v, static_cast<std::uint32_t>(rig.pokeTriangles.size()), radius});
-        rig.pokeTriangles.insert(rig.pokeTriangles.end(), nearest[v].begin(), nearest[v].end());
-    }
+    };
+    const auto above = std::upper_bound(drag.nodes.begin(), drag.nodes.end(), 0.0) - drag.nodes.begin();
+    solveFrom(static_cast<std::size_t>(above), drag.nodes.size(), 1);
+    auto below = static_cast<std::size_t>(above);
+    if (below > 0 && drag.nodes[below - 1] == 0) --below;
+    solveFrom(below - 1, std::numeric_limits<std::size_t>::max(), std::numeric_limits<std::size_t>::max());
 }
 
 } // namespace tss::rig

@@ -21,7 +21,7 @@ struct Closeness {
 
 /// The vertices of a skin that a muscle carries. reach: height at which it lets go.
 std::vector<Closeness> closeness(const TriangleMesh& skin, const std::vector<Vec3>& normals,
-                                 const MuscleDeformer& muscle, double reach);
+                                 const Rings& rings, const MuscleDeformer& muscle, double reach);
 
 /// Distance along the edges from the nearest source, infinity beyond `limit`.
 std::vector<double> edgeDistances(const TriangleMesh& skin, const Rings& rings,
@@ -30,17 +30,18 @@ std::vector<double> edgeDistances(const TriangleMesh& skin, const Rings& rings,
 /// Fills edges, bends and ring of the sheet of the touched vertices. Its inverse masses are there already.
 void addSheet(SkinRig& rig, const Rings& rings, const std::vector<std::uint32_t>& indexOf);
 
-/// Solves the drag of each muscle for its nodes.
-void addDrag(SkinRig& rig, const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles);
+/// The part of the sheet within a distance, along the skin, of some touched vertices.
+SheetPatch patchAround(const SkinRig& rig, const TriangleMesh& skin, const Rings& rings,
+                       const std::vector<std::uint32_t>& touched, double reach);
 
-/// The triangles behind each sphere: those that reach into it; a triangle that reaches into none goes to the
-/// nearest one.
-void addBehind(SkinMuscle& muscle, const TriangleMesh& surface, const SphereSet& spheres);
+/// Solves the drag of a muscle for its nodes on a patch of the sheet around what it carries.
+void addDrag(const SkinRig& rig, const SheetPatch& patch, SkinMuscle& muscle);
+
+/// Follows each row over the nodes of its muscle's drag, from activation 0 outwards, over the muscle's
+/// surface.
+void addRowTriangles(SkinRig& rig, std::uint32_t muscle, double reach);
 
 /// The muscle vertices that could poke through the skin, and where under it they are at each node.
-void addPokes(SkinRig& rig, const MuscleDeformer& muscle, std::uint32_t index, double radius, double reach);
-
-/// Fills rig.across.
-void addAcross(SkinRig& rig);
+void addPokes(SkinRig& rig, std::uint32_t muscle, double radius, double reach);
 
 } // namespace tss::rig

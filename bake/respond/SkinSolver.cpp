@@ -8,7 +8,7 @@ namespace {
 
 /// Compliance of a contact as a share of its inverse mass. Contacts hardly fight each other, so far less than
 /// the sheet's floor keeps their multipliers from creeping, and the skin stays nearer to the surface.
-constexpr float contactFloor = 0.002f;
+constexpr float contactFloor = 0.01f;
 
 } // namespace
 
@@ -20,6 +20,11 @@ void SkinSolver::reset() {
     std::fill(u_.begin(), u_.end(), Move::Zero());
     std::fill(stretch_.begin(), stretch_.end(), 0.0f);
     std::fill(bend_.begin(), bend_.end(), Move::Zero());
+}
+
+void SkinSolver::scale(float factor) {
+    for (float& m : stretch_) m *= factor;
+    for (Move& m : bend_) m *= factor;
 }
 
 float SkinSolver::solve(std::span<const Move> reference, std::vector<SheetPlane>& planes, int sweeps,
@@ -98,11 +103,7 @@ inline void SkinSolver::bend(std::size_t b) {
     const Move step = -bend.inverse * (c + bend.compliance * bend_[b]);
     bend_[b] += step;
     u_[bend.centre] += bend.mass * step;
-    const Move part = bend.share * step;
-    for (std::uint32_t k = bend.first; k < bend.last; ++k) {
-        const std::uint32_t v = sheet_.ring[k];
-        u_[v] -= sheet_.inverseMass[v] * part;
-    }
+    for (std::uint32_t k = bend.first; k < bend.last; ++k) u_[sheet_.ring[k]] -= sheet_.ringMass[k] * step;
 }
 
 inline void SkinSolver::push(SheetPlane& p) {

@@ -32,7 +32,17 @@ struct SkinSheet {
     std::vector<SheetEdge> edges;
     std::vector<SheetBend> bends;
     std::vector<std::uint32_t> ring;
+    std::vector<float> ringMass; ///< #ring: w of that vertex times the bend's share
 };
+
+/// A part of a sheet; what lies around it does not move.
+struct SheetPatch {
+    std::vector<std::uint32_t> vertices; ///< of the whole sheet, rising
+    SkinSheet sheet;                     ///< its own indices are into `vertices`
+};
+
+/// inside: #vertices of the whole sheet.
+SheetPatch patchOf(const SkinSheet& whole, const std::vector<bool>& inside);
 
 /// normal . sum weight_k u_k >= bound.
 struct SheetPlane {
@@ -58,6 +68,9 @@ public:
 
     /// Forgets all multipliers.
     void reset();
+
+    /// Multiplies all multipliers: a better start for a problem that is nearly so many times the last one.
+    void scale(float factor);
 
     /// reference: #vertices. Stops early when no displacement changes by more than `tolerance` in a sweep.
     /// Returns the last such change.

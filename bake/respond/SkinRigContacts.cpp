@@ -1,0 +1,133 @@
+#include "bake/respond/SkinRigParts.h"
+#include "bake/respond/SkinWalk.h"
+
+#include <functional>
+
+namespace tss::rig {
+namespace {
+
+constexpr int walkSteps = 40; ///< from one node to the next the way may be long
+constexpr double enterDepth =
+    -0.25; ///< in radii: what is first met deeper than this was not met from outside
+
+/// Skin and muscle at one node of the muscle's drag.
+struct Station {
+    TriangleMesh skin, surface;
+    std::vector<Vec3> skinNormals, surfaceNormals;
+};
+
+std::vector<Station> stations(const SkinRig& rig, const SkinMuscle& muscle) {
+    std::vector<Station> result;
+    const SkinDrag& drag = muscle.drag;
+    for (std::size_t n = 0; n < drag.nodes.size(); ++n) {
+        Station s{{rig.rest, rig.triangles}, {{}, muscle.triangles}, {}, {}};
+        for (std::size_t k = 0; k < drag.vertices.size(); ++k)
+            s.skin.vertices[drag.vertices[k]] +=
+                drag.moves[n * drag.vertices.size() + k].head<3>().cast<double>();
+        const TrackPlace place = locate(muscle.surface.nodes, drag.nodes[n]);
+        for (std::size_t v = 0; v < muscle.surface.points; ++v)
+            s.surface.vertices.push_back(trackPosition(muscle.surface, place, v));
+        s.skinNormals = vertexNormals(s.skin);
+        s.surfaceNormals = vertexNormals(s.surface);
+        result.push_back(std::move(s));
+    }
+    return result;
+}
+
+/// One point at each station against a surface that moves too: found where it comes into reach from outside,
+/// then followed over the surface. triangles: one a station, -1 where there is none.
+struct Follower {
+    double reach = 0, radius = 0;
+    bool pointOutside = true; ///< the point belongs in front of the surface; a poke belongs behind it
+    const std::vector<Tri>& across;
+    std::function<const TriangleMesh&(std::size_t)> surface;
+    std::function<Vec3(std::size_t)> point, facing;
+    std::function<NearestPoint(std::size_t, const Vec3&, const Vec3&)> find;
+
+    int next(std::size_t station, int before, bool atRest) const {
+        const TriangleMesh& mesh = surface(station);
+        const Vec3 x = point(station);
+        if (before >= 0) {
+            const auto place = [&](int v) -> const Vec3& { return mesh.vertices[v]; };
+            return walkDownhill(x, before, mesh.triangles, across, place, walkSteps).triangle;
+        }
+        const NearestPoint near = find(station, x, facing(station));
+        if (near.triangle < 0 || atRest) return near.triangle;
+        const Vec3& a = mesh.corner(near.triangle, 0);
+        const Vec3 normal =
+            (mesh.corner(near.triangle, 1) - a).cross(mesh.corner(near.triangle, 2) - a).normalized();
+        const double height = (pointOutside ? 1 : -1) * normal.dot(x - near.point);
+        return height >= enterDepth * radius ? near.triangle : -1;
+    }
+
+    void follow(std::size_t count, std::size_t rest, int* triangles) const {
+        triangles[rest] = next(rest, -1, true);
+        for (std::size_t n = rest + 1; n < count; ++n) triangles[n] = next(n, triangles[n - 1], false);
+        for (std::size_t n = rest; n-- > 0;) triangles[n] = next(n, triangles[n + 1], false);
+    }
+};
+
+std::size_t restNode(const SkinDrag& drag) {
+    std::size_t best = 0;
+    for (std::size_t n = 0; n < drag.nodes.size(); ++n)
+        if (std::abs(drag.nodes[n]) < std::abs(drag.nodes[best])) best = n;
+    return best;
+}
+
+} // namespace
+
+void addRowTriangles(SkinRig& rig, std::uint32_t index, double reach) {
+    SkinMuscle& muscle = rig.muscles[index];
+    muscle.across = trianglesAcross(muscle.triangles);
+    const std::vector<Station> at = stations(rig, muscle);
+    std::vector<MuscleLocator> locators;
+    locators.reserve(at.size());
+    for (const Station& s : at) locators.emplace_back(s.surface);
+    for (SkinRow& row : rig.rows) {
+        if (row.muscle != index) continue;
+        row.triangles = static_cast<std::uint32_t>(rig.rowTriangles.size());
+        rig.rowTriangles.resize(rig.rowTriangles.size() + at.size(), -1);
+        const Follower follower{reach,
+                                row.radius,
+                                true,
+                                muscle.across,
+                                [&](std::size_t n) -> const TriangleMesh& { return at[n].surface; },
+                                [&](std::size_t n) { return at[n].skin.vertices[row.vertex]; },
+                                [&](std::size_t) { return rig.restNormals[row.vertex]; },
+                                [&](std::size_t n, const Vec3& x, const Vec3& f) {
+                                    return locators[n].nearestFacing(x, reach, f);
+                                }};
+        follower.follow(at.size(), restNode(muscle.drag), &rig.rowTriangles[row.triangles]);
+    }
+}
+
+void addPokes(SkinRig& rig, std::uint32_t index, double radius, double reach) {
+    const SkinMuscle& muscle = rig.muscles[index];
+    const std::vector<Station> at = stations(rig, muscle);
+    std::vector<MuscleLocator> locators;
+    locators.reserve(at.size());
+    for (const Station& s : at) locators.emplace_back(s.skin);
+    std::vector<int> triangles(at.size());
+    for (std::uint32_t v = 0; v < muscle.rest.size(); ++v) {
+        const Follower follower{reach,
+                                radius,
+                                false,
+                                rig.across,
+                                [&](std::size_t n) -> const TriangleMesh& { return at[n].skin; },
+                                [&](std::size_t n) { return at[n].surface.vertices[v]; },
+                                [&](std::size_t n) { return at[n].surfaceNormals[v]; },
+                                [&](std::size_t n, const Vec3& x, const Vec3& f) {
+                                    return locators[n].nearestFacing(x, reach, f);
+                                }};
+        follower.follow(at.size(), restNode(muscle.drag), triangles.data());
+        bool needed = false;
+        for (const int t : triangles)
+            for (int k = 0; k < 3 && t >= 0; ++k)
+                needed = needed || rig.sheet.inverseMass[rig.triangles[t][k]] > 0;
+        if (!needed) continue;
+        rig.pokes.push_back({index, v, static_cast<std::uint32_t>(rig.pokeTriangles.size()), radius});
+        rig.pokeTriangles.insert(rig.pokeTriangles.end(), triangles.begin(), triangles.end());
+    }
+}
+
+} // namespace tss::rig

@@ -1,0 +1,58 @@
+#pragma once
+#include "bake/motion/MuscleLocator.h"
+
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace tss {
+
+/// Where a walk over a surface has ended.
+struct SurfacePoint {
+    int triangle = -1;
+    Vec3 weights = Vec3::Zero(); ///< barycentric
+    Vec3 point = Vec3::Zero();
+    double squared = std::numeric_limits<double>::infinity(); ///< distance
+};
+
+/// From a triangle downhill over the edges to the nearest point of the surface around. What is near through
+/// the solid or across a fold is never reached, so that the answer moves without jumps when the surface does.
+/// place(v): where vertex v is.
+template <class Place>
+SurfacePoint walkDownhill(const Vec3& x, int start, const std::vector<Tri>& triangles,
+                          const std::vector<Tri>& across, const Place& place, int steps) {
+    SurfacePoint best;
+    const auto look = [&](int triangle) {
+        const Tri& t = triangles[triangle];
+        const Vec3 w = nearestOnTriangle(x, place(t[0]), place(t[1]), place(t[2]));
+        const Vec3 p = w[0] * place(t[0]) + w[1] * place(t[1]) + w[2] * place(t[2]);
+        const double d = (x - p).squaredNorm();
+        if (d < best.squared) best = {triangle, w, p, d};
+    };
+    look(start);
+    for (int step = 0; step < steps; ++step) {
+        const int from = best.triangle;
+        // Only an edge that the nearest point lies on leads downhill.
+        const Vec3 w = best.weights;
+        for (int k = 0; k < 3; ++k)
+            if (w[(k + 2) % 3] <= 0 && across[from][k] >= 0) look(across[from][k]);
+        if (best.triangle == from) break;
+    }
+    return best;
+}
+
+/// The triangle beyond each edge (k, k+1) of each triangle, -1 where there is none.
+inline std::vector<Tri> trianglesAcross(const std::vector<Tri>& triangles) {
+    std::map<std::pair<int, int>, int> sides;
+    for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
+        for (int k = 0; k < 3; ++k) sides[{triangles[t][k], triangles[t][(k + 1) % 3]}] = t;
+    std::vector<Tri> across(triangles.size(), Tri(-1, -1, -1));
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const auto other = sides.find({triangles[t][(k + 1) % 3], triangles[t][k]});
+            if (other != sides.end()) across[t][k] = other->second;
+        }
+    return across;
+}
+
+} // namespace tss
