@@ -7,13 +7,14 @@ namespace tss {
 
 namespace {
 
-/// Gap and rate of every near pair at q; thresholds rise as pairs free themselves.
-void observe(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws) {
+/// Gap and rate of every active pair at q; thresholds rise as pairs free themselves.
+void observe(const JointModel& model, const JointValues& q, const JointValues& way, std::size_t activeCount,
+             JointWorkspace& ws) {
     placeGroups(model, q, way, ws);
     std::uint32_t at = ~0u;
     DofTwist whole;
-    for (std::size_t i = 0; i < ws.nearCount; ++i) {
-        NearPair& near = ws.near[i];
+    for (std::size_t i = 0; i < activeCount; ++i) {
+        NearPair& near = ws.near[ws.active[i]];
         const JointModel::Pair& pair = model.pairs[near.pair];
         const MotionFrame& frame = ws.frames[pair.group];
         if (pair.group != at) {
@@ -53,12 +54,12 @@ double timeToRow(const JointModel::Group& group, const JointValues& q, const Joi
 
 /// The time for which no near pair can reach its threshold, 0 when one is there.
 double freeTime(const JointModel& model, const JointValues& q, const JointValues& way, double left,
-                JointWorkspace& ws) {
+                std::size_t activeCount, const JointWorkspace& ws) {
     double time = left;
     std::uint32_t at = ~0u;
     double row = HUGE_VAL;
-    for (std::size_t i = 0; i < ws.nearCount; ++i) {
-        const NearPair& near = ws.near[i];
+    for (std::size_t i = 0; i < activeCount; ++i) {
+        const NearPair& near = ws.near[ws.active[i]];
         const double room = near.gap - near.threshold;
         if (near.speed * time < room) continue;
         if (near.rate < 0 && room < 0.05 * model.off) return 0;
@@ -93,11 +94,20 @@ void boundMotion(const JointModel& model, const JointValues& way, NearPair& near
 
 double advance(const JointModel& model, const JointValues& way, JointValues& q, JointWorkspace& ws) {
     const JointValues start = q;
-    for (std::size_t i = 0; i < ws.nearCount; ++i) boundMotion(model, way, ws.near[i]);
+    std::size_t activeCount = 0;
+    for (std::size_t i = 0; i < ws.nearCount; ++i) {
+        NearPair& near = ws.near[i];
+        boundMotion(model, way, near);
+        if (near.gap - near.threshold <= near.speed) ws.active[activeCount++] = static_cast<std::uint32_t>(i);
+    }
+    if (activeCount == 0) {
+        for (int l = 0; l < model.dofCount; ++l) q[l] = start[l] + way[l];
+        return 1;
+    }
     double t = 0;
     for (int round = 0; round < 60 && t < 1; ++round) {
-        observe(model, q, way, ws);
-        const double step = freeTime(model, q, way, 1 - t, ws);
+        observe(model, q, way, activeCount, ws);
+        const double step = freeTime(model, q, way, 1 - t, activeCount, ws);
         if (step <= 1e-13) break;
         t = step >= 1 - t ? 1 : t + step;
         for (int l = 0; l < model.dofCount; ++l) q[l] = start[l] + t * way[l];

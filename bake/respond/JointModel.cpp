@@ -29,7 +29,7 @@ void addPairs(const Table& table, std::uint32_t group, JointModel& model) {
         const Sphere &a = table.a[list[k].a], &b = table.b[list[k].b];
         const double rest = table.restGaps.empty() ? 0 : table.restGaps[k];
         model.pairs.push_back(
-            {a.centre, b.centre, a.radius, b.radius, rest, a.radius + b.radius + rest, group, k});
+            {a.centre, b.centre, a.radius, b.radius, rest, a.radius + b.radius + rest, group, k, 0});
         JointValues own;
         speedBounds(table.motion, b.centre, own.data());
         const std::size_t row = model.speeds.size();
@@ -91,7 +91,7 @@ QpRow boundRow(int n, int dof, double sign, double bound) {
 
 } // namespace
 
-JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount) {
+JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bool prepare) {
     if (dofCount < 0 || dofCount > static_cast<int>(maxDofs))
         throw InputError("joint: expected at most " + std::to_string(maxDofs) + " DOFs, not " +
                          std::to_string(dofCount));
@@ -103,6 +103,7 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount) {
     for (std::size_t i = 0; i < tables.size(); ++i) {
         checkFit(tables[i], dofCount);
         addTable(tables[i], static_cast<int>(i), model);
+        if (prepare) model.groups.back().prepared = std::make_shared<PreparedTable>(*tables[i].table);
         epsilon = std::max(epsilon, tables[i].table->epsilon);
     }
     for (int l = 0; l < dofCount; ++l)
@@ -112,21 +113,32 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount) {
     const double largest = *std::max_element(model.weights.begin(), model.weights.end());
     for (int l = 0; l < dofCount; ++l)
         model.weights[l] = std::max(model.weights[l], largest > 0 ? 1e-6 * largest : 1.0);
+    for (std::uint32_t p = 0; p < model.pairs.size(); ++p) {
+        double squared = 0;
+        for (int l = 0; l < dofCount; ++l) {
+            const double share = model.speed(p)[l] / model.weights[l];
+            squared += share * share;
+        }
+        model.pairs[p].lever = std::sqrt(squared);
+    }
     model.scale = weightedDistance(model, model.upper, model.lower);
     model.off = keptGap(model, epsilon);
     return model;
 }
 
-void placeGroups(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws) {
-    for (std::size_t g = 0; g < model.groups.size(); ++g) {
-        const JointModel::Group& group = model.groups[g];
-        JointValues own, direction;
-        for (std::size_t k = 0; k < group.dofs.size(); ++k) {
-            own[k] = q[group.dofs[k]];
-            direction[k] = way[group.dofs[k]];
-        }
-        evaluateFrame(group.motion, own.data(), direction.data(), ws.frames[g]);
+void placeGroup(const JointModel& model, std::size_t g, const JointValues& q, const JointValues& way,
+                JointWorkspace& ws) {
+    const JointModel::Group& group = model.groups[g];
+    JointValues own, direction;
+    for (std::size_t k = 0; k < group.dofs.size(); ++k) {
+        own[k] = q[group.dofs[k]];
+        direction[k] = way[group.dofs[k]];
     }
+    evaluateFrame(group.motion, own.data(), direction.data(), ws.frames[g]);
+}
+
+void placeGroups(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws) {
+    for (std::size_t g = 0; g < model.groups.size(); ++g) placeGroup(model, g, q, way, ws);
 }
 
 double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& centre, Vec3& normal) {
@@ -137,25 +149,66 @@ double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& centre, Vec
     return distance - pair.reach;
 }
 
+namespace {
+
+/// Takes a pair into the near list where its gap can fall to its threshold within reach.
+void takeIfNear(const JointModel& model, std::uint32_t p, const Pose& pose, const JointValues& reach,
+                JointWorkspace& ws) {
+    const JointModel::Pair& pair = model.pairs[p];
+    const double* speed = model.speed(p);
+    double far = pair.reach + 2 * model.off;
+    for (int l = 0; l < model.dofCount; ++l) far += speed[l] * reach[l];
+    const double squared = (pose * pair.b - pair.a).squaredNorm();
+    if (far < 0 || squared > far * far) return;
+    NearPair& near = ws.near[ws.nearCount++];
+    near.pair = p;
+    near.gap = std::sqrt(squared) - pair.reach;
+    near.threshold = std::min(model.off, near.gap);
+}
+
+/// The tests of a group that a vector query finds under the margin that its fastest pair needs.
+std::uint32_t findUnder(const JointModel& model, const JointModel::Group& group, const JointValues& q,
+                        const JointValues& reach, JointWorkspace& ws) {
+    JointValues own;
+    double margin = 2 * model.off;
+    for (std::size_t k = 0; k < group.dofs.size(); ++k) {
+        own[k] = q[group.dofs[k]];
+        margin += model.weights[group.dofs[k]] * reach[group.dofs[k]];
+    }
+    TableFeatures features;
+    group.prepared->features(own.data(), features);
+    return group.prepared->under(features, margin, ws.found.data());
+}
+
+} // namespace
+
 void cull(const JointModel& model, const JointValues& q, const JointValues& reach, JointWorkspace& ws) {
-    placeGroups(model, q, reach, ws);
     ws.nearCount = 0;
-    const int n = model.dofCount;
-    for (const JointModel::Group& group : model.groups) {
-        const Pose& pose = ws.frames[&group - model.groups.data()].pose;
-        for (std::uint32_t p = group.firstPair; p < group.lastPair; ++p) {
-            const JointModel::Pair& pair = model.pairs[p];
-            const double* speed = model.speed(p);
-            double far = pair.reach + 2 * model.off;
-            for (int l = 0; l < n; ++l) far += speed[l] * reach[l];
-            const double squared = (pose * pair.b - pair.a).squaredNorm();
-            if (far < 0 || squared > far * far) continue;
-            NearPair& near = ws.near[ws.nearCount++];
-            near.pair = p;
-            near.gap = std::sqrt(squared) - pair.reach;
-            near.threshold = std::min(model.off, near.gap);
+    for (std::size_t g = 0; g < model.groups.size(); ++g) {
+        const JointModel::Group& group = model.groups[g];
+        if (group.prepared) {
+            const std::uint32_t found = findUnder(model, group, q, reach, ws);
+            if (found == 0) continue;
+            placeGroup(model, g, q, reach, ws);
+            for (std::uint32_t i = 0; i < found; ++i)
+                takeIfNear(model, group.firstPair + ws.found[i], ws.frames[g].pose, reach, ws);
+        } else {
+            placeGroup(model, g, q, reach, ws);
+            for (std::uint32_t p = group.firstPair; p < group.lastPair; ++p)
+                takeIfNear(model, p, ws.frames[g].pose, reach, ws);
         }
     }
+}
+
+void narrow(const JointModel& model, double distance, JointWorkspace& ws) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < ws.nearCount; ++i) {
+        const NearPair& near = ws.near[i];
+        if (near.gap - near.threshold > model.pairs[near.pair].lever * distance) continue;
+        if (kept != i) ws.near[kept] = near;
+        ++kept;
+    }
+    ws.nearCount = kept;
 }
 
 void linearise(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws) {

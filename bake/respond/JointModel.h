@@ -1,7 +1,9 @@
 #pragma once
 #include "bake/motion/MotionFrame.h"
 #include "bake/respond/JointQp.h"
-#include "bake/table/Table.h"
+#include "bake/table/PreparedTable.h"
+
+#include <memory>
 
 namespace tss {
 
@@ -21,6 +23,7 @@ struct JointModel {
         bool paths = false;            ///< some DOF is a path, whose rate jumps at its rows
         std::uint32_t firstPair = 0, lastPair = 0;
         int table = 0;
+        std::shared_ptr<const PreparedTable> prepared; ///< to cull with, none where that would not pay
     };
     struct Pair {
         Vec3 a, b; ///< centres, each in its own body's frame
@@ -28,6 +31,7 @@ struct JointModel {
         double reach = 0; ///< radiusA + radiusB + rest: the distance of the centres at contact
         std::uint32_t group = 0;
         std::uint32_t test = 0; ///< index in its table
+        double lever = 0;       ///< its gap changes by at most lever * |w (q - q')|
     };
 
     int dofCount = 0;
@@ -47,7 +51,8 @@ struct JointModel {
 
 /// Throws InputError where the tables do not fit one joint: an index that is none, limits without overlap,
 /// more than maxDofs DOFs.
-JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount);
+/// prepare: make the vector kernels to cull with, worth it for more than one response.
+JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bool prepare);
 
 /// A pair that can matter on the way, and the threshold its gap is held above.
 struct NearPair {
@@ -67,11 +72,15 @@ struct JointWorkspace {
     std::size_t nearCount = 0;
     bool common =
         false; ///< all thresholds are one, that of a start in collision: they do not rise by themselves
+    std::vector<std::uint32_t> active; ///< places in `near` of those that can matter on one way
+    std::vector<std::uint32_t> found;  ///< tests of one table
     std::vector<QpRow> rows;
     std::vector<MotionFrame> frames; ///< one a group
 };
 
-/// Places every group at q (values of the joint) into ws.frames.
+/// Places one group, or every group, at q (values of the joint) into ws.frames.
+void placeGroup(const JointModel& model, std::size_t group, const JointValues& q, const JointValues& way,
+                JointWorkspace& ws);
 void placeGroups(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws);
 
 /// Gap of a pair with the group's pose; normal (unit or less, from A to B) and the centre of B in A's frame.
@@ -80,6 +89,10 @@ double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& centre, Vec
 /// Fills ws.near with the pairs whose gap can fall to their threshold when each DOF changes by at most
 /// reach[l] from q. Thresholds are min(model.off, gap at q).
 void cull(const JointModel& model, const JointValues& q, const JointValues& reach, JointWorkspace& ws);
+
+/// Leaves out near pairs that stay above their threshold wherever |w (q - q')| is at most `distance`; gaps
+/// must be those at q.
+void narrow(const JointModel& model, double distance, JointWorkspace& ws);
 
 /// Gap and gradient of every near pair at q, one-sided towards `way` at rows of paths. Thresholds above the
 /// gap fall to it, unless they are common.

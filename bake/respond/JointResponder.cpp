@@ -28,12 +28,12 @@ double queryGap(const JointModel::Pair& pair, const Pose& inverse) {
 
 } // namespace
 
-JointResponder::JointResponder(const Table& table, FreePose freePose)
+JointResponder::JointResponder(const Table& table, Preparation preparation)
     : JointResponder(std::vector<TableOnJoint>{wholeJoint(table)}, static_cast<int>(table.motion.dofCount()),
-                     freePose) {}
+                     preparation) {}
 
-JointResponder::JointResponder(std::span<const TableOnJoint> tables, int dofCount, FreePose freePose)
-    : model_(makeJointModel(tables, dofCount)) {
+JointResponder::JointResponder(std::span<const TableOnJoint> tables, int dofCount, Preparation preparation)
+    : model_(makeJointModel(tables, dofCount, preparation == Preparation::Fully)) {
     knownDepth_ = std::numeric_limits<double>::infinity();
     JointValues rest{};
     for (const TableOnJoint& entry : tables) {
@@ -41,12 +41,17 @@ JointResponder::JointResponder(std::span<const TableOnJoint> tables, int dofCoun
         for (std::size_t k = 0; k < entry.dofs.size(); ++k)
             rest[entry.dofs[k]] = entry.table->motion.dofs[k].rest;
     }
-    if (freePose == FreePose::Find) findFreePose(rest);
+    if (preparation == Preparation::Fully) findFreePose(rest);
 }
 
 JointWorkspace JointResponder::workspace() const {
     JointWorkspace ws;
     ws.near.resize(model_.pairs.size());
+    ws.active.resize(model_.pairs.size());
+    std::size_t room = 0;
+    for (const JointModel::Group& group : model_.groups)
+        if (group.prepared) room = std::max(room, group.prepared->testRoom());
+    ws.found.resize(room);
     ws.rows.resize(model_.pairs.size() + 2 * std::size_t(model_.dofCount) + model_.planes.size());
     ws.frames.resize(model_.groups.size());
     return ws;
@@ -168,7 +173,10 @@ JointAnswer JointResponder::respond(const double* last, const double* asked, Joi
         free.gap = std::numeric_limits<double>::infinity();
         return free;
     }
-    const double gap = judged(start, JointStatus::Free, ws).gap;
+    double gap = ws.near[0].gap;
+    for (std::size_t i = 1; i < ws.nearCount; ++i) gap = std::min(gap, ws.near[i].gap);
+    // Nearer to 0 than any rounding, only the exact query's own arithmetic can tell.
+    if (std::abs(gap) < 0.5 * model_.off) gap = judged(start, JointStatus::Free, ws).gap;
     return gap > 0 ? fromFree(start, goal, ws) : fromCollision(start, goal, gap, ws);
 }
 

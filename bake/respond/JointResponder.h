@@ -22,13 +22,16 @@ struct JointAnswer {
 /// in the metric |w (q - asked)|, w = weights(). The same input gives the same bits.
 class JointResponder {
 public:
-    enum class FreePose { Find, None };
+    /// Fully: with vector kernels and a free pose to return to, some milliseconds of preparation. Once: for
+    /// a single response, without them.
+    enum class Preparation { Fully, Once };
 
     /// A joint with one table; the joint's values are those of its motion.
-    explicit JointResponder(const Table& table, FreePose freePose = FreePose::Find);
+    explicit JointResponder(const Table& table, Preparation preparation = Preparation::Fully);
 
     /// A joint that several tables bear on; dofCount values. Throws InputError where they do not fit.
-    JointResponder(std::span<const TableOnJoint> tables, int dofCount, FreePose freePose = FreePose::Find);
+    JointResponder(std::span<const TableOnJoint> tables, int dofCount,
+                   Preparation preparation = Preparation::Fully);
 
     JointWorkspace workspace() const;
 

@@ -26,8 +26,8 @@ const char* name(JointStatus status) {
 JointResult respond(const Table& table, const JointRequest& request) {
     // A free pose is only ever needed from a start in collision, and costly to look for.
     const bool hit = query(table, clampToLimits(table.motion, request.last)).hit();
-    const JointResponder responder(table,
-                                   hit ? JointResponder::FreePose::Find : JointResponder::FreePose::None);
+    const JointResponder responder(table, hit ? JointResponder::Preparation::Fully
+                                              : JointResponder::Preparation::Once);
     JointWorkspace workspace = responder.workspace();
     const JointAnswer answer = responder.respond(request.last.data(), request.asked.data(), workspace);
     JointResult result;

@@ -63,7 +63,7 @@ bool nearestWay(const JointModel& model, const JointValues& q, const JointValues
         // A gap that no DOF changes is no demand on them; nor is one met however far the way may go.
         if (length < 1e-9) continue;
         row.bound = bound / length;
-        if (row.bound < -2 * distance - model.off) continue;
+        if (row.bound < -1.5 * distance - model.off) continue;
         for (int l = 0; l < n; ++l) row.normal[l] /= length;
         ++count;
     }
@@ -144,10 +144,14 @@ void slide(const JointModel& model, const JointValues& goal, JointValues& q, Joi
         JointValues way{};
         for (int l = 0; l < model.dofCount; ++l) way[l] = goal[l] - q[l];
         linearise(model, q, way, ws);
+        // No pose from here on is farther from the goal than this one, so from this one than twice that.
+        narrow(model, 2 * distance, ws);
         if (!slideWay(model, q, goal, trust, ws, way)) return;
         if (weightedLength(model, way) < least) return;
-        JointValues next = q;
-        advance(model, way, next, ws);
+        // Pairs are known to be near only where a pose is no farther from the goal than this one.
+        JointValues end = q, next = q;
+        for (int l = 0; l < model.dofCount; ++l) end[l] += way[l];
+        if (weightedDistance(model, end, goal) < distance) advance(model, way, next, ws);
         const double reached = weightedDistance(model, next, goal);
         if (reached < distance - 1e-3 * least) {
             q = next;
