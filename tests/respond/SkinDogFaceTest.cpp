@@ -1,7 +1,6 @@
-#include "SharedMeshes.h"
 #include "SkinMeasure.h"
+#include "tests/SharedMeshes.h"
 
-#include <chrono>
 #include <ctime>
 #include <fstream>
 #include <iostream>
