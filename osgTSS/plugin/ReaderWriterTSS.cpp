@@ -35,7 +35,7 @@ public:
     ReadResult readNode(const std::string& file, const Options* options) const override {
         if (!acceptsExtension(osgDB::getLowerCaseFileExtension(file))) return ReadResult::FILE_NOT_HANDLED;
         const std::string found = osgDB::findDataFile(file, options);
-        if (found.empty()) return ReadResult::FILE_NOT_FOUND;
+        if (found.empty()) return readBaked(file, options);
         return guarded([&] { return osgTSS::readScene(found); }, options, found);
     }
 
@@ -70,6 +70,18 @@ public:
     }
 
 private:
+    /// FILE.EXT.tss, where there is only FILE.EXT: extracted and baked by the plugin that links the baker.
+    static ReadResult readBaked(const std::string& file, const Options* options) {
+        const std::string source = osgDB::getNameLessExtension(file);
+        if (osgDB::getFileExtension(source).empty() || osgDB::findDataFile(source, options).empty())
+            return ReadResult::FILE_NOT_FOUND;
+        osgDB::ReaderWriter* baker = osgDB::Registry::instance()->getReaderWriterForExtension("tssbake");
+        if (!baker)
+            return ReadResult(file + ": there is no such file, and baking " + source +
+                              " takes the plugin osgdb_tssbake, which was not found");
+        return baker->readNode(source + ".tssbake", options);
+    }
+
     template <class Read>
     ReadResult guarded(const Read& read, const Options* options, const std::string& name) const {
         try {

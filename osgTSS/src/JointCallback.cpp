@@ -15,7 +15,7 @@ namespace osgTSS {
 struct JointCallback::Binding {
     osg::observer_ptr<osg::Node> node;
     std::shared_ptr<const tss::SceneModel> model; ///< that the rest was made from
-    std::shared_ptr<const JointPlan> plan;
+    std::shared_ptr<const tss::JointPlan> plan;
     std::vector<std::unique_ptr<JointNode>> joints; ///< of the plan's; empty when one is missing
     std::vector<tss::JointWorkspace> workspaces;
     std::vector<double> q; ///< where the joints are
@@ -36,7 +36,7 @@ struct JointCallback::Binding {
 JointCallback::Binding::Binding(osg::Node& owner, const Scene& scene,
                                 const std::vector<std::string>& pairPaths)
     : node(&owner), model(scene.shareModel()), plan(scene.getCache().plan(pairPaths)),
-      workspaces(osgTSS::workspaces(*plan)) {
+      workspaces(tss::workspaces(*plan)) {
     const auto nodes = findJointNodes(owner);
     for (int index : plan->joints) {
         const tss::Joint& joint = model->joints[index];
@@ -63,7 +63,7 @@ void JointCallback::Binding::resolve() {
         const std::vector<double> values = joint->asked();
         asked.insert(asked.end(), values.begin(), values.end());
     }
-    const std::vector<tss::JointAnswer> found = osgTSS::resolve(*plan, q, asked, workspaces);
+    const std::vector<tss::JointAnswer> found = tss::resolve(*plan, q, asked, workspaces);
     q = std::move(asked);
     answers.resize(found.size());
     for (std::size_t g = 0; g < found.size(); ++g) {

@@ -1,6 +1,5 @@
 #pragma once
-#include "JointPlan.h"
-
+#include "bake/JointPlan.h"
 #include "bake/motion/MuscleDeformer.h"
 #include "bake/respond/SkinRig.h"
 
@@ -15,7 +14,7 @@ namespace osgTSS {
 struct Scene::Cache {
     explicit Cache(std::shared_ptr<const tss::SceneModel> model) : model(std::move(model)) {}
 
-    std::shared_ptr<const JointPlan> plan(const std::vector<std::string>& pairPaths);
+    std::shared_ptr<const tss::JointPlan> plan(const std::vector<std::string>& pairPaths);
 
     /// Of one muscle, in the frame of its own surface. Throws tss::InputError.
     std::shared_ptr<const tss::MuscleDeformer> muscle(int index);
@@ -24,16 +23,11 @@ struct Scene::Cache {
     std::shared_ptr<const tss::SkinRig> rig(int index);
 
 private:
-    std::shared_ptr<const tss::MuscleDeformer> muscleLocked(int index);
-
     std::shared_ptr<const tss::SceneModel> model;
     std::mutex mutex;
-    std::map<std::vector<std::string>, std::shared_ptr<const JointPlan>> plans;
+    std::map<std::vector<std::string>, std::shared_ptr<const tss::JointPlan>> plans;
     std::map<int, std::shared_ptr<const tss::MuscleDeformer>> muscles;
     std::map<int, std::shared_ptr<const tss::SkinRig>> rigs;
 };
-
-/// A muscle given in its surface's frame, as seen from another frame.
-tss::Muscle inFrame(const tss::Muscle& muscle, const tss::Pose& toFrame);
 
 } // namespace osgTSS

@@ -1,6 +1,7 @@
 #include "bake/scene/SceneFile.h"
 
 #include "bake/base/Error.h"
+#include "bake/scene/SourceHash.h"
 
 #include <osg/NodeVisitor>
 #include <osgTSS/ConstraintVisitor>
@@ -27,6 +28,7 @@ public:
 
 osg::ref_ptr<Scene> readScene(const std::string& file) {
     auto model = std::make_shared<tss::SceneModel>(tss::loadScene(file));
+    tss::requireFresh(*model, file);
     return new Scene(model);
 }
 

@@ -2,6 +2,7 @@
 
 #include <osgTSS/JointCallback>
 #include <osgTSS/Scene>
+#include <osgTSS/SceneFile>
 #include <osgUtil/Optimizer>
 
 #include <cstdlib>
@@ -89,6 +90,19 @@ TEST_CASE("the environment says which clock where no option does") {
     setenv("OSGTSS_CLOCK", "frame", 1);
     const osg::ref_ptr<osg::Node> root = load(saveHinge(), "");
     unsetenv("OSGTSS_CLOCK");
+    REQUIRE(root);
     CHECK(osgTSS::Scene::on(*root)->getClock().source == osgTSS::Clock::FRAME_NUMBER);
     CHECK(osgTSS::Scene::on(*load(saveHinge(), ""))->getClock().source == osgTSS::Clock::SIMULATION_TIME);
+}
+
+TEST_CASE("a table that was made from other limits is refused, with the reason") {
+    std::string text = osgTSS::readScene(saveHinge().string())->getText();
+    const std::size_t at = text.find("86", text.find("physics:upperLimit"));
+    REQUIRE(at != std::string::npos);
+    text.replace(at, 2, "85");
+    const auto file = scratch() / "stale.tss";
+    std::ofstream(file) << text;
+    const auto result = osgDB::Registry::instance()->readNode(file.string(), nullptr);
+    CHECK(result.status() == osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE);
+    CHECK(result.message().find("stale") != std::string::npos);
 }

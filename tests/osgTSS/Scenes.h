@@ -1,5 +1,7 @@
 #pragma once
-#include "bake/scene/SceneModel.h"
+#include "bake/scene/ReadScene.h"
+#include "bake/scene/SourceHash.h"
+#include "bake/scene/ToLayer.h"
 
 #include <cmath>
 #include <memory>
@@ -60,9 +62,11 @@ inline tss::SceneModel hinge(bool withTable = true) {
     pair.bodyB = 1;
     pair.joints = {0};
     scene.pairs = {pair};
-    if (withTable)
-        scene.pairs[0].table = std::make_shared<tss::Table>(tss::makeTable(
-            {{stop, 0.25}}, {{tss::Vec3(2, 0, 0), 0.25}}, {{0, 0}}, {}, pairMotion(scene, scene.pairs[0])));
+    scene = tss::readScene(tss::toLayer(scene), "hinge"); // numbers as a file holds them
+    if (!withTable) return scene;
+    scene.pairs[0].table = std::make_shared<tss::Table>(tss::makeTable(
+        {{stop, 0.25}}, {{tss::Vec3(2, 0, 0), 0.25}}, {{0, 0}}, {}, pairMotion(scene, scene.pairs[0])));
+    scene.pairs[0].sourceHash = tss::sourceHash(scene, scene.pairs[0]);
     return scene;
 }
 
