@@ -75,18 +75,19 @@ std::vector<std::vector<double>> randomPoses(const Motion& motion, std::size_t c
     return poses;
 }
 
-std::vector<std::vector<double>> nearContactPoses(const MeshTruth& truth, const Motion& motion,
-                                                  std::size_t count, double width, std::uint64_t seed) {
+std::vector<std::vector<double>> nearContactPoses(const std::function<bool(const Pose&)>& touches,
+                                                  const Motion& motion, std::size_t count, double width,
+                                                  std::uint64_t seed) {
     std::vector<std::vector<double>> poses;
     std::optional<std::vector<double>> free, hit;
     for (const auto& q : randomPoses(motion, 20 * count + 1000, seed)) {
-        (truth.touches(pose(motion, q)) ? hit : free) = q;
+        (touches(pose(motion, q)) ? hit : free) = q;
         if (!free || !hit) continue;
         std::vector<double> inside = *hit, outside = *free;
         while (largestShare(motion, inside, outside) > width) {
             std::vector<double> middle(q.size());
             for (std::size_t k = 0; k < q.size(); ++k) middle[k] = 0.5 * (inside[k] + outside[k]);
-            (truth.touches(pose(motion, middle)) ? inside : outside) = middle;
+            (touches(pose(motion, middle)) ? inside : outside) = middle;
         }
         poses.push_back(inside);
         poses.push_back(outside);
@@ -95,6 +96,12 @@ std::vector<std::vector<double>> nearContactPoses(const MeshTruth& truth, const 
         hit.reset();
     }
     return poses;
+}
+
+std::vector<std::vector<double>> nearContactPoses(const MeshTruth& truth, const Motion& motion,
+                                                  std::size_t count, double width, std::uint64_t seed) {
+    return nearContactPoses([&](const Pose& pose) { return truth.touches(pose); }, motion, count, width,
+                            seed);
 }
 
 } // namespace tss::compare

@@ -2,6 +2,7 @@
 #include "bake/motion/Motion.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -30,6 +31,9 @@ std::vector<std::vector<double>> randomPoses(const Motion& motion, std::size_t c
 /// Poses close to where contact begins: both ends of bisected segments between a free and a touching pose,
 /// touching first, not farther apart than `width` times the limits. May give fewer than asked for when one
 /// of the two kinds is rare.
+std::vector<std::vector<double>> nearContactPoses(const std::function<bool(const Pose&)>& touches,
+                                                  const Motion& motion, std::size_t count, double width,
+                                                  std::uint64_t seed);
 std::vector<std::vector<double>> nearContactPoses(const MeshTruth& truth, const Motion& motion,
                                                   std::size_t count, double width, std::uint64_t seed);
 

@@ -24,6 +24,9 @@ std::unique_ptr<Rival> makePairList(const Problem& problem);
 /// The table by its plain query, with the gap.
 std::unique_ptr<Rival> makePlainTable(const Problem& problem);
 
+/// The table as applications run it: PreparedTable with the kernels of this machine.
+std::unique_ptr<Rival> makeKernelTable(const Problem& problem);
+
 enum class TreeOf {
     All, ///< the paper's case 1: every sphere
     Used ///< case 2: the spheres that the table uses

@@ -1,5 +1,6 @@
 #include "bake/compare/Methods.h"
 
+#include "bake/table/PreparedTable.h"
 #include "bake/table/Query.h"
 
 #include <cmath>
@@ -74,8 +75,44 @@ private:
     const Table& table_;
 };
 
+/// As applications run it: features of the DOF values, then the kernel that suits the table and the machine.
+class KernelTable final : public RivalLoop<KernelTable> {
+public:
+    explicit KernelTable(const Table& table) : prepared_(table) {
+        const StatedError stated = statedOf(table);
+        const double band = prepared_.signBand();
+        description() = {
+            "tss",
+            "TSS",
+            std::string("the prepared table, ") + name(prepared_.form()) + " kernel in " +
+                name(prepared_.precision()) + ", features made from q each time",
+            {stated.miss < 0 ? -1 : stated.miss + band, stated.early < 0 ? -1 : stated.early + band},
+            prepared_.bytes(),
+            0};
+    }
+    bool hit(const PoseQuery& query) const override {
+        TableFeatures features;
+        prepared_.features(query.q.data(), features);
+        return prepared_.hit(features);
+    }
+    std::optional<double> gap(const PoseQuery& query) const override {
+        TableFeatures features;
+        prepared_.features(query.q.data(), features);
+        return prepared_.gap(features).gap;
+    }
+    std::optional<Work> work(const PoseQuery&) const override {
+        return Work{prepared_.testCount(), prepared_.testCount() * productsPerSphereTest};
+    }
+
+private:
+    PreparedTable prepared_;
+};
+
 } // namespace
 
+std::unique_ptr<Rival> makeKernelTable(const Problem& problem) {
+    return std::make_unique<KernelTable>(problem.table);
+}
 std::unique_ptr<Rival> makePairList(const Problem& problem) {
     return std::make_unique<PairList>(problem);
 }
