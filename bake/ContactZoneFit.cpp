@@ -6,6 +6,7 @@
 #include "bake/spheres/MedialSpheres.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -74,11 +75,16 @@ public:
     ContactZoneFit run() {
         const double smaller = std::min(a_.solid.diagonal(), b_.solid.diagonal());
         const double finest = options_.tolerance > 0 ? options_.tolerance : smaller / 500;
-        for (const double tolerance : levelTolerances(finest, smaller)) {
-            if (!narrow(tolerance)) break;
-            if (!fit(tolerance)) break;
-            if (!decide(tolerance, tolerance <= finest)) break;
+        std::vector<double> levels = levelTolerances(finest, smaller);
+        for (std::size_t i = 0; i < levels.size(); ++i) {
+            if (!narrow(levels[i])) break;
+            if (i == 0) levels[0] = coarsened(levels[0]);
+            if (!fit(levels[i])) break;
+            if (!decide(levels[i], levels[i] <= finest)) break;
         }
+        if (!decided_ && note_.empty() && result_.levels.back().tolerance > finest * (1 + 1e-9))
+            note_ = fmt::format("tolerance {:.4g} instead of {:.4g}: {} spheres do not suffice",
+                                result_.levels.back().tolerance, finest, options_.maxSpheres);
         result_.a = a_.result(options_);
         result_.b = b_.result(options_);
         for (ContactZoneBody* body : {&result_.a, &result_.b})
@@ -95,6 +101,7 @@ private:
             findReach(b_.zone, Side::B, a_.surface, motion_, cells_, tolerance, options_.margin, progress_);
         if (zoneA.empty() || zoneB.empty()) {
             // The poses left are free; what was decided before stays with the inscribed spheres.
+            decided_ = true;
             result_.neverMeet = !hits_;
             if (hits_ || result_.levels.empty()) finish(std::move(zoneA), std::move(zoneB));
             return false;
@@ -106,8 +113,7 @@ private:
 
     void finish(std::vector<Patch> zoneA, std::vector<Patch> zoneB) {
         keepInner();
-        a_.level.spheres.clear();
-        b_.level.spheres.clear();
+        a_.level = b_.level = {};
         a_.zone = std::move(zoneA);
         b_.zone = std::move(zoneB);
     }
@@ -117,6 +123,18 @@ private:
             const SphereSet inner = body->innerSpheres();
             body->coarse.insert(body->coarse.end(), inner.begin(), inner.end());
         }
+    }
+
+    /// The first level's tolerance, doubled until no body takes too many spheres.
+    double coarsened(double tolerance) {
+        if (options_.maxSpheres <= 0) return tolerance;
+        const auto limit = static_cast<std::size_t>(options_.maxSpheres);
+        for (int round = 0; round < 20; ++round, tolerance *= 2) {
+            a_.fit(tolerance, options_.medial, {});
+            b_.fit(tolerance, options_.medial, {});
+            if (std::max(a_.level.spheres.size(), b_.level.spheres.size()) <= limit) break;
+        }
+        return tolerance;
     }
 
     /// False: it took too many spheres and the level before stands.
@@ -133,9 +151,6 @@ private:
                 body->level.spheres.size() + body->coarse.size() > limit) {
                 a_.level = before[0], a_.coarse = coarse[0];
                 b_.level = before[1], b_.coarse = coarse[1];
-                note_ = fmt::format(
-                    "tolerance {:.4g} instead of the one asked: {} spheres do not suffice for the next",
-                    result_.levels.back().tolerance, limit);
                 return false;
             }
         result_.levels.push_back(
@@ -146,22 +161,35 @@ private:
     /// False: nothing is left to refine.
     bool decide(double tolerance, bool last) {
         if (last) return false;
-        UndecidedOptions how;
-        how.resolution = tolerance / 2;
-        how.margin = options_.margin;
-        how.depth = options_.depth;
-        how.atRest = options_.atRest;
-        Undecided left = undecidedCells(a_.level, b_.level, motion_, cells_, how, progress_);
-        hits_ |= left.hits;
-        if (!left.cells) {
+        if (!dropDecided(tolerance)) {
+            decided_ = true;
             result_.neverMeet = !hits_;
+            if (hits_) finish({}, {}); // inscribed spheres answer everywhere, nothing is claimed beyond them
             return false;
         }
-        cells_ = std::move(*left.cells);
         result_.levels.back().undecided = cells_.leaves();
         if (report(progress_, "contact zone", 0.5)) return true;
         note_ = fmt::format("stopped at tolerance {:.4g}", tolerance);
         return false;
+    }
+
+    /// Drops the cells that the level's spheres decide, from large cells on and as small as pays: with many
+    /// DOFs their number explodes. False: none is left.
+    bool dropDecided(double tolerance) {
+        constexpr double mostCells = 2e5;
+        const double growth = std::pow(2.0, static_cast<double>(motion_.dofCount()));
+        UndecidedOptions how;
+        how.margin = options_.margin;
+        how.depth = options_.depth;
+        how.atRest = options_.atRest;
+        for (how.resolution = 8 * tolerance;; how.resolution /= 2) {
+            Undecided left = undecidedCells(a_.level, b_.level, motion_, cells_, how, progress_);
+            hits_ |= left.hits;
+            if (!left.cells) return false;
+            cells_ = std::move(*left.cells);
+            if (how.resolution <= tolerance / 2 || static_cast<double>(cells_.leaves()) * growth > mostCells)
+                return true;
+        }
     }
 
     Body a_, b_;
@@ -171,6 +199,7 @@ private:
     CellTree cells_;
     ContactZoneFit result_;
     bool hits_ = false;
+    bool decided_ = false; ///< no pose is left whose verdict the spheres do not know
     std::string note_;
 };
 

@@ -11,8 +11,8 @@ namespace tss {
 struct ContactZoneOptions {
     double tolerance = 0; ///< L, scene units: the conservative spheres stick out at most this far; 0: 1/500
                           ///< of the smaller diagonal
-    double margin = 0; ///< contact is wanted to this distance, scene units, >= 0
-    double depth = 0;  ///< gap-true tables: poses in a contact less deep than this are refined too, >= 0
+    double margin = 0;    ///< contact is wanted to this distance, scene units, >= 0
+    double depth = 0;     ///< gap-true tables: poses in a contact less deep than this are refined too, >= 0
     AtRest atRest = AtRest::Offset;
     int maxSpheres = 0;       ///< > 0: the finest level at which neither body takes more
     bool conservative = true; ///< else all spheres are inscribed and the zone is covered to the tolerance

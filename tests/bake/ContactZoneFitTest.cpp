@@ -1,0 +1,244 @@
+#include "bake/ContactZoneFit.h"
+
+#include "bake/base/Error.h"
+#include "bake/geometry/Import.h"
+#include "bake/search/TreePair.h"
+#include "bake/spheres/FitMetrics.h"
+#include "bake/spheres/RoundToFloat.h"
+#include "tests/GroundTruth.h"
+#include "tests/SharedMeshes.h"
+#include "tests/geometry/TestMeshes.h"
+
+#include <numbers>
+
+using namespace tss;
+using namespace tss::test;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+Dof turn(const Vec3& origin, const Vec3& axis, double lower, double upper) {
+    Dof dof;
+    dof.name = "turn";
+    dof.origin = origin;
+    dof.axis = axis.normalized();
+    dof.lower = lower;
+    dof.upper = upper;
+    dof.rest = std::clamp(0.0, lower, upper);
+    return dof;
+}
+
+struct Verdicts {
+    int touching = 0, missed = 0, early = 0;
+    double worst = 0; ///< largest distance of the meshes at which the spheres touch
+};
+
+Verdicts verdicts(const GroundTruth& truth, const ContactZoneFit& fit, const Motion& motion,
+                  const std::vector<std::vector<double>>& poses) {
+    // As a scene file keeps them.
+    const SphereTree a(roundToFloat(fit.a.fit.spheres)), b(roundToFloat(fit.b.fit.spheres));
+    Verdicts v;
+    for (const std::vector<double>& q : poses) {
+        const Pose at = pose(motion, q);
+        const bool meshes = truth.touches(at), spheres = smallestGap(a, b, at, 1) <= 0;
+        v.touching += meshes;
+        v.missed += meshes && !spheres;
+        if (!meshes && spheres) {
+            ++v.early;
+            v.worst = std::max(v.worst, truth.distance(at));
+        }
+    }
+    return v;
+}
+
+/// True contact is never missed, none is claimed farther off than twice the tolerance.
+void checkVerdicts(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
+                   const ContactZoneFit& fit, double tolerance, std::size_t count) {
+    const GroundTruth truth(a, b);
+    const Verdicts random = verdicts(truth, fit, motion, tss::compare::randomPoses(motion, count, 1));
+    CHECK(random.missed == 0);
+    CHECK(random.worst <= 2 * tolerance);
+    const Verdicts near = verdicts(truth, fit, motion, nearContactPoses(truth, motion, count / 4, 1e-3, 2));
+    CHECK(near.touching > 0);
+    CHECK(near.missed == 0);
+    CHECK(near.worst <= 2 * tolerance);
+}
+
+struct Scene {
+    TriangleMesh a, b;
+    Motion motion;
+};
+
+/// Two lumpy balls, one on a joint of two turns that brings them together.
+Scene lumpyPair(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    Scene scene;
+    scene.a = lumpyMesh(random, 2, 0.3);
+    scene.b = transformed(lumpyMesh(random, 2, 0.3), Eigen::Affine3d(Eigen::Translation3d(2.4, 0, 0)));
+    scene.motion.dofs = {turn({1.2, 2, 0}, Vec3::UnitZ(), -0.3, 0.3),
+                         turn({1.2, 2, 0}, Vec3::UnitX(), -0.2, 0.2)};
+    return scene;
+}
+
+ContactZoneOptions tolerance(double value) {
+    ContactZoneOptions options;
+    options.tolerance = value;
+    options.atRest = AtRest::Collide;
+    return options;
+}
+
+Scene dogJaw() {
+    Scene scene;
+    scene.a = importMesh(sharedMesh("dog_jaw/skull.obj"));
+    scene.b = importMesh(sharedMesh("dog_jaw/mandible.obj"));
+    const Vec3 centre(0.30549, 0, 0.68499);
+    scene.motion.dofs = {turn(centre, Vec3::UnitZ(), -4 * degree, 4 * degree),
+                         turn(centre, Vec3::UnitY(), -24 * degree, 18 * degree)};
+    scene.motion.base.translation() = Vec3(-0.001, 0, -0.002);
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("spheres fine in the contact zone alone miss no contact and claim none beyond their tolerance") {
+    const std::uint64_t seed = GENERATE(1u, 2u);
+    CAPTURE(seed);
+    const Scene scene = lumpyPair(seed);
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.005));
+    CHECK(fit.levels.size() > 1);
+    CHECK_FALSE(fit.neverMeet);
+    checkVerdicts(scene.a, scene.b, scene.motion, fit, 0.005, 1000);
+}
+
+TEST_CASE("each level has the zone before it covered and its zone is smaller") {
+    const Scene scene = lumpyPair(4);
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.003));
+    REQUIRE(fit.levels.size() > 1);
+    for (std::size_t i = 1; i < fit.levels.size(); ++i) {
+        CHECK(fit.levels[i].areaA <= fit.levels[i - 1].areaA);
+        CHECK(fit.levels[i].tolerance == Approx(fit.levels[i - 1].tolerance / 2));
+        CHECK(fit.levels[i - 1].undecided > 0);
+    }
+    for (const auto& [mesh, body] : {std::pair(&scene.a, &fit.a), std::pair(&scene.b, &fit.b)}) {
+        const FitMetrics metrics = measureFit(Solid(*mesh), body->fit.spheres, body->zone);
+        CHECK(metrics.coverage == 0);
+        CHECK(metrics.protrusion <= 0.003);
+        CHECK(body->fine > 0);
+        CHECK(body->fine < body->fit.spheres.size());
+        // The coarser ones are inside.
+        const SphereSet coarse(body->fit.spheres.begin() + static_cast<std::ptrdiff_t>(body->fine),
+                               body->fit.spheres.end());
+        CHECK(measureFit(Solid(*mesh), coarse, {}).protrusion < 1e-12);
+    }
+}
+
+TEST_CASE("bodies that never come near need no spheres") {
+    Scene scene = lumpyPair(5);
+    scene.b = transformed(scene.b, Eigen::Affine3d(Eigen::Translation3d(50, 0, 0)));
+    scene.motion.dofs[0].lower = scene.motion.dofs[1].lower = -0.01;
+    scene.motion.dofs[0].upper = scene.motion.dofs[1].upper = 0.01;
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.01));
+    CHECK(fit.neverMeet);
+    CHECK(fit.a.fit.spheres.empty());
+}
+
+TEST_CASE("bodies that pass closely without touching get spheres that show it") {
+    // 0.03 apart; the reach of patches of the first level does not tell, the spheres do.
+    Scene scene{boxMesh({0, 0, 0}, {1, 1, 1}), boxMesh({-1, 0, 1.03}, {1, 1, 2}), {}};
+    Dof slide;
+    slide.name = "slide";
+    slide.kind = DofKind::Translation;
+    slide.upper = 1;
+    scene.motion.dofs = {slide};
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.01));
+    CHECK(fit.neverMeet);
+    const SphereTree a(fit.a.fit.spheres), b(fit.b.fit.spheres);
+    for (double q = 0; q <= 1; q += 0.01) CHECK(smallestGap(a, b, pose(scene.motion, std::vector{q}), 1) > 0);
+}
+
+TEST_CASE("a limit on spheres keeps the finest level that fits and says so") {
+    const Scene scene = lumpyPair(6);
+    ContactZoneOptions options = tolerance(0.004);
+    options.maxSpheres = 150;
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, options);
+    CHECK(fit.a.fit.note.find("150 spheres do not suffice") != std::string::npos);
+    CHECK(fit.a.fit.spheres.size() <= 150);
+    CHECK(fit.b.fit.spheres.size() <= 150);
+    CHECK(fit.a.fit.protrusion > 0.004);
+    checkVerdicts(scene.a, scene.b, scene.motion, fit, fit.levels.back().tolerance, 1000);
+}
+
+TEST_CASE("a work stopped early is coarser and misses nothing") {
+    const Scene scene = lumpyPair(7);
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.0005),
+                                              [](std::string_view, double) { return false; });
+    CHECK(fit.a.fit.note.find("stopped") != std::string::npos);
+    checkVerdicts(scene.a, scene.b, scene.motion, fit, fit.levels.back().tolerance, 1000);
+}
+
+TEST_CASE("inscribed spheres claim no contact that is none") {
+    const Scene scene = lumpyPair(8);
+    ContactZoneOptions options = tolerance(0.005);
+    options.conservative = false;
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, options);
+    const GroundTruth truth(scene.a, scene.b);
+    const SphereTree a(fit.a.fit.spheres), b(fit.b.fit.spheres);
+    int hits = 0;
+    for (const auto& q : tss::compare::randomPoses(scene.motion, 1000, 3))
+        if (smallestGap(a, b, pose(scene.motion, q), 1) <= 0) {
+            ++hits;
+            CHECK(truth.touches(pose(scene.motion, q)));
+        }
+    CHECK(hits > 0);
+    CHECK(fit.a.fit.coverage <= 0.005);
+    CHECK(fit.a.fit.protrusion == 0);
+}
+
+TEST_CASE("open meshes are refined like closed ones") {
+    Scene scene = lumpyPair(9);
+    scene.a.triangles.resize(scene.a.triangles.size() - 6);
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.01));
+    CHECK(fit.a.fit.note.find("open") != std::string::npos);
+    const GroundTruth truth(scene.a, scene.b);
+    CHECK(verdicts(truth, fit, scene.motion, tss::compare::randomPoses(scene.motion, 1000, 4)).missed == 0);
+}
+
+TEST_CASE("a motion without limits and a mesh of nothing are refused") {
+    Scene scene = lumpyPair(10);
+    CHECK_THROWS_AS(fitContactZone({}, scene.b, scene.motion, tolerance(0.01)), InputError);
+    CHECK_THROWS_AS(fitContactZone(scene.a, scene.b, scene.motion, tolerance(-1)), InputError);
+    scene.motion.dofs[0].upper = std::numeric_limits<double>::infinity();
+    CHECK_THROWS_AS(fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.01)), InputError);
+}
+
+TEST_CASE("the dog's jaw at 0.6 mm misses no contact with at most 5000 spheres") {
+    REQUIRE_SHARED_MESHES();
+    const Scene scene = dogJaw();
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(6e-4));
+    CHECK(fit.a.fit.spheres.size() + fit.b.fit.spheres.size() <= 5000);
+    checkVerdicts(scene.a, scene.b, scene.motion, fit, 6e-4, 200);
+}
+
+TEST_CASE("the dog's jaw at 0.2 and 0.05 mm, 10^5 random and 10^4 near-contact poses", "[.long]") {
+    REQUIRE_SHARED_MESHES();
+    const auto [size, limit] = GENERATE(table<double, std::size_t>({{2e-4, 5000}, {5e-5, 10000}}));
+    const Scene scene = dogJaw();
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(size));
+    CHECK(fit.a.fit.spheres.size() + fit.b.fit.spheres.size() <= limit);
+    for (const auto& [mesh, body] : {std::pair(&scene.a, &fit.a), std::pair(&scene.b, &fit.b)}) {
+        const FitMetrics metrics = measureFit(Solid(*mesh), roundToFloat(body->fit.spheres), body->zone);
+        CHECK(metrics.coverage == 0);
+        CHECK(metrics.protrusion <= size);
+    }
+    const GroundTruth truth(scene.a, scene.b);
+    const Verdicts random =
+        verdicts(truth, fit, scene.motion, tss::compare::randomPoses(scene.motion, 100000, 1));
+    const Verdicts near =
+        verdicts(truth, fit, scene.motion, nearContactPoses(truth, scene.motion, 10000, 1e-4, 2));
+    WARN("tolerance " << size << ": " << fit.a.fit.spheres.size() << " + " << fit.b.fit.spheres.size()
+                      << " spheres, false positives " << random.early << " and " << near.early
+                      << ", the worst at " << std::max(random.worst, near.worst));
+    CHECK(random.missed + near.missed == 0);
+    CHECK(std::max(random.worst, near.worst) <= 2 * size);
+}
