@@ -48,11 +48,6 @@ const char* name(ReduceMethod method) {
     return "?";
 }
 
-/// The spheres of both bodies as the file can hold them, with what is proven of them.
-struct PairSpheres {
-    SphereFit a, b;
-};
-
 const TriangleMesh& meshOf(const Body& body) {
     if (body.mesh.empty()) throw InputError(Where{"", "", body.path}, "expected a mesh, the body has none");
     return body.mesh;
@@ -66,29 +61,6 @@ SphereFit wholeBody(const Body& body, const BakeOptions& options, double toleran
     how.maxSpheres = options.maxSpheres;
     how.conservative = options.conservative;
     return fitSpheres(cleaned(meshOf(body)), how, progress);
-}
-
-/// Medial spheres stand in the contact zone only, fine where the verdict needs it; the paper's fill the
-/// bodies.
-PairSpheres pairSpheres(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
-                        double tolerance, PairReport& report, const Progress& progress) {
-    PairSpheres spheres;
-    if (options.spheres == SphereMethod::Medial) {
-        ContactZoneOptions zone;
-        zone.tolerance = tolerance;
-        zone.depth = options.depth;
-        zone.atRest = options.atRest;
-        zone.maxSpheres = options.maxSpheres;
-        zone.conservative = options.conservative;
-        ContactZoneFit fit = fitContactZone(cleaned(meshOf(a)), cleaned(meshOf(b)), motion, zone, progress);
-        spheres = {std::move(fit.a.fit), std::move(fit.b.fit)};
-    } else {
-        spheres = {wholeBody(a, options, tolerance, progress), wholeBody(b, options, tolerance, progress)};
-    }
-    for (SphereFit* fit : {&spheres.a, &spheres.b}) fit->spheres = roundToFloat(std::move(fit->spheres));
-    if (!spheres.a.note.empty()) report.notes.push_back(a.path + ": " + spheres.a.note);
-    if (!spheres.b.note.empty()) report.notes.push_back(b.path + ": " + spheres.b.note);
-    return spheres;
 }
 
 double known(double bound) {
@@ -183,13 +155,37 @@ void setBounds(Table& table, const SphereFit& a, const SphereFit& b) {
 
 } // namespace
 
+// Medial spheres stand in the contact zone only, fine where the verdict needs it; the paper's fill the
+// bodies.
+PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
+                     const BakeOptions& options, const Progress& progress) {
+    const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
+    const double tolerance = options.tolerance.value_or(defaultTolerance(a, b));
+    PairSpheres spheres;
+    if (options.spheres == SphereMethod::Medial) {
+        ContactZoneOptions zone;
+        zone.tolerance = tolerance;
+        zone.depth = options.depth;
+        zone.atRest = options.atRest;
+        zone.maxSpheres = options.maxSpheres;
+        zone.conservative = options.conservative;
+        ContactZoneFit fit = fitContactZone(cleaned(meshOf(a)), cleaned(meshOf(b)), motion, zone, progress);
+        spheres = {std::move(fit.a.fit), std::move(fit.b.fit)};
+    } else {
+        spheres = {wholeBody(a, options, tolerance, progress), wholeBody(b, options, tolerance, progress)};
+    }
+    for (SphereFit* fit : {&spheres.a, &spheres.b}) fit->spheres = roundToFloat(std::move(fit->spheres));
+    return spheres;
+}
+
 void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairReport& report,
               const Progress& progress) {
     const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
     const Motion motion = pairMotion(scene, pair);
     checkMotion(motion);
-    const double tolerance = options.tolerance.value_or(defaultTolerance(a, b));
-    const auto [fitA, fitB] = pairSpheres(a, b, motion, options, tolerance, report, progress);
+    const auto [fitA, fitB] = fillPair(scene, pair, motion, options, progress);
+    if (!fitA.note.empty()) report.notes.push_back(a.path + ": " + fitA.note);
+    if (!fitB.note.empty()) report.notes.push_back(b.path + ": " + fitB.note);
 
     const CandidatePairs candidates = search(fitA.spheres, fitB.spheres, motion, options, progress);
     BakeRecord record;

@@ -31,6 +31,7 @@ CLI::App* addCommand(CLI::App& app, Console& console, const std::string& name,
 void addMake(CLI::App& app, Console& console);
 void addBake(CLI::App& app, Console& console);
 void addMerge(CLI::App& app, Console& console);
+void addVerify(CLI::App& app, Console& console);
 void addInfo(CLI::App& app, Console& console);
 void addQuery(CLI::App& app, Console& console);
 void addPlay(CLI::App& app, Console& console);

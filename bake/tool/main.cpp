@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
     addBake(app, console);
     addMerge(app, console);
     addInfo(app, console);
+    addVerify(app, console);
     addQuery(app, console);
     addPlay(app, console);
     addValidate(app, console);

@@ -1,3 +1,4 @@
+#include "bake/scene/SceneFile.h"
 #include "tests/Shapes.h"
 #include "tests/tool/Shell.h"
 
@@ -24,7 +25,7 @@ void writeSwing(const Folder& folder) {
 TEST_CASE("every command answers --help with exit 0, and an unknown one is a usage error") {
     const Folder folder;
     for (const char* command :
-         {"make", "bake", "merge", "info", "query", "play", "validate", "convert", "bench"}) {
+         {"make", "bake", "merge", "info", "verify", "query", "play", "validate", "convert", "bench"}) {
         const Ran help = runTss(std::string(command) + " --help", folder.path());
         CHECK(help.exit == 0);
         CHECK(help.out.find("--json") != std::string::npos);
@@ -162,4 +163,25 @@ TEST_CASE("pairs baked apart and merged give the bytes of the plain bake") {
                 .exit == 0);
     REQUIRE(runTss("merge swing.tss part.tss -o merged.tss", folder.path()).exit == 0);
     CHECK(readText(folder.path() / "whole.tss") == readText(folder.path() / "merged.tss"));
+}
+
+TEST_CASE("a baked table is verified, and one with a test taken out is not") {
+    const Folder folder;
+    writeSwing(folder);
+    REQUIRE(runTss("bake swing.tss -o baked.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
+    const Ran good = runTss("verify baked.tss --json", folder.path());
+    INFO(good.err);
+    CHECK(good.exit == 0);
+    CHECK(Json::parse(good.out)["holds"] == true);
+
+    tss::SceneModel scene = tss::loadScene(folder / "baked.tss");
+    tss::Table damaged = *scene.pairs[0].table;
+    REQUIRE(damaged.testCount() > 1);
+    damaged.columns.pop_back();
+    --damaged.rowOffsets.back();
+    scene.pairs[0].table = std::make_shared<tss::Table>(damaged);
+    tss::saveScene(scene, folder / "damaged.tss");
+    const Ran bad = runTss("verify damaged.tss", folder.path());
+    CHECK(bad.exit == 1);
+    CHECK(bad.err.find("/swing/Joint") != std::string::npos);
 }
