@@ -63,6 +63,17 @@ SphereFit wholeBody(const Body& body, const BakeOptions& options, double toleran
     return fitSpheres(cleaned(meshOf(body)), how, progress);
 }
 
+/// Rounds the spheres as the file stores them and adds to the protrusion what that makes them stick out more.
+void roundToFloat(SphereFit& fit) {
+    double grown = 0;
+    for (Sphere& sphere : fit.spheres) {
+        const Sphere rounded = tss::roundToFloat(sphere);
+        grown = std::max(grown, (rounded.centre - sphere.centre).norm() + rounded.radius - sphere.radius);
+        sphere = rounded;
+    }
+    fit.protrusion += grown;
+}
+
 double known(double bound) {
     return std::isfinite(bound) ? bound : -1;
 }
@@ -174,7 +185,8 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
     } else {
         spheres = {wholeBody(a, options, tolerance, progress), wholeBody(b, options, tolerance, progress)};
     }
-    for (SphereFit* fit : {&spheres.a, &spheres.b}) fit->spheres = roundToFloat(std::move(fit->spheres));
+    roundToFloat(spheres.a);
+    roundToFloat(spheres.b);
     return spheres;
 }
 

@@ -57,7 +57,8 @@ tss::SceneModel jawScene() {
     const int skull = addBody(scene, "Skull", skullMesh(), ivory);
     const int mandible = addBody(scene, "Mandible", mandibleMesh(), paleBone);
     scene.bodies[skull].rigid = scene.bodies[mandible].rigid = true;
-    addPair(scene, skull, mandible, jawMotion(), "Jaw");
+    const int jaw = addPair(scene, skull, mandible, jawMotion(), "Jaw");
+    scene.pairs[jaw].settings["tolerance"] = "0.2mm"; // finer than the clearance of the condyles
 
     // Degrees. The bites ask for 3 degrees beyond closed and grind to one side and then to the other.
     const tss::TimeSamples lateral = sampled({{0, 0},
