@@ -58,6 +58,22 @@ Motion parseMotion(const MakeArguments& arguments) {
     return motion;
 }
 
+/// A motion to look at: one degree of freedom after the other goes from rest to its lower limit, to its upper
+/// one and back, two seconds each.
+void addMotion(SceneModel& scene, const Pair& pair) {
+    constexpr double codes = 48;
+    double start = 0;
+    for (int index : pair.joints) {
+        Joint& joint = scene.joints[index];
+        for (std::size_t k = 0; k < joint.dofs.size(); ++k, start += codes) {
+            const Dof& dof = joint.dofs[k];
+            joint.drives[k] = {{start, start + codes / 4, start + codes * 3 / 4, start + codes},
+                               {dof.rest, dof.lower, dof.upper, dof.rest}};
+        }
+    }
+    scene.endTimeCode = start;
+}
+
 void make(const MakeArguments& arguments, const Console& console) {
     if (!(arguments.metersPerUnit > 0) || !std::isfinite(arguments.metersPerUnit))
         throw InputError("--meters-per-unit: expected a number > 0");
@@ -69,6 +85,7 @@ void make(const MakeArguments& arguments, const Console& console) {
     const int a = addBody(scene, arguments.a, {0.82, 0.77, 0.66}, audits, console);
     const int b = addBody(scene, arguments.b, {0.74, 0.64, 0.48}, audits, console);
     const int pair = addPair(scene, a, b, motion, "Joint");
+    addMotion(scene, scene.pairs[pair]);
     saveScene(scene, arguments.output);
     console.say("wrote " + arguments.output + "; next: tss bake " + arguments.output + " -o BAKED.tss");
     console.print({{"output", arguments.output}, {"pair", scene.pairs[pair].path}, {"meshes", audits}});

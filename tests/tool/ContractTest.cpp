@@ -2,6 +2,7 @@
 #include "tests/Shapes.h"
 #include "tests/tool/Shell.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -78,6 +79,13 @@ TEST_CASE("two meshes and a hinge become a table that stops the motion where the
             0);
     CHECK(std::filesystem::exists(folder.path() / "f_04.obj"));
     CHECK(readText(folder.path() / "played.csv").find("blocked") != std::string::npos);
+
+    // Without a motion of one's own, the scene's: to both limits and back in 48 steps.
+    REQUIRE(runTss("play baked.tss -o own.csv", folder.path()).exit == 0);
+    const std::string own = readText(folder.path() / "own.csv");
+    CHECK(std::count(own.begin(), own.end(), '\n') == 50);
+    CHECK(own.find("\n36,90,") != std::string::npos);
+    CHECK(own.find("blocked") != std::string::npos);
 }
 
 TEST_CASE("the same bake gives the same bytes with one thread and with two") {
