@@ -16,7 +16,7 @@ for argument in "$@"; do
 done
 
 install_packages
-build_release -DOSGTSS_WERROR=ON
+build_release
 [ -d ../shared/meshes ] || say "../shared/meshes is absent: tests on real meshes say 'skipped, no meshes'"
 
 say "Tests"
