@@ -62,6 +62,7 @@ TEST_CASE("each method's verdicts agree with the meshes within its own stated er
     rivals.push_back(makeAllPairsSimd(problem));
     rivals.push_back(makePairList(problem));
     rivals.push_back(makePlainTable(problem));
+    rivals.push_back(makeKernelTable(problem));
     for (const TreeOf of : {TreeOf::All, TreeOf::Used})
         for (const Enclosure enclosure :
              {Enclosure::Box, Enclosure::Points, Enclosure::Balls, Enclosure::CoreSet})

@@ -1,0 +1,73 @@
+#pragma once
+#include "bake/compare/MeshTruth.h"
+#include "bake/compare/Problem.h"
+#include "bake/compare/Rival.h"
+#include "bake/geometry/Solid.h"
+
+namespace tss::reporting {
+
+/// Poses with what the meshes say there. Depths and distances are found when first asked for and kept.
+class JudgedPoses {
+public:
+    JudgedPoses(const compare::Problem& problem, const compare::MeshTruth& truth,
+                const std::vector<std::vector<double>>& values);
+
+    const std::vector<compare::PoseQuery>& queries() const { return queries_; }
+    bool touches(std::size_t pose) const { return touches_[pose] != 0; }
+    std::size_t touching() const { return touching_; }
+
+    /// Distance of the meshes at a free pose, scene units.
+    double clearance(std::size_t pose) const;
+
+    /// How deep the deepest vertex of one mesh lies inside the other at a touching pose: no more than the
+    /// true depth, 0 where only edges cross.
+    double depth(std::size_t pose) const;
+
+private:
+    const compare::Problem& problem_;
+    const compare::MeshTruth& truth_;
+    Solid solidA_, solidB_;
+    std::vector<compare::PoseQuery> queries_;
+    std::vector<char> touches_;
+    std::size_t touching_ = 0;
+    mutable std::vector<double> known_; ///< depth or clearance, -1: not asked yet
+};
+
+/// What a method says wrongly on a set of poses (METHOD 8). Lengths in scene units.
+struct ErrorFigures {
+    std::size_t poses = 0;
+    std::size_t touching = 0;
+    std::size_t missed = 0; ///< false negatives
+    std::size_t early = 0;  ///< false positives
+    double deepestMiss = 0; ///< depth of the meshes at the worst of those looked at, see JudgedPoses
+    double meanMiss = 0;
+    double farthestEarly = 0; ///< clearance at which it fired
+    double meanEarly = 0;
+    bool sampled = false; ///< depths and clearances of some of the wrong verdicts only, evenly taken
+};
+
+/// most: how many wrong verdicts of each kind are measured at most.
+ErrorFigures measureError(const compare::Rival& rival, const JudgedPoses& poses, std::size_t most);
+
+/// Where contact begins along a way from a free pose to a touching one, by the meshes and by a method.
+struct ClosingMotion {
+    std::vector<double> from, to;
+    double contact = 0; ///< share of the way at which the meshes first touch
+};
+
+std::vector<ClosingMotion> closingMotions(const compare::Problem& problem, const compare::MeshTruth& truth,
+                                          std::size_t count, int steps, std::uint64_t seed);
+
+/// First-contact error of a method over closing motions: positive is early.
+struct FirstContact {
+    std::size_t motions = 0;
+    std::size_t never = 0;           ///< the method saw no contact at all
+    double worstAngle = 0;           ///< of the leading DOF, in its own unit (radians), absolute
+    double meanAngle = 0;            ///< absolute
+    double worstLength = 0;          ///< how far the farthest point of B moves in between, scene units
+    double earliest = 0, latest = 0; ///< signed lengths: early and late by so much
+};
+FirstContact measureFirstContact(const compare::Problem& problem, const compare::Rival& rival,
+                                 const std::vector<ClosingMotion>& motions, int steps);
+
+} // namespace tss::reporting

@@ -1,0 +1,133 @@
+#include "bake/report/Contestants.h"
+
+#include "bake/base/Error.h"
+
+#include <algorithm>
+
+namespace tss::reporting {
+
+namespace {
+
+using namespace compare;
+
+/// Builds what is wanted and takes note of what cannot be.
+class Entry {
+public:
+    Entry(Contestants& contestants, const std::vector<std::string>& only)
+        : contestants_(contestants), only_(only) {}
+
+    template <class Make>
+    void add(const std::string& name, const Make& make) {
+        if (!wanted(name)) return;
+        try {
+            contestants_.rivals.push_back(make());
+        } catch (const InputError& error) {
+            contestants_.notRun.push_back({name, error.what()});
+        }
+    }
+    void skip(const std::string& name, const std::string& reason) {
+        if (wanted(name)) contestants_.notRun.push_back({name, reason});
+    }
+
+private:
+    bool wanted(const std::string& name) const {
+        return only_.empty() || std::any_of(only_.begin(), only_.end(), [&](const std::string& part) {
+                   return name.find(part) != std::string::npos;
+               });
+    }
+    Contestants& contestants_;
+    const std::vector<std::string>& only_;
+};
+
+void addTables(Entry& entry, const Problem& problem) {
+    entry.add("tss", [&] { return makeKernelTable(problem); });
+    entry.add("tss-scalar", [&] { return makePairList(problem); });
+    entry.add("tss-plain", [&] { return makePlainTable(problem); });
+}
+
+void addTrees(Entry& entry, const Problem& problem) {
+    for (const TreeOf of : {TreeOf::All, TreeOf::Used}) {
+        const std::string name = of == TreeOf::All ? "tree-all" : "tree-used";
+        for (const Enclosure how : {Enclosure::Balls, Enclosure::Points, Enclosure::CoreSet, Enclosure::Box})
+            entry.add(name, [&] { return makeSphereTree(problem, of, 8, how); });
+        entry.add(name, [&] { return makeSphereTree(problem, of, 2, Enclosure::Balls); });
+    }
+}
+
+void addMeshTrees(Entry& entry, const Problem& problem, bool quick) {
+    for (int levels = 4; levels <= (quick ? 6 : 8); levels += quick ? 2 : 1)
+        entry.add("octree", [&] { return makeOctree(problem, levels); });
+    for (int levels = 3; levels <= (quick ? 3 : 5); ++levels) {
+        entry.add("medial-hubbard", [&] { return makeHubbard(problem, levels); });
+        entry.add("medial-adaptive", [&] { return makeAdaptiveMedial(problem, levels); });
+    }
+    entry.add("orourke-badler", [&] { return makeOrourkeBadler(problem); });
+}
+
+/// Methods that store the motion rather than the shape; all ask the same sphere model.
+void addMotionMethods(Entry& entry, const Problem& problem, bool quick, std::uint64_t seed) {
+    const auto a = std::make_shared<BallTree>(buildBallTree(problem.a, 8, Enclosure::Balls));
+    const auto b = std::make_shared<BallTree>(buildBallTree(problem.b, 8, Enclosure::Balls));
+    const Oracle hit = [a, b](const PoseQuery& query) {
+        IgnoreWork none;
+        return treesTouch(*a, *b, query.pose, none);
+    };
+    const GapOracle gap = [a, b](const PoseQuery& query) { return treesGap(*a, *b, query.pose); };
+    const StatedError stated{missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)};
+    const std::size_t dofs = problem.motion.dofCount();
+    const int bins = 256, samples = dofs == 1 ? 9 : quick ? 32 : 128;
+    entry.add("angular-region", [&] { return makeAngularRegion(problem, hit, bins, samples, seed); });
+    entry.add("mixed-region",
+              [&] { return makeMixedRegion(problem, hit, bins, samples, seed, makeKernelTable(problem)); });
+    entry.add("mixed-region", [&] {
+        return makeMixedRegion(problem, hit, bins, samples, seed,
+                               makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls));
+    });
+    for (const int paths : quick ? std::vector{17} : std::vector{9, 33, 129}) {
+        if (dofs > 2 && paths > 33) continue;
+        entry.add("allowed-paths",
+                  [&] { return makeAllowedPaths(problem, hit, dofs == 1 ? 1 : paths, 200); });
+        if (dofs == 1) break;
+    }
+    std::vector<int> points{17, 65, 257};
+    if (dofs == 1) points = {65, 1025, 16385};
+    if (dofs == 3) points = {17, 33, 65};
+    if (dofs == 4) points = {9, 17};
+    if (quick) points.pop_back();
+    for (const int n : points) entry.add("gap-grid", [&] { return makeGapGrid(problem, gap, n, stated); });
+}
+
+void addMeshMethods(Entry& entry, const Problem& problem) {
+    entry.add("fcl-obbrss", [&] { return makeFcl(problem, FclTree::Obbrss); });
+    entry.add("fcl-obb", [&] { return makeFcl(problem, FclTree::Obb); });
+    entry.add("fcl-rss", [&] { return makeFcl(problem, FclTree::Rss); });
+    entry.add("fcl-aabb", [&] { return makeFcl(problem, FclTree::Aabb); });
+    entry.add("bullet-gimpact", [&] { return makeGimpact(problem); });
+}
+
+} // namespace
+
+Contestants makeContestants(const Model& model, Field field, bool quick, const std::vector<std::string>& only,
+                            std::uint64_t seed) {
+    Contestants contestants;
+    Entry entry(contestants, only);
+    const Problem& problem = model.problem;
+    addTables(entry, problem);
+    if (field == Field::Model) {
+        entry.add("tree-all", [&] { return makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls); });
+        entry.add("tree-used", [&] { return makeSphereTree(problem, TreeOf::Used, 8, Enclosure::Balls); });
+        entry.add("all-pairs-simd", [&] { return makeAllPairsSimd(problem); });
+        return contestants;
+    }
+    entry.add("all-pairs", [&] { return makeAllPairs(problem); });
+    entry.add("all-pairs-simd", [&] { return makeAllPairsSimd(problem); });
+    addTrees(entry, problem);
+    addMeshTrees(entry, problem, quick);
+    addMotionMethods(entry, problem, quick, seed);
+    addMeshMethods(entry, problem);
+    entry.skip("bent ellipsoid", "stands for a muscle under a skin; a rigid pair of meshes has none");
+    if (quick) entry.skip("finer octrees, medial trees, paths and grids", "left out by --quick");
+    return contestants;
+}
+
+} // namespace tss::reporting

@@ -1,0 +1,28 @@
+#pragma once
+#include "bake/compare/BallTree.h"
+#include "bake/compare/Methods.h"
+#include "bake/report/Model.h"
+
+namespace tss::reporting {
+
+/// A method that the paper or METHOD 7 names and that has no row here, and why.
+struct NotRun {
+    std::string method, reason;
+};
+
+struct Contestants {
+    std::vector<std::shared_ptr<const compare::Rival>> rivals;
+    std::vector<NotRun> notRun;
+};
+
+enum class Field {
+    Whole, ///< every method
+    Model, ///< the methods whose error follows the spheres' tolerance, for a sweep
+};
+
+/// Makes the methods for a model. quick: smaller settings of those that take long to build. only: parts of
+/// names or families wanted, empty: all. seed: of the sampled ones.
+Contestants makeContestants(const Model& model, Field field, bool quick, const std::vector<std::string>& only,
+                            std::uint64_t seed);
+
+} // namespace tss::reporting

@@ -1,0 +1,178 @@
+#include "bake/report/Report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace tss::reporting {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json orNull(double value) {
+    return value < 0 ? Json(nullptr) : Json(value);
+}
+
+Json jsonOf(const ErrorFigures& figures, double mm) {
+    return {{"poses", figures.poses},
+            {"touching", figures.touching},
+            {"missed", figures.missed},
+            {"early", figures.early},
+            {"deepestMissMm", figures.deepestMiss * mm},
+            {"meanMissMm", figures.meanMiss * mm},
+            {"farthestEarlyMm", figures.farthestEarly * mm},
+            {"meanEarlyMm", figures.meanEarly * mm},
+            {"someMeasured", figures.sampled}};
+}
+
+Json jsonOf(const Row& row, double mm) {
+    return {{"method", row.method},
+            {"setting", row.setting},
+            {"family", row.about.family},
+            {"about", row.about.about},
+            {"statedMissMm", orNull(row.about.stated.miss * mm)},
+            {"statedEarlyMm", orNull(row.about.stated.early * mm)},
+            {"uniform", jsonOf(row.uniform, mm)},
+            {"nearContact", jsonOf(row.near, mm)},
+            {"firstContact",
+             {{"motions", row.firstContact.motions},
+              {"never", row.firstContact.never},
+              {"worstMm", row.firstContact.worstLength * mm},
+              {"earliestMm", row.firstContact.earliest * mm},
+              {"latestMm", row.firstContact.latest * mm},
+              {"worstOfLeadingDof", row.firstContact.worstAngle},
+              {"meanOfLeadingDof", row.firstContact.meanAngle}}},
+            {"nanoseconds",
+             {{"median", row.times.median},
+              {"p10", row.times.low},
+              {"p90", row.times.high},
+              {"rounds", row.times.rounds},
+              {"queriesARound", row.times.queries}}},
+            {"tests", orNull(row.tests)},
+            {"products", orNull(row.products)},
+            {"bytes", row.about.bytes},
+            {"buildSeconds", row.about.buildSeconds}};
+}
+
+Json jsonOf(const BakePoint& point, double mm) {
+    return {{"toleranceMm", point.tolerance * mm},
+            {"spheresA", point.spheresA},
+            {"spheresB", point.spheresB},
+            {"usedA", point.usedA},
+            {"usedB", point.usedB},
+            {"tests", point.tests},
+            {"lowerBound", point.lowerBound},
+            {"bytes", point.bytes},
+            {"sphereSeconds", point.sphereSeconds},
+            {"tableSeconds", point.tableSeconds}};
+}
+
+Json notRunOf(const std::vector<NotRun>& notRun) {
+    Json list = Json::array();
+    for (const NotRun& entry : notRun) list.push_back({{"method", entry.method}, {"reason", entry.reason}});
+    return list;
+}
+
+Json jsonOf(const PairStudy& study) {
+    const double mm = study.millimetres;
+    Json json{{"path", study.path},
+              {"a", study.nameA},
+              {"b", study.nameB},
+              {"trianglesA", study.trianglesA},
+              {"trianglesB", study.trianglesB},
+              {"dofs", study.dofs},
+              {"neverCollides", study.neverCollides},
+              {"clearanceMm", study.clearance * mm},
+              {"seconds", study.seconds}};
+    if (study.neverCollides) return json;
+    json["uniformPoses"] = study.uniformPoses;
+    json["touchingUniform"] = study.touchingUniform;
+    json["nearPoses"] = study.nearPoses;
+    json["timedPoses"] = study.timedPoses;
+    for (const Row& row : study.rows) json["rows"].push_back(jsonOf(row, mm));
+    json["notRun"] = notRunOf(study.notRun);
+    Json steps{
+        {"motion", study.steps.motion}, {"leadingDof", study.leadingDof}, {"leading", study.steps.leading}};
+    for (const StepSeries& series : study.steps.series)
+        steps["series"].push_back({{"name", series.name}, {"tests", series.tests}});
+    json["steps"] = steps;
+    json["angularRegion"] = {{"lower", study.region.lower},
+                             {"upper", study.region.upper},
+                             {"unit", study.leadingUnit},
+                             {"middle", study.region.middle},
+                             {"share", study.region.share}};
+    for (const SamplingPoint& point : study.sampling)
+        json["sampling"].push_back({{"samples", point.samples},
+                                    {"reduce", point.reduce},
+                                    {"tests", point.tests},
+                                    {"missedUniform", point.missedUniform},
+                                    {"missedNearContact", point.missedNear},
+                                    {"seconds", point.seconds}});
+    for (const EpsilonPoint& point : study.epsilons)
+        json["epsilon"].push_back({{"epsilonMm", point.epsilon * mm},
+                                   {"tests", point.tests},
+                                   {"lowerBound", point.lowerBound},
+                                   {"seconds", point.seconds}});
+    for (const BakePoint& point : study.bakes) json["bakes"].push_back(jsonOf(point, mm));
+    json["paperRecipe"] = jsonOf(study.paper, mm);
+    return json;
+}
+
+Json jsonOf(const SkinStudy& study) {
+    const double mm = study.millimetres;
+    Json json{{"path", study.path},
+              {"muscles", study.muscles},
+              {"skinSpheres", study.skinSpheres},
+              {"muscleSpheres", study.muscleSpheres},
+              {"usedSkin", study.usedSkin},
+              {"usedMuscle", study.usedMuscle},
+              {"tests", study.tests},
+              {"carried",
+               {{"usedSkin", study.carriedSkin},
+                {"usedMuscle", study.carriedMuscle},
+                {"tests", study.carriedTests}}},
+              {"activations", study.activations},
+              {"thicknessMm", study.thickness * mm},
+              {"judged", study.judged},
+              {"touching", study.touching},
+              {"productsAnEllipsoidTest", study.productsEllipsoid},
+              {"seconds", study.seconds}};
+    for (const SkinMethod& method : study.methods)
+        json["methods"].push_back({{"method", method.name},
+                                   {"about", method.about},
+                                   {"tests", method.tests},
+                                   {"products", method.products},
+                                   {"nanoseconds", method.nanoseconds},
+                                   {"missed", method.missed},
+                                   {"early", method.early},
+                                   {"deepestMissMm", method.deepestMiss * mm},
+                                   {"farthestEarlyMm", method.farthestEarly * mm}});
+    json["notRun"] = notRunOf(study.notRun);
+    return json;
+}
+
+} // namespace
+
+std::string jsonOf(const Report& report) {
+    Json json{{"scene", report.scene},
+              {"machine",
+               {{"processor", report.machine.processor},
+                {"cores", report.machine.cores},
+                {"compiler", report.machine.compiler},
+                {"build", report.machine.build},
+                {"vectors", report.machine.vectors},
+                {"libraries", report.machine.libraries}}},
+              {"quick", report.options.quick},
+              {"seed", report.options.seed},
+              {"seconds", report.seconds},
+              {"pairs", Json::array()},
+              {"skins", Json::array()}};
+    for (std::size_t k = 0; k < report.pairs.size(); ++k) {
+        Json pair = jsonOf(report.pairs[k]);
+        for (const Plot& plot : report.plots[k]) pair["plots"].push_back(plot.file);
+        json["pairs"].push_back(std::move(pair));
+    }
+    for (const SkinStudy& study : report.skins) json["skins"].push_back(jsonOf(study));
+    return json.dump(1) + "\n";
+}
+
+} // namespace tss::reporting

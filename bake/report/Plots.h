@@ -1,0 +1,20 @@
+#pragma once
+#include "bake/report/Study.h"
+
+namespace tss::reporting {
+
+/// A plot that was drawn: its file inside the report's folder and what it shows.
+struct Plot {
+    std::string file, caption;
+};
+
+/// Draws the plots of a pair as SVG into folder/plots by gnuplot, data and scripts beside them, so that
+/// anyone can draw them again. stem: what their names begin with. Where gnuplot cannot be run, no plot is in
+/// the list, and `problem` says why.
+std::vector<Plot> drawPlots(const PairStudy& study, const std::string& folder, const std::string& stem,
+                            std::string& problem);
+
+/// Runs gnuplot on a script in the folder. False where it cannot be run or fails.
+bool runGnuplot(const std::string& folder, const std::string& script);
+
+} // namespace tss::reporting

@@ -1,0 +1,65 @@
+#include "bake/report/Report.h"
+
+#include "bake/base/AtomicFile.h"
+#include "bake/base/Error.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+namespace tss::reporting {
+
+namespace {
+
+std::string stemOf(const std::string& path, bool alone) {
+    if (alone) return "";
+    std::string stem = path.substr(1);
+    std::replace(stem.begin(), stem.end(), '/', '-');
+    return stem + "-";
+}
+
+void checkPaths(const SceneModel& scene, const ReportOptions& options, const std::string& file) {
+    if (scene.pairs.empty() && scene.skins.empty())
+        throw InputError(Where{file, "", ""}, "expected a scene with a pair or a skin to report on");
+    for (const std::string& path : options.pairs) {
+        const auto same = [&](const auto& item) { return item.path == path; };
+        if (std::none_of(scene.pairs.begin(), scene.pairs.end(), same) &&
+            std::none_of(scene.skins.begin(), scene.skins.end(), same))
+            throw InputError(Where{file, "", path}, "no pair and no skin of this path in the scene");
+    }
+}
+
+} // namespace
+
+Report makeReport(const SceneModel& scene, const std::string& sceneFile, const std::string& folder,
+                  const ReportOptions& options, const Progress& progress) {
+    checkPaths(scene, options, sceneFile);
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw InputError(Where{folder, "", ""}, "cannot make the folder: " + error.message());
+    const auto start = std::chrono::steady_clock::now();
+    Report result;
+    result.scene = std::filesystem::path(sceneFile).filename().string();
+    result.machine = thisMachine();
+    result.options = options;
+    const auto wanted = [&](const std::string& path) {
+        return options.pairs.empty() ||
+               std::find(options.pairs.begin(), options.pairs.end(), path) != options.pairs.end();
+    };
+    for (const Pair& pair : scene.pairs)
+        if (wanted(pair.path)) result.pairs.push_back(studyPair(scene, pair, options, progress));
+    for (const SkinModel& skin : scene.skins)
+        if (wanted(skin.path)) result.skins.push_back(studySkin(scene, skin, options, progress));
+    for (const PairStudy& study : result.pairs)
+        result.plots.push_back(
+            study.neverCollides
+                ? std::vector<Plot>{}
+                : drawPlots(study, folder, stemOf(study.path, result.pairs.size() == 1), result.plotProblem));
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    writeFileAtomically(folder + "/report.csv", csvOf(result));
+    writeFileAtomically(folder + "/report.json", jsonOf(result));
+    writeFileAtomically(folder + "/report.md", markdownOf(result));
+    return result;
+}
+
+} // namespace tss::reporting

@@ -1,0 +1,31 @@
+#pragma once
+#include "bake/report/Plots.h"
+#include "bake/report/SkinStudy.h"
+#include "bake/report/Study.h"
+
+namespace tss::reporting {
+
+/// Everything that a report says.
+struct Report {
+    std::string scene; ///< file name without folders
+    Machine machine;
+    ReportOptions options;
+    std::vector<PairStudy> pairs;
+    std::vector<SkinStudy> skins;
+    std::vector<std::vector<Plot>> plots; ///< one list a pair
+    std::string plotProblem;
+    double seconds = 0;
+};
+
+/// Measures all methods on a scene and writes report.md, report.json, report.csv and plots/ into the folder,
+/// which is made where it is not there (METHOD 8). scene: meshes, joints and skins; tables in it are not
+/// used, they are made anew. Throws InputError for a scene without pairs and skins and for paths that are not
+/// in it.
+Report makeReport(const SceneModel& scene, const std::string& sceneFile, const std::string& folder,
+                  const ReportOptions& options, const Progress& progress = {});
+
+std::string markdownOf(const Report& report);
+std::string csvOf(const Report& report);
+std::string jsonOf(const Report& report);
+
+} // namespace tss::reporting

@@ -1,0 +1,37 @@
+#pragma once
+#include "bake/report/Study.h"
+
+namespace tss::reporting {
+
+/// One way to find which skin spheres touch the muscles at an activation.
+struct SkinMethod {
+    std::string name, about;
+    double tests = 0, products = 0; ///< a step, mean over the activations
+    double nanoseconds = 0;         ///< a step, median
+    std::size_t missed = 0;         ///< skin vertices within their thickness of a muscle and not found
+    std::size_t early = 0;          ///< found although the muscle is farther
+    double deepestMiss = 0;         ///< scene units: how far inside its thickness the worst one is
+    double farthestEarly = 0;       ///< scene units: how far beyond its thickness
+};
+
+/// A skin over its muscles (METHOD 6.2, 7): the paper's second example.
+struct SkinStudy {
+    std::string path;
+    double millimetres = 1;
+    std::size_t muscles = 0, skinSpheres = 0, muscleSpheres = 0;
+    std::size_t usedSkin = 0, usedMuscle = 0, tests = 0; ///< the paper's way: skin at its rest place
+    std::size_t carriedSkin = 0, carriedMuscle = 0,
+                carriedTests = 0;         ///< the scene's way: skin that is carried
+    std::size_t judged = 0, touching = 0; ///< vertices times activations, by the surfaces
+    int activations = 0;
+    double thickness = 0;         ///< radius of a skin sphere, scene units
+    double productsEllipsoid = 0; ///< of one test of a sphere against a bent ellipsoid, mean
+    std::vector<SkinMethod> methods;
+    std::vector<NotRun> notRun;
+    double seconds = 0;
+};
+
+SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const ReportOptions& options,
+                    const Progress& progress);
+
+} // namespace tss::reporting

@@ -1,0 +1,97 @@
+#pragma once
+#include "bake/base/Progress.h"
+#include "bake/report/Accuracy.h"
+#include "bake/report/Contestants.h"
+#include "bake/report/Machine.h"
+#include "bake/report/Timing.h"
+
+namespace tss::reporting {
+
+struct ReportOptions {
+    bool quick = false;                      ///< under a minute for a pair of some ten thousand triangles
+    std::vector<std::string> methods;        ///< parts of names wanted; empty: all
+    std::vector<std::vector<double>> motion; ///< steps to count tests along, one value a DOF (radians, scene
+                                             ///< units); empty: the scene's own drives, or a sweep
+    std::vector<std::string> pairs;          ///< prim paths; empty: all
+    std::uint64_t seed = 20;
+};
+
+/// One method with one setting.
+struct Row {
+    std::string method;  ///< its name
+    std::string setting; ///< of the spheres it stands on, e.g. "0.35 mm"; empty where it has none
+    compare::Description about;
+    ErrorFigures uniform, near;
+    FirstContact firstContact;
+    Times times;
+    double tests = -1, products = -1; ///< a query, mean over the uniform poses; < 0: not countable
+
+    double worst() const; ///< scene units: the deepest miss or the farthest early contact, whichever is more
+    std::size_t misses() const { return uniform.missed + near.missed; }
+};
+
+/// Tests a step along a motion, one series a method (the paper's Figure 2j).
+struct StepSeries {
+    std::string name;
+    std::vector<double> tests;
+};
+struct StepStudy {
+    std::string motion;          ///< in words
+    std::vector<double> leading; ///< value of the leading DOF at each step, its own unit
+    std::vector<char> touching;  ///< by the meshes
+    std::vector<char> inRegion;  ///< the step lies in the angular region of collision
+    std::vector<StepSeries> series;
+};
+
+/// Share of colliding samples by slice of the leading DOF (the paper's Figure 2i).
+struct RegionStudy {
+    std::vector<double> middle, share;
+    double lower = 0, upper = 0; ///< the angular region of collision; equal: there is none
+};
+
+/// What a sampled search loses.
+struct SamplingPoint {
+    std::size_t samples = 0;
+    std::string reduce; ///< "cooccurrence", "minimal"
+    std::size_t tests = 0;
+    double missedUniform = 0, missedNear = 0; ///< of the poses where the whole sphere model collides, 0..1
+    double seconds = 0;
+};
+struct EpsilonPoint {
+    double epsilon = 0; ///< scene units
+    std::size_t tests = 0;
+    double lowerBound = 0, seconds = 0;
+};
+struct BakePoint {
+    double tolerance = 0; ///< scene units
+    std::size_t spheresA = 0, spheresB = 0, usedA = 0, usedB = 0, tests = 0, bytes = 0;
+    double lowerBound = 0, sphereSeconds = 0, tableSeconds = 0;
+};
+
+/// Everything about one pair.
+struct PairStudy {
+    std::string path, nameA, nameB;
+    std::size_t trianglesA = 0, trianglesB = 0;
+    std::vector<std::string> dofs; ///< name and limits in words
+    std::string leadingDof, leadingUnit;
+    double millimetres = 1; ///< in a scene unit
+    bool neverCollides = false;
+    double clearance = 0;
+    std::vector<std::string> notes;
+    double baseTolerance = 0;
+    std::size_t uniformPoses = 0, nearPoses = 0, touchingUniform = 0, timedPoses = 0;
+    std::vector<Row> rows;
+    std::vector<NotRun> notRun;
+    StepStudy steps;
+    RegionStudy region;
+    std::vector<SamplingPoint> sampling;
+    std::vector<EpsilonPoint> epsilons;
+    std::vector<BakePoint> bakes;
+    BakePoint paper; ///< the paper's own recipe on this pair: growth, sampled search, co-occurrence
+    double seconds = 0;
+};
+
+PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptions& options,
+                    const Progress& progress);
+
+} // namespace tss::reporting

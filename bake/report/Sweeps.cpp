@@ -1,0 +1,206 @@
+#include "bake/report/PairStudy.h"
+
+#include "bake/table/Query.h"
+
+#include <chrono>
+#include <cmath>
+#include <random>
+
+namespace tss::reporting {
+
+namespace {
+
+using namespace compare;
+
+double degreesPer(const Dof& dof) {
+    return dof.kind == DofKind::Rotation ? 180 / 3.14159265358979323846 : 1;
+}
+
+/// The scene's own animation of the pair where a single joint carries it, else the leading DOF from its upper
+/// limit to the lower one and back, the others at rest.
+std::vector<std::vector<double>> motionSteps(const SceneModel& scene, const Pair& pair,
+                                             const Problem& problem, const ReportOptions& options, int steps,
+                                             std::string& inWords) {
+    if (!options.motion.empty()) {
+        inWords = "the motion given";
+        return options.motion;
+    }
+    const Motion& motion = problem.motion;
+    std::vector<std::vector<double>> values;
+    if (pair.joints.size() == 1) {
+        const Joint& joint = scene.joints[static_cast<std::size_t>(pair.joints[0])];
+        bool driven = joint.body0 == pair.bodyA && joint.drives.size() == motion.dofCount();
+        for (std::size_t k = 0; driven && k < joint.drives.size(); ++k) driven = !joint.drives[k].empty();
+        if (driven && scene.endTimeCode > scene.startTimeCode) {
+            inWords = "the scene's own animation";
+            for (int s = 0; s < steps; ++s) {
+                const double time =
+                    scene.startTimeCode + (scene.endTimeCode - scene.startTimeCode) * s / (steps - 1);
+                std::vector<double> q;
+                for (const TimeSamples& drive : joint.drives) q.push_back(drive.at(time));
+                values.push_back(clampToLimits(motion, q));
+            }
+            return values;
+        }
+    }
+    const std::size_t leading = leadingDof(problem);
+    const Dof& dof = motion.dofs[leading];
+    inWords = dof.name + " from its upper limit to the lower one and back";
+    for (int s = 0; s < steps; ++s) {
+        std::vector<double> q = restValues(motion);
+        const double share = std::abs(1 - 2.0 * s / (steps - 1));
+        q[leading] = dof.lower + share * (dof.upper - dof.lower);
+        values.push_back(clampToLimits(motion, q));
+    }
+    return values;
+}
+
+RegionStudy regionOf(const Problem& problem, const Rival& model, int bins, int samples, std::uint64_t seed) {
+    RegionStudy region;
+    const std::size_t leading = leadingDof(problem);
+    const Dof& dof = problem.motion.dofs[leading];
+    const double step = (dof.upper - dof.lower) / bins;
+    std::mt19937_64 random(seed);
+    bool found = false;
+    for (int k = 0; k < bins; ++k) {
+        int hits = 0;
+        for (int s = 0; s < samples; ++s) {
+            PoseQuery query;
+            for (const Dof& d : problem.motion.dofs)
+                query.q.push_back(std::uniform_real_distribution<double>(d.lower, d.upper)(random));
+            query.q[leading] = dof.lower + step * (k + static_cast<double>(s) / samples);
+            query.pose = pose(problem.motion, query.q);
+            hits += model.hit(query) ? 1 : 0;
+        }
+        region.middle.push_back((dof.lower + step * (k + 0.5)) * degreesPer(dof));
+        region.share.push_back(static_cast<double>(hits) / samples);
+        if (hits == 0) continue;
+        if (!found) region.lower = (dof.lower + step * k) * degreesPer(dof);
+        region.upper = (dof.lower + step * (k + 1)) * degreesPer(dof);
+        found = true;
+    }
+    return region;
+}
+
+/// Share of the queries at which the whole model collides and the table does not.
+double missedShare(const Rival& whole, const Rival& table, const std::vector<PoseQuery>& queries) {
+    std::size_t hits = 0, missed = 0;
+    for (const PoseQuery& query : queries) {
+        if (!whole.hit(query)) continue;
+        ++hits;
+        missed += table.hit(query) ? 0 : 1;
+    }
+    return hits > 0 ? static_cast<double>(missed) / static_cast<double>(hits) : 0;
+}
+
+} // namespace
+
+void studyPaper(PairStudy& study, const Model& model, const ReportOptions& options) {
+    Recipe recipe;
+    recipe.name = "the paper's";
+    recipe.spheres = SphereMethod::Growth;
+    recipe.search = SearchMethod::Sampled;
+    recipe.reduce = ReduceMethod::Cooccurrence;
+    recipe.samples = options.quick ? 1000 : 10000;
+    const auto paper = makeModel(model.problem.meshA, model.problem.meshB, model.problem.motion, recipe);
+    const Table& table = paper->problem.table;
+    study.paper = {0,
+                   paper->problem.a.size(),
+                   paper->problem.b.size(),
+                   table.a.size(),
+                   table.b.size(),
+                   table.testCount(),
+                   0,
+                   0,
+                   paper->sphereSeconds,
+                   paper->tableSeconds};
+}
+
+void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, const Model& model,
+                const MeshTruth& truth, const ReportOptions& options, int steps) {
+    const Problem& problem = model.problem;
+    const std::size_t leading = leadingDof(problem);
+    const Dof& dof = problem.motion.dofs[leading];
+    study.leadingDof = dof.name;
+    study.leadingUnit = dof.kind == DofKind::Rotation ? "degrees" : "of its axis";
+    const auto whole = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
+    study.region =
+        regionOf(problem, *whole, options.quick ? 64 : 180, options.quick ? 32 : 200, options.seed + 4);
+
+    const auto queries =
+        poseQueries(problem.motion, motionSteps(scene, pair, problem, options, steps, study.steps.motion));
+    for (const PoseQuery& query : queries) {
+        const double value = query.q[leading] * degreesPer(dof);
+        study.steps.leading.push_back(value);
+        study.steps.touching.push_back(truth.touches(query.pose) ? 1 : 0);
+        study.steps.inRegion.push_back(value >= study.region.lower && value <= study.region.upper &&
+                                       study.region.upper > study.region.lower);
+    }
+    std::vector<std::pair<std::string, std::unique_ptr<Rival>>> methods;
+    methods.emplace_back("all pairs, until the first hit", makeAllPairs(problem));
+    methods.emplace_back("sphere tree, all spheres (case 1)",
+                         makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls));
+    methods.emplace_back("sphere tree, used spheres (case 2)",
+                         makeSphereTree(problem, TreeOf::Used, 8, Enclosure::Balls));
+    methods.emplace_back("medial sphere tree", makeAdaptiveMedial(problem, 3));
+    methods.emplace_back("octree sphere tree", makeOctree(problem, 6));
+    methods.emplace_back("TSS", makePairList(problem));
+    for (const auto& [name, rival] : methods) {
+        StepSeries series{name, {}};
+        for (const PoseQuery& query : queries)
+            series.tests.push_back(static_cast<double>(rival->work(query)->tests));
+        study.steps.series.push_back(std::move(series));
+    }
+    StepSeries mixed{"TSS in the angular region only", {}};
+    for (std::size_t s = 0; s < queries.size(); ++s)
+        mixed.tests.push_back(study.steps.inRegion[s] ? static_cast<double>(problem.table.testCount()) : 0);
+    study.steps.series.push_back(std::move(mixed));
+}
+
+void studySampling(PairStudy& study, const Model& model, const ReportOptions& options) {
+    const Problem& problem = model.problem;
+    const auto whole = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
+    const std::size_t count = options.quick ? 4000 : 20000;
+    const auto uniform = poseQueries(problem.motion, randomPoses(problem.motion, count, options.seed + 5));
+    const auto near =
+        poseQueries(problem.motion, nearContactPoses(
+                                        [&](const Pose& at) {
+                                            return whole->hit({{}, at});
+                                        },
+                                        problem.motion, options.quick ? 600 : 4000, 1e-6, options.seed + 6));
+    const Spheres spheresA{problem.a, problem.fitA}, spheresB{problem.b, problem.fitB};
+    for (const std::size_t samples : options.quick
+                                         ? std::vector<std::size_t>{30, 300, 3000}
+                                         : std::vector<std::size_t>{30, 100, 300, 1000, 3000, 10000, 30000})
+        for (const auto& [reduce, name] :
+             {std::pair{ReduceMethod::Cooccurrence, "cooccurrence"}, std::pair{ReduceMethod::None, "none"}}) {
+            Recipe recipe = model.recipe;
+            recipe.search = SearchMethod::Sampled;
+            recipe.reduce = reduce;
+            recipe.samples = samples;
+            const auto sampled =
+                makeModel(problem.meshA, problem.meshB, problem.motion, recipe, spheresA, spheresB);
+            const auto table = makePairList(sampled->problem);
+            study.sampling.push_back({samples, name, sampled->problem.table.testCount(),
+                                      missedShare(*whole, *table, uniform), missedShare(*whole, *table, near),
+                                      sampled->tableSeconds});
+        }
+}
+
+void studyEpsilon(PairStudy& study, const Model& model, const ReportOptions& options) {
+    const Problem& problem = model.problem;
+    const Spheres spheresA{problem.a, problem.fitA}, spheresB{problem.b, problem.fitB};
+    for (const double factor :
+         options.quick ? std::vector{0.0, 0.1, 1.0} : std::vector{0.0, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0}) {
+        Recipe recipe = model.recipe;
+        recipe.epsilon = factor * model.recipe.tolerance;
+        const auto made =
+            factor == 0 ? nullptr
+                        : makeModel(problem.meshA, problem.meshB, problem.motion, recipe, spheresA, spheresB);
+        const Model& point = made ? *made : model;
+        study.epsilons.push_back(
+            {recipe.epsilon, point.problem.table.testCount(), point.lowerBound, point.tableSeconds});
+    }
+}
+
+} // namespace tss::reporting

@@ -1,0 +1,24 @@
+#pragma once
+#include "bake/compare/Rival.h"
+
+namespace tss::reporting {
+
+/// Time of one query: median over rounds and the tenth and ninetieth percentile, in nanoseconds.
+struct Times {
+    double median = 0, low = 0, high = 0;
+    int rounds = 0;
+    std::size_t queries = 0; ///< in a round
+};
+
+struct TimingOptions {
+    int rounds = 11;
+    double secondsEach = 1.0;   ///< a method that would take longer for all rounds gets fewer, at least 3
+    double secondsRound = 2e-3; ///< a method that is quicker repeats the poses until a round takes this long
+};
+
+/// Times the loop over the same poses for every method, in one process on one thread: a warm-up, then rounds
+/// in which all methods take turns, so that what disturbs the machine disturbs all of them.
+std::vector<Times> timeMethods(const std::vector<const compare::Rival*>& rivals,
+                               const std::vector<compare::PoseQuery>& queries, const TimingOptions& options);
+
+} // namespace tss::reporting
