@@ -1,0 +1,73 @@
+// An application outside the tree: plays a baked scene, read by the library and by the plugin, and sees its
+// joint held back. Arguments: the scene. Exit 0 when all of it was so.
+#include <bake/respond/JointResponder.h>
+#include <bake/table/PreparedTable.h>
+
+#include <osgDB/ReadFile>
+#include <osgTSS/Install>
+#include <osgTSS/JointTransform>
+#include <osgTSS/SceneFile>
+#include <osgTSS/Version>
+#include <osgUtil/UpdateVisitor>
+
+#include <algorithm>
+#include <cstring>
+#include <iostream>
+
+namespace {
+
+class FindJoint : public osg::NodeVisitor {
+public:
+    FindJoint() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Transform& node) override {
+        if (auto* found = dynamic_cast<osgTSS::JointTransform*>(&node)) joint = found;
+        traverse(node);
+    }
+    osgTSS::JointTransform* joint = nullptr;
+};
+
+/// In how many of the scene's frames the joint was kept from what it was asked for; -1 without a joint.
+int framesHeldBack(osg::Node& root) {
+    FindJoint find;
+    root.accept(find);
+    if (!find.joint) return -1;
+    const osgTSS::Scene* scene = osgTSS::Scene::on(root);
+    int held = 0;
+    osgUtil::UpdateVisitor update;
+    osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+    update.setFrameStamp(stamp);
+    for (unsigned int frame = 0; frame <= scene->getModel().endTimeCode; ++frame) {
+        stamp->setFrameNumber(frame);
+        update.setTraversalNumber(frame);
+        root.accept(update);
+        held += find.joint->getValues() != find.joint->getAskedValues();
+    }
+    return held;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) return 2;
+    if (std::strcmp(osgTSS::getVersion(), OSGTSS_VERSION_STRING) != 0) {
+        std::cerr << "headers " OSGTSS_VERSION_STRING ", library " << osgTSS::getVersion() << "\n";
+        return 1;
+    }
+    osgTSS::LoadOptions options("clock=frame");
+    osg::ref_ptr<osgTSS::Scene> scene = osgTSS::readScene(argv[1]);
+    const int held = framesHeldBack(*osgTSS::createPlayingGraph(*scene, options));
+
+    osg::ref_ptr<osgDB::Options> words = new osgDB::Options("clock=frame");
+    osg::ref_ptr<osg::Node> loaded = osgDB::readRefNodeFile(argv[1], words);
+    const int heldByPlugin = loaded ? framesHeldBack(*loaded) : -1;
+
+    // The core is in the same library.
+    const tss::Table& table = *scene->getModel().pairs.at(0).table;
+    const tss::PreparedTable prepared(table);
+    const tss::JointResponder responder(table);
+
+    std::cout << "osgTSS " << osgTSS::getVersion() << ": " << prepared.testCount() << " tests, "
+              << responder.dofCount() << " DOFs, held back in " << held << " frames, by the plugin in "
+              << heldByPlugin << "\n";
+    return held > 0 && held == heldByPlugin ? 0 : 1;
+}

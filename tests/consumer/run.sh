@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# Installs a build into a prefix of its own, builds the project beside this script against it twice, with find_package
+# and with pkg-config, and runs both. Arguments: the build folder, a scene with a table.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+build=$1 scene=$2
+work=$build/consumer
+rm -rf "$work"
+mkdir -p "$work"
+cmake --install "$build" --prefix "$work/prefix" >"$work/install.log"
+# Moved, so that nothing in it may name the place it was installed to.
+mv "$work/prefix" "$work/moved"
+prefix=$work/moved
+libraries=$(dirname "$(find "$prefix" -name libosgTSS.so)")
+unset OSG_LIBRARY_PATH LD_LIBRARY_PATH
+export OSG_LIBRARY_PATH
+OSG_LIBRARY_PATH=$(dirname "$(find "$prefix" -name osgdb_tss.so)")
+
+echo "with find_package"
+cmake -S "$here" -B "$work/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >"$work/configure.log"
+cmake --build "$work/cmake" >"$work/build.log" || { cat "$work/build.log"; exit 1; }
+"$work/cmake/consumer" "$scene"
+
+echo "with pkg-config"
+export PKG_CONFIG_PATH=$libraries/pkgconfig
+[ "$(pkg-config --variable=plugindir osgTSS)" -ef "$OSG_LIBRARY_PATH" ]
+# Every public header on its own line, and none that needs another before it.
+headers=$(cd "$prefix/include" && printf '#include <%s>\n' osgTSS/*)
+c++ -std=c++20 -Wall -Wextra -Werror -fsyntax-only -x c++ - $(pkg-config --cflags osgTSS) <<<"$headers"
+c++ -std=c++20 -O1 "$here/main.cpp" -o "$work/consumer" $(pkg-config --cflags --libs osgTSS)
+LD_LIBRARY_PATH=$libraries "$work/consumer" "$scene"
