@@ -1,9 +1,8 @@
 #include "bake/verify/Verify.h"
 #include "bake/base/Parallel.h"
-#include "bake/reduce/CertifiedCover.h"
 #include "bake/search/CertifiedSearch.h"
 #include "bake/table/Query.h"
-#include "tests/search/Scenes.h"
+#include "tests/verify/Baked.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -11,31 +10,6 @@
 using namespace tss;
 
 namespace {
-
-VerifyOptions colliding() {
-    VerifyOptions o;
-    o.atRest = RestOverlaps::Collide;
-    return o;
-}
-
-Table tableOf(const scenes::Scene& scene, const CoverResult& cover, const CoverOptions& options) {
-    Table table = makeTable(scene.a, scene.b, cover.pairs, cover.restGaps, scene.motion);
-    table.epsilon = cover.epsilon;
-    table.gapDepth = options.gapDepth;
-    table.gapMargin = options.gapMargin;
-    table.certified = true;
-    return table;
-}
-
-Table baked(const scenes::Scene& scene, double epsilon = 0, double depth = 0, double margin = 0,
-            AtRest atRest = AtRest::Collide) {
-    CoverOptions options;
-    options.epsilon = epsilon;
-    options.gapDepth = depth;
-    options.gapMargin = margin;
-    options.atRest = atRest;
-    return tableOf(scene, certifiedCover(scene.a, scene.b, nullptr, scene.motion, options), options);
-}
 
 /// The table with one of its tests left out.
 Table without(const Table& table, std::size_t test) {
