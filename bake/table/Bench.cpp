@@ -29,6 +29,7 @@ bool benchWith(std::string_view name, BenchWith& with) {
     if (name == "hit") return with = BenchWith::Hit, true;
     if (name == "gap") return with = BenchWith::Gap, true;
     if (name == "contact") return with = BenchWith::Contact, true;
+    if (name == "features") return with = BenchWith::Features, true;
     return false;
 }
 
@@ -63,6 +64,9 @@ BenchResult benchQueries(const PreparedTable& table, const Motion& motion, std::
             result.hits += c.gap <= 0;
             result.checksum += c.gap + c.point.x() + c.normal.x() + c.gradient[0];
         });
+        break;
+    case BenchWith::Features:
+        repeat(queries, poses.size(), [&](std::size_t i) { table.features(poses[i].data(), features[i]); });
         break;
     }
     result.nanoseconds = nanoseconds(start, Clock::now(), static_cast<double>(queries));

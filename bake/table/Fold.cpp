@@ -86,10 +86,12 @@ Products allProducts(const Motion& motion, std::span<const TablePair> pairs,
     return all;
 }
 
-/// The value of a product of factors.
-double product(const Fold::Feature& feature, const double (*u)[3], std::size_t dofs) {
+/// The value of a product of factors of D DOFs.
+template <std::size_t D>
+double product(const Fold::Feature& feature, const double (*u)[3]) {
+    if constexpr (D == 0) return 1;
     double value = u[0][feature.factor[0]];
-    for (std::size_t k = 1; k < dofs; ++k) value *= u[k][feature.factor[k]];
+    for (std::size_t k = 1; k < D; ++k) value *= u[k][feature.factor[k]];
     return value;
 }
 
@@ -108,7 +110,7 @@ void centre(Fold& fold, const std::vector<Interval>& ranges, const std::vector<I
         double sum = 0;
         for (const std::vector<double>& q : contacts) {
             factorsAt(fold.factors, q.data(), u);
-            sum += product(f, u, fold.factors.size());
+            sum += product<Fold::maxDofs>(f, u);
         }
         f.centre = contacts.empty() ? 0 : std::clamp(sum / double(contacts.size()), range.low, range.high);
         f.range = std::max(range.high - f.centre, f.centre - range.low);
@@ -140,23 +142,39 @@ double Fold::sharedRange() const {
     return range;
 }
 
-void Fold::evaluate(const double* q, double* out, double& shared) const {
-    const std::size_t dofs = factors.size();
-    shared = 0;
-    if (dofs == 0) return;
+template <class T>
+void Fold::evaluate(const double* q, T* out) const {
     double u[maxDofs][3];
     factorsAt(factors, q, u);
-    for (std::size_t k = 0; k < features.size(); ++k)
-        out[k] = product(features[k], u, dofs) - features[k].centre;
-    for (std::size_t k = 0; k < sharedFeatures.size(); ++k)
-        shared += sharedWeights[k] * (product(sharedFeatures[k], u, dofs) - sharedFeatures[k].centre);
+    // Numbers of DOFs are few: a loop of known length for each.
+    const auto fill = [&]<std::size_t D>(std::integral_constant<std::size_t, D>) {
+        double shared = 0;
+        for (std::size_t k = 0; k < sharedFeatures.size(); ++k)
+            shared += sharedWeights[k] * (product<D>(sharedFeatures[k], u) - sharedFeatures[k].centre);
+        *out = static_cast<T>(-shared);
+        T* value = out;
+        for (const Feature& feature : features)
+            *++value = static_cast<T>(product<D>(feature, u) - feature.centre);
+    };
+    switch (factors.size()) {
+    case 0:
+        return fill(std::integral_constant<std::size_t, 0>());
+    case 1:
+        return fill(std::integral_constant<std::size_t, 1>());
+    case 2:
+        return fill(std::integral_constant<std::size_t, 2>());
+    default:
+        return fill(std::integral_constant<std::size_t, 3>());
+    }
 }
+template void Fold::evaluate(const double*, float*) const;
+template void Fold::evaluate(const double*, double*) const;
 
 double Fold::signError(double u, Eigen::Index pair, double reach) const {
     const double constant = constants(pair) - reach * std::abs(reach);
     const std::vector<double> c = products(*this, pair);
     const double error = sumError(u, constant, c, 0);
-    return sumError(u, constant, c, 2 * error) + dropped(pair);
+    return sumError(u, constant, c, 4 * error) + dropped(pair);
 }
 
 double Fold::squareError(double u, Eigen::Index pair, double distance) const {
@@ -218,11 +236,11 @@ std::optional<Fold> makeFold(const Motion& motion, std::span<const TablePair> pa
 double foldMismatch(const Fold& fold, const Motion& motion, std::span<const TablePair> pairs,
                     std::span<const std::vector<double>> poses) {
     double most = 0;
-    Eigen::VectorXd features(Eigen::Index(fold.features.size()));
+    Eigen::VectorXd values(Eigen::Index(fold.features.size()) + 1);
     for (const std::vector<double>& q : poses) {
-        double shared = 0;
-        fold.evaluate(q.data(), features.data(), shared);
-        const Eigen::VectorXd squares = (fold.constants + fold.weights * features).array() + shared;
+        fold.evaluate(q.data(), values.data());
+        const Eigen::VectorXd squares =
+            (fold.constants + fold.weights * values.tail(values.size() - 1)).array() - values[0];
         const Pose at = pose(motion, q);
         for (std::size_t p = 0; p < pairs.size(); ++p)
             most = std::max(

@@ -30,8 +30,10 @@ struct Fold {
 
     double sharedRange() const;
 
-    /// Features and the shared term at q. features: #features values. Allocates nothing.
-    void evaluate(const double* q, double* features, double& shared) const;
+    /// What a query reads, at q: first less the shared term, then the features. out: #features + 1 values,
+    /// float or double. Allocates nothing.
+    template <class T>
+    void evaluate(const double* q, T* out) const;
 
     /// Bounds of the rounding error of d^2 - reach^2 (where that is about 0) and of d^2 (for distances about
     /// `distance`), of one pair.

@@ -4,6 +4,8 @@
 
 namespace tss {
 
+struct Fold;
+
 /// Which instructions the query kernels use. Best: the widest that this processor has.
 enum class KernelTarget { Best, Scalar, Sse2, Avx2, Avx512, Neon };
 
@@ -57,6 +59,12 @@ struct KernelSet {
     /// Smallest gap and its test, likewise.
     void (*gaps)(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count,
                  float* gap, std::int32_t* test) = nullptr;
+
+    /// What Fold::evaluate makes, of many poses at once: q: count rows of one value a DOF; value k of pose i
+    /// goes to poses[k * stride + i], stride count rounded up to 16. Null for direct and in the scalar
+    /// kernels.
+    void (*foldPoses)(const Fold& fold, const double* q, std::uint32_t count, std::uint32_t stride,
+                      void* poses) = nullptr;
 };
 
 inline constexpr std::uint32_t directColumns = 9;

@@ -7,7 +7,10 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "bake/table/Fold.h"
 #include "bake/table/KernelsScalar.h"
+
+#include <algorithm>
 
 HWY_BEFORE_NAMESPACE();
 namespace tss {
@@ -227,6 +230,73 @@ void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::
     }
 }
 
+/// sinVersin of as many angles as a vector has lanes.
+HWY_INLINE void sineVersine(V<double> x, V<double>& sine, V<double>& versine) {
+    const Lanes<double> d;
+    const hn::RebindToSigned<Lanes<double>> di;
+    const auto number = [&](double v) { return hn::Set(d, v); };
+    const SineSeries series;
+    const V<double> shifted = hn::MulAdd(x, number(series.perTurn), number(series.shift));
+    const V<double> turns = hn::Sub(shifted, number(series.shift));
+    const V<double> r =
+        hn::NegMulAdd(turns, number(series.low), hn::NegMulAdd(turns, number(series.high), x));
+    const V<double> z = hn::Mul(r, r);
+    V<double> s = number(series.sine[7]), v = number(series.versine[7]);
+    for (int k = 7; k-- > 0;) {
+        s = hn::MulAdd(s, z, number(series.sine[k]));
+        v = hn::MulAdd(v, z, number(series.versine[k]));
+    }
+    s = hn::MulAdd(hn::Mul(r, z), s, r);
+    v = hn::Mul(v, z);
+    const auto quadrant = hn::BitCast(di, shifted);
+    const auto odd = hn::MaskFromVec(hn::BitCast(d, hn::Neg(hn::And(quadrant, hn::Set(di, 1)))));
+    const auto sign = hn::BitCast(d, hn::ShiftLeft<62>(hn::And(quadrant, hn::Set(di, 2))));
+    const V<double> one = number(1), base = hn::IfThenElse(odd, one, hn::Sub(one, hn::Xor(one, sign)));
+    sine = hn::Xor(hn::IfThenElse(odd, hn::Sub(one, v), s), sign);
+    versine = hn::Add(base, hn::Xor(hn::IfThenElse(odd, s, v), sign));
+}
+
+HWY_INLINE void storePoses(V<double> value, double* to) {
+    hn::StoreU(value, Lanes<double>(), to);
+}
+HWY_INLINE void storePoses(V<double> value, float* to) {
+    const hn::Rebind<float, Lanes<double>> d;
+    hn::StoreU(hn::DemoteTo(d, value), d, to);
+}
+
+template <class T>
+void foldPoses(const Fold& fold, const double* q, std::uint32_t count, std::uint32_t stride, void* poses) {
+    const Lanes<double> d;
+    const std::uint32_t n = static_cast<std::uint32_t>(hn::Lanes(d));
+    const std::size_t dofs = fold.factors.size();
+    HWY_ALIGN double values[hn::MaxLanes(Lanes<double>())];
+    V<double> u[Fold::maxDofs][3];
+    const auto product = [&](const Fold::Feature& feature) {
+        V<double> value = hn::Set(d, 1);
+        for (std::size_t k = 0; k < dofs; ++k)
+            if (feature.factor[k] != 0) value = hn::Mul(value, u[k][feature.factor[k]]);
+        return hn::Sub(value, hn::Set(d, feature.centre));
+    };
+    for (std::uint32_t i = 0; i < count; i += n) {
+        for (std::size_t k = 0; k < dofs; ++k) {
+            for (std::uint32_t j = 0; j < n; ++j) values[j] = q[std::min(i + j, count - 1) * dofs + k];
+            const V<double> x = hn::Sub(hn::Load(d, values), hn::Set(d, fold.factors[k].middle));
+            if (fold.factors[k].turn) {
+                sineVersine(x, u[k][1], u[k][2]);
+            } else {
+                u[k][1] = x;
+                u[k][2] = hn::Mul(x, x);
+            }
+        }
+        V<double> shared = hn::Zero(d);
+        for (std::size_t k = 0; k < fold.sharedFeatures.size(); ++k)
+            shared = hn::MulAdd(hn::Set(d, fold.sharedWeights[k]), product(fold.sharedFeatures[k]), shared);
+        T* to = static_cast<T*>(poses) + i;
+        storePoses(hn::Neg(shared), to);
+        for (const Fold::Feature& feature : fold.features) storePoses(product(feature), to += stride);
+    }
+}
+
 template <class T, class Form>
 KernelSet kernels() {
     return {static_cast<std::uint32_t>(hn::Lanes(Lanes<T>())),
@@ -234,34 +304,42 @@ KernelSet kernels() {
             gap<T, Form>,
             under<T, Form>,
             hits<T, Form>,
-            gaps<T, Form>};
+            gaps<T, Form>,
+            nullptr};
+}
+
+template <class T, std::uint32_t M>
+KernelSet folded() {
+    KernelSet set = kernels<T, FoldForm<T, M>>();
+    set.foldPoses = foldPoses<T>;
+    return set;
 }
 
 template <class T>
 KernelSet fold(std::uint32_t features) {
     switch (features) {
     case 0:
-        return kernels<T, FoldForm<T, 0>>();
+        return folded<T, 0>();
     case 1:
-        return kernels<T, FoldForm<T, 1>>();
+        return folded<T, 1>();
     case 2:
-        return kernels<T, FoldForm<T, 2>>();
+        return folded<T, 2>();
     case 3:
-        return kernels<T, FoldForm<T, 3>>();
+        return folded<T, 3>();
     case 4:
-        return kernels<T, FoldForm<T, 4>>();
+        return folded<T, 4>();
     case 5:
-        return kernels<T, FoldForm<T, 5>>();
+        return folded<T, 5>();
     case 6:
-        return kernels<T, FoldForm<T, 6>>();
+        return folded<T, 6>();
     case 7:
-        return kernels<T, FoldForm<T, 7>>();
+        return folded<T, 7>();
     case 8:
-        return kernels<T, FoldForm<T, 8>>();
+        return folded<T, 8>();
     case 9:
-        return kernels<T, FoldForm<T, 9>>();
+        return folded<T, 9>();
     case 10:
-        return kernels<T, FoldForm<T, 10>>();
+        return folded<T, 10>();
     }
     return {};
 }

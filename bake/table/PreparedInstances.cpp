@@ -21,19 +21,23 @@ void PreparedTable::instanceFeatures(const double* q, std::uint32_t count, Insta
     out.count = count;
     out.stride = (count + vectorRoom - 1) / vectorRoom * vectorRoom;
     const std::size_t values = featureCount() + 1, dofs = dofCount();
-    TableFeatures one;
-    if (float_) {
+    if (float_)
         out.floats.resize(values * out.stride);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            features(q + i * dofs, one);
-            for (std::size_t k = 0; k < values; ++k) out.floats[k * out.stride + i] = one.floats[k];
-        }
-    } else {
+    else
         out.doubles.resize(values * out.stride);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            features(q + i * dofs, one);
-            for (std::size_t k = 0; k < values; ++k) out.doubles[k * out.stride + i] = one.doubles[k];
-        }
+    if (kernels_.foldPoses) {
+        kernels_.foldPoses(*fold_, q, count, out.stride,
+                           float_ ? static_cast<void*>(out.floats.data()) : out.doubles.data());
+        return;
+    }
+    TableFeatures one;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        features(q + i * dofs, one);
+        for (std::size_t k = 0; k < values; ++k)
+            if (float_)
+                out.floats[k * out.stride + i] = one.floats[k];
+            else
+                out.doubles[k * out.stride + i] = one.doubles[k];
     }
 }
 

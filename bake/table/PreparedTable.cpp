@@ -48,7 +48,7 @@ const char* name(KernelPrecision precision) {
 
 PreparedTable::PreparedTable(const Table& table, const PrepareOptions& options)
     : motion_(table.motion), pairs_(tablePairs(table)), epsilon_(table.epsilon), depth_(table.gapDepth),
-      margin_(table.gapMargin) {
+      margin_(table.gapMargin), early_(table.boundEarly) {
     if (!available(options.target))
         throw InputError("kernel '" + std::string(name(options.target)) +
                          "': expected one that this build and this processor have");
@@ -97,11 +97,17 @@ PreparedTable::PreparedTable(const Table& table, const PrepareOptions& options)
         prepareKernels<double>();
 }
 
+void PreparedTable::Bands::widen(double error, double reach) {
+    // A little more, for the rounding of the widened constant itself.
+    widening.push_back(1.001 * error);
+    sign = std::max(sign, tss::signBand(2.002 * error, reach));
+}
+
 PreparedTable::Bands PreparedTable::foldBands(double u) const {
     Bands bands;
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
         const double reach = pairs_[p].reach;
-        bands.sign = std::max(bands.sign, tss::signBand(fold_->signError(u, Eigen::Index(p), reach), reach));
+        bands.widen(fold_->signError(u, Eigen::Index(p), reach), reach);
         for (double gap : {-depth_, 0.0, margin_}) {
             const double error = fold_->squareError(u, Eigen::Index(p), std::max(0.0, reach + gap));
             bands.gap = std::max(bands.gap, tss::gapBand(u, error, reach, gap));
@@ -115,7 +121,7 @@ PreparedTable::Bands PreparedTable::directBands(double u) const {
     for (const TablePair& p : pairs_) {
         const double a = (p.a - originA_).norm(), b = (p.b - originB_).norm();
         const double sign = directError(u, a, b, farthestT_, std::abs(p.reach), p.reach);
-        bands.sign = std::max(bands.sign, tss::signBand(sign, p.reach));
+        bands.widen(sign, p.reach);
         for (double gap : {-depth_, 0.0, margin_}) {
             const double error = directError(u, a, b, farthestT_, std::max(0.0, p.reach + gap), p.reach);
             bands.gap = std::max(bands.gap, tss::gapBand(u, error, p.reach, gap));
@@ -127,11 +133,13 @@ PreparedTable::Bands PreparedTable::directBands(double u) const {
 void PreparedTable::choose(const PrepareOptions& options) {
     if (options.form == KernelForm::Fold && !fold_)
         throw InputError("kernel: expected a motion that folds: no path, at most 3 DOFs, few features");
-    // A lossless table has no epsilon to hide rounding in; it states its band, kept far below its spheres.
+    // A lossless table has no epsilon to hide rounding in. Rounding misses nothing (Bands::widen), and
+    // reports early by a band that is stated and kept far below what the spheres themselves are early by.
     double allowed = 0.1 * epsilon_;
     if (epsilon_ == 0) {
         allowed = std::numeric_limits<double>::infinity();
         for (const TablePair& p : pairs_) allowed = std::min(allowed, 1e-4 * (p.radiusA + p.radiusB));
+        allowed = std::max(allowed, 0.01 * early_);
     }
     struct Choice {
         KernelForm form;
@@ -149,16 +157,17 @@ void PreparedTable::choose(const PrepareOptions& options) {
         if (options.precision && (*options.precision == KernelPrecision::Float) != choice.single) continue;
         // Features are made in double: rounded to float once, but some times over in double itself.
         const double u = choice.single ? floatRoundoff : 8 * doubleRoundoff;
-        const Bands here = choice.form == KernelForm::Fold ? foldBands(u) : directBands(u);
+        Bands here = choice.form == KernelForm::Fold ? foldBands(u) : directBands(u);
         if (any && !(here.sign < bands.sign)) continue;
         any = true;
-        bands = here;
+        bands = std::move(here);
         form_ = choice.form;
         float_ = choice.single;
         if (std::max(bands.sign, bands.gap) <= allowed) break;
     }
     signBand_ = bands.sign;
     gapBand_ = bands.gap;
+    widening_ = std::move(bands.widening);
     if (form_ == KernelForm::Direct) fold_.reset();
 }
 
@@ -181,7 +190,7 @@ void PreparedTable::fill(std::uint32_t lanes, std::vector<Chunk>& store, KernelD
         *column(block, lanes, columns - 2) = T(reach);
         if (fold_) {
             const double constant = real ? fold_->constants(Eigen::Index(i)) : 0;
-            block[0] = T(real ? constant - reach * std::abs(reach) : farOffset);
+            block[0] = T(real ? constant - reach * std::abs(reach) - widening_[i] : farOffset);
             for (std::uint32_t k = 0; k < data.columns && real; ++k)
                 *column(block, lanes, k + 1) = T(fold_->weights(Eigen::Index(i), k));
             *column(block, lanes, columns - 3) = T(constant);
@@ -191,7 +200,7 @@ void PreparedTable::fill(std::uint32_t lanes, std::vector<Chunk>& store, KernelD
             *column(block, lanes, std::uint32_t(k)) = T(pairs_[i].b[k] - originB_[k]);
             *column(block, lanes, std::uint32_t(k) + 3) = T(pairs_[i].a[k] - originA_[k]);
         }
-        *column(block, lanes, columns - 3) = T(real ? reach * std::abs(reach) : -farOffset);
+        *column(block, lanes, columns - 3) = T(real ? reach * std::abs(reach) + widening_[i] : -farOffset);
     }
 }
 
@@ -209,19 +218,21 @@ std::size_t PreparedTable::bytes() const {
 }
 
 void PreparedTable::features(const double* q, TableFeatures& out) const {
-    std::array<double, TableFeatures::room> values;
-    double shared = 0;
-    if (fold_)
-        fold_->evaluate(q, values.data(), shared);
-    else
-        recipe_.evaluate(q, values.data());
-    const std::size_t count = featureCount();
+    if (fold_) {
+        if (float_)
+            fold_->evaluate(q, out.floats);
+        else
+            fold_->evaluate(q, out.doubles);
+        return;
+    }
+    PoseRecipe::Matrix values;
+    recipe_.evaluate(q, values.data());
     if (float_) {
-        out.floats[0] = float(-shared);
-        for (std::size_t k = 0; k < count; ++k) out.floats[k + 1] = float(values[k]);
+        out.floats[0] = 0;
+        for (std::size_t k = 0; k < values.size(); ++k) out.floats[k + 1] = float(values[k]);
     } else {
-        out.doubles[0] = -shared;
-        for (std::size_t k = 0; k < count; ++k) out.doubles[k + 1] = values[k];
+        out.doubles[0] = 0;
+        for (std::size_t k = 0; k < values.size(); ++k) out.doubles[k + 1] = values[k];
     }
 }
 

@@ -15,7 +15,8 @@ const char* name(KernelForm form);
 const char* name(KernelPrecision precision);
 
 /// What to prepare a table for. What is not given is chosen by METHOD 4: the fold up to 10 features, float
-/// where its rounding band is within epsilon / 10.
+/// where its rounding band is within epsilon / 10, or for a table without epsilon, within a thousandth of
+/// what its spheres are off the meshes anyway.
 struct PrepareOptions {
     KernelTarget target = KernelTarget::Best; ///< must be available
     std::optional<KernelForm> form;           ///< Fold is not to be had for every motion
@@ -69,7 +70,8 @@ public:
     /// Features of a pose. q: one finite value a DOF, within the limits.
     void features(const double* q, TableFeatures& out) const;
 
-    /// Some test touches: its gap is <= 0, within signBand().
+    /// Some test touches. Never false where a gap is <= 0, and true only where one is <= signBand(): the
+    /// kernels reach further by what they may round.
     bool hit(const TableFeatures& f) const { return kernels_.hit(data_, f.doubles); }
 
     /// The smallest gap, within gapBand() for gaps up to the table's margin, and its test.
@@ -110,7 +112,8 @@ public:
     bool hasShared() const { return fold_ && !fold_->sharedFeatures.empty(); }
     std::size_t bytes() const; ///< of what a query reads
 
-    /// No verdict of `hit` is wrong where the table's gap is farther than this from 0, scene units.
+    /// `hit` is false wherever the table's gap is larger than this, scene units, and true wherever it is <=
+    /// 0.
     double signBand() const { return signBand_; }
     /// `gap` is off by no more than this for gaps down to -depth and up to margin of the table.
     double gapBand() const { return gapBand_; }
@@ -121,6 +124,9 @@ private:
     };
     struct Bands {
         double sign = 0, gap = 0;
+        std::vector<double>
+            widening; ///< per test: what its squared reach gains, so that rounding misses nothing
+        void widen(double error, double reach);
     };
 
     Bands foldBands(double u) const;
@@ -133,8 +139,9 @@ private:
 
     Motion motion_;
     std::vector<TablePair> pairs_;
-    double epsilon_ = 0, depth_ = 0, margin_ = 0;
+    double epsilon_ = 0, depth_ = 0, margin_ = 0, early_ = 0;
     Vec3 originA_ = Vec3::Zero(), originB_ = Vec3::Zero();
+    std::vector<double> widening_;
     double farthestT_ = 0; ///< bound of |T(q) originB - originA|
     std::optional<Fold> fold_;
     PoseRecipe recipe_;

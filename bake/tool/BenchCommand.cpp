@@ -22,7 +22,7 @@ void runBench(const BenchArguments& arguments, const Console& console) {
         throw InputError("--kernel: expected best, scalar, sse2, avx2, avx512 or neon, found \"" +
                          arguments.kernel + "\"");
     if (!benchWith(arguments.with, with))
-        throw InputError("--with: expected hit, gap or contact, found \"" + arguments.with + "\"");
+        throw InputError("--with: expected hit, gap, contact or features, found \"" + arguments.with + "\"");
     const SceneModel scene = loadScene(arguments.scene);
     const Pair& pair = choosePair(scene, arguments.pair, arguments.scene);
     if (!pair.table) throw InputError(Where{arguments.scene, "", pair.path}, "has no table to be timed");
@@ -35,8 +35,9 @@ void runBench(const BenchArguments& arguments, const Console& console) {
     console.say(fmt::format("{} queries ({}): {:.2f} ns each, features of a pose {:.2f} ns more; {} hits",
                             arguments.queries, arguments.with, result.nanoseconds, result.featureNanoseconds,
                             result.hits));
-    console.say(fmt::format("rounding: verdicts right beyond {:.3g} of contact, gaps within {:.3g}",
-                            table.signBand(), table.gapBand()));
+    console.say(
+        fmt::format("rounding: no touch missed, none reported from farther than {:.3g}; gaps within {:.3g}",
+                    table.signBand(), table.gapBand()));
     console.print({{"path", pair.path},
                    {"tests", table.testCount()},
                    {"bytes", table.bytes()},
@@ -65,8 +66,9 @@ void addBench(CLI::App& app, Console& console) {
     command->add_option("--kernel", arguments->kernel, "best, scalar, sse2, avx2, avx512 or neon")
         ->capture_default_str();
     command
-        ->add_option("--with", arguments->with,
-                     "hit, gap (and test) or contact (and point, normal, gradient)")
+        ->add_option(
+            "--with", arguments->with,
+            "hit, gap (and test), contact (and point, normal, gradient) or features (of the poses, no query)")
         ->capture_default_str();
     command->footer(
         "Instructions a query: run under callgrind with two values of --queries and divide the difference.");
