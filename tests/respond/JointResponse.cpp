@@ -1,43 +1,19 @@
 #include "bake/respond/JointResponse.h"
-#include "bake/respond/JointResponder.h"
-#include "tests/table/RandomTable.h"
+#include "tests/respond/Walk.h"
 
 #include <catch2/catch.hpp>
 
 using namespace tss;
 using random_table::Random;
+using walk::askedPose;
+using walk::distance;
 
 namespace {
 
-double distance(const JointResponder& responder, std::span<const double> x, std::span<const double> y) {
-    double sum = 0;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-        const double d = responder.weights()[k] * (x[k] - y[k]);
-        sum += d * d;
-    }
-    return std::sqrt(sum);
-}
-
-/// A pose asked for: anywhere, or a step of any size from where the joint is.
-std::vector<double> askedPose(Random& random, const Motion& motion, const std::vector<double>& q) {
-    if (random() % 4 == 0) return random_table::values(random, motion);
-    const double share = std::pow(10.0, random_table::between(random, -6, 0));
-    std::vector<double> asked = q;
-    for (std::size_t k = 0; k < q.size(); ++k)
-        asked[k] +=
-            share * random_table::between(random, -1, 1) * (motion.dofs[k].upper - motion.dofs[k].lower);
-    return clampToLimits(motion, asked);
-}
-
 double smallestGapBetween(const Table& table, std::span<const double> from, std::span<const double> to,
                           int samples) {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (int i = 0; i <= samples; ++i) {
-        std::vector<double> q(from.begin(), from.end());
-        for (std::size_t k = 0; k < q.size(); ++k) q[k] += (to[k] - from[k]) * i / samples;
-        smallest = std::min(smallest, query(table, q).gap);
-    }
-    return smallest;
+    return walk::smallestGapBetween(from, to, samples,
+                                    [&](const std::vector<double>& q) { return query(table, q).gap; });
 }
 
 /// A hinge about z at the origin with a bar of one sphere at x = 100 and an obstacle at `angle`.

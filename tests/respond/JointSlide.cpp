@@ -1,49 +1,9 @@
-#include "bake/respond/JointResponder.h"
-#include "bake/table/Query.h"
-#include "tests/table/RandomTable.h"
+#include "tests/respond/Walk.h"
 
 #include <catch2/catch.hpp>
 
 using namespace tss;
-using random_table::between;
 using random_table::Random;
-
-namespace {
-
-double distance(const JointResponder& responder, std::span<const double> x, std::span<const double> y) {
-    double sum = 0;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-        const double d = responder.weights()[k] * (x[k] - y[k]);
-        sum += d * d;
-    }
-    return std::sqrt(sum);
-}
-
-/// By how much a free pose within a thousandth of the range of q is nearer to the asked one, as a share of
-/// the range: 0 at a local optimum. Searched at random.
-double nearerBy(const Table& table, const JointResponder& responder, std::span<const double> q,
-                std::span<const double> asked, Random& random) {
-    const std::size_t n = q.size();
-    std::vector<double> low, high;
-    for (const Dof& d : table.motion.dofs) {
-        low.push_back(d.lower);
-        high.push_back(d.upper);
-    }
-    const double range = distance(responder, low, high);
-    double nearest = distance(responder, q, asked);
-    const double start = nearest;
-    for (int i = 0; i < 3000; ++i) {
-        std::vector<double> p(q.begin(), q.end());
-        for (std::size_t k = 0; k < n; ++k)
-            p[k] += 1e-3 * range / responder.weights()[k] * between(random, -1, 1);
-        p = clampToLimits(table.motion, p);
-        if (query(table, p).gap >= 1.2 * responder.keptGap())
-            nearest = std::min(nearest, distance(responder, p, asked));
-    }
-    return (start - nearest) / range;
-}
-
-} // namespace
 
 TEST_CASE("what a small step slides to is a local optimum") {
     int slid = 0, short_ = 0;
@@ -64,7 +24,7 @@ TEST_CASE("what a small step slides to is a local optimum") {
             std::copy_n(answer.q.begin(), q.size(), q.begin());
             if (answer.status == JointStatus::Free) continue;
             ++slid;
-            const double nearer = nearerBy(table, responder, q, asked, random);
+            const double nearer = walk::nearerBy(table, responder, q, asked, random);
             if (nearer > 3e-4) ++short_;
         }
     }
