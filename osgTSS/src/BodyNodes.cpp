@@ -8,6 +8,7 @@ namespace osgTSS {
 namespace {
 
 const char* const tagName = "osgTSS:body";
+const char* const scaleName = "osgTSS:bodyScale";
 
 class FindBodyNodes : public osg::NodeVisitor {
 public:
@@ -16,7 +17,9 @@ public:
     void apply(osg::Node& node) override {
         std::string path;
         if (auto* shape = dynamic_cast<SkinGeometry*>(&node)) found.shapes.emplace(shape->getPath(), shape);
-        if (node.getUserValue(tagName, path)) found.frames.emplace(path, &node);
+        double scale = 1;
+        node.getUserValue(scaleName, scale);
+        if (node.getUserValue(tagName, path)) found.frames.emplace(path, BodyFrame{&node, scale});
         traverse(node);
     }
 
@@ -25,8 +28,9 @@ public:
 
 } // namespace
 
-void tagBody(osg::Node& node, const std::string& bodyPath) {
+void tagBody(osg::Node& node, const std::string& bodyPath, double scale) {
     node.setUserValue(tagName, bodyPath);
+    if (scale != 1) node.setUserValue(scaleName, scale);
 }
 
 BodyNodes findBodyNodes(osg::Node& root) {

@@ -7,12 +7,18 @@
 
 namespace osgTSS {
 
-/// Names the body whose frame a node's children are in. A user value, saved and cloned with the node.
-void tagBody(osg::Node& node, const std::string& bodyPath);
+/// Names the body whose frame a node's children are in, and the factor from their lengths to the body's
+/// (negative: mirrored). User values, saved and cloned with the node.
+void tagBody(osg::Node& node, const std::string& bodyPath, double scale = 1);
+
+struct BodyFrame {
+    osg::Node* node = nullptr;
+    double scale = 1;
+};
 
 /// What shows bodies at and below a node, by the bodies' paths; of several the first. Sees masked nodes.
 struct BodyNodes {
-    std::map<std::string, osg::Node*> frames;
+    std::map<std::string, BodyFrame> frames;
     std::map<std::string, SkinGeometry*> shapes;
 };
 BodyNodes findBodyNodes(osg::Node& root);

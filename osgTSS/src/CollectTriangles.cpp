@@ -43,7 +43,7 @@ void collectTriangles(const osg::Drawable& drawable, const osg::Matrixd& matrix,
     osg::TriangleFunctor<Collector> functor;
     functor.matrix = &matrix;
     functor.scale = scale;
-    functor.mirrored = determinant(matrix) < 0;
+    functor.mirrored = (determinant(matrix) < 0) != (scale < 0);
     functor.mesh = &mesh;
     drawable.accept(functor);
 }

@@ -1,18 +1,22 @@
+#include "AnimationChannels.h"
 #include "CollectTriangles.h"
-#include "DofTransformJoint.h"
+#include "JointNodes.h"
 
 #include "bake/base/Error.h"
+#include "bake/motion/MotionBound.h"
 #include "bake/scene/AddPair.h"
 #include "bake/scene/Kinematics.h"
 
+#include <osg/AutoTransform>
+#include <osg/Billboard>
+#include <osg/Camera>
 #include <osg/Geometry>
 #include <osg/LOD>
 #include <osg/Material>
 #include <osg/Notify>
-#include <osg/Switch>
+#include <osg/ValueObject>
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/Convert>
-#include <osgTSS/JointTransform>
 
 #include <algorithm>
 
@@ -39,18 +43,6 @@ std::optional<osg::Vec4> vertexColor(const osg::Drawable& drawable) {
     return std::nullopt;
 }
 
-void scaleLengths(tss::Joint& joint, double scale) {
-    if (scale == 1) return;
-    joint.frame0.translation() *= scale;
-    joint.frame1.translation() *= scale;
-    for (tss::Dof& dof : joint.dofs) {
-        dof.origin *= scale;
-        if (dof.kind == tss::DofKind::Translation) dof.axis *= scale;
-        dof.frame.translation() *= scale;
-        for (tss::PathRow& row : dof.path) row.translation *= scale;
-    }
-}
-
 std::vector<double> restOf(const tss::Joint& joint) {
     std::vector<double> rest;
     for (const tss::Dof& dof : joint.dofs) rest.push_back(dof.rest);
@@ -63,6 +55,17 @@ ConstraintVisitor::ConstraintVisitor(Pairs pairs) : osg::NodeVisitor(TRAVERSE_AL
     setNodeMaskOverride(~0u);
 }
 
+ConstraintVisitor::~ConstraintVisitor() = default;
+
+/// At the first node: the body that no joint moves.
+void ConstraintVisitor::begin(osg::Node& node) {
+    if (!_model.bodies.empty()) return;
+    _channels = std::make_unique<AnimationChannels>(node);
+    _model.defaultPrim = tss::freePrimName(_model, node.getName().empty() ? "Scene" : node.getName());
+    _place.body = addBody(node, "World", 1);
+    if (node.asTransform()) _bodyNodes.back().node = nullptr; // the node's own frame is another
+}
+
 void ConstraintVisitor::enter(osg::Node& node, const Place& place) {
     const Place above = _place;
     _place = place;
@@ -70,33 +73,29 @@ void ConstraintVisitor::enter(osg::Node& node, const Place& place) {
     const osg::Material* material = materialOf(node);
     if (material && material->getColorMode() == osg::Material::OFF)
         _place.color = material->getDiffuse(osg::Material::FRONT);
-    if (_place.body < 0) { // the first node: what no joint moves
-        _model.defaultPrim = tss::freePrimName(_model, node.getName().empty() ? "Scene" : node.getName());
-        _place.body = addBody(node, "World");
-    }
+    std::string group;
+    if (node.getUserValue("osgTSS:collides", group)) _groups[_place.body].insert(group);
     traverse(node);
     _place = above;
 }
 
 void ConstraintVisitor::apply(osg::Node& node) {
+    begin(node);
     enter(node, _place);
 }
 
 void ConstraintVisitor::apply(osg::Transform& node) {
-    if (auto* joint = dynamic_cast<JointTransform*>(&node)) {
-        if (_place.body < 0) _place.body = addBody(node, "World");
-        tss::Joint extracted = joint->getJoint();
-        for (std::size_t k = 0; k < extracted.dofs.size(); ++k) extracted.dofs[k].rest = joint->getValue(k);
-        return enterJoint(node, std::move(extracted));
+    begin(node);
+    if (dynamic_cast<osg::AutoTransform*>(&node)) return; // turns to the eye, which is no motion of a body
+    std::string why;
+    try {
+        if (auto found = jointsOf(node, *_channels, _model.timeCodesPerSecond, why))
+            return enterJoint(node, std::move(*found));
+    } catch (const tss::InputError& error) {
+        refuse(error.message);
     }
-    if (auto* dof = dynamic_cast<osgSim::DOFTransform*>(&node)) {
-        if (_place.body < 0) _place.body = addBody(node, "World");
-        try {
-            return enterJoint(node, jointOf(*dof, _model.timeCodesPerSecond));
-        } catch (const tss::InputError& error) {
-            refuse(error.message);
-        }
-    }
+    if (!why.empty())
+        OSG_NOTICE << "osgTSS: " << pathText() << " moves, but is no joint: " << why << std::endl;
     osg::Matrix matrix =
         node.getReferenceFrame() == osg::Transform::RELATIVE_RF ? _place.toBody : osg::Matrixd();
     node.computeLocalToWorldMatrix(matrix, this);
@@ -107,12 +106,16 @@ void ConstraintVisitor::apply(osg::Transform& node) {
     enter(node, place);
 }
 
-void ConstraintVisitor::apply(osg::Switch& node) {
-    const Place above = _place;
-    enter(node, above);
+/// Draws on what the eye sees, or a picture of its own.
+void ConstraintVisitor::apply(osg::Camera& node) {
+    if (node.getReferenceFrame() == osg::Transform::RELATIVE_RF && node.getBufferAttachmentMap().empty())
+        apply(static_cast<osg::Transform&>(node));
 }
 
+void ConstraintVisitor::apply(osg::Billboard&) {}
+
 void ConstraintVisitor::apply(osg::LOD& node) {
+    begin(node);
     if (node.getNumChildren() == 0) return;
     // The finest level: seen from nearest, or covering the most pixels.
     unsigned int finest = 0;
@@ -121,13 +124,16 @@ void ConstraintVisitor::apply(osg::LOD& node) {
         if (pixels ? node.getMaxRange(i) > node.getMaxRange(finest)
                    : node.getMinRange(i) < node.getMinRange(finest))
             finest = i;
+    const Place above = _place;
+    _place.visible = _place.visible && node.getNodeMask() != 0;
     node.getChild(finest)->accept(*this);
+    _place = above;
 }
 
 void ConstraintVisitor::apply(osg::Drawable& drawable) {
-    Place place = _place;
+    begin(drawable);
+    const Place place = _place;
     enter(drawable, place);
-    if (_place.body < 0) return;
     tss::Body& body = _model.bodies[_place.body];
     const bool first = body.mesh.empty();
     collectTriangles(drawable, place.toBody, place.scale, body.mesh);
@@ -143,7 +149,7 @@ void ConstraintVisitor::apply(osg::Drawable& drawable) {
     if (color) body.displayColor = toLinearColor(*color);
 }
 
-void ConstraintVisitor::enterJoint(osg::Transform& node, tss::Joint joint) {
+void ConstraintVisitor::enterJoint(osg::Transform& node, FoundJoints found) {
     if (!_seen.insert(&node).second) {
         OSG_NOTICE << "osgTSS: joint " << pathText()
                    << " is reached over several parents; it was extracted at the first, the others follow it"
@@ -153,57 +159,71 @@ void ConstraintVisitor::enterJoint(osg::Transform& node, tss::Joint joint) {
     if (node.getReferenceFrame() != osg::Transform::RELATIVE_RF)
         refuse("expected a transform relative to its parent");
     const auto parent = toSimilarity(_place.toBody);
-    if (!parent) refuse("the transforms above it mirror, or scale axes differently: expected equal scales");
+    if (!parent) refuse("the transforms above it shear, or scale axes differently: expected equal scales");
 
-    const int body0 = _place.body;
     const double scale = _place.scale * parent->scale;
-    scaleLengths(joint, scale);
     tss::Pose toBody0 = parent->pose;
     toBody0.translation() *= _place.scale;
-    joint.frame0 = toBody0 * joint.frame0;
-    joint.body0 = body0;
-    joint.path = "/" + _model.defaultPrim + "/" +
-                 tss::freePrimName(_model, node.getName().empty() ? "Joint" : node.getName());
-    const int index = static_cast<int>(_model.joints.size());
-    _model.joints.push_back(joint);
-    _jointNodes.push_back(&node);
-
-    const int body1 = addBody(node, "Body");
-    _model.joints[index].body1 = body1;
-    _model.bodies[body0].rigid = _model.bodies[body1].rigid = true;
-    _jointAbove[body1] = index;
-    _model.bodies[body1].placement = _model.bodies[body0].placement * tss::jointPose(joint, restOf(joint));
-
+    int body = _place.body;
+    for (std::size_t k = 0; k < found.joints.size(); ++k) {
+        tss::Joint& joint = found.joints[k];
+        // What the node's own scale enlarges is below the last joint.
+        scaleLengths(joint, scale);
+        joint.frame0 = toBody0 * joint.frame0;
+        toBody0 = tss::Pose::Identity();
+        joint.path = "/" + _model.defaultPrim + "/" +
+                     tss::freePrimName(_model, node.getName().empty() ? "Joint" : node.getName());
+        const bool last = k + 1 == found.joints.size();
+        body = addJoint(joint, body, node, last ? scale * found.scale : 0);
+    }
     Place place;
-    place.body = body1;
-    place.scale = scale;
+    place.body = body;
+    place.scale = scale * found.scale;
     place.visible = _place.visible;
     place.color = _place.color;
     enter(node, place);
 }
 
+/// Adds the joint and the body that it moves, and returns that. scale: of the node's children to the body; 0:
+/// a body between two joints of one node.
+int ConstraintVisitor::addJoint(tss::Joint joint, int body0, osg::Node& node, double scale) {
+    const int index = static_cast<int>(_model.joints.size());
+    joint.body0 = body0;
+    _model.joints.push_back(joint);
+    _jointNodes.push_back(&node);
+    const int body1 = addBody(node, "Body", scale);
+    if (scale == 0) _bodyNodes.back().node = nullptr;
+    _model.joints[index].body1 = body1;
+    _model.bodies[body0].rigid = _model.bodies[body1].rigid = true;
+    _jointAbove[body1] = index;
+    _model.bodies[body1].placement = _model.bodies[body0].placement * tss::jointPose(joint, restOf(joint));
+    return body1;
+}
+
 void ConstraintVisitor::enterMoved(osg::Transform& node, const osg::Matrixd& matrix) {
     const auto similarity = toSimilarity(matrix);
     if (!similarity)
-        refuse("a transform that moves mirrors, or scales axes differently: expected equal scales");
+        refuse("a transform that moves shears, or scales axes differently: expected equal scales");
     Place place = _place;
-    const tss::Pose above = _place.body < 0 ? tss::Pose::Identity() : _model.bodies[_place.body].placement;
-    place.body = addBody(node, "Moved");
     place.scale = _place.scale * similarity->scale;
     place.toBody = osg::Matrixd();
     tss::Pose local = similarity->pose;
     local.translation() *= _place.scale;
+    const tss::Pose above = _model.bodies[_place.body].placement;
+    place.body = addBody(node, "Moved", place.scale);
     _model.bodies[place.body].placement = above * local;
     enter(node, place);
 }
 
-int ConstraintVisitor::addBody(const osg::Node& node, const char* fallback) {
+int ConstraintVisitor::addBody(osg::Node& node, const char* fallback, double scale) {
     tss::Body body;
     const std::string& name = node.getName();
     body.path =
         "/" + _model.defaultPrim + "/" + tss::freePrimName(_model, name.empty() ? fallback : name + "Body");
     body.displayName = name;
     _model.bodies.push_back(body);
+    _bodyNodes.push_back({&node, scale});
+    _groups.emplace_back();
     _jointAbove.push_back(-1);
     return static_cast<int>(_model.bodies.size()) - 1;
 }
@@ -215,48 +235,75 @@ std::vector<int> ConstraintVisitor::jointsToTop(int body) const {
     return joints;
 }
 
-void ConstraintVisitor::addPairs() {
-    const auto add = [&](int a, int b) {
-        std::vector<int> up = jointsToTop(a), down = jointsToTop(b);
-        while (!up.empty() && !down.empty() && up.back() == down.back()) {
-            up.pop_back();
-            down.pop_back();
-        }
-        tss::Pair pair;
-        pair.bodyA = a;
-        pair.bodyB = b;
-        pair.joints = up;
-        pair.joints.insert(pair.joints.end(), down.rbegin(), down.rend());
-        pair.path = pair.joints.size() == 1
-                        ? _model.joints[pair.joints[0]].path
-                        : "/" + _model.defaultPrim + "/" +
-                              tss::freePrimName(_model, _model.bodies[b].displayName + "Pair");
-        _model.pairs.push_back(pair);
+/// A pair of two bodies by the joints between them; not where those have more DOFs than a table can.
+void ConstraintVisitor::addPair(int a, int b) {
+    std::vector<int> up = jointsToTop(a), down = jointsToTop(b);
+    while (!up.empty() && !down.empty() && up.back() == down.back()) {
+        up.pop_back();
+        down.pop_back();
+    }
+    tss::Pair pair;
+    pair.bodyA = a;
+    pair.bodyB = b;
+    pair.joints = up;
+    pair.joints.insert(pair.joints.end(), down.rbegin(), down.rend());
+    std::size_t dofs = 0;
+    for (int joint : pair.joints) dofs += _model.joints[joint].dofs.size();
+    if (dofs > tss::maxDofs) {
+        ++_tooManyDofs;
+        return;
+    }
+    if (pair.joints.size() == 1) {
+        pair.path = _model.joints[pair.joints[0]].path;
+    } else {
+        const std::string name = _model.bodies[b].displayName + "Pair";
+        int n = 1;
+        do
+            pair.path = "/" + _model.defaultPrim + "/" +
+                        tss::freePrimName(_model, n == 1 ? name : name + std::to_string(n));
+        while (++n, _pairPaths.contains(pair.path)); // freePrimName() does not know of pairs
+        _pairPaths.insert(pair.path);
+    }
+    _model.pairs.push_back(pair);
+}
+
+bool ConstraintVisitor::wanted(int a, int b) const {
+    const auto parentOf = [&](int body) { return _model.joints[_jointAbove[body]].body0; };
+    switch (_pairs) {
+    case ALL:
+        return true;
+    case TAGGED:
+        return std::any_of(_groups[a].begin(), _groups[a].end(),
+                           [&](const std::string& group) { return _groups[b].contains(group); });
+    case SIBLINGS:
+        if (_jointAbove[a] >= 0 && _jointAbove[b] >= 0 && parentOf(a) == parentOf(b)) return true;
+        break;
+    case NEIGHBOURS:
+        break;
+    }
+    const auto nextAbove = [&](int body) {
+        do body = _jointAbove[body] < 0 ? -1 : parentOf(body);
+        while (body >= 0 && _model.bodies[body].mesh.empty());
+        return body;
     };
-    const int count = static_cast<int>(_model.bodies.size());
+    return nextAbove(b) == a;
+}
+
+void ConstraintVisitor::addPairs() {
     const auto top = [&](int body) {
         while (_jointAbove[body] >= 0) body = _model.joints[_jointAbove[body]].body0;
         return body;
     };
-    const auto nextAbove = [&](int body) {
-        do body = _jointAbove[body] < 0 ? -1 : _model.joints[_jointAbove[body]].body0;
-        while (body >= 0 && _model.bodies[body].mesh.empty());
-        return body;
-    };
-    for (int b = 0; b < count; ++b) {
-        if (_model.bodies[b].mesh.empty() || _jointAbove[b] < 0) continue;
-        if (_pairs == ALL) {
-            for (int a = 0; a < b; ++a)
-                if (!_model.bodies[a].mesh.empty() && top(a) == top(b)) add(a, b);
-            continue;
-        }
-        if (const int a = nextAbove(b); a >= 0) add(a, b);
-        if (_pairs != SIBLINGS) continue;
+    const int count = static_cast<int>(_model.bodies.size());
+    for (int b = 0; b < count; ++b)
         for (int a = 0; a < b; ++a)
-            if (!_model.bodies[a].mesh.empty() && _jointAbove[a] >= 0 &&
-                _model.joints[_jointAbove[a]].body0 == _model.joints[_jointAbove[b]].body0)
-                add(a, b);
-    }
+            if (!_model.bodies[a].mesh.empty() && !_model.bodies[b].mesh.empty() && top(a) == top(b) &&
+                wanted(a, b))
+                addPair(a, b);
+    if (_tooManyDofs > 0)
+        OSG_NOTICE << "osgTSS: " << _tooManyDofs
+                   << " pairs of bodies are left out: the joints between them have more "
+                   << "than " << tss::maxDofs << " degrees of freedom" << std::endl;
 }
 
 const tss::SceneModel& ConstraintVisitor::getModel() {

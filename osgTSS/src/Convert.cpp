@@ -42,10 +42,10 @@ std::optional<Similarity> toSimilarity(const osg::Matrixd& matrix) {
     const tss::Vec3 scales = svd.singularValues();
     if (!(scales[2] > 0) || scales[0] - scales[2] > tolerance * scales[0]) return std::nullopt;
     const Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
-    if (rotation.determinant() < 0) return std::nullopt;
-    result.pose.linear() = rotation;
+    const double hand = rotation.determinant() < 0 ? -1 : 1;
+    result.pose.linear() = hand * rotation;
     const double scale = scales.mean();
-    result.scale = std::abs(scale - 1) < tolerance ? 1 : scale;
+    result.scale = hand * (std::abs(scale - 1) < tolerance ? 1 : scale);
     return result;
 }
 

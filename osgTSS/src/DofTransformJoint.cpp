@@ -2,7 +2,7 @@
 
 #include "bake/base/Error.h"
 
-#include <osgTSS/Convert>
+#include <osg/observer_ptr>
 
 #include <array>
 #include <cmath>
@@ -113,22 +113,79 @@ tss::TimeSamples drive(const tss::Dof& dof, double increment, double rate) {
     return samples;
 }
 
-tss::Pose rigidPut(const osg::Matrix& matrix) {
-    const auto similarity = toSimilarity(matrix);
-    if (!similarity || similarity->scale != 1)
-        throw tss::InputError("put matrix: expected a rigid matrix, without scale, shear or mirror");
-    return similarity->pose;
-}
+/// Where a DOF stands in the node's vectors.
+struct DofSlot {
+    bool rotation;
+    int component; ///< of HPR or of translate
+    bool fullTurn; ///< limits of a whole turn or more: angles are told apart up to whole turns only
+    double middle; ///< of the limits
+};
+
+class DofTransformNode : public JointNode {
+public:
+    DofTransformNode(osgSim::DOFTransform& node, std::vector<DofSlot> slots)
+        : _node(&node), _slots(std::move(slots)) {}
+
+    bool valid() const override { return _node.valid(); }
+    std::size_t dofCount() const override { return _slots.size(); }
+
+    void restoreAsked() override {
+        if (!_stopped || _node->getCurrentHPR() != _shownHPR ||
+            _node->getCurrentTranslate() != _shownTranslate)
+            return;
+        _node->setCurrentHPR(_askedHPR);
+        _node->setCurrentTranslate(_askedTranslate);
+    }
+
+    std::vector<double> asked() const override {
+        std::vector<double> values;
+        for (const DofSlot& slot : _slots) {
+            const double value =
+                (slot.rotation ? _node->getCurrentHPR() : _node->getCurrentTranslate())[slot.component];
+            values.push_back(value - turns(slot, value));
+        }
+        return values;
+    }
+    std::vector<double> shown() const override { return asked(); }
+
+    void show(const std::vector<double>& values) override {
+        _askedHPR = _shownHPR = _node->getCurrentHPR();
+        _askedTranslate = _shownTranslate = _node->getCurrentTranslate();
+        for (std::size_t k = 0; k < _slots.size(); ++k) {
+            float& value = (_slots[k].rotation ? _shownHPR : _shownTranslate)[_slots[k].component];
+            value = static_cast<float>(values[k] + turns(_slots[k], value));
+        }
+        _stopped = _shownHPR != _askedHPR || _shownTranslate != _askedTranslate;
+        if (!_stopped) return;
+        _node->setCurrentHPR(_shownHPR);
+        _node->setCurrentTranslate(_shownTranslate);
+    }
+
+private:
+    static double turns(const DofSlot& slot, double value) {
+        return slot.fullTurn ? wholeTurns(value, slot.middle) : 0;
+    }
+
+    osg::observer_ptr<osgSim::DOFTransform> _node;
+    std::vector<DofSlot> _slots;
+    bool _stopped = false;
+    osg::Vec3 _askedHPR, _askedTranslate, _shownHPR, _shownTranslate;
+};
 
 } // namespace
 
-tss::Joint jointOf(const osgSim::DOFTransform& node, double timeCodesPerSecond) {
-    if (node.getCurrentScale() != osg::Vec3(1, 1, 1) ||
+FoundJoints dofTransformJoint(const osgSim::DOFTransform& node, double timeCodesPerSecond) {
+    const osg::Vec3 scale = node.getCurrentScale();
+    if (scale.x() == 0 || scale != osg::Vec3(scale.x(), scale.x(), scale.x()) ||
         (node.getAnimationOn() && node.getIncrementScale() != osg::Vec3()))
-        throw tss::InputError("expected a scale of 1; tables are for rigid bodies");
+        throw tss::InputError("expected a scale that is the same in all directions and at all times; tables "
+                              "are for rigid bodies");
     tss::Joint joint;
-    joint.frame0 = rigidPut(node.getInversePutMatrix());
-    joint.frame1 = rigidPut(node.getPutMatrix()).inverse(Eigen::Isometry);
+    joint.frame0 = rigid(node.getInversePutMatrix(), "inverse put matrix");
+    // Scaled after the put matrix: x -> s (put x) = (put with its translation scaled) (s x).
+    tss::Pose put = rigid(node.getPutMatrix(), "put matrix");
+    put.translation() *= scale.x();
+    joint.frame1 = put.inverse(Eigen::Isometry);
     for (const Axis& axis : axesInOrder(node)) {
         const tss::Dof dof = dofOf(axis);
         if (dof.lower == 0 && dof.upper == 0) continue; // locked where it does nothing
@@ -136,7 +193,24 @@ tss::Joint jointOf(const osgSim::DOFTransform& node, double timeCodesPerSecond) 
                                                      : tss::TimeSamples{});
         joint.dofs.push_back(dof);
     }
-    return joint;
+    return {{joint}, scale.x()};
+}
+
+/// Heading turns about Z, pitch about X, roll about Y.
+std::unique_ptr<JointNode> makeDofTransformNode(osgSim::DOFTransform& node, const tss::Joint& joint) {
+    constexpr int componentOfAxis[3] = {1, 2, 0};
+    std::vector<DofSlot> slots;
+    for (const tss::Dof& dof : joint.dofs) {
+        Eigen::Index axis = 0;
+        const double length = dof.axis.cwiseAbs().maxCoeff(&axis);
+        if (dof.kind == tss::DofKind::Path || dof.axis != tss::Vec3(tss::Vec3::Unit(axis) * length))
+            return nullptr;
+        const bool rotation = dof.kind == tss::DofKind::Rotation;
+        const bool fullTurn = rotation && dof.upper - dof.lower >= 2 * osg::PI * (1 - 1e-6);
+        slots.push_back({rotation, rotation ? componentOfAxis[axis] : static_cast<int>(axis), fullTurn,
+                         (dof.lower + dof.upper) / 2});
+    }
+    return std::make_unique<DofTransformNode>(node, std::move(slots));
 }
 
 } // namespace osgTSS

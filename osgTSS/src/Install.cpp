@@ -1,3 +1,4 @@
+#include "BodyNodes.h"
 #include "JointNodes.h"
 
 #include <osg/NodeVisitor>
@@ -61,15 +62,23 @@ void addOutermost(osg::Node& node, osg::Callback& callback) {
     node.setUpdateCallback(&callback);
 }
 
-/// Joints of a graph that knows nothing of us: extracted again, and tagged where the scene has a joint of
-/// that path.
+/// Joints and bodies of a graph that knows nothing of us: extracted again, and tagged where the scene has one
+/// of that path.
 void tagPlainNodes(osg::Node& root, const tss::SceneModel& model) {
     ConstraintVisitor visitor;
     root.accept(visitor);
     const tss::SceneModel& found = visitor.getModel();
+    const auto known = [](const auto& items, const std::string& path) {
+        return std::any_of(items.begin(), items.end(), [&](const auto& item) { return item.path == path; });
+    };
     for (std::size_t j = 0; j < found.joints.size(); ++j)
-        for (const tss::Joint& joint : model.joints)
-            if (joint.path == found.joints[j].path) tagJoint(*visitor.getJointNodes()[j], joint.path);
+        if (known(model.joints, found.joints[j].path))
+            tagJoint(*visitor.getJointNodes()[j], found.joints[j].path);
+    for (std::size_t b = 0; b < found.bodies.size(); ++b) {
+        const ConstraintVisitor::BodyNode& at = visitor.getBodyNodes()[b];
+        if (at.node && known(model.bodies, found.bodies[b].path))
+            tagBody(*at.node, found.bodies[b].path, at.scale);
+    }
 }
 
 class RemoveCallbacks : public osg::NodeVisitor {

@@ -1,3 +1,4 @@
+#include "ContactReport.h"
 #include "JointNodes.h"
 #include "SceneCache.h"
 
@@ -20,6 +21,8 @@ struct JointCallback::Binding {
     std::vector<tss::JointWorkspace> workspaces;
     std::vector<double> q; ///< where the joints are
     std::vector<Answer> answers;
+    std::vector<tss::JointAnswer> found; ///< what the answers were made from
+    ContactReport contacts;
     unsigned int traversal = 0, frame = 0; ///< of the last update
     bool updated = false;                  ///< there was one
 
@@ -31,6 +34,7 @@ struct JointCallback::Binding {
     }
     void resolve();
     void show() const;
+    void tell(const Scene& scene, osg::NodeVisitor& visitor);
 };
 
 JointCallback::Binding::Binding(osg::Node& owner, const Scene& scene,
@@ -63,7 +67,7 @@ void JointCallback::Binding::resolve() {
         const std::vector<double> values = joint->asked();
         asked.insert(asked.end(), values.begin(), values.end());
     }
-    const std::vector<tss::JointAnswer> found = tss::resolve(*plan, q, asked, workspaces);
+    found = tss::resolve(*plan, q, asked, workspaces);
     q = std::move(asked);
     answers.resize(found.size());
     for (std::size_t g = 0; g < found.size(); ++g) {
@@ -80,6 +84,11 @@ void JointCallback::Binding::show() const {
         joint->show(std::vector<double>(next, end));
         next = end;
     }
+}
+
+void JointCallback::Binding::tell(const Scene& scene, osg::NodeVisitor& visitor) {
+    if (ContactCallback* callback = scene.getContactCallback(); callback && !joints.empty())
+        contacts.tell(scene, *plan, q, found, *callback, visitor);
 }
 
 JointCallback::JointCallback() = default;
@@ -148,6 +157,7 @@ bool JointCallback::run(osg::Object* object, osg::Object* data) {
     if (!binding.stillGood(*_scene)) return result; // the animation took a joint away
     if (!again) binding.resolve();
     binding.show();
+    if (!again) binding.tell(*_scene, *visitor);
     return result;
 }
 

@@ -1,12 +1,19 @@
 #include "JointNodes.h"
 
+#include "AnimationChannels.h"
+#include "AnimationPathJoint.h"
+#include "DofTransformJoint.h"
+#include "StackedJoint.h"
+#include "TaggedJoint.h"
+
+#include "bake/base/Error.h"
+
 #include <osg/NodeVisitor>
 #include <osg/ValueObject>
 #include <osg/observer_ptr>
-#include <osgSim/DOFTransform>
 #include <osgTSS/JointTransform>
 
-#include <cmath>
+#include <sstream>
 
 namespace osgTSS {
 
@@ -30,100 +37,55 @@ private:
     std::size_t _dofs;
 };
 
-/// Where a DOF stands in the node's vectors.
-struct DofSlot {
-    bool rotation;
-    int component; ///< of HPR or of translate
-    bool fullTurn; ///< limits of a whole turn or more: angles are told apart up to whole turns only
-    double middle; ///< of the limits
-};
-
-class DofTransformNode : public JointNode {
-public:
-    DofTransformNode(osgSim::DOFTransform& node, std::vector<DofSlot> slots)
-        : _node(&node), _slots(std::move(slots)) {}
-
-    bool valid() const override { return _node.valid(); }
-    std::size_t dofCount() const override { return _slots.size(); }
-
-    void restoreAsked() override {
-        if (!_stopped || _node->getCurrentHPR() != _shownHPR ||
-            _node->getCurrentTranslate() != _shownTranslate)
-            return;
-        _node->setCurrentHPR(_askedHPR);
-        _node->setCurrentTranslate(_askedTranslate);
-    }
-
-    std::vector<double> asked() const override {
-        std::vector<double> values;
-        for (const DofSlot& slot : _slots) {
-            const double value =
-                (slot.rotation ? _node->getCurrentHPR() : _node->getCurrentTranslate())[slot.component];
-            values.push_back(value - wholeTurns(slot, value));
-        }
-        return values;
-    }
-    std::vector<double> shown() const override { return asked(); }
-
-    void show(const std::vector<double>& values) override {
-        _askedHPR = _shownHPR = _node->getCurrentHPR();
-        _askedTranslate = _shownTranslate = _node->getCurrentTranslate();
-        for (std::size_t k = 0; k < _slots.size(); ++k) {
-            float& value = (_slots[k].rotation ? _shownHPR : _shownTranslate)[_slots[k].component];
-            value = static_cast<float>(values[k] + wholeTurns(_slots[k], value));
-        }
-        _stopped = _shownHPR != _askedHPR || _shownTranslate != _askedTranslate;
-        if (!_stopped) return;
-        _node->setCurrentHPR(_shownHPR);
-        _node->setCurrentTranslate(_shownTranslate);
-    }
-
-private:
-    static double wholeTurns(const DofSlot& slot, double value) {
-        return slot.fullTurn ? 2 * osg::PI * std::round((value - slot.middle) / (2 * osg::PI)) : 0;
-    }
-
-    osg::observer_ptr<osgSim::DOFTransform> _node;
-    std::vector<DofSlot> _slots;
-    bool _stopped = false;
-    osg::Vec3 _askedHPR, _askedTranslate, _shownHPR, _shownTranslate;
-};
-
-/// Heading turns about Z, pitch about X, roll about Y.
-std::unique_ptr<JointNode> makeDofTransformNode(osgSim::DOFTransform& node, const tss::Joint& joint) {
-    constexpr int componentOfAxis[3] = {1, 2, 0};
-    std::vector<DofSlot> slots;
-    for (const tss::Dof& dof : joint.dofs) {
-        Eigen::Index axis = 0;
-        const double length = dof.axis.cwiseAbs().maxCoeff(&axis);
-        if (dof.kind == tss::DofKind::Path || dof.axis != tss::Vec3(tss::Vec3::Unit(axis) * length))
-            return nullptr;
-        const bool rotation = dof.kind == tss::DofKind::Rotation;
-        const bool fullTurn = rotation && dof.upper - dof.lower >= 2 * osg::PI * (1 - 1e-6);
-        slots.push_back({rotation, rotation ? componentOfAxis[axis] : static_cast<int>(axis), fullTurn,
-                         (dof.lower + dof.upper) / 2});
-    }
-    return std::make_unique<DofTransformNode>(node, std::move(slots));
-}
-
 class FindJointNodes : public osg::NodeVisitor {
 public:
     FindJointNodes() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
 
     void apply(osg::Node& node) override {
-        std::string path;
-        if (auto* joint = dynamic_cast<JointTransform*>(&node))
-            path = joint->getJoint().path;
-        else
-            node.getUserValue(tagName, path);
-        if (!path.empty()) found.emplace(path, &node);
+        if (const auto* joint = dynamic_cast<JointTransform*>(&node)) {
+            if (!joint->getJoint().path.empty()) found.emplace(joint->getJoint().path, &node);
+        } else {
+            std::string paths;
+            node.getUserValue(tagName, paths);
+            std::istringstream words(paths);
+            for (std::string path; words >> path;) found.emplace(path, &node);
+        }
         traverse(node);
     }
 
     std::map<std::string, osg::Node*> found;
 };
 
+/// Joints of a node that moves by itself: what cannot be served is not the application's wish.
+template <class Find>
+std::optional<FoundJoints> ifServed(const Find& find, std::string& why) {
+    try {
+        return find();
+    } catch (const tss::InputError& error) {
+        why = error.message;
+        return std::nullopt;
+    }
+}
+
 } // namespace
+
+std::optional<FoundJoints> jointsOf(osg::Transform& node, const AnimationChannels& channels,
+                                    double timeCodesPerSecond, std::string& why) {
+    if (const auto* transform = dynamic_cast<JointTransform*>(&node)) {
+        tss::Joint joint = transform->getJoint();
+        for (std::size_t k = 0; k < joint.dofs.size(); ++k)
+            joint.dofs[k].rest = transform->getValue(static_cast<unsigned int>(k));
+        return FoundJoints{{joint}};
+    }
+    if (const auto* transform = dynamic_cast<osgSim::DOFTransform*>(&node))
+        return dofTransformJoint(*transform, timeCodesPerSecond);
+    if (isTagged(node)) return taggedJoint(node);
+    if (const auto* animation = animationPathOf(node))
+        return ifServed([&] { return animationPathJoint(*animation, timeCodesPerSecond); }, why);
+    if (auto* animation = stackOf(node))
+        return ifServed([&] { return stackedJoints(*animation, channels, timeCodesPerSecond); }, why);
+    return std::nullopt;
+}
 
 std::unique_ptr<JointNode> makeJointNode(osg::Node& node, const tss::Joint& joint) {
     if (auto* transform = dynamic_cast<JointTransform*>(&node)) {
@@ -132,14 +94,18 @@ std::unique_ptr<JointNode> makeJointNode(osg::Node& node, const tss::Joint& join
     }
     if (auto* transform = dynamic_cast<osgSim::DOFTransform*>(&node))
         return makeDofTransformNode(*transform, joint);
+    if (isTagged(node)) return makeTaggedNode(node, joint);
+    if (animationPathOf(node)) return makeAnimationPathNode(node, joint);
+    if (stackOf(node)) return makeStackedNode(node, joint);
     return nullptr;
 }
 
 void tagJoint(osg::Node& node, const std::string& jointPath) {
-    if (auto* joint = dynamic_cast<JointTransform*>(&node))
-        joint->setPath(jointPath);
-    else
-        node.setUserValue(tagName, jointPath);
+    if (auto* joint = dynamic_cast<JointTransform*>(&node)) return joint->setPath(jointPath);
+    std::string paths;
+    node.getUserValue(tagName, paths);
+    if ((" " + paths + " ").find(" " + jointPath + " ") != std::string::npos) return;
+    node.setUserValue(tagName, paths.empty() ? jointPath : paths + " " + jointPath);
 }
 
 std::map<std::string, osg::Node*> findJointNodes(osg::Node& root) {

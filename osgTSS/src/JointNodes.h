@@ -1,39 +1,30 @@
 #pragma once
-#include "bake/scene/SceneModel.h"
+#include "FoundJoint.h"
+#include "JointNode.h"
 
-#include <osg/Node>
+#include <osg/Transform>
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
-#include <vector>
 
 namespace osgTSS {
 
-/// Reads and writes the values of a joint on the node that carries them.
-class JointNode {
-public:
-    virtual ~JointNode() = default;
+class AnimationChannels;
 
-    /// The node is still there.
-    virtual bool valid() const = 0;
-    virtual std::size_t dofCount() const = 0;
-    /// Before anything writes: what was asked for last comes back, so that an animation that steps from its
-    /// own last value, or an application that asks once, does not see that it was stopped.
-    virtual void restoreAsked() = 0;
-    /// What is asked for.
-    virtual std::vector<double> asked() const = 0;
-    /// What the node shows.
-    virtual std::vector<double> shown() const = 0;
-    /// Shows these values.
-    virtual void show(const std::vector<double>& values) = 0;
-};
+/// The joints that a transform is: a JointTransform, an osgSim::DOFTransform, a transform tagged with
+/// "osgTSS:dofs", or one that an osg::AnimationPathCallback or an osgAnimation::UpdateMatrixTransform moves;
+/// nothing for another. Throws tss::InputError with the reason for one of the first three that cannot be
+/// served; what cannot be served of the others is nothing, and `why` then says so.
+std::optional<FoundJoints> jointsOf(osg::Transform& node, const AnimationChannels& channels,
+                                    double timeCodesPerSecond, std::string& why);
 
-/// A JointTransform, or an osgSim::DOFTransform with DOFs as the joint describes them; null for another node
-/// or for DOFs that the node does not have.
+/// Of a node that jointsOf() knows and one of its joints; null for another node or for DOFs that the node
+/// does not have.
 std::unique_ptr<JointNode> makeJointNode(osg::Node& node, const tss::Joint& joint);
 
-/// Names the joint that a node carries. On another node than a JointTransform it is a user value, so that it
+/// Names the joints that a node carries. On another node than a JointTransform it is a user value, so that it
 /// is saved and cloned with the node.
 void tagJoint(osg::Node& node, const std::string& jointPath);
 

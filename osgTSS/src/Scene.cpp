@@ -21,7 +21,7 @@ Scene::Scene(std::shared_ptr<const tss::SceneModel> model, Clock::Source source)
 
 Scene::Scene(const Scene& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), _model(other._model), _clock(other._clock),
-      _activations(other._activations), _cache(other._cache) {}
+      _activations(other._activations), _contactCallback(other._contactCallback), _cache(other._cache) {}
 
 void Scene::setModel(std::shared_ptr<const tss::SceneModel> model) {
     _model = std::move(model);

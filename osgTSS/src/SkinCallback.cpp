@@ -56,7 +56,7 @@ Played::Played(osg::Node& owner, const Scene& scene, const std::string& path) : 
         return;
     }
     geometry = shape->second;
-    frame = at->second;
+    frame = at->second.node;
     findBones(nodes);
     try {
         if (const auto rig = scene.getCache().rig(index)) response = std::make_unique<tss::SkinResponse>(rig);
@@ -72,7 +72,7 @@ void Played::findBones(const BodyNodes& nodes) {
         const int body = model->muscles[m].bone;
         const auto found = body < 0 ? nodes.frames.end() : nodes.frames.find(model->bodies[body].path);
         if (found != nodes.frames.end()) {
-            bone.node = found->second;
+            bone.node = found->second.node;
             bone.restInverse = (skinInverse * model->bodies[body].placement).inverse(Eigen::Isometry);
             riding = true;
         }

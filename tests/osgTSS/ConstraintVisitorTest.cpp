@@ -156,16 +156,14 @@ TEST_CASE("bodies are what hangs together, also below masks and switches, and of
     CHECK(pairMotion(all, all.pairs[1]).dofCount() == 2);
 }
 
-TEST_CASE("a joint below a mirror or unequal scales is refused with its path") {
-    osg::ref_ptr<osg::MatrixTransform> mirror = new osg::MatrixTransform(osg::Matrixd::scale(-1, 1, 1));
-    mirror->setName("Left");
-    mirror->addChild(dof("Arm"));
+TEST_CASE("a joint below unequal scales is refused with its path") {
+    osg::ref_ptr<osg::MatrixTransform> scaled = new osg::MatrixTransform(osg::Matrixd::scale(1, 2, 1));
+    scaled->setName("Left");
+    scaled->addChild(dof("Arm"));
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->setName("Robot");
-    root->addChild(mirror);
+    root->addChild(scaled);
     CHECK_THROWS_WITH(extract(*root), Catch::Contains("/Robot/Left/Arm"));
-    mirror->setMatrix(osg::Matrixd::scale(1, 2, 1));
-    CHECK_THROWS_AS(extract(*root), tss::InputError);
 }
 
 TEST_CASE("mirrored geometry is taken with its outside outside") {

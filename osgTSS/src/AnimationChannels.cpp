@@ -1,0 +1,93 @@
+#include "AnimationChannels.h"
+
+#include <osg/NodeVisitor>
+#include <osgAnimation/AnimationManagerBase>
+
+namespace osgTSS {
+
+namespace {
+
+using namespace osgAnimation;
+
+class FindManagers : public osg::NodeVisitor {
+public:
+    FindManagers() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+    void apply(osg::Node& node) override {
+        for (osg::Callback* callback = node.getUpdateCallback(); callback;
+             callback = callback->getNestedCallback())
+            if (auto* manager = dynamic_cast<AnimationManagerBase*>(callback)) found.push_back(manager);
+        traverse(node);
+    }
+    std::vector<AnimationManagerBase*> found;
+};
+
+/// Keys of the channel if it is of this type. Curves are followed between their keys, so finely that what
+/// they swing beyond the samples is less than a part in a thousand of a step between two keys.
+template <class ChannelType, class Value>
+bool read(const Channel& channel, int steps, std::vector<Keys<Value>>& out) {
+    const auto* typed = dynamic_cast<const ChannelType*>(&channel);
+    if (!typed) return false;
+    const auto* sampler = typed->getSamplerTyped();
+    const auto* container = sampler ? sampler->getKeyframeContainerTyped() : nullptr;
+    if (!container || container->empty()) return true;
+    Keys<Value> keys;
+    const auto add = [&](double time) {
+        typename ChannelType::UsingType value;
+        sampler->getValueAt(time, value);
+        keys.times.push_back(time);
+        keys.values.push_back(Value(value));
+    };
+    for (std::size_t k = 0; k + 1 < container->size(); ++k) {
+        const double from = (*container)[k].getTime(), to = (*container)[k + 1].getTime();
+        if (!(from < to)) continue;
+        for (int step = 0; step < steps; ++step) add(from + (to - from) * step / steps);
+    }
+    add(container->back().getTime());
+    out.push_back(std::move(keys));
+    return true;
+}
+
+constexpr int curve = 32;
+
+void readAny(const Channel& channel, std::vector<Keys<double>>& out) {
+    read<FloatLinearChannel>(channel, 1, out) || read<DoubleLinearChannel>(channel, 1, out) ||
+        read<FloatStepChannel>(channel, 1, out) || read<DoubleStepChannel>(channel, 1, out) ||
+        read<FloatCubicBezierChannel>(channel, curve, out) ||
+        read<DoubleCubicBezierChannel>(channel, curve, out);
+}
+
+void readAny(const Channel& channel, std::vector<Keys<osg::Vec3d>>& out) {
+    read<Vec3LinearChannel>(channel, 1, out) || read<Vec3StepChannel>(channel, 1, out) ||
+        read<Vec3CubicBezierChannel>(channel, curve, out);
+}
+
+void readAny(const Channel& channel, std::vector<Keys<osg::Quat>>& out) {
+    read<QuatSphericalLinearChannel>(channel, curve, out) || read<QuatStepChannel>(channel, 1, out);
+}
+
+} // namespace
+
+AnimationChannels::AnimationChannels(osg::Node& root) {
+    FindManagers managers;
+    root.accept(managers);
+    for (AnimationManagerBase* manager : managers.found)
+        for (const auto& animation : manager->getAnimationList())
+            for (const auto& channel : animation->getChannels())
+                _channels[{channel->getTargetName(), channel->getName()}].push_back(channel);
+}
+
+template <class Value>
+std::vector<Keys<Value>> AnimationChannels::keys(const std::string& target,
+                                                 const std::string& element) const {
+    std::vector<Keys<Value>> all;
+    const auto found = _channels.find({target, element});
+    if (found == _channels.end()) return all;
+    for (const auto& channel : found->second) readAny(*channel, all);
+    return all;
+}
+
+template std::vector<Keys<double>> AnimationChannels::keys(const std::string&, const std::string&) const;
+template std::vector<Keys<osg::Vec3d>> AnimationChannels::keys(const std::string&, const std::string&) const;
+template std::vector<Keys<osg::Quat>> AnimationChannels::keys(const std::string&, const std::string&) const;
+
+} // namespace osgTSS

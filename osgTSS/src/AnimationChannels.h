@@ -1,0 +1,38 @@
+#pragma once
+#include <osg/Node>
+#include <osg/Quat>
+#include <osg/Vec3>
+#include <osgAnimation/Channel>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace osgTSS {
+
+/// Values over time, seconds: of a channel of numbers, vectors or turns.
+template <class Value>
+struct Keys {
+    std::vector<double> times;
+    std::vector<Value> values;
+};
+
+/// The channels of all osgAnimation managers of a graph, by the target that they animate (the name of an
+/// update callback) and its element.
+class AnimationChannels {
+public:
+    AnimationChannels() = default;
+    explicit AnimationChannels(osg::Node& root);
+
+    /// The keys of each channel that animates the element; with values between the keys where the channel is
+    /// a curve. Channels of another type are left out.
+    template <class Value>
+    std::vector<Keys<Value>> keys(const std::string& target, const std::string& element) const;
+
+private:
+    std::map<std::pair<std::string, std::string>, std::vector<osg::ref_ptr<const osgAnimation::Channel>>>
+        _channels;
+};
+
+} // namespace osgTSS

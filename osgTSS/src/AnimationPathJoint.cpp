@@ -1,0 +1,140 @@
+#include "AnimationPathJoint.h"
+
+#include "bake/base/Error.h"
+
+#include <osg/MatrixTransform>
+#include <osg/PositionAttitudeTransform>
+#include <osg/observer_ptr>
+#include <osgTSS/Convert>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+namespace osgTSS {
+
+namespace {
+
+/// A time of the animation as the path maps it between its ends.
+double along(const osg::AnimationPath& path, double time) {
+    const double first = path.getFirstTime(), period = path.getPeriod();
+    const double rounds = (time - first) / (path.getLoopMode() == osg::AnimationPath::SWING ? 2 : 1) / period;
+    double part = rounds - std::floor(rounds);
+    switch (path.getLoopMode()) {
+    case osg::AnimationPath::SWING:
+        return first + 2 * std::min(part, 1 - part) * period;
+    case osg::AnimationPath::LOOP:
+        return first + part * period;
+    case osg::AnimationPath::NO_LOOPING:
+        break;
+    }
+    return std::clamp(time, first, path.getLastTime());
+}
+
+tss::TimeSamples oneRound(const osg::AnimationPathCallback& animation, double rate) {
+    const osg::AnimationPath& path = *animation.getAnimationPath();
+    const double speed = animation.getTimeMultiplier();
+    if (!(speed > 0)) return {};
+    const double codes = path.getPeriod() * rate / speed;
+    tss::TimeSamples samples{{0, codes}, {path.getFirstTime(), path.getLastTime()}};
+    if (path.getLoopMode() == osg::AnimationPath::SWING) {
+        samples.times.push_back(2 * codes);
+        samples.values.push_back(path.getFirstTime());
+    }
+    return samples;
+}
+
+class AnimationPathNode : public JointNode {
+public:
+    AnimationPathNode(osg::Node& node, osg::AnimationPathCallback& animation)
+        : _node(&node), _animation(&animation), _shown(animation.getAnimationPath()->getFirstTime()) {}
+
+    bool valid() const override {
+        return _node.valid() && _animation.valid() && _animation->getAnimationPath() &&
+               _animation->getAnimationPath()->getPeriod() > 0;
+    }
+    std::size_t dofCount() const override { return 1; }
+    void restoreAsked() override {} // the callback places the node by the time alone
+
+    std::vector<double> asked() const override {
+        // Paused, or not begun: the callback leaves the node where it is.
+        if (_animation->getPause() || _animation->_firstTime == DBL_MAX) return shown();
+        return {along(*_animation->getAnimationPath(), _animation->getAnimationTime())};
+    }
+    std::vector<double> shown() const override { return {_shown}; }
+
+    void show(const std::vector<double>& values) override {
+        const bool asIs = values == asked(); // the callback has placed the node there
+        _shown = values[0];
+        if (asIs) return;
+        osg::AnimationPath::ControlPoint point;
+        if (!_animation->getAnimationPath()->getInterpolatedControlPoint(inside(_shown), point)) return;
+        if (auto* matrix = dynamic_cast<osg::MatrixTransform*>(_node.get())) {
+            osg::Matrixd at;
+            point.getMatrix(at);
+            matrix->setMatrix(osg::Matrixd::translate(-_animation->getPivotPoint()) * at);
+        } else if (auto* transform = dynamic_cast<osg::PositionAttitudeTransform*>(_node.get())) {
+            transform->setPosition(point.getPosition());
+            transform->setAttitude(point.getRotation());
+        }
+    }
+
+private:
+    /// A loop takes its last moment for its first.
+    double inside(double time) const {
+        const osg::AnimationPath& path = *_animation->getAnimationPath();
+        return path.getLoopMode() == osg::AnimationPath::LOOP && time >= path.getLastTime()
+                   ? std::nextafter(path.getLastTime(), path.getFirstTime())
+                   : time;
+    }
+
+    osg::observer_ptr<osg::Node> _node;
+    osg::observer_ptr<osg::AnimationPathCallback> _animation;
+    double _shown;
+};
+
+} // namespace
+
+osg::AnimationPathCallback* animationPathOf(osg::Node& node) {
+    for (osg::Callback* callback = node.getUpdateCallback(); callback;
+         callback = callback->getNestedCallback())
+        if (auto* found = dynamic_cast<osg::AnimationPathCallback*>(callback))
+            return found->getAnimationPath() && found->getAnimationPath()->getPeriod() > 0 ? found : nullptr;
+    return nullptr;
+}
+
+FoundJoints animationPathJoint(const osg::AnimationPathCallback& animation, double timeCodesPerSecond) {
+    if (animation.getUseInverseMatrix())
+        throw tss::InputError("its path is used inverted: expected it to place what is below");
+    const osg::AnimationPath& path = *animation.getAnimationPath();
+    const osg::Vec3d size = path.getTimeControlPointMap().begin()->second.getScale();
+    tss::Dof dof;
+    dof.name = "path0";
+    dof.kind = tss::DofKind::Path;
+    for (const auto& [time, point] : path.getTimeControlPointMap()) {
+        if (point.getScale() != size || size != osg::Vec3d(size.x(), size.x(), size.x()) || size.x() == 0)
+            throw tss::InputError(
+                "its path scales: expected a scale that is the same in all directions and at all times");
+        const osg::Quat& r = point.getRotation();
+        tss::PathRow row;
+        row.value = time;
+        row.translation = toCore(point.getPosition());
+        row.rotation = Eigen::Quaterniond(r.w(), r.x(), r.y(), r.z()).normalized();
+        dof.path.push_back(row);
+    }
+    dof.lower = dof.rest = path.getFirstTime();
+    dof.upper = path.getLastTime();
+    tss::Joint joint;
+    joint.frame1.translation() = size.x() * toCore(animation.getPivotPoint());
+    joint.dofs = {dof};
+    joint.drives = {oneRound(animation, timeCodesPerSecond)};
+    return {{joint}, size.x()};
+}
+
+std::unique_ptr<JointNode> makeAnimationPathNode(osg::Node& node, const tss::Joint& joint) {
+    osg::AnimationPathCallback* animation = animationPathOf(node);
+    if (!animation || joint.dofs.size() != 1 || joint.dofs[0].kind != tss::DofKind::Path) return nullptr;
+    return std::make_unique<AnimationPathNode>(node, *animation);
+}
+
+} // namespace osgTSS

@@ -1,0 +1,7 @@
+#include <osgTSS/ContactCallback>
+
+namespace osgTSS {
+
+ContactCallback::~ContactCallback() = default;
+
+} // namespace osgTSS

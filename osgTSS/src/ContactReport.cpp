@@ -1,0 +1,102 @@
+#include "ContactReport.h"
+
+#include "bake/scene/Kinematics.h"
+#include "bake/table/Query.h"
+
+#include <osgTSS/Convert>
+
+namespace osgTSS {
+
+namespace {
+
+/// Joints are kept at a small gap; what is within this many times it touches.
+constexpr double nearEnough = 1.1;
+
+/// The values of a pair's own joints among all of a plan's, in the order of its table.
+std::vector<double> valuesOf(const tss::SceneModel& model, const tss::JointPlan& plan,
+                             const std::vector<double>& q, const tss::Pair& pair) {
+    std::vector<double> values;
+    for (int joint : pair.joints)
+        for (std::size_t j = 0; j < plan.joints.size(); ++j)
+            if (plan.joints[j] == joint)
+                for (std::size_t k = 0; k < model.joints[joint].dofs.size(); ++k)
+                    values.push_back(q[plan.firstValue[j] + k]);
+    return values;
+}
+
+} // namespace
+
+void ContactReport::watch(const Scene& scene, const tss::JointPlan& plan, osg::NodeVisitor& visitor) {
+    const tss::SceneModel& model = scene.getModel();
+    const osg::NodePath& path = visitor.getNodePath();
+    // Bodies may stand above the node of the callback: up to the root that the scene was installed on.
+    osg::Node* root = path.empty() ? nullptr : path.front();
+    for (osg::Node* node : path)
+        if (Scene::on(*node) == &scene) root = node;
+    const BodyNodes nodes = root ? findBodyNodes(*root) : BodyNodes{};
+    const auto side = [&](int body) {
+        const auto found = nodes.frames.find(model.bodies[body].path);
+        return found == nodes.frames.end() ? Side{} : Side{found->second.node, found->second.scale};
+    };
+    for (const tss::JointPlan::Group& group : plan.groups) {
+        std::vector<Watched> watched;
+        for (int pair : group.pairs)
+            watched.push_back(
+                {pair, side(model.pairs[pair].bodyA), side(model.pairs[pair].bodyB), false, {}});
+        _groups.push_back(std::move(watched));
+    }
+}
+
+void ContactReport::locate(const tss::SceneModel& model, const tss::JointPlan& plan,
+                           const std::vector<double>& q, Watched& watched) {
+    const tss::Pair& pair = model.pairs[watched.pair];
+    const tss::QueryResult found = tss::query(*pair.table, valuesOf(model, plan, q, pair));
+    Contact& contact = watched.last;
+    contact.pairPath = pair.path;
+    contact.bodyA = model.bodies[pair.bodyA].path;
+    contact.bodyB = model.bodies[pair.bodyB].path;
+    contact.nodeA = watched.a.node.get();
+    contact.nodeB = watched.b.node.get();
+    contact.gap = found.gap;
+    osg::Matrixd toWorld = toOsg(model.bodies[pair.bodyA].placement);
+    double scale = 1;
+    if (contact.nodeA) {
+        const osg::MatrixList matrices = contact.nodeA->getWorldMatrices();
+        if (!matrices.empty()) toWorld = matrices.front();
+        scale = watched.a.scale;
+    }
+    contact.point = toOsg(found.point) / scale * toWorld;
+    contact.normal = osg::Matrixd::transform3x3(toOsg(found.normal) / scale, toWorld);
+    contact.normal.normalize();
+}
+
+void ContactReport::tell(const Scene& scene, const tss::JointPlan& plan, const std::vector<double>& q,
+                         const std::vector<tss::JointAnswer>& answers, ContactCallback& callback,
+                         osg::NodeVisitor& visitor) {
+    const tss::SceneModel& model = scene.getModel();
+    if (_groups.size() != plan.groups.size()) {
+        _groups.clear();
+        watch(scene, plan, visitor);
+    }
+    for (std::size_t g = 0; g < answers.size(); ++g) {
+        const bool stopped = answers[g].status != tss::JointStatus::Free;
+        const double near = nearEnough * plan.groups[g].responder.keptGap();
+        for (Watched& watched : _groups[g]) {
+            const bool before = watched.touching;
+            if (!stopped && !before) continue;
+            watched.touching = false;
+            if (stopped) {
+                const Contact last = watched.last;
+                locate(model, plan, q, watched);
+                watched.touching = watched.last.gap <= near;
+                if (!watched.touching) watched.last = last;
+            }
+            if (!watched.touching && !before) continue;
+            watched.last.event = !watched.touching ? Contact::END : before ? Contact::STAY : Contact::BEGIN;
+            watched.last.status = answers[g].status;
+            callback(watched.last, visitor);
+        }
+    }
+}
+
+} // namespace osgTSS

@@ -1,0 +1,23 @@
+#pragma once
+#include "bake/scene/SceneModel.h"
+
+#include <osg/Matrixd>
+
+#include <vector>
+
+namespace osgTSS {
+
+/// The joints that a node is, from its parent's frame inwards: one, or a chain where DOFs do not share a
+/// frame.
+struct FoundJoints {
+    std::vector<tss::Joint> joints; ///< without bodies and paths
+    double scale = 1;               ///< of what hangs below, the same at all times; negative: mirrored too
+};
+
+/// The lengths of a joint in other units; a negative factor is a mirror, which turns pass unchanged.
+void scaleLengths(tss::Joint& joint, double factor);
+
+/// The matrix as a rigid motion. Throws tss::InputError that begins with `what` for another.
+tss::Pose rigid(const osg::Matrixd& matrix, const char* what);
+
+} // namespace osgTSS

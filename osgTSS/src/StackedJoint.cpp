@@ -1,0 +1,131 @@
+#include "StackedJoint.h"
+
+#include "StackedDof.h"
+
+#include "bake/base/Error.h"
+
+#include <osg/MatrixTransform>
+#include <osg/observer_ptr>
+#include <osgAnimation/Bone>
+
+#include <algorithm>
+
+namespace osgTSS {
+
+namespace {
+
+/// Collects DOFs and fixed parts, from the parent inwards, into as few joints as a file can hold: those whose
+/// DOFs share a frame, each axis once.
+class ChainMaker {
+public:
+    void addFixed(const tss::Pose& pose) { _fixed = _fixed * pose; }
+
+    /// The DOF acts along or about X, Y or Z of `axes`, a frame turned against the stack's.
+    void addDof(const tss::Dof& dof, const tss::TimeSamples& drive, const Eigen::Quaterniond& axes) {
+        addFixed(tss::Pose(axes));
+        const bool moved = (_fixed.matrix() - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff() > 1e-12;
+        if (_joints.empty() || moved || has(_joints.back(), dof)) {
+            _joints.emplace_back();
+            _joints.back().frame0 = _fixed;
+            _fixed = tss::Pose::Identity();
+        }
+        _joints.back().dofs.push_back(dof);
+        _joints.back().drives.push_back(drive);
+        addFixed(tss::Pose(axes.conjugate()));
+    }
+
+    std::vector<tss::Joint> finish() {
+        if (!_joints.empty()) _joints.back().frame1 = _fixed.inverse(Eigen::Isometry);
+        return std::move(_joints);
+    }
+
+private:
+    static bool has(const tss::Joint& joint, const tss::Dof& dof) {
+        return std::any_of(joint.dofs.begin(), joint.dofs.end(), [&](const tss::Dof& other) {
+            return other.kind == dof.kind && other.axis == dof.axis;
+        });
+    }
+
+    std::vector<tss::Joint> _joints;
+    tss::Pose _fixed = tss::Pose::Identity(); ///< since the last DOF
+};
+
+class StackedNode : public JointNode {
+public:
+    StackedNode(osg::MatrixTransform& node, osgAnimation::UpdateMatrixTransform& animation,
+                std::vector<StackedDof> dofs)
+        : _node(&node), _animation(&animation), _dofs(std::move(dofs)) {}
+
+    bool valid() const override { return _node.valid() && _animation.valid(); }
+    std::size_t dofCount() const override { return _dofs.size(); }
+
+    void restoreAsked() override {
+        if (_stopped && asked() == _shown) write(_asked);
+    }
+    std::vector<double> asked() const override {
+        std::vector<double> values;
+        for (const StackedDof& dof : _dofs) values.push_back(dof.value());
+        return values;
+    }
+    std::vector<double> shown() const override { return asked(); }
+
+    void show(const std::vector<double>& values) override {
+        _asked = asked();
+        _stopped = values != _asked;
+        if (!_stopped) return;
+        write(values);
+        _shown = asked();
+        osg::Matrix matrix;
+        for (const auto& element : _animation->getStackedTransforms())
+            if (!element->isIdentity()) element->applyToMatrix(matrix);
+        _node->setMatrix(matrix);
+    }
+
+private:
+    void write(const std::vector<double>& values) {
+        for (std::size_t k = 0; k < _dofs.size(); ++k) _dofs[k].setValue(values[k]);
+    }
+
+    osg::observer_ptr<osg::MatrixTransform> _node;
+    osg::observer_ptr<osgAnimation::UpdateMatrixTransform> _animation;
+    std::vector<StackedDof> _dofs;
+    bool _stopped = false;
+    std::vector<double> _asked, _shown;
+};
+
+} // namespace
+
+osgAnimation::UpdateMatrixTransform* stackOf(osg::Node& node) {
+    if (!dynamic_cast<osg::MatrixTransform*>(&node) || dynamic_cast<osgAnimation::Bone*>(&node))
+        return nullptr;
+    for (osg::Callback* callback = node.getUpdateCallback(); callback;
+         callback = callback->getNestedCallback())
+        if (auto* found = dynamic_cast<osgAnimation::UpdateMatrixTransform*>(callback)) return found;
+    return nullptr;
+}
+
+FoundJoints stackedJoints(osgAnimation::UpdateMatrixTransform& animation, const AnimationChannels& channels,
+                          double timeCodesPerSecond) {
+    ChainMaker chain;
+    for (const auto& element : animation.getStackedTransforms()) {
+        const std::vector<MovedAxis> moved =
+            movedAxes(*element, channels, animation.getName(), timeCodesPerSecond);
+        for (const MovedAxis& axis : moved) chain.addDof(axis.dof, axis.drive, axis.axes);
+        if (moved.empty())
+            chain.addFixed(rigid(element->getAsMatrix(), ("element " + element->getName()).c_str()));
+    }
+    FoundJoints found{chain.finish()};
+    if (found.joints.empty()) throw tss::InputError("no channel moves an element of its stack");
+    return found;
+}
+
+std::unique_ptr<JointNode> makeStackedNode(osg::Node& node, const tss::Joint& joint) {
+    osgAnimation::UpdateMatrixTransform* animation = stackOf(node);
+    if (!animation) return nullptr;
+    std::vector<StackedDof> dofs = findStackedDofs(*animation, joint);
+    if (dofs.empty()) return nullptr;
+    return std::make_unique<StackedNode>(static_cast<osg::MatrixTransform&>(node), *animation,
+                                         std::move(dofs));
+}
+
+} // namespace osgTSS

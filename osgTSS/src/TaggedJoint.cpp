@@ -1,0 +1,202 @@
+#include "TaggedJoint.h"
+
+#include "Turns.h"
+
+#include "bake/base/Error.h"
+#include "bake/scene/DofToken.h"
+
+#include <osg/MatrixTransform>
+#include <osg/PositionAttitudeTransform>
+#include <osg/ValueObject>
+#include <osg/observer_ptr>
+#include <osgTSS/Convert>
+
+#include <algorithm>
+#include <sstream>
+
+namespace osgTSS {
+
+namespace {
+
+const char* const dofsTag = "osgTSS:dofs";
+const char* const pivotTag = "osgTSS:pivot";
+const char* const restTag = "osgTSS:rest";
+
+tss::Vec3 pivotOf(const osg::Node& node) {
+    osg::Vec3d pivot;
+    osg::Vec3f single;
+    if (!node.getUserValue(pivotTag, pivot) && node.getUserValue(pivotTag, single)) pivot = single;
+    return toCore(pivot);
+}
+
+osg::Matrixd matrixOf(const osg::Transform& node) {
+    osg::Matrixd matrix;
+    node.computeLocalToWorldMatrix(matrix, nullptr);
+    return matrix;
+}
+
+/// "rotZ:-24:18"
+tss::Dof parse(const std::string& word) {
+    std::istringstream text(word);
+    std::string token, rest;
+    double lower = 0, upper = 0;
+    char colon = 0;
+    tss::Dof dof;
+    std::size_t path = 0;
+    std::getline(text, token, ':');
+    text >> lower >> colon >> upper;
+    if (text.fail() || colon != ':' || text.peek() != EOF || !tss::dofFromToken(token, dof, path) ||
+        dof.kind == tss::DofKind::Path || !(lower <= 0 && 0 <= upper))
+        throw tss::InputError(
+            std::string(dofsTag) +
+            ": expected words such as rotZ:-24:18 or transX:0:5 with limits that hold 0, found \"" + word +
+            "\"");
+    const double unit = dof.kind == tss::DofKind::Rotation ? osg::DegreesToRadians(1.0) : 1;
+    dof.name = token;
+    dof.lower = lower * unit;
+    dof.upper = upper * unit;
+    return dof;
+}
+
+std::vector<tss::Dof> dofsOf(const osg::Node& node) {
+    std::string text;
+    node.getUserValue(dofsTag, text);
+    std::istringstream words(text);
+    std::vector<tss::Dof> dofs;
+    for (std::string word; words >> word;) {
+        const tss::Dof dof = parse(word);
+        for (const tss::Dof& other : dofs)
+            if (other.name == dof.name ||
+                (other.kind == tss::DofKind::Rotation && dof.kind == tss::DofKind::Translation))
+                throw tss::InputError(std::string(dofsTag) +
+                                      ": expected each axis once and slides before turns, found \"" + text +
+                                      "\"");
+        dofs.push_back(dof);
+    }
+    return dofs;
+}
+
+/// The node's matrix by the values of its DOFs, and back: M = rest pivot D pivot^-1 as columns.
+class TaggedNode : public JointNode {
+public:
+    TaggedNode(osg::Transform& node, const std::vector<tss::Dof>& dofs, const osg::Matrixd& rest)
+        : _node(&node), _toRest(osg::Matrixd::translate(toOsg(pivotOf(node))) * rest),
+          _fromPivot(osg::Matrixd::translate(-toOsg(pivotOf(node)))) {
+        std::vector<int> order;
+        for (const tss::Dof& dof : dofs) {
+            Eigen::Index axis = 0;
+            dof.axis.cwiseAbs().maxCoeff(&axis);
+            const bool turn = dof.kind == tss::DofKind::Rotation;
+            if (turn) order.push_back(static_cast<int>(axis));
+            _slots.push_back({turn, turn ? order.size() - 1 : static_cast<std::size_t>(axis),
+                              (dof.lower + dof.upper) / 2});
+        }
+        for (int axis = 0; axis < 3; ++axis)
+            if (std::find(order.begin(), order.end(), axis) == order.end()) order.push_back(axis);
+        std::copy_n(order.begin(), 3, _order.begin());
+    }
+
+    bool valid() const override { return _node.valid(); }
+    std::size_t dofCount() const override { return _slots.size(); }
+
+    void restoreAsked() override {
+        if (_stopped && matrixOf(*_node) == _shown) write(_asked);
+    }
+
+    std::vector<double> asked() const override {
+        const osg::Matrixd moved =
+            osg::Matrixd::inverse(_fromPivot) * matrixOf(*_node) * osg::Matrixd::inverse(_toRest);
+        const auto rigid = toSimilarity(moved);
+        std::vector<double> values(_slots.size());
+        if (!rigid) return values; // another matrix than such a joint can have: as at rest
+        const auto turns = turnsOf(rigid->pose.linear(), _order);
+        for (std::size_t k = 0; k < _slots.size(); ++k) {
+            const Slot& slot = _slots[k];
+            values[k] = slot.turn ? turns[slot.index] - wholeTurns(turns[slot.index], slot.middle)
+                                  : rigid->pose.translation()[static_cast<Eigen::Index>(slot.index)];
+        }
+        return values;
+    }
+    std::vector<double> shown() const override { return asked(); }
+
+    void show(const std::vector<double>& values) override {
+        _stopped = values != asked();
+        if (!_stopped) return;
+        _asked = matrixOf(*_node);
+        tss::Pose moved = tss::Pose::Identity();
+        for (std::size_t k = 0; k < _slots.size(); ++k) {
+            const Slot& slot = _slots[k];
+            if (slot.turn)
+                moved.rotate(Eigen::AngleAxisd(values[k], tss::Vec3::Unit(_order[slot.index])));
+            else
+                moved.translate(values[k] * tss::Vec3::Unit(static_cast<Eigen::Index>(slot.index)));
+        }
+        write(_fromPivot * toOsg(moved) * _toRest);
+        _shown = matrixOf(*_node);
+    }
+
+private:
+    struct Slot {
+        bool turn;
+        std::size_t index; ///< of a turn its place in the order, of a slide its axis
+        double middle;     ///< of the limits
+    };
+
+    void write(const osg::Matrixd& matrix) {
+        if (auto* transform = dynamic_cast<osg::MatrixTransform*>(_node.get()))
+            return transform->setMatrix(matrix);
+        auto& transform = static_cast<osg::PositionAttitudeTransform&>(*_node.get());
+        osg::Vec3d position, scale;
+        osg::Quat attitude, none;
+        matrix.decompose(position, attitude, scale, none);
+        transform.setAttitude(attitude);
+        transform.setPosition(transform.getPivotPoint() * matrix);
+    }
+
+    osg::observer_ptr<osg::Transform> _node;
+    osg::Matrixd _toRest, _fromPivot;
+    std::vector<Slot> _slots;
+    std::array<int, 3> _order{};
+    bool _stopped = false;
+    osg::Matrixd _asked, _shown;
+};
+
+} // namespace
+
+bool isTagged(const osg::Node& node) {
+    std::string dofs;
+    return node.getUserValue(dofsTag, dofs);
+}
+
+FoundJoints taggedJoint(osg::Transform& node) {
+    if (!dynamic_cast<osg::MatrixTransform*>(&node) && !dynamic_cast<osg::PositionAttitudeTransform*>(&node))
+        throw tss::InputError(std::string(dofsTag) +
+                              ": expected it on a MatrixTransform or a PositionAttitudeTransform");
+    osg::Matrixd rest;
+    if (!node.getUserValue(restTag, rest)) {
+        rest = matrixOf(node);
+        node.setUserValue(restTag, rest);
+    }
+    const auto similarity = toSimilarity(rest);
+    if (!similarity)
+        throw tss::InputError("its matrix shears, or scales axes differently: expected equal scales");
+    tss::Joint joint;
+    joint.frame0.translation() = joint.frame1.translation() = pivotOf(node);
+    joint.dofs = dofsOf(node);
+    if (joint.dofs.empty()) throw tss::InputError(std::string(dofsTag) + ": expected a DOF, found none");
+    joint.drives.resize(joint.dofs.size());
+    scaleLengths(joint, similarity->scale);
+    joint.frame0 = similarity->pose * joint.frame0;
+    return {{joint}, similarity->scale};
+}
+
+std::unique_ptr<JointNode> makeTaggedNode(osg::Node& node, const tss::Joint& joint) {
+    auto* transform = node.asTransform();
+    osg::Matrixd rest;
+    if (!transform || !node.getUserValue(restTag, rest)) return nullptr;
+    const std::vector<tss::Dof> dofs = dofsOf(node);
+    if (dofs.size() != joint.dofs.size()) return nullptr;
+    return std::make_unique<TaggedNode>(*transform, dofs, rest);
+}
+
+} // namespace osgTSS

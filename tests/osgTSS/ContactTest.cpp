@@ -1,0 +1,89 @@
+#include "Playback.h"
+#include "Scenes.h"
+
+#include <catch2/catch.hpp>
+#include <osg/MatrixTransform>
+#include <osg/ShapeDrawable>
+#include <osgTSS/ConstraintVisitor>
+#include <osgTSS/Convert>
+#include <osgTSS/CreateGraph>
+#include <osgTSS/Install>
+#include <osgTSS/JointTransform>
+
+using namespace osgTSS;
+
+namespace {
+
+struct Listen : ContactCallback {
+    void operator()(const Contact& contact, osg::NodeVisitor&) override { heard.push_back(contact); }
+    std::vector<Contact> heard;
+};
+
+} // namespace
+
+TEST_CASE("a contact is told as it begins, stays and ends, with its place in the world") {
+    osg::ref_ptr<Scene> scene =
+        new Scene(std::make_shared<tss::SceneModel>(scenes::hinge()), Clock::FRAME_NUMBER);
+    osg::ref_ptr<osg::Group> graph = createGraph(*scene);
+    install(*graph, *scene);
+    osg::ref_ptr<osg::MatrixTransform> place =
+        new osg::MatrixTransform(osg::Matrixd::scale(2, 2, 2) * osg::Matrixd::translate(0, 100, 0));
+    place->addChild(graph);
+    osg::ref_ptr<Listen> listen = new Listen;
+    scene->setContactCallback(listen);
+    Playback playback;
+    playback.frames(*place, 0, 24);
+
+    REQUIRE(listen->heard.size() >= 3);
+    CHECK(listen->heard.front().event == Contact::BEGIN);
+    CHECK(listen->heard.back().event == Contact::END);
+    for (std::size_t k = 1; k + 1 < listen->heard.size(); ++k) CHECK(listen->heard[k].event == Contact::STAY);
+    const Contact& contact = listen->heard[1];
+    CHECK(contact.pairPath == "/Rig/Hinge");
+    CHECK(contact.bodyA == "/Rig/Frame");
+    CHECK(contact.bodyB == "/Rig/Arm");
+    REQUIRE(contact.nodeA);
+    CHECK(contact.nodeA->getName() == "Frame");
+    CHECK(contact.nodeB->getName() == "Arm");
+    CHECK(contact.gap < 1e-3);
+    // Half way between the two spheres, in the world's own units.
+    const double a = scenes::stopAngle, b = scenes::contactAngle();
+    const osg::Vec3d stop(2 * std::cos(a), 0, -2 * std::sin(a)), arm(2 * std::cos(b), 0, -2 * std::sin(b));
+    const osg::Vec3d at = ((stop + arm) / 2 + osg::Vec3d(5, 0, 0)) * 2 + osg::Vec3d(0, 100, 0);
+    CHECK((contact.point - at).length() < 2e-3);
+    osg::Vec3d normal = arm - stop;
+    normal.normalize();
+    CHECK((contact.normal - normal).length() < 2e-3);
+}
+
+TEST_CASE("contacts of an extracted graph name its nodes") {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->setName("Rig");
+    root->addChild(new osg::ShapeDrawable(new osg::Box(osg::Vec3(3, 0, 0), 0.5f)));
+    osg::ref_ptr<osg::MatrixTransform> half = new osg::MatrixTransform(osg::Matrixd::scale(0.5, 0.5, 0.5));
+    osg::ref_ptr<JointTransform> joint = new JointTransform;
+    joint->setName("Slide");
+    joint->addTranslation('X', 0, 10);
+    joint->addChild(new osg::ShapeDrawable(new osg::Box(osg::Vec3(), 0.5f)));
+    half->addChild(joint);
+    root->addChild(half);
+    ConstraintVisitor visitor;
+    root->accept(visitor);
+    auto model = std::make_shared<tss::SceneModel>(visitor.getModel());
+    model->pairs.at(0).table =
+        std::make_shared<tss::Table>(tss::makeTable({{tss::Vec3(3, 0, 0), 0.5}}, {{tss::Vec3(0, 0, 0), 0.25}},
+                                                    {{0, 0}}, {}, pairMotion(*model, model->pairs[0])));
+    osg::ref_ptr<Scene> scene = new Scene(model);
+    install(*root, *scene);
+    osg::ref_ptr<Listen> listen = new Listen;
+    scene->setContactCallback(listen);
+    joint->setValue(0, 9);
+    Playback playback;
+    playback.frames(*root, 0, 1);
+    REQUIRE(listen->heard.size() == 2);
+    CHECK(listen->heard[0].nodeA == root);
+    CHECK(listen->heard[0].nodeB == joint);
+    CHECK(listen->heard[0].point.x() == Approx(2.5).margin(1e-3));
+    CHECK(listen->heard[0].normal.x() == Approx(-1));
+    CHECK(joint->getValue(0) == Approx(2.25 / 0.5).margin(2e-3));
+}
