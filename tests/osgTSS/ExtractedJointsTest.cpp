@@ -96,7 +96,7 @@ void checkStops(const std::function<Rig()>& make, const std::function<void(Rig&,
             ++stopped;
         if ((free.ballInWorld() - obstacle).length() < reach - 1e-3) CHECK(held.matrix() != free.matrix());
     }
-    CHECK(same > frames / 4);
+    CHECK(same > frames / 8);
     CHECK(stopped > frames / 20);
 }
 
@@ -234,8 +234,9 @@ TEST_CASE("a stack of osgAnimation becomes joints whose limits are the range of 
 TEST_CASE("a stack of osgAnimation is held at contact and goes on where the way is free") {
     Rig probe = stacked();
     Playback playback;
-    playback.frames(*probe.root, 0, 60);
-    checkStops(stacked, still, probe.ballInWorld() + osg::Vec3d(0.1, 0.1, 0), 24 * 12);
+    playback.frames(*probe.root, 0, 84);
+    // Off the way, so that the arm is pushed aside and finds back; in the way it would stay behind it.
+    checkStops(stacked, still, probe.ballInWorld() + osg::Vec3d(-0.35, 0, 0.25), 24 * 12);
 }
 
 TEST_CASE("a transform that the application tagged and sets is held at contact, and its wish remembered") {
