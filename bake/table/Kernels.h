@@ -1,10 +1,14 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 namespace tss {
 
 struct Fold;
+struct ContactTest;
+struct MotionFrame;
+struct TableContact;
 
 /// Which instructions the query kernels use. Best: the widest that this processor has.
 enum class KernelTarget { Best, Scalar, Sse2, Avx2, Avx512, Neon };
@@ -65,6 +69,10 @@ struct KernelSet {
     /// kernels.
     void (*foldPoses)(const Fold& fold, const double* q, std::uint32_t count, std::uint32_t stride,
                       void* poses) = nullptr;
+
+    /// Everything about one test (Contact.h).
+    void (*contact)(const ContactTest& test, const MotionFrame& frame, std::size_t dofs,
+                    TableContact& out) = nullptr;
 };
 
 inline constexpr std::uint32_t directColumns = 9;

@@ -1,5 +1,7 @@
 #include "bake/table/KernelsScalar.h"
 
+#include "bake/table/Contact.h"
+
 #include <cmath>
 #include <limits>
 
@@ -110,7 +112,7 @@ void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::
 
 template <class T, class Row>
 KernelSet kernels() {
-    return {1, hit<T, Row>, gap<T, Row>, under<T, Row>, hits<T, Row>, gaps<T, Row>};
+    return {1, hit<T, Row>, gap<T, Row>, under<T, Row>, hits<T, Row>, gaps<T, Row>, nullptr, plainContact};
 }
 
 } // namespace

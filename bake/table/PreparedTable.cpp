@@ -90,6 +90,11 @@ PreparedTable::PreparedTable(const Table& table, const PrepareOptions& options)
             if (!(foldMismatch(*fold_, motion_, pairs_, poses) <= 1e-11 * largest)) fold_.reset();
         }
     }
+    for (const TablePair& p : pairs_)
+        contactTests_.push_back({{p.a.x(), p.a.y(), p.a.z(), 1},
+                                 {p.b.x(), p.b.y(), p.b.z(), 1},
+                                 p.reach,
+                                 0.5 * (p.radiusA - p.radiusB)});
     choose(options);
     if (float_)
         prepareKernels<float>();
@@ -248,17 +253,7 @@ void PreparedTable::contact(const TableFeatures& f, const MotionFrame& frame, Ta
         out.gap = std::numeric_limits<double>::infinity();
         return;
     }
-    const TablePair& pair = pairs_[std::size_t(out.test)];
-    const Vec3 centre = frame.pose * pair.b, between = centre - pair.a;
-    const double distance = between.norm();
-    const Vec3 normal = distance > 0 ? Vec3(between * (1 / distance)) : Vec3::UnitX();
-    out.gap = distance - pair.reach;
-    out.normal = normal;
-    out.point = pair.a + normal * (0.5 * (pair.radiusA + distance - pair.radiusB));
-    // n . (turn x x + slide), with the part that all DOFs share in front.
-    const Vec3 arm = centre.cross(normal);
-    for (std::size_t k = 0; k < motion_.dofs.size(); ++k)
-        out.gradient[k] = frame.twists[k].turn.dot(arm) + frame.twists[k].slide.dot(normal);
+    kernels_.contact(contactTests_[std::size_t(out.test)], frame, motion_.dofCount(), out);
 }
 
 std::uint32_t PreparedTable::under(const TableFeatures& f, double margin, std::uint32_t* out) const {

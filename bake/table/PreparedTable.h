@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/motion/MotionFrame.h"
+#include "bake/table/Contact.h"
 #include "bake/table/Fold.h"
 #include "bake/table/Kernels.h"
 #include "bake/table/PoseRecipe.h"
@@ -36,15 +36,6 @@ struct TableFeatures {
 struct TableGap {
     double gap = 0; ///< smallest gap, off by at most gapBand(); the largest float or more for an empty table
     int test = -1;  ///< index of the test that gives it, -1 for an empty table
-};
-
-/// Everything about the nearest test, in double from T(q) itself.
-struct TableContact {
-    double gap = 0;
-    int test = -1;
-    Vec3 point = Vec3::Zero();  ///< A's frame, half way between the two sphere surfaces
-    Vec3 normal = Vec3::Zero(); ///< unit, A's frame, from A towards B
-    DofValues gradient{};       ///< d gap / d q, one a DOF
 };
 
 /// Poses of many instances, each value of all of them contiguous: floats or doubles as the table takes them.
@@ -139,6 +130,7 @@ private:
 
     Motion motion_;
     std::vector<TablePair> pairs_;
+    std::vector<ContactTest> contactTests_;
     double epsilon_ = 0, depth_ = 0, margin_ = 0, early_ = 0;
     Vec3 originA_ = Vec3::Zero(), originB_ = Vec3::Zero();
     std::vector<double> widening_;
