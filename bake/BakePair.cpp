@@ -63,6 +63,26 @@ SphereFit wholeBody(const Body& body, const BakeOptions& options, double toleran
     return fitSpheres(cleaned(meshOf(body)), how, progress);
 }
 
+/// Spheres of two bodies whose surfaces are known never to come near each other, as coarse as shows it: what
+/// can be proven again from the file alone.
+PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, double tolerance,
+                         const Progress& progress) {
+    SphereOptions how;
+    CertifiedSearchOptions apart;
+    apart.atRest = AtRest::Collide;
+    apart.measureClearance = false;
+    apart.effort = 5'000'000;
+    const double smaller = std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm());
+    for (how.tolerance = std::max(tolerance, smaller / 30);;
+         how.tolerance = std::max(tolerance, how.tolerance / 2)) {
+        PairSpheres spheres{fitSpheres(cleaned(meshOf(a)), how, progress),
+                            fitSpheres(cleaned(meshOf(b)), how, progress)};
+        const CandidatePairs meeting =
+            searchCertified(spheres.a.spheres, spheres.b.spheres, motion, apart, progress);
+        if ((meeting.certified && meeting.pairs.empty()) || how.tolerance <= tolerance) return spheres;
+    }
+}
+
 /// Rounds the spheres as the file stores them and adds to the protrusion what that makes them stick out more.
 void roundToFloat(SphereFit& fit) {
     double grown = 0;
@@ -95,6 +115,9 @@ CandidatePairs search(const SphereSet& a, const SphereSet& b, const Motion& moti
         return searchSampled(a, b, motion, sampled(options), progress);
     CertifiedSearchOptions certified;
     certified.atRest = options.atRest;
+    // The cover does without the list, which wide limits can make longer than anybody needs; only the others
+    // wait.
+    if (options.reduce == ReduceMethod::Cover) certified.effort = 50'000'000;
     return searchCertified(a, b, motion, certified, progress);
 }
 
@@ -119,6 +142,7 @@ struct Selection {
     Reduced reduced;
     double epsilon = 0;
     bool certified = false;
+    std::optional<NeverCollides> proof; ///< there is nothing to select from
 };
 
 Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& candidates,
@@ -143,10 +167,15 @@ Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& c
         cover.gapDepth = options.depth;
         cover.atRest = options.atRest;
         cover.seconds = options.budget;
-        const CoverResult result = certifiedCover(a, b, &candidates, motion, cover, progress);
+        const bool sampled = options.search == SearchMethod::Sampled;
+        const bool listed = sampled || candidates.certified;
+        const CoverResult result =
+            certifiedCover(a, b, listed ? &candidates : nullptr, motion, cover, progress);
         selection.reduced = result;
         selection.epsilon = result.epsilon;
-        selection.certified = candidates.certified && std::isfinite(result.epsilon);
+        selection.certified = !sampled && std::isfinite(result.epsilon);
+        if (selection.certified && result.complete && result.pairs.empty())
+            selection.proof = NeverCollides{result.clearance, result.cells, {}, {}};
         if (!result.complete)
             report.notes.push_back(fmt::format("the budget ended first: epsilon {} was reached, not {}",
                                                result.epsilon, options.epsilon));
@@ -181,7 +210,10 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
         zone.maxSpheres = options.maxSpheres;
         zone.conservative = options.conservative;
         ContactZoneFit fit = fitContactZone(cleaned(meshOf(a)), cleaned(meshOf(b)), motion, zone, progress);
-        spheres = {std::move(fit.a.fit), std::move(fit.b.fit)};
+        if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
+            spheres = spheresApart(a, b, motion, tolerance, progress);
+        else
+            spheres = {std::move(fit.a.fit), std::move(fit.b.fit)};
     } else {
         spheres = {wholeBody(a, options, tolerance, progress), wholeBody(b, options, tolerance, progress)};
     }
@@ -203,19 +235,24 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
     BakeRecord record;
     record.spheresA = fitA.spheres.size();
     record.spheresB = fitB.spheres.size();
-    record.candidatePairs = candidates.pairs.size();
+    const bool listed = candidates.certified || options.search == SearchMethod::Sampled;
+    record.candidatePairs = listed ? candidates.pairs.size() : 0;
     record.fitA = {known(fitA.coverage), known(fitA.protrusion)};
     record.fitB = {known(fitB.coverage), known(fitB.protrusion)};
     noteOverlap(candidates, options, report);
+    Selection selection;
+    if (candidates.certified && candidates.pairs.empty())
+        selection.proof = NeverCollides{candidates.clearance, candidates.explored, {}, {}};
+    else
+        selection = select(fitA.spheres, fitB.spheres, candidates, motion, options, report, progress);
     const std::string method = methodName(options);
     pair.table = nullptr;
     pair.proof = nullptr;
-    if (candidates.certified && candidates.pairs.empty()) {
-        pair.proof = std::make_shared<NeverCollides>(
-            NeverCollides{candidates.clearance, candidates.explored, method, record});
+    if (selection.proof) {
+        selection.proof->method = method;
+        selection.proof->record = record;
+        pair.proof = std::make_shared<NeverCollides>(*selection.proof);
     } else {
-        const Selection selection =
-            select(fitA.spheres, fitB.spheres, candidates, motion, options, report, progress);
         auto table = std::make_shared<Table>(makeTable(fitA.spheres, fitB.spheres, selection.reduced.pairs,
                                                        selection.reduced.restGaps, motion, nullptr, nullptr,
                                                        options.keepSpheres ? Keep::All : Keep::Used));

@@ -6,7 +6,7 @@ packages=(
     libopenscenegraph-dev openscenegraph
     libeigen3-dev libassimp-dev nlohmann-json3-dev catch2
     libtbb-dev libembree-dev libhwy-dev libcli11-dev libfmt-dev
-    libfcl-dev zlib1g-dev
+    libfcl-dev zlib1g-dev parallel
     xvfb xauth libgl1-mesa-dri
 )
 

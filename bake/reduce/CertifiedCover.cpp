@@ -19,6 +19,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Poses with more answers than this say little about how small a table can be and cost much.
 constexpr std::size_t mostAnswers = 2000;
 
+/// How far apart bodies that never meet stay is for people to know: worth so much of a search and no more.
+constexpr std::uint64_t clearanceEffort = 20'000'000;
+
 /// One cover from the first proof to the result.
 class CoverSearch {
 public:
@@ -147,8 +150,8 @@ CoverResult certifiedCover(const SphereSet& a, const SphereSet& b, const Candida
     const CoverProblem problem(a, b, motion, rule, candidates ? &candidates->pairs : nullptr);
     CoverResult result = CoverSearch(problem, options, progress).run();
     if (result.complete && result.pairs.empty() && !candidates)
-        result.clearance =
-            std::max(options.gapMargin, provenClearance(a, b, motion, &result.cells, progress));
+        result.clearance = std::max(options.gapMargin,
+                                    provenClearance(a, b, motion, &result.cells, progress, clearanceEffort));
     return result;
 }
 

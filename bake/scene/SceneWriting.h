@@ -8,6 +8,8 @@ void writeBodies(Layer& layer, const SceneModel& scene);
 void writeJoints(Layer& layer, const SceneModel& scene);
 /// The DOFs of a joint, its limits, couplings and desired motion; decides the type of its prim.
 void writeDofs(PrimWriter& prim, const Joint& joint);
+/// Marks the pair's joint, or makes the prim that names its two bodies.
+void writePair(Layer& layer, const SceneModel& scene, const Pair& pair);
 void writePairs(Layer& layer, const SceneModel& scene);
 void writeMuscles(Layer& layer, const SceneModel& scene);
 void writeSkins(Layer& layer, const SceneModel& scene);

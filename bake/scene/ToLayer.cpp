@@ -26,14 +26,16 @@ std::vector<std::string> pathsOf(const Items& items, const std::vector<int>& ind
 
 } // namespace
 
+void writePair(Layer& layer, const SceneModel& scene, const Pair& pair) {
+    const bool ofJoint = pair.joints.size() == 1 && scene.joints[pair.joints[0]].path == pair.path;
+    PrimWriter prim(makePrim(layer, pair.path, "Scope"));
+    addApi(prim.prim(), "TssPairAPI");
+    if (!ofJoint) prim.setTargets(schema::bodies, pathsOf(scene.bodies, {pair.bodyA, pair.bodyB}));
+    writeSettings(prim.prim(), pair.settings);
+}
+
 void writePairs(Layer& layer, const SceneModel& scene) {
-    for (const Pair& pair : scene.pairs) {
-        const bool ofJoint = pair.joints.size() == 1 && scene.joints[pair.joints[0]].path == pair.path;
-        PrimWriter prim(makePrim(layer, pair.path, "Scope"));
-        addApi(prim.prim(), "TssPairAPI");
-        if (!ofJoint) prim.setTargets(schema::bodies, pathsOf(scene.bodies, {pair.bodyA, pair.bodyB}));
-        writeSettings(prim.prim(), pair.settings);
-    }
+    for (const Pair& pair : scene.pairs) writePair(layer, scene, pair);
 }
 
 void writeMuscles(Layer& layer, const SceneModel& scene) {

@@ -30,7 +30,15 @@ struct Problem {
     double margin, tolerance;
     const PairBits& known; ///< pairs found before, by sampling
     bool firstOnly;        ///< one pair is enough
+    std::uint64_t effort;  ///< looks that each part has; 0: no limit
 };
+
+/// Parts that Q is cut into before the search.
+constexpr std::size_t partCount = 64;
+
+std::uint64_t effortOfPart(std::uint64_t effort) {
+    return effort == 0 ? 0 : effort / partCount + 1;
+}
 
 /// The search through one part of Q. Which cells a pair is looked for in depends on the cell alone and not on
 /// what else was found, so that the parts may run in any order.
@@ -48,6 +56,7 @@ public:
         while (!stack.empty()) {
             const NodePair pair = stack.back();
             stack.pop_back();
+            ++looks_;
             judge(motion, pair, stack, left);
         }
         if (left.empty()) return;
@@ -59,9 +68,10 @@ public:
     const PairBits& found() const { return found_; }
     bool any() const { return any_; }
     std::uint64_t cells() const { return cells_; }
+    bool spent() const { return p_.effort > 0 && looks_ >= p_.effort; }
 
 private:
-    bool done() const { return p_.firstOnly && any_; }
+    bool done() const { return (p_.firstOnly && any_) || spent(); }
 
     void judge(const CellMotion& motion, NodePair pair, std::vector<NodePair>& stack,
                std::vector<NodePair>& left) {
@@ -112,7 +122,7 @@ private:
     const std::atomic<bool>& stop_;
     PairBits found_;
     bool any_ = false;
-    std::uint64_t cells_ = 0;
+    std::uint64_t cells_ = 0, looks_ = 0;
 };
 
 /// Q in about `count` parts of equal shape, by cutting the DOFs in turn where they have any width.
@@ -141,13 +151,14 @@ struct Found {
 
 Found search(const Problem& problem, const Progress& progress) {
     Found result;
-    const auto cells = parts(problem.rates, 64);
+    const auto cells = parts(problem.rates, partCount);
     PairBits all(problem.a.size(), problem.b.size());
     all.insertAll(problem.known);
     std::atomic<bool> stop{false};
     constexpr std::size_t batch = 8;
-    bool any = false;
-    for (std::size_t first = 0; first < cells.size() && !(problem.firstOnly && any); first += batch) {
+    bool any = false, spent = false;
+    for (std::size_t first = 0; first < cells.size() && !(problem.firstOnly && any) && !spent;
+         first += batch) {
         if (!report(progress, "certified search", double(first) / double(cells.size()))) stop = true;
         std::vector<std::unique_ptr<PartSearch>> part(batch);
         parallelFor(batch, [&](std::size_t k) {
@@ -157,10 +168,11 @@ Found search(const Problem& problem, const Progress& progress) {
         for (const auto& p : part) {
             result.cells += p->cells();
             any |= p->any();
+            spent |= p->spent();
             all.insertAll(p->found());
         }
     }
-    result.complete = !stop;
+    result.complete = !stop && !spent;
     result.pairs = all.sorted();
     return result;
 }
@@ -204,7 +216,8 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
     }
     const double tolerance = std::max(options.tolerance >= 0 ? options.tolerance : 0.01 * meanRadius(a, b),
                                       1e-9 * (treeA[0].radius + treeB[0].radius));
-    const Problem problem{a, b, treeA, treeB, rates, rule, options.margin, tolerance, known, false};
+    const std::uint64_t effort = effortOfPart(options.effort);
+    const Problem problem{a, b, treeA, treeB, rates, rule, options.margin, tolerance, known, false, effort};
     Found found = search(problem, progress);
     result.atRest = rule.atRest();
     result.certified = found.complete;
@@ -214,30 +227,30 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
     if (result.pairs.empty() && result.certified) {
         result.clearance = options.margin;
         if (options.measureClearance)
-            result.clearance =
-                std::max(result.clearance, provenClearance(a, b, motion, &result.explored, progress));
+            result.clearance = std::max(
+                result.clearance, provenClearance(a, b, motion, &result.explored, progress, options.effort));
     }
     countSpheres(result);
     return result;
 }
 
 double provenClearance(const SphereSet& a, const SphereSet& b, const Motion& motion, std::uint64_t* cells,
-                       const Progress& progress) {
+                       const Progress& progress, std::uint64_t effort) {
     if (a.empty() || b.empty()) return std::numeric_limits<double>::infinity();
     const MotionRates rates(motion);
     const ContactRule rule(a, b, motion, AtRest::Collide);
     const SphereTree treeA(a), treeB(b);
     const PairBits none(a.size(), b.size());
-    Problem problem{a, b, treeA, treeB, rates, rule, 0, 0, none, true};
+    Problem problem{a, b, treeA, treeB, rates, rule, 0, 0, none, true, effortOfPart(effort)};
     const double seen = smallestGapSeen(problem);
     if (!(seen > 0) || !std::isfinite(seen)) return 0;
     for (double share : {0.9, 0.7, 0.5, 0.25, 0.1, 0.01}) {
         problem.margin = share * seen;
         problem.tolerance = 0.05 * problem.margin;
         const Found found = search(problem, progress);
-        if (!found.complete) return 0;
-        if (found.pairs.empty()) {
-            if (cells) *cells += found.cells;
+        if (cells) *cells += found.cells;
+        if (!found.complete && effort == 0) return 0; // stopped
+        if (found.complete && found.pairs.empty()) {
             return problem.margin;
         }
     }

@@ -10,6 +10,9 @@ struct CertifiedSearchOptions {
                            ///< the mean radius
     AtRest atRest = AtRest::Offset;
     bool measureClearance = true; ///< when nothing collides, find out how far apart the bodies stay
+    /// Gives up, not certified, after about so many looks at a pair of tree nodes (a million or so a second
+    /// and thread); 0: never. The same result every time.
+    std::uint64_t effort = 0;
 };
 
 /// Tc without holes (METHOD 2.2): branch and bound over Q and the two sphere trees. Every pair whose gap gets
@@ -21,8 +24,10 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
 
 /// A distance that two bodies which never meet are proven to keep at every pose of Q: within a few tens of
 /// percent of the true one; 0 when none could be shown. Infinite where one of them has no spheres. cells,
-/// when given, is raised by the cells of Q that the proof took.
+/// when given, is raised by the cells of Q that the proof took. Each of the few distances tried is given up
+/// after `effort` looks, as above.
 double provenClearance(const SphereSet& a, const SphereSet& b, const Motion& motion,
-                       std::uint64_t* cells = nullptr, const Progress& progress = {});
+                       std::uint64_t* cells = nullptr, const Progress& progress = {},
+                       std::uint64_t effort = 0);
 
 } // namespace tss

@@ -19,7 +19,7 @@ struct FitRecord {
 struct BakeRecord {
     std::uint64_t spheresA = 0; ///< generated (the paper's Ms)
     std::uint64_t spheresB = 0;
-    std::uint64_t candidatePairs = 0; ///< pairs that can meet (the paper's Tc)
+    std::uint64_t candidatePairs = 0; ///< pairs that can meet (the paper's Tc); 0: not counted
     std::uint64_t lowerBound = 0;     ///< no table with the same answers has fewer tests; 0: not known
     FitRecord fitA, fitB;
 };

@@ -1,9 +1,12 @@
 #include "bake/Bake.h"
 #include "bake/base/Parallel.h"
+#include "bake/scene/AllPairs.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/BakeTimes.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/Summary.h"
+
+#include <fmt/format.h>
 
 namespace tss::tool {
 
@@ -13,15 +16,42 @@ struct BakeArguments {
     std::string input, output;
     BakeRequest request;
     int threads = 0;
-    bool inscribed = false, keep = false;
+    bool inscribed = false, keep = false, allPairs = false, pairsOnly = false;
 };
+
+/// Adds the pairs of all bodies to the scene and says which; also what cannot be a pair.
+Json addPairs(SceneModel& scene, const Console& console) {
+    const AllPairs found = addAllPairs(scene);
+    for (const std::string& note : found.notes) console.say("no pair: " + note);
+    console.say(fmt::format("{} pairs added, {} in the scene", found.added.size(), scene.pairs.size()));
+    return {{"added", found.added}, {"notes", found.notes}};
+}
+
+/// How many pairs never collide, overlap at rest, need a table of another kind.
+std::string tally(const Json& pairs) {
+    int never = 0, atRest = 0, others = 0;
+    for (const Json& pair : pairs) {
+        if (!pair["baked"].get<bool>()) continue;
+        if (pair["neverCollides"].get<bool>())
+            ++never;
+        else if (pair["overlapAtRest"].get<int>() > 0)
+            ++atRest;
+        else
+            ++others;
+    }
+    return fmt::format(
+        "{} pairs never collide, {} are tables of bodies that overlap at rest, {} other tables\n", never,
+        atRest, others);
+}
 
 void runBake(BakeArguments& arguments, const Console& console) {
     if (arguments.inscribed) arguments.request.given["conservative"] = "false";
     if (arguments.keep) arguments.request.given["keep-spheres"] = "true";
     const ThreadLimit limit(arguments.threads);
     SceneModel scene = loadScene(arguments.input);
-    const std::vector<PairReport> reports = bake(scene, arguments.request, console.progress());
+    const Json pairs = arguments.allPairs ? addPairs(scene, console) : Json();
+    std::vector<PairReport> reports;
+    if (!arguments.pairsOnly) reports = bake(scene, arguments.request, console.progress());
     saveScene(scene, arguments.output);
 
     BakeTimes times = readBakeTimes(arguments.input);
@@ -38,7 +68,9 @@ void runBake(BakeArguments& arguments, const Console& console) {
     addTimes(result, times);
     result["output"] = arguments.output;
     result["notes"] = notes;
-    console.say(describe(result) + "wrote " + arguments.output);
+    if (arguments.allPairs) result["allPairs"] = pairs;
+    console.say(describe(result) + (arguments.allPairs ? tally(result["pairs"]) : "") + "wrote " +
+                arguments.output);
     console.print(result);
 }
 
@@ -53,6 +85,12 @@ void addBake(CLI::App& app, Console& console) {
         ->add_option("--pair", arguments->request.pairs,
                      "prim path of a pair or a skin; repeat; default: all")
         ->expected(1);
+    CLI::Option* allPairs = command->add_flag(
+        "--all-pairs", arguments->allPairs,
+        "first make pairs of all bodies that joints link, neighbours and over chains of joints");
+    command
+        ->add_flag("--pairs-only", arguments->pairsOnly, "write the scene with those pairs and bake none yet")
+        ->needs(allPairs);
     const std::pair<const char*, const char*> settings[] = {
         {"spheres", "medial (default), growth or surface"},
         {"tolerance", "how far the spheres may stick out of the meshes"},

@@ -3,6 +3,8 @@
 #include "bake/tool/Command.h"
 #include "bake/tool/Summary.h"
 
+#include <fmt/format.h>
+
 namespace tss::tool {
 
 void addInfo(CLI::App& app, Console& console) {
@@ -10,7 +12,15 @@ void addInfo(CLI::App& app, Console& console) {
         addCommand(app, console, "info", "per pair: spheres, tests a step, bounds, bytes, bake time");
     auto file = std::make_shared<std::string>();
     command->add_option("scene", *file, "a scene, baked or not")->required();
-    command->callback([file, &console] {
+    auto paths = std::make_shared<bool>(false);
+    command->add_flag("--paths", *paths, "only the prim paths of the pairs and skins, one a line");
+    command->callback([file, paths, &console] {
+        if (*paths) {
+            const SceneModel scene = loadScene(*file);
+            for (const Pair& pair : scene.pairs) fmt::print("{}\n", pair.path);
+            for (const SkinModel& skin : scene.skins) fmt::print("{}\n", skin.path);
+            return;
+        }
         Json result = summary(loadScene(*file));
         addTimes(result, readBakeTimes(*file));
         std::string text = describe(result);

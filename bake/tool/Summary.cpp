@@ -37,6 +37,7 @@ void addTable(Json& json, const Table& table) {
     json["usedB"] = used.b;
     json["tests"] = table.testCount();
     json["products"] = 4 * table.testCount(); // 3 squares and the squared radius, as the paper counts
+    if (table.record.candidatePairs == 0) json["candidatePairs"] = nullptr;
     json["lowerBound"] = table.record.lowerBound ? Json(table.record.lowerBound) : Json();
     json["boundMiss"] = knownOrNull(table.boundMiss);
     json["boundEarly"] = knownOrNull(table.boundEarly);
@@ -120,7 +121,8 @@ std::string describe(const Json& scene) {
                                     item["usedA"].dump(), item["usedB"].dump(), item["tests"].dump(),
                                     item["products"].dump());
                 text += fmt::format("  can meet     {} pairs; no table has fewer than {} tests\n",
-                                    item["candidatePairs"].dump(),
+                                    item["candidatePairs"].is_null() ? "uncounted"
+                                                                     : item["candidatePairs"].dump(),
                                     item["lowerBound"].is_null() ? "(not known)" : item["lowerBound"].dump());
                 text += fmt::format(
                     "  bounds       miss {}, early {}, epsilon {}, {}\n", length(item["boundMiss"]),

@@ -1,6 +1,7 @@
 #include "bake/reduce/CertifiedCover.h"
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
+#include "bake/search/CertifiedSearch.h"
 #include "bake/table/Query.h"
 #include "tests/search/Scenes.h"
 
@@ -161,6 +162,39 @@ TEST_CASE("a search cut short says truthfully how far it got") {
                                         [](std::string_view, double) { return false; });
     CHECK_FALSE(stopped.complete);
     CHECK(stopped.epsilon > 0);
+}
+
+TEST_CASE("chains of 1 to 6 DOFs with paths and coupled limits get a proof, or the epsilon that the budget "
+          "reached") {
+    int complete = 0, cutShort = 0;
+    for (int dofs = 1; dofs <= 6; ++dofs)
+        for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+            INFO(dofs << " DOFs, seed " << seed);
+            auto scene = scenes::randomScene(100 * std::uint64_t(dofs) + seed, dofs, 12, true);
+            scenes::Random random(seed);
+            scene.motion.dofs[0] = scenes::path(random, 5, 0.15, 0.2);
+            if (dofs > 1) {
+                LimitPlane plane{std::vector<double>(scene.motion.dofCount(), 0.0), 0.2};
+                for (double& c : plane.coefficients) c = random.in(-1, 1);
+                scene.motion.planes = {plane};
+            }
+            auto o = colliding();
+            o.cells = 20000;
+            CertifiedSearchOptions search;
+            search.atRest = AtRest::Collide;
+            search.effort = 300000;
+            const CandidatePairs candidates = searchCertified(scene.a, scene.b, scene.motion, search);
+            CHECK((candidates.certified || dofs > 2));
+            const auto cover = certifiedCover(scene.a, scene.b, nullptr, scene.motion, o);
+            (cover.complete ? complete : cutShort) += 1;
+            CHECK(cover.complete == (cover.epsilon == 0));
+            for (const SpherePair& pair : candidates.certified ? cover.pairs : std::vector<SpherePair>{})
+                CHECK(std::binary_search(candidates.pairs.begin(), candidates.pairs.end(), pair));
+            if (std::isfinite(cover.epsilon) && !cover.pairs.empty())
+                CHECK(measure(scene, o, cover, 400, seed).worst <= cover.epsilon + rounding);
+        }
+    CHECK(complete >= 6);
+    CHECK(cutShort >= 3);
 }
 
 TEST_CASE("only poses inside the limit planes are owed an answer") {

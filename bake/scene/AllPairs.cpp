@@ -1,0 +1,125 @@
+#include "bake/scene/AllPairs.h"
+
+#include "bake/base/Error.h"
+#include "bake/motion/MotionBound.h"
+#include "bake/scene/JointGraph.h"
+#include "bake/scene/Layer.h"
+#include "bake/scene/SceneWriting.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace tss {
+
+namespace {
+
+bool isSoft(const SceneModel& scene, int body) {
+    const auto stands = [body](const auto& item) { return item.body == body; };
+    return std::any_of(scene.skins.begin(), scene.skins.end(), stands) ||
+           std::any_of(scene.muscles.begin(), scene.muscles.end(), stands);
+}
+
+/// A body that some enabled joint holds counts as rigid, as it does for pairs that are named.
+bool canCollide(const SceneModel& scene, int body) {
+    if (scene.bodies[body].mesh.empty() || isSoft(scene, body)) return false;
+    return std::any_of(scene.joints.begin(), scene.joints.end(), [body](const Joint& joint) {
+        return joint.enabled && (joint.body0 == body || joint.body1 == body);
+    });
+}
+
+bool isPair(const SceneModel& scene, int a, int b) {
+    return std::any_of(scene.pairs.begin(), scene.pairs.end(), [&](const Pair& pair) {
+        return (pair.bodyA == a && pair.bodyB == b) || (pair.bodyA == b && pair.bodyB == a);
+    });
+}
+
+std::string nameOf(const std::string& path) {
+    return path.substr(path.rfind('/') + 1);
+}
+
+/// A path beside the first body that nothing has yet.
+std::string freePath(const SceneModel& scene, const Pair& pair) {
+    const std::string& a = scene.bodies[pair.bodyA].path;
+    const std::string wanted = a + "_" + nameOf(scene.bodies[pair.bodyB].path);
+    const auto taken = [&](const std::string& path) {
+        const auto same = [&](const auto& item) { return item.path == path; };
+        return (scene.layer && findPrim(*scene.layer, path)) ||
+               std::any_of(scene.bodies.begin(), scene.bodies.end(), same) ||
+               std::any_of(scene.joints.begin(), scene.joints.end(), same) ||
+               std::any_of(scene.muscles.begin(), scene.muscles.end(), same) ||
+               std::any_of(scene.pairs.begin(), scene.pairs.end(), same);
+    };
+    std::string path = wanted;
+    for (int k = 2; taken(path); ++k) path = wanted + std::to_string(k);
+    return path;
+}
+
+/// Why a motion cannot be baked; empty when it can.
+std::string obstacle(const SceneModel& scene, const Pair& pair) {
+    try {
+        const Motion motion = pairMotion(scene, pair);
+        checkMotion(motion);
+        wholeBox(motion); // refuses chains that are too long
+        return "";
+    } catch (const InputError& error) {
+        return error.message;
+    }
+}
+
+/// The pair of two bodies, B the one that moves; nothing, perhaps with a note, where they are none.
+std::optional<Pair> pairOf(const SceneModel& scene, int a, int b, std::vector<std::string>& notes) {
+    const std::string both = scene.bodies[a].path + " and " + scene.bodies[b].path;
+    const auto chain = findChain(scene.joints, a, b);
+    if (!chain) {
+        notes.push_back(both + ": more than one chain of joints links them, a closed loop");
+        return std::nullopt;
+    }
+    Pair pair;
+    pair.bodyA = a, pair.bodyB = b, pair.joints = *chain;
+    std::size_t dofs = 0;
+    for (int joint : *chain) dofs += scene.joints[joint].dofs.size();
+    if (chain->empty() || dofs == 0) return std::nullopt;
+    if (chain->size() == 1) {
+        const Joint& joint = scene.joints[chain->front()];
+        if (!joint.collisionEnabled) return std::nullopt;
+        pair.bodyA = joint.body0, pair.bodyB = joint.body1;
+        pair.path = joint.path;
+    }
+    std::string why = obstacle(scene, pair);
+    if (!why.empty() && chain->size() > 1) { // a path may be crossed in one direction only
+        std::swap(pair.bodyA, pair.bodyB);
+        std::reverse(pair.joints.begin(), pair.joints.end());
+        if (obstacle(scene, pair).empty()) why.clear();
+    }
+    if (!why.empty()) {
+        notes.push_back(both + ": " + why);
+        return std::nullopt;
+    }
+    if (pair.path.empty()) pair.path = freePath(scene, pair);
+    return pair;
+}
+
+} // namespace
+
+AllPairs addAllPairs(SceneModel& scene) {
+    AllPairs result;
+    std::vector<int> bodies;
+    for (int k = 0; k < static_cast<int>(scene.bodies.size()); ++k)
+        if (canCollide(scene, k)) bodies.push_back(k);
+    const std::size_t first = scene.pairs.size();
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        for (std::size_t j = i + 1; j < bodies.size(); ++j) {
+            if (isPair(scene, bodies[i], bodies[j])) continue;
+            std::optional<Pair> pair = pairOf(scene, bodies[i], bodies[j], result.notes);
+            if (!pair) continue;
+            result.added.push_back(pair->path);
+            scene.pairs.push_back(std::move(*pair));
+        }
+    if (!scene.layer || result.added.empty()) return result;
+    Layer layer = *scene.layer;
+    for (std::size_t k = first; k < scene.pairs.size(); ++k) writePair(layer, scene, scene.pairs[k]);
+    scene.layer = std::make_shared<const Layer>(std::move(layer));
+    return result;
+}
+
+} // namespace tss
