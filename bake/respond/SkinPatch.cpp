@@ -25,6 +25,7 @@ SheetPatch patchOf(const SkinSheet& whole, const std::vector<bool>& isInside) {
         const auto first = static_cast<std::uint32_t>(patch.sheet.ring.size());
         for (std::uint32_t k = b.first; k < b.last; ++k) {
             patch.sheet.ring.push_back(indexOf[whole.ring[k]]);
+            patch.sheet.ringShare.push_back(whole.ringShare[k]);
             patch.sheet.ringMass.push_back(whole.ringMass[k]);
         }
         b.centre = indexOf[b.centre];

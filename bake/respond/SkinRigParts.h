@@ -4,10 +4,9 @@
 // The steps of makeSkinRig(), each in its own source.
 namespace tss::rig {
 
-/// Neighbours of each vertex of a mesh, rising; rim[v]: v lies on an open or non-manifold edge.
+/// Neighbours of each vertex of a mesh, rising, and those of them along open or non-manifold edges.
 struct Rings {
-    std::vector<std::vector<std::uint32_t>> ring;
-    std::vector<bool> rim;
+    std::vector<std::vector<std::uint32_t>> ring, rim;
 };
 Rings rings(const TriangleMesh& mesh);
 

@@ -38,7 +38,7 @@ void sortByColour(std::vector<Constraint>& constraints, std::size_t vertexCount,
 Rings rings(const TriangleMesh& mesh) {
     Rings result;
     result.ring.resize(mesh.vertices.size());
-    result.rim.assign(mesh.vertices.size(), false);
+    result.rim.resize(mesh.vertices.size());
     std::map<std::pair<int, int>, int> uses;
     for (const Tri& t : mesh.triangles)
         for (int k = 0; k < 3; ++k) {
@@ -48,9 +48,12 @@ Rings rings(const TriangleMesh& mesh) {
     for (const auto& [edge, count] : uses) {
         result.ring[edge.first].push_back(static_cast<std::uint32_t>(edge.second));
         result.ring[edge.second].push_back(static_cast<std::uint32_t>(edge.first));
-        if (count != 2) result.rim[edge.first] = result.rim[edge.second] = true;
+        if (count == 2) continue;
+        result.rim[edge.first].push_back(static_cast<std::uint32_t>(edge.second));
+        result.rim[edge.second].push_back(static_cast<std::uint32_t>(edge.first));
     }
-    for (auto& ring : result.ring) std::sort(ring.begin(), ring.end());
+    for (auto* rings : {&result.ring, &result.rim})
+        for (auto& ring : *rings) std::sort(ring.begin(), ring.end());
     return result;
 }
 
@@ -93,7 +96,6 @@ void addSheet(SkinRig& rig, const Rings& rings, const std::vector<std::uint32_t>
     const std::vector<float>& w = sheet.inverseMass;
     for (std::uint32_t i = 0; i < count; ++i) {
         const auto& ring = rings.ring[rig.vertices[i]];
-        float ringMass = 0;
         bool whole = true;
         const auto first = static_cast<std::uint32_t>(sheet.ring.size());
         for (const std::uint32_t neighbour : ring) {
@@ -103,7 +105,6 @@ void addSheet(SkinRig& rig, const Rings& rings, const std::vector<std::uint32_t>
                 continue;
             }
             sheet.ring.push_back(j);
-            ringMass += w[j];
             const float mass = w[i] + w[j];
             const Vec3 d = rig.rest[i] - rig.rest[j];
             if (i > j || !(mass > 0) || !(d.norm() > 0)) continue;
@@ -118,22 +119,37 @@ void addSheet(SkinRig& rig, const Rings& rings, const std::vector<std::uint32_t>
             edge.massJ = w[j];
             sheet.edges.push_back(edge);
         }
-        // A rim has no Laplacian to speak of, and the vertices around the touched part do not move.
-        if (!whole || rings.rim[rig.vertices[i]] || ring.empty() || !(w[i] > 0)) {
+        // A rim bends along itself; where rims meet there is no Laplacian to speak of, and the vertices
+        // around the touched part do not move.
+        const auto& rim = rings.rim[rig.vertices[i]];
+        if (!whole || (!rim.empty() && rim.size() != 2) || ring.empty() || !(w[i] > 0)) {
             sheet.ring.resize(first);
             continue;
+        }
+        if (rim.empty()) {
+            sheet.ringShare.resize(sheet.ring.size(), 1.0f / static_cast<float>(ring.size()));
+        } else {
+            // Weighted by nearness: what is uneven along a cut is its spacing, not its motion.
+            sheet.ring.resize(first);
+            for (const int k : {0, 1}) {
+                const double near = (rig.rest[indexOf[rim[k]]] - rig.rest[i]).norm(),
+                             far = (rig.rest[indexOf[rim[1 - k]]] - rig.rest[i]).norm();
+                sheet.ring.push_back(indexOf[rim[k]]);
+                sheet.ringShare.push_back(near + far > 0 ? static_cast<float>(far / (near + far)) : 0.5f);
+            }
         }
         SheetBend bend;
         bend.centre = i;
         bend.first = first;
         bend.last = static_cast<std::uint32_t>(sheet.ring.size());
-        bend.share = 1.0f / static_cast<float>(ring.size());
-        const float mass = w[i] + ringMass * bend.share * bend.share;
+        float mass = w[i];
+        for (std::uint32_t k = first; k < bend.last; ++k) {
+            sheet.ringMass.push_back(w[sheet.ring[k]] * sheet.ringShare[k]);
+            mass += sheet.ringMass[k] * sheet.ringShare[k];
+        }
         bend.compliance = compliance(rig.parameters.bendCompliance, mass);
         bend.inverse = 1 / (mass + bend.compliance);
         bend.mass = w[i];
-        for (std::uint32_t k = bend.first; k < bend.last; ++k)
-            sheet.ringMass.push_back(w[sheet.ring[k]] * bend.share);
         sheet.bends.push_back(bend);
     }
     sortByColour(sheet.edges, count, [](const SheetEdge& e, const auto& visit) {

@@ -76,8 +76,8 @@ void SkinSolver::warmStart(std::span<const Move> reference, const std::vector<Sh
     for (std::size_t b = 0; b < bend_.size(); ++b) {
         const SheetBend& bend = sheet_.bends[b];
         u_[bend.centre] += bend_[b];
-        const Move part = bend.share * bend_[b];
-        for (std::uint32_t k = bend.first; k < bend.last; ++k) u_[sheet_.ring[k]] -= part;
+        for (std::uint32_t k = bend.first; k < bend.last; ++k)
+            u_[sheet_.ring[k]] -= sheet_.ringShare[k] * bend_[b];
     }
     for (const SheetPlane& p : planes)
         if (p.multiplier > 0)
@@ -98,8 +98,8 @@ inline void SkinSolver::stretch(std::size_t e) {
 inline void SkinSolver::bend(std::size_t b) {
     const SheetBend& bend = sheet_.bends[b];
     Move mean = Move::Zero();
-    for (std::uint32_t k = bend.first; k < bend.last; ++k) mean += u_[sheet_.ring[k]];
-    const Move c = u_[bend.centre] - bend.share * mean;
+    for (std::uint32_t k = bend.first; k < bend.last; ++k) mean += sheet_.ringShare[k] * u_[sheet_.ring[k]];
+    const Move c = u_[bend.centre] - mean;
     const Move step = -bend.inverse * (c + bend.compliance * bend_[b]);
     bend_[b] += step;
     u_[bend.centre] += bend.mass * step;

@@ -19,10 +19,10 @@ struct SheetEdge {
     float massI = 0, massJ = 0; ///< w_i, w_j
 };
 
-/// u_centre - mean of u over the ring = 0: three equations at once.
+/// u_centre - weighted mean of u over the ring = 0: three equations at once.
 struct SheetBend {
-    std::uint32_t centre = 0, first = 0, last = 0;          ///< ring: range in SkinSheet::ring
-    float compliance = 0, inverse = 0, mass = 0, share = 0; ///< share: 1 / ring size
+    std::uint32_t centre = 0, first = 0, last = 0; ///< ring: range in SkinSheet::ring
+    float compliance = 0, inverse = 0, mass = 0;
 };
 
 /// An elastic sheet in which all equations are linear in the displacements (METHOD 6.3), so that the problem
@@ -32,7 +32,8 @@ struct SkinSheet {
     std::vector<SheetEdge> edges;
     std::vector<SheetBend> bends;
     std::vector<std::uint32_t> ring;
-    std::vector<float> ringMass; ///< #ring: w of that vertex times the bend's share
+    std::vector<float> ringShare; ///< #ring: what that vertex weighs in the mean, 1 together
+    std::vector<float> ringMass;  ///< #ring: w of that vertex times its share
 };
 
 /// A part of a sheet; what lies around it does not move.

@@ -144,6 +144,35 @@ TEST_CASE("a symmetric skin over a symmetric muscle moves symmetrically") {
     }
 }
 
+TEST_CASE("the rim of a cut skin is not torn to rags: it bends along itself") {
+    // The half above y = 0, its rim over the middle of the muscle and, as a cut mesh has it, unevenly spaced.
+    constexpr int n = 32;
+    TriangleMesh skin = skins::vaultedSheet(n, 1, 0.01, 0.3);
+    std::erase_if(skin.triangles,
+                  [](const Tri& t) { return *std::min_element(t.begin(), t.end()) < (n / 2) * (n + 1); });
+    for (int i = 1; i < n; ++i) skin.vertices[n / 2 * (n + 1) + i].x() += (i % 3 - 1) * 0.4 * 2.0 / n;
+    const skins::Couple couple = skins::couple(skin, {skins::muscleBelow(0)});
+    SkinResponse response(couple.rig());
+    for (int f = 1; f <= 60; ++f) response.update(std::vector<double>{f / 60.0});
+    std::vector<Vec3> moves(skin.vertices.size(), Vec3::Zero());
+    for (std::size_t i = 0; i < response.positions().size(); ++i)
+        moves[response.rig().vertices[i]] = response.positions()[i] - response.rig().rest[i];
+    const auto roughness = [&](int row) {
+        double sum = 0;
+        for (int i = 1; i < n; ++i) {
+            const int at = row * (n + 1) + i;
+            const double before = (skin.vertices[at] - skin.vertices[at - 1]).norm(),
+                         after = (skin.vertices[at + 1] - skin.vertices[at]).norm();
+            sum += (moves[at] - (after * moves[at - 1] + before * moves[at + 1]) / (before + after))
+                       .squaredNorm();
+        }
+        return std::sqrt(sum);
+    };
+    INFO("rim " << roughness(n / 2) << ", beside it " << roughness(n / 2 + 2));
+    CHECK(roughness(n / 2 + 2) > 0);
+    CHECK(roughness(n / 2) < 4 * roughness(n / 2 + 2));
+}
+
 TEST_CASE("two runs of the same calls give the same bits") {
     const skins::Couple couple = skins::usual();
     SkinResponse first(couple.rig()), second(couple.rig());
