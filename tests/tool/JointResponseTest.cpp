@@ -69,17 +69,18 @@ Tally steps(const Joint& joint, int count, std::uint64_t seed) {
     return tally;
 }
 
-/// Small steps towards one pose after another, those that slid judged by a fine search.
+/// Small steps towards one pose in collision after another, those that met something judged by a fine search.
 void slides(const Joint& joint, int count, std::uint64_t seed, Tally& tally) {
     const JointResponder responder(joint.table);
     JointWorkspace ws = responder.workspace();
     Random random(seed);
     std::vector<double> q = freePose(joint, random), hand = q;
     for (int step = 0; tally.searched < count && step < 1000 * count; ++step) {
-        if (step % 40 == 0)
-            hand = clampToLimits(joint.table.motion, random_table::values(random, joint.table.motion));
+        if (step % 60 == 0) do
+                hand = clampToLimits(joint.table.motion, random_table::values(random, joint.table.motion));
+            while (joint.tableGap(hand) > 0);
         std::vector<double> asked = q;
-        for (std::size_t k = 0; k < q.size(); ++k) asked[k] += 0.02 * (hand[k] - q[k]);
+        for (std::size_t k = 0; k < q.size(); ++k) asked[k] += 0.05 * (hand[k] - q[k]);
         const JointAnswer answer = responder.respond(q.data(), asked.data(), ws);
         std::copy_n(answer.q.begin(), q.size(), q.begin());
         if (answer.status == JointStatus::Free) continue;
