@@ -222,15 +222,9 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
     return spheres;
 }
 
-void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairReport& report,
-              const Progress& progress) {
-    const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
-    const Motion motion = pairMotion(scene, pair);
-    checkMotion(motion);
-    const auto [fitA, fitB] = fillPair(scene, pair, motion, options, progress);
-    if (!fitA.note.empty()) report.notes.push_back(a.path + ": " + fitA.note);
-    if (!fitB.note.empty()) report.notes.push_back(b.path + ": " + fitB.note);
-
+PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const BakeOptions& options,
+                       PairReport& report, const Progress& progress) {
+    const SphereFit &fitA = spheres.a, &fitB = spheres.b;
     const CandidatePairs candidates = search(fitA.spheres, fitB.spheres, motion, options, progress);
     BakeRecord record;
     record.spheresA = fitA.spheres.size();
@@ -246,26 +240,37 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
     else
         selection = select(fitA.spheres, fitB.spheres, candidates, motion, options, report, progress);
     const std::string method = methodName(options);
-    pair.table = nullptr;
-    pair.proof = nullptr;
     if (selection.proof) {
         selection.proof->method = method;
         selection.proof->record = record;
-        pair.proof = std::make_shared<NeverCollides>(*selection.proof);
-    } else {
-        auto table = std::make_shared<Table>(makeTable(fitA.spheres, fitB.spheres, selection.reduced.pairs,
-                                                       selection.reduced.restGaps, motion, nullptr, nullptr,
-                                                       options.keepSpheres ? Keep::All : Keep::Used));
-        table->method = method;
-        table->epsilon = selection.epsilon;
-        table->gapDepth = options.reduce == ReduceMethod::Cover ? options.depth : 0;
-        table->certified = selection.certified;
-        table->record = record;
-        table->record.lowerBound = static_cast<std::uint64_t>(std::ceil(selection.reduced.lowerBound));
-        setBounds(*table, fitA, fitB);
-        report.epsilon = table->epsilon;
-        pair.table = table;
+        return {nullptr, std::make_shared<NeverCollides>(*selection.proof)};
     }
+    auto table = std::make_shared<Table>(makeTable(fitA.spheres, fitB.spheres, selection.reduced.pairs,
+                                                   selection.reduced.restGaps, motion, nullptr, nullptr,
+                                                   options.keepSpheres ? Keep::All : Keep::Used));
+    table->method = method;
+    table->epsilon = selection.epsilon;
+    table->gapDepth = options.reduce == ReduceMethod::Cover ? options.depth : 0;
+    table->certified = selection.certified;
+    table->record = record;
+    table->record.lowerBound = static_cast<std::uint64_t>(std::ceil(selection.reduced.lowerBound));
+    setBounds(*table, fitA, fitB);
+    report.epsilon = table->epsilon;
+    return {table, nullptr};
+}
+
+void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairReport& report,
+              const Progress& progress) {
+    const Motion motion = pairMotion(scene, pair);
+    checkMotion(motion);
+    const PairSpheres spheres = fillPair(scene, pair, motion, options, progress);
+    const std::pair<int, const SphereFit*> fits[] = {{pair.bodyA, &spheres.a}, {pair.bodyB, &spheres.b}};
+    for (const auto& [body, fit] : fits)
+        if (!fit->note.empty())
+            report.notes.push_back(scene.bodies[static_cast<std::size_t>(body)].path + ": " + fit->note);
+    PairTable made = tabulatePair(spheres, motion, options, report, progress);
+    pair.table = std::move(made.table);
+    pair.proof = std::move(made.proof);
     pair.sourceHash = sourceHash(scene, pair);
 }
 

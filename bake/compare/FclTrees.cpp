@@ -10,17 +10,17 @@ namespace {
 template <class Volume>
 class FclRival final : public RivalLoop<FclRival<Volume>> {
 public:
-    FclRival(const Problem& problem, const std::string& name) {
+    FclRival(const Problem& problem, const std::string& name, const std::string& remark) {
         const auto start = std::chrono::steady_clock::now();
         fill(a_, problem.meshA);
         fill(b_, problem.meshB);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         this->description() = {"fcl-" + name,
                                "mesh tree (FCL)",
-                               "FCL's tree of " + name + " volumes on the triangles, first contact out",
+                               "FCL's tree of " + name + " volumes on the triangles, first contact out" +
+                                   remark,
                                {0, 0},
-                               static_cast<std::size_t>(a_.memUsage(0)) +
-                                   static_cast<std::size_t>(b_.memUsage(0)),
+                               bytes(a_) + bytes(b_),
                                seconds.count()};
     }
 
@@ -41,6 +41,11 @@ private:
         transform.matrix() = pose.matrix();
         return transform;
     }
+    static std::size_t bytes(const fcl::BVHModel<Volume>& model) {
+        return static_cast<std::size_t>(model.getNumBVs()) * sizeof(fcl::BVNode<Volume>) +
+               static_cast<std::size_t>(model.num_tris) * sizeof(fcl::Triangle) +
+               static_cast<std::size_t>(model.num_vertices) * sizeof(fcl::Vector3d);
+    }
     static void fill(fcl::BVHModel<Volume>& model, const TriangleMesh& mesh) {
         std::vector<fcl::Triangle> triangles;
         for (const Tri& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
@@ -58,15 +63,14 @@ private:
 std::unique_ptr<Rival> makeFcl(const Problem& problem, FclTree tree) {
     switch (tree) {
     case FclTree::Obb:
-        return std::make_unique<FclRival<fcl::OBBd>>(problem, "obb");
-    case FclTree::Rss:
-        return std::make_unique<FclRival<fcl::RSSd>>(problem, "rss");
+        return std::make_unique<FclRival<fcl::OBBd>>(problem, "obb", "");
     case FclTree::Aabb:
-        return std::make_unique<FclRival<fcl::AABBd>>(problem, "aabb");
+        return std::make_unique<FclRival<fcl::AABBd>>(
+            problem, "aabb", "; FCL copies, moves and refits the moving tree in each query");
     case FclTree::Obbrss:
         break;
     }
-    return std::make_unique<FclRival<fcl::OBBRSSd>>(problem, "obbrss");
+    return std::make_unique<FclRival<fcl::OBBRSSd>>(problem, "obbrss", "");
 }
 
 } // namespace tss::compare

@@ -27,6 +27,9 @@ std::unique_ptr<Rival> makePlainTable(const Problem& problem);
 /// The table as applications run it: PreparedTable with the kernels of this machine.
 std::unique_ptr<Rival> makeKernelTable(const Problem& problem);
 
+/// The same in float, whatever the table's epsilon; null where that is what it is anyway.
+std::unique_ptr<Rival> makeFloatTable(const Problem& problem);
+
 enum class TreeOf {
     All, ///< the paper's case 1: every sphere
     Used ///< case 2: the spheres that the table uses
@@ -79,7 +82,7 @@ std::size_t leadingDof(const Problem& problem);
 
 // Trees on the meshes ----------------------------------------------------------------------------------
 
-enum class FclTree { Obbrss, Obb, Rss, Aabb };
+enum class FclTree { Obbrss, Obb, Aabb };
 std::unique_ptr<Rival> makeFcl(const Problem& problem, FclTree tree);
 
 /// Bullet's GImpact, one pair of concave meshes, through its own dispatcher. Not to be shared by threads.

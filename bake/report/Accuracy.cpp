@@ -1,9 +1,11 @@
 #include "bake/report/Accuracy.h"
 
+#include "bake/base/Parallel.h"
 #include "bake/compare/Methods.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace tss::reporting {
 
@@ -19,6 +21,33 @@ double deepest(const Solid& solid, const Eigen::AlignedBox3d& box, const std::ve
         if (near.distance > best && solid.inside(p)) best = near.distance;
     }
     return best;
+}
+
+/// A vertex of every connected component of the mesh.
+std::vector<Vec3> oneOfEach(const TriangleMesh& mesh) {
+    std::vector<int> parent(mesh.vertices.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto find = [&](int v) {
+        while (parent[static_cast<std::size_t>(v)] != v)
+            v = parent[static_cast<std::size_t>(v)] =
+                parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(v)])];
+        return v;
+    };
+    for (const Tri& t : mesh.triangles)
+        for (const int k : {1, 2}) parent[static_cast<std::size_t>(find(t[k]))] = find(t[0]);
+    std::vector<Vec3> points;
+    std::vector<char> seen(parent.size(), 0);
+    for (const Tri& t : mesh.triangles) {
+        const auto root = static_cast<std::size_t>(find(t[0]));
+        if (!seen[root]) points.push_back(mesh.vertices[root]);
+        seen[root] = 1;
+    }
+    return points;
+}
+
+bool anyInside(const Solid& solid, const std::vector<Vec3>& points, const Pose& toSolid) {
+    return std::any_of(points.begin(), points.end(),
+                       [&](const Vec3& point) { return solid.inside(toSolid * point); });
 }
 
 std::vector<double> along(const ClosingMotion& motion, double share) {
@@ -65,17 +94,39 @@ double farthestMove(const compare::Problem& problem, const std::vector<double>& 
 
 JudgedPoses::JudgedPoses(const compare::Problem& problem, const compare::MeshTruth& truth,
                          const std::vector<std::vector<double>>& values)
-    : problem_(problem), truth_(truth), solidA_(problem.meshA), solidB_(problem.meshB),
-      queries_(compare::poseQueries(problem.motion, values)), known_(values.size(), -1) {
-    for (const compare::PoseQuery& query : queries_) {
-        touches_.push_back(truth.touches(query.pose) ? 1 : 0);
-        touching_ += static_cast<std::size_t>(touches_.back());
+    : problem_(problem), truth_(truth), solidA_(problem.meshA), solidB_(problem.meshB) {
+    const std::vector<Vec3> partsA = oneOfEach(problem.meshA), partsB = oneOfEach(problem.meshB);
+    enum : char { Free, Touching, Swallowed };
+    const auto all = compare::poseQueries(problem.motion, values);
+    std::vector<char> verdicts(all.size());
+    parallelFor(all.size(), [&](std::size_t i) {
+        const Pose& toA = all[i].pose;
+        if (truth.touches(toA))
+            verdicts[i] = Touching;
+        else if (anyInside(solidA_, partsB, toA) || anyInside(solidB_, partsA, toA.inverse(Eigen::Isometry)))
+            verdicts[i] = Swallowed;
+    });
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (verdicts[i] == Swallowed) {
+            ++leftOut_;
+            continue;
+        }
+        queries_.push_back(all[i]);
+        touches_.push_back(verdicts[i] == Touching);
+        touching_ += verdicts[i] == Touching ? 1 : 0;
     }
+    known_.assign(queries_.size(), -1);
 }
 
 double JudgedPoses::clearance(std::size_t pose) const {
     if (known_[pose] < 0) known_[pose] = truth_.distance(queries_[pose].pose);
     return known_[pose];
+}
+
+std::size_t JudgedPoses::freeWithin(double distance) const {
+    std::vector<char> within(queries_.size(), 0);
+    parallelFor(queries_.size(), [&](std::size_t i) { within[i] = !touches(i) && clearance(i) < distance; });
+    return static_cast<std::size_t>(std::count(within.begin(), within.end(), char{1}));
 }
 
 double JudgedPoses::depth(std::size_t pose) const {
@@ -89,55 +140,53 @@ double JudgedPoses::depth(std::size_t pose) const {
     return known_[pose];
 }
 
-ErrorFigures measureError(const compare::Rival& rival, const JudgedPoses& poses, std::size_t most) {
+ErrorFigures measureError(const compare::Rival& rival, const JudgedPoses& poses, std::size_t count,
+                          std::size_t most) {
     ErrorFigures figures;
     std::vector<std::size_t> missed, early;
-    for (std::size_t i = 0; i < poses.queries().size(); ++i) {
+    figures.poses = std::min(count, poses.queries().size());
+    for (std::size_t i = 0; i < figures.poses; ++i) {
         const bool hit = rival.hit(poses.queries()[i]);
+        figures.touching += poses.touches(i) ? 1 : 0;
         if (poses.touches(i) && !hit) missed.push_back(i);
         if (!poses.touches(i) && hit) early.push_back(i);
     }
-    figures.poses = poses.queries().size();
-    figures.touching = poses.touching();
     figures.missed = missed.size();
     figures.early = early.size();
-    const auto measure = [&](const std::vector<std::size_t>& wrong, bool isMiss, double& worst,
-                             double& mean) {
-        const std::size_t stride = std::max<std::size_t>(1, (wrong.size() + most - 1) / most);
-        figures.sampled = figures.sampled || stride > 1;
-        std::size_t count = 0;
-        for (std::size_t k = 0; k < wrong.size(); k += stride, ++count) {
-            const double length = isMiss ? poses.depth(wrong[k]) : poses.clearance(wrong[k]);
-            worst = std::max(worst, length);
-            mean += length;
-        }
-        if (count > 0) mean /= static_cast<double>(count);
-    };
-    measure(missed, true, figures.deepestMiss, figures.meanMiss);
-    measure(early, false, figures.farthestEarly, figures.meanEarly);
+    std::vector<std::size_t> measured;
+    const std::size_t stride = std::max<std::size_t>(1, (missed.size() + most - 1) / most);
+    figures.sampled = stride > 1;
+    for (std::size_t k = 0; k < missed.size(); k += stride) measured.push_back(missed[k]);
+    parallelFor(measured.size(), [&](std::size_t k) { poses.depth(measured[k]); });
+    parallelFor(early.size(), [&](std::size_t k) { poses.clearance(early[k]); });
+    for (const std::size_t i : measured) {
+        figures.deepestMiss = std::max(figures.deepestMiss, poses.depth(i));
+        figures.meanMiss += poses.depth(i) / static_cast<double>(measured.size());
+    }
+    for (const std::size_t i : early) {
+        figures.farthestEarly = std::max(figures.farthestEarly, poses.clearance(i));
+        figures.meanEarly += poses.clearance(i) / static_cast<double>(early.size());
+    }
     return figures;
 }
 
 std::vector<ClosingMotion> closingMotions(const compare::Problem& problem, const compare::MeshTruth& truth,
-                                          std::size_t count, int steps, std::uint64_t seed) {
+                                          const JudgedPoses& poses, std::size_t count, int steps) {
     std::vector<ClosingMotion> motions;
-    std::vector<std::vector<double>> free, touching;
-    for (const auto& q : compare::randomPoses(problem.motion, 40 * count + 200, seed)) {
-        (truth.touches(pose(problem.motion, q)) ? touching : free).push_back(q);
-        if (free.size() > motions.size() && touching.size() > motions.size()) {
-            ClosingMotion motion{free[motions.size()], touching[motions.size()], 0};
-            motion.contact = firstTouch(steps, [&](double share) {
-                return truth.touches(pose(problem.motion, along(motion, share)));
-            });
-            motions.push_back(std::move(motion));
-            if (motions.size() == count) break;
-        }
+    std::vector<const std::vector<double>*> free, touching;
+    for (std::size_t i = 0; i < poses.queries().size(); ++i)
+        (poses.touches(i) ? touching : free).push_back(&poses.queries()[i].q);
+    for (std::size_t k = 0; k < std::min({count, free.size(), touching.size()}); ++k) {
+        ClosingMotion motion{*free[k], *touching[k], 0};
+        motion.contact = firstTouch(
+            steps, [&](double share) { return truth.touches(pose(problem.motion, along(motion, share))); });
+        motions.push_back(std::move(motion));
     }
     return motions;
 }
 
 FirstContact measureFirstContact(const compare::Problem& problem, const compare::Rival& rival,
-                                 const std::vector<ClosingMotion>& motions, int steps) {
+                                 std::span<const ClosingMotion> motions, int steps) {
     FirstContact result;
     const std::size_t leading = compare::leadingDof(problem);
     for (const ClosingMotion& motion : motions) {

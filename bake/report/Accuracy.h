@@ -6,18 +6,25 @@
 
 namespace tss::reporting {
 
-/// Poses with what the meshes say there. Depths and distances are found when first asked for and kept.
+/// Poses with what the meshes say there. Poses at which a closed part of one body is wholly inside the other,
+/// surfaces apart, are left out: that is no contact of the meshes, and contact for everything that fills
+/// them. Depths and distances are found when first asked for and kept.
 class JudgedPoses {
 public:
     JudgedPoses(const compare::Problem& problem, const compare::MeshTruth& truth,
                 const std::vector<std::vector<double>>& values);
 
     const std::vector<compare::PoseQuery>& queries() const { return queries_; }
+    std::size_t leftOut() const { return leftOut_; }
     bool touches(std::size_t pose) const { return touches_[pose] != 0; }
     std::size_t touching() const { return touching_; }
 
-    /// Distance of the meshes at a free pose, scene units.
+    /// Distance of the meshes at a free pose, scene units. This and depth() may be asked by several threads,
+    /// each for other poses.
     double clearance(std::size_t pose) const;
+
+    /// At how many of the free poses the meshes are nearer than this.
+    std::size_t freeWithin(double distance) const;
 
     /// How deep the deepest vertex of one mesh lies inside the other at a touching pose: no more than the
     /// true depth, 0 where only edges cross.
@@ -29,7 +36,7 @@ private:
     Solid solidA_, solidB_;
     std::vector<compare::PoseQuery> queries_;
     std::vector<char> touches_;
-    std::size_t touching_ = 0;
+    std::size_t touching_ = 0, leftOut_ = 0;
     mutable std::vector<double> known_; ///< depth or clearance, -1: not asked yet
 };
 
@@ -43,11 +50,12 @@ struct ErrorFigures {
     double meanMiss = 0;
     double farthestEarly = 0; ///< clearance at which it fired
     double meanEarly = 0;
-    bool sampled = false; ///< depths and clearances of some of the wrong verdicts only, evenly taken
+    bool sampled = false; ///< depths of some of the misses only, evenly taken
 };
 
-/// most: how many wrong verdicts of each kind are measured at most.
-ErrorFigures measureError(const compare::Rival& rival, const JudgedPoses& poses, std::size_t most);
+/// count: how many of the poses, from the first on. most: of how many misses the depth is measured at most.
+ErrorFigures measureError(const compare::Rival& rival, const JudgedPoses& poses, std::size_t count,
+                          std::size_t most);
 
 /// Where contact begins along a way from a free pose to a touching one, by the meshes and by a method.
 struct ClosingMotion {
@@ -55,8 +63,10 @@ struct ClosingMotion {
     double contact = 0; ///< share of the way at which the meshes first touch
 };
 
+/// From the free to the touching poses of a set, in their order, as many as there are of both but not more
+/// than `count`. Contact is looked for in `steps` steps and bisected.
 std::vector<ClosingMotion> closingMotions(const compare::Problem& problem, const compare::MeshTruth& truth,
-                                          std::size_t count, int steps, std::uint64_t seed);
+                                          const JudgedPoses& poses, std::size_t count, int steps);
 
 /// First-contact error of a method over closing motions: positive is early.
 struct FirstContact {
@@ -68,6 +78,6 @@ struct FirstContact {
     double earliest = 0, latest = 0; ///< signed lengths: early and late by so much
 };
 FirstContact measureFirstContact(const compare::Problem& problem, const compare::Rival& rival,
-                                 const std::vector<ClosingMotion>& motions, int steps);
+                                 std::span<const ClosingMotion> motions, int steps);
 
 } // namespace tss::reporting

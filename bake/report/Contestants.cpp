@@ -20,7 +20,7 @@ public:
     void add(const std::string& name, const Make& make) {
         if (!wanted(name)) return;
         try {
-            contestants_.rivals.push_back(make());
+            if (auto rival = make()) contestants_.rivals.push_back(std::move(rival));
         } catch (const InputError& error) {
             contestants_.notRun.push_back({name, error.what()});
         }
@@ -41,8 +41,8 @@ private:
 
 void addTables(Entry& entry, const Problem& problem) {
     entry.add("tss", [&] { return makeKernelTable(problem); });
+    entry.add("tss-float", [&] { return makeFloatTable(problem); });
     entry.add("tss-scalar", [&] { return makePairList(problem); });
-    entry.add("tss-plain", [&] { return makePlainTable(problem); });
 }
 
 void addTrees(Entry& entry, const Problem& problem) {
@@ -64,18 +64,44 @@ void addMeshTrees(Entry& entry, const Problem& problem, bool quick) {
     entry.add("orourke-badler", [&] { return makeOrourkeBadler(problem); });
 }
 
-/// Methods that store the motion rather than the shape; all ask the same sphere model.
-void addMotionMethods(Entry& entry, const Problem& problem, bool quick, std::uint64_t seed) {
-    const auto a = std::make_shared<BallTree>(buildBallTree(problem.a, 8, Enclosure::Balls));
-    const auto b = std::make_shared<BallTree>(buildBallTree(problem.b, 8, Enclosure::Balls));
-    const Oracle hit = [a, b](const PoseQuery& query) {
+/// What the methods below are made from: the whole sphere model, asked through its trees.
+struct Asked {
+    explicit Asked(const Problem& problem)
+        : a(std::make_shared<BallTree>(buildBallTree(problem.a, 8, Enclosure::Balls))),
+          b(std::make_shared<BallTree>(buildBallTree(problem.b, 8, Enclosure::Balls))) {}
+    bool hit(const PoseQuery& query) const {
         IgnoreWork none;
         return treesTouch(*a, *b, query.pose, none);
-    };
-    const GapOracle gap = [a, b](const PoseQuery& query) { return treesGap(*a, *b, query.pose); };
+    }
+    double gap(const PoseQuery& query) const { return treesGap(*a, *b, query.pose); }
+
+    std::shared_ptr<const BallTree> a, b;
+};
+
+/// Values a DOF, coarse to fine.
+std::vector<int> gridPoints(std::size_t dofs, bool quick) {
+    std::vector<int> points{17, 65, 257};
+    if (dofs == 1) points = {65, 1025, 16385};
+    if (dofs == 3) points = {17, 33, 65};
+    if (dofs == 4) points = {9, 17};
+    if (quick) points.pop_back();
+    return points;
+}
+
+void addGrid(Entry& entry, const Problem& problem, const Asked& asked, int points) {
     const StatedError stated{missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)};
+    entry.add("gap-grid", [&] {
+        return makeGapGrid(
+            problem, [asked](const PoseQuery& query) { return asked.gap(query); }, points, stated);
+    });
+}
+
+/// Methods that store the motion rather than the shape.
+void addMotionMethods(Entry& entry, const Problem& problem, bool quick, std::uint64_t seed) {
+    const Asked asked(problem);
+    const Oracle hit = [asked](const PoseQuery& query) { return asked.hit(query); };
     const std::size_t dofs = problem.motion.dofCount();
-    const int bins = 256, samples = dofs == 1 ? 9 : quick ? 32 : 128;
+    const int bins = 256, samples = dofs == 1 ? 9 : 128;
     entry.add("angular-region", [&] { return makeAngularRegion(problem, hit, bins, samples, seed); });
     entry.add("mixed-region",
               [&] { return makeMixedRegion(problem, hit, bins, samples, seed, makeKernelTable(problem)); });
@@ -89,18 +115,12 @@ void addMotionMethods(Entry& entry, const Problem& problem, bool quick, std::uin
                   [&] { return makeAllowedPaths(problem, hit, dofs == 1 ? 1 : paths, 200); });
         if (dofs == 1) break;
     }
-    std::vector<int> points{17, 65, 257};
-    if (dofs == 1) points = {65, 1025, 16385};
-    if (dofs == 3) points = {17, 33, 65};
-    if (dofs == 4) points = {9, 17};
-    if (quick) points.pop_back();
-    for (const int n : points) entry.add("gap-grid", [&] { return makeGapGrid(problem, gap, n, stated); });
+    for (const int points : gridPoints(dofs, quick)) addGrid(entry, problem, asked, points);
 }
 
 void addMeshMethods(Entry& entry, const Problem& problem) {
     entry.add("fcl-obbrss", [&] { return makeFcl(problem, FclTree::Obbrss); });
     entry.add("fcl-obb", [&] { return makeFcl(problem, FclTree::Obb); });
-    entry.add("fcl-rss", [&] { return makeFcl(problem, FclTree::Rss); });
     entry.add("fcl-aabb", [&] { return makeFcl(problem, FclTree::Aabb); });
     entry.add("bullet-gimpact", [&] { return makeGimpact(problem); });
 }
@@ -113,12 +133,16 @@ Contestants makeContestants(const Model& model, Field field, bool quick, const s
     Entry entry(contestants, only);
     const Problem& problem = model.problem;
     addTables(entry, problem);
+    if (field == Field::Table) return contestants;
     if (field == Field::Model) {
         entry.add("tree-all", [&] { return makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls); });
         entry.add("tree-used", [&] { return makeSphereTree(problem, TreeOf::Used, 8, Enclosure::Balls); });
         entry.add("all-pairs-simd", [&] { return makeAllPairsSimd(problem); });
+        if (problem.motion.dofCount() <= 2)
+            addGrid(entry, problem, Asked(problem), gridPoints(problem.motion.dofCount(), quick).back());
         return contestants;
     }
+    entry.add("tss-plain", [&] { return makePlainTable(problem); });
     entry.add("all-pairs", [&] { return makeAllPairs(problem); });
     entry.add("all-pairs-simd", [&] { return makeAllPairsSimd(problem); });
     addTrees(entry, problem);

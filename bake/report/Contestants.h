@@ -17,7 +17,8 @@ struct Contestants {
 
 enum class Field {
     Whole, ///< every method
-    Model, ///< the methods whose error follows the spheres' tolerance, for a sweep
+    Model, ///< the methods whose error follows the spheres, for a sweep
+    Table, ///< the table alone
 };
 
 /// Makes the methods for a model. quick: smaller settings of those that take long to build. only: parts of

@@ -1,5 +1,6 @@
 #include "bake/report/Report.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace tss::reporting {
@@ -41,29 +42,44 @@ Json jsonOf(const Row& row, double mm) {
               {"latestMm", row.firstContact.latest * mm},
               {"worstOfLeadingDof", row.firstContact.worstAngle},
               {"meanOfLeadingDof", row.firstContact.meanAngle}}},
-            {"nanoseconds",
-             {{"median", row.times.median},
-              {"p10", row.times.low},
-              {"p90", row.times.high},
-              {"rounds", row.times.rounds},
-              {"queriesARound", row.times.queries}}},
             {"tests", orNull(row.tests)},
             {"products", orNull(row.products)},
             {"bytes", row.about.bytes},
-            {"buildSeconds", row.about.buildSeconds}};
+            {"times",
+             {{"medianNs", row.times.median},
+              {"p10Ns", row.times.low},
+              {"p90Ns", row.times.high},
+              {"rounds", row.times.rounds},
+              {"queriesARound", row.times.queries},
+              {"buildSeconds", row.about.buildSeconds}}}};
 }
 
 Json jsonOf(const BakePoint& point, double mm) {
-    return {{"toleranceMm", point.tolerance * mm},
+    return {{"name", point.name},
+            {"about", point.about},
+            {"toleranceMm", point.tolerance * mm},
+            {"epsilonMm", point.epsilon * mm},
+            {"protrusionMm", point.protrusion * mm},
             {"spheresA", point.spheresA},
             {"spheresB", point.spheresB},
             {"usedA", point.usedA},
             {"usedB", point.usedB},
             {"tests", point.tests},
+            {"restTests", point.restTests},
             {"lowerBound", point.lowerBound},
             {"bytes", point.bytes},
-            {"sphereSeconds", point.sphereSeconds},
-            {"tableSeconds", point.tableSeconds}};
+            {"times", {{"sphereSeconds", point.sphereSeconds}, {"tableSeconds", point.tableSeconds}}}};
+}
+
+Json jsonOf(const std::vector<BakePoint>& points, double mm) {
+    Json list = Json::array();
+    for (const BakePoint& point : points) list.push_back(jsonOf(point, mm));
+    return list;
+}
+
+Json jsonOf(const RegionCurve& region) {
+    return {
+        {"lower", region.lower}, {"upper", region.upper}, {"middle", region.middle}, {"share", region.share}};
 }
 
 Json notRunOf(const std::vector<NotRun>& notRun) {
@@ -82,11 +98,14 @@ Json jsonOf(const PairStudy& study) {
               {"dofs", study.dofs},
               {"neverCollides", study.neverCollides},
               {"clearanceMm", study.clearance * mm},
-              {"seconds", study.seconds}};
+              {"times", {{"seconds", study.seconds}, {"fclDirectlyNs", study.fclDirectly.median}}}};
     if (study.neverCollides) return json;
     json["uniformPoses"] = study.uniformPoses;
     json["touchingUniform"] = study.touchingUniform;
     json["nearPoses"] = study.nearPoses;
+    json["leftOut"] = study.leftOut;
+    json["earlyBoundMm"] = orNull(study.earlyBound * mm);
+    json["freeWithinEarlyBound"] = study.freeWithinBound;
     json["timedPoses"] = study.timedPoses;
     for (const Row& row : study.rows) json["rows"].push_back(jsonOf(row, mm));
     json["notRun"] = notRunOf(study.notRun);
@@ -95,25 +114,23 @@ Json jsonOf(const PairStudy& study) {
     for (const StepSeries& series : study.steps.series)
         steps["series"].push_back({{"name", series.name}, {"tests", series.tests}});
     json["steps"] = steps;
-    json["angularRegion"] = {{"lower", study.region.lower},
-                             {"upper", study.region.upper},
-                             {"unit", study.leadingUnit},
-                             {"middle", study.region.middle},
-                             {"share", study.region.share}};
+    json["angularRegion"] = {
+        {"unit", study.leadingUnit},
+        {"spheres", jsonOf(study.region.spheres)},
+        {"meshes", jsonOf(study.region.meshes)},
+        {"stepsInSpheres", std::count(study.steps.inRegion.begin(), study.steps.inRegion.end(), char{1})},
+        {"stepsInMeshes", study.steps.inMeshRegion}};
     for (const SamplingPoint& point : study.sampling)
         json["sampling"].push_back({{"samples", point.samples},
                                     {"reduce", point.reduce},
                                     {"tests", point.tests},
                                     {"missedUniform", point.missedUniform},
                                     {"missedNearContact", point.missedNear},
-                                    {"seconds", point.seconds}});
-    for (const EpsilonPoint& point : study.epsilons)
-        json["epsilon"].push_back({{"epsilonMm", point.epsilon * mm},
-                                   {"tests", point.tests},
-                                   {"lowerBound", point.lowerBound},
-                                   {"seconds", point.seconds}});
-    for (const BakePoint& point : study.bakes) json["bakes"].push_back(jsonOf(point, mm));
-    json["paperRecipe"] = jsonOf(study.paper, mm);
+                                    {"times", {{"seconds", point.seconds}}}});
+    json["base"] = study.base.name;
+    json["tolerances"] = jsonOf(study.tolerances, mm);
+    json["epsilons"] = jsonOf(study.epsilons, mm);
+    json["recipes"] = jsonOf(study.recipes, mm);
     return json;
 }
 
@@ -135,17 +152,17 @@ Json jsonOf(const SkinStudy& study) {
               {"judged", study.judged},
               {"touching", study.touching},
               {"productsAnEllipsoidTest", study.productsEllipsoid},
-              {"seconds", study.seconds}};
+              {"times", {{"seconds", study.seconds}}}};
     for (const SkinMethod& method : study.methods)
         json["methods"].push_back({{"method", method.name},
                                    {"about", method.about},
                                    {"tests", method.tests},
                                    {"products", method.products},
-                                   {"nanoseconds", method.nanoseconds},
                                    {"missed", method.missed},
                                    {"early", method.early},
                                    {"deepestMissMm", method.deepestMiss * mm},
-                                   {"farthestEarlyMm", method.farthestEarly * mm}});
+                                   {"farthestEarlyMm", method.farthestEarly * mm},
+                                   {"times", {{"medianNs", method.nanoseconds}}}});
     json["notRun"] = notRunOf(study.notRun);
     return json;
 }
@@ -163,15 +180,19 @@ std::string jsonOf(const Report& report) {
                 {"libraries", report.machine.libraries}}},
               {"quick", report.options.quick},
               {"seed", report.options.seed},
-              {"seconds", report.seconds},
+              {"times", {{"seconds", report.seconds}}},
               {"pairs", Json::array()},
               {"skins", Json::array()}};
     for (std::size_t k = 0; k < report.pairs.size(); ++k) {
         Json pair = jsonOf(report.pairs[k]);
-        for (const Plot& plot : report.plots[k]) pair["plots"].push_back(plot.file);
+        for (const Plot& plot : report.pairPlots[k]) pair["plots"].push_back(plot.file);
         json["pairs"].push_back(std::move(pair));
     }
-    for (const SkinStudy& study : report.skins) json["skins"].push_back(jsonOf(study));
+    for (std::size_t k = 0; k < report.skins.size(); ++k) {
+        Json skin = jsonOf(report.skins[k]);
+        for (const Plot& plot : report.skinPlots[k]) skin["plots"].push_back(plot.file);
+        json["skins"].push_back(std::move(skin));
+    }
     return json.dump(1) + "\n";
 }
 

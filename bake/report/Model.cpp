@@ -1,15 +1,12 @@
 #include "bake/report/Model.h"
 
-#include "bake/reduce/CertifiedCover.h"
-#include "bake/reduce/Cooccurrence.h"
-#include "bake/reduce/Minimal.h"
-#include "bake/search/CertifiedSearch.h"
-#include "bake/search/SampledSearch.h"
-#include "bake/spheres/GenerateSpheres.h"
+#include "bake/base/Parallel.h"
+#include "bake/geometry/MeshAudit.h"
+#include "bake/geometry/Solid.h"
 #include "bake/spheres/RoundToFloat.h"
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
 
 namespace tss::reporting {
 
@@ -21,90 +18,72 @@ double since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-SampledSearchOptions sampledOptions(const Recipe& recipe) {
-    SampledSearchOptions options;
-    options.samples = recipe.samples;
-    options.atRest = AtRest::Collide;
-    return options;
+std::unique_ptr<Model> sameMeshes(const Model& model, const Recipe& recipe) {
+    auto other = std::make_unique<Model>();
+    other->recipe = recipe;
+    other->problem.motion = model.problem.motion;
+    other->problem.meshA = model.problem.meshA;
+    other->problem.meshB = model.problem.meshB;
+    return other;
 }
 
-Reduced byCover(Model& model) {
-    CoverOptions options;
-    options.epsilon = model.recipe.epsilon;
-    options.atRest = AtRest::Collide;
-    const compare::Problem& problem = model.problem;
-    CoverResult cover = certifiedCover(problem.a, problem.b, nullptr, problem.motion, options);
-    model.complete = cover.complete;
-    model.clearance = cover.clearance;
-    model.proofOfNever = cover.complete && cover.pairs.empty();
-    model.problem.table.epsilon = cover.epsilon;
-    model.problem.table.certified = std::isfinite(cover.epsilon);
-    return cover;
-}
-
-Reduced bySearch(Model& model) {
-    const compare::Problem& problem = model.problem;
-    CandidatePairs candidates;
-    if (model.recipe.search == SearchMethod::Sampled) {
-        candidates = searchSampled(problem.a, problem.b, problem.motion, sampledOptions(model.recipe));
-    } else {
-        CertifiedSearchOptions options;
-        options.atRest = AtRest::Collide;
-        candidates = searchCertified(problem.a, problem.b, problem.motion, options);
-    }
-    model.candidatePairs = candidates.pairs.size();
-    if (model.recipe.reduce == ReduceMethod::Cooccurrence) return reduceCooccurrence(candidates);
-    if (model.recipe.reduce == ReduceMethod::Minimal)
-        return reduceMinimal(problem.a, problem.b, problem.motion, sampledOptions(model.recipe));
-    Reduced all;
-    all.pairs = candidates.pairs;
-    return all;
+/// The model with its table over spheres and meshes that are there already.
+std::unique_ptr<Model> complete(std::unique_ptr<Model> model) {
+    compare::Problem& problem = model->problem;
+    problem.a = model->spheres->a.spheres;
+    problem.b = model->spheres->b.spheres;
+    PairReport notes;
+    const auto start = Clock::now();
+    const PairTable made = tabulatePair(*model->spheres, problem.motion, model->recipe.options, notes);
+    model->tableSeconds = since(start);
+    model->proof = made.proof;
+    if (made.table) problem.table = *made.table;
+    const BakeRecord& record = made.table ? made.table->record : made.proof->record;
+    problem.fitA = record.fitA;
+    problem.fitB = record.fitB;
+    return model;
 }
 
 } // namespace
 
-Spheres makeSpheres(const TriangleMesh& mesh, const Recipe& recipe) {
-    SphereOptions options;
-    options.method = recipe.spheres;
-    options.tolerance = recipe.tolerance;
-    options.maxSpheres = recipe.maxSpheres;
-    options.conservative = recipe.conservative;
-    const SphereFit fit = fitSpheres(mesh, options);
-    Spheres spheres;
-    for (const Sphere& sphere : fit.spheres) spheres.set.push_back(roundToFloat(sphere));
-    spheres.fit = {std::isfinite(fit.coverage) ? fit.coverage : -1,
-                   std::isfinite(fit.protrusion) ? fit.protrusion : -1};
-    return spheres;
-}
-
-std::unique_ptr<Model> makeModel(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
-                                 const Recipe& recipe) {
-    const auto start = Clock::now();
-    const Spheres spheresA = makeSpheres(a, recipe), spheresB = makeSpheres(b, recipe);
-    const double seconds = since(start);
-    auto model = makeModel(a, b, motion, recipe, spheresA, spheresB);
-    model->sphereSeconds = seconds;
-    return model;
-}
-
-std::unique_ptr<Model> makeModel(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
-                                 const Recipe& recipe, const Spheres& spheresA, const Spheres& spheresB) {
+std::unique_ptr<Model> makeModel(const SceneModel& scene, const Pair& pair, const Recipe& recipe) {
     auto model = std::make_unique<Model>();
     model->recipe = recipe;
-    model->problem = {a, b, motion, spheresA.set, spheresB.set, spheresA.fit, spheresB.fit, {}};
+    model->problem.motion = pairMotion(scene, pair);
+    model->problem.meshA = cleaned(scene.bodies[static_cast<std::size_t>(pair.bodyA)].mesh);
+    model->problem.meshB = cleaned(scene.bodies[static_cast<std::size_t>(pair.bodyB)].mesh);
     const auto start = Clock::now();
-    const Reduced reduced = recipe.reduce == ReduceMethod::Cover ? byCover(*model) : bySearch(*model);
-    model->lowerBound = reduced.lowerBound;
-    Table table = makeTable(spheresA.set, spheresB.set, reduced.pairs, reduced.restGaps, motion);
-    table.epsilon = model->problem.table.epsilon;
-    table.certified = model->problem.table.certified;
-    const double miss = compare::missOf(spheresA.fit, spheresB.fit), early = compare::earlyOf(spheresA.fit, spheresB.fit);
-    // The table's gap is at most epsilon above the model's: it may see a contact later by that, never sooner.
-    table.boundMiss = miss < 0 ? -1 : miss + table.epsilon;
-    table.boundEarly = early;
-    model->problem.table = std::move(table);
-    model->tableSeconds = since(start);
-    return model;
+    model->spheres =
+        std::make_shared<PairSpheres>(fillPair(scene, pair, model->problem.motion, recipe.options));
+    model->sphereSeconds = since(start);
+    return complete(std::move(model));
+}
+
+std::unique_ptr<Model> makeModel(const Model& model, const Recipe& recipe) {
+    auto other = sameMeshes(model, recipe);
+    other->spheres = model.spheres;
+    other->sphereSeconds = model.sphereSeconds;
+    return complete(std::move(other));
+}
+
+std::unique_ptr<Model> wholeBodies(const Model& model, const Recipe& recipe) {
+    auto other = sameMeshes(model, recipe);
+    SphereOptions options;
+    options.tolerance = recipe.options.tolerance.value_or(0);
+    const auto start = Clock::now();
+    PairSpheres spheres{fitSpheres(other->problem.meshA, options), fitSpheres(other->problem.meshB, options)};
+    other->sphereSeconds = since(start);
+    for (SphereFit* fit : {&spheres.a, &spheres.b}) fit->spheres = roundToFloat(std::move(fit->spheres));
+    other->spheres = std::make_shared<PairSpheres>(std::move(spheres));
+    return complete(std::move(other));
+}
+
+double protrusionOf(const SphereSet& spheres, const TriangleMesh& mesh) {
+    const Solid solid(mesh);
+    std::vector<double> each(spheres.size(), 0.0);
+    parallelFor(each.size(),
+                [&](std::size_t i) { each[i] = solid.protrusion(spheres[i].centre, spheres[i].radius); });
+    return each.empty() ? 0 : *std::max_element(each.begin(), each.end());
 }
 
 } // namespace tss::reporting

@@ -14,48 +14,79 @@ namespace {
 using namespace compare;
 using Clock = std::chrono::steady_clock;
 
+/// Steps in which first contact is looked for along a way.
+constexpr int closingSteps = 200;
+
 struct Sizes {
-    std::size_t uniform, near, timed, worst, motions;
+    std::size_t uniform, near, timed, depths, motions;
     int steps;
+    double
+        judgeSeconds; ///< a method that would take longer is judged at the first of the poses, at least 100
     TimingOptions timing;
 };
 
 Sizes sizesFor(bool quick) {
-    if (quick) return {1500, 200, 200, 24, 6, 120, {5, 0.25, 1e-3}};
-    return {10000, 1000, 500, 120, 20, 400, {15, 2.0, 3e-3}};
+    if (quick) return {2000, 200, 1000, 12, 6, 120, 0.5, {7, 0.15, 2e-3, 0.01}};
+    return {20000, 2000, 2000, 100, 20, 400, 10, {21, 2.0, 3e-3, 0.05}};
 }
 
-std::string lengthName(double length, double millimetres) {
+/// A model with the methods that were made for it.
+struct Entrant {
+    std::unique_ptr<Model> model;
+    std::string about;
+    Field field;
+    Contestants contestants;
+};
+
+std::string inMillimetres(double length, double millimetres) {
     return fmt::format("{:.3g} mm", length * millimetres);
 }
 
-std::vector<Recipe> recipes(double base, bool quick, double millimetres) {
-    std::vector<Recipe> list;
-    for (const double factor : quick ? std::vector{4.0, 2.0} : std::vector{8.0, 4.0, 2.0, 1.0, 0.5}) {
-        Recipe recipe;
-        recipe.tolerance = factor * base;
-        recipe.name = lengthName(recipe.tolerance, millimetres);
-        list.push_back(recipe);
-    }
-    return list;
+/// Names a recipe by its tolerance and, where it has one, its epsilon.
+Recipe named(BakeOptions options, double millimetres) {
+    std::string name = inMillimetres(*options.tolerance, millimetres);
+    if (options.epsilon > 0) name += ", ε " + inMillimetres(options.epsilon, millimetres);
+    return {name, std::move(options)};
 }
 
-BakePoint bakePoint(const Model& model) {
+/// What `tss bake` would be asked for, but for contact at rest, which is contact here as it is to the meshes.
+BakeOptions baseOptions(const SceneModel& scene, const Pair& pair, const TriangleMesh& a,
+                        const TriangleMesh& b) {
+    BakeOptions options = optionsFor(pair.settings, {}, scene.metersPerUnit);
+    options.atRest = AtRest::Collide;
+    if (!options.tolerance)
+        options.tolerance = std::min(bounds(a).diagonal().norm(), bounds(b).diagonal().norm()) / 500;
+    return options;
+}
+
+BakePoint bakePoint(const Entrant& entrant) {
+    const Model& model = *entrant.model;
     const Table& table = model.problem.table;
-    return {model.recipe.tolerance,
-            model.problem.a.size(),
-            model.problem.b.size(),
-            table.a.size(),
-            table.b.size(),
-            table.testCount(),
-            (table.a.size() + table.b.size()) * 4 * sizeof(float) +
-                (table.rowOffsets.size() + table.columns.size()) * sizeof(std::uint32_t),
-            model.lowerBound,
-            model.sphereSeconds,
-            model.tableSeconds};
+    BakePoint point;
+    point.name = model.recipe.name;
+    point.about = entrant.about;
+    point.tolerance = *model.recipe.options.tolerance;
+    point.epsilon = model.recipe.options.epsilon;
+    const auto sticksOut = [](const FitRecord& fit, const SphereSet& spheres, const TriangleMesh& mesh) {
+        return fit.protrusion >= 0 ? fit.protrusion : protrusionOf(spheres, mesh);
+    };
+    const Problem& problem = model.problem;
+    point.protrusion = std::max(sticksOut(problem.fitA, problem.a, problem.meshA),
+                                sticksOut(problem.fitB, problem.b, problem.meshB));
+    point.spheresA = model.problem.a.size();
+    point.spheresB = model.problem.b.size();
+    point.usedA = table.a.size();
+    point.usedB = table.b.size();
+    point.tests = table.testCount();
+    for (const double gap : table.restGaps) point.restTests += gap < 0 ? 1 : 0;
+    point.bytes = tableBytes(table);
+    point.lowerBound = static_cast<double>(table.record.lowerBound);
+    point.sphereSeconds = model.sphereSeconds;
+    point.tableSeconds = model.tableSeconds;
+    return point;
 }
 
-void fillWork(Row& row, const Rival& rival, const std::vector<PoseQuery>& queries) {
+void fillWork(Row& row, const Rival& rival, std::span<const PoseQuery> queries) {
     double tests = 0, products = 0;
     for (const PoseQuery& query : queries) {
         const auto work = rival.work(query);
@@ -73,38 +104,52 @@ bool onSpheres(const std::string& family) {
            family != "medial sphere tree" && family != "O'Rourke-Badler";
 }
 
-struct Lineup {
-    std::vector<Contestants> contestants;
-    std::vector<std::unique_ptr<Model>> models;
+/// FCL without the interface that all methods share: what that costs shows in the difference.
+class FclDirectly final : public RivalLoop<FclDirectly> {
+public:
+    explicit FclDirectly(const MeshTruth& truth) : truth_(truth) {}
+    bool hit(const PoseQuery& query) const override { return truth_.touches(query.pose); }
+
+private:
+    const MeshTruth& truth_;
 };
 
-void measureRows(PairStudy& study, const Lineup& field, const JudgedPoses& uniform, const JudgedPoses& near,
+void measureRows(PairStudy& study, const std::vector<Entrant>& field, const MeshTruth& truth,
+                 const JudgedPoses& uniform, const JudgedPoses& near,
                  const std::vector<ClosingMotion>& motions, const Sizes& sizes, const Progress& progress) {
     std::vector<const Rival*> rivals;
     std::vector<const Model*> models;
-    for (std::size_t m = 0; m < field.models.size(); ++m)
-        for (const auto& rival : field.contestants[m].rivals) {
+    for (const Entrant& entrant : field)
+        for (const auto& rival : entrant.contestants.rivals) {
             rivals.push_back(rival.get());
-            models.push_back(field.models[m].get());
+            models.push_back(entrant.model.get());
         }
-    // Evenly through the uniform poses, so that hits and misses come as they come over Q.
-    std::vector<PoseQuery> timed;
-    const std::size_t stride = std::max<std::size_t>(1, uniform.queries().size() / sizes.timed);
-    for (std::size_t i = 0; i < uniform.queries().size() && timed.size() < sizes.timed; i += stride)
-        timed.push_back(uniform.queries()[i]);
+    // Random poses: any first part of them hits and misses as Q does.
+    const std::span<const PoseQuery> timed(uniform.queries().data(),
+                                           std::min(sizes.timed, uniform.queries().size()));
     study.timedPoses = timed.size();
+    report(progress, study.path + ": timing methods", 0);
+    const FclDirectly directly(truth);
+    rivals.push_back(&directly);
     const std::vector<Times> times = timeMethods(rivals, timed, sizes.timing);
+    study.fclDirectly = times.back();
+    rivals.pop_back();
     for (std::size_t r = 0; r < rivals.size(); ++r) {
-        report(progress, study.path + ": judging methods", static_cast<double>(r) / rivals.size());
+        report(progress, study.path + ": judging methods",
+               static_cast<double>(r) / static_cast<double>(rivals.size()));
         Row row;
         row.about = rivals[r]->description();
         row.method = row.about.name;
         if (onSpheres(row.about.family)) row.setting = models[r]->recipe.name;
         row.times = times[r];
-        row.uniform = measureError(*rivals[r], uniform, sizes.worst);
-        row.near = measureError(*rivals[r], near, sizes.worst);
-        row.firstContact = measureFirstContact(models[r]->problem, *rivals[r], motions, 100);
-        fillWork(row, *rivals[r], timed);
+        const auto most =
+            static_cast<std::size_t>(sizes.judgeSeconds * 1e9 / std::max(1.0, row.times.median));
+        row.uniform = measureError(*rivals[r], uniform, std::max<std::size_t>(100, most), sizes.depths);
+        row.near = measureError(*rivals[r], near, std::max<std::size_t>(100, most), sizes.depths);
+        const std::size_t ways = std::clamp<std::size_t>(most / closingSteps, 2, motions.size());
+        row.firstContact =
+            measureFirstContact(models[r]->problem, *rivals[r], std::span(motions).first(ways), closingSteps);
+        fillWork(row, *rivals[r], timed.first(std::min<std::size_t>(timed.size(), 500)));
         study.rows.push_back(std::move(row));
     }
 }
@@ -130,6 +175,75 @@ double Row::worst() const {
     return std::max({uniform.deepestMiss, near.deepestMiss, uniform.farthestEarly, near.farthestEarly});
 }
 
+/// Other tables and other spheres at the base's tolerance: what the paper does, and what is lost or won.
+std::vector<Entrant> otherRecipes(const SceneModel& scene, const Pair& pair, const Model& base, bool quick) {
+    const auto with = [&](const std::string& name, const auto& change) {
+        Recipe recipe{name, base.recipe.options};
+        change(recipe.options);
+        return recipe;
+    };
+    std::vector<Entrant> entrants;
+    const auto fill = [&](const Recipe& recipe, const std::string& about) {
+        entrants.push_back({makeModel(scene, pair, recipe), about, Field::Model, {}});
+    };
+    fill(with("paper",
+              [&](BakeOptions& o) {
+                  o.spheres = SphereMethod::Growth;
+                  o.search = SearchMethod::Sampled;
+                  o.reduce = ReduceMethod::Cooccurrence;
+                  if (quick) o.samples = 2000;
+              }),
+         "the paper's own: spheres by growth in the narrow regions, sampled search, reduction by "
+         "co-occurrence");
+    fill(with("growth, certified", [](BakeOptions& o) { o.spheres = SphereMethod::Growth; }),
+         "the paper's spheres by growth, with the certified search and cover");
+    if (!quick) {
+        entrants.push_back({wholeBodies(base, with("whole bodies", [](BakeOptions&) {})),
+                            "our spheres over the whole surfaces, not only where the two can meet",
+                            Field::Model,
+                            {}});
+        fill(with("inscribed", [](BakeOptions& o) { o.conservative = false; }),
+             "spheres inside the bodies instead of about their surface (`--no-conservative`)");
+        entrants.push_back({makeModel(base, with("paper's reduction",
+                                                 [](BakeOptions& o) {
+                                                     o.search = SearchMethod::Sampled;
+                                                     o.reduce = ReduceMethod::Cooccurrence;
+                                                 })),
+                            "our spheres, the paper's sampled search and its reduction by co-occurrence",
+                            Field::Table,
+                            {}});
+        entrants.push_back(
+            {makeModel(base, with("minimal over samples",
+                                  [](BakeOptions& o) {
+                                      o.search = SearchMethod::Sampled;
+                                      o.reduce = ReduceMethod::Minimal;
+                                  })),
+             "our spheres, the smallest set that answers alike at the poses explored (the paper's M_ss)",
+             Field::Table,
+             {}});
+    }
+    const Recipe offset = with("at rest: offset", [](BakeOptions& o) { o.atRest = AtRest::Offset; });
+    if (!restOverlaps(base.problem.a, base.problem.b, base.problem.motion).empty())
+        fill(offset, "what `tss bake` stores: pairs that overlap at rest touch only where they go deeper");
+    return entrants;
+}
+
+std::vector<const Row*> paretoFront(const std::vector<Row>& rows, const std::function<double(const Row&)>& x,
+                                    const std::function<double(const Row&)>& y) {
+    std::vector<const Row*> sorted, front;
+    for (const Row& row : rows)
+        if (x(row) > 0) sorted.push_back(&row);
+    std::stable_sort(sorted.begin(), sorted.end(), [&](const Row* a, const Row* b) { return x(*a) < x(*b); });
+    for (const Row* row : sorted)
+        if (front.empty() || y(*row) < y(*front.back())) front.push_back(row);
+    return front;
+}
+
+double Row::wrong() const {
+    return static_cast<double>(uniform.missed + uniform.early) /
+           static_cast<double>(std::max<std::size_t>(1, uniform.poses));
+}
+
 PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptions& options,
                     const Progress& progress) {
     const auto start = Clock::now();
@@ -138,51 +252,75 @@ PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptio
     const Motion motion = pairMotion(scene, pair);
     checkMotion(motion);
     describe(study, scene, pair, motion);
+    const auto finish = [&] { study.seconds = std::chrono::duration<double>(Clock::now() - start).count(); };
     const TriangleMesh a = cleaned(scene.bodies[static_cast<std::size_t>(pair.bodyA)].mesh);
     const TriangleMesh b = cleaned(scene.bodies[static_cast<std::size_t>(pair.bodyB)].mesh);
     study.trianglesA = a.triangles.size();
     study.trianglesB = b.triangles.size();
-    study.baseTolerance = std::min(bounds(a).diagonal().norm(), bounds(b).diagonal().norm()) / 500;
-    const auto set = pair.settings.find("tolerance");
-    if (set != pair.settings.end()) study.baseTolerance = parseLength(set->second, scene.metersPerUnit);
 
-    Lineup field;
-    for (const Recipe& recipe : recipes(study.baseTolerance, options.quick, study.millimetres)) {
+    const BakeOptions asked = baseOptions(scene, pair, a, b);
+    std::vector<Entrant> field;
+    std::size_t base = 0;
+    for (const double factor :
+         options.quick ? std::vector{1.0, 0.5} : std::vector{4.0, 2.0, 1.0, 0.5, 0.25, 0.125}) {
+        BakeOptions changed = asked;
+        changed.tolerance = factor * *asked.tolerance;
+        const Recipe recipe = named(changed, study.millimetres);
         report(progress, study.path + ": spheres and table, " + recipe.name, 0);
-        field.models.push_back(makeModel(a, b, motion, recipe));
-        study.bakes.push_back(bakePoint(*field.models.back()));
+        if (factor == 1) base = field.size();
+        field.push_back({makeModel(scene, pair, recipe), "", factor == 1 ? Field::Whole : Field::Model, {}});
+        study.tolerances.push_back(bakePoint(field.back()));
     }
-    const std::size_t base = options.quick ? field.models.size() - 1 : field.models.size() - 2;
-    Model& model = *field.models[base];
-    if (model.proofOfNever) {
+    const Model& model = *field[base].model;
+    study.base = study.tolerances[base];
+    if (model.proof) {
         study.neverCollides = true;
-        study.clearance = model.clearance;
-        study.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        study.clearance = model.proof->clearance;
+        finish();
         return study;
     }
+    study.epsilons.push_back(study.base);
+    for (const double factor :
+         options.quick ? std::vector{0.1, 1.0} : std::vector{0.01, 0.03, 0.1, 0.3, 1.0, 3.0}) {
+        BakeOptions changed = asked;
+        changed.epsilon = factor * *asked.tolerance;
+        const Recipe recipe = named(changed, study.millimetres);
+        report(progress, study.path + ": table, " + recipe.name, 0);
+        field.push_back({makeModel(model, recipe), "", Field::Table, {}});
+        study.epsilons.push_back(bakePoint(field.back()));
+    }
+    report(progress, study.path + ": other recipes", 0);
+    for (Entrant& entrant : otherRecipes(scene, pair, model, options.quick)) {
+        study.recipes.push_back(bakePoint(entrant));
+        field.push_back(std::move(entrant));
+    }
+    std::erase_if(field,
+                  [](const Entrant& entrant) { return entrant.model->problem.table.testCount() == 0; });
+
     report(progress, study.path + ": poses", 0);
     const MeshTruth truth(a, b);
     const JudgedPoses uniform(model.problem, truth, randomPoses(motion, sizes.uniform, options.seed));
     const JudgedPoses near(model.problem, truth,
                            nearContactPoses(truth, motion, sizes.near, 1e-6, options.seed + 1));
-    const auto motions = closingMotions(model.problem, truth, sizes.motions, 400, options.seed + 2);
-    study.uniformPoses = sizes.uniform;
+    const auto motions = closingMotions(model.problem, truth, uniform, sizes.motions, closingSteps);
+    study.uniformPoses = uniform.queries().size();
     study.touchingUniform = uniform.touching();
     study.nearPoses = near.queries().size();
-    for (std::size_t m = 0; m < field.models.size(); ++m) {
-        report(progress, study.path + ": building methods", static_cast<double>(m) / field.models.size());
-        field.contestants.push_back(makeContestants(*field.models[m], m == base ? Field::Whole : Field::Model,
-                                                    options.quick, options.methods, options.seed + 3));
+    study.leftOut = uniform.leftOut() + near.leftOut();
+    study.earlyBound = model.problem.table.boundEarly;
+    if (study.earlyBound > 0) study.freeWithinBound = uniform.freeWithin(study.earlyBound);
+    for (Entrant& entrant : field) {
+        report(progress, study.path + ": building methods, " + entrant.model->recipe.name, 0);
+        entrant.contestants =
+            makeContestants(*entrant.model, entrant.field, options.quick, options.methods, options.seed + 3);
+        if (entrant.field == Field::Whole) study.notRun = entrant.contestants.notRun;
     }
-    study.notRun = field.contestants[base].notRun;
-    measureRows(study, field, uniform, near, motions, sizes, progress);
+    measureRows(study, field, truth, uniform, near, motions, sizes, progress);
 
     report(progress, study.path + ": sweeps", 0);
-    studyPaper(study, model, options);
     studySteps(study, scene, pair, model, truth, options, sizes.steps);
     studySampling(study, model, options);
-    studyEpsilon(study, model, options);
-    study.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    finish();
     return study;
 }
 

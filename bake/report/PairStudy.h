@@ -5,17 +5,11 @@ namespace tss::reporting {
 
 // Parts of studyPair(), each filling its own figures of the study.
 
-/// The paper's own recipe on this pair: growth spheres, sampled search, co-occurrence.
-void studyPaper(PairStudy& study, const Model& model, const ReportOptions& options);
-
 /// Tests a step along a motion, and the angular region of collision.
 void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, const Model& model,
                 const compare::MeshTruth& truth, const ReportOptions& options, int steps);
 
 /// What tables from a sampled search miss of what the same spheres collide at.
 void studySampling(PairStudy& study, const Model& model, const ReportOptions& options);
-
-/// Table size against epsilon.
-void studyEpsilon(PairStudy& study, const Model& model, const ReportOptions& options);
 
 } // namespace tss::reporting

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/report/SkinStudy.h"
 #include "bake/report/Study.h"
 
 namespace tss::reporting {
@@ -14,7 +15,7 @@ struct Plot {
 std::vector<Plot> drawPlots(const PairStudy& study, const std::string& folder, const std::string& stem,
                             std::string& problem);
 
-/// Runs gnuplot on a script in the folder. False where it cannot be run or fails.
-bool runGnuplot(const std::string& folder, const std::string& script);
-
+/// The same for a skin.
+std::vector<Plot> drawPlots(const SkinStudy& study, const std::string& folder, const std::string& stem,
+                            std::string& problem);
 } // namespace tss::reporting

@@ -50,11 +50,13 @@ Report makeReport(const SceneModel& scene, const std::string& sceneFile, const s
         if (wanted(pair.path)) result.pairs.push_back(studyPair(scene, pair, options, progress));
     for (const SkinModel& skin : scene.skins)
         if (wanted(skin.path)) result.skins.push_back(studySkin(scene, skin, options, progress));
+    const bool alone = result.pairs.size() + result.skins.size() == 1;
     for (const PairStudy& study : result.pairs)
-        result.plots.push_back(
-            study.neverCollides
-                ? std::vector<Plot>{}
-                : drawPlots(study, folder, stemOf(study.path, result.pairs.size() == 1), result.plotProblem));
+        result.pairPlots.push_back(
+            study.neverCollides ? std::vector<Plot>{}
+                                : drawPlots(study, folder, stemOf(study.path, alone), result.plotProblem));
+    for (const SkinStudy& study : result.skins)
+        result.skinPlots.push_back(drawPlots(study, folder, stemOf(study.path, alone), result.plotProblem));
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     writeFileAtomically(folder + "/report.csv", csvOf(result));
     writeFileAtomically(folder + "/report.json", jsonOf(result));

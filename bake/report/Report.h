@@ -12,7 +12,7 @@ struct Report {
     ReportOptions options;
     std::vector<PairStudy> pairs;
     std::vector<SkinStudy> skins;
-    std::vector<std::vector<Plot>> plots; ///< one list a pair
+    std::vector<std::vector<Plot>> pairPlots, skinPlots; ///< one list each
     std::string plotProblem;
     double seconds = 0;
 };

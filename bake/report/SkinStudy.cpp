@@ -6,6 +6,8 @@
 #include "bake/compare/Ellipsoid.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/search/SkinSearch.h"
+#include "bake/spheres/GenerateSpheres.h"
+#include "bake/spheres/RoundToFloat.h"
 
 #include <algorithm>
 #include <chrono>
@@ -233,9 +235,9 @@ SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const Report
     const BakeOptions given = optionsFor(skin.settings, {}, scene.metersPerUnit);
     for (const auto& deformer : deformers) {
         const TriangleMesh surface = cleaned(deformer->muscle().surface);
-        Recipe recipe;
-        recipe.tolerance = given.tolerance.value_or(bounds(surface).diagonal().norm() / 100);
-        rest.push_back(makeSpheres(surface, recipe).set);
+        SphereOptions how;
+        how.tolerance = given.tolerance.value_or(bounds(surface).diagonal().norm() / 100);
+        rest.push_back(roundToFloat(fitSpheres(surface, how).spheres));
         searched.push_back({deformer.get(), rest.back()});
         std::vector<MusclePoint> points;
         for (const Sphere& sphere : rest.back()) points.push_back(deformer->bind(sphere.centre));
@@ -328,9 +330,9 @@ SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const Report
         if (work.tests > 0)
             study.productsEllipsoid = static_cast<double>(work.products) / static_cast<double>(work.tests);
     }
-    study.notRun.push_back(
-        {"FCL, Bullet on the skin", "they answer for triangles of two rigid meshes; here each skin vertex "
-                                    "needs its own verdict on a surface that deforms"});
+    study.notRun.push_back({"FCL, Bullet on the skin",
+                            "they answer for triangles of two rigid meshes; here each skin vertex "
+                            "needs its own verdict on a surface that deforms"});
     study.notRun.push_back({"angular region, allowed paths, C-space grid",
                             "one activation a muscle would fit a grid, but each of the vertices needs one of "
                             "its own: that is a stored animation, not a test"});

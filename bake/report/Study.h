@@ -5,6 +5,8 @@
 #include "bake/report/Machine.h"
 #include "bake/report/Timing.h"
 
+#include <functional>
+
 namespace tss::reporting {
 
 struct ReportOptions {
@@ -19,7 +21,7 @@ struct ReportOptions {
 /// One method with one setting.
 struct Row {
     std::string method;  ///< its name
-    std::string setting; ///< of the spheres it stands on, e.g. "0.35 mm"; empty where it has none
+    std::string setting; ///< name of the BakePoint whose spheres it stands on; empty where it has none
     compare::Description about;
     ErrorFigures uniform, near;
     FirstContact firstContact;
@@ -27,8 +29,13 @@ struct Row {
     double tests = -1, products = -1; ///< a query, mean over the uniform poses; < 0: not countable
 
     double worst() const; ///< scene units: the deepest miss or the farthest early contact, whichever is more
+    double wrong() const; ///< share of the uniform poses with a wrong verdict
     std::size_t misses() const { return uniform.missed + near.missed; }
 };
+
+/// The rows that no other beats in both numbers, by rising x; rows with x <= 0 take no part.
+std::vector<const Row*> paretoFront(const std::vector<Row>& rows, const std::function<double(const Row&)>& x,
+                                    const std::function<double(const Row&)>& y);
 
 /// Tests a step along a motion, one series a method (the paper's Figure 2j).
 struct StepSeries {
@@ -36,17 +43,24 @@ struct StepSeries {
     std::vector<double> tests;
 };
 struct StepStudy {
-    std::string motion;          ///< in words
-    std::vector<double> leading; ///< value of the leading DOF at each step, its own unit
-    std::vector<char> touching;  ///< by the meshes
-    std::vector<char> inRegion;  ///< the step lies in the angular region of collision
+    std::string motion;           ///< in words
+    std::vector<double> leading;  ///< value of the leading DOF at each step, its own unit
+    std::vector<char> touching;   ///< by the meshes
+    std::vector<char> inRegion;   ///< the step lies in the angular region of collision of the spheres
+    std::size_t inMeshRegion = 0; ///< steps in that of the meshes
     std::vector<StepSeries> series;
 };
 
-/// Share of colliding samples by slice of the leading DOF (the paper's Figure 2i).
-struct RegionStudy {
+/// Share of colliding samples by slice of the leading DOF (the paper's Figure 2i). The angular region of
+/// collision goes from the first slice in which one collides to the last.
+struct RegionCurve {
     std::vector<double> middle, share;
-    double lower = 0, upper = 0; ///< the angular region of collision; equal: there is none
+    double lower = 0, upper = 0; ///< equal: there is none
+
+    bool contains(double value) const { return upper > lower && value >= lower && value <= upper; }
+};
+struct RegionStudy {
+    RegionCurve spheres, meshes;
 };
 
 /// What a sampled search loses.
@@ -57,14 +71,12 @@ struct SamplingPoint {
     double missedUniform = 0, missedNear = 0; ///< of the poses where the whole sphere model collides, 0..1
     double seconds = 0;
 };
-struct EpsilonPoint {
-    double epsilon = 0; ///< scene units
-    std::size_t tests = 0;
-    double lowerBound = 0, seconds = 0;
-};
+/// A model: what it was made by and what came of it.
 struct BakePoint {
-    double tolerance = 0; ///< scene units
-    std::size_t spheresA = 0, spheresB = 0, usedA = 0, usedB = 0, tests = 0, bytes = 0;
+    std::string name, about;
+    double tolerance = 0, epsilon = 0; ///< scene units
+    double protrusion = 0;             ///< scene units: no sphere sticks out of its body by more
+    std::size_t spheresA = 0, spheresB = 0, usedA = 0, usedB = 0, tests = 0, restTests = 0, bytes = 0;
     double lowerBound = 0, sphereSeconds = 0, tableSeconds = 0;
 };
 
@@ -78,16 +90,21 @@ struct PairStudy {
     bool neverCollides = false;
     double clearance = 0;
     std::vector<std::string> notes;
-    double baseTolerance = 0;
     std::size_t uniformPoses = 0, nearPoses = 0, touchingUniform = 0, timedPoses = 0;
+    std::size_t freeWithinBound =
+        0;                   ///< free uniform poses with the meshes nearer than the base's early bound
+    double earlyBound = -1;  ///< scene units; of the base's table
+    Times fclDirectly;       ///< FCL's OBBRSS trees asked without the interface of the methods
+    std::size_t leftOut = 0; ///< poses with a part wholly inside the other body
     std::vector<Row> rows;
     std::vector<NotRun> notRun;
     StepStudy steps;
     RegionStudy region;
     std::vector<SamplingPoint> sampling;
-    std::vector<EpsilonPoint> epsilons;
-    std::vector<BakePoint> bakes;
-    BakePoint paper; ///< the paper's own recipe on this pair: growth, sampled search, co-occurrence
+    BakePoint base;                    ///< as `tss bake` makes it; every method was built for its spheres
+    std::vector<BakePoint> tolerances; ///< the base among them, coarse to fine
+    std::vector<BakePoint> epsilons;   ///< over the base's spheres, the base first
+    std::vector<BakePoint> recipes;    ///< other ways to make spheres and table, the paper's own first
     double seconds = 0;
 };
 

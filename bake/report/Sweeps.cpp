@@ -1,6 +1,6 @@
 #include "bake/report/PairStudy.h"
 
-#include "bake/table/Query.h"
+#include "bake/base/Parallel.h"
 
 #include <chrono>
 #include <cmath>
@@ -55,29 +55,30 @@ std::vector<std::vector<double>> motionSteps(const SceneModel& scene, const Pair
     return values;
 }
 
-RegionStudy regionOf(const Problem& problem, const Rival& model, int bins, int samples, std::uint64_t seed) {
-    RegionStudy region;
-    const std::size_t leading = leadingDof(problem);
-    const Dof& dof = problem.motion.dofs[leading];
+template <class Touches>
+RegionCurve regionOf(const Motion& motion, std::size_t leading, int bins, int samples, std::uint64_t seed,
+                     const Touches& touches) {
+    const Dof& dof = motion.dofs[leading];
     const double step = (dof.upper - dof.lower) / bins;
-    std::mt19937_64 random(seed);
-    bool found = false;
-    for (int k = 0; k < bins; ++k) {
-        int hits = 0;
+    std::vector<int> hits(static_cast<std::size_t>(bins), 0);
+    parallelFor(hits.size(), [&](std::size_t k) {
+        std::mt19937_64 random(seed + k);
         for (int s = 0; s < samples; ++s) {
             PoseQuery query;
-            for (const Dof& d : problem.motion.dofs)
+            for (const Dof& d : motion.dofs)
                 query.q.push_back(std::uniform_real_distribution<double>(d.lower, d.upper)(random));
-            query.q[leading] = dof.lower + step * (k + static_cast<double>(s) / samples);
-            query.pose = pose(problem.motion, query.q);
-            hits += model.hit(query) ? 1 : 0;
+            query.q[leading] = dof.lower + step * (static_cast<double>(k) + (s + 0.5) / samples);
+            query.pose = pose(motion, query.q);
+            hits[k] += touches(query) ? 1 : 0;
         }
+    });
+    RegionCurve region;
+    for (int k = 0; k < bins; ++k) {
         region.middle.push_back((dof.lower + step * (k + 0.5)) * degreesPer(dof));
-        region.share.push_back(static_cast<double>(hits) / samples);
-        if (hits == 0) continue;
-        if (!found) region.lower = (dof.lower + step * k) * degreesPer(dof);
+        region.share.push_back(static_cast<double>(hits[static_cast<std::size_t>(k)]) / samples);
+        if (region.share.back() == 0) continue;
+        if (region.upper == region.lower) region.lower = (dof.lower + step * k) * degreesPer(dof);
         region.upper = (dof.lower + step * (k + 1)) * degreesPer(dof);
-        found = true;
     }
     return region;
 }
@@ -95,27 +96,6 @@ double missedShare(const Rival& whole, const Rival& table, const std::vector<Pos
 
 } // namespace
 
-void studyPaper(PairStudy& study, const Model& model, const ReportOptions& options) {
-    Recipe recipe;
-    recipe.name = "the paper's";
-    recipe.spheres = SphereMethod::Growth;
-    recipe.search = SearchMethod::Sampled;
-    recipe.reduce = ReduceMethod::Cooccurrence;
-    recipe.samples = options.quick ? 1000 : 10000;
-    const auto paper = makeModel(model.problem.meshA, model.problem.meshB, model.problem.motion, recipe);
-    const Table& table = paper->problem.table;
-    study.paper = {0,
-                   paper->problem.a.size(),
-                   paper->problem.b.size(),
-                   table.a.size(),
-                   table.b.size(),
-                   table.testCount(),
-                   0,
-                   0,
-                   paper->sphereSeconds,
-                   paper->tableSeconds};
-}
-
 void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, const Model& model,
                 const MeshTruth& truth, const ReportOptions& options, int steps) {
     const Problem& problem = model.problem;
@@ -124,8 +104,10 @@ void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, con
     study.leadingDof = dof.name;
     study.leadingUnit = dof.kind == DofKind::Rotation ? "degrees" : "of its axis";
     const auto whole = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
-    study.region =
-        regionOf(problem, *whole, options.quick ? 64 : 180, options.quick ? 32 : 200, options.seed + 4);
+    study.region.spheres = regionOf(problem.motion, leading, 76, 400, options.seed + 4,
+                                    [&](const PoseQuery& query) { return whole->hit(query); });
+    study.region.meshes = regionOf(problem.motion, leading, 76, options.quick ? 30 : 200, options.seed + 5,
+                                   [&](const PoseQuery& query) { return truth.touches(query.pose); });
 
     const auto queries =
         poseQueries(problem.motion, motionSteps(scene, pair, problem, options, steps, study.steps.motion));
@@ -133,8 +115,8 @@ void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, con
         const double value = query.q[leading] * degreesPer(dof);
         study.steps.leading.push_back(value);
         study.steps.touching.push_back(truth.touches(query.pose) ? 1 : 0);
-        study.steps.inRegion.push_back(value >= study.region.lower && value <= study.region.upper &&
-                                       study.region.upper > study.region.lower);
+        study.steps.inRegion.push_back(study.region.spheres.contains(value));
+        study.steps.inMeshRegion += study.region.meshes.contains(value) ? 1 : 0;
     }
     std::vector<std::pair<std::string, std::unique_ptr<Rival>>> methods;
     methods.emplace_back("all pairs, until the first hit", makeAllPairs(problem));
@@ -168,39 +150,21 @@ void studySampling(PairStudy& study, const Model& model, const ReportOptions& op
                                             return whole->hit({{}, at});
                                         },
                                         problem.motion, options.quick ? 600 : 4000, 1e-6, options.seed + 6));
-    const Spheres spheresA{problem.a, problem.fitA}, spheresB{problem.b, problem.fitB};
-    for (const std::size_t samples : options.quick
-                                         ? std::vector<std::size_t>{30, 300, 3000}
-                                         : std::vector<std::size_t>{30, 100, 300, 1000, 3000, 10000, 30000})
+    for (const int samples :
+         options.quick ? std::vector{30, 300, 3000} : std::vector{30, 100, 300, 1000, 3000, 10000, 30000})
         for (const auto& [reduce, name] :
              {std::pair{ReduceMethod::Cooccurrence, "cooccurrence"}, std::pair{ReduceMethod::None, "none"}}) {
             Recipe recipe = model.recipe;
-            recipe.search = SearchMethod::Sampled;
-            recipe.reduce = reduce;
-            recipe.samples = samples;
-            const auto sampled =
-                makeModel(problem.meshA, problem.meshB, problem.motion, recipe, spheresA, spheresB);
+            recipe.options.search = SearchMethod::Sampled;
+            recipe.options.reduce = reduce;
+            recipe.options.samples = samples;
+            const auto sampled = makeModel(model, recipe);
             const auto table = makePairList(sampled->problem);
-            study.sampling.push_back({samples, name, sampled->problem.table.testCount(),
+            study.sampling.push_back({static_cast<std::size_t>(samples), name,
+                                      sampled->problem.table.testCount(),
                                       missedShare(*whole, *table, uniform), missedShare(*whole, *table, near),
                                       sampled->tableSeconds});
         }
-}
-
-void studyEpsilon(PairStudy& study, const Model& model, const ReportOptions& options) {
-    const Problem& problem = model.problem;
-    const Spheres spheresA{problem.a, problem.fitA}, spheresB{problem.b, problem.fitB};
-    for (const double factor :
-         options.quick ? std::vector{0.0, 0.1, 1.0} : std::vector{0.0, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0}) {
-        Recipe recipe = model.recipe;
-        recipe.epsilon = factor * model.recipe.tolerance;
-        const auto made =
-            factor == 0 ? nullptr
-                        : makeModel(problem.meshA, problem.meshB, problem.motion, recipe, spheresA, spheresB);
-        const Model& point = made ? *made : model;
-        study.epsilons.push_back(
-            {recipe.epsilon, point.problem.table.testCount(), point.lowerBound, point.tableSeconds});
-    }
 }
 
 } // namespace tss::reporting

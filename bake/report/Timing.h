@@ -3,7 +3,7 @@
 
 namespace tss::reporting {
 
-/// Time of one query: median over rounds and the tenth and ninetieth percentile, in nanoseconds.
+/// Processor time of one query: median over rounds and the tenth and ninetieth percentile, in nanoseconds.
 struct Times {
     double median = 0, low = 0, high = 0;
     int rounds = 0;
@@ -14,11 +14,13 @@ struct TimingOptions {
     int rounds = 11;
     double secondsEach = 1.0;   ///< a method that would take longer for all rounds gets fewer, at least 3
     double secondsRound = 2e-3; ///< a method that is quicker repeats the poses until a round takes this long
+    double secondsPass = 0.05;  ///< a method that is slower takes the first of the poses, at least 100
 };
 
 /// Times the loop over the same poses for every method, in one process on one thread: a warm-up, then rounds
-/// in which all methods take turns, so that what disturbs the machine disturbs all of them.
+/// in which all methods take turns, so that what disturbs the machine disturbs all of them. queries: in
+/// random order, so that a slow method's first part stands for all.
 std::vector<Times> timeMethods(const std::vector<const compare::Rival*>& rivals,
-                               const std::vector<compare::PoseQuery>& queries, const TimingOptions& options);
+                               std::span<const compare::PoseQuery> queries, const TimingOptions& options);
 
 } // namespace tss::reporting

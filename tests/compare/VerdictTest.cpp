@@ -63,6 +63,8 @@ TEST_CASE("each method's verdicts agree with the meshes within its own stated er
     rivals.push_back(makePairList(problem));
     rivals.push_back(makePlainTable(problem));
     rivals.push_back(makeKernelTable(problem));
+    rivals.push_back(makeFloatTable(problem));
+    REQUIRE(rivals.back());
     for (const TreeOf of : {TreeOf::All, TreeOf::Used})
         for (const Enclosure enclosure :
              {Enclosure::Box, Enclosure::Points, Enclosure::Balls, Enclosure::CoreSet})
@@ -72,7 +74,7 @@ TEST_CASE("each method's verdicts agree with the meshes within its own stated er
     rivals.push_back(makeHubbard(problem, 3));
     rivals.push_back(makeAdaptiveMedial(problem, 3));
     rivals.push_back(makeOrourkeBadler(problem));
-    for (const FclTree tree : {FclTree::Obbrss, FclTree::Obb, FclTree::Rss, FclTree::Aabb})
+    for (const FclTree tree : {FclTree::Obbrss, FclTree::Obb, FclTree::Aabb})
         rivals.push_back(makeFcl(problem, tree));
     rivals.push_back(makeGimpact(problem));
     const BallTree a = buildBallTree(problem.a, 8, Enclosure::Balls),

@@ -1,0 +1,29 @@
+#pragma once
+#include "bake/report/Plots.h"
+
+namespace tss::reporting {
+
+/// Text as gnuplot reads it between double quotes.
+std::string quoted(const std::string& text);
+
+/// The k-th of twelve colours that are told apart on white.
+const char* colour(std::size_t k);
+
+/// Collects the plots of one study: writes data and script into folder/plots, runs gnuplot, keeps what was
+/// drawn. In a script, FILE stands for the data's name in quotes.
+class Drawing {
+public:
+    /// stem: what the names of all files begin with.
+    Drawing(std::string folder, std::string stem);
+
+    void draw(const std::string& name, const std::string& data, std::string script,
+              const std::string& caption, int width = 900, int height = 560);
+
+    std::vector<Plot> plots;
+    std::string problem; ///< why there are fewer plots than there should be
+
+private:
+    std::string folder_, stem_;
+};
+
+} // namespace tss::reporting

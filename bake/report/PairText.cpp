@@ -1,0 +1,378 @@
+#include "bake/report/Text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace tss::reporting {
+
+namespace {
+
+std::string share(std::size_t part, std::size_t whole) {
+    return whole == 0 ? "–" : part == 0 ? "0" : fmt::format("{} of {}", part, whole);
+}
+
+const Row* findRow(const PairStudy& study, const std::string& method, const std::string& setting) {
+    for (const Row& row : study.rows)
+        if (row.method == method && row.setting == setting) return &row;
+    return nullptr;
+}
+
+/// The first that has a time, of a method that needs no spheres.
+const Row* findMeshRow(const PairStudy& study, const std::string& method) {
+    const Row* row = findRow(study, method, "");
+    return row && row->times.median > 0 ? row : nullptr;
+}
+
+/// Families as a reader wants to meet them; what is not named comes last.
+std::size_t place(const std::string& family) {
+    static const char* const order[] = {"TSS",
+                                        "C-space grid",
+                                        "motion regions",
+                                        "allowed paths",
+                                        "sphere tree, used spheres",
+                                        "sphere tree, all spheres",
+                                        "medial sphere tree",
+                                        "octree sphere tree",
+                                        "O'Rourke-Badler",
+                                        "all pairs",
+                                        "mesh tree (FCL)",
+                                        "mesh tree (Bullet)"};
+    return static_cast<std::size_t>(std::find(std::begin(order), std::end(order), family) -
+                                    std::begin(order));
+}
+
+double farthestEarly(const Row& row) {
+    return std::max(row.uniform.farthestEarly, row.near.farthestEarly);
+}
+double deepestMiss(const Row& row) {
+    return std::max(row.uniform.deepestMiss, row.near.deepestMiss);
+}
+
+std::string firstContactText(const PairStudy& study, const Row& row) {
+    if (row.firstContact.motions == row.firstContact.never) return "never";
+    std::string text = number(study.millimetres * row.firstContact.worstLength) + " mm";
+    if (study.leadingUnit == "degrees") {
+        constexpr double degrees = 180 / 3.14159265358979323846;
+        text += ", " + number(degrees * row.firstContact.worstAngle) + "°";
+    }
+    if (row.firstContact.never)
+        text += fmt::format(" ({} of {} never)", row.firstContact.never, row.firstContact.motions);
+    return text;
+}
+
+std::string methodTable(const PairStudy& study) {
+    const double mm = study.millimetres;
+    std::string text =
+        "| method | missed, uniform | missed, near contact | deepest missed, mm | early, uniform | "
+        "farthest early, mm | promised: miss / early, mm | first contact off by | time a query "
+        "(p10–p90) | tests | bytes | built in, s |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+    std::vector<const Row*> rows;
+    for (const Row& row : study.rows)
+        if (row.setting.empty() || row.setting == study.base.name) rows.push_back(&row);
+    std::stable_sort(rows.begin(), rows.end(), [](const Row* a, const Row* b) {
+        return place(a->about.family) < place(b->about.family);
+    });
+    for (const Row* row : rows) {
+        const compare::StatedError& promised = row->about.stated;
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} / {} | {} | {} | {} | {} | {} |\n",
+                            row->method, share(row->uniform.missed, row->uniform.touching),
+                            share(row->near.missed, row->near.touching),
+                            row->misses() ? number(mm * deepestMiss(*row)) : "",
+                            share(row->uniform.early, row->uniform.poses - row->uniform.touching),
+                            row->uniform.early + row->near.early ? number(mm * farthestEarly(*row)) : "",
+                            orDash(mm * promised.miss), orDash(mm * promised.early),
+                            firstContactText(study, *row), timeText(row->times), orDash(row->tests),
+                            bytesText(row->about.bytes), number(row->about.buildSeconds));
+    }
+    return text;
+}
+
+/// What lies on the front of the plot, in words.
+std::string frontText(const PairStudy& study) {
+    const double mm = study.millimetres;
+    // What errs by less than the plot can show has no error here either.
+    const auto worst = [mm](const Row& row) { return std::max(1e-4, mm * row.worst()); };
+    std::string text = "On the front:";
+    for (const Row* row : paretoFront(
+             study.rows, [](const Row& r) { return r.times.median; }, worst))
+        text += fmt::format("{} {}{} ({}, {} mm{})", text.back() == ':' ? "" : ";", row->method,
+                            row->setting.empty() ? "" : fmt::format(" with {}", row->setting),
+                            timeText(row->times.median), number(mm * row->worst()),
+                            row->misses() ? fmt::format(", {} contacts missed", row->misses()) : "");
+    return text + ".\n\n";
+}
+
+/// One line a model: what the table costs and errs, and how its rivals over the same spheres or on the meshes
+/// compare.
+std::string ratioTable(const PairStudy& study) {
+    const Row* fcl = findMeshRow(study, "fcl-obbrss");
+    const Row* bullet = findMeshRow(study, "bullet-gimpact");
+    std::string text =
+        "| spheres | tests | missed | deepest missed, mm | early, uniform | farthest early, mm | "
+        "time a query (p10–p90) | its loop over indices | sphere tree of all | FCL, OBB and RSS | "
+        "Bullet GImpact |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+    const auto add = [&](const BakePoint& point) {
+        const Row* ours = findRow(study, "tss", point.name);
+        if (!ours || !(ours->times.median > 0)) return;
+        const auto against = [&](const Row* row) {
+            return row && row->times.median > 0
+                       ? fmt::format("{}×", number(row->times.median / ours->times.median))
+                       : std::string("–");
+        };
+        text += fmt::format(
+            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
+            point.name == study.base.name ? "**" + point.name + "**" : point.name, point.tests,
+            share(ours->misses(), ours->uniform.touching + ours->near.touching),
+            ours->misses() ? number(study.millimetres * deepestMiss(*ours)) : "",
+            share(ours->uniform.early, ours->uniform.poses - ours->uniform.touching),
+            ours->uniform.early + ours->near.early ? number(study.millimetres * farthestEarly(*ours)) : "",
+            timeText(ours->times), against(findRow(study, "tss-scalar", point.name)),
+            against(findRow(study, "tree-all-8-balls", point.name)), against(fcl), against(bullet));
+    };
+    for (const BakePoint& point : study.tolerances) add(point);
+    for (const BakePoint& point : study.epsilons)
+        if (point.name != study.base.name) add(point);
+    for (const BakePoint& point : study.recipes) add(point);
+    return text;
+}
+
+/// What this project set out to reach, and whether the base's table does.
+std::string goalsText(const PairStudy& study) {
+    const Row* ours = findRow(study, "tss", study.base.name);
+    if (!ours || !(ours->times.median > 0)) return "";
+    std::string text = "Goals of this project, with the table of " + study.base.name + ":";
+    const auto goal = [&](const Row* row, const std::string& what, double times) {
+        if (!row || !(row->times.median > 0)) return;
+        const double ratio = row->times.median / ours->times.median;
+        text += fmt::format("{} {} in at least {} times the table's time: {}, {}reached",
+                            text.back() == ':' ? "" : ";", what, number(times), number(ratio),
+                            ratio >= times ? "" : "not ");
+    };
+    goal(findMeshRow(study, "fcl-obbrss"), "FCL's first hit", 5000);
+    goal(findRow(study, "tree-all-8-balls", study.base.name), "the sphere tree", 500);
+    goal(findRow(study, "tree-all-8-balls", "whole bodies"), "the sphere tree over whole bodies", 500);
+    goal(findRow(study, "tss-scalar", study.base.name), "the scalar loop over indices", 10);
+    text += ".";
+    const Row* fcl = findMeshRow(study, "fcl-obbrss");
+    if (fcl && study.fclDirectly.median > 0)
+        text += fmt::format(
+            " FCL is not slowed down by being asked through this report: its row takes {} times what it "
+            "takes when called directly ({}).",
+            number(fcl->times.median / study.fclDirectly.median), timeText(study.fclDirectly.median));
+    return text + "\n";
+}
+
+/// When to choose what, from the figures above and nothing else.
+std::string advice(const PairStudy& study) {
+    const Row* ours = findRow(study, "tss", study.base.name);
+    if (!ours || !(ours->times.median > 0)) return "";
+    const double mm = study.millimetres;
+    std::string text;
+    const Row* winner = nullptr;
+    for (const Row& row : study.rows) {
+        if (row.about.family != "C-space grid") continue;
+        const Row* table = findRow(study, "tss", row.setting);
+        if (!table) continue;
+        const bool faster = row.times.median < table->times.median,
+                   right = row.worst() <= 1.1 * table->worst();
+        if (faster && right && (!winner || row.times.median < winner->times.median)) winner = &row;
+        text += fmt::format(
+            "- {} over the spheres of {}: {} and {} against the table's {} and {}; it misses {} "
+            "contacts, the deepest by {} mm, and is early by {} mm at most (the table: {}, {} and "
+            "{} mm). {}\n",
+            row.method, row.setting, timeText(row.times.median), bytesText(row.about.bytes),
+            timeText(table->times.median), bytesText(table->about.bytes), row.misses(),
+            number(mm * deepestMiss(row)), number(mm * farthestEarly(row)), table->misses(),
+            number(mm * deepestMiss(*table)), number(mm * farthestEarly(*table)),
+            faster && right ? "**Here the grid wins.**"
+            : faster        ? "Quicker, but not as right."
+            : right         ? "As right, but not quicker."
+                            : "Neither quicker nor as right.");
+    }
+    text +=
+        winner
+            ? "\nWhere only yes or no is wanted, memory is no matter and no bound is needed, take the **grid "
+              "of gaps** here: its time does not depend on the shape. It knows no contact point, its memory "
+              "grows with the power of the DOFs, and it misses contacts near the border.\n\n"
+            : "\nA **grid of gaps** does not win here by the figures above. Over one or two DOFs, where "
+              "memory is cheap and only yes or no is wanted, it often does.\n\n";
+    return text + "Take the **table** where the motion is constrained and known when baking, every frame "
+                  "asks, and it "
+                  "must be known how wrong an answer can be; it also gives gap, contact point, normal and "
+                  "gradient. Take a "
+                  "**mesh tree** (FCL, Bullet) where the motion is free, or where the exact answer of the "
+                  "triangles is "
+                  "wanted and its time does not matter. A **sphere tree** serves where spheres are wanted "
+                  "and the motion "
+                  "is not known beforehand. **Angular regions** and **allowed paths** are next to free of "
+                  "cost, and right "
+                  "for a single DOF only.\n";
+}
+
+std::string paperTable(const PairStudy& study) {
+    const BakePoint& ours = study.base;
+    std::string head = "| | the paper: dog's skull + mandible |", rule = "|---|---|", spheres, used, tests,
+                products;
+    const auto column = [&](const std::string& title, const BakePoint& point) {
+        head += fmt::format(" {} |", title);
+        rule += "---|";
+        spheres += fmt::format(" {} + {} |", point.spheresA, point.spheresB);
+        used += fmt::format(" {} + {} |", point.usedA, point.usedB);
+        tests += fmt::format(" {} |", point.tests);
+        products += fmt::format(" {} |", 4 * point.tests);
+    };
+    for (const BakePoint& recipe : study.recipes)
+        if (recipe.name == "paper") column("the paper's recipe on this pair", recipe);
+    column(fmt::format("this software: {}, every pose proven", ours.name), ours);
+    std::string text = head + "\n" + rule + "\n| spheres | 1158 + 812 |" + spheres +
+                       "\n| spheres used | 9 + 22 |" + used + "\n| tests a step | 22 |" + tests +
+                       "\n| products a step | 88 |" + products + "\n\n";
+    if (ours.lowerBound > 0)
+        text += fmt::format(
+            "No table that gives the answers of these spheres at every pose has fewer than {} tests. ",
+            number(ours.lowerBound));
+    const StepStudy& steps = study.steps;
+    const auto shareOf = [&](std::size_t part) {
+        return 100 * static_cast<double>(part) /
+               static_cast<double>(std::max<std::size_t>(1, steps.leading.size()));
+    };
+    text += fmt::format(
+        "Steps in the angular region of collision: {:.0f} % of {} along {} by the meshes, {:.0f} % by the "
+        "spheres of {} "
+        "(the paper: 22 %). The pairs and their limits are not the same: the counts say of what size such "
+        "tables are, "
+        "not which method is better.\n",
+        shareOf(steps.inMeshRegion), steps.leading.size(), steps.motion,
+        shareOf(static_cast<std::size_t>(std::count(steps.inRegion.begin(), steps.inRegion.end(), char{1}))),
+        ours.name);
+    return text;
+}
+
+std::string sizeTable(const PairStudy& study) {
+    const double mm = study.millimetres;
+    std::string text = "| model | tolerance, mm | ε, mm | sticks out by, mm | spheres | used | tests | lower "
+                       "bound | bytes | spheres, s | "
+                       "table, s |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+    const auto add = [&](const BakePoint& p) {
+        text +=
+            fmt::format("| {} | {} | {} | {} | {} + {} | {} + {} | {} | {} | {} | {} | {} |\n",
+                        p.name == study.base.name ? "**" + p.name + "**" : p.name, number(p.tolerance * mm),
+                        number(p.epsilon * mm), number(p.protrusion * mm), p.spheresA, p.spheresB, p.usedA,
+                        p.usedB, p.tests, p.lowerBound > 0 ? number(p.lowerBound) : "–", bytesText(p.bytes),
+                        number(p.sphereSeconds), number(p.tableSeconds));
+    };
+    for (const BakePoint& point : study.tolerances) add(point);
+    for (const BakePoint& point : study.epsilons)
+        if (point.name != study.base.name) add(point);
+    for (const BakePoint& point : study.recipes) add(point);
+    text += "\n";
+    for (const BakePoint& point : study.recipes)
+        text +=
+            fmt::format("- **{}**: {}{}.\n", point.name, point.about,
+                        point.restTests ? fmt::format(", {} of {} tests", point.restTests, point.tests) : "");
+    return text;
+}
+
+std::string samplingTable(const PairStudy& study) {
+    std::string text =
+        "What tables from a sampled search miss of the poses at which the same spheres collide:\n\n"
+        "| poses explored | reduction | tests | missed, uniform | missed, near contact | table, s |\n"
+        "|---|---|---|---|---|---|\n";
+    for (const SamplingPoint& p : study.sampling)
+        text += fmt::format("| {} | {} | {} | {:.3g} % | {:.3g} % | {} |\n", p.samples,
+                            p.reduce == "none" ? "none" : "co-occurrence (the paper's)", p.tests,
+                            100 * p.missedUniform, 100 * p.missedNear, number(p.seconds));
+    return text;
+}
+
+std::string whatTheyAre(const PairStudy& study) {
+    std::string text;
+    std::vector<std::string> said;
+    for (const Row& row : study.rows) {
+        if (std::find(said.begin(), said.end(), row.method) != said.end()) continue;
+        if (!row.setting.empty() && row.setting != study.base.name) continue;
+        said.push_back(row.method);
+        text += fmt::format("- **{}**: {}.\n", row.method, row.about.about);
+    }
+    return text;
+}
+
+std::string facts(const PairStudy& study) {
+    std::string text = fmt::format("{} ({} triangles) moves against {} ({} triangles)", study.nameB,
+                                   study.trianglesB, study.nameA, study.trianglesA);
+    for (std::size_t k = 0; k < study.dofs.size(); ++k) text += (k ? ", " : " by ") + study.dofs[k];
+    text += ".\n\n";
+    if (study.neverCollides) return text;
+    text += fmt::format(
+        "Judged at {} poses spread uniformly over the limits, {} of them touching, and at {} poses near "
+        "contact, both ends of segments bisected to a millionth of the limits; timed at the first {} of "
+        "the uniform poses (slow methods at fewer, at least 100). Contact at rest counts as contact, as "
+        "the meshes say.",
+        study.uniformPoses, study.touchingUniform, study.nearPoses, study.timedPoses);
+    if (study.earlyBound > 0)
+        text += fmt::format(
+            " At {} of the {} free ones the meshes are nearer than {} mm, the early bound of the table "
+            "with spheres of {}: only there may it report contact early.",
+            study.freeWithinBound, study.uniformPoses - study.touchingUniform,
+            number(study.earlyBound * study.millimetres), study.base.name);
+    if (study.leftOut)
+        text += fmt::format(
+            " {} poses were left out: a closed part of one body is wholly inside the other there, which "
+            "is contact for solids and none for surfaces.",
+            study.leftOut);
+    return text + "\n\n";
+}
+
+} // namespace
+
+std::string pairText(const PairStudy& study, const std::vector<Plot>& plots) {
+    std::string text = fmt::format("## {}\n\n", study.path) + facts(study);
+    if (study.neverCollides)
+        return text +
+               fmt::format(
+                   "The two can never meet within these limits: their surfaces stay {} mm apart at every "
+                   "pose, proven. No table is needed and no method has anything to find.\n\n",
+                   number(study.clearance * study.millimetres));
+    text += "### Beside the paper\n\n" + paperTable(study) + "\n### Error against run time\n\n" +
+            pictureText(plots, "pareto") + frontText(study) + pictureText(plots, "verdicts") +
+            fmt::format("All methods, those on spheres with the spheres of {}:\n\n", study.base.name) +
+            methodTable(study) +
+            "\nMissed: poses where the meshes touch and the method says free; how deep: the deepest vertex "
+            "of one mesh "
+            "inside the other, 0 where only edges cross. Early: free poses where it says contact; how far: "
+            "the distance "
+            "of the meshes. Promised: what holds for every pose within the limits, – where nothing is "
+            "promised. First "
+            "contact: along straight ways from a free to a touching pose, how far the farthest point of the "
+            "moving body "
+            "is at worst from where the meshes first touch";
+    text += study.leadingUnit == "degrees" ? fmt::format(", and the angle of {} in between", study.leadingDof)
+                                           : "";
+    text += ". Tests: of two spheres, a query, 4 products each as the paper counts; a table makes all of its "
+            "tests in "
+            "every query, the others stop at the first hit.\n\n### How much quicker, at which error\n\n"
+            "The table for each model, and how many times its time others take. The loop over indices is the "
+            "same table "
+            "as the paper runs it, the sphere tree stands on the same spheres; FCL and Bullet answer for the "
+            "triangles "
+            "and have no error.\n\n" +
+            ratioTable(study) + "\n" + goalsText(study) + "\n### When to choose what\n\n" + advice(study) +
+            "\n### Along a motion\n\n" + pictureText(plots, "steps") + pictureText(plots, "region");
+    for (const auto& [region, whose] : {std::pair(&study.region.meshes, std::string("meshes")),
+                                        std::pair(&study.region.spheres, "spheres of " + study.base.name)})
+        text += region->upper > region->lower
+                    ? fmt::format("The angular region of collision of the {} is {:.3g} to {:.3g} {} of {}.\n",
+                                  whose, region->lower, region->upper, study.leadingUnit, study.leadingDof)
+                    : fmt::format("There is no angular region of collision of the {}: nothing collided.\n",
+                                  whose);
+    text += "\n";
+    text += "### Sweeps\n\n" + sizeTable(study) + "\n" + pictureText(plots, "bake") +
+            pictureText(plots, "epsilon") + pictureText(plots, "memory") + samplingTable(study) + "\n" +
+            pictureText(plots, "sampling") + "### What each method is\n\n" + whatTheyAre(study);
+    if (!study.notRun.empty()) text += "\n### What was not run\n\n" + notRunText(study.notRun);
+    return text + "\n";
+}
+
+} // namespace tss::reporting

@@ -1,0 +1,24 @@
+#pragma once
+#include "bake/report/Report.h"
+
+namespace tss::reporting {
+
+// Pieces of report.md.
+
+/// Three digits, thousands as they are.
+std::string number(double value);
+/// The same, or a dash for what is not known (< 0).
+std::string orDash(double value);
+/// "12.3 ns", "4.5 µs".
+std::string timeText(double nanoseconds);
+/// With the tenth and ninetieth percentile.
+std::string timeText(const Times& times);
+std::string bytesText(std::size_t bytes);
+std::string notRunText(const std::vector<NotRun>& notRun);
+/// The plot whose file name has this part, with its caption; nothing where it was not drawn.
+std::string pictureText(const std::vector<Plot>& plots, const std::string& part);
+
+std::string pairText(const PairStudy& study, const std::vector<Plot>& plots);
+std::string skinText(const SkinStudy& study, const std::vector<Plot>& plots);
+
+} // namespace tss::reporting
