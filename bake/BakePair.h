@@ -1,5 +1,6 @@
 #pragma once
 #include "bake/Bake.h"
+#include "bake/search/SkinSearch.h"
 #include "bake/spheres/GenerateSpheres.h"
 
 namespace tss {
@@ -28,6 +29,14 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
 /// person should know goes into the report.
 void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairReport& report,
               const Progress& progress);
+
+/// The muscles of a skin, filled with spheres.
+struct FilledMuscles {
+    std::vector<std::shared_ptr<const MuscleDeformer>> deformers;
+    std::vector<SkinSearchMuscle> searched; ///< point to the deformers
+};
+FilledMuscles fillMuscles(const SceneModel& scene, const SkinModel& skin, const BakeOptions& options,
+                          PairReport& report, const Progress& progress = {});
 
 /// One skin from its muscles to the rows that they can reach (METHOD 6.2).
 void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, PairReport& report,

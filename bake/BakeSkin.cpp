@@ -9,13 +9,11 @@
 
 namespace tss {
 
-void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, PairReport& report,
-              const Progress& progress) {
-    const TriangleMesh& mesh = scene.bodies[skin.body].mesh;
-    if (mesh.empty()) throw InputError("expected a mesh, the skin has none");
-    const auto deformers = skinMuscles(scene, skin);
-    std::vector<SkinSearchMuscle> muscles;
-    for (const auto& deformer : deformers) {
+FilledMuscles fillMuscles(const SceneModel& scene, const SkinModel& skin, const BakeOptions& options,
+                          PairReport& report, const Progress& progress) {
+    FilledMuscles filled;
+    filled.deformers = skinMuscles(scene, skin);
+    for (const auto& deformer : filled.deformers) {
         const TriangleMesh& surface = deformer->muscle().surface;
         SphereOptions how;
         how.method = options.spheres;
@@ -24,13 +22,21 @@ void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, Pa
         how.conservative = options.conservative;
         const SphereFit fit = fitSpheres(cleaned(surface), how, progress);
         if (!fit.note.empty()) report.notes.push_back(fit.note);
-        muscles.push_back({deformer.get(), roundToFloat(fit.spheres)});
+        filled.searched.push_back({deformer.get(), roundToFloat(fit.spheres)});
     }
+    return filled;
+}
+
+void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, PairReport& report,
+              const Progress& progress) {
+    const TriangleMesh& mesh = scene.bodies[skin.body].mesh;
+    if (mesh.empty()) throw InputError("expected a mesh, the skin has none");
+    const FilledMuscles filled = fillMuscles(scene, skin, options, report, progress);
     SkinSearchOptions search;
     search.thickness = floatAbove(2 * (skin.thickness > 0 ? skin.thickness : skinThickness(mesh))) / 2.0;
     search.travel = skin.travel;
     SkinSearchCounts counts;
-    auto table = std::make_shared<SkinTable>(searchSkin(mesh, muscles, search, progress, &counts));
+    auto table = std::make_shared<SkinTable>(searchSkin(mesh, filled.searched, search, progress, &counts));
     if (counts.stopped) throw InputError("stopped before the table was complete");
     table->table.record.spheresA = counts.skinSpheres;
     table->table.record.spheresB = counts.muscleSpheres;

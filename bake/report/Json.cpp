@@ -162,7 +162,27 @@ Json jsonOf(const SkinStudy& study) {
                                    {"early", method.early},
                                    {"deepestMissMm", method.deepestMiss * mm},
                                    {"farthestEarlyMm", method.farthestEarly * mm},
+                                   {"testsAtEachActivation", method.perStep},
                                    {"times", {{"medianNs", method.nanoseconds}}}});
+    const SkinMotionStudy& motion = study.motion;
+    Json answers = Json::array();
+    for (const SkinAnswer& a : motion.answers)
+        answers.push_back({{"sweeps", a.sweeps},
+                           {"usual", a.usual},
+                           {"deepestMm", a.deepest * mm},
+                           {"meanDepthMm", a.meanDepth * mm},
+                           {"farthestFromConvergedMm", a.farthest * mm},
+                           {"rmsFromConvergedMm", a.rms * mm},
+                           {"areaChange", a.areaChange},
+                           {"times", {{"medianNs", a.nanoseconds}}}});
+    json["motion"] = {{"about", motion.motion},
+                      {"steps", motion.steps},
+                      {"verticesThatMove", motion.touched},
+                      {"deepestIfAtRestMm", motion.untouched * mm},
+                      {"deepestConvergedMm", motion.converged * mm},
+                      {"farthestMoveMm", motion.farthestMove * mm},
+                      {"muscleVolumeChange", motion.muscleVolume},
+                      {"answers", answers}};
     json["notRun"] = notRunOf(study.notRun);
     return json;
 }

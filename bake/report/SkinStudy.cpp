@@ -1,13 +1,9 @@
 #include "bake/report/SkinStudy.h"
 
-#include "bake/BakeOptions.h"
-#include "bake/SkinSetup.h"
+#include "bake/BakePair.h"
 #include "bake/base/Parallel.h"
 #include "bake/compare/Ellipsoid.h"
-#include "bake/geometry/MeshAudit.h"
 #include "bake/search/SkinSearch.h"
-#include "bake/spheres/GenerateSpheres.h"
-#include "bake/spheres/RoundToFloat.h"
 
 #include <algorithm>
 #include <chrono>
@@ -26,6 +22,7 @@ struct Step {
     SphereSet muscle;                      ///< spheres of all muscles, in the table's order
     std::vector<BentEllipsoid> ellipsoids; ///< one a muscle, fitted to its surface here
     std::vector<double> distances;         ///< #skin: from each vertex to the muscles, negative inside
+    double activation = 0;                 ///< mean over the muscles
 };
 
 struct Setting {
@@ -155,6 +152,7 @@ void judge(SkinMethod& method, const Setting& setting, const Method& run) {
     for (const Step& step : setting.steps) {
         Found found(setting.skin.size(), 0);
         const Work work = run(step, found);
+        method.perStep.push_back(static_cast<double>(work.tests));
         method.tests += static_cast<double>(work.tests) / setting.steps.size();
         method.products += static_cast<double>(work.products) / setting.steps.size();
         for (std::size_t v = 0; v < found.size(); ++v) {
@@ -170,9 +168,9 @@ void judge(SkinMethod& method, const Setting& setting, const Method& run) {
         }
         std::vector<double> rounds;
         for (int round = 0; round < 5; ++round) {
-            const auto start = Clock::now();
+            const double start = threadSeconds();
             run(step, found);
-            rounds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - start).count());
+            rounds.push_back(1e9 * (threadSeconds() - start));
         }
         std::sort(rounds.begin(), rounds.end());
         times.push_back(rounds[2]);
@@ -182,10 +180,14 @@ void judge(SkinMethod& method, const Setting& setting, const Method& run) {
 }
 
 Step makeStep(const Setting& setting, const std::vector<std::shared_ptr<const MuscleDeformer>>& deformers,
-              const std::vector<MuscleTrack>& tracks, const std::vector<SphereSet>& rest, double activation) {
+              const std::vector<MuscleTrack>& tracks, const std::vector<SphereSet>& rest, double share) {
     Step step;
     step.distances.assign(setting.skin.size(), std::numeric_limits<double>::infinity());
     for (std::size_t m = 0; m < deformers.size(); ++m) {
+        const Muscle& muscle = deformers[m]->muscle();
+        const double activation =
+            muscle.activationLower + share * (muscle.activationUpper - muscle.activationLower);
+        step.activation += activation / static_cast<double>(deformers.size());
         const TrackPlace place = locate(tracks[m].nodes, activation);
         for (std::size_t s = 0; s < rest[m].size(); ++s)
             step.muscle.push_back({trackPosition(tracks[m], place, s),
@@ -228,23 +230,20 @@ SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const Report
     study.path = skin.path;
     study.millimetres = 1000 * scene.metersPerUnit;
     const TriangleMesh& mesh = scene.bodies[static_cast<std::size_t>(skin.body)].mesh;
-    const auto deformers = skinMuscles(scene, skin);
-    std::vector<SkinSearchMuscle> searched;
+    const BakeOptions settings = optionsFor(skin.settings, {}, scene.metersPerUnit);
+    PairReport notes;
+    const FilledMuscles filled = fillMuscles(scene, skin, settings, notes);
+    const auto& deformers = filled.deformers;
     std::vector<SphereSet> rest;
     std::vector<MuscleTrack> tracks;
-    const BakeOptions given = optionsFor(skin.settings, {}, scene.metersPerUnit);
-    for (const auto& deformer : deformers) {
-        const TriangleMesh surface = cleaned(deformer->muscle().surface);
-        SphereOptions how;
-        how.tolerance = given.tolerance.value_or(bounds(surface).diagonal().norm() / 100);
-        rest.push_back(roundToFloat(fitSpheres(surface, how).spheres));
-        searched.push_back({deformer.get(), rest.back()});
+    for (const SkinSearchMuscle& muscle : filled.searched) {
+        rest.push_back(muscle.spheres);
         std::vector<MusclePoint> points;
-        for (const Sphere& sphere : rest.back()) points.push_back(deformer->bind(sphere.centre));
-        tracks.push_back(makeTrack(
-            *deformer, points,
-            activationNodes(deformer->muscle().activationLower, deformer->muscle().activationUpper)));
-        study.muscleSpheres += rest.back().size();
+        for (const Sphere& sphere : muscle.spheres) points.push_back(muscle.deformer->bind(sphere.centre));
+        tracks.push_back(makeTrack(*muscle.deformer, points,
+                                   activationNodes(muscle.deformer->muscle().activationLower,
+                                                   muscle.deformer->muscle().activationUpper)));
+        study.muscleSpheres += muscle.spheres.size();
     }
     study.muscles = deformers.size();
 
@@ -253,18 +252,19 @@ SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const Report
     search.path = SkinPath::AtRest;
     search.facingOnly = false;
     SkinSearchCounts counts;
-    const SkinTable atRest = searchSkin(mesh, searched, search, {}, &counts);
+    const SkinTable atRest = searchSkin(mesh, filled.searched, search, {}, &counts);
     study.skinSpheres = counts.skinSpheres;
     study.usedSkin = counts.usedSkin;
     study.usedMuscle = counts.usedMuscle;
     study.tests = counts.tests;
-    search.path = SkinPath::Carried;
-    search.facingOnly = true;
-    search.travel = skin.travel;
-    searchSkin(mesh, searched, search, {}, &counts);
-    study.carriedSkin = counts.usedSkin;
-    study.carriedMuscle = counts.usedMuscle;
-    study.carriedTests = counts.tests;
+
+    SceneModel baked = scene;
+    SkinModel carried = skin;
+    bakeSkin(baked, carried, settings, notes, {});
+    const UsedSpheres used = usedSpheres(carried.table->table);
+    study.carriedSkin = used.a;
+    study.carriedMuscle = used.b;
+    study.carriedTests = carried.table->table.testCount();
 
     Setting setting;
     study.thickness = skin.thickness > 0 ? skin.thickness : skinThickness(mesh);
@@ -273,12 +273,8 @@ SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const Report
     study.activations = options.quick ? 9 : 33;
     for (int k = 0; k < study.activations; ++k) {
         const double share = static_cast<double>(k) / (study.activations - 1);
-        double low = 0, high = 1;
-        if (!deformers.empty()) {
-            low = deformers[0]->muscle().activationLower;
-            high = deformers[0]->muscle().activationUpper;
-        }
-        setting.steps.push_back(makeStep(setting, deformers, tracks, rest, low + share * (high - low)));
+        setting.steps.push_back(makeStep(setting, deformers, tracks, rest, share));
+        study.activation.push_back(setting.steps.back().activation);
         for (std::size_t v = 0; v < setting.skin.size(); ++v) {
             ++study.judged;
             study.touching += setting.steps.back().distances[v] <= study.thickness ? 1 : 0;
@@ -287,9 +283,9 @@ SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const Report
 
     std::vector<std::uint32_t> every(setting.skin.size());
     std::iota(every.begin(), every.end(), 0u);
-    SphereSet used;
-    for (const std::uint32_t v : setting.rowVertex) used.push_back(setting.skin[v]);
-    RefittedTree skinAll(setting.skin, 8), skinUsed(used, 8);
+    SphereSet inRows;
+    for (const std::uint32_t v : setting.rowVertex) inRows.push_back(setting.skin[v]);
+    RefittedTree skinAll(setting.skin, 8), skinUsed(inRows, 8);
     RefittedTree muscleAll(setting.steps[0].muscle, 8);
     const auto add = [&](const std::string& name, const std::string& about, const Method& run) {
         SkinMethod method;
@@ -336,6 +332,8 @@ SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const Report
     study.notRun.push_back({"angular region, allowed paths, C-space grid",
                             "one activation a muscle would fit a grid, but each of the vertices needs one of "
                             "its own: that is a stored animation, not a test"});
+    report(progress, skin.path + ": skin in motion", 0.5);
+    study.motion = studySkinMotion(scene, carried, deformers, options.quick);
     study.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return study;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/report/SkinMotion.h"
 #include "bake/report/Study.h"
 
 namespace tss::reporting {
@@ -12,6 +13,7 @@ struct SkinMethod {
     std::size_t early = 0;          ///< found although the muscle is farther
     double deepestMiss = 0;         ///< scene units: how far inside its thickness the worst one is
     double farthestEarly = 0;       ///< scene units: how far beyond its thickness
+    std::vector<double> perStep;    ///< tests at each activation
 };
 
 /// A skin over its muscles (METHOD 6.2, 7): the paper's second example.
@@ -26,7 +28,9 @@ struct SkinStudy {
     int activations = 0;
     double thickness = 0;         ///< radius of a skin sphere, scene units
     double productsEllipsoid = 0; ///< of one test of a sphere against a bent ellipsoid, mean
+    std::vector<double> activation; ///< mean over the muscles, at each step
     std::vector<SkinMethod> methods;
+    SkinMotionStudy motion;
     std::vector<NotRun> notRun;
     double seconds = 0;
 };

@@ -8,13 +8,6 @@ namespace tss::reporting {
 
 namespace {
 
-/// Seconds that this thread has run: another program that takes its turn in between does not count.
-double threadSeconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 struct Plan {
     std::span<const compare::PoseQuery> queries;
     std::size_t repeats = 1;
@@ -34,6 +27,12 @@ double at(const std::vector<double>& sorted, double share) {
 }
 
 } // namespace
+
+double threadSeconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 std::vector<Times> timeMethods(const std::vector<const compare::Rival*>& rivals,
                                std::span<const compare::PoseQuery> queries, const TimingOptions& options) {

@@ -17,6 +17,9 @@ struct TimingOptions {
     double secondsPass = 0.05;  ///< a method that is slower takes the first of the poses, at least 100
 };
 
+/// Seconds that this thread has run: another program that takes its turn in between does not count.
+double threadSeconds();
+
 /// Times the loop over the same poses for every method, in one process on one thread: a warm-up, then rounds
 /// in which all methods take turns, so that what disturbs the machine disturbs all of them. queries: in
 /// random order, so that a slow method's first part stands for all.
