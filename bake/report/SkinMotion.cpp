@@ -17,15 +17,17 @@ using Muscles = std::vector<std::shared_ptr<const MuscleDeformer>>;
 using Activations = std::vector<double>;
 
 /// The scene's own activations, or all of them from their lower end to their upper one and back.
-std::vector<Activations> motionOf(const SceneModel& scene, const SkinModel& skin, const Muscles& muscles, int steps,
-                                  std::string& inWords) {
+std::vector<Activations> motionOf(const SceneModel& scene, const SkinModel& skin, const Muscles& muscles,
+                                  int steps, std::string& inWords) {
     std::vector<Activations> asked;
     bool animated = scene.endTimeCode > scene.startTimeCode;
     if (animated) {
         for (int s = 0; s < steps; ++s)
-            asked.push_back(skinActivations(
-                scene, skin, scene.startTimeCode + (scene.endTimeCode - scene.startTimeCode) * s / (steps - 1)));
-        animated = std::any_of(asked.begin(), asked.end(), [&](const Activations& a) { return a != asked[0]; });
+            asked.push_back(skinActivations(scene, skin,
+                                            scene.startTimeCode +
+                                                (scene.endTimeCode - scene.startTimeCode) * s / (steps - 1)));
+        animated =
+            std::any_of(asked.begin(), asked.end(), [&](const Activations& a) { return a != asked[0]; });
     }
     inWords = animated ? "the scene's own animation" : "all activations up and down again";
     if (animated) return asked;
@@ -33,7 +35,8 @@ std::vector<Activations> motionOf(const SceneModel& scene, const SkinModel& skin
     for (int s = 0; s < steps; ++s) {
         Activations a;
         for (const auto& muscle : muscles) {
-            const double low = std::max(0.0, muscle->muscle().activationLower), high = muscle->muscle().activationUpper;
+            const double low = std::max(0.0, muscle->muscle().activationLower),
+                         high = muscle->muscle().activationUpper;
             a.push_back(low + (1 - std::abs(1 - 2.0 * s / (steps - 1))) * (high - low));
         }
         asked.push_back(std::move(a));
@@ -99,8 +102,8 @@ std::vector<std::vector<Vec3>> convergedSteps(const SceneModel& scene, const Ski
                                               const Muscles& muscles, const std::vector<Activations>& asked) {
     SkinParameters parameters = skinParameters(scene, skin);
     parameters.iterations = 400; // an update goes on where the one before has stopped
-    SkinResponse response(makeSkinRig(scene.bodies[static_cast<std::size_t>(skin.body)].mesh, muscles, *skin.table,
-                                      parameters));
+    SkinResponse response(makeSkinRig(scene.bodies[static_cast<std::size_t>(skin.body)].mesh, muscles,
+                                      *skin.table, parameters));
     std::vector<std::vector<Vec3>> steps;
     for (const Activations& activations : asked) {
         for (int round = 0; round < 25; ++round)
@@ -112,7 +115,8 @@ std::vector<std::vector<Vec3>> convergedSteps(const SceneModel& scene, const Ski
 
 } // namespace
 
-SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, const Muscles& muscles, bool quick) {
+SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, const Muscles& muscles,
+                                bool quick) {
     SkinMotionStudy study;
     const std::vector<Activations> asked = motionOf(scene, skin, muscles, quick ? 37 : 73, study.motion);
     study.steps = asked.size();

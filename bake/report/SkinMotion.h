@@ -9,10 +9,10 @@ namespace tss::reporting {
 
 /// One setting of the run time's answer for a skin, over a whole motion. Lengths in scene units.
 struct SkinAnswer {
-    int sweeps = 0;        ///< most sweeps of the solver an update; 0: the paper's way, sphere pushes sphere
-    bool usual = false;    ///< what applications get
+    int sweeps = 0;         ///< most sweeps of the solver an update; 0: the paper's way, sphere pushes sphere
+    bool usual = false;     ///< what applications get
     double nanoseconds = 0; ///< an update, median over the steps that move; processor time
-    double deepest = 0;    ///< how much deeper than at rest a skin vertex is in a muscle, worst step and vertex
+    double deepest = 0; ///< how much deeper than at rest a skin vertex is in a muscle, worst step and vertex
     double meanDepth = 0;  ///< the same, mean over the steps of the worst vertex
     double farthest = 0;   ///< distance of a vertex to where the converged solve has it, worst
     double rms = 0;        ///< the same, root of the mean square over steps and touched vertices
@@ -24,17 +24,18 @@ struct SkinMotionStudy {
     std::string motion; ///< in words
     std::size_t steps = 0, touched = 0;
     std::vector<SkinAnswer> answers;
-    double untouched = 0;     ///< deepest of the skin that stays at rest while the muscles move, scene units
-    double converged = 0;     ///< deepest of the converged solve
-    double farthestMove = 0;  ///< of a vertex from rest in the converged solve
-    double muscleVolume = 0;  ///< largest change of a muscle's volume, as a fraction
+    double untouched = 0;    ///< deepest of the skin that stays at rest while the muscles move, scene units
+    double converged = 0;    ///< deepest of the converged solve
+    double farthestMove = 0; ///< of a vertex from rest in the converged solve
+    double muscleVolume = 0; ///< largest change of a muscle's volume, as a fraction
     std::vector<double> perStepAsked, perStepUntouched, perStepUsual; ///< mean activation; deepest of each
 };
 
-/// Plays the skin's own motion, or all activations up and down, with solvers of several sweeps and the paper's
-/// pushes, and judges them against the muscles' surfaces and the converged solve (METHOD 8). skin: with its
-/// table.
+/// Plays the skin's own motion, or all activations up and down, with solvers of several sweeps and the
+/// paper's pushes, and judges them against the muscles' surfaces and the converged solve (METHOD 8). skin:
+/// with its table.
 SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin,
-                                const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles, bool quick);
+                                const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
+                                bool quick);
 
 } // namespace tss::reporting

@@ -26,8 +26,8 @@ struct SkinStudy {
                 carriedTests = 0;         ///< the scene's way: skin that is carried
     std::size_t judged = 0, touching = 0; ///< vertices times activations, by the surfaces
     int activations = 0;
-    double thickness = 0;         ///< radius of a skin sphere, scene units
-    double productsEllipsoid = 0; ///< of one test of a sphere against a bent ellipsoid, mean
+    double thickness = 0;           ///< radius of a skin sphere, scene units
+    double productsEllipsoid = 0;   ///< of one test of a sphere against a bent ellipsoid, mean
     std::vector<double> activation; ///< mean over the muscles, at each step
     std::vector<SkinMethod> methods;
     SkinMotionStudy motion;

@@ -8,37 +8,42 @@ namespace {
 
 std::string paperTable(const SkinStudy& study) {
     std::string text = fmt::format(
-        "| | the paper: skin + muscle | this scene, skin at rest (the paper's way) | this scene, skin carried by its "
+        "| | the paper: skin + muscle | this scene, skin at rest (the paper's way) | this scene, skin "
+        "carried by its "
         "muscles (what `tss bake` makes) |\n|---|---|---|---|\n"
         "| spheres | 1426 + 280 | {} + {} | {} + {} |\n| spheres used | 70 + 190 | {} + {} | {} + {} |\n"
         "| tests a step | 268 | {} | {} |\n| products a step | 1072 | {} | {} |\n",
         study.skinSpheres, study.muscleSpheres, study.skinSpheres, study.muscleSpheres, study.usedSkin,
-        study.usedMuscle, study.carriedSkin, study.carriedMuscle, study.tests, study.carriedTests, 4 * study.tests,
-        4 * study.carriedTests);
+        study.usedMuscle, study.carriedSkin, study.carriedMuscle, study.tests, study.carriedTests,
+        4 * study.tests, 4 * study.carriedTests);
     const auto withEllipsoids = [&](std::size_t spheres) {
         return study.productsEllipsoid * static_cast<double>(spheres * study.muscles);
     };
-    return text + fmt::format("| products a step, the same skin spheres against one bent ellipsoid a muscle | 2870 "
-                              "(70 × 41) | {:.0f} ({} × {:.0f}) | {:.0f} |\n",
-                              withEllipsoids(study.usedSkin), study.usedSkin * study.muscles, study.productsEllipsoid,
-                              withEllipsoids(study.carriedSkin));
+    return text +
+           fmt::format("| products a step, the same skin spheres against one bent ellipsoid a muscle | 2870 "
+                       "(70 × 41) | {:.0f} ({} × {:.0f}) | {:.0f} |\n",
+                       withEllipsoids(study.usedSkin), study.usedSkin * study.muscles,
+                       study.productsEllipsoid, withEllipsoids(study.carriedSkin));
 }
 
 std::string methodTable(const SkinStudy& study) {
     const double mm = study.millimetres;
-    std::string text = "| method | tests a step | products a step | time a step | missed | deepest missed, mm | early | "
-                       "farthest early, mm |\n|---|---|---|---|---|---|---|---|\n";
+    std::string text =
+        "| method | tests a step | products a step | time a step | missed | deepest missed, mm | early | "
+        "farthest early, mm |\n|---|---|---|---|---|---|---|---|\n";
     for (const SkinMethod& m : study.methods)
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", m.name, number(m.tests), number(m.products),
-                            timeText(m.nanoseconds), m.missed, m.missed ? number(m.deepestMiss * mm) : "", m.early,
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", m.name, number(m.tests),
+                            number(m.products), timeText(m.nanoseconds), m.missed,
+                            m.missed ? number(m.deepestMiss * mm) : "", m.early,
                             m.early ? number(m.farthestEarly * mm) : "");
     return text;
 }
 
 std::string answerTable(const SkinStudy& study) {
     const double mm = study.millimetres;
-    std::string text = "| sweeps an update | time an update | deepest left, mm | mean of the steps, mm | farthest from "
-                       "converged, mm | rms from converged, mm | area change |\n|---|---|---|---|---|---|---|\n";
+    std::string text =
+        "| sweeps an update | time an update | deepest left, mm | mean of the steps, mm | farthest from "
+        "converged, mm | rms from converged, mm | area change |\n|---|---|---|---|---|---|---|\n";
     for (const SkinAnswer& a : study.motion.answers)
         text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.2f} % |\n",
                             a.sweeps == 0 ? "none: spheres push spheres (the paper's way)"
@@ -54,31 +59,38 @@ std::string answerTable(const SkinStudy& study) {
 std::string skinText(const SkinStudy& study, const std::vector<Plot>& plots) {
     const double mm = study.millimetres;
     const SkinMotionStudy& motion = study.motion;
-    std::string text = fmt::format("## {}\n\nA skin of {} vertices over {} muscle{}.\n\n### Beside the paper\n\n",
-                                   study.path, study.skinSpheres, study.muscles, study.muscles == 1 ? "" : "s");
+    std::string text =
+        fmt::format("## {}\n\nA skin of {} vertices over {} muscle{}.\n\n### Beside the paper\n\n",
+                    study.path, study.skinSpheres, study.muscles, study.muscles == 1 ? "" : "s");
     text += paperTable(study);
-    text += fmt::format(
-        "\nThe meshes are not the same: the counts say of what size such tables are.\n\n"
-        "### Which skin spheres touch a muscle\n\n"
-        "The paper's question, at {} activations: which of the skin's spheres, one a vertex at its rest place with a "
-        "radius of {} mm, touch a muscle? The truth is the distance of the vertex to the muscle's surface: within the "
-        "radius at {} of {} vertices and activations. The spheres stand in for the surface and stick out of it, so "
-        "that sphere methods say so somewhat early; all over the same spheres agree.\n\n",
-        study.activations, number(study.thickness * mm), study.touching, study.judged);
+    text += fmt::format("\nThe meshes are not the same: the counts say of what size such tables are.\n\n"
+                        "### Which skin spheres touch a muscle\n\n"
+                        "The paper's question, at {} activations: which of the skin's spheres, one a vertex "
+                        "at its rest place with a "
+                        "radius of {} mm, touch a muscle? The truth is the distance of the vertex to the "
+                        "muscle's surface: within the "
+                        "radius at {} of {} vertices and activations. The spheres stand in for the surface "
+                        "and stick out of it, so "
+                        "that sphere methods say so somewhat early; all over the same spheres agree.\n\n",
+                        study.activations, number(study.thickness * mm), study.touching, study.judged);
     text += pictureText(plots, "pareto") + methodTable(study) + "\n" + pictureText(plots, "steps");
     for (const SkinMethod& m : study.methods) text += fmt::format("- **{}**: {}.\n", m.name, m.about);
     if (motion.answers.empty())
-        return text + "\nNothing of the skin moves.\n\n### What was not run\n\n" + notRunText(study.notRun) + "\n";
-    text += fmt::format("\n### What the skin does about it\n\nPlayed over {} steps along {}; {} of the vertices can move, "
-                        "at most {} mm. The muscles keep their volume to {:.1e} of it. ",
-                        motion.steps, motion.motion, motion.touched, number(motion.farthestMove * mm),
-                        motion.muscleVolume);
+        return text + "\nNothing of the skin moves.\n\n### What was not run\n\n" + notRunText(study.notRun) +
+               "\n";
+    text += fmt::format(
+        "\n### What the skin does about it\n\nPlayed over {} steps along {}; {} of the vertices can move, "
+        "at most {} mm. The muscles keep their volume to {:.1e} of it. ",
+        motion.steps, motion.motion, motion.touched, number(motion.farthestMove * mm), motion.muscleVolume);
     text += motion.untouched > 0
-                ? fmt::format("Deepest left: how much deeper than at rest a skin vertex is in a muscle; it would be {} mm "
-                              "if the skin stayed where it is, and is {} mm in the converged solve, the same problem "
-                              "solved until nothing moves.\n\n",
-                              number(motion.untouched * mm), number(motion.converged * mm))
-                : "In this motion no muscle comes deeper into the skin than it is at rest, even if the skin stayed where "
+                ? fmt::format(
+                      "Deepest left: how much deeper than at rest a skin vertex is in a muscle; it would be "
+                      "{} mm "
+                      "if the skin stayed where it is, and is {} mm in the converged solve, the same problem "
+                      "solved until nothing moves.\n\n",
+                      number(motion.untouched * mm), number(motion.converged * mm))
+                : "In this motion no muscle comes deeper into the skin than it is at rest, even if the skin "
+                  "stayed where "
                   "it is: there is no overlap to resolve, the muscles only carry the skin along.\n\n";
     if (motion.untouched > 0) text += pictureText(plots, "answer");
     text += answerTable(study) + "\n" + pictureText(plots, "depth");
