@@ -200,7 +200,7 @@ void drawBake(Drawing& drawing, const PairStudy& study) {
     drawing.draw(
         "bake", data,
         "set logscale xy\nset logscale y2\nset xlabel \"spheres of both bodies\"\nset ylabel \"seconds\"\n"
-        "set y2label \"tests a step\"\nset ytics nomirror\nset y2tics\n"
+        "set y2label \"tests a step\"\nset ytics nomirror\nset y2tics\nset y2range [0.5:*]\n"
         "set key outside top center horizontal\n"
         "set title \"Bake time and table size against the number of spheres\" offset 0,1\nset tmargin 5\n"
         "plot FILE using 1:2 with linespoints lw 2 pt 7 lc rgb \"#0060ad\" title \"spheres, s\", "

@@ -46,13 +46,14 @@ std::vector<Times> timeMethods(const std::vector<const compare::Rival*>& rivals,
         secondsOf(*rivals[m], few, 1, hits); // caches, page faults, clock speed
         const double each =
             std::max(1e-9, secondsOf(*rivals[m], few, 1, hits)) / static_cast<double>(few.size());
-        const auto fitting = static_cast<std::size_t>(options.secondsPass / each);
-        plans[m].queries = queries.first(std::clamp(fitting, few.size(), queries.size()));
+        const double fitting = std::clamp(options.secondsPass / each, static_cast<double>(few.size()),
+                                          static_cast<double>(queries.size()));
+        plans[m].queries = queries.first(static_cast<std::size_t>(fitting));
         const double once = each * static_cast<double>(plans[m].queries.size());
         plans[m].repeats = static_cast<std::size_t>(std::max(1.0, std::ceil(options.secondsRound / once)));
         const double round = once * static_cast<double>(plans[m].repeats);
-        plans[m].rounds = std::clamp(static_cast<int>(options.secondsEach / round),
-                                     std::min(3, options.rounds), options.rounds);
+        plans[m].rounds = static_cast<int>(std::clamp(
+            options.secondsEach / round, std::min(3.0, double(options.rounds)), double(options.rounds)));
         most = std::max(most, plans[m].rounds);
     }
     for (int round = 0; round < most; ++round)
