@@ -69,7 +69,11 @@ double parseLength(const std::string& text, double metersPerUnit) {
     return parseNumber(text, "length (a number, or a number with um, mm, cm, m, km, in or ft)");
 }
 
-void setOption(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit) {
+namespace {
+
+/// Sets the option if there is one of this name, and says whether there is.
+bool set(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit,
+         bool onlyLook) {
     using Setter = std::function<void()>;
     const std::pair<const char*, Setter> setters[] = {
         {"spheres",
@@ -114,8 +118,23 @@ void setOption(BakeOptions& options, const std::string& key, const std::string& 
          }},
     };
     for (const auto& [name, set] : setters)
-        if (key == name) return set();
-    throw InputError("bake setting \"" + key + "\" is not known");
+        if (key == name) {
+            if (!onlyLook) set();
+            return true;
+        }
+    return false;
+}
+
+} // namespace
+
+bool isOption(const std::string& key) {
+    BakeOptions none;
+    return set(none, key, "", 1, true);
+}
+
+void setOption(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit) {
+    if (!set(options, key, text, metersPerUnit, false))
+        throw InputError("bake setting \"" + key + "\" is not known");
 }
 
 BakeOptions optionsFor(const BakeSettings& ofScene, const BakeSettings& given, double metersPerUnit) {

@@ -32,6 +32,9 @@ struct BakeOptions {
 /// Throws InputError naming the option and what was expected.
 void setOption(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit);
 
+/// Whether setOption() knows this name.
+bool isOption(const std::string& key);
+
 /// The options of one pair: the defaults, then the scene's own settings, then those given now.
 BakeOptions optionsFor(const BakeSettings& ofScene, const BakeSettings& given, double metersPerUnit);
 

@@ -242,6 +242,8 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
     const std::string method = methodName(options);
     if (selection.proof) {
         selection.proof->method = method;
+        // No sphere in reach: nothing more is known than that the two do not meet, and a file holds no infinity.
+        if (!std::isfinite(selection.proof->clearance)) selection.proof->clearance = 0;
         selection.proof->record = record;
         return {nullptr, std::make_shared<NeverCollides>(*selection.proof)};
     }

@@ -1,3 +1,5 @@
+#include "osgTSS/render/FramePattern.h"
+
 #include <osg/Camera>
 #include <osg/GraphicsContext>
 #include <osg/Group>
@@ -6,7 +8,6 @@
 #include <osgDB/Registry>
 #include <osgDB/WriteFile>
 
-#include <cstdio>
 #include <sstream>
 #include <string>
 
@@ -24,8 +25,7 @@ public:
         osg::ref_ptr<osg::Image> image = new osg::Image;
         image->readPixels(0, 0, window->getTraits()->width, window->getTraits()->height, GL_RGB,
                           GL_UNSIGNED_BYTE);
-        char name[4096];
-        std::snprintf(name, sizeof name, pattern_.c_str(), stamp->getFrameNumber());
+        const std::string name = osgTSS::frameName(pattern_, stamp->getFrameNumber());
         if (!osgDB::writeImageFile(*image, name)) OSG_WARN << "capture: cannot write " << name << std::endl;
     }
 
@@ -33,15 +33,6 @@ private:
     std::string pattern_;
     unsigned every_;
 };
-
-/// The pattern goes through printf: exactly one conversion, and that one of an unsigned number.
-bool isFramePattern(const std::string& pattern) {
-    const std::size_t percent = pattern.find('%');
-    const std::size_t letter = pattern.find_first_not_of("0123456789", percent + 1);
-    return percent != std::string::npos && letter != std::string::npos &&
-           (pattern[letter] == 'd' || pattern[letter] == 'u') && letter - percent <= 4 &&
-           pattern.find('%', percent + 1) == std::string::npos;
-}
 
 /// FILE.capture: FILE as its own plugin reads it, and each frame drawn of it is saved as a picture. Options,
 /// as words in the option string (osgviewer -O):
@@ -68,7 +59,7 @@ public:
             if (word.rfind("capture=", 0) == 0) pattern = word.substr(8);
             if (word.rfind("every=", 0) == 0 && !(std::istringstream(word.substr(6)) >> every)) every = 0;
         }
-        if (every == 0 || !isFramePattern(pattern)) {
+        if (every == 0 || !osgTSS::isFramePattern(pattern)) {
             OSG_WARN << "capture: expected every=N with N at least 1 and a pattern with one %d, found every="
                      << every << " capture=" << pattern << std::endl;
             return ReadResult::ERROR_IN_READING_FILE;

@@ -21,6 +21,8 @@ public:
         supportsOption("clock=<frame|time>", "One time code a frame, or simulation time (default)");
         supportsOption("light=<on|off>", "The scene's own key light (default on)");
         supportsOption("noRotation", "Leave a scene with Y up as it is");
+        supportsOption("overlay",
+                       "Show spheres, tested pairs and contacts from the start; key 'x' hides them");
     }
 
     const char* className() const override { return "Tabulated sphere subset reader/writer"; }

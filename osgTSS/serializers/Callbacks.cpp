@@ -11,6 +11,7 @@
 #include <osgTSS/JointCallback>
 #include <osgTSS/MuscleCallback>
 #include <osgTSS/SkinCallback>
+#include <osgTSS/ViewerCallback>
 
 // One namespace a wrapper: the macros define the same names in each.
 namespace driveCallback {
@@ -19,6 +20,13 @@ REGISTER_OBJECT_WRAPPER(osgTSS_DriveCallback, new osgTSS::DriveCallback, osgTSS:
     ADD_OBJECT_SERIALIZER(Scene, osgTSS::Scene, nullptr);
 }
 } // namespace driveCallback
+
+namespace viewerCallback {
+REGISTER_OBJECT_WRAPPER(osgTSS_ViewerCallback, new osgTSS::ViewerCallback, osgTSS::ViewerCallback,
+                        "osg::Object osg::Callback osgTSS::ViewerCallback") {
+    ADD_OBJECT_SERIALIZER(Scene, osgTSS::Scene, nullptr);
+}
+} // namespace viewerCallback
 
 namespace muscleCallback {
 REGISTER_OBJECT_WRAPPER(osgTSS_MuscleCallback, new osgTSS::MuscleCallback, osgTSS::MuscleCallback,

@@ -17,6 +17,7 @@
 #include <osg/ValueObject>
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/Convert>
+#include <osgTSS/Overlay>
 
 #include <algorithm>
 
@@ -80,6 +81,7 @@ void ConstraintVisitor::enter(osg::Node& node, const Place& place) {
 }
 
 void ConstraintVisitor::apply(osg::Node& node) {
+    if (dynamic_cast<Overlay*>(&node)) return;
     begin(node);
     enter(node, _place);
 }

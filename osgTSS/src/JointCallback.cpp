@@ -1,5 +1,6 @@
 #include "ContactReport.h"
 #include "JointNodes.h"
+#include "PerNode.h"
 #include "SceneCache.h"
 
 #include <osg/Node>
@@ -14,14 +15,13 @@ namespace osgTSS {
 
 /// What belongs to one node that the callback stands on.
 struct JointCallback::Binding {
-    osg::observer_ptr<osg::Node> node;
     std::shared_ptr<const tss::SceneModel> model; ///< that the rest was made from
     std::shared_ptr<const tss::JointPlan> plan;
     std::vector<std::unique_ptr<JointNode>> joints; ///< of the plan's; empty when one is missing
     std::vector<tss::JointWorkspace> workspaces;
-    std::vector<double> q; ///< where the joints are
-    std::vector<Answer> answers;
-    std::vector<tss::JointAnswer> found; ///< what the answers were made from
+    std::vector<double> q;     ///< where the joints are
+    std::vector<double> asked; ///< room for what is asked
+    std::vector<tss::JointAnswer> found;
     ContactReport contacts;
     unsigned int traversal = 0, frame = 0; ///< of the last update
     bool updated = false;                  ///< there was one
@@ -39,8 +39,7 @@ struct JointCallback::Binding {
 
 JointCallback::Binding::Binding(osg::Node& owner, const Scene& scene,
                                 const std::vector<std::string>& pairPaths)
-    : node(&owner), model(scene.shareModel()), plan(scene.getCache().plan(pairPaths)),
-      workspaces(tss::workspaces(*plan)) {
+    : model(scene.shareModel()), plan(scene.getCache().plan(pairPaths)), workspaces(tss::workspaces(*plan)) {
     const auto nodes = findJointNodes(owner);
     for (int index : plan->joints) {
         const tss::Joint& joint = model->joints[index];
@@ -61,20 +60,13 @@ JointCallback::Binding::Binding(osg::Node& owner, const Scene& scene,
 
 void JointCallback::Binding::resolve() {
     if (joints.empty()) return;
-    std::vector<double> asked;
-    asked.reserve(q.size());
+    asked.clear();
     for (const auto& joint : joints) {
         const std::vector<double> values = joint->asked();
         asked.insert(asked.end(), values.begin(), values.end());
     }
     found = tss::resolve(*plan, q, asked, workspaces);
-    q = std::move(asked);
-    answers.resize(found.size());
-    for (std::size_t g = 0; g < found.size(); ++g) {
-        const int table = found[g].table;
-        const std::string path = table < 0 ? "" : model->pairs[plan->groups[g].pairs[table]].path;
-        answers[g] = {found[g].status, found[g].gap, path, found[g].test};
-    }
+    q = asked;
 }
 
 void JointCallback::Binding::show() const {
@@ -91,50 +83,60 @@ void JointCallback::Binding::tell(const Scene& scene, osg::NodeVisitor& visitor)
         contacts.tell(scene, *plan, q, found, *callback, visitor);
 }
 
-JointCallback::JointCallback() = default;
+struct JointCallback::Bindings : PerNode<Binding> {};
+
+JointCallback::JointCallback() : _bindings(std::make_unique<Bindings>()) {}
 JointCallback::~JointCallback() = default;
 
-JointCallback::JointCallback(Scene* scene, std::vector<std::string> pairPaths)
-    : _scene(scene), _pairPaths(std::move(pairPaths)) {}
+JointCallback::JointCallback(Scene* scene, std::vector<std::string> pairPaths) : JointCallback() {
+    _scene = scene;
+    _pairPaths = std::move(pairPaths);
+}
 
 JointCallback::JointCallback(const JointCallback& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), osg::Callback(other, copyop), _scene(other._scene),
-      _pairPaths(other._pairPaths) {}
+      _pairPaths(other._pairPaths), _bindings(std::make_unique<Bindings>()) {}
 
 void JointCallback::setScene(Scene* scene) {
     _scene = scene;
-    _bindings.clear();
+    _bindings->clear();
 }
 
 void JointCallback::setPairPaths(std::vector<std::string> paths) {
     _pairPaths = std::move(paths);
-    _bindings.clear();
+    _bindings->clear();
 }
 
-const std::vector<JointCallback::Answer>& JointCallback::getAnswers(const osg::Node& node) const {
-    static const std::vector<Answer> none;
-    for (const auto& binding : _bindings)
-        if (binding->node == &node) return binding->answers;
-    return none;
+std::vector<JointCallback::Answer> JointCallback::getAnswers(const osg::Node& node) const {
+    std::vector<Answer> answers;
+    const Binding* binding = _bindings->find(node);
+    for (std::size_t g = 0; binding && g < binding->found.size(); ++g) {
+        const tss::JointAnswer& found = binding->found[g];
+        const std::string path =
+            found.table < 0
+                ? ""
+                : binding->model->pairs[binding->plan->groups[g].pairs[static_cast<std::size_t>(found.table)]]
+                      .path;
+        answers.push_back({found.status, found.gap, path, found.test});
+    }
+    return answers;
 }
 
 void JointCallback::start(osg::Node& node) {
-    std::erase_if(_bindings, [&](const auto& binding) { return binding->node == &node; });
+    _bindings->erase(node);
     if (_scene) bindingOf(node);
 }
 
 JointCallback::Binding& JointCallback::bindingOf(osg::Node& node) {
-    std::erase_if(_bindings, [](const auto& binding) { return !binding->node.valid(); });
-    for (auto& binding : _bindings) {
-        if (binding->node != &node) continue;
-        if (binding->updated && binding->stillGood(*_scene)) return *binding;
-        auto again = std::make_unique<Binding>(node, *_scene, _pairPaths);
-        if (again->q.size() == binding->q.size()) again->q = binding->q;
-        binding = std::move(again);
-        return *binding;
-    }
-    _bindings.push_back(std::make_unique<Binding>(node, *_scene, _pairPaths));
-    return *_bindings.back();
+    return _bindings->of(
+        node,
+        [&](const Binding* before) {
+            auto made = std::make_unique<Binding>(node, *_scene, _pairPaths);
+            if (before && made->q.size() == before->q.size()) made->q = before->q;
+            return made;
+        },
+        // Started, but not updated yet: the graph may have been optimized since.
+        [&](const Binding& binding) { return binding.updated && binding.stillGood(*_scene); });
 }
 
 bool JointCallback::run(osg::Object* object, osg::Object* data) {
@@ -154,6 +156,7 @@ bool JointCallback::run(osg::Object* object, osg::Object* data) {
     if (!again)
         for (const auto& joint : binding.joints) joint->restoreAsked();
     const bool result = traverse(object, data);
+    const MeasureUpdate measure(_scene->getCache().updateTime);
     if (!binding.stillGood(*_scene)) return result; // the animation took a joint away
     if (!again) binding.resolve();
     binding.show();

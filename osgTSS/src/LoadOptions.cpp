@@ -37,6 +37,8 @@ LoadOptions::LoadOptions(const std::string& optionString) {
             graph.keyLight = onOff(value, "option light");
         else if (key == "noRotation")
             graph.rotateUp = false;
+        else if (key == "overlay")
+            overlay = equals == std::string::npos || onOff(value, "option overlay");
         else if (equals != std::string::npos)
             others[key] = value;
     }

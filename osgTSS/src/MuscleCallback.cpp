@@ -57,8 +57,9 @@ bool MuscleCallback::run(osg::Object* object, osg::Object* data) {
     auto* geometry = dynamic_cast<SkinGeometry*>(object);
     osg::NodeVisitor* visitor = data ? data->asNodeVisitor() : nullptr;
     if (!geometry || !visitor || !visitor->getFrameStamp() || !_scene) return result;
+    const MeasureUpdate measure(_scene->getCache().updateTime);
     Shown& shown = _states->of(
-        *geometry, [&] { return std::make_unique<Shown>(*_scene, _musclePath); },
+        *geometry, [&](const Shown*) { return std::make_unique<Shown>(*_scene, _musclePath); },
         [&](const Shown& state) { return state.model == _scene->shareModel(); });
     if (!shown.deformer || !geometry->getVertices() ||
         geometry->getVertices()->size() != shown.mesh.vertices.size())

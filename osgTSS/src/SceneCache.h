@@ -1,4 +1,6 @@
 #pragma once
+#include "UpdateTime.h"
+
 #include "bake/JointPlan.h"
 #include "bake/motion/MuscleDeformer.h"
 #include "bake/respond/SkinRig.h"
@@ -21,6 +23,9 @@ struct Scene::Cache {
 
     /// Of one skin, with its muscles in the skin's frame; null when it has no table. Throws tss::InputError.
     std::shared_ptr<const tss::SkinRig> rig(int index);
+
+    /// Of all callbacks of the scene. In update and event traversals only.
+    UpdateTime updateTime;
 
 private:
     std::shared_ptr<const tss::SceneModel> model;

@@ -7,6 +7,7 @@
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/Install>
 #include <osgTSS/SceneFile>
+#include <osgTSS/ViewerCallback>
 
 #include <set>
 
@@ -36,6 +37,7 @@ osg::ref_ptr<osg::Group> createPlayingGraph(Scene& scene, const LoadOptions& opt
     scene.setClock(Clock(scene.getModel(), options.clock));
     osg::ref_ptr<osg::Group> root = createGraph(scene, options.graph);
     install(*root, scene);
+    addViewerAids(*root, scene, options.overlay);
     return root;
 }
 

@@ -127,8 +127,9 @@ bool SkinCallback::run(osg::Object* object, osg::Object* data) {
     osg::NodeVisitor* visitor = data ? data->asNodeVisitor() : nullptr;
     const osg::FrameStamp* stamp = visitor ? visitor->getFrameStamp() : nullptr;
     if (!node || !stamp || !_scene) return result;
+    const MeasureUpdate measure(_scene->getCache().updateTime);
     Played& played = _states->of(
-        *node, [&] { return std::make_unique<Played>(*node, *_scene, _skinPath); },
+        *node, [&](const Played*) { return std::make_unique<Played>(*node, *_scene, _skinPath); },
         [&](const Played& state) {
             return state.model == _scene->shareModel() &&
                    (!state.response || (state.geometry.valid() && state.frame.valid()));

@@ -102,8 +102,9 @@ TEST_CASE("a wish is remembered, not the place where it was stopped") {
     CHECK(rig.joint->getAskedValues()[0] == 1.3);
     auto* callback = dynamic_cast<JointCallback*>(rig.joint->getUpdateCallback());
     REQUIRE(callback);
-    REQUIRE(callback->getAnswers(*rig.joint).size() == 1);
-    const JointCallback::Answer& answer = callback->getAnswers(*rig.joint)[0];
+    const std::vector<JointCallback::Answer> answers = callback->getAnswers(*rig.joint);
+    REQUIRE(answers.size() == 1);
+    const JointCallback::Answer& answer = answers[0];
     CHECK(answer.status == tss::JointStatus::Blocked);
     CHECK(answer.pairPath == "/Rig/Hinge");
     CHECK(answer.gap > 0);

@@ -1,0 +1,34 @@
+#pragma once
+#include <osg/AnimationPath>
+#include <osg/Image>
+#include <osgViewer/Viewer>
+
+namespace osgTSS {
+
+/// How pictures are taken.
+struct Shot {
+    int width = 800, height = 600;
+    int samples = 4; ///< of each pixel
+    osg::Vec4 background{0.16f, 0.18f, 0.22f, 1};
+    osg::ref_ptr<osg::AnimationPath>
+        view; ///< eye to world over seconds, 24 frames in each; null: all in sight
+};
+
+/// A viewer without a window, in the OpenGL context that is current in this thread: one time code a frame,
+/// drawn into an image.
+class OffscreenViewer {
+public:
+    OffscreenViewer(osg::Node& scene, const Shot& shot);
+
+    /// Frames from 0 upwards, each once. The image is written over by the next one.
+    const osg::Image& draw(unsigned int frame);
+
+private:
+    void look(unsigned int frame);
+
+    Shot _shot;
+    osg::ref_ptr<osgViewer::Viewer> _viewer = new osgViewer::Viewer;
+    osg::ref_ptr<osg::Image> _image = new osg::Image;
+};
+
+} // namespace osgTSS
