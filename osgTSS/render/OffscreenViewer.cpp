@@ -10,7 +10,8 @@ constexpr double framesPerSecond = 24;
 
 OffscreenViewer::OffscreenViewer(osg::Node& scene, const Shot& shot) : _shot(shot) {
     _viewer->setThreadingModel(osgViewer::Viewer::SingleThreaded);
-    _viewer->setUpViewerAsEmbeddedInWindow(0, 0, shot.width, shot.height);
+    const int width = shot.width * shot.finer, height = shot.height * shot.finer;
+    _viewer->setUpViewerAsEmbeddedInWindow(0, 0, width, height);
     _viewer->setSceneData(&scene);
     _viewer->setKeyEventSetsDone(0);
     osg::Camera& camera = *_viewer->getCamera();
@@ -18,15 +19,29 @@ OffscreenViewer::OffscreenViewer(osg::Node& scene, const Shot& shot) : _shot(sho
     camera.setProjectionMatrixAsPerspective(30, static_cast<double>(shot.width) / shot.height, 1, 1e4);
     camera.setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
     _image->allocateImage(shot.width, shot.height, 1, GL_RGB, GL_UNSIGNED_BYTE);
-    const auto samples = static_cast<unsigned int>(shot.samples);
-    camera.attach(osg::Camera::COLOR_BUFFER, _image.get(), samples);
+    _drawn->allocateImage(width, height, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    camera.attach(osg::Camera::COLOR_BUFFER, _drawn.get());
     _viewer->getFrameStamp()->setFrameNumber(~0u); // frame() counts on, to 0
 }
 
 const osg::Image& OffscreenViewer::draw(unsigned int frame) {
     look(frame);
     _viewer->frame(frame / framesPerSecond);
+    average();
     return *_image;
+}
+
+// Multisampled framebuffer objects are not to be had everywhere; a finer picture is.
+void OffscreenViewer::average() {
+    const int n = _shot.finer;
+    for (int y = 0; y < _shot.height; ++y)
+        for (int x = 0; x < _shot.width; ++x)
+            for (int channel = 0; channel < 3; ++channel) {
+                int sum = 0;
+                for (int v = 0; v < n; ++v)
+                    for (int u = 0; u < n; ++u) sum += _drawn->data(n * x + u, n * y + v)[channel];
+                _image->data(x, y)[channel] = static_cast<unsigned char>((sum + n * n / 2) / (n * n));
+            }
 }
 
 void OffscreenViewer::look(unsigned int frame) {

@@ -8,7 +8,7 @@ namespace osgTSS {
 /// How pictures are taken.
 struct Shot {
     int width = 800, height = 600;
-    int samples = 4; ///< of each pixel
+    int finer = 2; ///< pixels drawn along each side of one, and averaged
     osg::Vec4 background{0.16f, 0.18f, 0.22f, 1};
     osg::ref_ptr<osg::AnimationPath>
         view; ///< eye to world over seconds, 24 frames in each; null: all in sight
@@ -25,9 +25,11 @@ public:
 
 private:
     void look(unsigned int frame);
+    void average();
 
     Shot _shot;
     osg::ref_ptr<osgViewer::Viewer> _viewer = new osgViewer::Viewer;
+    osg::ref_ptr<osg::Image> _drawn = new osg::Image; ///< finer
     osg::ref_ptr<osg::Image> _image = new osg::Image;
 };
 

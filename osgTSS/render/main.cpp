@@ -27,18 +27,18 @@ struct Arguments {
     std::string size = "800x600";
     int frames = 0; ///< 0: one round of the motion
     int every = 1;
-    int samples = 4;
+    int finer = 2;
     bool overlay = false, json = false, quiet = false;
 };
 
 osgTSS::Shot shotOf(const Arguments& arguments) {
     osgTSS::Shot shot;
     char x = 0, rest = 0;
-    constexpr int most = 16384;
+    constexpr int most = 4096;
     if (std::sscanf(arguments.size.c_str(), "%d%c%d%c", &shot.width, &x, &shot.height, &rest) != 3 ||
         x != 'x' || shot.width < 1 || shot.height < 1 || shot.width > most || shot.height > most)
         throw CLI::ValidationError("--size", "expected WxH in pixels, found " + arguments.size);
-    shot.samples = arguments.samples;
+    shot.finer = arguments.finer;
     if (arguments.view.empty()) return shot;
     std::ifstream file(arguments.view);
     shot.view = new osg::AnimationPath;
@@ -130,8 +130,8 @@ int main(int argc, char** argv) {
         ->check(CLI::PositiveNumber);
     app.add_option("--every", arguments.every, "write only every N-th frame")->check(CLI::PositiveNumber);
     app.add_option("--size", arguments.size, "WxH in pixels")->capture_default_str();
-    app.add_option("--samples", arguments.samples, "of each pixel, 0: one")
-        ->check(CLI::Range(0, 16))
+    app.add_option("--finer", arguments.finer, "pixels drawn along each side of one, and averaged")
+        ->check(CLI::Range(1, 4))
         ->capture_default_str();
     app.add_option("--view", arguments.view, "camera path, as osgviewer -p reads it (default: all in sight)");
     app.add_flag("--overlay", arguments.overlay, "show spheres, tested pairs and contacts");

@@ -52,6 +52,7 @@ public:
         addPrimitiveSet(new osg::DrawArrays(GL_LINES, 0, count));
         if (_points && count > 0) addPrimitiveSet(new osg::DrawArrays(GL_POINTS, 0, 1));
         _vertices->dirty();
+        dirtyGLObjects();
         dirtyBound();
     }
 

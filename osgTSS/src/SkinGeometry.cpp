@@ -122,6 +122,7 @@ osg::Geometry* SkinGeometry::geometryToDraw() {
         std::copy(_normals->begin(), _normals->end(), normals.begin());
         vertices.dirty();
         normals.dirty();
+        next.dirtyGLObjects(); // a vertex array object does not look at its buffers again by itself
     }
     osg::Geometry* geometry = _frames[_current];
     if (geometry->getStateSet() != getStateSet()) geometry->setStateSet(getStateSet());

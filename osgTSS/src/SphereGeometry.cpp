@@ -87,6 +87,7 @@ void SphereGeometry::place(std::span<const tss::Sphere> spheres) {
         for (const osg::Vec3& point : unit) *out++ = centre + point * static_cast<float>(sphere.radius);
     }
     _vertices->dirty();
+    dirtyGLObjects();
     dirtyBound();
 }
 

@@ -1,3 +1,4 @@
+#include "LargeGraph.h"
 #include "Playback.h"
 
 #include "bake/base/Error.h"
@@ -276,4 +277,12 @@ TEST_CASE("a JointTransform of an application needs no path to be extracted and 
     playback.frame(*root, 1);
     CHECK(joint->getValue(0) == Approx(2).margin(1e-3));
     CHECK(toWorld(*joint, osg::Vec3d()).x() == Approx(2).margin(1e-3));
+}
+
+TEST_CASE("a graph of ten thousand nodes gives its two hundred joints") {
+    const osg::ref_ptr<osg::Group> root = largeGraph(10000, 200);
+    const tss::SceneModel model = extract(*root);
+    CHECK(model.joints.size() == 200);
+    CHECK(model.pairs.size() == 200);
+    for (const tss::Body& body : model.bodies) CHECK_FALSE(body.mesh.empty());
 }

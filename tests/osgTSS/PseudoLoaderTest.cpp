@@ -1,0 +1,101 @@
+#include "Files.h"
+
+#include "examples/tank/Tank.h"
+
+#include <catch2/catch.hpp>
+#include <osgSim/DOFTransform>
+#include <osgTSS/JointCallback>
+
+#include <set>
+
+using namespace files;
+
+namespace {
+
+/// Pairs that something is done for, over all callbacks of a graph.
+class CountPairs : public osg::NodeVisitor {
+public:
+    CountPairs() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Node& node) override {
+        for (osg::Callback* callback = node.getUpdateCallback(); callback;
+             callback = callback->getNestedCallback())
+            if (auto* joint = dynamic_cast<osgTSS::JointCallback*>(callback))
+                pairs.insert(joint->getPairPaths().begin(), joint->getPairPaths().end());
+        traverse(node);
+    }
+    std::multiset<std::string> pairs;
+};
+
+std::filesystem::path saveTank() {
+    usePlugins();
+    const auto file = scratch() / "tank.osgt";
+    REQUIRE(osgDB::writeNodeFile(*makeTank(), file.string()));
+    return file;
+}
+
+/// The lowest that the gun's muzzle comes above the stowage's top while it is over the rear deck.
+double lowestOverStowage(osg::Node& tank, unsigned int frames) {
+    auto* gun = find<osgSim::DOFTransform>(tank, "Gun");
+    REQUIRE(gun);
+    Playback playback;
+    double lowest = 1e9;
+    for (unsigned int frame = 0; frame < frames; ++frame) {
+        playback.frame(tank, frame);
+        for (double along = 0; along <= 3.2; along += 0.05) {
+            const osg::Vec3d point = osg::Vec3d(1.4 + along, 0, 1.75) * gun->getWorldMatrices().at(0);
+            if (std::abs(point.x() + 2.4) < 0.5 && std::abs(point.y()) < 0.8)
+                lowest = std::min(lowest, point.z() - (1.45 + 0.275));
+        }
+    }
+    return lowest;
+}
+
+} // namespace
+
+TEST_CASE("any OSG file with joints is extracted, baked and kept apart by asking for FILE.tss") {
+    const auto file = saveTank();
+    const osg::ref_ptr<osg::Node> plain = osgDB::readRefNodeFile(file.string());
+    const osg::ref_ptr<osg::Node> apart = load(file.string() + ".tss", "pairs=all tolerance=4cm");
+    REQUIRE(apart);
+    constexpr unsigned int frames = 24 * 40;
+    const double radius = 0.09, before = lowestOverStowage(*plain, frames);
+    CHECK(before < 0); // or there would be nothing to do
+    CHECK(lowestOverStowage(*apart, frames) > radius - 1e-3);
+
+    SECTION("nothing is installed for the pairs that are proven never to meet") {
+        const osgTSS::Scene* scene = osgTSS::Scene::on(*apart);
+        REQUIRE(scene);
+        REQUIRE(scene->getModel().pairs.size() == 3);
+        std::multiset<std::string> tables;
+        for (const tss::Pair& pair : scene->getModel().pairs)
+            if (pair.table)
+                tables.insert(pair.path);
+            else
+                CHECK(pair.proof);
+        CHECK(tables.size() == 1);
+        CountPairs count;
+        apart->accept(count);
+        CHECK(count.pairs == tables);
+    }
+    SECTION("what was baked is saved with it, and is not baked again") {
+        for (const std::string extension : {"osgt", "osgb", "osgx"}) {
+            CAPTURE(extension);
+            const auto saved = scratch() / ("tank-baked." + extension);
+            REQUIRE(osgDB::writeNodeFile(*apart, saved.string()));
+            const osg::ref_ptr<osg::Node> again = osgDB::readRefNodeFile(saved.string());
+            REQUIRE(again);
+            CHECK(lowestOverStowage(*again, frames) > radius - 1e-3);
+        }
+    }
+}
+
+TEST_CASE("a pseudo-loader's wrong option, or file that is not there, is refused with a reason") {
+    const auto file = saveTank();
+    const auto read = [&](const std::string& name, const std::string& words) {
+        osg::ref_ptr<osgDB::Options> options = new osgDB::Options(words);
+        return osgDB::Registry::instance()->readNode(name, options);
+    };
+    CHECK(read(file.string() + ".tss", "pairs=cousins").message().find("cousins") != std::string::npos);
+    CHECK(read(file.string() + ".tss", "tolerance=wide").message().find("wide") != std::string::npos);
+    CHECK_FALSE(read((scratch() / "nothing.osgt.tss").string(), "").success());
+}

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# tss-render as its users call it, with no display; and the tools that OpenSceneGraph ships. Arguments: the build
+# folder, the scenes folder.
+set -euo pipefail
+build=$1 scenes=$2
+out=$build/test-render
+rm -rf "$out" && mkdir -p "$out"
+unset DISPLAY
+export OSG_LIBRARY_PATH="$build/lib:$build/lib/$(ls "$build/lib" | grep osgPlugins)" LD_LIBRARY_PATH="$build/lib"
+export LIBGL_ALWAYS_SOFTWARE=1
+render=$build/bin/tss-render
+fail() { echo "FAILED: $*" >&2; exit 1; }
+ends() { local want=$1 rc=0; shift; "$@" >"$out/log" 2>&1 || rc=$?; [ "$rc" = "$want" ] || { cat "$out/log"; fail "exit $rc, not $want: $*"; }; }
+
+jaw=$scenes/dog_jaw_baked.tss
+ends 0 "$render" "$jaw" -o "$out/a_%03d.png" --frames 9 --every 8 --size 160x120
+[ "$(ls "$out"/a_*.png | wc -l)" = 2 ] || fail "expected 2 pictures"
+ends 0 "$render" "$jaw" -o "$out/b_%03d.png" --frames 9 --every 8 --size 160x120 --json --quiet
+cmp "$out/a_008.png" "$out/b_008.png" || fail "the same frame is another picture"
+! cmp -s "$out/a_000.png" "$out/a_008.png" || fail "nothing moves"
+ends 0 "$render" "$jaw" -o "$out/o_%03d.png" --frames 1 --size 160x120 --overlay
+! cmp -s "$out/a_000.png" "$out/o_000.png" || fail "no overlay"
+ends 0 "$render" "$jaw" -o "$out/one.png" --frames 1
+ends 0 "$render" --help
+ends 1 "$render" "$scenes/none.tss" -o "$out/n_%d.png"
+ends 1 "$render" "$jaw" -o "$out/nowhere/n_%d.png" --frames 1
+ends 2 "$render" "$jaw" -o "$out/n_%d_%d.png"
+ends 2 "$render" "$jaw" -o "$out/n_%d.png" --size big
+ends 2 "$render"
+
+# Stock osgconv, round and back: the same motion as the tool plays it.
+for name in dog_jaw_baked dog_frontalis_baked; do
+    from=$scenes/$name.tss
+    for extension in osgt osgb osgx tss; do
+        ends 0 osgconv "$from" "$out/$name.$extension"
+        from=$out/$name.$extension
+    done
+    "$build/bin/tss" play "$scenes/$name.tss" -o "$out/$name.csv" --quiet
+    "$build/bin/tss" play "$from" -o "$out/$name.back.csv" --quiet
+    cmp "$out/$name.csv" "$out/$name.back.csv" || fail "$name plays otherwise after osgconv"
+done
+echo "tss-render and osgconv do as they say"
