@@ -48,18 +48,22 @@ TEST_CASE("scenes that the DatabasePager loads while the viewer runs play and ar
         world->accept(joints);
     }
     REQUIRE(joints.found.size() == 3);
-    bool held = false, moved = false;
-    const std::vector<double> before = joints.found[0]->getValues();
+    // Each by itself: they came at different frames, and where a joint is held depends on the way there.
+    std::vector<int> held(3), moved(3);
+    std::vector<std::vector<double>> before(3);
     for (unsigned int frame = 0; frame < 97; ++frame) {
         viewer->frame();
-        for (const auto& joint : joints.found) {
-            held = held || joint->getValues() != joint->getAskedValues();
-            moved = moved || joint->getValues() != before;
-            CHECK(joint->getValues() == joints.found[0]->getValues());
+        for (std::size_t i = 0; i < 3; ++i) {
+            const osgTSS::JointTransform& joint = *joints.found[i];
+            held[i] += joint.getValues() != joint.getAskedValues();
+            moved[i] += joint.getValues() != before[i];
+            before[i] = joint.getValues();
         }
     }
-    CHECK(held);
-    CHECK(moved);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(held[i] > 10);
+        CHECK(moved[i] > 30);
+    }
     viewer->setDone(true);
     viewer->stopThreading();
 }
