@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# The arrows between folders: fails where a source includes what its folder may not lean on (docs/EXTENDING.md).
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+# folder: the folders of bake/ that it may include, besides itself. "top": bake/*.h, the pipeline itself.
+declare -A may=(
+    [base]=""
+    [geometry]="base"
+    [motion]="base geometry"
+    [spheres]="base geometry"
+    [table]="base motion spheres"
+    [search]="base geometry motion spheres table"
+    [reduce]="base motion search spheres table"
+    [verify]="base geometry motion spheres table"
+    [respond]="base geometry motion spheres table"
+    [scene]="base geometry motion spheres table"
+    [compare]="base geometry motion spheres table"
+    [report]="base compare geometry motion reduce respond scene search spheres table top verify"
+    [tool]="base geometry motion report respond scene spheres table top verify"
+)
+wrong=0
+for folder in bake/*/; do
+    name=$(basename "$folder")
+    if [ -z "${may[$name]+known}" ]; then
+        echo "bake/$name: expected a line for it in tests/layers.sh"
+        wrong=1
+        continue
+    fi
+    while IFS=: read -r file include; do
+        target=${include#*\"bake/}
+        case "$target" in
+        */*) target=${target%%/*} ;;
+        *) target=top ;;
+        esac
+        [[ " $name ${may[$name]} " == *" $target "* ]] || {
+            echo "$file: bake/$name may not include ${include#*include }"
+            wrong=1
+        }
+    done < <(grep -rE --include='*.h' --include='*.cpp' '^#include "bake/' "$folder")
+done
+# Nothing in bake/ knows OpenSceneGraph or the node kit, and the kit does not know the report.
+if grep -rnE '^#include [<"]osg' bake; then wrong=1; fi
+if grep -rnE '^#include "bake/(compare|report|tool)/' osgTSS; then wrong=1; fi
+exit "$wrong"
