@@ -21,21 +21,36 @@ bool saysInvisible(const Prim& prim) {
 
 } // namespace
 
-PrimIndex::PrimIndex(const Layer& layer) {
-    add(layer.children, {}, -1);
+PrimIndex::PrimIndex(const Layer& layer, Problems& problems) {
+    Composer composer(layer, problems);
+    add(layer.children, {}, -1, composer);
 }
 
-void PrimIndex::add(const std::vector<Prim>& prims, const Place& place, int parent) {
+int PrimIndex::addEntry(const Prim& prim, const Place& place, int parent, bool composed) {
+    const int index = static_cast<int>(entries.size());
+    const bool visible = (parent < 0 || entries[parent].visible) && !saysInvisible(prim);
+    entries.push_back({&prim, place, parent, visible, composed});
+    byPath_.emplace(place.path, index);
+    return index;
+}
+
+void PrimIndex::add(const std::vector<Prim>& prims, const Place& place, int parent, Composer& composer) {
     for (std::size_t i = 0; i < prims.size(); ++i) {
-        if (!takesPart(prims[i])) continue;
         Place at = place / std::string("primChildren") / i;
         at.path += "/" + prims[i].name;
-        const int index = static_cast<int>(entries.size());
-        const bool visible = (parent < 0 || entries[parent].visible) && !saysInvisible(prims[i]);
-        entries.push_back({&prims[i], at, parent, visible});
-        byPath_.emplace(at.path, index);
-        add(prims[i].children, at, index);
+        if (hasReferences(prims[i]) && prims[i].specifier == "def") {
+            composed_.push_back(composer.compose(prims[i], at));
+            add(composed_.back(), parent);
+        } else if (takesPart(prims[i])) {
+            add(prims[i].children, at, addEntry(prims[i], at, parent, false), composer);
+        }
     }
+}
+
+void PrimIndex::add(const Composed& composed, int parent) {
+    if (!takesPart(composed.prim)) return;
+    const int index = addEntry(composed.prim, composed.place, parent, true);
+    for (const Composed& child : composed.children) add(child, index);
 }
 
 int PrimIndex::find(const std::string& path) const {

@@ -1,6 +1,7 @@
 #pragma once
-#include "bake/scene/Layer.h"
-#include "bake/scene/Problems.h"
+#include "bake/scene/Composed.h"
+
+#include <deque>
 
 namespace tss {
 
@@ -8,15 +9,18 @@ namespace tss {
 struct PrimEntry {
     const Prim* prim = nullptr;
     Place place;
-    int parent = -1;     ///< index of the parent's entry
-    bool visible = true; ///< neither it nor a parent says `invisible`
+    int parent = -1;       ///< index of the parent's entry
+    bool visible = true;   ///< neither it nor a parent says `invisible`
+    bool composed = false; ///< it or a parent has references
 };
 
-/// All prims that take part in the scene, parents before children, in the order of the file. Classes, overs
-/// and what is not active do not take part, nor what is below them.
+/// All prims that take part in the scene, parents before children, in the order of the file, with what their
+/// references give them. Classes, overs and what is not active do not take part, nor what is below them.
 class PrimIndex {
 public:
-    explicit PrimIndex(const Layer& layer);
+    /// References that cannot be followed go to the problems.
+    PrimIndex(const Layer& layer, Problems& problems);
+    PrimIndex(const PrimIndex&) = delete;
 
     std::vector<PrimEntry> entries;
 
@@ -24,7 +28,11 @@ public:
     int find(const std::string& path) const;
 
 private:
-    void add(const std::vector<Prim>& prims, const Place& place, int parent);
+    void add(const std::vector<Prim>& prims, const Place& place, int parent, Composer& composer);
+    void add(const Composed& composed, int parent);
+    int addEntry(const Prim& prim, const Place& place, int parent, bool composed);
+
+    std::deque<Composed> composed_; ///< what entries with references point into
     std::map<std::string, int> byPath_;
 };
 

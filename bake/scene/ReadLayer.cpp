@@ -1,6 +1,7 @@
 #include "bake/scene/ReadLayer.h"
 
 #include "bake/base/AtomicFile.h"
+#include "bake/scene/Buffers.h"
 #include "bake/scene/ParseCbor.h"
 #include "bake/scene/ParseJson.h"
 #include "bake/scene/ReadProperty.h"
@@ -53,6 +54,10 @@ void takeMetadata(Value::Object& keys, Value::Object& metadata, const Place& pla
     keys.erase(it);
     if (const auto schemas = metadata.find("apiSchemas"); schemas != metadata.end())
         checkList(schemas->second, at / std::string("apiSchemas"), "names of API schemas", problems);
+    if (const auto references = metadata.find("references"); references != metadata.end()) {
+        checkList(references->second, at / std::string("references"), "paths", problems);
+        checkPaths(references->second, at / std::string("references"), problems);
+    }
 }
 
 std::vector<Prim> takeChildren(Value::Object& keys, const Place& place, Problems& problems);
@@ -152,8 +157,9 @@ Layer layerFromValue(Value root, Problems& problems) {
 }
 
 Layer parseLayer(std::string_view text, const std::string& fileName, Problems& problems) {
-    return layerFromValue(looksLikeCbor(text) ? parseCbor(text, fileName) : parseJson(text, fileName),
-                          problems);
+    Value root = looksLikeCbor(text) ? parseCbor(text, fileName) : parseJson(text, fileName);
+    inlineBuffers(root, fileName, problems);
+    return layerFromValue(std::move(root), problems);
 }
 
 Layer parseLayer(std::string_view text, const std::string& fileName) {

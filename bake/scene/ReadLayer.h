@@ -8,7 +8,8 @@ namespace tss {
 
 /// Reads a scene from JSON text, or from CBOR, told apart by its first bytes. Checks everything that can be
 /// checked without knowing what a prim means: JSON, the shape of prims and properties, each value against its
-/// typeName. Throws InputError at the first thing wrong, with file, JSON pointer, path and what was expected.
+/// typeName. Arrays in buffers are read from beside the file of this name. Throws InputError at the first
+/// thing wrong, with file, JSON pointer, path and what was expected.
 Layer parseLayer(std::string_view text, const std::string& fileName);
 
 /// The same into `problems`, which may collect; what cannot be read is left out of the layer.

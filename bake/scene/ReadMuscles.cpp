@@ -71,6 +71,7 @@ void readMuscles(SceneReading& reading) {
 void readSkins(SceneReading& reading) {
     for (std::size_t i = 0; i < reading.index.entries.size(); ++i) {
         if (!hasApi(*reading.index.entries[i].prim, "TssSkinAPI")) continue;
+        if (!reading.ownPrim(static_cast<int>(i), "TssSkinAPI")) continue;
         const PrimReader prim = reading.reader(static_cast<int>(i));
         SkinModel skin;
         skin.path = prim.place().path;

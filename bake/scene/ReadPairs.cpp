@@ -88,6 +88,7 @@ BakeSettings readSettings(const PrimReader& prim) {
 void readPairs(SceneReading& reading) {
     for (std::size_t i = 0; i < reading.index.entries.size(); ++i) {
         if (!hasApi(*reading.index.entries[i].prim, "TssPairAPI")) continue;
+        if (!reading.ownPrim(static_cast<int>(i), "TssPairAPI")) continue;
         const PrimReader prim = reading.reader(static_cast<int>(i));
         Pair pair;
         pair.path = prim.place().path;

@@ -59,18 +59,6 @@ void readSamples(Value& value, Property& property, const Place& place, Problems&
     }
 }
 
-void checkPaths(const Value& value, const Place& place, Problems& problems) {
-    if (const auto* ops = value.as<Value::Object>()) {
-        for (const auto& [key, items] : *ops)
-            if (items.as<Value::Array>()) checkPaths(items, place / key, problems);
-        return;
-    }
-    const auto* array = value.as<Value::Array>();
-    for (std::size_t i = 0; array && i < array->size(); ++i)
-        if (const auto* path = (*array)[i].as<std::string>(); path && !path->starts_with('/'))
-            problems.add(place / i, "expected an absolute path such as /Scene/Body, found \"" + *path + "\"");
-}
-
 void readAttribute(Value::Object& keys, Property& property, const Place& place, Problems& problems) {
     const auto typeName = keys.find("typeName");
     const auto* text = typeName == keys.end() ? nullptr : typeName->second.as<std::string>();
@@ -128,6 +116,18 @@ void checkList(const Value& value, const Place& place, const std::string& wanted
     for (std::size_t i = 0; i < array->size(); ++i)
         if (!(*array)[i].as<std::string>())
             problems.add(place / i, "expected a string, found " + describe((*array)[i]));
+}
+
+void checkPaths(const Value& value, const Place& place, Problems& problems) {
+    if (const auto* ops = value.as<Value::Object>()) {
+        for (const auto& [key, items] : *ops)
+            if (items.as<Value::Array>()) checkPaths(items, place / key, problems);
+        return;
+    }
+    const auto* array = value.as<Value::Array>();
+    for (std::size_t i = 0; array && i < array->size(); ++i)
+        if (const auto* path = (*array)[i].as<std::string>(); path && !path->starts_with('/'))
+            problems.add(place / i, "expected an absolute path such as /Scene/Body, found \"" + *path + "\"");
 }
 
 Property readProperty(Value object, const Place& place, Problems& problems) {

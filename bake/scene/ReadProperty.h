@@ -11,6 +11,9 @@ Property readProperty(Value object, const Place& place, Problems& problems);
 /// "explicit": ...}. wanted: what the strings are, for the message.
 void checkList(const Value& value, const Place& place, const std::string& wanted, Problems& problems);
 
+/// Checks that the strings of such a list are absolute paths.
+void checkPaths(const Value& value, const Place& place, Problems& problems);
+
 /// Words [A-Za-z_][A-Za-z0-9_]* with colons between, the later ones may begin with a digit.
 bool isPropertyName(std::string_view name);
 

@@ -11,6 +11,7 @@ SphereSet readSpheres(const SceneReading& reading, const PrimReader& table, cons
     const int entry = path.empty() ? -1 : reading.resolve(table, relationship, path);
     if (path.empty()) table.problem(std::string("expected the relationship ") + relationship);
     if (entry < 0) return spheres;
+    if (!reading.ownPrim(entry, "the spheres of a table")) return spheres;
     const PrimReader prim = reading.reader(entry);
     if (prim.prim().typeName != "Points") {
         reading.problems.add(table.placeOf(relationship, "targetPaths"),
@@ -136,6 +137,7 @@ const PrimReader* tablePrim(const SceneReading& reading, const PrimReader& owner
     if (entry < 0) return nullptr;
     prim.emplace(reading.reader(entry));
     const std::string& type = prim->prim().typeName;
+    if (!reading.ownPrim(entry, "a table")) return nullptr;
     if (type == "TssTable" || (proofs && type == "TssNeverCollides")) return &*prim;
     reading.problems.add(owner.placeOf(schema::table, "targetPaths"),
                          std::string("expected the path of a TssTable") +

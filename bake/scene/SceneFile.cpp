@@ -1,13 +1,40 @@
 #include "bake/scene/SceneFile.h"
 
 #include "bake/base/AtomicFile.h"
+#include "bake/scene/LocateJson.h"
+#include "bake/scene/ParseCbor.h"
+#include "bake/scene/PrimIndex.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadScene.h"
+#include "bake/scene/SourceHash.h"
 #include "bake/scene/StoreTables.h"
 #include "bake/scene/ToLayer.h"
 #include "bake/scene/WriteLayer.h"
 
 namespace tss {
+
+namespace {
+
+void addStaleness(const SceneModel& scene, Problems& problems) {
+    const PrimIndex index(*scene.layer, problems);
+    const auto add = [&](const std::string& path, const std::string& why) {
+        if (!why.empty()) problems.add(index.entries[index.find(path)].place, why);
+    };
+    for (const Pair& pair : scene.pairs) add(pair.path, staleness(scene, pair));
+    for (const SkinModel& skin : scene.skins) add(skin.path, staleness(scene, skin));
+}
+
+std::vector<LocatedError> located(const std::vector<InputError>& errors, std::string_view text) {
+    std::vector<std::string> pointers;
+    for (const InputError& error : errors) pointers.push_back(error.where.pointer);
+    std::vector<TextPosition> positions(errors.size());
+    if (!text.empty() && !looksLikeCbor(text)) positions = locateJson(text, pointers);
+    std::vector<LocatedError> all;
+    for (std::size_t i = 0; i < errors.size(); ++i) all.emplace_back(errors[i], positions[i]);
+    return all;
+}
+
+} // namespace
 
 SceneModel loadScene(const std::string& file) {
     return readScene(std::make_shared<const Layer>(readLayer(file)), file);
@@ -29,16 +56,21 @@ void saveScene(const SceneModel& scene, const std::string& file) {
     }
 }
 
-std::vector<InputError> validateScene(const std::string& file, std::vector<InputError>* warnings) {
+std::vector<LocatedError> validateScene(const std::string& file, std::vector<LocatedError>* warnings) {
     Problems problems(file, Problems::Mode::Collect);
+    std::string text;
     try {
-        const auto layer = std::make_shared<const Layer>(parseLayer(readWholeFile(file), file, problems));
-        readScene(layer, problems);
+        text = readWholeFile(file);
+        const auto layer = std::make_shared<const Layer>(parseLayer(text, file, problems));
+        const SceneModel scene = readScene(layer, problems);
+        if (problems.empty()) addStaleness(scene, problems);
+    } catch (const LocatedError& error) { // the text itself cannot be read on
+        return {error};
     } catch (const InputError& error) {
-        problems.errors.push_back(error); // the text itself cannot be read on
+        problems.errors.push_back(error);
     }
-    if (warnings) *warnings = std::move(problems.warnings);
-    return std::move(problems.errors);
+    if (warnings) *warnings = located(problems.warnings, text);
+    return located(problems.errors, text);
 }
 
 } // namespace tss

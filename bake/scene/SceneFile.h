@@ -1,6 +1,6 @@
 #pragma once
-#include "bake/base/Error.h"
 #include "bake/scene/Layer.h"
+#include "bake/scene/LocatedError.h"
 #include "bake/scene/SceneModel.h"
 
 namespace tss {
@@ -16,8 +16,9 @@ void saveScene(const SceneModel& scene, const std::string& file);
 /// The layer that saveScene() writes.
 Layer layerOf(const SceneModel& scene);
 
-/// Everything wrong with a scene file, not only the first thing; empty for a good one. What only deserves a
-/// warning goes to `warnings` when given.
-std::vector<InputError> validateScene(const std::string& file, std::vector<InputError>* warnings = nullptr);
+/// Everything wrong with a scene file, stale tables too, and not only the first thing; empty for a good one.
+/// What only deserves a warning goes to `warnings` when given.
+std::vector<LocatedError> validateScene(const std::string& file,
+                                        std::vector<LocatedError>* warnings = nullptr);
 
 } // namespace tss

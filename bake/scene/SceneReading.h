@@ -8,7 +8,8 @@ namespace tss {
 
 /// What the steps of readScene() share; each fills its part of the scene and looks at the parts before it.
 struct SceneReading {
-    SceneReading(const Layer& layer, Problems& problems) : layer(layer), index(layer), problems(problems) {}
+    SceneReading(const Layer& layer, Problems& problems)
+        : layer(layer), index(layer, problems), problems(problems) {}
 
     const Layer& layer;
     PrimIndex index;
@@ -28,6 +29,15 @@ struct SceneReading {
             problems.add(prim.placeOf(relationship, "targetPaths"),
                          "expected the path of a prim of the scene, found \"" + path + "\"");
         return entry;
+    }
+
+    /// Tables are stored in the prims of the file itself, so that what has one or is one cannot come from
+    /// references. False with a problem when it does.
+    bool ownPrim(int entry, const char* what) const {
+        if (!index.entries[entry].composed) return true;
+        problems.add(index.entries[entry].place,
+                     std::string("expected ") + what + " on a prim without references");
+        return false;
     }
 
     /// The body that a relationship names; -1 when it names none, or with a problem when that is no body.

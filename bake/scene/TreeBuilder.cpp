@@ -55,8 +55,10 @@ struct TreeBuilder::Frame {
         Numbers block{{}, holds == Holds::Tuples ? static_cast<int>(width) : 0};
         if (numbers.size() <= widestTuple)
             block.values.assign(numbers.begin(), numbers.end()); // keep the frame's memory for the next one
-        else
+        else {
+            numbers.shrink_to_fit(); // a large scene is mostly arrays, and grown ones are a third air
             block.values = std::move(numbers);
+        }
         return Value(std::move(block));
     }
 };

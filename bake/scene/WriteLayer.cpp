@@ -1,11 +1,13 @@
 #include "bake/scene/WriteLayer.h"
 
 #include "bake/base/AtomicFile.h"
+#include "bake/scene/Buffers.h"
 #include "bake/scene/JsonText.h"
 #include "bake/scene/LayerTree.h"
 #include "bake/scene/WriteNumber.h"
 
 #include <cmath>
+#include <filesystem>
 
 namespace tss {
 
@@ -220,6 +222,14 @@ std::string writeJson(const Layer& layer) {
 
 void saveLayer(const Layer& layer, const std::string& file, Encoding encoding) {
     writeFileAtomically(file, encoding == Encoding::Cbor ? writeCbor(layer) : writeJson(layer));
+}
+
+std::string saveWithBuffer(Layer layer, const std::string& file, Encoding encoding) {
+    const std::filesystem::path path = std::filesystem::weakly_canonical(file);
+    const Buffer buffer = takeBuffer(layer, path.stem().string());
+    if (!buffer.uri.empty()) writeFileAtomically((path.parent_path() / buffer.uri).string(), buffer.bytes);
+    saveLayer(layer, file, encoding);
+    return buffer.uri;
 }
 
 } // namespace tss

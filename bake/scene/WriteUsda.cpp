@@ -29,12 +29,17 @@ constexpr std::array layerMetadata = {Known{"defaultPrim", "token"},
                                       Known{"comment", "string"},
                                       Known{"documentation", "string", "doc"},
                                       Known{"customLayerData", "dictionary"}};
-constexpr std::array primMetadata = {
-    Known{"apiSchemas", "list"},       Known{"kind", "token"},
-    Known{"active", "bool"},           Known{"instanceable", "bool"},
-    Known{"hidden", "bool"},           Known{"displayName", "string"},
-    Known{"comment", "string"},        Known{"assetInfo", "dictionary"},
-    Known{"customData", "dictionary"}, Known{"documentation", "string", "doc"}};
+constexpr std::array primMetadata = {Known{"references", "references"},
+                                     Known{"apiSchemas", "list"},
+                                     Known{"kind", "token"},
+                                     Known{"active", "bool"},
+                                     Known{"instanceable", "bool"},
+                                     Known{"hidden", "bool"},
+                                     Known{"displayName", "string"},
+                                     Known{"comment", "string"},
+                                     Known{"assetInfo", "dictionary"},
+                                     Known{"customData", "dictionary"},
+                                     Known{"documentation", "string", "doc"}};
 constexpr std::array propertyMetadata = {
     Known{"interpolation", "token"},   Known{"elementSize", "int"},
     Known{"hidden", "bool"},           Known{"displayName", "string"},
@@ -73,7 +78,7 @@ private:
         for (const Known& entry : known) {
             if (key != entry.key) continue;
             const std::string type = entry.type;
-            if (type == "list")
+            if (type == "list" || type == "references")
                 return value.as<Value::Array>() || value.as<Value::Object>() ? &entry : nullptr;
             if (type == "dictionary") return value.as<Value::Object>() ? &entry : nullptr;
             if (type == "bool") return value.as<bool>() ? &entry : nullptr;
@@ -83,14 +88,18 @@ private:
         return nullptr;
     }
 
-    void listOp(const std::string& word, const Value& value) {
+    /// A list of names or, for references, of paths of this layer.
+    void listOp(const std::string& word, const Value& value, bool paths) {
         const auto items = [&](const std::string& op, const Value& list) {
             line(op + word + " = [");
             bool first = true;
             for (const std::string& item : listItems(list)) {
                 if (!first) out += ", ";
                 first = false;
-                appendUsdaString(out, item);
+                if (paths)
+                    out += "<" + item + ">";
+                else
+                    appendUsdaString(out, item);
             }
             out += "]\n";
         };
@@ -123,7 +132,7 @@ private:
 
     void entry(const Known& known, const Value& value) {
         const std::string word = known.word ? known.word : known.key, type = known.type;
-        if (type == "list") return listOp(word, value);
+        if (type == "list" || type == "references") return listOp(word, value, type == "references");
         line(word + " = ");
         if (type == "dictionary")
             appendUsdaDictionary(out, *value.as<Value::Object>(), indent_);

@@ -16,7 +16,7 @@ namespace {
 
 struct ConvertArguments {
     std::string input, output;
-    bool binary = false;
+    bool binary = false, buffers = false;
     double metersPerUnit = 1;
 };
 
@@ -40,14 +40,18 @@ Layer meshLayer(const ConvertArguments& arguments) {
 void convert(const ConvertArguments& arguments, const Console& console) {
     const Layer layer =
         extension(arguments.input) == ".tss" ? readLayer(arguments.input) : meshLayer(arguments);
+    const Encoding encoding = arguments.binary ? Encoding::Cbor : Encoding::Json;
+    Json result = {{"input", arguments.input}, {"output", arguments.output}};
     if (extension(arguments.output) == ".usda")
         writeFileAtomically(arguments.output, writeUsda(layer));
+    else if (extension(arguments.output) == ".tss" && arguments.buffers)
+        result["buffer"] = saveWithBuffer(layer, arguments.output, encoding);
     else if (extension(arguments.output) == ".tss")
-        saveLayer(layer, arguments.output, arguments.binary ? Encoding::Cbor : Encoding::Json);
+        saveLayer(layer, arguments.output, encoding);
     else
         throw InputError(Where{arguments.output, "", ""}, "expected a name that ends in .tss or .usda");
     console.say("wrote " + arguments.output);
-    console.print({{"input", arguments.input}, {"output", arguments.output}});
+    console.print(result);
 }
 
 } // namespace
@@ -59,6 +63,7 @@ void addConvert(CLI::App& app, Console& console) {
     command->add_option("input", arguments->input, "a .tss, or any mesh that assimp reads")->required();
     command->add_option("output", arguments->output, "a .tss or .usda")->required();
     command->add_flag("--binary", arguments->binary, "write the binary twin of .tss (CBOR)");
+    command->add_flag("--buffers", arguments->buffers, "big arrays of a .tss into a file beside it");
     command->add_option("--meters-per-unit", arguments->metersPerUnit, "of a mesh")->capture_default_str();
     command->callback([arguments, &console] { convert(*arguments, console); });
 }

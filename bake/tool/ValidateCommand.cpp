@@ -1,5 +1,4 @@
 #include "bake/scene/SceneFile.h"
-#include "bake/scene/SourceHash.h"
 #include "bake/tool/Command.h"
 
 #include <fmt/format.h>
@@ -8,33 +7,29 @@ namespace tss::tool {
 
 namespace {
 
-Json place(const InputError& error) {
-    return {{"message", error.message},
-            {"file", error.where.file},
-            {"pointer", error.where.pointer},
-            {"path", error.where.path}};
+Json place(const LocatedError& error) {
+    Json place = {{"message", error.message},
+                  {"file", error.where.file},
+                  {"pointer", error.where.pointer},
+                  {"path", error.where.path}};
+    if (error.position.line > 0) {
+        place["line"] = error.position.line;
+        place["column"] = error.position.column;
+    }
+    return place;
 }
 
 void validate(const std::string& file, Console& console) {
-    std::vector<InputError> warnings;
-    std::vector<InputError> errors = validateScene(file, &warnings);
-    if (errors.empty()) {
-        const SceneModel scene = loadScene(file);
-        for (const Pair& pair : scene.pairs)
-            if (const std::string why = staleness(scene, pair); !why.empty())
-                errors.emplace_back(Where{file, "", pair.path}, why);
-        for (const SkinModel& skin : scene.skins)
-            if (const std::string why = staleness(scene, skin); !why.empty())
-                errors.emplace_back(Where{file, "", skin.path}, why);
-    }
+    std::vector<LocatedError> warnings;
+    const std::vector<LocatedError> errors = validateScene(file, &warnings);
     Json result = {
         {"file", file}, {"valid", errors.empty()}, {"errors", Json::array()}, {"warnings", Json::array()}};
-    for (const InputError& warning : warnings) {
-        console.say(fmt::format("warning: {}", warning.what()));
+    for (const LocatedError& warning : warnings) {
+        console.say(fmt::format("warning: {}", warning.text()));
         result["warnings"].push_back(place(warning));
     }
-    for (const InputError& error : errors) {
-        fmt::print(stderr, "{}\n", error.what());
+    for (const LocatedError& error : errors) {
+        fmt::print(stderr, "{}\n", error.text());
         result["errors"].push_back(place(error));
     }
     console.say(errors.empty() ? file + ": good" : fmt::format("{}: {} things wrong", file, errors.size()));

@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/tool/Command.h"
 
+#include <csignal>
 #include <fmt/format.h>
 
 namespace {
@@ -21,6 +22,8 @@ int fail(const tss::tool::Console& console, int code, const std::string& message
 
 int main(int argc, char** argv) {
     using namespace tss::tool;
+    std::signal(SIGXFSZ,
+                SIG_IGN); // a file that may not grow further is an error to report, and its rest to remove
     CLI::App app{"Tabulated sphere subsets: collisions between things whose motion is constrained.", "tss"};
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("tss ") + OSGTSS_VERSION);

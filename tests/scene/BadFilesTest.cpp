@@ -15,54 +15,8 @@ using Json = nlohmann::json;
 
 namespace {
 
-Table smallTable(const Motion& motion) {
-    Table table;
-    table.a = {{Vec3(0.5, 0.25, 0), 0.125}, {Vec3(1, 0, 0), 1}};
-    table.b = {{Vec3(0.5, 0, 0), 0.5}};
-    table.rowOffsets = {0, 1, 2};
-    table.columns = {0, 0};
-    table.restGaps = {0, -0.1};
-    table.motion = motion;
-    table.record.spheresA = table.record.spheresB = 9;
-    return table;
-}
-
-/// A good scene with one of everything: a jaw of two DOFs with a table, a hinge, a pair over both, a brow
-/// with a table.
-SceneModel everything() {
-    SceneModel scene = samples::jaw();
-    const SceneModel brow = samples::brow();
-    for (const Body& body : brow.bodies) scene.bodies.push_back(body);
-    scene.muscles = brow.muscles;
-    scene.muscles[0].body += 2;
-    scene.muscles[0].bone += 2;
-    scene.skins = brow.skins;
-    scene.skins[0].body += 2;
-    Motion hinge;
-    hinge.dofs.resize(1);
-    hinge.dofs[0].upper = 1;
-    scene.pairs.resize(addPair(scene, 1, 4, hinge, "Hinge")); // the joint without its pair
-    scene.joints[1].drives[0] = {{0, 24}, {0, 0.5}};
-    scene.endTimeCode = 24;
-    Pair ends;
-    ends.path = "/Scene/Ends";
-    ends.bodyA = 0;
-    ends.bodyB = 4;
-    ends.joints = {0, 1};
-    scene.pairs.push_back(ends);
-    scene = samples::fromFile(scene);
-    scene.pairs[0].table = std::make_shared<Table>(smallTable(pairMotion(scene, scene.pairs[0])));
-    scene.pairs[1].proof = std::make_shared<NeverCollides>();
-    SkinTable skin;
-    skin.table = smallTable({});
-    skin.skinVertices = {0, 3};
-    skin.muscleOf = {0};
-    scene.skins[0].table = std::make_shared<SkinTable>(skin);
-    return scene;
-}
-
 const Json& goodFile() {
-    static const Json file = Json::parse(writeJson(layerOf(everything())));
+    static const Json file = Json::parse(writeJson(layerOf(samples::everything())));
     return file;
 }
 
@@ -408,7 +362,7 @@ TEST_CASE("text that is not strictly JSON is refused") {
     const auto nested = [](int levels) { return std::string(levels, '[') + std::string(levels, ']'); };
     const std::pair<std::string, std::string> texts[] = {
         {"", "expected JSON"},
-        {"{", "expected JSON"},
+        {"{", "expected JSON: a key in double quotes, found the end of the file at line 1, column 2"},
         {"{}{}", "expected JSON"},
         {"{} x", "expected JSON"},
         {"{\"a\": 1,}", "line 1, column"},
@@ -420,8 +374,26 @@ TEST_CASE("text that is not strictly JSON is refused") {
         {"{\"a\": \"\xff\"}", "expected JSON"},
         {"{\"a\": \"\\ud800\"}", "expected JSON"},
         {"{'a': 1}", "expected JSON"},
+        {"{a: 1}", "expected JSON"},
+        {"{\"a\" 1}", ": after a key"},
+        {"{\"a\": }", "expected JSON: a value, found '}'"},
+        {"{\"a\": tru}", "expected JSON"},
+        {"{\"a\": +1}", "expected JSON"},
+        {"{\"a\": -}", "expected JSON: a digit"},
+        {"{\"a\": 1.}", "expected JSON: a digit"},
+        {"{\"a\": .5}", "expected JSON"},
+        {"{\"a\": 1e+}", "expected JSON: a digit"},
+        {"{\"a\": 0x10}", "expected JSON"},
+        {"{\"a\": [1,]}", "expected JSON: a value, found ']'"},
+        {"{\"a\": [1 2]}", ", or ] after an element"},
+        {"{\"a\": \"\t\"}", "expected JSON"},
+        {"{\"a\": \"\\x41\"}", "after \\"},
+        {"{\"a\": \"\\u12g4\"}", "four hexadecimal digits"},
+        {"{\"a\": \"\\udc00\"}", "surrogate pair"},
+        {"{\"a\": \"\\ud800\\u0041\"}", "second half of a surrogate pair"},
+        {"{\"a\": \"b", "the end of the file"},
         {"\xEF\xBB\xBF{}", "byte order mark"},
-        {std::string("{}\0{}", 5), "NUL byte at offset 2"},
+        {std::string("{}\0{}", 5), "found a NUL byte at line 1, column 3"},
         {"{\"a\": 1, \"a\": 2}", "expected each key once in an object, found \"a\" again"},
         {"{\"b\": {\"a\": 1, \"a\": 2}}", "/b/a"},
         {nested(65), "at most 64 levels"},
@@ -456,11 +428,11 @@ TEST_CASE("validation finds everything that is wrong, not only the first thing")
 }
 
 TEST_CASE("a newer minor version is read with a warning, and kept") {
-    Json file = goodFile();
+    Json file = Json::parse(writeJson(toLayer(samples::jaw())));
     file["formatVersion"] = "1.9";
     const std::string name = std::string(OSGTSS_BINARY_DIR) + "/newer.tss";
     writeFileAtomically(name, file.dump());
-    std::vector<InputError> warnings;
+    std::vector<LocatedError> warnings;
     CHECK(validateScene(name, &warnings).empty());
     std::filesystem::remove(name);
     REQUIRE(warnings.size() == 1);

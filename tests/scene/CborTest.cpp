@@ -10,7 +10,7 @@
 using namespace tss;
 
 TEST_CASE("the binary twin of a random layer is the same layer") {
-    for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
         INFO("seed " << seed);
         const Layer layer = RandomLayer(seed).layer();
         const std::string bytes = writeCbor(layer);

@@ -57,7 +57,7 @@ private:
 
     tss::Value::Object object(int depth) {
         tss::Value::Object object;
-        for (std::size_t n = below(4); n > 0; --n) object["k" + text()] = any(depth);
+        for (std::size_t n = below(4); n > 0; --n) object[std::string("k") + text()] = any(depth);
         return object;
     }
 
@@ -106,7 +106,7 @@ private:
         switch (below(6)) {
         case 0:
             property.targetPaths =
-                tss::Value(tss::Value::Array{tss::Value("/" + name(0)), tss::Value("/a/b.c")});
+                tss::Value(tss::Value::Array{tss::Value(std::string("/") + name(0)), tss::Value("/a/b.c")});
             break;
         case 1:
             property.typeName = "float3[]";

@@ -25,6 +25,22 @@ TEST_CASE("random layers come back equal, and are saved to the same bytes") {
     }
 }
 
+TEST_CASE("every scene of the repository is saved to the bytes that it was loaded from, JSON and CBOR") {
+    int scenes = 0;
+    for (const auto& entry : fs::directory_iterator(std::string(OSGTSS_SOURCE_DIR) + "/scenes")) {
+        if (entry.path().extension() != ".tss") continue;
+        INFO(entry.path());
+        ++scenes;
+        const std::string file = entry.path().string(), bytes = readWholeFile(file);
+        const Layer layer = layerOf(loadScene(file));
+        const std::string json = writeJson(layer), cbor = writeCbor(layer);
+        CHECK((bytes[0] == '{' ? json : cbor) == bytes);
+        CHECK(writeJson(layerOf(readScene(parseLayer(cbor, file), file))) == json);
+        CHECK(writeCbor(layerOf(readScene(parseLayer(json, file), file))) == cbor);
+    }
+    CHECK(scenes > 0);
+}
+
 TEST_CASE("every float and double is written so that it reads back the same") {
     std::mt19937_64 random(5);
     for (int round = 0; round < 200000; ++round) {

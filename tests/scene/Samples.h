@@ -80,4 +80,50 @@ inline tss::SceneModel fromFile(const tss::SceneModel& scene) {
     return readScene(toLayer(scene), "test.tss");
 }
 
+inline tss::Table smallTable(const tss::Motion& motion) {
+    tss::Table table;
+    table.a = {{tss::Vec3(0.5, 0.25, 0), 0.125}, {tss::Vec3(1, 0, 0), 1}};
+    table.b = {{tss::Vec3(0.5, 0, 0), 0.5}};
+    table.rowOffsets = {0, 1, 2};
+    table.columns = {0, 0};
+    table.restGaps = {0, -0.1};
+    table.motion = motion;
+    table.record.spheresA = table.record.spheresB = 9;
+    return table;
+}
+
+/// A good scene with one of everything: a jaw of two DOFs with a table, a hinge, a pair over both, a brow
+/// with a table.
+inline tss::SceneModel everything() {
+    tss::SceneModel scene = jaw();
+    const tss::SceneModel other = brow();
+    for (const tss::Body& body : other.bodies) scene.bodies.push_back(body);
+    scene.muscles = other.muscles;
+    scene.muscles[0].body += 2;
+    scene.muscles[0].bone += 2;
+    scene.skins = other.skins;
+    scene.skins[0].body += 2;
+    tss::Motion hinge;
+    hinge.dofs.resize(1);
+    hinge.dofs[0].upper = 1;
+    scene.pairs.resize(addPair(scene, 1, 4, hinge, "Hinge")); // the joint without its pair
+    scene.joints[1].drives[0] = {{0, 24}, {0, 0.5}};
+    scene.endTimeCode = 24;
+    tss::Pair ends;
+    ends.path = "/Scene/Ends";
+    ends.bodyA = 0;
+    ends.bodyB = 4;
+    ends.joints = {0, 1};
+    scene.pairs.push_back(ends);
+    scene = fromFile(scene);
+    scene.pairs[0].table = std::make_shared<tss::Table>(smallTable(pairMotion(scene, scene.pairs[0])));
+    scene.pairs[1].proof = std::make_shared<tss::NeverCollides>();
+    tss::SkinTable skin;
+    skin.table = smallTable({});
+    skin.skinVertices = {0, 3};
+    skin.muscleOf = {0};
+    scene.skins[0].table = std::make_shared<tss::SkinTable>(skin);
+    return scene;
+}
+
 } // namespace samples

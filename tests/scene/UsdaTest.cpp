@@ -1,7 +1,11 @@
+#include "bake/base/AtomicFile.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/WriteUsda.h"
+#include "tests/scene/Samples.h"
 
 #include <catch2/catch.hpp>
+
+#include <filesystem>
 
 using namespace tss;
 
@@ -74,4 +78,14 @@ def Xform "Jaw" (
     }
 }
 )usda");
+}
+
+TEST_CASE("a whole scene is written as the golden file has it") {
+    const std::string golden = std::string(OSGTSS_SOURCE_DIR) + "/tests/scene/everything.usda";
+    const std::string usda = writeUsda(toLayer(samples::everything()));
+    if (!std::filesystem::exists(golden) || usda != readWholeFile(golden)) {
+        const std::string now = std::string(OSGTSS_BINARY_DIR) + "/everything.usda";
+        writeFileAtomically(now, usda);
+        FAIL("differs from " << golden << ": see " << now << ", and copy it there when the change is meant");
+    }
 }

@@ -1,0 +1,294 @@
+#include "bake/scene/Buffers.h"
+
+#include "bake/base/AtomicFile.h"
+#include "bake/scene/Sha256.h"
+#include "bake/scene/ValueType.h"
+
+#include <bit>
+#include <cmath>
+#include <filesystem>
+
+namespace tss {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char *uriKey = "uri", *lengthKey = "byteLength", *hashKey = "sha256";
+constexpr const char *bufferKey = "buffer", *offsetKey = "byteOffset", *countKey = "count";
+
+enum class Scalar { None, Byte, Int, Uint, Float, Double };
+
+/// How a number of this type stands in a buffer; None: it does not.
+Scalar scalarOf(const ValueType& type) {
+    if (!type.array || type.rows > 1) return Scalar::None;
+    if (type.base == ValueType::Base::Float) return Scalar::Float;
+    if (type.base == ValueType::Base::Double) return Scalar::Double;
+    if (type.base != ValueType::Base::Integer || type.highest > 4294967295.0) return Scalar::None;
+    return type.highest == 255 ? Scalar::Byte : type.lowest < 0 ? Scalar::Int : Scalar::Uint;
+}
+
+std::size_t sizeOf(Scalar scalar) {
+    return scalar == Scalar::Byte ? 1 : scalar == Scalar::Double ? 8 : 4;
+}
+
+double decode(Scalar scalar, const char* bytes) {
+    std::uint64_t bits = 0;
+    for (std::size_t k = 0; k < sizeOf(scalar); ++k)
+        bits |= std::uint64_t(static_cast<std::uint8_t>(bytes[k])) << 8 * k;
+    if (scalar == Scalar::Double) return std::bit_cast<double>(bits);
+    const auto word = static_cast<std::uint32_t>(bits);
+    if (scalar == Scalar::Float) return std::bit_cast<float>(word);
+    if (scalar == Scalar::Int) return static_cast<std::int32_t>(word);
+    return word;
+}
+
+void encode(std::string& out, Scalar scalar, double number) {
+    std::uint64_t bits = 0;
+    if (scalar == Scalar::Double)
+        bits = std::bit_cast<std::uint64_t>(number);
+    else if (scalar == Scalar::Float)
+        bits = std::bit_cast<std::uint32_t>(static_cast<float>(number));
+    else
+        bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(number));
+    for (std::size_t k = 0; k < sizeOf(scalar); ++k) out += static_cast<char>(bits >> 8 * k & 255);
+}
+
+std::string hashOf(const std::string& bytes) {
+    Sha256 hash;
+    hash.add({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    return hash.hex();
+}
+
+/// No separators, no schemes, not a folder.
+bool isBareName(const std::string& uri) {
+    return !uri.empty() && uri != "." && uri != ".." &&
+           uri.find_first_of(std::string_view("/\\:\0", 4)) == uri.npos;
+}
+
+/// The folder that a file stands in, with links to the file followed.
+fs::path folderOf(const std::string& file) {
+    std::error_code error;
+    const fs::path real = fs::canonical(file, error);
+    const fs::path folder = (error ? fs::path(file) : real).parent_path();
+    return folder.empty() ? "." : folder;
+}
+
+class BufferReader {
+public:
+    BufferReader(const std::string& fileName, Problems& problems) : file_(fileName), problems_(problems) {}
+
+    void readAll(const Value& list, const Place& place) {
+        const auto* array = list.as<Value::Array>();
+        if (!array) return problems_.add(place, "expected an array of buffers, found " + describe(list));
+        for (std::size_t i = 0; i < array->size(); ++i) {
+            const auto* keys = (*array)[i].as<Value::Object>();
+            if (!keys) problems_.add(place / i, "expected an object, found " + describe((*array)[i]));
+            buffers_.emplace_back(keys ? read(*keys, place / i) : std::string());
+            left_.push_back(buffers_.back().size());
+        }
+    }
+
+    void fill(Value& prims, const Place& place) {
+        auto* array = prims.as<Value::Array>();
+        for (std::size_t i = 0; array && i < array->size(); ++i) {
+            auto* prim = (*array)[i].as<Value::Object>();
+            if (!prim) continue;
+            Place at = place / i;
+            const auto name = prim->find("name");
+            if (const auto* text = name == prim->end() ? nullptr : name->second.as<std::string>())
+                at.path += "/" + *text;
+            if (const auto found = prim->find("properties"); found != prim->end())
+                fillProperties(found->second, at);
+            if (const auto found = prim->find("primChildren"); found != prim->end())
+                fill(found->second, at / std::string("primChildren"));
+        }
+    }
+
+private:
+    std::string read(const Value::Object& keys, const Place& place) {
+        const auto text = [&](const char* key) {
+            const auto found = keys.find(key);
+            const auto* string = found == keys.end() ? nullptr : found->second.as<std::string>();
+            if (!string) problems_.add(place / std::string(key), std::string("expected the string ") + key);
+            return string ? *string : std::string();
+        };
+        const std::string uri = text(uriKey), hash = text(hashKey);
+        const auto length = whole(keys, lengthKey, place);
+        if (!length || uri.empty() || hash.empty()) return {};
+        const Place at = place / std::string(uriKey);
+        if (file_.empty()) {
+            problems_.add(at, "expected a scene that is a file: its buffers stand beside it");
+            return {};
+        }
+        if (!isBareName(uri)) {
+            problems_.add(at, "expected the bare name of a file beside the scene, found \"" + uri + "\"");
+            return {};
+        }
+        const fs::path file = folderOf(file_) / uri;
+        std::error_code error;
+        const fs::file_status status = fs::symlink_status(file, error);
+        if (!fs::is_regular_file(status)) {
+            problems_.add(at, "expected a regular file beside the scene and no link: \"" + uri + "\"");
+            return {};
+        }
+        const std::uintmax_t size = fs::file_size(file, error);
+        if (error || size != *length) {
+            problems_.add(place / std::string(lengthKey), "expected the size of \"" + uri + "\", " +
+                                                              std::to_string(size) + " bytes, found " +
+                                                              std::to_string(*length));
+            return {};
+        }
+        std::string bytes = readWholeFile(file.string());
+        if (hashOf(bytes) == hash) return bytes;
+        problems_.add(place / std::string(hashKey),
+                      "expected the SHA-256 of \"" + uri + "\", " + hashOf(bytes) +
+                          ": the file is another one than the scene was saved with");
+        return {};
+    }
+
+    /// A whole number of at least 0.
+    std::optional<std::uint64_t> whole(const Value::Object& keys, const char* key, const Place& place) {
+        const auto found = keys.find(key);
+        const double* number = found == keys.end() ? nullptr : found->second.as<double>();
+        if (number && *number >= 0 && *number == std::trunc(*number) && *number <= 9007199254740992.0)
+            return static_cast<std::uint64_t>(*number);
+        problems_.add(place / std::string(key),
+                      std::string("expected ") + key + ", an integer of at least 0" +
+                          (found == keys.end() ? "" : ", found " + describe(found->second)));
+        return std::nullopt;
+    }
+
+    void fillProperties(Value& properties, const Place& place) {
+        auto* all = properties.as<Value::Object>();
+        if (!all) return;
+        for (auto& [name, property] : *all) {
+            auto* keys = property.as<Value::Object>();
+            const auto typeName = keys ? keys->find("typeName") : Value::Object::iterator();
+            const auto* text = keys && typeName != keys->end() ? typeName->second.as<std::string>() : nullptr;
+            const auto type = text ? valueType(*text) : std::nullopt;
+            if (!type) continue;
+            Place at = place / std::string("properties") / name;
+            at.path += "." + name;
+            if (const auto found = keys->find("default"); found != keys->end())
+                fillValue(found->second, *type, *text, at / std::string("default"));
+            const auto found = keys->find("timeSamples");
+            auto* samples = found == keys->end() ? nullptr : found->second.as<Value::Array>();
+            for (std::size_t i = 0; samples && i < samples->size(); ++i)
+                if (auto* pair = (*samples)[i].as<Value::Array>(); pair && pair->size() == 2)
+                    fillValue((*pair)[1], *type, *text, at / std::string("timeSamples") / i / std::size_t(1));
+        }
+    }
+
+    void fillValue(Value& value, const ValueType& type, const std::string& typeName, const Place& place) {
+        const auto* keys = value.as<Value::Object>();
+        if (!keys || !keys->contains(bufferKey)) return;
+        Value numbers{Value::Array()};
+        view(*keys, type, typeName, place, numbers);
+        value = std::move(numbers);
+    }
+
+    void view(const Value::Object& keys, const ValueType& type, const std::string& typeName,
+              const Place& place, Value& out) {
+        const Scalar scalar = scalarOf(type);
+        if (scalar == Scalar::None)
+            return problems_.add(place,
+                                 "expected the value itself: " + typeName + " has no form in a buffer");
+        for (const auto& [key, value] : keys)
+            if (key != bufferKey && key != offsetKey && key != countKey)
+                return problems_.add(place / key,
+                                     "expected buffer, byteOffset and count, found \"" + key + "\"");
+        const auto index = whole(keys, bufferKey, place), offset = whole(keys, offsetKey, place),
+                   count = whole(keys, countKey, place);
+        if (!index || !offset || !count) return;
+        if (*index >= buffers_.size())
+            return problems_.add(place / std::string(bufferKey),
+                                 "expected an index below " + std::to_string(buffers_.size()) +
+                                     ", the number of buffers, found " + std::to_string(*index));
+        const std::string& bytes = buffers_[*index];
+        const std::size_t each = sizeOf(scalar) * static_cast<std::size_t>(type.width);
+        if (*offset > bytes.size() || *count > (bytes.size() - *offset) / each)
+            return problems_.add(place / std::string(countKey),
+                                 "expected elements inside of the buffer's " + std::to_string(bytes.size()) +
+                                     " bytes, found " + std::to_string(*count) + " of " +
+                                     std::to_string(each) + " bytes from " + std::to_string(*offset));
+        if (*count * each > left_[*index])
+            return problems_.add(place, "expected values that use no byte of a buffer twice");
+        left_[*index] -= *count * each;
+        if (*count == 0) return;
+        Numbers numbers{{}, type.width == 1 ? 0 : type.width};
+        numbers.values.reserve(*count * static_cast<std::size_t>(type.width));
+        const std::size_t step = sizeOf(scalar), end = *offset + *count * each;
+        for (std::size_t at = *offset; at < end; at += step)
+            numbers.values.push_back(decode(scalar, &bytes[at]));
+        out = Value(std::move(numbers));
+    }
+
+    const std::string file_;
+    Problems& problems_;
+    std::vector<std::string> buffers_;
+    std::vector<std::size_t> left_; ///< bytes of each that no value has used yet
+};
+
+/// Moves arrays of a layer into one block of bytes.
+class Packer {
+public:
+    explicit Packer(std::size_t fewest) : fewest_(fewest) {}
+    std::string bytes;
+
+    void pack(std::vector<Prim>& prims) {
+        for (Prim& prim : prims) {
+            for (auto& [name, property] : prim.properties) {
+                const auto type = valueType(property.typeName);
+                const Scalar scalar = type ? scalarOf(*type) : Scalar::None;
+                if (scalar == Scalar::None) continue;
+                if (property.defaultValue) pack(*property.defaultValue, scalar);
+                for (Property::Sample& sample : property.timeSamples) pack(sample.value, scalar);
+            }
+            pack(prim.children);
+        }
+    }
+
+private:
+    void pack(Value& value, Scalar scalar) {
+        const Numbers* numbers = value.as<Numbers>();
+        if (!numbers || numbers->count() < fewest_) return;
+        Value::Object view{{bufferKey, Value(0.0)},
+                           {offsetKey, Value(std::uint64_t(bytes.size()))},
+                           {countKey, Value(std::uint64_t(numbers->count()))}};
+        for (double number : numbers->values) encode(bytes, scalar, number);
+        value = Value(std::move(view));
+    }
+
+    std::size_t fewest_;
+};
+
+} // namespace
+
+void inlineBuffers(Value& root, const std::string& fileName, Problems& problems) {
+    auto* keys = root.as<Value::Object>();
+    const auto list = keys ? keys->find("buffers") : Value::Object::iterator();
+    if (!keys || list == keys->end()) return;
+    BufferReader reader(fileName, problems);
+    reader.readAll(list->second, Place() / std::string("buffers"));
+    keys->erase(list);
+    if (const auto prims = keys->find("primChildren"); prims != keys->end())
+        reader.fill(prims->second, Place() / std::string("primChildren"));
+}
+
+Buffer takeBuffer(Layer& layer, const std::string& stem, std::size_t fewest) {
+    Packer packer(fewest);
+    packer.pack(layer.children);
+    if (packer.bytes.empty()) return {};
+    const std::string hash = hashOf(packer.bytes);
+    constexpr std::size_t nameDigits =
+        16; // a name of its own for each content: an old scene keeps its own buffer
+    Buffer buffer{stem + "." + hash.substr(0, nameDigits) + ".bin", std::move(packer.bytes)};
+    layer.other["buffers"] =
+        Value(Value::Array{Value(Value::Object{{uriKey, Value(buffer.uri)},
+                                               {lengthKey, Value(std::uint64_t(buffer.bytes.size()))},
+                                               {hashKey, Value(hash)}})});
+    return buffer;
+}
+
+} // namespace tss
