@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Sets up a Debian 12 machine, builds everything and runs the tests. --long: also those labelled long.
+# Sets up a Debian 12 machine, builds everything and runs the tests. --long: also those labelled long,
+# and half an hour of fuzzing in place of half a minute.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source tests/setup.sh
@@ -25,3 +26,6 @@ if [ -n "$long" ]; then
     say "Long tests"
     ctest --test-dir build -L long --output-on-failure
 fi
+
+say "Fuzzing the scene reader"
+tests/fuzz/run.sh "$([ -n "$long" ] && echo 1800 || echo 30)"

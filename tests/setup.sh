@@ -7,6 +7,7 @@ packages=(
     libeigen3-dev libassimp-dev nlohmann-json3-dev catch2
     libtbb-dev libembree-dev libhwy-dev libcli11-dev libfmt-dev
     libfcl-dev zlib1g-dev parallel
+    clang libclang-rt-14-dev
     xvfb xauth libgl1-mesa-dri libegl-dev libegl-mesa0
 )
 

@@ -1,4 +1,6 @@
 #include "bake/base/Error.h"
+#include "bake/scene/LocateJson.h"
+#include "bake/scene/ParseCbor.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SourceHash.h"
@@ -38,11 +40,18 @@ void checkScene(const std::shared_ptr<const Layer>& layer) {
     require(writeJson(saved) == once);
 }
 
+#ifdef OSGTSS_FUZZ_CBOR
+constexpr bool cbor = true;
+#else
+constexpr bool cbor = false;
+#endif
+
 } // namespace
 
-/// libFuzzer's entry: any bytes, JSON or CBOR, are either a scene or an InputError.
+/// libFuzzer's entry: any bytes, of the one encoding, are either a scene or an InputError.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+    if (looksLikeCbor(bytes) != cbor) return 0; // the other program's
     try {
         const auto layer = std::make_shared<const Layer>(parseLayer(bytes, "fuzz.tss"));
         checkRoundTrip(*layer);
@@ -54,5 +63,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         readScene(std::make_shared<const Layer>(parseLayer(bytes, "fuzz.tss", all)), all);
     } catch (const InputError&) {
     }
+    std::vector<std::string> pointers;
+    for (const InputError& error : all.errors) pointers.push_back(error.where.pointer);
+    if (!cbor) require(locateJson(bytes, pointers).size() == pointers.size());
     return 0;
 }

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Builds the fuzzers of the scene reader (preset fuzz) and runs both for a time, side by side, with address and
+# undefined-behaviour sanitizers. What they find stays in build-fuzz/run/found-*, what they learn in build-fuzz/run/.
+set -euo pipefail
+if [ $# -ne 1 ] || ! [[ "$1" =~ ^[0-9]+$ ]]; then
+    echo "usage: tests/fuzz/run.sh SECONDS" >&2
+    exit 2
+fi
+seconds=$1
+cd "$(dirname "$0")/../.."
+cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz --parallel "$(nproc)"
+mkdir -p build-fuzz/run
+cd build-fuzz/run
+../bin/fuzz_seeds .
+
+declare -A running
+for encoding in json cbor; do
+    mkdir -p "learnt-$encoding"
+    "../bin/fuzz_$encoding" "learnt-$encoding" "$encoding" -dict=words -max_total_time="$seconds" -timeout=10 \
+        -malloc_limit_mb=256 -max_len=40000 -artifact_prefix="found-$encoding-" -print_final_stats=1 \
+        >"$encoding.log" 2>&1 &
+    running[$encoding]=$!
+done
+failed=
+for encoding in json cbor; do
+    wait "${running[$encoding]}" || failed=yes
+    printf '%s: ' "$encoding"
+    grep -E 'SUMMARY|ERROR|number_of_executed_units' "$encoding.log" | tail -n 3
+done
+if [ -n "$failed" ]; then
+    tail -n 40 json.log cbor.log
+    exit 1
+fi
