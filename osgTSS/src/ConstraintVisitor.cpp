@@ -173,8 +173,7 @@ void ConstraintVisitor::enterJoint(osg::Transform& node, FoundJoints found) {
         scaleLengths(joint, scale);
         joint.frame0 = toBody0 * joint.frame0;
         toBody0 = tss::Pose::Identity();
-        joint.path = "/" + _model.defaultPrim + "/" +
-                     tss::freePrimName(_model, node.getName().empty() ? "Joint" : node.getName());
+        joint.path = freePath(node.getName().empty() ? "Joint" : node.getName());
         const bool last = k + 1 == found.joints.size();
         body = addJoint(joint, body, node, last ? scale * found.scale : 0);
     }
@@ -220,14 +219,23 @@ void ConstraintVisitor::enterMoved(osg::Transform& node, const osg::Matrixd& mat
 int ConstraintVisitor::addBody(osg::Node& node, const char* fallback, double scale) {
     tss::Body body;
     const std::string& name = node.getName();
-    body.path =
-        "/" + _model.defaultPrim + "/" + tss::freePrimName(_model, name.empty() ? fallback : name + "Body");
+    body.path = freePath(name.empty() ? fallback : name + "Body");
     body.displayName = name;
     _model.bodies.push_back(body);
     _bodyNodes.push_back({&node, scale});
     _groups.emplace_back();
     _jointAbove.push_back(-1);
     return static_cast<int>(_model.bodies.size()) - 1;
+}
+
+/// As tss::freePrimName(), which looks through the whole scene for each: too slow for all pairs of many
+/// bodies.
+std::string ConstraintVisitor::freePath(const std::string& wanted) {
+    const std::string stem = "/" + _model.defaultPrim + "/" + tss::freePrimName(tss::SceneModel{}, wanted);
+    std::string path = stem;
+    for (int& number = _numbers[stem]; !_paths.insert(path).second;)
+        path = stem + std::to_string(number = std::max(number + 1, 2));
+    return path;
 }
 
 std::vector<int> ConstraintVisitor::jointsToTop(int body) const {
@@ -258,13 +266,7 @@ void ConstraintVisitor::addPair(int a, int b) {
     if (pair.joints.size() == 1) {
         pair.path = _model.joints[pair.joints[0]].path;
     } else {
-        const std::string name = _model.bodies[b].displayName + "Pair";
-        int n = 1;
-        do
-            pair.path = "/" + _model.defaultPrim + "/" +
-                        tss::freePrimName(_model, n == 1 ? name : name + std::to_string(n));
-        while (++n, _pairPaths.contains(pair.path)); // freePrimName() does not know of pairs
-        _pairPaths.insert(pair.path);
+        pair.path = freePath(_model.bodies[b].displayName + "Pair");
     }
     _model.pairs.push_back(pair);
 }
