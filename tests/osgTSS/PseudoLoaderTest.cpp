@@ -55,7 +55,7 @@ double lowestOverStowage(osg::Node& tank, unsigned int frames) {
 TEST_CASE("any OSG file with joints is extracted, baked and kept apart by asking for FILE.tss") {
     const auto file = saveTank();
     const osg::ref_ptr<osg::Node> plain = osgDB::readRefNodeFile(file.string());
-    const osg::ref_ptr<osg::Node> apart = load(file.string() + ".tss", "pairs=all tolerance=10cm");
+    const osg::ref_ptr<osg::Node> apart = load(file.string() + ".tss", "pairs=all tolerance=4cm");
     REQUIRE(apart);
     constexpr unsigned int frames = 24 * 24;
     const double radius = 0.09, before = lowestOverStowage(*plain, frames);
