@@ -61,7 +61,7 @@ void drawAnswers(Drawing& drawing, const SkinStudy& study) {
             fmt::format("{} {} {}\n", a.nanoseconds / 1000, std::max(noError, study.millimetres * a.deepest),
                         std::max(noError, study.millimetres * a.farthest));
         if (a.sweeps > 0)
-            labels += fmt::format("set label \"{}\" at {},{} offset 0,0.8 center font \",11\"\n", a.sweeps,
+            labels += fmt::format("set label \"{}\" at {},{} offset 0,-0.9 center font \",11\"\n", a.sweeps,
                                   a.nanoseconds / 1000, std::max(noError, study.millimetres * a.deepest));
     }
     drawing.draw(
@@ -93,7 +93,8 @@ void drawDepth(Drawing& drawing, const SkinStudy& study) {
     drawing.draw(
         "depth", data,
         "set xlabel \"step of the motion\"\nset ylabel \"deepest skin vertex, mm\"\nset y2label "
-        "\"activation\"\nset ytics nomirror\nset y2tics\nset y2range [0:*]\nset yrange [0:*]\n"
+        "\"activation\"\nset ytics nomirror\nset y2tics\nset y2range [0:*]\nset yrange [0:*]\nset autoscale "
+        "xfix\n"
         "set key outside top center horizontal\nset tmargin 5\nset title \"Overlap along the motion\" offset "
         "0,1\nplot FILE using 1:3 with lines lw 2 lc rgb \"#dd181f\" title \"if the skin stayed at rest\", "
         "FILE using 1:4 with lines lw 2 lc rgb \"#0060ad\" title \"left by the response\", FILE using 1:2 "

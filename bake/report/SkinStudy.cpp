@@ -309,7 +309,9 @@ SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const Report
     for (const bool all : {false, true}) {
         const auto& vertices = all ? every : setting.rowVertex;
         add(all ? "ellipsoid-all" : "ellipsoid-used",
-            std::string("one bent ellipsoid a muscle, refitted each step (not timed), against ") +
+            std::string(
+                "one bent ellipsoid a muscle, refitted each step (not timed; a test ends early where the "
+                "sphere's centre is inside), against ") +
                 (all ? "all skin spheres" : "the table's skin spheres"),
             [&](const Step& step, Found& found) {
                 return byEllipsoids(setting, vertices, step, found, false);
