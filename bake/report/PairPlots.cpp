@@ -100,9 +100,10 @@ void drawSteps(Drawing& drawing, const PairStudy& study) {
         powersOfTen("y"), 3 * most, std::max<std::size_t>(1, steps.leading.size() - 1),
         quoted(fmt::format("Tests a step along {}", steps.motion)));
     for (std::size_t k = 0; k < steps.series.size(); ++k)
-        script +=
-            fmt::format("FILE using 1:(${0} > 0.5 ? ${0} : 0.5) with lines lw 2 lc rgb \"{1}\" title {2}, ",
-                        k + 5, colour(k), quoted(steps.series[k].name));
+        script += fmt::format(
+            "FILE using 1:(${0} > 0.5 ? ${0} : 0.5) with lines lw 2 dt {3} lc rgb \"{1}\" title {2}, ", k + 5,
+            colour(k), quoted(steps.series[k].name),
+            k + 1 < steps.series.size() ? "1" : "(8,8)"); // the last may lie on the one before
     script += "FILE using 1:($4 > 0 ? 0.35 : NaN) with points pt 5 ps 0.5 lc rgb \"#f0a0a0\" title \"in the "
               "angular "
               "region\", FILE using 1:($3 > 0 ? 0.25 : NaN) with points pt 5 ps 0.5 lc rgb \"#dd181f\" title "

@@ -140,7 +140,11 @@ void measureRows(PairStudy& study, const std::vector<Entrant>& field, const Mesh
         Row row;
         row.about = rivals[r]->description();
         row.method = row.about.name;
-        if (onSpheres(row.about.family)) row.setting = models[r]->recipe.name;
+        if (onSpheres(row.about.family)) {
+            row.setting = models[r]->recipe.name;
+            row.about.buildSeconds += models[r]->sphereSeconds;
+        }
+        if (row.about.family == "TSS") row.about.buildSeconds += models[r]->tableSeconds;
         row.times = times[r];
         const auto most =
             static_cast<std::size_t>(sizes.judgeSeconds * 1e9 / std::max(1.0, row.times.median));
