@@ -34,11 +34,12 @@ void observe(const JointModel& model, const JointValues& q, const JointValues& w
 }
 
 /// Time until a gap g >= 0 that changes at `rate` can have closed when its rate falls by `acceleration` a
-/// unit of time: the positive root of g + rate t - acceleration t^2 / 2, written without cancellation.
+/// unit of time: the positive root of g + rate t - acceleration t^2 / 2, written without cancellation. Times
+/// from 1 on, where every way ends, are all HUGE_VAL.
 double closingTime(double g, double rate, double acceleration) {
     const double root = std::sqrt(rate * rate + 2 * acceleration * g);
-    if (rate <= 0) return 2 * g / (root - rate);
-    return acceleration > 0 ? (rate + root) / acceleration : HUGE_VAL;
+    if (rate <= 0) return 2 * g < root - rate ? 2 * g / (root - rate) : HUGE_VAL;
+    return rate + root < acceleration ? (rate + root) / acceleration : HUGE_VAL;
 }
 
 /// Time until some path DOF reaches its next row, where its rate jumps.
@@ -47,7 +48,8 @@ double timeToRow(const JointModel::Group& group, const JointValues& q, const Joi
     if (!group.paths) return time;
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
         const int l = group.dofs[k];
-        if (way[l] != 0) time = std::min(time, (nextRow(group.motion.dofs[k], q[l], way[l]) - q[l]) / way[l]);
+        const double left = std::abs(nextRow(group.motion.dofs[k], q[l], way[l]) - q[l]);
+        if (left < std::abs(way[l])) time = std::min(time, left / std::abs(way[l]));
     }
     return time;
 }
