@@ -32,6 +32,11 @@ std::vector<std::vector<double>> nearContact(const Motion& motion, const std::ve
     return contacts;
 }
 
+/// Error of a squared distance as roundoffs of the squared reach.
+double conditionOf(double u, double error, double reach) {
+    return reach != 0 ? error / (u * reach * reach) : std::numeric_limits<double>::infinity();
+}
+
 template <class T>
 T* column(T* block, std::uint32_t lanes, std::uint32_t k) {
     return block + std::size_t(k) * lanes;
@@ -102,17 +107,18 @@ PreparedTable::PreparedTable(const Table& table, const PrepareOptions& options)
         prepareKernels<double>();
 }
 
-void PreparedTable::Bands::widen(double error, double reach) {
+void PreparedTable::Bands::widen(double u, double error, double reach) {
     // A little more, for the rounding of the widened constant itself.
     widening.push_back(1.001 * error);
     sign = std::max(sign, tss::signBand(2.002 * error, reach));
+    condition = std::max(condition, conditionOf(u, error, reach));
 }
 
 PreparedTable::Bands PreparedTable::foldBands(double u) const {
     Bands bands;
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
         const double reach = pairs_[p].reach;
-        bands.widen(fold_->signError(u, Eigen::Index(p), reach), reach);
+        bands.widen(u, fold_->signError(u, Eigen::Index(p), reach), reach);
         for (double gap : {-depth_, 0.0, margin_}) {
             const double error = fold_->squareError(u, Eigen::Index(p), std::max(0.0, reach + gap));
             bands.gap = std::max(bands.gap, tss::gapBand(u, error, reach, gap));
@@ -126,7 +132,7 @@ PreparedTable::Bands PreparedTable::directBands(double u) const {
     for (const TablePair& p : pairs_) {
         const double a = (p.a - originA_).norm(), b = (p.b - originB_).norm();
         const double sign = directError(u, a, b, farthestT_, std::abs(p.reach), p.reach);
-        bands.widen(sign, p.reach);
+        bands.widen(u, sign, p.reach);
         for (double gap : {-depth_, 0.0, margin_}) {
             const double error = directError(u, a, b, farthestT_, std::max(0.0, p.reach + gap), p.reach);
             bands.gap = std::max(bands.gap, tss::gapBand(u, error, p.reach, gap));
@@ -172,6 +178,7 @@ void PreparedTable::choose(const PrepareOptions& options) {
     }
     signBand_ = bands.sign;
     gapBand_ = bands.gap;
+    condition_ = bands.condition;
     widening_ = std::move(bands.widening);
     if (form_ == KernelForm::Direct) fold_.reset();
 }

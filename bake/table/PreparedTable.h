@@ -108,16 +108,19 @@ public:
     double signBand() const { return signBand_; }
     /// `gap` is off by no more than this for gaps down to -depth and up to margin of the table.
     double gapBand() const { return gapBand_; }
+    /// Condition of the worst test with this form of kernel: by how many roundoffs of its squared reach the
+    /// squared distance may be off near contact. Infinite where a reach is 0.
+    double condition() const { return condition_; }
 
 private:
     struct alignas(64) Chunk {
         std::array<std::byte, 64> bytes;
     };
     struct Bands {
-        double sign = 0, gap = 0;
+        double sign = 0, gap = 0, condition = 0;
         std::vector<double>
             widening; ///< per test: what its squared reach gains, so that rounding misses nothing
-        void widen(double error, double reach);
+        void widen(double u, double error, double reach);
     };
 
     Bands foldBands(double u) const;
@@ -141,7 +144,7 @@ private:
     KernelForm form_ = KernelForm::Direct;
     KernelTarget target_ = KernelTarget::Scalar;
     bool float_ = true;
-    double signBand_ = 0, gapBand_ = 0;
+    double signBand_ = 0, gapBand_ = 0, condition_ = 0;
     std::size_t room_ = 0;
 
     // A vector's storage stays where it is when the table is moved, so the data may point into it.

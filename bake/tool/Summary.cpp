@@ -1,5 +1,7 @@
 #include "bake/tool/Summary.h"
 
+#include "bake/table/PreparedTable.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -49,6 +51,17 @@ void addTable(Json& json, const Table& table) {
     json["bytes"] = bytes(table);
 }
 
+/// How the run time asks the table, how ill-conditioned that is, and the gaps where rounding may turn the
+/// verdict.
+void addKernel(Json& json, const Table& table) {
+    const PreparedTable prepared(table);
+    json["kernel"] = {{"form", name(prepared.form())},
+                      {"precision", name(prepared.precision())},
+                      {"features", prepared.featureCount()},
+                      {"condition", prepared.condition()},
+                      {"band", prepared.signBand()}};
+}
+
 std::string length(const Json& value) {
     return value.is_null() ? "not known" : fmt::format("{:.4g}", value.get<double>());
 }
@@ -63,7 +76,10 @@ Json summary(const SceneModel& scene, const Pair& pair) {
                  {"baked", pair.table || pair.proof},
                  {"neverCollides", pair.proof != nullptr},
                  {"seconds", nullptr}};
-    if (pair.table) addTable(json, *pair.table);
+    if (pair.table) {
+        addTable(json, *pair.table);
+        addKernel(json, *pair.table);
+    }
     if (pair.proof) {
         addRecord(json, pair.proof->record);
         json.update({{"usedA", 0},
@@ -132,6 +148,11 @@ std::string describe(const Json& scene) {
                     text += fmt::format("  at rest      {} tests overlap and count from there\n",
                                         item["overlapAtRest"].dump());
             }
+            if (item.contains("kernel"))
+                text += fmt::format(
+                    "  query        {} in {}, condition {:.3g}, verdicts right beyond {:.3g}\n",
+                    item["kernel"]["form"].get<std::string>(), item["kernel"]["precision"].get<std::string>(),
+                    item["kernel"]["condition"].get<double>(), item["kernel"]["band"].get<double>());
             text += fmt::format("  made by      {}, {} bytes", item["method"].get<std::string>(),
                                 item["bytes"].dump());
             if (!item["seconds"].is_null()) text += fmt::format(", {:.2f} s", item["seconds"].get<double>());
