@@ -1,0 +1,33 @@
+#include "tests/extreme/tool/RandomScene.h"
+
+#include <catch2/catch.hpp>
+
+using namespace extreme;
+
+namespace {
+
+void checkSeeds(std::uint64_t first, std::uint64_t count) {
+    std::uint64_t served = 0;
+    for (std::uint64_t seed = first; seed < first + count; ++seed) {
+        const RandomRun run = runRandom(seed, 5);
+        INFO("tss-extreme random 1 " << seed << " took " << run.seconds << " s");
+        for (const std::string& trouble : run.troubles) FAIL_CHECK("seed " << seed << ": " << trouble);
+        served += run.refusal.empty() && !run.stopped;
+    }
+    CHECK(served >= count / 2);
+}
+
+} // namespace
+
+TEST_CASE("random scenes with extreme parameters are served with proven bounds or refused") {
+    checkSeeds(1, 25);
+}
+
+TEST_CASE("a thousand random scenes with extreme parameters are served with proven bounds or refused",
+          "[.long]") {
+    checkSeeds(1000, 1000);
+}
+
+TEST_CASE("random scenes that once failed do not fail again") {
+    for (const std::uint64_t seed : {std::uint64_t(1)}) checkSeeds(seed, 1);
+}
