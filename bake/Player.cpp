@@ -1,4 +1,4 @@
-#include "bake/tool/Player.h"
+#include "bake/Player.h"
 
 #include "bake/SkinSetup.h"
 #include "bake/geometry/Solid.h"
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace tss::tool {
+namespace tss {
 
 namespace {
 
@@ -126,4 +126,4 @@ std::vector<TriangleMesh> Player::worldMeshes() const {
     return meshes;
 }
 
-} // namespace tss::tool
+} // namespace tss

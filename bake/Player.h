@@ -3,7 +3,7 @@
 #include "bake/respond/SkinResponse.h"
 #include "bake/scene/SceneModel.h"
 
-namespace tss::tool {
+namespace tss {
 
 /// A scene in motion: the joints kept out of collision, the skins deformed, as the node kit does it, step by
 /// step.
@@ -45,4 +45,4 @@ private:
     std::vector<Skin> skins_;
 };
 
-} // namespace tss::tool
+} // namespace tss

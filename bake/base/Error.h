@@ -31,4 +31,15 @@ private:
     }
 };
 
+/// Does the work on what a file holds: an InputError that does not know its file is told with it.
+template <class Work>
+auto inFile(const std::string& file, const Work& work) {
+    try {
+        return work();
+    } catch (const InputError& error) {
+        if (!error.where.file.empty()) throw;
+        throw InputError(Where{file, error.where.pointer, error.where.path}, error.message);
+    }
+}
+
 } // namespace tss

@@ -1,4 +1,5 @@
 #include "bake/Bake.h"
+#include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
 #include "bake/scene/AllPairs.h"
 #include "bake/scene/SceneFile.h"
@@ -51,7 +52,8 @@ void runBake(BakeArguments& arguments, const Console& console) {
     SceneModel scene = loadScene(arguments.input);
     const Json pairs = arguments.allPairs ? addPairs(scene, console) : Json();
     std::vector<PairReport> reports;
-    if (!arguments.pairsOnly) reports = bake(scene, arguments.request, console.progress());
+    if (!arguments.pairsOnly)
+        reports = inFile(arguments.input, [&] { return bake(scene, arguments.request, console.progress()); });
     saveScene(scene, arguments.output);
 
     BakeTimes times = readBakeTimes(arguments.input);

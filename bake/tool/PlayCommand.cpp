@@ -1,10 +1,10 @@
+#include "bake/Player.h"
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/Csv.h"
 #include "bake/tool/DofSpec.h"
-#include "bake/tool/Player.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -113,7 +113,7 @@ void play(const PlayArguments& arguments, const Console& console) {
     const SceneModel scene = loadScene(arguments.scene);
     const auto steps = askedSteps(scene, arguments);
     std::vector<std::string> warnings;
-    Player player(scene, warnings);
+    Player player = inFile(arguments.scene, [&] { return Player(scene, warnings); });
     for (const std::string& warning : warnings) console.say(warning);
 
     std::string text = header(scene);
