@@ -129,9 +129,14 @@ private:
     double coarsened(double tolerance) {
         if (options_.maxSpheres <= 0) return tolerance;
         const auto limit = static_cast<std::size_t>(options_.maxSpheres);
+        const MedialOptions trial = forTrial(options_.medial, limit);
         for (int round = 0; round < 20; ++round, tolerance *= 2) {
-            a_.fit(tolerance, options_.medial, {});
-            b_.fit(tolerance, options_.medial, {});
+            try {
+                a_.fit(tolerance, trial, progress_);
+                b_.fit(tolerance, trial, progress_);
+            } catch (const TooFine&) {
+                continue;
+            }
             if (std::max(a_.level.spheres.size(), b_.level.spheres.size()) <= limit) break;
         }
         return tolerance;
@@ -143,16 +148,25 @@ private:
         std::array<LevelSpheres, 2> before{a_.level, b_.level};
         std::array<SphereSet, 2> coarse{a_.coarse, b_.coarse};
         if (!result_.levels.empty()) keepInner();
-        a_.fit(tolerance, options_.medial, progress_);
-        b_.fit(tolerance, options_.medial, progress_);
+        const auto backToLast = [&] {
+            a_.level = before[0], a_.coarse = coarse[0];
+            b_.level = before[1], b_.coarse = coarse[1];
+            return false;
+        };
+        try {
+            a_.fit(tolerance, options_.medial, progress_);
+            b_.fit(tolerance, options_.medial, progress_);
+        } catch (const InputError& error) { // too fine, or stopped
+            if (result_.levels.empty()) throw;
+            note_ = fmt::format("tolerance {:.4g} instead of {:.4g}: {}", result_.levels.back().tolerance,
+                                tolerance, error.message);
+            return backToLast();
+        }
         const auto limit = static_cast<std::size_t>(options_.maxSpheres);
         for (const Body* body : bodies)
             if (limit > 0 && !result_.levels.empty() &&
-                body->level.spheres.size() + body->coarse.size() > limit) {
-                a_.level = before[0], a_.coarse = coarse[0];
-                b_.level = before[1], b_.coarse = coarse[1];
-                return false;
-            }
+                body->level.spheres.size() + body->coarse.size() > limit)
+                return backToLast();
         result_.levels.push_back(
             {tolerance, a_.level.spheres.size(), b_.level.spheres.size(), area(a_.zone), area(b_.zone), 0});
         return true;

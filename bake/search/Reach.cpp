@@ -1,6 +1,7 @@
 #include "bake/search/Reach.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/base/Poll.h"
 #include "bake/search/CellTools.h"
 
 #include <algorithm>
@@ -30,6 +31,7 @@ struct Problem {
     double margin;
     std::unique_ptr<std::atomic<char>[]> reached; ///< one a node: all below it is
     std::vector<std::uint32_t> parents;
+    Poll& poll;
     std::atomic<std::uint64_t> tests{0}; ///< balls looked at
 };
 
@@ -89,6 +91,10 @@ public:
     void run(const CellTree& tree, const std::vector<std::uint32_t>& inherited) {
         Cell cell = tree.cell;
         if (!shrinkToPlanes(p_.rates.motion(), cell)) return;
+        if (p_.poll.stopped()) { // what has not been looked at may be within reach
+            for (const std::uint32_t n : inherited) mark(n);
+            return;
+        }
         const CellMotion motion(p_.rates, cell);
         const Pose inverse = motion.centrePose().inverse();
         std::vector<std::uint32_t> open, stack(inherited.rbegin(), inherited.rend());
@@ -178,9 +184,9 @@ struct Kept {
 
 /// The patches that come within reach, judged as they are.
 Kept reached(std::span<const Patch> patches, Side side, const MeshQuery& other, const MotionRates& rates,
-             const CellTree& cells, double resolution, double margin) {
+             const CellTree& cells, double resolution, double margin, Poll& poll) {
     if (patches.empty()) return {};
-    Problem p{side, other, rates, {}, {}, resolution, margin, {}, {}};
+    Problem p{side, other, rates, {}, {}, resolution, margin, {}, {}, poll};
     buildTree(p, patches);
     const std::vector<std::uint32_t> nodes = topNodes(p.tree, 64);
     parallelFor(nodes.size(), [&](std::size_t i) { Marker(p).run(cells, {nodes[i]}); });
@@ -199,23 +205,28 @@ Kept reached(std::span<const Patch> patches, Side side, const MeshQuery& other, 
 /// many DOFs the number of cells explodes; then larger ones decide, which keeps more surface than need be.
 std::vector<Patch> reachedInBudget(std::vector<Patch> patches, Side side, const MeshQuery& other,
                                    const MotionRates& rates, const CellTree& cells, double size,
-                                   double margin) {
+                                   double margin, Poll& poll) {
     constexpr double budget = 4e6; // tests, about a microsecond each
     const double growth = std::pow(2.0, static_cast<double>(rates.motion().dofCount()));
     for (double resolution = 8 * size; !patches.empty(); resolution /= 2) {
-        Kept kept = reached(patches, side, other, rates, cells, resolution, margin);
+        Kept kept = reached(patches, side, other, rates, cells, resolution, margin, poll);
         patches = std::move(kept.patches);
         if (resolution <= size / 2 || static_cast<double>(kept.tests) * growth > budget) break;
+        if (poll.stopped()) break;
     }
     return patches;
 }
 
-void halveTo(const Patch& patch, double radius, std::vector<Patch>& out) {
+/// False: that makes too many.
+bool halveTo(const Patch& patch, double radius, std::vector<Patch>& out) {
+    constexpr std::size_t most = 8'000'000;
+    if (out.size() >= most) return false;
     if (patch.radius() <= radius) {
         out.push_back(patch);
-        return;
+        return true;
     }
-    for (const Patch& half : halves(patch)) halveTo(half, radius, out);
+    const auto both = halves(patch);
+    return halveTo(both[0], radius, out) && halveTo(both[1], radius, out);
 }
 
 double largestRadius(std::span<const Patch> patches) {
@@ -231,11 +242,14 @@ std::vector<Patch> findReach(std::span<const Patch> patches, Side side, const Me
                              const Progress& progress) {
     const MotionRates rates(motion);
     std::vector<Patch> now(patches.begin(), patches.end());
+    Poll poll(progress, "reach");
     // From the coarse to the fine, so that most of a mesh is let go in large pieces.
     for (double step = std::max(size, largestRadius(now));; step = std::max(size, step / 4)) {
         std::vector<Patch> fine;
-        for (const Patch& patch : now) halveTo(patch, step, fine);
-        now = reachedInBudget(std::move(fine), side, other, rates, cells, step, margin);
+        const bool whole = std::all_of(now.begin(), now.end(),
+                                       [&](const Patch& patch) { return halveTo(patch, step, fine); });
+        if (!whole) break; // larger patches than asked for keep more of the surface than need be
+        now = reachedInBudget(std::move(fine), side, other, rates, cells, step, margin, poll);
         if (!report(progress, "reach", size / step) || now.empty()) break;
         if (step <= size) break;
     }

@@ -5,6 +5,7 @@
 #include "bake/spheres/Growth.h"
 #include "bake/spheres/MaxSpheres.h"
 #include "bake/spheres/MedialSpheres.h"
+#include "bake/spheres/Patches.h"
 #include "bake/spheres/SurfaceSpheres.h"
 
 #include <fmt/format.h>
@@ -96,8 +97,15 @@ SphereFit limitedFit(const Solid& solid, const SphereOptions& options, const Pro
     const double finest = options.tolerance > 0 ? options.tolerance : solid.diagonal() * 1e-5;
     SphereFit best;
     double bestTolerance = std::numeric_limits<double>::infinity();
+    SphereOptions trial = options;
+    trial.medial = forTrial(options.medial, limit);
     const auto count = [&](double tolerance) {
-        SphereFit fit = fitOnce(solid, options, tolerance, {});
+        SphereFit fit;
+        try {
+            fit = fitOnce(solid, trial, tolerance, {});
+        } catch (const TooFine&) {
+            return std::numeric_limits<std::size_t>::max();
+        }
         const std::size_t n = fit.spheres.size();
         if (n <= limit && tolerance < bestTolerance) {
             best = std::move(fit);

@@ -8,7 +8,7 @@ namespace tss {
 
 SphereSet medialSpheres(const Solid& solid, std::span<const Patch> patches, double protrusion,
                         const MedialOptions& options, const Progress& progress) {
-    const PatchOptions patchOptions{protrusion, options.slackFactor, options.sizeFactor};
+    const PatchOptions patchOptions{protrusion, options.slackFactor, options.sizeFactor, options.mostPatches};
     const FittedPatches fitted = fitPatches(solid, patches, patchOptions, progress);
     const CoverSets sets = coverSets(fitted.candidates, fitted.patches);
     SphereSet spheres;
@@ -20,7 +20,7 @@ SphereSet medialSpheres(const Solid& solid, std::span<const Patch> patches, doub
 
 SphereSet shrinkingSpheres(const Solid& solid, std::span<const Patch> patches, double protrusion,
                            const MedialOptions& options, const Progress& progress) {
-    const PatchOptions patchOptions{protrusion, std::min(options.slackFactor, 1e-3), 1};
+    const PatchOptions patchOptions{protrusion, std::min(options.slackFactor, 1e-3), 1, options.mostPatches};
     return fitPatches(solid, patches, patchOptions, progress).candidates;
 }
 

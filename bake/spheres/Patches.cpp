@@ -1,11 +1,13 @@
 #include "bake/spheres/Patches.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/base/Poll.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/spheres/MedialBall.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace tss {
 
@@ -54,10 +56,20 @@ bool covers(const Sphere& sphere, const Patch& patch) {
 
 namespace {
 
+/// What the threads share.
+struct Shared {
+    Shared(const PatchOptions& options, const Progress& progress)
+        : options(options), poll(progress, "patches") {}
+
+    const PatchOptions& options;
+    Poll poll;
+    std::atomic<std::size_t> splits{0};
+};
+
 /// Splits one patch as far as needed.
 class Splitter {
 public:
-    Splitter(const Solid& solid, const PatchOptions& options) : solid_(solid), options_(options) {}
+    Splitter(const Solid& solid, Shared& shared) : solid_(solid), options_(shared.options), shared_(shared) {}
 
     void add(const Patch& patch, double radiusExpected) {
         const double radius = patch.radius();
@@ -82,11 +94,24 @@ private:
     }
 
     void split(const Patch& patch, double radiusExpected) {
+        // From the size of a mesh down to the rounding of its coordinates are at most about 110 halvings.
+        constexpr int mostDeep = 128;
+        if (shared_.splits.fetch_add(1, std::memory_order_relaxed) >= options_.mostPatches ||
+            depth_ >= mostDeep)
+            throw TooFine(
+                fmt::format("a tolerance of about {:.4g} takes more than {} patches of a mesh {:.4g} "
+                            "in size: expected a coarser one",
+                            options_.protrusion, options_.mostPatches, solid_.diagonal()));
+        if (shared_.poll.stopped()) throw InputError("stopped before the spheres were made");
+        ++depth_;
         for (const Patch& half : halves(patch)) add(half, radiusExpected);
+        --depth_;
     }
 
     const Solid& solid_;
     const PatchOptions& options_;
+    Shared& shared_;
+    int depth_ = 0;
     KnownInside known_;
 };
 
@@ -97,8 +122,9 @@ FittedPatches fitPatches(const Solid& solid, std::span<const Patch> patches, con
     constexpr std::size_t block = 64;
     const std::size_t blocks = (patches.size() + block - 1) / block;
     std::vector<FittedPatches> parts(blocks);
+    Shared shared(options, progress);
     parallelFor(blocks, [&](std::size_t b) {
-        Splitter splitter(solid, options);
+        Splitter splitter(solid, shared);
         for (std::size_t i = b * block; i < std::min(patches.size(), (b + 1) * block); ++i)
             splitter.add(patches[i], 0);
         parts[b] = std::move(splitter.result);

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/base/Error.h"
 #include "bake/base/Progress.h"
 #include "bake/geometry/Solid.h"
 #include "bake/spheres/SphereSet.h"
@@ -30,9 +31,16 @@ bool covers(const Sphere& sphere, const Patch& patch);
 
 /// How candidate spheres are found for patches (METHOD 1.3).
 struct PatchOptions {
-    double protrusion = 0;     ///< P, scene units, > 0
-    double slackFactor = 0.02; ///< tau / P, in (0, 0.5]
-    double sizeFactor = 0.4;   ///< k: a patch is split until its radius is at most k sqrt(2 R P)
+    double protrusion = 0;                ///< P, scene units, > 0
+    double slackFactor = 0.02;            ///< tau / P, in (0, 0.5]
+    double sizeFactor = 0.4;              ///< k: a patch is split until its radius is at most k sqrt(2 R P)
+    std::size_t mostPatches = 10'000'000; ///< more are refused: they would take gigabytes
+};
+
+/// The protrusion asks for more patches than can be had, or is too small beside the coordinates for doubles.
+class TooFine : public InputError {
+public:
+    using InputError::InputError;
 };
 
 /// Patches fine enough, each with the sphere found from its own centre, which covers it.
@@ -42,7 +50,8 @@ struct FittedPatches {
 };
 
 /// Splits the patches until the sphere of each covers it and the patch is small beside the sphere.
-/// Ends for every input: a patch smaller than (1 - tau/P) P is covered by its sphere whatever that is.
+/// Ends for every input: a patch smaller than (1 - tau/P) P is covered by its sphere whatever that is. Throws
+/// TooFine, and InputError when it is stopped through progress: a part of the patches is of no use.
 FittedPatches fitPatches(const Solid& solid, std::span<const Patch> patches, const PatchOptions& options,
                          const Progress& progress = {});
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cstddef>
 #include <string>
 
 namespace tss {
@@ -13,9 +15,16 @@ enum class SphereMethod {
 
 /// How finely the medial and shrinking generators work (METHOD 1.3).
 struct MedialOptions {
-    double slackFactor = 0.02; ///< tau / P, in (0, 0.5]; above 0.1 it takes many more spheres
-    double sizeFactor = 0.4;   ///< k: a patch has at most the radius k sqrt(2 R P); in (0, 1]
+    double slackFactor = 0.02;            ///< tau / P, in (0, 0.5]; above 0.1 it takes many more spheres
+    double sizeFactor = 0.4;              ///< k: a patch has at most the radius k sqrt(2 R P); in (0, 1]
+    std::size_t mostPatches = 10'000'000; ///< a finer tolerance is refused: it would take gigabytes
 };
+
+/// For trials of whether `limit` spheres suffice: a tolerance that takes far more patches needs no look.
+inline MedialOptions forTrial(MedialOptions options, std::size_t limit) {
+    options.mostPatches = std::min(options.mostPatches, 100'000 + 200 * limit);
+    return options;
+}
 
 /// The rule for radii of the surface generator (METHOD 1.2).
 struct SurfaceOptions {
