@@ -319,8 +319,10 @@ void contact(const ContactTest& test, const MotionFrame& frame, std::size_t dofs
     const auto between = hn::Sub(centre, a);
     const auto distance = hn::Sqrt(hn::Set(d, sum(hn::Mul(between, between))));
     HWY_ALIGN constexpr double unitX[4] = {1, 0, 0, 0};
+    // No distance but 0 is below 2e-162: what is not taken is not 0 / 0 then.
+    const auto divisor = hn::Max(distance, splat(1e-200));
     const auto normal =
-        hn::IfThenElse(hn::Gt(distance, hn::Zero(d)), hn::Div(between, distance), hn::Load(d, unitX));
+        hn::IfThenElse(hn::Gt(distance, hn::Zero(d)), hn::Div(between, divisor), hn::Load(d, unitX));
     const double length = hn::GetLane(distance);
     out.gap = length - test.reach;
     // The fourth number of each is overwritten by what comes after it, of the gradient if nothing else.
