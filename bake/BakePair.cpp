@@ -171,9 +171,12 @@ Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& c
         const bool listed = sampled || candidates.certified;
         const CoverResult result =
             certifiedCover(a, b, listed ? &candidates : nullptr, motion, cover, progress);
+        if (!std::isfinite(result.epsilon))
+            throw InputError("the budget ended before any bound was proven: expected a longer --budget, or a "
+                             "coarser --tolerance or --epsilon");
         selection.reduced = result;
         selection.epsilon = result.epsilon;
-        selection.certified = !sampled && std::isfinite(result.epsilon);
+        selection.certified = !sampled;
         if (selection.certified && result.complete && result.pairs.empty())
             selection.proof = NeverCollides{result.clearance, result.cells, {}, {}};
         if (!result.complete)
