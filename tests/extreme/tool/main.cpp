@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <string>
+#include <sys/time.h>
 #include <unistd.h>
 
 namespace {
@@ -29,9 +30,9 @@ constexpr const char* usage =
     "       tss-extreme page FILE STEPS FRAMES SCENES   measures all of it anew and writes the page about "
     "it\n";
 
-/// Seconds after which a random scene is asked to stop, and after which it has hung.
+/// Seconds of processor time after which a random scene is asked to stop, and after which it has hung.
 constexpr double budget = 5;
-constexpr unsigned hang = 60;
+constexpr long hang = 60;
 
 std::atomic<unsigned long long> seedNow{0};
 
@@ -75,35 +76,46 @@ int check(int count, char** names) {
     return bad ? 1 : 0;
 }
 
-[[noreturn]] void hung(int) {
+/// Names the seed: the process cannot go on.
+[[noreturn]] void failed(int signal) {
     char text[64];
-    const int length = std::snprintf(text, sizeof text, "seed %llu hangs\n", seedNow.load());
+    const int length = std::snprintf(text, sizeof text, "seed %llu %s\n", seedNow.load(),
+                                     signal == SIGPROF ? "hangs" : "crashes");
     if (length > 0 && write(2, text, static_cast<std::size_t>(length)) < 0) _exit(4);
     _exit(3);
 }
 
+/// Processor time until SIGPROF; 0: none.
+void allow(long seconds) {
+    itimerval timer{};
+    timer.it_value.tv_sec = seconds;
+    setitimer(ITIMER_PROF, &timer, nullptr);
+}
+
 int searchForTrouble(std::uint64_t count, std::uint64_t first) {
-    std::uint64_t refused = 0, stopped = 0, bad = 0;
+    std::uint64_t refused = 0, stopped = 0, bad = 0, tables = 0;
     double longest = 0;
     std::map<std::string, int> refusals;
-    std::signal(SIGALRM, hung);
+    for (const int signal : {SIGPROF, SIGFPE, SIGSEGV, SIGABRT}) std::signal(signal, failed);
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
         seedNow = seed;
-        alarm(hang);
+        allow(hang);
         const RandomRun run = runRandom(seed, budget);
-        alarm(0);
-        refused += !run.refusal.empty();
+        allow(0);
         stopped += run.stopped;
+        refused += !run.stopped && !run.refusal.empty();
         longest = std::max(longest, run.seconds);
         if (!run.refusal.empty()) ++refusals[run.refusal.substr(run.refusal.find('>') + 1, 60)];
         if (run.seconds > 2 * budget) fmt::print("seed {}: slow, {:.1f} s\n", seed, run.seconds);
         for (const std::string& trouble : run.troubles) fmt::print("seed {}: {}\n", seed, trouble);
         bad += !run.troubles.empty();
+        tables += run.table;
+        if ((seed - first) % 100 == 99) fmt::print("{} scenes\n", seed - first + 1);
     }
-    fmt::print(
-        "{} scenes from seed {}: {} served whole, {} stopped by their budget of {} s, {} refused, {} in "
-        "trouble; the longest took {:.1f} s\n",
-        count, first, count - refused - stopped, stopped, budget, refused, bad, longest);
+    fmt::print("{} scenes from seed {}: {} served whole ({} with a table), {} stopped by their budget of {} "
+               "s, {} refused, {} in "
+               "trouble; the longest took {:.1f} s\n",
+               count, first, count - refused - stopped, tables, stopped, budget, refused, bad, longest);
     for (const auto& [what, times] : refusals) fmt::print("  refused {} times{}\n", times, what);
     return bad ? 1 : 0;
 }
