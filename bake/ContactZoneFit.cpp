@@ -153,14 +153,23 @@ private:
             b_.level = before[1], b_.coarse = coarse[1];
             return false;
         };
+        const auto fitBoth = [&](const MedialOptions& medial, const Progress& progress) {
+            a_.fit(tolerance, medial, progress);
+            b_.fit(tolerance, medial, progress);
+        };
         try {
-            a_.fit(tolerance, options_.medial, progress_);
-            b_.fit(tolerance, options_.medial, progress_);
+            fitBoth(options_.medial, progress_);
         } catch (const InputError& error) { // too fine, or stopped
-            if (result_.levels.empty()) throw;
-            note_ = fmt::format("tolerance {:.4g} instead of {:.4g}: {}", result_.levels.back().tolerance,
-                                tolerance, error.message);
-            return backToLast();
+            if (!result_.levels.empty()) {
+                note_ = fmt::format("tolerance {:.4g} instead of {:.4g}: {}", result_.levels.back().tolerance,
+                                    tolerance, error.message);
+                return backToLast();
+            }
+            try { // some level there must be, if it can be had soon
+                fitBoth(forTrial(options_.medial, 0), {});
+            } catch (const TooFine&) {
+                throw InputError(error.message);
+            }
         }
         const auto limit = static_cast<std::size_t>(options_.maxSpheres);
         for (const Body* body : bodies)
