@@ -142,6 +142,42 @@ TEST_CASE("bad input is exit 1 with a message that says where, and leaves no fil
     CHECK(fileCount(folder.path()) == 4);
 }
 
+TEST_CASE("validation says line and column of everything wrong") {
+    const Folder folder;
+    writeText(folder / "bad.tss", "{\"format\": \"osgtss\", \"formatVersion\": \"1.0\",\n"
+                                  " \"metadata\": {\"upAxis\": \"X\", \"metersPerUnit\": 0}}");
+    const Ran text = runTss("validate bad.tss", folder.path());
+    CHECK(text.exit == 1);
+    CHECK(text.err.find("bad.tss:2:47: /metadata/metersPerUnit: expected a number above 0") !=
+          std::string::npos);
+    CHECK(text.err.find("bad.tss:2:25: /metadata/upAxis: ") != std::string::npos);
+    const Json json = Json::parse(runTss("validate bad.tss --json", folder.path()).out);
+    REQUIRE(json["errors"].size() == 2);
+    CHECK(json["errors"][0]["pointer"] == "/metadata/metersPerUnit");
+    CHECK(json["errors"][0]["line"] == 2);
+    CHECK(json["errors"][0]["column"] == 47);
+}
+
+TEST_CASE(
+    "a scene is converted to and from a buffer beside it, and a save that cannot end leaves the old files") {
+    const Folder folder;
+    writeSwing(folder);
+    CHECK(runTss("convert swing.tss plain.tss", folder.path()).exit == 0);
+    const Ran packed = runTss("convert swing.tss packed.tss --buffers --json", folder.path());
+    REQUIRE(packed.exit == 0);
+    const std::string buffer = Json::parse(packed.out)["buffer"];
+    CHECK(std::filesystem::exists(folder / buffer));
+    CHECK(runTss("convert packed.tss again.tss", folder.path()).exit == 0);
+    CHECK(readText(folder / "again.tss") == readText(folder / "plain.tss"));
+
+    const auto files = fileCount(folder.path());
+    const Ran full = runTss("convert swing.tss packed.tss", folder.path(), "ulimit -f 1"); // 512 bytes
+    CHECK(full.exit == 1);
+    CHECK(full.err.find("packed.tss: cannot be written") != std::string::npos);
+    CHECK(fileCount(folder.path()) == files);
+    CHECK(runTss("validate packed.tss", folder.path()).exit == 0);
+}
+
 TEST_CASE("with --json one object stands on stdout, also when it fails") {
     const Folder folder;
     const Ran ran = runTss("info missing.tss --json", folder.path());

@@ -33,10 +33,11 @@ std::size_t fileCount(const fs::path& folder) {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-Ran runTss(const std::string& arguments, const fs::path& folder) {
+Ran runTss(const std::string& arguments, const fs::path& folder, const std::string& before) {
     const Folder capture;
-    const std::string command = "cd '" + folder.string() + "' && '" TSS_PROGRAM "' " + arguments + " >'" +
-                                (capture / "out") + "' 2>'" + (capture / "err") + "' </dev/null";
+    const std::string command = "cd '" + folder.string() + "' && " + before + " && '" TSS_PROGRAM "' " +
+                                arguments + " >'" + (capture / "out") + "' 2>'" + (capture / "err") +
+                                "' </dev/null";
     const int status = std::system(command.c_str());
     Ran ran;
     ran.exit = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

@@ -8,8 +8,9 @@ struct Ran {
     std::string out, err;
 };
 
-/// Runs `tss <arguments>` through the shell, in `folder`.
-Ran runTss(const std::string& arguments, const std::filesystem::path& folder);
+/// Runs `tss <arguments>` through the shell, in `folder`; `before`: a command that the shell runs before it.
+Ran runTss(const std::string& arguments, const std::filesystem::path& folder,
+           const std::string& before = ":");
 
 /// A new empty folder that is removed with the object, unless TSS_TEST_KEEP is set in the environment.
 class Folder {
