@@ -42,6 +42,7 @@ void spread(std::vector<double>& values, const Rings& rings) {
 
 std::vector<Closeness> closeness(const TriangleMesh& skin, const std::vector<Vec3>& normals,
                                  const Rings& rings, const MuscleDeformer& muscle, double reach) {
+    if (!(reach > 0)) return {}; // a table without spheres: the muscle meets nothing of the skin
     Eigen::AlignedBox3d box = bounds(muscle.muscle().surface);
     box.min().array() -= reach;
     box.max().array() += reach;
