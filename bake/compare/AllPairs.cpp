@@ -17,6 +17,7 @@ public:
                          {missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)},
                          (problem.a.size() + problem.b.size()) * sizeof(Sphere),
                          0};
+        description().slow = true;
     }
 
     bool hit(const PoseQuery& query) const override {

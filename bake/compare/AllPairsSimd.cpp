@@ -71,6 +71,7 @@ public:
                          {miss < 0 ? -1 : miss + band, early < 0 ? -1 : early + band},
                          problem.a.size() * sizeof(Sphere) + count * 4 * sizeof(float),
                          0};
+        description().slow = true;
     }
 
     bool hit(const PoseQuery& query) const override {

@@ -22,6 +22,7 @@ public:
                                {0, 0},
                                bytes(a_) + bytes(b_),
                                seconds.count()};
+        this->description().slow = name == "aabb";
     }
 
     bool hit(const PoseQuery& query) const override {

@@ -40,6 +40,7 @@ struct Description {
     StatedError stated;
     std::size_t bytes = 0; ///< what a query reads, without the code
     double buildSeconds = 0;
+    bool slow = false; ///< milliseconds a query on meshes of some ten thousand triangles: ask it less often
 };
 
 /// Another way to ask whether two bodies touch at a pose. Immutable once made; threads may share one unless
