@@ -2,11 +2,13 @@
 
 #include "bake/base/Error.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <functional>
 #include <initializer_list>
 #include <utility>
+#include <vector>
 
 namespace tss {
 
@@ -42,6 +44,30 @@ double length(const std::string& key, const std::string& text, double metersPerU
 
 bool flag(const std::string& key, const std::string& text) {
     return choice<bool>(key, text, {{"true", true}, {"false", false}});
+}
+
+/// "T_min,dt,T_max,R": plain numbers are fractions of the bounding diagonal, with units they are lengths.
+GrowthOptions growth(const std::string& text, double metersPerUnit) {
+    std::vector<std::string> parts;
+    for (std::size_t from = 0; from <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', from), text.size());
+        parts.push_back(text.substr(from, comma - from));
+        from = comma + 1;
+    }
+    const auto plain = [](const std::string& part) {
+        return part.find_first_not_of("+-.0123456789eE") == std::string::npos;
+    };
+    const auto fractions = std::count_if(parts.begin(), parts.end(), plain);
+    if (parts.size() != 4 || (fractions != 0 && fractions != 4))
+        throw InputError(
+            "--growth: expected START,STEP,END,MAXRADIUS, all fractions of the bounding diagonal or all "
+            "lengths with units, found \"" +
+            text + "\"");
+    GrowthOptions growth;
+    growth.relative = fractions == 4;
+    double* const values[] = {&growth.start, &growth.step, &growth.end, &growth.maxRadius};
+    for (std::size_t k = 0; k < 4; ++k) *values[k] = length("growth", parts[k], metersPerUnit, false);
+    return growth;
 }
 
 } // namespace
@@ -84,6 +110,7 @@ bool set(BakeOptions& options, const std::string& key, const std::string& text, 
                                                      {"growth", SphereMethod::Growth},
                                                      {"surface", SphereMethod::Surface}});
          }},
+        {"growth", [&] { options.growth = growth(text, metersPerUnit); }},
         {"search",
          [&] {
              options.search = choice<SearchMethod>(

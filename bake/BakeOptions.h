@@ -14,6 +14,7 @@ enum class ReduceMethod { Cover, Cooccurrence, Minimal, None };
 /// Settings of a bake; each is an option of `tss bake` of the same name. Lengths in scene units.
 struct BakeOptions {
     SphereMethod spheres = SphereMethod::Medial;
+    GrowthOptions growth; ///< of SphereMethod::Growth (METHOD 1.1)
     std::optional<double>
         tolerance;      ///< protrusion of the spheres (METHOD 1.6); default: 1/500 of the smaller diagonal
     double epsilon = 0; ///< 0: the table answers as the whole sphere model does (METHOD 3.3)

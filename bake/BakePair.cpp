@@ -9,6 +9,7 @@
 #include "bake/scene/SourceHash.h"
 #include "bake/search/CertifiedSearch.h"
 #include "bake/search/SampledSearch.h"
+#include "bake/spheres/FitMetrics.h"
 #include "bake/spheres/GenerateSpheres.h"
 #include "bake/spheres/RoundToFloat.h"
 
@@ -60,6 +61,7 @@ SphereFit wholeBody(const Body& body, const BakeOptions& options, double toleran
     how.tolerance = tolerance;
     how.maxSpheres = options.maxSpheres;
     how.conservative = options.conservative;
+    how.growth = options.growth;
     return fitSpheres(cleaned(meshOf(body)), how, progress);
 }
 
@@ -76,7 +78,9 @@ PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, dou
     for (how.tolerance = std::max(tolerance, smaller / 30);;
          how.tolerance = std::max(tolerance, how.tolerance / 2)) {
         PairSpheres spheres{fitSpheres(cleaned(meshOf(a)), how, progress),
-                            fitSpheres(cleaned(meshOf(b)), how, progress)};
+                            fitSpheres(cleaned(meshOf(b)), how, progress),
+                            {},
+                            {}};
         const CandidatePairs meeting =
             searchCertified(spheres.a.spheres, spheres.b.spheres, motion, apart, progress);
         if ((meeting.certified && meeting.pairs.empty()) || how.tolerance <= tolerance) return spheres;
@@ -96,6 +100,28 @@ void roundToFloat(SphereFit& fit) {
 
 double known(double bound) {
     return std::isfinite(bound) ? bound : -1;
+}
+
+/// The figures of a fit; its bounds become those measured where these are better.
+FitRecord measured(const Body& body, SphereFit& fit, const std::optional<std::vector<Patch>>& zone) {
+    const Solid solid(cleaned(meshOf(body)));
+    FitMetrics metrics = measureFit(solid, fit.spheres, zone ? *zone : patchesOf(solid.mesh()));
+    measureVolumes(metrics, solid, fit.spheres);
+    fit.coverage = std::min(fit.coverage, metrics.coverage);
+    fit.protrusion = std::min(fit.protrusion, metrics.protrusion);
+    FitRecord figures;
+    figures.coverageMean = known(metrics.coverageMean);
+    figures.coverageP95 = known(metrics.coverageP95);
+    figures.protrusionMean = known(metrics.protrusionMean);
+    figures.protrusionP95 = known(metrics.protrusionP95);
+    figures.volumeRatio = known(metrics.volumeRatio);
+    return figures;
+}
+
+FitRecord recorded(FitRecord figures, const SphereFit& fit) {
+    figures.coverage = known(fit.coverage);
+    figures.protrusion = known(fit.protrusion);
+    return figures;
 }
 
 SampledSearchOptions sampled(const BakeOptions& options) {
@@ -216,9 +242,11 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
         if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
             spheres = spheresApart(a, b, motion, tolerance, progress);
         else
-            spheres = {std::move(fit.a.fit), std::move(fit.b.fit)};
+            spheres = {std::move(fit.a.fit), std::move(fit.b.fit), std::move(fit.a.zone),
+                       std::move(fit.b.zone)};
     } else {
-        spheres = {wholeBody(a, options, tolerance, progress), wholeBody(b, options, tolerance, progress)};
+        spheres = {
+            wholeBody(a, options, tolerance, progress), wholeBody(b, options, tolerance, progress), {}, {}};
     }
     roundToFloat(spheres.a);
     roundToFloat(spheres.b);
@@ -234,18 +262,25 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
     record.spheresB = fitB.spheres.size();
     const bool listed = candidates.certified || options.search == SearchMethod::Sampled;
     record.candidatePairs = listed ? candidates.pairs.size() : 0;
-    record.fitA = {known(fitA.coverage), known(fitA.protrusion)};
-    record.fitB = {known(fitB.coverage), known(fitB.protrusion)};
+    record.fitA = recorded(spheres.figuresA, fitA);
+    record.fitB = recorded(spheres.figuresB, fitB);
     noteOverlap(candidates, options, report);
     Selection selection;
     if (candidates.certified && candidates.pairs.empty())
         selection.proof = NeverCollides{candidates.clearance, candidates.explored, {}, {}};
     else
         selection = select(fitA.spheres, fitB.spheres, candidates, motion, options, report, progress);
+    // Spheres that stay apart say that the bodies do where the spheres lack less of the surfaces than that.
+    const double lacking = fitA.coverage + fitB.coverage;
+    if (selection.proof && !(std::isfinite(lacking) && lacking <= selection.proof->clearance)) {
+        selection.proof.reset();
+        selection.certified = true;
+    }
     const std::string method = methodName(options);
     if (selection.proof) {
         selection.proof->method = method;
-        // No sphere in reach: nothing more is known than that the two do not meet, and a file holds no infinity.
+        // No sphere in reach: nothing more is known than that the two do not meet, and a file holds no
+        // infinity.
         if (!std::isfinite(selection.proof->clearance)) selection.proof->clearance = 0;
         selection.proof->record = record;
         return {nullptr, std::make_shared<NeverCollides>(*selection.proof)};
@@ -268,7 +303,9 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
               const Progress& progress) {
     const Motion motion = pairMotion(scene, pair);
     checkMotion(motion);
-    const PairSpheres spheres = fillPair(scene, pair, motion, options, progress);
+    PairSpheres spheres = fillPair(scene, pair, motion, options, progress);
+    spheres.figuresA = measured(scene.bodies[pair.bodyA], spheres.a, spheres.zoneA);
+    spheres.figuresB = measured(scene.bodies[pair.bodyB], spheres.b, spheres.zoneB);
     const std::pair<int, const SphereFit*> fits[] = {{pair.bodyA, &spheres.a}, {pair.bodyB, &spheres.b}};
     for (const auto& [body, fit] : fits)
         if (!fit->note.empty())

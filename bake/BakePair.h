@@ -2,12 +2,18 @@
 #include "bake/Bake.h"
 #include "bake/search/SkinSearch.h"
 #include "bake/spheres/GenerateSpheres.h"
+#include "bake/spheres/Patches.h"
+
+#include <optional>
 
 namespace tss {
 
 /// The spheres of both bodies as a file can hold them, with what is proven of them.
 struct PairSpheres {
     SphereFit a, b;
+    /// The surface that they stand for, where that is not all of it: the contact zone.
+    std::optional<std::vector<Patch>> zoneA{}, zoneB{};
+    FitRecord figuresA{}, figuresB{}; ///< as far as they were measured
 };
 
 /// Fills the two bodies of a pair as the options say (METHOD 1). The same spheres at every call.

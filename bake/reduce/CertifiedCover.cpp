@@ -96,15 +96,28 @@ private:
         return worst.empty() ? owed_.epsilon : *std::max_element(worst.begin(), worst.end());
     }
 
+    /// What some member answers with wherever it is: no two pairs' gaps differ by more than their spheres are
+    /// apart.
+    double epsilonAnywhere() const {
+        double least = infinity;
+        const SphereTree::Node &a = problem_.treeA[0], &b = problem_.treeB[0];
+        for (const ReachPair& member : cover_.members()) {
+            const double apart = (problem_.a[member.pair.a].centre - a.centre).norm() +
+                                 (problem_.b[member.pair.b].centre - b.centre).norm();
+            least = std::min(least, apart + a.radius + b.radius - member.reach + problem_.band);
+        }
+        return std::max(least, owed_.epsilon);
+    }
+
     /// The budget did not reach for the epsilon asked for: proves coarser ones, each half of the last, as far
     /// as it does reach.
     double climbDown() {
-        double reached = infinity;
+        double reached = epsilonAnywhere();
         for (double epsilon = problem_.size; epsilon > owed_.epsilon; epsilon *= 0.5) {
             Obligation coarser = owed_;
             coarser.epsilon = epsilon;
             if (!prove(coarser, cover_, 1).complete) break;
-            reached = epsilon;
+            reached = std::min(reached, epsilon);
         }
         return reached;
     }

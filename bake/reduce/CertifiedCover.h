@@ -12,8 +12,8 @@ struct CoverOptions {
     AtRest atRest = AtRest::Offset;
     double seconds = 0;      ///< time budget, 0: none. A search cut short by time may differ from run to run
     std::uint64_t cells = 0; ///< the same in cells of Q: the same result every time
-    int rounds = 8; ///< at most so many further proofs to make a proven table smaller; it ends when the table
-                    ///< is within 2 % of its lower bound
+    int rounds = 24; ///< at most so many further proofs to make a proven table smaller; it ends when the
+                     ///< table is within 2 % of its lower bound
 };
 
 /// A cover and what is proven about it.

@@ -69,10 +69,9 @@ BakeRecord readRecord(const PrimReader& prim) {
     std::tie(record.spheresA, record.spheresB) = readTwo(prim, schema::generatedSpheres);
     record.candidatePairs = prim.count(schema::candidatePairs);
     record.lowerBound = prim.count(schema::lowerBound);
-    const auto coverage = prim.reals(schema::coverage, 2), protrusion = prim.reals(schema::protrusion, 2);
-    if (coverage.size() == 2) record.fitA.coverage = coverage[0], record.fitB.coverage = coverage[1];
-    if (protrusion.size() == 2)
-        record.fitA.protrusion = protrusion[0], record.fitB.protrusion = protrusion[1];
+    for (const auto& [attribute, figure] : schema::fitFigures)
+        if (const auto two = prim.reals(attribute, 2); two.size() == 2)
+            record.fitA.*figure = two[0], record.fitB.*figure = two[1];
     return record;
 }
 

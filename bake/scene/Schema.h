@@ -1,4 +1,7 @@
 #pragma once
+#include "bake/table/Table.h"
+
+#include <utility>
 
 namespace tss {
 
@@ -84,6 +87,21 @@ inline constexpr Attribute candidatePairs{"tss:candidatePairs", "uint64", true};
 inline constexpr Attribute lowerBound{"tss:lowerBound", "uint64", true};
 inline constexpr Attribute coverage{"tss:coverage", "double[]", true};
 inline constexpr Attribute protrusion{"tss:protrusion", "double[]", true};
+inline constexpr Attribute coverageMean{"tss:coverageMean", "double[]", true};
+inline constexpr Attribute coverageP95{"tss:coverageP95", "double[]", true};
+inline constexpr Attribute protrusionMean{"tss:protrusionMean", "double[]", true};
+inline constexpr Attribute protrusionP95{"tss:protrusionP95", "double[]", true};
+inline constexpr Attribute volumeRatio{"tss:volumeRatio", "double[]", true};
+
+/// Where each figure of a fit is kept: one number a body.
+inline constexpr std::pair<Attribute, double FitRecord::*> fitFigures[] = {
+    {coverage, &FitRecord::coverage},
+    {protrusion, &FitRecord::protrusion},
+    {coverageMean, &FitRecord::coverageMean},
+    {coverageP95, &FitRecord::coverageP95},
+    {protrusionMean, &FitRecord::protrusionMean},
+    {protrusionP95, &FitRecord::protrusionP95},
+    {volumeRatio, &FitRecord::volumeRatio}};
 
 // TssMuscle
 inline constexpr const char* surface = "tss:surface";

@@ -44,8 +44,9 @@ PrimWriter tablePrim(Layer& layer, const std::string& path, const std::string& t
     }
     for (const Attribute& optional :
          {schema::restGaps, schema::dofs, schema::lower, schema::upper, schema::generatedSpheres,
-          schema::candidatePairs, schema::lowerBound, schema::coverage, schema::protrusion, schema::cells})
+          schema::candidatePairs, schema::lowerBound, schema::cells})
         prim.properties.erase(optional.name);
+    for (const auto& [attribute, figure] : schema::fitFigures) prim.properties.erase(attribute.name);
     return PrimWriter(prim);
 }
 
@@ -81,10 +82,9 @@ void writeRecord(PrimWriter& prim, const BakeRecord& record) {
                  std::vector<double>{double(record.spheresA), double(record.spheresB)});
     if (record.candidatePairs) prim.set(schema::candidatePairs, count(record.candidatePairs));
     if (record.lowerBound) prim.set(schema::lowerBound, count(record.lowerBound));
-    if (record.fitA.coverage >= 0 || record.fitB.coverage >= 0)
-        prim.set(schema::coverage, std::vector<double>{record.fitA.coverage, record.fitB.coverage});
-    if (record.fitA.protrusion >= 0 || record.fitB.protrusion >= 0)
-        prim.set(schema::protrusion, std::vector<double>{record.fitA.protrusion, record.fitB.protrusion});
+    for (const auto& [attribute, figure] : schema::fitFigures)
+        if (record.fitA.*figure >= 0 || record.fitB.*figure >= 0)
+            prim.set(attribute, std::vector<double>{record.fitA.*figure, record.fitB.*figure});
 }
 
 void writeTable(Layer& layer, const std::string& path, const Table& table, const std::string& hash) {

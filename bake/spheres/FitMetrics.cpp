@@ -113,6 +113,8 @@ void measureProtrusion(FitMetrics& metrics, const Solid& solid, std::span<const 
     metrics.protrusionP95 = s.p95;
 }
 
+} // namespace
+
 void measureVolumes(FitMetrics& metrics, const Solid& solid, std::span<const Sphere> spheres) {
     constexpr std::size_t count = 1 << 16;
     Eigen::AlignedBox3d box = bounds(solid.mesh());
@@ -135,8 +137,6 @@ void measureVolumes(FitMetrics& metrics, const Solid& solid, std::span<const Sph
     metrics.bodyVolume = each * static_cast<double>(std::count(inBody.begin(), inBody.end(), 1));
     metrics.volumeRatio = metrics.bodyVolume > 0 ? metrics.sphereVolume / metrics.bodyVolume : 0;
 }
-
-} // namespace
 
 double coverageBound(std::span<const Sphere> spheres, std::span<const Patch> patches) {
     if (patches.empty()) return 0;

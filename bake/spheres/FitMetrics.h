@@ -29,6 +29,9 @@ FitMetrics measureFit(const Solid& solid, std::span<const Sphere> spheres);
 /// The same with the coverage of these patches only (a contact zone) and without volumes.
 FitMetrics measureFit(const Solid& solid, std::span<const Sphere> spheres, std::span<const Patch> zone);
 
+/// Fills in the volumes.
+void measureVolumes(FitMetrics& metrics, const Solid& solid, std::span<const Sphere> spheres);
+
 /// delta of the patches, within 2 % of the truth where that is not below 1e-6 of their size. On a patch the
 /// distance to one sphere is convex, so its largest value is at a corner; patches are halved where the bound
 /// is worst. 0: the union contains all of them.

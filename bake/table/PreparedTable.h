@@ -112,6 +112,15 @@ public:
     /// squared distance may be off near contact. Infinite where a reach is 0.
     double condition() const { return condition_; }
 
+    /// For those who check it (verify): the band in which gaps are right, and what the kernels read.
+    double depth() const { return depth_; }
+    double margin() const { return margin_; }
+    const std::optional<Fold>& fold() const { return fold_; } ///< nothing for the direct form
+    const KernelData& rows() const { return rows_; }          ///< one pair after the other
+    const Vec3& originA() const { return originA_; }
+    const Vec3& originB() const { return originB_; }
+    double farthestT() const { return farthestT_; } ///< bound of |T(q) originB - originA|
+
 private:
     struct alignas(64) Chunk {
         std::array<std::byte, 64> bytes;

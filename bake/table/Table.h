@@ -8,11 +8,14 @@
 
 namespace tss {
 
-/// How well the spheres of one body fit its mesh, as bounds over its whole surface, or over the contact zone
-/// when the table was made from one (METHOD 1.5); < 0: not known.
+/// How well the spheres of one body fit its mesh, over its whole surface, or over the contact zone when the
+/// table was made from one (METHOD 1.5). Lengths in scene units; < 0: not known.
 struct FitRecord {
-    double coverage = -1;   ///< no surface point is farther than this from the union of the spheres
-    double protrusion = -1; ///< no sphere sticks out of the solid by more than this
+    double coverage = -1;   ///< bound: no surface point is farther than this from the union of the spheres
+    double protrusion = -1; ///< bound: no sphere sticks out of the solid by more than this
+    double coverageMean = -1, coverageP95 = -1;     ///< over the surface, sampled
+    double protrusionMean = -1, protrusionP95 = -1; ///< of the bounds of the spheres
+    double volumeRatio = -1;                        ///< union of the spheres to the whole body
 };
 
 /// What went into a table, for those who read about it; the query does not use it.

@@ -95,6 +95,9 @@ void addBake(CLI::App& app, Console& console) {
         ->needs(allPairs);
     const std::pair<const char*, const char*> settings[] = {
         {"spheres", "medial (default), growth or surface"},
+        {"growth",
+         "START,STEP,END,MAXRADIUS of --spheres growth: fractions of the bounding diagonal (default "
+         "0.01,0.01,0.101,0.02) or lengths"},
         {"tolerance", "how far the spheres may stick out of the meshes"},
         {"epsilon", "gap that the table may add to that of all spheres; 0 (default): lossless"},
         {"depth", "the gap too is right down to this depth; 0 (default): yes or no only"},

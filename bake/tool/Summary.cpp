@@ -20,16 +20,22 @@ std::size_t bytes(const Table& table) {
            table.restGaps.size() * sizeof(double);
 }
 
+/// Lengths in scene units; of the contact zone where the spheres stand there alone.
+Json fitOf(const FitRecord& fit) {
+    return {{"coverage", knownOrNull(fit.coverage)},
+            {"coverageMean", knownOrNull(fit.coverageMean)},
+            {"coverageP95", knownOrNull(fit.coverageP95)},
+            {"protrusion", knownOrNull(fit.protrusion)},
+            {"protrusionMean", knownOrNull(fit.protrusionMean)},
+            {"protrusionP95", knownOrNull(fit.protrusionP95)},
+            {"volumeRatio", knownOrNull(fit.volumeRatio)}};
+}
+
 void addRecord(Json& json, const BakeRecord& record) {
     json["spheresA"] = record.spheresA;
     json["spheresB"] = record.spheresB;
     json["candidatePairs"] = record.candidatePairs;
-    json["fit"] = {{"A",
-                    {{"coverage", knownOrNull(record.fitA.coverage)},
-                     {"protrusion", knownOrNull(record.fitA.protrusion)}}},
-                   {"B",
-                    {{"coverage", knownOrNull(record.fitB.coverage)},
-                     {"protrusion", knownOrNull(record.fitB.protrusion)}}}};
+    json["fit"] = {{"A", fitOf(record.fitA)}, {"B", fitOf(record.fitB)}};
 }
 
 void addTable(Json& json, const Table& table) {

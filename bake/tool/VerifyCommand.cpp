@@ -3,12 +3,25 @@
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
+#include "bake/verify/Kernel.h"
 
 #include <fmt/format.h>
 
 namespace tss::tool {
 
 namespace {
+
+/// Proves the rounding of the table's run-time kernel.
+std::string kernelVerified(const Table& table, Json& json) {
+    const PreparedTable prepared(table);
+    const KernelVerdict kernel = verifyKernel(table, prepared);
+    json["kernel"] = {{"form", name(prepared.form())},
+                      {"precision", name(prepared.precision())},
+                      {"band", prepared.signBand()},
+                      {"provenBand", kernel.early},
+                      {"provenGap", kernel.gapOff}};
+    return kernel.proven ? "" : "its run-time kernel: " + kernel.reason;
+}
 
 /// Proves a pair again; the figures go into `json`. Returns what does not hold, with the pose that breaks it.
 std::string verified(const SceneModel& scene, const Pair& pair, Json& json, const Progress& progress) {
@@ -18,6 +31,7 @@ std::string verified(const SceneModel& scene, const Pair& pair, Json& json, cons
     json["cells"] = verdict.cells;
     json["band"] = verdict.band;
     if (verdict.early >= 0) json["early"] = verdict.early;
+    if (verdict.reason.empty() && pair.table) return kernelVerified(*pair.table, json);
     if (verdict.pose.empty()) return verdict.reason;
     json["pose"] = verdict.pose;
     const Motion motion = pairMotion(scene, pair);
@@ -61,8 +75,9 @@ void addVerify(CLI::App& app, Console& console) {
     auto file = std::make_shared<std::string>();
     command->add_option("scene", *file, "a baked scene")->required();
     command->footer(
-        "Proven again: that the table answers as all spheres do, at every pose, and how far the table's\n"
-        "spheres stick out of the meshes. That the spheres cover the contact zone (miss 0) follows from\n"
+        "Proven again: that the table answers as all spheres do, at every pose; that the run-time kernel\n"
+        "(fold, float) rounds within its band; how far the table's spheres stick out of the meshes. That the "
+        "spheres cover the contact zone (miss 0) follows from\n"
         "making them again from the meshes; it is not proven by other code.");
     command->callback([file, &console] { verify(*file, console); });
 }

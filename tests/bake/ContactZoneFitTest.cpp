@@ -1,56 +1,15 @@
 #include "bake/ContactZoneFit.h"
 
 #include "bake/base/Error.h"
-#include "bake/geometry/Import.h"
-#include "bake/search/TreePair.h"
 #include "bake/spheres/FitMetrics.h"
-#include "bake/spheres/RoundToFloat.h"
-#include "tests/GroundTruth.h"
-#include "tests/SharedMeshes.h"
+#include "tests/bake/RealPairs.h"
 #include "tests/geometry/TestMeshes.h"
-
-#include <numbers>
 
 using namespace tss;
 using namespace tss::test;
+using namespace zone;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-
-Dof turn(const Vec3& origin, const Vec3& axis, double lower, double upper) {
-    Dof dof;
-    dof.name = "turn";
-    dof.origin = origin;
-    dof.axis = axis.normalized();
-    dof.lower = lower;
-    dof.upper = upper;
-    dof.rest = std::clamp(0.0, lower, upper);
-    return dof;
-}
-
-struct Verdicts {
-    int touching = 0, missed = 0, early = 0;
-    double worst = 0; ///< largest distance of the meshes at which the spheres touch
-};
-
-Verdicts verdicts(const GroundTruth& truth, const ContactZoneFit& fit, const Motion& motion,
-                  const std::vector<std::vector<double>>& poses) {
-    // As a scene file keeps them.
-    const SphereTree a(roundToFloat(fit.a.fit.spheres)), b(roundToFloat(fit.b.fit.spheres));
-    Verdicts v;
-    for (const std::vector<double>& q : poses) {
-        const Pose at = pose(motion, q);
-        const bool meshes = truth.touches(at), spheres = smallestGap(a, b, at, 1) <= 0;
-        v.touching += meshes;
-        v.missed += meshes && !spheres;
-        if (!meshes && spheres) {
-            ++v.early;
-            v.worst = std::max(v.worst, truth.distance(at));
-        }
-    }
-    return v;
-}
 
 /// True contact is never missed, none is claimed farther off than twice the tolerance.
 void checkVerdicts(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
@@ -64,11 +23,6 @@ void checkVerdicts(const TriangleMesh& a, const TriangleMesh& b, const Motion& m
     CHECK(near.missed == 0);
     CHECK(near.worst <= 2 * tolerance);
 }
-
-struct Scene {
-    TriangleMesh a, b;
-    Motion motion;
-};
 
 /// Two lumpy balls, one on a joint of two turns that brings them together.
 Scene lumpyPair(std::uint64_t seed) {
@@ -86,17 +40,6 @@ ContactZoneOptions tolerance(double value) {
     options.tolerance = value;
     options.atRest = AtRest::Collide;
     return options;
-}
-
-Scene dogJaw() {
-    Scene scene;
-    scene.a = importMesh(sharedMesh("dog_jaw/skull.obj"));
-    scene.b = importMesh(sharedMesh("dog_jaw/mandible.obj"));
-    const Vec3 centre(0.30549, 0, 0.68499);
-    scene.motion.dofs = {turn(centre, Vec3::UnitZ(), -4 * degree, 4 * degree),
-                         turn(centre, Vec3::UnitY(), -24 * degree, 18 * degree)};
-    scene.motion.base.translation() = Vec3(-0.001, 0, -0.002);
-    return scene;
 }
 
 } // namespace
@@ -214,31 +157,8 @@ TEST_CASE("a motion without limits and a mesh of nothing are refused") {
 
 TEST_CASE("the dog's jaw at 0.6 mm misses no contact with at most 5000 spheres") {
     REQUIRE_SHARED_MESHES();
-    const Scene scene = dogJaw();
+    const Scene scene = realPair("dog_jaw");
     const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(6e-4));
     CHECK(fit.a.fit.spheres.size() + fit.b.fit.spheres.size() <= 5000);
     checkVerdicts(scene.a, scene.b, scene.motion, fit, 6e-4, 200);
-}
-
-TEST_CASE("the dog's jaw at 0.2 and 0.05 mm, 10^5 random and 10^4 near-contact poses", "[.long]") {
-    REQUIRE_SHARED_MESHES();
-    const auto [size, limit] = GENERATE(table<double, std::size_t>({{2e-4, 5000}, {5e-5, 10000}}));
-    const Scene scene = dogJaw();
-    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(size));
-    CHECK(fit.a.fit.spheres.size() + fit.b.fit.spheres.size() <= limit);
-    for (const auto& [mesh, body] : {std::pair(&scene.a, &fit.a), std::pair(&scene.b, &fit.b)}) {
-        const FitMetrics metrics = measureFit(Solid(*mesh), roundToFloat(body->fit.spheres), body->zone);
-        CHECK(metrics.coverage == 0);
-        CHECK(metrics.protrusion <= size);
-    }
-    const GroundTruth truth(scene.a, scene.b);
-    const Verdicts random =
-        verdicts(truth, fit, scene.motion, tss::compare::randomPoses(scene.motion, 100000, 1));
-    const Verdicts near =
-        verdicts(truth, fit, scene.motion, nearContactPoses(truth, scene.motion, 10000, 1e-4, 2));
-    WARN("tolerance " << size << ": " << fit.a.fit.spheres.size() << " + " << fit.b.fit.spheres.size()
-                      << " spheres, false positives " << random.early << " and " << near.early
-                      << ", the worst at " << std::max(random.worst, near.worst));
-    CHECK(random.missed + near.missed == 0);
-    CHECK(std::max(random.worst, near.worst) <= 2 * size);
 }

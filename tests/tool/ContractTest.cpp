@@ -109,6 +109,44 @@ TEST_CASE("bodies that cannot meet get a proof, no table, and play as asked") {
     CHECK(readText(folder.path() / "baked.tss").find("\"TssTable\"") == std::string::npos);
 }
 
+TEST_CASE("the paper's bake: growth, sampled search, co-occurrence, with the growth's lengths as fractions "
+          "or in units") {
+    const Folder folder;
+    writeSwing(folder);
+    const std::string paper =
+        " --search sampled --samples 500 --reduce cooccurrence --spheres growth --quiet --json ";
+    const auto spheres = [&](const std::string& growth) {
+        const Ran ran = runTss("bake swing.tss -o baked.tss" + paper + growth, folder.path());
+        INFO(ran.err);
+        REQUIRE(ran.exit == 0);
+        const Json fit = Json::parse(runTss("info baked.tss --json", folder.path()).out)["pairs"][0];
+        CHECK(fit["fit"]["A"]["coverage"].get<double>() >= fit["fit"]["A"]["coverageP95"].get<double>());
+        CHECK(fit["fit"]["A"]["coverageMean"].get<double>() > 0);
+        CHECK(fit["fit"]["A"]["protrusion"].get<double>() >= fit["fit"]["A"]["protrusionP95"].get<double>());
+        CHECK(fit["fit"]["A"]["volumeRatio"].get<double>() > 0);
+        return fit["spheresA"].get<int>();
+    };
+    CHECK(spheres("--growth 1mm,0.5mm,12mm,12mm") > 0);
+    CHECK(spheres("--growth 0.03,0.015,0.35,0.35") > 0);
+}
+
+TEST_CASE("spheres that lack a part of the surface prove nothing by staying apart") {
+    const Folder folder;
+    writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
+    writeObj(boxMesh({1.1, -1, -1}, {2, 1, 1}), folder / "b.obj");
+    REQUIRE(runTss("make -o near.tss --a a.obj --b b.obj --dof trans:1,0,0:0:3", folder.path()).exit == 0);
+    const auto never = [&](const std::string& settings) {
+        const Ran ran = runTss("bake near.tss -o baked.tss --json " + settings, folder.path());
+        INFO(ran.err);
+        REQUIRE(ran.exit == 0);
+        return Json::parse(ran.out)["pairs"][0]["neverCollides"].get<bool>();
+    };
+    CHECK(never("--tolerance 0.02"));
+    CHECK(never("--tolerance 0.02 --no-conservative"));
+    CHECK_FALSE(never("--tolerance 0.2 --no-conservative"));
+    CHECK_FALSE(never("--spheres growth")); // none at all
+}
+
 TEST_CASE("bad input is exit 1 with a message that says where, and leaves no file") {
     const Folder folder;
     writeObj(boxMesh({0, 0, 0}, {1, 1, 1}), folder / "a.obj");
@@ -138,6 +176,8 @@ TEST_CASE("bad input is exit 1 with a message that says where, and leaves no fil
     refused("bake ok.tss -o out.tss --tolerance -1mm", "--tolerance");
     refused("bake ok.tss -o out.tss --tolerance 1furlong", "length");
     refused("bake ok.tss -o out.tss --spheres cubes", "medial");
+    refused("bake ok.tss -o out.tss --spheres growth --growth 0.1,0.1mm,1,1", "START,STEP,END,MAXRADIUS");
+    refused("bake ok.tss -o out.tss --spheres growth --growth 0.1,0.1,1", "START,STEP,END,MAXRADIUS");
     refused("bake ok.tss -o no/such/folder/out.tss --tolerance 0.1", "no/such/folder");
     CHECK(fileCount(folder.path()) == 4);
 }

@@ -88,3 +88,30 @@ TEST_CASE("20 random joints of 1 to 4 DOFs: baked, proven, and right at every po
 TEST_CASE("200 random joints of 1 to 4 DOFs: baked, proven, and right at every pose tried", "[.long]") {
     checkJoints(1000, 200, 5000);
 }
+
+TEST_CASE("a pair over six joints gets the epsilon that its budget reached, and the verifier agrees") {
+    int cutShort = 0, answered = 0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        CAPTURE(seed);
+        const scenes::Scene scene = scenes::randomScene(seed, 6, 12, true);
+        CoverOptions options;
+        options.atRest = AtRest::Collide;
+        options.cells = 30000;
+        const CoverResult cover = certifiedCover(scene.a, scene.b, nullptr, scene.motion, options);
+        cutShort += !cover.complete;
+        CHECK(std::isfinite(cover.epsilon) == !cover.pairs.empty()); // no contact was met in the budget
+        if (cover.pairs.empty()) continue;
+        ++answered;
+        const Table table = tableOf(scene, cover, options);
+        const VerifyResult proof = verifyTable(scene.a, scene.b, table, scene.motion, colliding());
+        INFO("epsilon " << cover.epsilon << ": " << proof.reason);
+        CHECK(proof.proven);
+        Tally tally;
+        scenes::Random random(seed);
+        for (int k = 0; k < 2000; ++k) look(scene, table, scenes::randomPose(random, scene.motion), tally);
+        CHECK(tally.missed == 0);
+        CHECK(tally.contacts > 0);
+    }
+    CHECK(cutShort > 0);
+    CHECK(answered > 1);
+}

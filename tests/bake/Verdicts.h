@@ -1,0 +1,54 @@
+#pragma once
+#include "bake/ContactZoneFit.h"
+#include "bake/search/TreePair.h"
+#include "bake/spheres/RoundToFloat.h"
+#include "tests/GroundTruth.h"
+
+#include <algorithm>
+#include <numbers>
+
+/// Sphere sets against the meshes themselves.
+namespace zone {
+
+constexpr double degree = std::numbers::pi / 180;
+
+inline tss::Dof turn(const tss::Vec3& origin, const tss::Vec3& axis, double lower, double upper) {
+    tss::Dof dof;
+    dof.name = "turn";
+    dof.origin = origin;
+    dof.axis = axis.normalized();
+    dof.lower = lower;
+    dof.upper = upper;
+    dof.rest = std::clamp(0.0, lower, upper);
+    return dof;
+}
+
+struct Scene {
+    tss::TriangleMesh a, b;
+    tss::Motion motion;
+};
+
+struct Verdicts {
+    int touching = 0, missed = 0, early = 0;
+    double worst = 0; ///< largest distance of the meshes at which the spheres touch
+};
+
+inline Verdicts verdicts(const GroundTruth& truth, const tss::ContactZoneFit& fit, const tss::Motion& motion,
+                         const std::vector<std::vector<double>>& poses) {
+    // As a scene file keeps them.
+    const tss::SphereTree a(tss::roundToFloat(fit.a.fit.spheres)), b(tss::roundToFloat(fit.b.fit.spheres));
+    Verdicts v;
+    for (const std::vector<double>& q : poses) {
+        const tss::Pose at = pose(motion, q);
+        const bool meshes = truth.touches(at), spheres = smallestGap(a, b, at, 1e-300) <= 0;
+        v.touching += meshes;
+        v.missed += meshes && !spheres;
+        if (!meshes && spheres) {
+            ++v.early;
+            v.worst = std::max(v.worst, truth.distance(at));
+        }
+    }
+    return v;
+}
+
+} // namespace zone
