@@ -216,10 +216,16 @@ Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& c
 
 /// What the meshes may expect of a certified table (METHOD 3.5). Pairs that overlap at rest are outside of
 /// it.
-void setBounds(Table& table, const SphereFit& a, const SphereFit& b) {
+void setBounds(Table& table, const SphereFit& a, const SphereFit& b, bool overlapAtRest) {
     if (!table.certified) return;
-    table.boundMiss = known(a.coverage + b.coverage + table.epsilon);
     table.boundEarly = known(a.protrusion + b.protrusion + table.epsilon);
+    // Where spheres touch, some test's gap is at most epsilon. Counted as contact from there on it misses
+    // nothing; but a test that overlaps at rest must not count from before that, and then nothing is known.
+    if (table.epsilon > 0 && overlapAtRest) return;
+    table.boundMiss = known(a.coverage + b.coverage);
+    if (!(table.epsilon > 0)) return;
+    table.restGaps.resize(table.testCount(), 0);
+    for (double& gap : table.restGaps) gap += table.epsilon;
 }
 
 } // namespace
@@ -294,7 +300,8 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
     table->certified = selection.certified;
     table->record = record;
     table->record.lowerBound = static_cast<std::uint64_t>(std::ceil(selection.reduced.lowerBound));
-    setBounds(*table, fitA, fitB);
+    setBounds(*table, fitA, fitB,
+              options.atRest != AtRest::Collide && !restOverlaps(fitA.spheres, fitB.spheres, motion).empty());
     report.epsilon = table->epsilon;
     return {table, nullptr};
 }

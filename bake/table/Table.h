@@ -38,7 +38,7 @@ struct Table {
     std::vector<std::uint32_t> columns;       ///< < #b
 
     /// Per test: the gap below which it counts as contact; 0, or the negative gap at rest of a pair that
-    /// overlaps there (METHOD 2.4). Empty: all 0.
+    /// overlaps there (METHOD 2.4), or epsilon, so that no contact is missed by it (3.5). Empty: all 0.
     std::vector<double> restGaps;
 
     Motion motion; ///< the motion and limits it was made for
