@@ -5,9 +5,9 @@
 
 namespace tss {
 
-struct Fold;
 struct ContactTest;
 struct MotionFrame;
+struct PosePlan;
 struct TableContact;
 
 /// Which instructions the query kernels use. Best: the widest that this processor has.
@@ -64,11 +64,14 @@ struct KernelSet {
     void (*gaps)(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count,
                  float* gap, std::int32_t* test) = nullptr;
 
-    /// What Fold::evaluate makes, of many poses at once: q: count rows of one value a DOF; value k of pose i
-    /// goes to poses[k * stride + i], stride count rounded up to 16. Null for direct and in the scalar
-    /// kernels.
-    void (*foldPoses)(const Fold& fold, const double* q, std::uint32_t count, std::uint32_t stride,
-                      void* poses) = nullptr;
+    /// What Fold::evaluate (PoseRecipe::evaluate after a 0, for direct) makes of a plan for it (PosePlan.h).
+    /// q: one value a DOF. pose: room for TableFeatures::room values. Null in the scalar kernels and where
+    /// vectors are too short for it.
+    void (*pose)(const PosePlan& plan, const double* q, void* pose) = nullptr;
+    /// The same of many poses at once. q: count rows of one value a DOF; value k of pose i goes to
+    /// poses[k * stride + i], stride count rounded up to 16. Null in the scalar kernels.
+    void (*poses)(const PosePlan& plan, const double* q, std::uint32_t count, std::uint32_t stride,
+                  void* poses) = nullptr;
 
     /// Everything about one test (Contact.h).
     void (*contact)(const ContactTest& test, const MotionFrame& frame, std::size_t dofs,
@@ -80,9 +83,10 @@ inline constexpr std::uint32_t foldColumns(std::uint32_t features) {
     return features + 4;
 }
 
-/// The kernels of a target that is available, for T float or double. features: up to 10 for the fold.
+/// The kernels of a target that is available, for T float or double. features: up to 10 for the fold; dofs:
+/// of the motion that is folded, up to 3.
 template <class T>
-KernelSet foldKernels(KernelTarget target, std::uint32_t features);
+KernelSet foldKernels(KernelTarget target, std::uint32_t features, std::size_t dofs);
 template <class T>
 KernelSet directKernels(KernelTarget target);
 

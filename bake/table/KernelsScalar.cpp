@@ -112,7 +112,8 @@ void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::
 
 template <class T, class Row>
 KernelSet kernels() {
-    return {1, hit<T, Row>, gap<T, Row>, under<T, Row>, hits<T, Row>, gaps<T, Row>, nullptr, plainContact};
+    return {1,       hit<T, Row>, gap<T, Row>, under<T, Row>, hits<T, Row>, gaps<T, Row>,
+            nullptr, nullptr,     plainContact};
 }
 
 } // namespace

@@ -9,10 +9,4 @@ KernelSet scalarFoldKernels();
 template <class T>
 KernelSet scalarDirectKernels();
 
-/// The kernels of a vector target; empty pointers where the build has none.
-template <class T>
-KernelSet vectorFoldKernels(KernelTarget target, std::uint32_t features);
-template <class T>
-KernelSet vectorDirectKernels(KernelTarget target);
-
 } // namespace tss

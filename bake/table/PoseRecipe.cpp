@@ -64,6 +64,11 @@ PoseRecipe::PoseRecipe(const Motion& motion, const Vec3& originA, const Vec3& or
     }
 }
 
+bool PoseRecipe::affine() const {
+    return !steps_.empty() &&
+           std::none_of(steps_.begin(), steps_.end(), [](const Step& s) { return s.path; });
+}
+
 void PoseRecipe::evaluate(const double* q, double* out) const {
     Matrix whole = fixed_;
     for (std::size_t k = steps_.size(); k-- > 0;) {

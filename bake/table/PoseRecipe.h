@@ -16,14 +16,19 @@ public:
     /// q: one value a DOF, finite. out: 12 numbers. Allocates nothing.
     void evaluate(const double* q, double* out) const;
 
-private:
     struct Step {
-        Matrix constant, first, second;
+        Matrix constant, first, second; ///< constant + first factor * first + second factor * second
         DofFactor factor;
         bool path = false;
         Pose before = Pose::Identity(), after = Pose::Identity(); ///< of a path
         Dof dof;                                                  ///< of a path
     };
+    /// There are DOFs, and none is a path.
+    bool affine() const;
+    /// One a DOF; T(q) is their product.
+    const std::vector<Step>& steps() const { return steps_; }
+
+private:
     std::vector<Step> steps_;
     Matrix fixed_{}; ///< of a motion without DOFs
 };

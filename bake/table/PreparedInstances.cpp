@@ -25,9 +25,9 @@ void PreparedTable::instanceFeatures(const double* q, std::uint32_t count, Insta
         out.floats.resize(values * out.stride);
     else
         out.doubles.resize(values * out.stride);
-    if (kernels_.foldPoses) {
-        kernels_.foldPoses(*fold_, q, count, out.stride,
-                           float_ ? static_cast<void*>(out.floats.data()) : out.doubles.data());
+    if (kernels_.poses) {
+        kernels_.poses(plan_, q, count, out.stride,
+                       float_ ? static_cast<void*>(out.floats.data()) : out.doubles.data());
         return;
     }
     TableFeatures one;

@@ -218,8 +218,14 @@ void PreparedTable::fill(std::uint32_t lanes, std::vector<Chunk>& store, KernelD
 
 template <class T>
 void PreparedTable::prepareKernels() {
-    kernels_ =
-        fold_ ? foldKernels<T>(target_, std::uint32_t(fold_->features.size())) : directKernels<T>(target_);
+    kernels_ = fold_ ? foldKernels<T>(target_, std::uint32_t(fold_->features.size()), motion_.dofCount())
+                     : directKernels<T>(target_);
+    if (fold_)
+        plan_ = PosePlan(*fold_);
+    else if (recipe_.affine())
+        plan_ = PosePlan(recipe_);
+    else
+        kernels_.pose = nullptr, kernels_.poses = nullptr;
     fill<T>(kernels_.lanes, blocks_, data_);
     fill<T>(1, rowStore_, rows_);
     room_ = std::max<std::size_t>(1, (pairs_.size() + kernels_.lanes - 1) / kernels_.lanes) * kernels_.lanes;
@@ -230,6 +236,7 @@ std::size_t PreparedTable::bytes() const {
 }
 
 void PreparedTable::features(const double* q, TableFeatures& out) const {
+    if (kernels_.pose) return kernels_.pose(plan_, q, out.doubles);
     if (fold_) {
         if (float_)
             fold_->evaluate(q, out.floats);

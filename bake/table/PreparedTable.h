@@ -1,8 +1,7 @@
 #pragma once
 #include "bake/table/Contact.h"
-#include "bake/table/Fold.h"
 #include "bake/table/Kernels.h"
-#include "bake/table/PoseRecipe.h"
+#include "bake/table/PosePlan.h"
 
 #include <optional>
 
@@ -149,6 +148,7 @@ private:
     double farthestT_ = 0; ///< bound of |T(q) originB - originA|
     std::optional<Fold> fold_;
     PoseRecipe recipe_;
+    PosePlan plan_; ///< of the form that was chosen; empty for the direct one of a path or of no DOF
 
     KernelForm form_ = KernelForm::Direct;
     KernelTarget target_ = KernelTarget::Scalar;

@@ -1,15 +1,12 @@
-// The query kernels, compiled once for each vector target that the processor may have (Highway). Everything
-// between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE is seen several times.
-#undef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS (HWY_SSE4 | HWY_AVX3_DL)
+// The queries in vectors: of one pose against vectors of pairs, and of vectors of poses against one pair
+// after the other.
+#include "bake/table/VectorTargets.h"
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "bake/table/KernelsVector.cpp"
+#define HWY_TARGET_INCLUDE "bake/table/QueryKernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "bake/table/Contact.h"
-#include "bake/table/Fold.h"
-#include "bake/table/KernelsScalar.h"
+#include "bake/table/KernelsVector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +14,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace tss {
 namespace HWY_NAMESPACE {
+namespace {
 
 #if HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
-#define TSS_HAS_VECTORS 1
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -232,118 +229,6 @@ void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::
     }
 }
 
-/// sinVersin of as many angles as a vector has lanes.
-HWY_INLINE void sineVersine(V<double> x, V<double>& sine, V<double>& versine) {
-    const Lanes<double> d;
-    const hn::RebindToSigned<Lanes<double>> di;
-    const auto number = [&](double v) { return hn::Set(d, v); };
-    const SineSeries series;
-    const V<double> shifted = hn::MulAdd(x, number(series.perTurn), number(series.shift));
-    const V<double> turns = hn::Sub(shifted, number(series.shift));
-    const V<double> r =
-        hn::NegMulAdd(turns, number(series.low), hn::NegMulAdd(turns, number(series.high), x));
-    const V<double> z = hn::Mul(r, r);
-    V<double> s = number(series.sine[7]), v = number(series.versine[7]);
-    for (int k = 7; k-- > 0;) {
-        s = hn::MulAdd(s, z, number(series.sine[k]));
-        v = hn::MulAdd(v, z, number(series.versine[k]));
-    }
-    s = hn::MulAdd(hn::Mul(r, z), s, r);
-    v = hn::Mul(v, z);
-    const auto quadrant = hn::BitCast(di, shifted);
-    const auto odd = hn::MaskFromVec(hn::BitCast(d, hn::Neg(hn::And(quadrant, hn::Set(di, 1)))));
-    const auto sign = hn::BitCast(d, hn::ShiftLeft<62>(hn::And(quadrant, hn::Set(di, 2))));
-    const V<double> one = number(1), base = hn::IfThenElse(odd, one, hn::Sub(one, hn::Xor(one, sign)));
-    sine = hn::Xor(hn::IfThenElse(odd, hn::Sub(one, v), s), sign);
-    versine = hn::Add(base, hn::Xor(hn::IfThenElse(odd, s, v), sign));
-}
-
-HWY_INLINE void storePoses(V<double> value, double* to) {
-    hn::StoreU(value, Lanes<double>(), to);
-}
-HWY_INLINE void storePoses(V<double> value, float* to) {
-    const hn::Rebind<float, Lanes<double>> d;
-    hn::StoreU(hn::DemoteTo(d, value), d, to);
-}
-
-template <class T>
-void foldPoses(const Fold& fold, const double* q, std::uint32_t count, std::uint32_t stride, void* poses) {
-    const Lanes<double> d;
-    const std::uint32_t n = static_cast<std::uint32_t>(hn::Lanes(d));
-    const std::size_t dofs = fold.factors.size();
-    HWY_ALIGN double values[hn::MaxLanes(Lanes<double>())];
-    V<double> u[Fold::maxDofs][3];
-    const auto product = [&](const Fold::Feature& feature) {
-        V<double> value = hn::Set(d, 1);
-        for (std::size_t k = 0; k < dofs; ++k)
-            if (feature.factor[k] != 0) value = hn::Mul(value, u[k][feature.factor[k]]);
-        return hn::Sub(value, hn::Set(d, feature.centre));
-    };
-    for (std::uint32_t i = 0; i < count; i += n) {
-        for (std::size_t k = 0; k < dofs; ++k) {
-            for (std::uint32_t j = 0; j < n; ++j) values[j] = q[std::min(i + j, count - 1) * dofs + k];
-            const V<double> x = hn::Sub(hn::Load(d, values), hn::Set(d, fold.factors[k].middle));
-            if (fold.factors[k].turn) {
-                sineVersine(x, u[k][1], u[k][2]);
-            } else {
-                u[k][1] = x;
-                u[k][2] = hn::Mul(x, x);
-            }
-        }
-        V<double> shared = hn::Zero(d);
-        for (std::size_t k = 0; k < fold.sharedFeatures.size(); ++k)
-            shared = hn::MulAdd(hn::Set(d, fold.sharedWeights[k]), product(fold.sharedFeatures[k]), shared);
-        T* to = static_cast<T*>(poses) + i;
-        storePoses(hn::Neg(shared), to);
-        for (const Fold::Feature& feature : fold.features) storePoses(product(feature), to += stride);
-    }
-}
-
-#if HWY_MAX_BYTES >= 32
-/// plainContact with a point in one vector, its last number being 1 or 0.
-void contact(const ContactTest& test, const MotionFrame& frame, std::size_t dofs, TableContact& out) {
-    const hn::FixedTag<double, 4> d;
-    const auto splat = [&](double v) { return hn::Set(d, v); };
-    const auto sum = [&](auto v) {
-        const hn::Half<decltype(d)> half;
-        return hn::GetLane(hn::SumOfLanes(half, hn::Add(hn::LowerHalf(half, v), hn::UpperHalf(half, v))));
-    };
-    HWY_ALIGN constexpr std::int64_t later[4] = {1, 2, 0, 3}, shifted[4] = {3, 0, 1, 2};
-    const auto yzx = hn::SetTableIndices(d, later), wxyz = hn::SetTableIndices(d, shifted);
-
-    const double* columns = frame.pose.data();
-    auto centre = hn::MulAdd(hn::LoadU(d, columns), splat(test.b[0]), hn::LoadU(d, columns + 12));
-    centre = hn::MulAdd(hn::LoadU(d, columns + 4), splat(test.b[1]), centre);
-    centre = hn::MulAdd(hn::LoadU(d, columns + 8), splat(test.b[2]), centre);
-    const auto a = hn::Load(d, test.a);
-    const auto between = hn::Sub(centre, a);
-    const auto distance = hn::Sqrt(hn::Set(d, sum(hn::Mul(between, between))));
-    HWY_ALIGN constexpr double unitX[4] = {1, 0, 0, 0};
-    // No distance but 0 is below 2e-162: what is not taken is not 0 / 0 then.
-    const auto divisor = hn::Max(distance, splat(1e-200));
-    const auto normal =
-        hn::IfThenElse(hn::Gt(distance, hn::Zero(d)), hn::Div(between, divisor), hn::Load(d, unitX));
-    const double length = hn::GetLane(distance);
-    out.gap = length - test.reach;
-    // The fourth number of each is overwritten by what comes after it, of the gradient if nothing else.
-    hn::StoreU(hn::MulAdd(normal, splat(0.5 * length + test.middle), a), d, out.point.data());
-    hn::StoreU(normal, d, out.normal.data());
-    const auto arm = hn::TableLookupLanes(hn::MulSub(centre, hn::TableLookupLanes(normal, yzx),
-                                                     hn::Mul(hn::TableLookupLanes(centre, yzx), normal)),
-                                          yzx);
-    // Of turn and slide, six numbers in a row, the first four and the last four: what is double weighs
-    // nothing.
-    const auto slideOnly = hn::TableLookupLanes(normal, wxyz);
-    for (std::size_t k = 0; k < dofs; ++k) {
-        const double* twist = frame.twists[k].turn.data();
-        out.gradient[k] =
-            sum(hn::MulAdd(hn::LoadU(d, twist), arm, hn::Mul(hn::LoadU(d, twist + 2), slideOnly)));
-    }
-}
-#else
-constexpr auto contact = plainContact;
-#endif
-
 template <class T, class Form>
 KernelSet kernels() {
     return {static_cast<std::uint32_t>(hn::Lanes(Lanes<T>())),
@@ -351,43 +236,34 @@ KernelSet kernels() {
             gap<T, Form>,
             under<T, Form>,
             hits<T, Form>,
-            gaps<T, Form>,
-            nullptr,
-            contact};
-}
-
-template <class T, std::uint32_t M>
-KernelSet folded() {
-    KernelSet set = kernels<T, FoldForm<T, M>>();
-    set.foldPoses = foldPoses<T>;
-    return set;
+            gaps<T, Form>};
 }
 
 template <class T>
 KernelSet fold(std::uint32_t features) {
     switch (features) {
     case 0:
-        return folded<T, 0>();
+        return kernels<T, FoldForm<T, 0>>();
     case 1:
-        return folded<T, 1>();
+        return kernels<T, FoldForm<T, 1>>();
     case 2:
-        return folded<T, 2>();
+        return kernels<T, FoldForm<T, 2>>();
     case 3:
-        return folded<T, 3>();
+        return kernels<T, FoldForm<T, 3>>();
     case 4:
-        return folded<T, 4>();
+        return kernels<T, FoldForm<T, 4>>();
     case 5:
-        return folded<T, 5>();
+        return kernels<T, FoldForm<T, 5>>();
     case 6:
-        return folded<T, 6>();
+        return kernels<T, FoldForm<T, 6>>();
     case 7:
-        return folded<T, 7>();
+        return kernels<T, FoldForm<T, 7>>();
     case 8:
-        return folded<T, 8>();
+        return kernels<T, FoldForm<T, 8>>();
     case 9:
-        return folded<T, 9>();
+        return kernels<T, FoldForm<T, 9>>();
     case 10:
-        return folded<T, 10>();
+        return kernels<T, FoldForm<T, 10>>();
     }
     return {};
 }
@@ -399,6 +275,7 @@ KernelSet direct() {
 
 #endif
 
+} // namespace
 } // namespace HWY_NAMESPACE
 } // namespace tss
 HWY_AFTER_NAMESPACE();
@@ -426,49 +303,22 @@ bool available(KernelTarget target) {
     return false;
 }
 
-// Each namespace exists only where this build compiles for it.
-#if HWY_TARGETS & HWY_SSSE3
-#define TSS_SSE2(call)                                                                                       \
-    if (target == KernelTarget::Sse2) return N_SSSE3::call;
-#else
-#define TSS_SSE2(call)
-#endif
-#if HWY_TARGETS & HWY_AVX2
-#define TSS_AVX2(call)                                                                                       \
-    if (target == KernelTarget::Avx2) return N_AVX2::call;
-#else
-#define TSS_AVX2(call)
-#endif
-#if HWY_TARGETS & HWY_AVX3
-#define TSS_AVX512(call)                                                                                     \
-    if (target == KernelTarget::Avx512) return N_AVX3::call;
-#else
-#define TSS_AVX512(call)
-#endif
-#if HWY_TARGETS & HWY_NEON
-#define TSS_NEON(call)                                                                                       \
-    if (target == KernelTarget::Neon) return N_NEON::call;
-#else
-#define TSS_NEON(call)
-#endif
-#define TSS_TARGETS(call) TSS_SSE2(call) TSS_AVX2(call) TSS_AVX512(call) TSS_NEON(call)
-
 template <class T>
-KernelSet vectorFoldKernels(KernelTarget target, std::uint32_t features) {
+KernelSet vectorFoldQueries(KernelTarget target, std::uint32_t features) {
     TSS_TARGETS(fold<T>(features))
     (void)target, (void)features;
     return {};
 }
 template <class T>
-KernelSet vectorDirectKernels(KernelTarget target) {
+KernelSet vectorDirectQueries(KernelTarget target) {
     TSS_TARGETS(direct<T>())
     (void)target;
     return {};
 }
-template KernelSet vectorFoldKernels<float>(KernelTarget, std::uint32_t);
-template KernelSet vectorFoldKernels<double>(KernelTarget, std::uint32_t);
-template KernelSet vectorDirectKernels<float>(KernelTarget);
-template KernelSet vectorDirectKernels<double>(KernelTarget);
+template KernelSet vectorFoldQueries<float>(KernelTarget, std::uint32_t);
+template KernelSet vectorFoldQueries<double>(KernelTarget, std::uint32_t);
+template KernelSet vectorDirectQueries<float>(KernelTarget);
+template KernelSet vectorDirectQueries<double>(KernelTarget);
 
 } // namespace tss
 #endif
