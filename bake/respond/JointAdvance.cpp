@@ -79,27 +79,35 @@ double freeTime(const JointModel& model, const JointValues& q, const JointValues
 
 } // namespace
 
-void boundMotion(const JointModel& model, const JointValues& way, NearPair& near) {
-    const JointModel::Group& group = model.groups[model.pairs[near.pair].group];
+void MotionBounds::bound(const JointModel& model, const JointValues& way, NearPair& near) {
+    if (const std::uint32_t index = model.pairs[near.pair].group; index != group_) {
+        group_ = index;
+        const JointModel::Group& group = model.groups[index];
+        count_ = static_cast<int>(group.dofs.size());
+        double turning = 0; // by the DOFs nearer to A
+        for (int k = 0; k < count_; ++k) {
+            dofs_[k] = group.dofs[k];
+            change_[k] = std::abs(way[dofs_[k]]);
+            const double turn = group.turnRates[k] * change_[k];
+            bend_[k] = change_[k] * (turn + 2 * turning);
+            turning += turn;
+        }
+    }
     const double* speed = model.speed(near.pair);
     near.speed = near.acceleration = 0;
-    double turning = 0; // by the DOFs nearer to A
-    for (std::size_t k = 0; k < group.dofs.size(); ++k) {
-        const double change = std::abs(way[group.dofs[k]]);
-        const double turn = group.turnRates[k] * change;
-        const double moved = speed[group.dofs[k]] * change;
-        near.speed += moved;
-        near.acceleration += moved * (turn + 2 * turning);
-        turning += turn;
+    for (int k = 0; k < count_; ++k) {
+        near.speed += speed[dofs_[k]] * change_[k];
+        near.acceleration += speed[dofs_[k]] * bend_[k];
     }
 }
 
 double advance(const JointModel& model, const JointValues& way, JointValues& q, JointWorkspace& ws) {
     const JointValues start = q;
     std::size_t activeCount = 0;
+    MotionBounds bounds;
     for (std::size_t i = 0; i < ws.nearCount; ++i) {
         NearPair& near = ws.near[i];
-        boundMotion(model, way, near);
+        bounds.bound(model, way, near);
         if (near.gap - near.threshold <= near.speed) ws.active[activeCount++] = static_cast<std::uint32_t>(i);
     }
     if (activeCount == 0) {

@@ -12,7 +12,19 @@ namespace tss {
 /// Stops at a pair that comes nearer and is within a twentieth of model.off of its threshold.
 double advance(const JointModel& model, const JointValues& way, JointValues& q, JointWorkspace& ws);
 
-/// The bound of a pair's speed and acceleration along a way, one time unit for the whole of it.
-void boundMotion(const JointModel& model, const JointValues& way, NearPair& near);
+/// Bounds of speeds and accelerations along one way, one time unit for the whole of it; what all pairs of a
+/// group share is found once.
+class MotionBounds {
+public:
+    /// Sets near.speed and near.acceleration. Quick where pairs come group by group, always with the same
+    /// way.
+    void bound(const JointModel& model, const JointValues& way, NearPair& near);
+
+private:
+    std::uint32_t group_ = ~0u;
+    int count_ = 0;
+    std::array<int, maxDofs> dofs_;
+    JointValues change_, bend_; ///< per DOF of the group: of a unit of lever, speed and acceleration
+};
 
 } // namespace tss

@@ -81,14 +81,6 @@ double keptGap(const JointModel& model, double epsilon) {
     return std::max({1.5 * epsilon, 1e-6 * size, 1e-13 * coordinate, std::numeric_limits<double>::min()});
 }
 
-QpRow boundRow(int n, int dof, double sign, double bound) {
-    QpRow row;
-    std::fill_n(row.normal.begin(), n, 0.0);
-    row.normal[dof] = sign;
-    row.bound = bound;
-    return row;
-}
-
 } // namespace
 
 JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bool prepare) {
@@ -113,6 +105,7 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
     const double largest = *std::max_element(model.weights.begin(), model.weights.end());
     for (int l = 0; l < dofCount; ++l)
         model.weights[l] = std::max(model.weights[l], largest > 0 ? 1e-6 * largest : 1.0);
+    for (int l = 0; l < dofCount; ++l) model.perWeight[l] = 1 / model.weights[l];
     for (std::uint32_t p = 0; p < model.pairs.size(); ++p) {
         double squared = 0;
         for (int l = 0; l < dofCount; ++l) {
@@ -139,14 +132,6 @@ void placeGroup(const JointModel& model, std::size_t g, const JointValues& q, co
 
 void placeGroups(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws) {
     for (std::size_t g = 0; g < model.groups.size(); ++g) placeGroup(model, g, q, way, ws);
-}
-
-double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& centre, Vec3& normal) {
-    centre = pose * pair.b;
-    normal = centre - pair.a;
-    const double distance = normal.norm();
-    normal = distance > 0 ? Vec3(normal / distance) : Vec3::UnitX();
-    return distance - pair.reach;
 }
 
 namespace {
@@ -243,6 +228,34 @@ double smallestGap(const JointModel& model, const JointValues& q, JointWorkspace
     return smallest;
 }
 
+void addLimits(const JointModel& model, const JointValues& q, double trust, const JointValues& goal,
+               QpRows& rows) {
+    const int n = model.dofCount;
+    for (int l = 0; l < n; ++l) {
+        const double reach = trust * (model.upper[l] - model.lower[l]);
+        for (double sign : {1.0, -1.0}) {
+            const double end =
+                sign > 0 ? std::max(model.lower[l], q[l] - reach) : std::min(model.upper[l], q[l] + reach);
+            double* row = rows.add();
+            std::fill_n(row, n, 0.0);
+            row[l] = sign;
+            row[n] = sign * model.weights[l] * (end - goal[l]);
+        }
+    }
+    for (const LimitPlane& plane : model.planes) {
+        double* row = rows.add();
+        double value = -plane.bound, squared = 0;
+        for (int l = 0; l < n; ++l) {
+            row[l] = -plane.coefficients[l] * model.perWeight[l];
+            value += plane.coefficients[l] * goal[l];
+            squared += row[l] * row[l];
+        }
+        const double scale = 1 / std::sqrt(squared);
+        for (int l = 0; l < n; ++l) row[l] *= scale;
+        row[n] = value * scale;
+    }
+}
+
 JointValues clampToLimits(const JointModel& model, const double* asked, JointWorkspace& ws) {
     const int n = model.dofCount;
     JointValues q{};
@@ -253,26 +266,10 @@ JointValues clampToLimits(const JointModel& model, const double* asked, JointWor
         return sum <= 0;
     };
     if (std::all_of(model.planes.begin(), model.planes.end(), within)) return q;
-    int count = 0;
-    for (int l = 0; l < n; ++l) {
-        ws.rows[count++] = boundRow(n, l, 1, model.weights[l] * (model.lower[l] - q[l]));
-        ws.rows[count++] = boundRow(n, l, -1, -model.weights[l] * (model.upper[l] - q[l]));
-    }
-    for (const LimitPlane& plane : model.planes) {
-        QpRow row;
-        double value = -plane.bound, length = 0;
-        for (int l = 0; l < n; ++l) {
-            row.normal[l] = -plane.coefficients[l] / model.weights[l];
-            value += plane.coefficients[l] * q[l];
-            length += row.normal[l] * row.normal[l];
-        }
-        length = std::sqrt(length);
-        for (int l = 0; l < n; ++l) row.normal[l] /= length;
-        row.bound = value / length;
-        ws.rows[count++] = row;
-    }
+    ws.rows.clear(n);
+    addLimits(model, q, 1, q, ws.rows);
     JointValues y;
-    if (!nearestToOrigin(n, ws.rows.data(), count, 1e-12 * model.scale, y)) return q;
+    if (!nearestToOrigin(ws.rows, 1e-12 * model.scale, y)) return q;
     for (int l = 0; l < n; ++l)
         q[l] = std::clamp(q[l] + y[l] / model.weights[l], model.lower[l], model.upper[l]);
     return q;

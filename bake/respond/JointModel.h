@@ -37,6 +37,7 @@ struct JointModel {
     int dofCount = 0;
     JointValues lower{}, upper{};
     JointValues weights{}; ///< largest lever of each DOF, scene units a unit of the DOF: z = w q (METHOD 5.4)
+    JointValues perWeight{}; ///< 1 / weights
     std::vector<LimitPlane> planes;
     std::vector<Group> groups;
     std::vector<Pair> pairs;    ///< by group
@@ -74,7 +75,7 @@ struct JointWorkspace {
         false; ///< all thresholds are one, that of a start in collision: they do not rise by themselves
     std::vector<std::uint32_t> active; ///< places in `near` of those that can matter on one way
     std::vector<std::uint32_t> found;  ///< tests of one table
-    std::vector<QpRow> rows;
+    QpRows rows;
     std::vector<MotionFrame> frames; ///< one a group
 };
 
@@ -84,7 +85,13 @@ void placeGroup(const JointModel& model, std::size_t group, const JointValues& q
 void placeGroups(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws);
 
 /// Gap of a pair with the group's pose; normal (unit or less, from A to B) and the centre of B in A's frame.
-double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& centre, Vec3& normal);
+inline double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& centre, Vec3& normal) {
+    centre = pose * pair.b;
+    normal = centre - pair.a;
+    const double distance = normal.norm();
+    normal = distance > 0 ? Vec3(normal * (1 / distance)) : Vec3::UnitX();
+    return distance - pair.reach;
+}
 
 /// Fills ws.near with the pairs whose gap can fall to their threshold when each DOF changes by at most
 /// reach[l] from q. Thresholds are min(model.off, gap at q).
@@ -100,6 +107,11 @@ void linearise(const JointModel& model, const JointValues& q, const JointValues&
 
 /// Smallest gap of all pairs of the model at q, and its pair (-1: no pairs).
 double smallestGap(const JointModel& model, const JointValues& q, JointWorkspace& ws, int* pair = nullptr);
+
+/// Adds limits and planes as rows about the goal, y = w (q + way - goal), each DOF staying within `trust` of
+/// its range from q.
+void addLimits(const JointModel& model, const JointValues& q, double trust, const JointValues& goal,
+               QpRows& rows);
 
 /// Clamps into the box of limits, then, where a plane is broken, to the nearest point inside in the weighted
 /// metric (planes hold to 1e-12 of the range).

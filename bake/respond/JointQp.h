@@ -5,16 +5,36 @@ namespace tss {
 
 using JointValues = DofValues;
 
-/// One linear demand: normal . y >= bound, the normal of unit length.
-struct QpRow {
-    JointValues normal;
-    double bound = 0;
+/// Linear demands normal . y >= bound on n unknowns, the normals of unit length; one after the other without
+/// gaps, since hundreds of them are gone through again and again.
+class QpRows {
+public:
+    QpRows() = default;
+    explicit QpRows(std::size_t room) : numbers_(room * (maxDofs + 1)) {}
+
+    /// None, of n unknowns.
+    void clear(int n) {
+        n_ = n;
+        count_ = 0;
+    }
+    /// One more, to be filled: n numbers of its normal, then its bound. There must be room.
+    double* add() { return numbers_.data() + stride() * std::size_t(count_++); }
+    void dropLast() { --count_; }
+
+    const double* normal(int row) const { return numbers_.data() + stride() * std::size_t(row); }
+    double bound(int row) const { return normal(row)[n_]; }
+    int unknowns() const { return n_; }
+    int count() const { return count_; }
+
+private:
+    std::size_t stride() const { return std::size_t(n_) + 1; }
+    int n_ = 0, count_ = 0;
+    std::vector<double> numbers_;
 };
 
 /// The point nearest to the origin that meets every row: the dual active-set method of Goldfarb and Idnani
-/// (Mathematical Programming 27, 1983) for an identity Hessian. n <= maxDofs unknowns; a row counts as
-/// met within `tolerance`. Returns false where no point meets them all; y is then of no use. Allocates
-/// nothing.
-bool nearestToOrigin(int n, const QpRow* rows, int rowCount, double tolerance, JointValues& y);
+/// (Mathematical Programming 27, 1983) for an identity Hessian. A row counts as met within `tolerance`.
+/// Returns false where no point meets them all; y is then of no use. Allocates nothing.
+bool nearestToOrigin(const QpRows& rows, double tolerance, JointValues& y);
 
 } // namespace tss

@@ -52,7 +52,7 @@ JointWorkspace JointResponder::workspace() const {
     for (const JointModel::Group& group : model_.groups)
         if (group.prepared) room = std::max(room, group.prepared->testRoom());
     ws.found.resize(room);
-    ws.rows.resize(model_.pairs.size() + 2 * std::size_t(model_.dofCount) + model_.planes.size());
+    ws.rows = QpRows(model_.pairs.size() + 2 * std::size_t(model_.dofCount) + model_.planes.size());
     ws.frames.resize(model_.groups.size());
     return ws;
 }

@@ -11,67 +11,39 @@ namespace {
 /// Room kept above a threshold where a move ends, as a share of model.off: `advance` stops at a twentieth.
 constexpr double endRoom = 0.1;
 
-/// Limits and planes as rows about the goal, y = w (q + way - goal), each DOF within `trust` of its range.
-int limitRows(const JointModel& model, const JointValues& q, const JointValues& goal, double trust,
-              QpRow* rows) {
-    const int n = model.dofCount;
-    int count = 0;
-    for (int l = 0; l < n; ++l) {
-        const double reach = trust * (model.upper[l] - model.lower[l]);
-        const double w = model.weights[l];
-        for (double sign : {1.0, -1.0}) {
-            QpRow& row = rows[count++];
-            std::fill_n(row.normal.begin(), n, 0.0);
-            row.normal[l] = sign;
-            row.bound = sign > 0 ? w * (std::max(model.lower[l], q[l] - reach) - goal[l])
-                                 : -w * (std::min(model.upper[l], q[l] + reach) - goal[l]);
-        }
-    }
-    for (const LimitPlane& plane : model.planes) {
-        QpRow& row = rows[count++];
-        double value = -plane.bound, squared = 0;
-        for (int l = 0; l < n; ++l) {
-            row.normal[l] = -plane.coefficients[l] / model.weights[l];
-            value += plane.coefficients[l] * goal[l];
-            squared += row.normal[l] * row.normal[l];
-        }
-        const double length = std::sqrt(squared);
-        for (int l = 0; l < n; ++l) row.normal[l] /= length;
-        row.bound = value / length;
-    }
-    return count;
-}
-
 /// The way from q to the pose nearest to the goal where every near pair's linearised gap is at least
 /// demand(near). False where there is none.
 template <class Demand>
 bool nearestWay(const JointModel& model, const JointValues& q, const JointValues& goal, double trust,
                 JointWorkspace& ws, Demand demand, JointValues& way) {
     const int n = model.dofCount;
-    int count = limitRows(model, q, goal, trust, ws.rows.data());
+    ws.rows.clear(n);
+    addLimits(model, q, trust, goal, ws.rows);
     const double distance = weightedDistance(model, q, goal);
     for (std::size_t i = 0; i < ws.nearCount; ++i) {
         const NearPair& near = ws.near[i];
-        QpRow& row = ws.rows[count];
+        double* row = ws.rows.add();
         double squared = 0, bound = demand(near) - near.gap;
         for (int l = 0; l < n; ++l) {
-            row.normal[l] = near.gradient[l] / model.weights[l];
-            squared += row.normal[l] * row.normal[l];
+            row[l] = near.gradient[l] * model.perWeight[l];
+            squared += row[l] * row[l];
             bound -= near.gradient[l] * (goal[l] - q[l]);
         }
         const double length = std::sqrt(squared);
         // A gap that no DOF changes is no demand on them; nor is one met however far the way may go.
-        if (length < 1e-9) continue;
-        row.bound = bound / length;
-        if (row.bound < -1.5 * distance - model.off) continue;
-        for (int l = 0; l < n; ++l) row.normal[l] /= length;
-        ++count;
+        if (length < 1e-9 || bound < (-1.5 * distance - model.off) * length) {
+            ws.rows.dropLast();
+            continue;
+        }
+        const double scale = 1 / length;
+        for (int l = 0; l < n; ++l) row[l] *= scale;
+        row[n] = bound * scale;
     }
     JointValues y;
     const double tolerance = 1e-13 * model.scale + 1e-3 * endRoom * model.off;
-    if (!nearestToOrigin(n, ws.rows.data(), count, tolerance, y)) return false;
+    if (!nearestToOrigin(ws.rows, tolerance, y)) return false;
     for (int l = 0; l < n; ++l) {
-        const double end = goal[l] + y[l] / model.weights[l];
+        const double end = goal[l] + y[l] * model.perWeight[l];
         way[l] = std::clamp(end, model.lower[l], model.upper[l]) - q[l];
     }
     return true;
@@ -101,13 +73,14 @@ bool findLifts(const JointModel& model, const JointValues& q, const JointValues&
     placeGroups(model, end, way, ws);
     bool short_ = false;
     Vec3 centre, normal;
+    MotionBounds bounds;
     for (std::size_t i = 0; i < ws.nearCount; ++i) {
         NearPair& near = ws.near[i];
         const JointModel::Pair& pair = model.pairs[near.pair];
         double guess = near.gap;
         for (int l = 0; l < model.dofCount; ++l) guess += near.gradient[l] * way[l];
         const double real = pairGap(pair, ws.frames[pair.group].pose, centre, normal);
-        boundMotion(model, way, near);
+        bounds.bound(model, way, near);
         near.lift = endRoom * model.off + near.acceleration / 8 + std::max(0.0, guess - real);
         short_ = short_ || guess < near.threshold + near.lift;
     }
@@ -139,7 +112,7 @@ bool slideWay(const JointModel& model, const JointValues& q, const JointValues& 
 void slide(const JointModel& model, const JointValues& goal, JointValues& q, JointWorkspace& ws) {
     double trust = 1;
     double distance = weightedDistance(model, q, goal);
-    const double least = 1e-7 * model.scale;
+    const double least = std::clamp(1e-3 * distance, 1e-7 * model.scale, 1e-5 * model.scale);
     for (int round = 0; round < 20 && distance > least; ++round) {
         JointValues way{};
         for (int l = 0; l < model.dofCount; ++l) way[l] = goal[l] - q[l];

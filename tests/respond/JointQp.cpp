@@ -10,46 +10,61 @@ using random_table::Random;
 
 namespace {
 
-std::vector<QpRow> randomRows(Random& random, int n, int count) {
-    std::vector<QpRow> rows(count);
-    for (QpRow& row : rows) {
+QpRows randomRows(Random& random, int n, int count) {
+    QpRows rows{std::size_t(count)};
+    rows.clear(n);
+    for (int i = 0; i < count; ++i) {
+        double* row = rows.add();
         double squared = 0;
         for (int l = 0; l < n; ++l) {
-            row.normal[l] = between(random, -1, 1);
-            squared += row.normal[l] * row.normal[l];
+            row[l] = between(random, -1, 1);
+            squared += row[l] * row[l];
         }
-        for (int l = 0; l < n; ++l) row.normal[l] /= std::sqrt(squared);
-        row.bound = between(random, -1, 0.5);
+        for (int l = 0; l < n; ++l) row[l] /= std::sqrt(squared);
+        row[n] = between(random, -1, 0.5);
     }
     return rows;
 }
 
-double excess(int n, const QpRow& row, const JointValues& y) {
-    double sum = -row.bound;
-    for (int l = 0; l < n; ++l) sum += row.normal[l] * y[l];
+QpRows inPlane(std::initializer_list<std::array<double, 3>> demands) {
+    QpRows rows(demands.size());
+    rows.clear(2);
+    for (const std::array<double, 3>& demand : demands) std::copy(demand.begin(), demand.end(), rows.add());
+    return rows;
+}
+
+double excess(const QpRows& rows, int row, const JointValues& y) {
+    double sum = -rows.bound(row);
+    for (int l = 0; l < rows.unknowns(); ++l) sum += rows.normal(row)[l] * y[l];
     return sum;
+}
+
+double leastExcess(const QpRows& rows, const JointValues& y) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < rows.count(); ++i) least = std::min(least, excess(rows, i, y));
+    return least;
 }
 
 /// The least length of a point that meets all rows, by trying every set of rows that could hold with
 /// equality; infinity where no point does.
-double leastLength(int n, const std::vector<QpRow>& rows) {
+double leastLength(const QpRows& rows) {
+    const int n = rows.unknowns();
     double least = std::numeric_limits<double>::infinity();
-    for (unsigned set = 0; set < 1u << rows.size(); ++set) {
+    for (unsigned set = 0; set < 1u << rows.count(); ++set) {
         const int count = std::popcount(set);
         if (count > n) continue;
         Eigen::MatrixXd normals(count, n);
         Eigen::VectorXd bounds(count);
-        for (unsigned i = 0, k = 0; i < rows.size(); ++i) {
+        for (int i = 0, k = 0; i < rows.count(); ++i) {
             if (!(set >> i & 1)) continue;
-            normals.row(k) = Eigen::Map<const Eigen::RowVectorXd>(rows[i].normal.data(), n);
-            bounds(k++) = rows[i].bound;
+            normals.row(k) = Eigen::Map<const Eigen::RowVectorXd>(rows.normal(i), n);
+            bounds(k++) = rows.bound(i);
         }
         JointValues y{};
         if (count > 0)
             Eigen::Map<Eigen::VectorXd>(y.data(), n) =
                 normals.completeOrthogonalDecomposition().solve(bounds);
-        if (std::all_of(rows.begin(), rows.end(),
-                        [&](const QpRow& row) { return excess(n, row, y) > -1e-9; }))
+        if (leastExcess(rows, y) > -1e-9)
             least = std::min(least, Eigen::Map<Eigen::VectorXd>(y.data(), n).norm());
     }
     return least;
@@ -63,20 +78,18 @@ TEST_CASE("the nearest point under linear demands is the nearest of all corners,
         Random random(seed);
         CAPTURE(seed);
         const int n = 1 + int(random() % 5);
-        const std::vector<QpRow> rows = randomRows(random, n, 1 + int(random() % 9));
-        const double least = leastLength(n, rows);
+        const QpRows rows = randomRows(random, n, 1 + int(random() % 9));
+        const double least = leastLength(rows);
         JointValues y;
-        if (!nearestToOrigin(n, rows.data(), int(rows.size()), 1e-12, y)) {
+        if (!nearestToOrigin(rows, 1e-12, y)) {
             REQUIRE(least == std::numeric_limits<double>::infinity());
             ++refused;
             continue;
         }
         ++solved;
         REQUIRE(Eigen::Map<Eigen::VectorXd>(y.data(), n).norm() == Approx(least).epsilon(1e-8).margin(1e-9));
-        for (const QpRow& row : rows) {
-            REQUIRE(excess(n, row, y) > -1e-9);
-            active += excess(n, row, y) < 1e-9;
-        }
+        REQUIRE(leastExcess(rows, y) > -1e-9);
+        for (int i = 0; i < rows.count(); ++i) active += excess(rows, i, y) < 1e-9;
     }
     CHECK(solved > 100);
     CHECK(active > 100);
@@ -84,19 +97,17 @@ TEST_CASE("the nearest point under linear demands is the nearest of all corners,
 }
 
 TEST_CASE("demands that contradict each other are told") {
-    QpRow left{{1, 0}, 1}, right{{-1, 0}, 1}, up{{0, 1}, 3};
-    const QpRow rows[] = {up, left, right};
     JointValues y;
-    CHECK_FALSE(nearestToOrigin(2, rows, 3, 1e-12, y));
-    CHECK(nearestToOrigin(2, rows, 2, 1e-12, y));
+    CHECK_FALSE(nearestToOrigin(inPlane({{0, 1, 3}, {1, 0, 1}, {-1, 0, 1}}), 1e-12, y));
+    CHECK(nearestToOrigin(inPlane({{0, 1, 3}, {1, 0, 1}}), 1e-12, y));
     CHECK(y[0] == Approx(1));
     CHECK(y[1] == Approx(3));
 }
 
 TEST_CASE("the same demand many times over is one demand") {
-    const std::vector<QpRow> rows(10, QpRow{{0.6, 0.8}, 2});
+    const std::array<double, 3> same{0.6, 0.8, 2};
     JointValues y;
-    REQUIRE(nearestToOrigin(2, rows.data(), 10, 1e-12, y));
+    REQUIRE(nearestToOrigin(inPlane({same, same, same, same, same, same}), 1e-12, y));
     CHECK(y[0] == Approx(1.2));
     CHECK(y[1] == Approx(1.6));
 }
