@@ -231,7 +231,10 @@ private:
         const double quadratic =
             drift * (k.b->move + p.b->move) + std::max(0.0, 1 - curve) * p.b->move * p.b->move;
         bound += std::min(quadratic, k.b->move * k.b->move);
-        bound += 2 * (k.y - slope * p.y).norm() * p.b->bend + 2 * k.distance * between * box.turnBend();
+        // A bend is infinite across the knots of a path: of nothing it is nothing all the same.
+        const auto bent = [](double of, double bend) { return of > 0 ? of * bend : 0; };
+        bound +=
+            2 * bent((k.y - slope * p.y).norm(), p.b->bend) + 2 * bent(k.distance * between, box.turnBend());
         const double centre = k.distance * k.distance - slope * p.distance * p.distance;
         // Rounding of what stands here: a few units of the squares, far below the band that the claim was
         // given.

@@ -7,16 +7,7 @@
 /// The real pairs with the joints of pairs.json, fixed body first, DOFs from it to the moving one.
 namespace zone {
 
-inline tss::Dof slide(const tss::Vec3& axis, double lower, double upper) {
-    tss::Dof dof;
-    dof.name = "slide";
-    dof.kind = tss::DofKind::Translation;
-    dof.axis = axis;
-    dof.lower = lower;
-    dof.upper = upper;
-    dof.rest = std::clamp(0.0, lower, upper);
-    return dof;
-}
+using joints::slide;
 
 inline Scene realPair(const std::string& set) {
     using tss::Vec3;

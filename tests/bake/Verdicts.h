@@ -3,6 +3,7 @@
 #include "bake/search/TreePair.h"
 #include "bake/spheres/RoundToFloat.h"
 #include "tests/GroundTruth.h"
+#include "tests/Joints.h"
 
 #include <algorithm>
 #include <numbers>
@@ -10,18 +11,9 @@
 /// Sphere sets against the meshes themselves.
 namespace zone {
 
-constexpr double degree = std::numbers::pi / 180;
+using joints::turn;
 
-inline tss::Dof turn(const tss::Vec3& origin, const tss::Vec3& axis, double lower, double upper) {
-    tss::Dof dof;
-    dof.name = "turn";
-    dof.origin = origin;
-    dof.axis = axis.normalized();
-    dof.lower = lower;
-    dof.upper = upper;
-    dof.rest = std::clamp(0.0, lower, upper);
-    return dof;
-}
+constexpr double degree = std::numbers::pi / 180;
 
 struct Scene {
     tss::TriangleMesh a, b;

@@ -2,6 +2,7 @@
 #include "bake/compare/MeshTruth.h"
 #include "bake/compare/Methods.h"
 #include "bake/spheres/GenerateSpheres.h"
+#include "tests/Joints.h"
 #include "tests/Shapes.h"
 
 #include <catch2/catch.hpp>
@@ -34,26 +35,6 @@ inline tss::Motion makeMotion(std::vector<tss::Dof> dofs) {
     return motion;
 }
 
-inline tss::Dof turn(const tss::Vec3& origin, const tss::Vec3& axis, double lower, double upper) {
-    tss::Dof dof;
-    dof.name = "turn";
-    dof.origin = origin;
-    dof.axis = axis;
-    dof.lower = lower;
-    dof.upper = upper;
-    return dof;
-}
-
-inline tss::Dof slide(const tss::Vec3& axis, double lower, double upper) {
-    tss::Dof dof;
-    dof.name = "slide";
-    dof.kind = tss::DofKind::Translation;
-    dof.axis = axis;
-    dof.lower = lower;
-    dof.upper = upper;
-    return dof;
-}
-
 /// A lid with a knob that turns and slides over a box with a ball on it.
 inline tss::compare::Problem lidOverBall(double tolerance = 0.05) {
     using tss::Vec3;
@@ -67,10 +48,10 @@ inline tss::compare::Problem lidOverBall(double tolerance = 0.05) {
         together(boxMesh({0, -1, -0.4}, {3, 1, 0}), ballMesh({2.5, 0.3, 0.25}, 0.35, 2));
     const tss::TriangleMesh lid =
         together(boxMesh({0.2, -0.9, 0.5}, {3, 0.9, 0.8}), ballMesh({1.5, -0.2, 0.45}, 0.3, 2));
-    return makeProblem(
-        base, lid,
-        makeMotion({turn({0, 0, 0.3}, Vec3::UnitY(), -0.35, 0.25), slide(Vec3::UnitY(), -0.3, 0.3)}),
-        tolerance);
+    return makeProblem(base, lid,
+                       makeMotion({joints::turn({0, 0, 0.3}, Vec3::UnitY(), -0.35, 0.25),
+                                   joints::slide(Vec3::UnitY(), -0.3, 0.3)}),
+                       tolerance);
 }
 
 inline tss::compare::Problem lidHinged(double tolerance = 0.05) {

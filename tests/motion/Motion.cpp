@@ -1,4 +1,5 @@
 #include "bake/motion/Motion.h"
+#include "tests/Joints.h"
 #include "tests/table/RandomTable.h"
 
 #include <catch2/catch.hpp>
@@ -11,21 +12,11 @@ namespace {
 constexpr double quarterTurn = 1.57079632679489661923;
 
 Dof turn(const Vec3& origin, const Vec3& axis) {
-    Dof d;
-    d.origin = origin;
-    d.axis = axis;
-    d.lower = -3;
-    d.upper = 3;
-    return d;
+    return joints::turn(origin, axis, -3, 3);
 }
 
 Dof slideAlong(const Vec3& axis) {
-    Dof d;
-    d.kind = DofKind::Translation;
-    d.axis = axis;
-    d.lower = -10;
-    d.upper = 10;
-    return d;
+    return joints::slide(axis, -10, 10);
 }
 
 } // namespace

@@ -130,7 +130,7 @@ TEST_CASE("the cover is the same with one thread and with two") {
 
 TEST_CASE("a pair that never meets has an empty cover and a clearance") {
     auto scene = scenes::randomScene(4, 1, 60);
-    scene.motion.dofs = {scenes::rotation({0, 0, 0}, {0, 0, 1}, -3, 3)};
+    scene.motion.dofs = {joints::turn({0, 0, 0}, {0, 0, 1}, -3, 3)};
     scene.motion.base.translation() = Vec3(0, 0, 2);
     const auto cover = certifiedCover(scene.a, scene.b, nullptr, scene.motion);
     CHECK(cover.complete);
@@ -237,8 +237,7 @@ TEST_CASE("degenerate covers: no spheres, no freedom, limits of zero width, poin
     auto cover = certifiedCover(still.a, still.b, nullptr, still.motion, colliding());
     REQUIRE(cover.complete);
     CHECK(cover.pairs.size() == 1);
-    still.motion.dofs = {scenes::rotation({1, 0, 0}, {0, 0, 1}, 0, 0),
-                         scenes::translation({1, 0, 0}, 0.1, 0.1)};
+    still.motion.dofs = {joints::turn({1, 0, 0}, {0, 0, 1}, 0, 0), joints::slide({1, 0, 0}, 0.1, 0.1)};
     cover = certifiedCover(still.a, still.b, nullptr, still.motion, colliding());
     CHECK(cover.pairs.size() == 1);
 

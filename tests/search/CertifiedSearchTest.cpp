@@ -69,7 +69,7 @@ TEST_CASE("no pair is listed whose gap stays above margin and tolerance") {
 
 TEST_CASE("a hinge pair that never meets gets a proof with a clearance that holds") {
     auto scene = scenes::randomScene(4, 1, 60);
-    scene.motion.dofs = {scenes::rotation({0, 0, 0}, {0, 0, 1}, -3, 3)};
+    scene.motion.dofs = {joints::turn({0, 0, 0}, {0, 0, 1}, -3, 3)};
     scene.motion.base.translation() = Vec3(0, 0, 2);
     const auto proof = searchCertified(scene.a, scene.b, scene.motion, colliding());
     REQUIRE(proof.certified);
@@ -91,7 +91,7 @@ TEST_CASE("poses beyond a limit plane do not count") {
     // B slides towards A along x and would meet it at x + y > 1 only.
     const SphereSet a{{{0, 0, 0}, 0.5}}, b{{{-2, 0, 0}, 0.5}};
     Motion motion;
-    motion.dofs = {scenes::translation({1, 0, 0}, 0, 2), scenes::translation({1, 0, 0}, 0, 2)};
+    motion.dofs = {joints::slide({1, 0, 0}, 0, 2), joints::slide({1, 0, 0}, 0, 2)};
     motion.planes = {{{1, 1}, 0.9}};
     CHECK(searchCertified(a, b, motion, colliding()).pairs.empty());
     motion.planes[0].bound = 1.1;
@@ -100,7 +100,7 @@ TEST_CASE("poses beyond a limit plane do not count") {
 
 TEST_CASE("a cell is shrunk to what the planes leave of it") {
     Motion motion;
-    motion.dofs = {scenes::translation({1, 0, 0}, 0, 1), scenes::translation({0, 1, 0}, 0, 1)};
+    motion.dofs = {joints::slide({1, 0, 0}, 0, 1), joints::slide({0, 1, 0}, 0, 1)};
     motion.planes = {{{1, 2}, 0.5}};
     Cell cell = wholeBox(motion);
     REQUIRE(shrinkToPlanes(motion, cell));
@@ -143,10 +143,10 @@ TEST_CASE("degenerate input: no spheres, no freedom, limits of zero width, too m
     CHECK(still.pairs.size() == expected);
 
     for (Dof& dof : fixed.dofs) dof.upper = dof.lower;
-    fixed.dofs.push_back(scenes::rotation({0, 0, 0}, {0, 0, 1}, 0, 0));
+    fixed.dofs.push_back(joints::turn({0, 0, 0}, {0, 0, 1}, 0, 0));
     CHECK(searchCertified(scene.a, scene.b, fixed, colliding()).pairs.size() == expected);
 
     Motion endless;
-    for (int k = 0; k < 13; ++k) endless.dofs.push_back(scenes::translation({1, 0, 0}, 0, 1));
+    for (int k = 0; k < 13; ++k) endless.dofs.push_back(joints::slide({1, 0, 0}, 0, 1));
     CHECK_THROWS_AS(searchCertified(scene.a, scene.b, endless), InputError);
 }

@@ -54,9 +54,9 @@ LevelSpheres cloud(Random& random, int count, const Vec3& about, double size) {
 
 Motion randomMotion(Random& random) {
     Motion motion;
-    motion.dofs.push_back(scenes::rotation(random.inBox(1), random.direction(), -0.8, 0.9));
-    motion.dofs.push_back(random.below(2) ? scenes::rotation(random.inBox(1), random.direction(), -0.3, 0.3)
-                                          : scenes::translation(random.direction(), -0.2, 0.3));
+    motion.dofs.push_back(joints::turn(random.inBox(1), random.direction(), -0.8, 0.9));
+    motion.dofs.push_back(random.below(2) ? joints::turn(random.inBox(1), random.direction(), -0.3, 0.3)
+                                          : joints::slide(random.direction(), -0.2, 0.3));
     motion.base.translation() = random.inBox(0.2);
     return motion;
 }
@@ -185,7 +185,7 @@ TEST_CASE("every piece of surface that comes near the other body is within reach
 
 TEST_CASE("a slide brings only the faces that look at each other within reach") {
     Motion motion;
-    motion.dofs.push_back(scenes::translation(Vec3::UnitX(), 0, 0.5));
+    motion.dofs.push_back(joints::slide(Vec3::UnitX(), 0, 0.5));
     const TriangleMesh a = test::boxMesh({0, 0, 0}, {1, 1, 1}), b = test::boxMesh({-1, 0, 0}, {-0.4, 1, 1});
     const MeshQuery queryA(a), queryB(b);
     for (const auto& [side, mesh, other, x] :

@@ -12,10 +12,10 @@ Motion randomChain(scenes::Random& random, int dofs) {
     Motion motion;
     for (int k = 0; k < dofs; ++k) switch (random.below(3)) {
         case 0:
-            motion.dofs.push_back(scenes::rotation(random.inBox(2), random.direction(), -4, 4));
+            motion.dofs.push_back(joints::turn(random.inBox(2), random.direction(), -4, 4));
             break;
         case 1:
-            motion.dofs.push_back(scenes::translation(random.in(0.1, 3) * random.direction(), -2, 2));
+            motion.dofs.push_back(joints::slide(random.in(0.1, 3) * random.direction(), -2, 2));
             break;
         default:
             motion.dofs.push_back(
@@ -94,7 +94,7 @@ TEST_CASE("no point moves farther in a cell, or farther from its tangent, than t
 TEST_CASE("a path is cut at its knots first, other DOFs in the middle") {
     scenes::Random random(2);
     Motion motion;
-    motion.dofs = {scenes::path(random, 5, 0.1, 0.1), scenes::translation({1, 0, 0}, 0, 1)};
+    motion.dofs = {scenes::path(random, 5, 0.1, 0.1), joints::slide({1, 0, 0}, 0, 1)};
     const MotionRates rates(motion);
     CHECK(rates.cut(0, 0, 4) == 2);
     CHECK(rates.cut(0, 0, 2.5) == 1);

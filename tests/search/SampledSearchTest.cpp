@@ -60,7 +60,7 @@ TEST_CASE("explored poses include both limits, stay inside the planes and repeat
 TEST_CASE("a motion without freedom is explored at its one pose") {
     Motion fixed;
     CHECK(exploredPoses(fixed, 100, 1).size() == 1);
-    fixed.dofs.push_back(scenes::rotation({0, 0, 0}, {0, 0, 1}, 0.3, 0.3));
+    fixed.dofs.push_back(joints::turn({0, 0, 0}, {0, 0, 1}, 0.3, 0.3));
     CHECK(exploredPoses(fixed, 100, 1) == std::vector<std::vector<double>>{{0.3}});
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("empty sphere sets have no candidates") {
 TEST_CASE("a pair that overlaps at rest counts from its gap at rest, or not at all, or as any other") {
     SphereSet a{{{0, 0, 0}, 1}}, b{{{1.5, 0, 0}, 1}};
     Motion slide;
-    slide.dofs.push_back(scenes::translation({-1, 0, 0}, -3, 1));
+    slide.dofs.push_back(joints::slide({-1, 0, 0}, -3, 1));
     SampledSearchOptions options;
     const auto offset = searchSampled(a, b, slide, options);
     REQUIRE(offset.pairs.size() == 1);

@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/motion/Motion.h"
 #include "bake/spheres/SphereSet.h"
+#include "tests/Joints.h"
 
 #include <numbers>
 #include <random>
@@ -31,26 +32,6 @@ public:
 private:
     std::mt19937_64 engine_;
 };
-
-inline tss::Dof rotation(const tss::Vec3& origin, const tss::Vec3& axis, double lower, double upper) {
-    tss::Dof dof;
-    dof.name = "turn";
-    dof.origin = origin;
-    dof.axis = axis.normalized();
-    dof.lower = lower;
-    dof.upper = upper;
-    return dof;
-}
-
-inline tss::Dof translation(const tss::Vec3& axis, double lower, double upper) {
-    tss::Dof dof;
-    dof.name = "slide";
-    dof.kind = tss::DofKind::Translation;
-    dof.axis = axis;
-    dof.lower = lower;
-    dof.upper = upper;
-    return dof;
-}
 
 /// A path of `rows` poses that bends and turns at random; every row moves about `step` and turns about
 /// `turn`.
@@ -84,11 +65,11 @@ inline Scene randomScene(std::uint64_t seed, int dofs, int spheres, bool paths =
     for (int k = 0; k < dofs; ++k) {
         const int kind = random.below(paths ? 3 : 2);
         if (kind == 0)
-            scene.motion.dofs.push_back(
-                rotation(random.inBox(1), random.direction(), random.in(-0.8, -0.1), random.in(0.1, 0.8)));
+            scene.motion.dofs.push_back(joints::turn(random.inBox(1), random.direction(),
+                                                     random.in(-0.8, -0.1), random.in(0.1, 0.8)));
         else if (kind == 1)
             scene.motion.dofs.push_back(
-                translation(random.in(0.5, 2) * random.direction(), random.in(-0.5, 0), random.in(0, 0.5)));
+                joints::slide(random.in(0.5, 2) * random.direction(), random.in(-0.5, 0), random.in(0, 0.5)));
         else
             scene.motion.dofs.push_back(path(random, 3 + random.below(4), 0.2, 0.2));
     }
@@ -126,9 +107,9 @@ inline Scene jawLike(int spheresA, int spheresB, std::uint64_t seed = 1) {
     arch(scene.a, spheresA, 1, 0);
     arch(scene.b, spheresB, -1, 0.3);
     const double degree = std::numbers::pi / 180;
-    scene.motion.dofs = {translation({1, 0, -0.2}, -1.5, 1.5),
-                         rotation({0, 0, 0}, {0, 0, 1}, -1 * degree, 1 * degree),
-                         rotation({-20, 0, 10}, {0, 1, 0}, -9 * degree, 12 * degree)};
+    scene.motion.dofs = {joints::slide({1, 0, -0.2}, -1.5, 1.5),
+                         joints::turn({0, 0, 0}, {0, 0, 1}, -1 * degree, 1 * degree),
+                         joints::turn({-20, 0, 10}, {0, 1, 0}, -9 * degree, 12 * degree)};
     return scene;
 }
 

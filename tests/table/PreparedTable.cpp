@@ -1,5 +1,6 @@
 #include "bake/table/PreparedTable.h"
 #include "bake/base/Error.h"
+#include "tests/Joints.h"
 #include "tests/table/ExactGap.h"
 #include "tests/table/RandomTable.h"
 
@@ -35,21 +36,11 @@ std::string describe(const PreparedTable& t) {
 }
 
 Dof hinge(const Vec3& origin, const Vec3& axis, double lower = -0.4, double upper = 0.6) {
-    Dof d;
-    d.origin = origin;
-    d.axis = axis.normalized();
-    d.lower = lower;
-    d.upper = upper;
-    return d;
+    return joints::turn(origin, axis, lower, upper);
 }
 
 Dof slideAlong(const Vec3& axis) {
-    Dof d;
-    d.kind = DofKind::Translation;
-    d.axis = axis;
-    d.lower = -3;
-    d.upper = 5;
-    return d;
+    return joints::slide(axis, -3, 5);
 }
 
 Table tableOver(const std::vector<Dof>& dofs) {

@@ -51,3 +51,16 @@ inline std::pair<std::vector<double>, std::vector<double>>
 bisected(const scenes::Scene& scene, const std::vector<double>& free, const std::vector<double>& hit) {
     return bisected(tss::SphereTree(scene.a), tss::SphereTree(scene.b), scene.motion, free, hit);
 }
+
+/// The table with one of its tests left out.
+inline tss::Table without(const tss::Table& table, std::size_t test) {
+    auto pairs = tests(table);
+    auto rest = table.restGaps;
+    pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(test));
+    if (!rest.empty()) rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(test));
+    tss::Table less = makeTable(table.a, table.b, pairs, rest, table.motion);
+    less.epsilon = table.epsilon;
+    less.gapDepth = table.gapDepth;
+    less.gapMargin = table.gapMargin;
+    return less;
+}

@@ -90,16 +90,6 @@ void harmful(Counts& counts, const std::string& kind, const Exhibit& damaged, st
     CHECK(lag(damaged, result.pose) > -rounding);
 }
 
-Table without(const Table& table, std::size_t test) {
-    auto pairs = tests(table);
-    auto rest = table.restGaps;
-    pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(test));
-    if (!rest.empty()) rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(test));
-    Table less = makeTable(table.a, table.b, pairs, rest, table.motion);
-    less.epsilon = table.epsilon, less.gapDepth = table.gapDepth, less.gapMargin = table.gapMargin;
-    return less;
-}
-
 void removePairs(Counts& counts, const Exhibit& good, std::uint64_t seed) {
     for (std::size_t k = 0; k < good.table.testCount(); ++k) {
         Exhibit less = good;

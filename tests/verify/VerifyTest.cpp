@@ -11,19 +11,6 @@ using namespace tss;
 
 namespace {
 
-/// The table with one of its tests left out.
-Table without(const Table& table, std::size_t test) {
-    auto pairs = tests(table);
-    auto rest = table.restGaps;
-    pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(test));
-    if (!rest.empty()) rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(test));
-    Table less = makeTable(table.a, table.b, pairs, rest, table.motion);
-    less.epsilon = table.epsilon;
-    less.gapDepth = table.gapDepth;
-    less.gapMargin = table.gapMargin;
-    return less;
-}
-
 /// What the result says really holds at the pose it gives.
 void checkWitness(const scenes::Scene& scene, const Table& table, const VerifyResult& result) {
     if (result.pose.empty()) return;
@@ -236,7 +223,7 @@ TEST_CASE("rest gaps are checked both ways") {
 
 TEST_CASE("a proof of never colliding is proven again, and one that claims too much is refused") {
     auto scene = scenes::randomScene(4, 1, 60);
-    scene.motion.dofs = {scenes::rotation({0, 0, 0}, {0, 0, 1}, -3, 3)};
+    scene.motion.dofs = {joints::turn({0, 0, 0}, {0, 0, 1}, -3, 3)};
     scene.motion.base.translation() = Vec3(0, 0, 2);
     const auto proof = searchCertified(scene.a, scene.b, scene.motion);
     REQUIRE(proof.clearance > 0);

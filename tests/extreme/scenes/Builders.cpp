@@ -16,23 +16,7 @@
 namespace extreme {
 
 Dof turn(const Vec3& origin, const Vec3& axis, double lower, double upper) {
-    Dof dof;
-    dof.name = "turn";
-    dof.origin = origin;
-    dof.axis = axis.normalized();
-    dof.lower = lower * degree;
-    dof.upper = upper * degree;
-    return dof;
-}
-
-Dof slide(const Vec3& axis, double lower, double upper) {
-    Dof dof;
-    dof.name = "slide";
-    dof.kind = tss::DofKind::Translation;
-    dof.axis = axis;
-    dof.lower = lower;
-    dof.upper = upper;
-    return dof;
+    return joints::turn(origin, axis, lower * degree, upper * degree);
 }
 
 TriangleMesh roughBall(const Vec3& centre, double radius, int level, double rough) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "tests/Joints.h"
 #include "tests/extreme/scenes/ExtremeScene.h"
 
 namespace extreme {
@@ -12,9 +13,9 @@ using tss::Vec3;
 
 inline constexpr double degree = 0.017453292519943295;
 
-/// A turn about an axis through a point, limits in degrees; a slide along an axis.
+/// As joints:: has them, but a turn with limits in degrees.
 Dof turn(const Vec3& origin, const Vec3& axis, double lower, double upper);
-Dof slide(const Vec3& axis, double lower, double upper);
+using joints::slide;
 
 /// A ball of triangles whose vertices stray by up to `rough` of the radius, always the same way: no two of
 /// its spheres are equal, so that no tie hides behind a symmetry.
