@@ -37,6 +37,11 @@ struct Job {
     std::shared_ptr<const Open> open;
 };
 
+/// A bend is infinite across the knots of a path: of nothing it is nothing all the same.
+double bent(double of, double bend) {
+    return of > 0 ? of * bend : 0;
+}
+
 /// A pair of spheres over a box: y = centre of B's minus centre of A's.
 struct Apart {
     Vec3 y;
@@ -55,12 +60,13 @@ struct Apart {
     /// Bounds of |y|^2 over the box; the last factors are the bounds' own rounding.
     double leastSquare(const PoseBox& box) const {
         const double near = std::max(0.0, distance - b->move);
-        const double flat = distance * distance - 2 * (tilt(box) + distance * b->bend) * (1 + 1e-12);
+        const double flat = distance * distance - 2 * (tilt(box) + bent(distance, b->bend)) * (1 + 1e-12);
         return std::max(near * near, flat) * (1 - 1e-12);
     }
     double largestSquare(const PoseBox& box) const {
         const double far = distance + b->move;
-        const double flat = distance * distance + 2 * (tilt(box) + distance * b->bend) + b->move * b->move;
+        const double flat =
+            distance * distance + 2 * (tilt(box) + bent(distance, b->bend)) + b->move * b->move;
         return std::min(far * far, flat) * (1 + 1e-12);
     }
 };
@@ -231,8 +237,6 @@ private:
         const double quadratic =
             drift * (k.b->move + p.b->move) + std::max(0.0, 1 - curve) * p.b->move * p.b->move;
         bound += std::min(quadratic, k.b->move * k.b->move);
-        // A bend is infinite across the knots of a path: of nothing it is nothing all the same.
-        const auto bent = [](double of, double bend) { return of > 0 ? of * bend : 0; };
         bound +=
             2 * bent((k.y - slope * p.y).norm(), p.b->bend) + 2 * bent(k.distance * between, box.turnBend());
         const double centre = k.distance * k.distance - slope * p.distance * p.distance;
