@@ -27,5 +27,8 @@ if [ -n "$long" ]; then
     ctest --test-dir build -L long --output-on-failure
 fi
 
+say "The API reference, every warning an error"
+cmake --build --preset release --target api
+
 say "Fuzzing the scene reader"
 tests/fuzz/run.sh "$([ -n "$long" ] && echo 1800 || echo 30)"

@@ -5,10 +5,11 @@ packages=(
     build-essential cmake ninja-build pkg-config
     libopenscenegraph-dev openscenegraph
     libeigen3-dev libassimp-dev nlohmann-json3-dev catch2
-    libtbb-dev libembree-dev libhwy-dev libcli11-dev libfmt-dev
+    libtbb-dev libhwy-dev libcli11-dev libfmt-dev
     libfcl-dev zlib1g-dev parallel
     clang libclang-rt-14-dev
     libbullet-dev libcgal-dev gnuplot-nox
+    doxygen help2man
     xvfb xauth libgl1-mesa-dri libegl-dev libegl-mesa0
 )
 

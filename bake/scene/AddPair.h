@@ -6,7 +6,7 @@ namespace tss {
 /// Adds the joints that spell a motion of body B against body A in terms of USD physics, places B at the
 /// motion's rest values, and adds the pair. One joint prim when the DOFs share a centre and lie along the
 /// axes of one frame; otherwise a chain of joints with an Xform between each two of them, and a pair prim
-/// that names its ends. Bodies A and B must be in the scene, paths of siblings under /<defaultPrim>. `name`:
+/// that names its ends. Bodies A and B must be in the scene, paths of siblings under /DEFAULTPRIM. `name`:
 /// of the new prims. Returns the index of the pair. Throws InputError for a motion that checkMotion()
 /// refuses.
 int addPair(SceneModel& scene, int bodyA, int bodyB, const Motion& motion, const std::string& name);

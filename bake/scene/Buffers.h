@@ -13,8 +13,7 @@ namespace tss {
 void inlineBuffers(Value& root, const std::string& fileName, Problems& problems);
 
 /// Takes the numeric arrays of at least `fewest` elements out of the layer, which then names them in the one
-/// buffer
-/// `<stem>.<hash>.bin`. Returns its name and its bytes; both empty when there are no such arrays.
+/// buffer STEM.HASH.bin. Returns its name and its bytes; both empty when there are no such arrays.
 struct Buffer {
     std::string uri, bytes;
 };
