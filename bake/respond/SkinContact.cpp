@@ -7,7 +7,9 @@
 namespace tss {
 namespace {
 
-constexpr int walkSteps = 8;        ///< triangles that a look-up walks over, at most
+constexpr int walkSteps = 8;    ///< triangles that a look-up walks over, at most
+constexpr double lookSlide = 2; ///< in radii: how far skin that has slid along its muscle is looked up from
+                                ///< where the muscle would carry it; farther it may have slid off, or through
 constexpr double leastFacing = 0.1; ///< cosine between muscle and skin at which a contact is not believed ...
 constexpr double fullFacing = 0.5;  ///< ... and from which on it is
 
@@ -85,7 +87,6 @@ void placeMuscles(const SkinRig& rig, std::span<const double> activations, std::
                   SkinScene& scene) {
     scene.muscles.resize(rig.muscles.size());
     scene.drag.assign(rig.rest.size(), Move::Zero());
-    scene.reference.assign(rig.rest.size(), Move::Zero());
     for (std::size_t m = 0; m < rig.muscles.size(); ++m) {
         const SkinMuscle& muscle = rig.muscles[m];
         place(muscle, activations[m], poses[m], scene.muscles[m]);
@@ -95,19 +96,31 @@ void placeMuscles(const SkinRig& rig, std::span<const double> activations, std::
         for (std::size_t i = 0; i < muscle.carried.size(); ++i) {
             const Vec3 x = trackPosition(muscle.skin, at, i);
             const SkinCarry& c = muscle.carried[i];
-            scene.reference[c.vertex].head<3>() += c.pull * (poses[m] * x - x).cast<float>();
+            scene.drag[c.vertex].head<3>() += c.pull * (poses[m] * x - x).cast<float>();
         }
     }
     scene.predicted.resize(rig.rest.size());
     for (std::size_t v = 0; v < rig.rest.size(); ++v)
-        scene.predicted[v] = rig.rest[v] + (scene.drag[v] + scene.reference[v]).head<3>().cast<double>();
+        scene.predicted[v] = rig.rest[v] + scene.drag[v].head<3>().cast<double>();
 }
 
 SkinContact rowContact(const SkinRig& rig, const SkinScene& scene, std::size_t index) {
     const SkinRow& row = rig.rows[index];
     const SkinMuscle& muscle = rig.muscles[row.muscle];
     const PlacedMuscle& placed = scene.muscles[row.muscle];
-    const Vec3& x = scene.predicted[row.vertex];
+    Vec3 x = scene.predicted[row.vertex];
+    if (row.restTriangle >= 0) {
+        const Tri& corners = muscle.triangles[row.restTriangle];
+        Vec3 carried = Vec3::Zero(), normal = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            carried += row.restWeights[k] * placed.surface[corners[k]];
+            normal += row.restWeights[k] * placed.normals[corners[k]];
+        }
+        carried += row.restHeight * normal.normalized();
+        const Vec3 slid = x - carried;
+        const double far = slid.norm(), most = lookSlide * row.radius;
+        if (far > most) x = carried + most / far * slid;
+    }
     const double limit = row.radius + std::max(rig.travel, row.radius);
     SkinContact contact;
     bool near = false;
@@ -125,7 +138,7 @@ SkinContact rowContact(const SkinRig& rig, const SkinScene& scene, std::size_t i
     Vec3 smooth = Vec3::Zero();
     for (int k = 0; k < 3; ++k) smooth += hit.weights[k] * placed.normals[corners[k]];
     smooth.normalize();
-    contact.trust = trust(smooth.dot(rig.restNormals[row.vertex]));
+    contact.trust = trust(smooth.dot(placed.pose.linear() * row.facing));
     if (!(contact.trust > 0)) return contact;
     contact.normal = pushDirection(smooth, x - hit.point, row.radius);
     for (std::uint32_t& v : contact.vertex) v = row.vertex;

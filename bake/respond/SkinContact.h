@@ -21,9 +21,8 @@ struct PlacedMuscle {
 /// All muscles at given activations, and the skin as they drag it along without contact.
 struct SkinScene {
     std::vector<PlacedMuscle> muscles;
-    std::vector<Move> drag;      ///< #touched: displacement, the sum over the muscles
-    std::vector<Move> reference; ///< #touched: what poses add to the holds, as a displacement without a sheet
-    std::vector<Vec3> predicted; ///< #touched: rest and both of these; where contacts are looked up
+    std::vector<Move> drag;      ///< #touched: displacement, the sum over the muscles and their bones
+    std::vector<Vec3> predicted; ///< #touched: rest and drag; where contacts are looked up
 };
 
 /// Moves the muscles and the skin's prediction. activations, poses (motion of each muscle since rest in the

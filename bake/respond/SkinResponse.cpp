@@ -19,9 +19,11 @@ double activationOf(std::span<const double> activations, const SkinMuscle& muscl
 } // namespace
 
 SkinResponse::SkinResponse(std::shared_ptr<const SkinRig> rig)
-    : rig_(std::move(rig)), solver_(rig_->contactPatch.sheet),
-      planes_(rig_->rows.size() + rig_->pokes.size()), positions_(rig_->rest), normals_(rig_->restNormals),
-      activations_(rig_->muscles.size(), 0), poses_(rig_->muscles.size(), Pose::Identity()) {}
+    : rig_(std::move(rig)), solver_(rig_->contactPatch.sheet), strain_(rig_->weave),
+      planes_(rig_->rows.size() + rig_->pokes.size()),
+      still_(rig_->contactPatch.vertices.size(), Move::Zero()), positions_(rig_->rest),
+      normals_(rig_->restNormals), activations_(rig_->muscles.size(), 0),
+      poses_(rig_->muscles.size(), Pose::Identity()) {}
 
 SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<const Pose> poses) {
     bool same = true, rest = true;
@@ -99,14 +101,13 @@ void SkinResponse::solve() {
     findContacts();
     const float tolerance = static_cast<float>(settledShare * rig_->size);
     const std::vector<std::uint32_t>& patch = rig_->contactPatch.vertices;
-    reference_.resize(patch.size());
-    for (std::size_t i = 0; i < patch.size(); ++i) reference_[i] = scene_.reference[patch[i]];
-    residual_ = solver_.solve(reference_, planes_, rig_->parameters.iterations, tolerance);
+    residual_ = solver_.solve(still_, planes_, rig_->parameters.iterations, tolerance);
     settled_ = residual_ <= tolerance;
     const std::span<const Move> moves = solver_.displacements();
     for (std::size_t v = 0; v < positions_.size(); ++v)
         positions_[v] = rig_->rest[v] + scene_.drag[v].head<3>().cast<double>();
     for (std::size_t i = 0; i < patch.size(); ++i) positions_[patch[i]] += moves[i].head<3>().cast<double>();
+    strain_.relax(rig_->rest, planes_, patch, scene_.drag, positions_);
 }
 
 void SkinResponse::findContacts() {

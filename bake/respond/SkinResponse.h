@@ -56,8 +56,9 @@ private:
     std::shared_ptr<const SkinRig> rig_;
     SkinScene scene_;
     SkinSolver solver_;
+    SkinStrain strain_;
     std::vector<SheetPlane> planes_; ///< rows, then pokes
-    std::vector<Move> reference_;    ///< of the contact patch
+    std::vector<Move> still_;        ///< #vertices of the contact patch: the drags are taken in already
     std::vector<Vec3> positions_, normals_;
     std::vector<double> activations_;
     std::vector<Pose> poses_;

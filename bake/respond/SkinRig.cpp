@@ -12,9 +12,9 @@
 namespace tss {
 namespace {
 
-using rig::Closeness;
+using rig::Carried;
 
-constexpr double carryReach = 6;    ///< in thicknesses: height at which a muscle lets go of the skin
+constexpr double lookReach = 6;     ///< in thicknesses: how far contacts are looked for
 constexpr double sheetReach = 24;   ///< in thicknesses: how far beyond what is held or hit the sheet moves
 constexpr double contactReach = 12; ///< in thicknesses: how far around what may be pushed the sheet gives way
 constexpr int dragSteps = 6;        ///< nodes of a drag, without the first
@@ -37,6 +37,12 @@ void check(const TriangleMesh& skin, const std::vector<std::shared_ptr<const Mus
         for (const double w : *weights)
             if (!(w >= 0 && w <= 1)) throw InputError("tether and attach of a skin lie in [0, 1]");
     }
+    if (!p.carry.empty() && p.carry.size() != muscles.size())
+        throw InputError("carry of a skin needs one value a muscle");
+    for (const double w : p.carry)
+        if (!(w >= 0 && w <= 1)) throw InputError("carry of a skin lies in [0, 1]");
+    if (!p.swings.empty() && p.swings.size() != muscles.size())
+        throw InputError("swings of a skin need one list a muscle");
     if (p.iterations < 1) throw InputError("a skin needs at least one iteration");
     const Table& t = table.table;
     if (table.skinVertices.size() != t.a.size() || table.muscleOf.size() != t.b.size() ||
@@ -65,11 +71,11 @@ struct Touched {
 };
 
 Touched touch(SkinRig& rig, const TriangleMesh& skin, const rig::Rings& rings, const SkinTable& table,
-              const std::vector<std::vector<Closeness>>& close, double thickness,
+              const std::vector<std::vector<Carried>>& close, double thickness,
               const std::vector<Vec3>& normals) {
     std::vector<std::uint32_t> sources = table.skinVertices;
     for (const auto& list : close)
-        for (const Closeness& c : list) sources.push_back(c.vertex);
+        for (const Carried& c : list) sources.push_back(c.vertex);
     std::sort(sources.begin(), sources.end());
     sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
 
@@ -132,39 +138,34 @@ std::vector<double> areaMasses(const SkinRig& rig) {
     return areas;
 }
 
-void addHolds(SkinRig& rig, const Touched& touched, const std::vector<std::vector<Closeness>>& close) {
+void addHolds(SkinRig& rig, const Touched& touched, const std::vector<std::vector<Carried>>& close) {
     const SkinParameters& p = rig.parameters;
     const std::vector<double> areas = areaMasses(rig);
-    std::vector<double> total(rig.vertices.size(), 0), held(rig.vertices.size());
+    std::vector<double> carried(rig.vertices.size(), 0);
     for (const auto& list : close)
-        for (const Closeness& c : list) total[touched.indexOf[c.vertex]] += c.close;
+        for (const Carried& c : list) carried[touched.indexOf[c.vertex]] += c.pull;
     for (std::size_t i = 0; i < rig.vertices.size(); ++i) {
         const std::uint32_t v = rig.vertices[i];
         const double tether = p.tether.empty() ? 0 : p.tether[v];
         const double out = touched.reach > 0 ? std::min(1.0, touched.distance[v] / touched.reach) : 0;
-        held[i] = areas[i] * (1 + rimStiffness * out * out + p.attachment * tether / (1.001 - tether));
+        const double kept = 1 + rimStiffness * out * out + p.attachment * tether / (1.001 - tether);
+        // Carried by the muscles for a share of the way: as if by springs so much stiffer than the first.
+        const double held = areas[i] * (kept + carried[i] / (1 - carried[i]));
+        rig.sheet.inverseMass.push_back(std::isfinite(touched.distance[v]) ? static_cast<float>(1 / held)
+                                                                           : 0);
     }
     for (std::size_t m = 0; m < close.size(); ++m)
-        for (const Closeness& c : close[m]) {
+        for (const Carried& c : close[m]) {
             const std::uint32_t i = touched.indexOf[c.vertex];
-            const double share = c.close / std::max(1.0, total[i]);
-            const double attach = p.attach.empty() ? c.attach : share * p.attach[c.vertex];
-            const double stiffness = areas[i] * (p.fascia * share + p.attachment * attach);
-            held[i] += stiffness;
-            rig.muscles[m].carried.push_back({i, static_cast<float>(stiffness)});
+            const double stiffness = areas[i] * c.pull / (1 - carried[i]);
+            rig.muscles[m].carried.push_back({i, static_cast<float>(stiffness) * rig.sheet.inverseMass[i]});
         }
-    for (std::size_t i = 0; i < rig.vertices.size(); ++i)
-        rig.sheet.inverseMass.push_back(
-            std::isfinite(touched.distance[rig.vertices[i]]) ? static_cast<float>(1 / held[i]) : 0);
-    for (SkinMuscle& muscle : rig.muscles)
-        for (SkinCarry& c : muscle.carried) c.pull *= rig.sheet.inverseMass[c.vertex];
 }
 
 /// Returns where each sphere of the table is among its own muscle's.
 std::vector<std::uint32_t> addTracks(SkinRig& rig,
                                      const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
-                                     const SkinTable& table,
-                                     const std::vector<std::vector<Closeness>>& close) {
+                                     const SkinTable& table, const std::vector<std::vector<Carried>>& close) {
     std::vector<std::vector<Sphere>> spheres(muscles.size());
     std::vector<std::uint32_t> own(table.table.b.size());
     for (std::size_t b = 0; b < table.table.b.size(); ++b) {
@@ -185,7 +186,7 @@ std::vector<std::uint32_t> addTracks(SkinRig& rig,
         muscle.spheres = makeTrack(deformer, points, nodes);
         muscle.surface = makeTrack(deformer, deformer.surfacePoints(), nodes);
         points.clear();
-        for (const Closeness& c : close[m]) points.push_back(c.point);
+        for (const Carried& c : close[m]) points.push_back(c.point);
         muscle.skin = makeTrack(deformer, points, nodes);
         muscle.rest = deformer.muscle().surface.vertices;
         muscle.triangles = deformer.muscle().surface.triangles;
@@ -270,6 +271,19 @@ std::vector<Vec3> skinNormals(const TriangleMesh& skin) {
     return normals;
 }
 
+std::vector<std::vector<double>> skinStray(const TriangleMesh& skin,
+                                           const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
+                                           const SkinParameters& parameters, double thickness) {
+    std::vector<std::vector<double>> stray(muscles.size(), std::vector<double>(skin.vertices.size(), 0));
+    const auto carried =
+        rig::carriedSkin(skin, skinNormals(skin), rig::rings(skin), muscles, parameters, thickness);
+    for (std::size_t m = 0; m < muscles.size(); ++m)
+        for (const Carried& c : carried[m])
+            for (std::size_t other = 0; other < muscles.size(); ++other)
+                if (other != m) stray[other][c.vertex] += c.pull * c.farthest;
+    return stray;
+}
+
 std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
                                            const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
                                            const SkinTable& table, const SkinParameters& parameters) {
@@ -281,14 +295,12 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     rig.travel = table.travel;
     rig.muscles.resize(muscles.size());
     const double thickness = largestRadius(table.table);
-    const double reach = carryReach * thickness;
+    const double reach = lookReach * thickness;
 
     const rig::Rings rings = rig::rings(skin);
     const std::vector<Vec3> normals = skinNormals(skin);
-    std::vector<std::vector<Closeness>> close(muscles.size());
-    if (!parameters.faithful)
-        for (std::size_t m = 0; m < muscles.size(); ++m)
-            close[m] = rig::closeness(skin, normals, rings, *muscles[m], reach);
+    std::vector<std::vector<Carried>> close(muscles.size());
+    if (!parameters.faithful) close = rig::carriedSkin(skin, normals, rings, muscles, parameters, thickness);
 
     const Touched touched = touch(rig, skin, rings, table, close, thickness, normals);
     addTriangles(rig, skin, touched);
@@ -298,6 +310,7 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     if (!parameters.faithful) {
         rig::addSheet(rig, rings, touched.indexOf);
         rig.across = trianglesAcross(rig.triangles);
+        rig.weave = makeWeave(rig.rest, rig.triangles, rig.sheet.inverseMass);
         addDrags(rig, skin, rings, muscles, touched.reach);
         for (std::uint32_t m = 0; m < muscles.size(); ++m) {
             rig::addRowTriangles(rig, m, reach);

@@ -1,6 +1,8 @@
 #pragma once
+#include "bake/motion/Motion.h"
 #include "bake/motion/MuscleTrack.h"
 #include "bake/respond/SkinSolver.h"
+#include "bake/respond/SkinStrain.h"
 #include "bake/table/SkinTable.h"
 
 #include <memory>
@@ -14,11 +16,16 @@ struct SkinParameters {
     double bendCompliance = 0;    ///< of each vertex's Laplacian, >= 0; 0: the floor
     double fascia = 1;            ///< stiffness of the weak hold of skin on the muscle right below it, >= 0
     double attachment = 20;       ///< stiffness where attach is 1, >= 0
-    std::vector<double> tether;   ///< #V in [0,1], how firmly a vertex keeps its rest place; empty: 0
-    std::vector<double> attach;   ///< #V in [0,1], how firmly the muscle below carries it; empty: falls off
-                                  ///< smoothly around the end of the fibre that moves
-    int iterations = 8;           ///< most sweeps over all constraints an update, >= 1
-    bool faithful = false;        ///< [paper] spheres push spheres out, no elastic sheet
+    std::vector<double> carry; ///< #muscles in [0,1], how firmly each carries skin at all; empty: 1. A body
+                               ///< that only pushes has 0
+    std::vector<std::vector<Pose>>
+        swings;                 ///< #muscles: extreme motions of its bone since rest, skin's frame;
+                                ///< empty: none. The skin between bones gives way over as long a way
+    std::vector<double> tether; ///< #V in [0,1], how firmly a vertex keeps its rest place; empty: 0
+    std::vector<double> attach; ///< #V in [0,1], how firmly the muscle below carries it; empty: falls off
+                                ///< smoothly around the end of the fibre that moves
+    int iterations = 8;         ///< most sweeps over all constraints an update, >= 1
+    bool faithful = false;      ///< [paper] spheres push spheres out, no elastic sheet
 };
 
 /// A hold of a skin vertex on a muscle.
@@ -56,6 +63,11 @@ struct SkinRow {
     std::uint32_t first = 0, last = 0; ///< range in SkinRig::tests
     std::uint32_t triangles = 0;       ///< in SkinRig::rowTriangles, one a node
     double radius = 0;
+    int restTriangle = -1; ///< that it is in front of at rest, -1: none is near
+    Vec3 restWeights = Vec3::Zero();
+    double restHeight = 0;
+    Vec3 facing =
+        Vec3::UnitZ(); ///< unit: the muscle's normal before it at rest, or its own where none is near
 };
 
 struct SkinTest {
@@ -86,6 +98,7 @@ struct SkinRig {
     SheetPatch contactPatch;                 ///< the part of the sheet that contacts, and poses, move
     std::vector<std::uint32_t> contactIndex; ///< of each touched vertex in it, or `outside`
     static constexpr std::uint32_t outside = 0xffffffff;
+    SkinWeave weave;                  ///< of the touched vertices; empty in the faithful mode
     std::vector<Tri> triangles;       ///< of touched vertices only
     std::vector<Tri> normalTriangles; ///< all that bear on a normal, into vertices then border
     std::vector<Vec3> border;         ///< places of the untouched corners of normalTriangles
@@ -105,6 +118,12 @@ struct SkinRig {
 
 /// Unit normals of all vertices, weighted by area: those of SkinResponse at rest.
 std::vector<Vec3> skinNormals(const TriangleMesh& skin);
+
+/// How far the other muscles may move each vertex of a skin under which a muscle is looked for: what
+/// SkinSearchOptions::stray wants. One list a muscle, #V each.
+std::vector<std::vector<double>> skinStray(const TriangleMesh& skin,
+                                           const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
+                                           const SkinParameters& parameters, double thickness);
 
 /// Makes a rig. skin: the mesh the table was made for. muscles: in the order the table knows them, in the
 /// skin's frame. Throws InputError when they do not fit each other.

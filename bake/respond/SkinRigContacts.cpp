@@ -87,17 +87,31 @@ void addRowTriangles(SkinRig& rig, std::uint32_t index, double reach) {
         if (row.muscle != index) continue;
         row.triangles = static_cast<std::uint32_t>(rig.rowTriangles.size());
         rig.rowTriangles.resize(rig.rowTriangles.size() + at.size(), -1);
-        const Follower follower{reach,
-                                row.radius,
-                                true,
-                                muscle.across,
-                                [&](std::size_t n) -> const TriangleMesh& { return at[n].surface; },
-                                [&](std::size_t n) { return at[n].skin.vertices[row.vertex]; },
-                                [&](std::size_t) { return rig.restNormals[row.vertex]; },
-                                [&](std::size_t n, const Vec3& x, const Vec3& f) {
-                                    return locators[n].nearestFacing(x, reach, f);
-                                }};
-        follower.follow(at.size(), restNode(muscle.drag), &rig.rowTriangles[row.triangles]);
+        const Follower follower{
+            reach,
+            row.radius,
+            true,
+            muscle.across,
+            [&](std::size_t n) -> const TriangleMesh& { return at[n].surface; },
+            [&](std::size_t n) { return at[n].skin.vertices[row.vertex]; },
+            [&](std::size_t) { return rig.restNormals[row.vertex]; },
+            [&](std::size_t n, const Vec3& x, const Vec3&) { return locators[n].nearest(x, reach); }};
+        const std::size_t rest = restNode(muscle.drag);
+        follower.follow(at.size(), rest, &rig.rowTriangles[row.triangles]);
+        row.facing = rig.restNormals[row.vertex];
+        if (const int t = rig.rowTriangles[row.triangles + rest]; t >= 0) {
+            const TriangleMesh& mesh = at[rest].surface;
+            const Vec3 w = nearestOnTriangle(rig.rest[row.vertex], mesh.corner(t, 0), mesh.corner(t, 1),
+                                             mesh.corner(t, 2));
+            row.restTriangle = t;
+            row.restWeights = w;
+            row.facing.setZero();
+            for (int k = 0; k < 3; ++k) row.facing += w[k] * at[rest].surfaceNormals[mesh.triangles[t][k]];
+            row.facing.normalize();
+            Vec3 hit = Vec3::Zero();
+            for (int k = 0; k < 3; ++k) hit += w[k] * mesh.corner(t, k);
+            row.restHeight = row.facing.dot(rig.rest[row.vertex] - hit);
+        }
     }
 }
 

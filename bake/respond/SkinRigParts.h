@@ -10,17 +10,21 @@ struct Rings {
 };
 Rings rings(const TriangleMesh& mesh);
 
-/// What one skin vertex has to do with one muscle.
-struct Closeness {
+/// A skin vertex that a muscle carries.
+struct Carried {
     std::uint32_t vertex = 0; ///< of the skin mesh
     MusclePoint point;        ///< as the muscle carries it
-    double close = 0;         ///< 1 right above the muscle, falling smoothly to 0
-    double attach = 0;        ///< 1 where the muscle is attached to the skin, falling smoothly to 0
+    double pull = 0;          ///< share of the muscle's move that the vertex makes; all muscles together < 1
+    double farthest = 0;      ///< how far the muscle itself would ever move it, scene units
 };
 
-/// The vertices of a skin that a muscle carries. reach: height at which it lets go.
-std::vector<Closeness> closeness(const TriangleMesh& skin, const std::vector<Vec3>& normals,
-                                 const Rings& rings, const MuscleDeformer& muscle, double reach);
+/// What each muscle carries of a skin: firmly what it is attached to and what is grown into it, weakly what
+/// lies over it. The pull falls off so slowly that the skin between two vertices is not stretched much,
+/// whatever the mesh. thickness: of the skin.
+std::vector<std::vector<Carried>>
+carriedSkin(const TriangleMesh& skin, const std::vector<Vec3>& normals, const Rings& rings,
+            const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
+            const SkinParameters& parameters, double thickness);
 
 /// Distance along the edges from the nearest source, infinity beyond `limit`.
 std::vector<double> edgeDistances(const TriangleMesh& skin, const Rings& rings,

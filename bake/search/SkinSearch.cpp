@@ -100,13 +100,16 @@ Box pathBox(const Reach& reach, const Vec3& rest, std::size_t v) {
 
 std::vector<SpherePair> pairsOfMuscle(const Reach& reach, const SphereSet& spheres, const TriangleMesh& skin,
                                       const std::vector<Vec3>& normals, const std::vector<double>& radii,
-                                      const SkinSearchOptions& options) {
+                                      const SkinSearchOptions& options, std::span<const double> stray) {
+    const auto near = [&](std::uint32_t v) {
+        return radii[v] + options.travel + (stray.empty() ? 0 : stray[v]);
+    };
     // Skin boxes in rising order of their lower x, so that a sphere looks only at a window of them.
     std::vector<Box> boxes(skin.vertices.size());
     double widest = 0;
     for (std::size_t v = 0; v < boxes.size(); ++v) {
         boxes[v] = pathBox(reach, skin.vertices[v], v);
-        const Vec3 grow = Vec3::Constant(radii[v] + options.travel);
+        const Vec3 grow = Vec3::Constant(near(static_cast<std::uint32_t>(v)));
         boxes[v].min() -= grow;
         boxes[v].max() += grow;
         widest = std::max(widest, boxes[v].sizes()[0]);
@@ -127,7 +130,7 @@ std::vector<SpherePair> pairsOfMuscle(const Reach& reach, const SphereSet& spher
             if (!boxes[v].intersects(swept)) continue;
             const double before = normals[v].dot(spheres[j].centre - skin.vertices[v]);
             if (options.facingOnly && before > spheres[j].radius) continue;
-            if (reaches(reach, j, skin.vertices[v], v, radii[v] + options.travel))
+            if (reaches(reach, j, skin.vertices[v], v, near(v)))
                 found[j].push_back({v, static_cast<std::uint32_t>(j)});
         }
     });
@@ -151,6 +154,11 @@ SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscl
         throw InputError("the travel of a skin must be a finite length of at least 0");
     if (!(options.thickness >= 0) || !std::isfinite(options.thickness))
         throw InputError("the thickness of a skin must be a finite length of at least 0");
+    if (!options.stray.empty() && options.stray.size() != muscles.size())
+        throw InputError("stray of a skin needs one list a muscle");
+    for (const std::vector<double>& stray : options.stray)
+        if (stray.size() != skin.vertices.size())
+            throw InputError("stray of a skin needs one value a vertex");
     SkinSearchCounts count;
     const double thickness = options.thickness > 0 ? options.thickness : skinThickness(skin);
     const std::vector<double> radii(skin.vertices.size(), thickness);
@@ -167,7 +175,9 @@ SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscl
         }
         const Reach reach = makeReach(muscles[m], skin, options.path);
         const auto first = static_cast<std::uint32_t>(muscleSpheres.size());
-        for (SpherePair p : pairsOfMuscle(reach, muscles[m].spheres, skin, normals, radii, options))
+        const std::span<const double> stray =
+            options.stray.empty() ? std::span<const double>() : std::span<const double>(options.stray[m]);
+        for (SpherePair p : pairsOfMuscle(reach, muscles[m].spheres, skin, normals, radii, options, stray))
             pairs.push_back({p.a, p.b + first});
         muscleSpheres.insert(muscleSpheres.end(), muscles[m].spheres.begin(), muscles[m].spheres.end());
         muscleOf.resize(muscleSpheres.size(), static_cast<std::uint32_t>(m));

@@ -21,8 +21,10 @@ struct SkinSearchOptions {
     double thickness = 0; ///< radius of every skin sphere, scene units; 0: skinThickness()
     double travel = 0;    ///< how far a vertex may stray from its path, scene units, >= 0
     SkinPath path = SkinPath::Carried;
+    std::vector<std::vector<double>> stray; ///< #muscles of #V: how far the others may move a vertex from the
+                                            ///< path of that muscle, scene units; empty: not at all
     bool facingOnly =
-        true; ///< leave out spheres that lie wholly outside the skin, before the vertex's normal
+        false; ///< leave out spheres that lie wholly outside the skin, before the vertex's normal
 };
 
 /// The counts that the paper prints.

@@ -136,6 +136,7 @@ TEST_CASE("the frontal mask slides under the skin of the dog's head and the skin
     faithful.faithful = true;
     SkinResponse skin(couple.rig()), spheres(couple.rig(faithful));
     constexpr int frames = 60;
+    double farthestOff = 0;
     for (int f = 1; f <= frames; ++f) {
         const std::vector<double> a{static_cast<double>(f) / frames};
         skin.update(a);
@@ -160,16 +161,15 @@ TEST_CASE("the frontal mask slides under the skin of the dog's head and the skin
         print("muscle through skin", out);
         print("skin in muscle, spheres alone [paper]", alone);
         CHECK(largestMove(skin) > 0.3 * slide);
-        CHECK(off < 0.03);
-        // Goal: 0.5 mm, and 95 % within 0.2 mm of the few that are inside at all; what misses it are eyelids,
-        // folds of skin that the mask cuts through at rest.
-        CHECK(in.worst < (slide < 4 * mm ? 0.5 : 0.75) * mm);
+        farthestOff = std::max(farthestOff, distance(skin, converged));
+        CHECK(in.p95 < 0.2 * mm);
+        CHECK(in.worst < 0.2 * mm);
         CHECK(out.worst < 0.2 * mm);
         CHECK(strain.shortest > 0.6);
-        // The goal of 1.6 is missed by a little at the longest slide, where the mask ends at the nose.
-        CHECK(strain.longest < (slide < 4 * mm ? 1.6 : 1.75));
+        CHECK(strain.longest < 1.6);
         CHECK(strain.flipped == 0);
     }
+    CHECK(farthestOff < 0.01 * largestMove(skin)); // of the largest displacement along the ramp
     CHECK(skin.update(std::vector<double>{0}).rest);
     CHECK(places(couple, skin) == couple.skin.vertices);
 }
@@ -217,6 +217,9 @@ TEST_CASE("all facial muscles of the dog move one skin of 29,000 vertices", "[.l
               << worst.longest << ", flipped at most " << worst.flipped << '\n';
     CHECK(largestMove(skin) > 1 * mm);
     CHECK(largestMove(skin) < 20 * mm);
+    CHECK(worst.shortest > 0.6);
+    CHECK(worst.longest < 1.6);
+    CHECK(worst.flipped == 0);
     CHECK(skin.update({}).rest);
     CHECK(places(couple, skin) == skinMesh.vertices);
 }

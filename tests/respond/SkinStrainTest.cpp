@@ -1,0 +1,74 @@
+#include "SkinShapes.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace tss;
+
+namespace {
+
+struct Sheet {
+    TriangleMesh mesh = skins::vaultedSheet(16, 1, 0, 0.2);
+    std::vector<float> masses = std::vector<float>(mesh.vertices.size(), 1);
+    std::vector<Move> still = std::vector<Move>(mesh.vertices.size(), Move::Zero());
+    std::vector<Vec3> places = mesh.vertices;
+
+    std::size_t relax() {
+        const SkinWeave weave = makeWeave(mesh.vertices, mesh.triangles, masses);
+        return SkinStrain(weave).relax(mesh.vertices, {}, {}, still, places);
+    }
+    double ratio(int i, int j) const {
+        return (places[i] - places[j]).norm() / (mesh.vertices[i] - mesh.vertices[j]).norm();
+    }
+};
+
+} // namespace
+
+TEST_CASE("a skin within its limits is left alone, bit for bit") {
+    Sheet sheet;
+    for (Vec3& x : sheet.places) x = 1.2 * x + Vec3(0.1, 0, 0.3 * x.x());
+    const std::vector<Vec3> before = sheet.places;
+    CHECK(sheet.relax() == 0);
+    CHECK(sheet.places == before);
+}
+
+TEST_CASE(
+    "vertices that are torn out bring their neighbours along until nothing is stretched or turned over") {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> any(-0.3, 0.3);
+    for (int round = 0; round < 20; ++round) {
+        Sheet sheet;
+        double farthest = 0;
+        for (int k = 0; k < 12; ++k) {
+            const Vec3 move(any(random), any(random), any(random));
+            sheet.places[random() % sheet.places.size()] += move;
+        }
+        for (std::size_t v = 0; v < sheet.places.size(); ++v)
+            farthest = std::max(farthest, (sheet.places[v] - sheet.mesh.vertices[v]).norm());
+        INFO("seed 5, round " << round);
+        CHECK(sheet.relax() == 0);
+        for (const Tri& t : sheet.mesh.triangles) {
+            for (int k = 0; k < 3; ++k) {
+                const double ratio = sheet.ratio(t[k], t[(k + 1) % 3]);
+                CHECK(ratio > SkinStrain::shortestEdge - 1e-9);
+                CHECK(ratio < SkinStrain::longestEdge + 1e-9);
+            }
+            const auto normal = [&](const std::vector<Vec3>& x) -> Vec3 {
+                return (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+            };
+            CHECK(normal(sheet.places).dot(normal(sheet.mesh.vertices)) > 0);
+        }
+        for (std::size_t v = 0; v < sheet.places.size(); ++v)
+            CHECK((sheet.places[v] - sheet.mesh.vertices[v]).norm() <= farthest);
+    }
+}
+
+TEST_CASE("what is fixed stays, its neighbours come to it") {
+    Sheet sheet;
+    for (int v = 0; v < 17; ++v) sheet.masses[v] = 0; // one side of the sheet
+    for (std::size_t v = 17; v < sheet.places.size(); ++v) sheet.places[v] += Vec3(0, 0.25, 0);
+    CHECK(sheet.relax() == 0);
+    for (int v = 0; v < 17; ++v) CHECK(sheet.places[v] == sheet.mesh.vertices[v]);
+    CHECK(sheet.ratio(0, 17) < SkinStrain::longestEdge + 1e-9);
+    CHECK(sheet.places.back().y() > sheet.mesh.vertices.back().y() + 0.2);
+}
