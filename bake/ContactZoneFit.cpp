@@ -1,5 +1,6 @@
 #include "bake/ContactZoneFit.h"
 
+#include "bake/HollowBodies.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/search/Reach.h"
@@ -22,8 +23,9 @@ double area(std::span<const Patch> patches) {
 
 /// One body while the levels go by.
 struct Body {
-    explicit Body(const TriangleMesh& mesh)
-        : solid(cleaned(mesh)), surface(solid.mesh()), magnitude(tss::magnitude(solid.mesh())) {}
+    Body(const TriangleMesh& mesh, bool hollow)
+        : solid(cleaned(mesh), hollow ? Interior::Hollow : Interior::Filled), surface(solid.mesh()),
+          magnitude(tss::magnitude(solid.mesh())) {}
 
     Solid solid;
     MeshQuery surface; ///< without closing fans: contact is of the mesh itself
@@ -36,11 +38,11 @@ struct Body {
         level.protrusion = protrusionFor(tolerance, magnitude);
         level.spheres = medialSpheres(solid, zone, level.protrusion, medial, progress);
     }
-    /// What is left of the level's spheres when they are inside the body.
-    SphereSet innerSpheres() const {
-        SphereSet inner = inscribed(level.spheres, level.protrusion);
-        std::erase_if(inner, [](const Sphere& s) { return s.radius <= 0; });
-        return inner;
+    /// All spheres so far.
+    SphereSet spheres() const {
+        SphereSet all = level.spheres;
+        all.insert(all.end(), coarse.begin(), coarse.end());
+        return all;
     }
     ContactZoneBody result(const ContactZoneOptions& options) const {
         ContactZoneBody body;
@@ -48,6 +50,7 @@ struct Body {
         body.fit.protrusion = options.conservative ? level.protrusion : 0;
         body.fit.coverage = options.conservative ? 0 : level.protrusion;
         body.fit.note = solid.assumptions();
+        body.hollow = solid.hollow();
         body.fine = body.fit.spheres.size();
         body.zone = zone;
         if (options.keepCoarse) body.fit.spheres.insert(body.fit.spheres.end(), coarse.begin(), coarse.end());
@@ -66,12 +69,14 @@ std::vector<double> levelTolerances(double finest, double diagonal) {
 class Refiner {
 public:
     Refiner(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
-            const ContactZoneOptions& options, const Progress& progress)
-        : a_(a), b_(b), motion_(motion), options_(options), progress_(progress), cells_(wholeQ(motion)) {
+            const ContactZoneOptions& options, const HollowBodies& hollow, const Progress& progress)
+        : a_(a, hollow.a), b_(b, hollow.b), motion_(motion), options_(options), progress_(progress),
+          cells_(wholeQ(motion)) {
         a_.zone = patchesOf(a_.solid.mesh());
         b_.zone = patchesOf(b_.solid.mesh());
     }
 
+    /// Of no use where entered() says that a body is hollow after all.
     ContactZoneFit run() {
         const double smaller = std::min(a_.solid.diagonal(), b_.solid.diagonal());
         const double finest = options_.tolerance > 0 ? options_.tolerance : smaller / 500;
@@ -80,6 +85,7 @@ public:
             if (!narrow(levels[i])) break;
             if (i == 0) levels[0] = coarsened(levels[0]);
             if (!fit(levels[i])) break;
+            if ((entered_ = entered(2 * levels[i]))) return {};
             if (!decide(levels[i], levels[i] <= finest)) break;
         }
         if (!decided_ && note_.empty() && result_.levels.back().tolerance > finest * (1 + 1e-9))
@@ -92,7 +98,16 @@ public:
         return std::move(result_);
     }
 
+    const HollowBodies& entered() const { return entered_; }
+
 private:
+    HollowBodies entered(double reach) const {
+        if (!a_.solid.open() && !b_.solid.open()) return {};
+        const SphereSet a = a_.spheres(), b = b_.spheres();
+        return findHollow({a_.solid, a_.surface, a, a_.level.protrusion},
+                          {b_.solid, b_.surface, b, b_.level.protrusion}, motion_, reach);
+    }
+
     /// The zones within reach over what is left of Q. False: there are none.
     bool narrow(double tolerance) {
         std::vector<Patch> zoneA =
@@ -120,7 +135,7 @@ private:
 
     void keepInner() {
         for (Body* body : {&a_, &b_}) {
-            const SphereSet inner = body->innerSpheres();
+            const SphereSet inner = inscribed(body->level.spheres, body->level.protrusion);
             body->coarse.insert(body->coarse.end(), inner.begin(), inner.end());
         }
     }
@@ -221,6 +236,7 @@ private:
     const Progress& progress_;
     CellTree cells_;
     ContactZoneFit result_;
+    HollowBodies entered_;
     bool hits_ = false;
     bool decided_ = false; ///< no pose is left whose verdict the spheres do not know
     std::string note_;
@@ -237,7 +253,14 @@ ContactZoneFit fitContactZone(const TriangleMesh& a, const TriangleMesh& b, cons
     need(std::isfinite(options.margin) && options.margin >= 0, "the margin must be a number >= 0");
     need(std::isfinite(options.depth) && options.depth >= 0, "the depth must be a number >= 0");
     checkMotion(motion);
-    return Refiner(a, b, motion, options, progress).run();
+    HollowBodies hollow;
+    for (;;) {
+        Refiner refiner(a, b, motion, options, hollow, progress);
+        ContactZoneFit fit = refiner.run();
+        const HollowBodies& more = refiner.entered();
+        if (!more) return fit;
+        hollow = {hollow.a || more.a, hollow.b || more.b};
+    }
 }
 
 } // namespace tss

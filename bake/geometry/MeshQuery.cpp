@@ -3,6 +3,8 @@
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/TrianglePoint.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -104,6 +106,46 @@ std::optional<RayHit> MeshQuery::ray(const Vec3& origin, const Vec3& direction, 
         }
     }
     return hit;
+}
+
+bool MeshQuery::apart(const Corners& triangle, double distance) const {
+    const Vec3 centre = (triangle.a + triangle.b + triangle.c) / 3;
+    const double radius =
+        std::sqrt(std::max({(triangle.a - centre).squaredNorm(), (triangle.b - centre).squaredNorm(),
+                            (triangle.c - centre).squaredNorm()}));
+    const double near = this->distance(centre, distance + radius);
+    if (!std::isfinite(near)) return true;
+    if (near < distance || radius <= 0.05 * distance) return false;
+    const std::array<const Vec3*, 3> corners{&triangle.a, &triangle.b, &triangle.c};
+    int k = 0;
+    double longest = 0;
+    for (int i = 0; i < 3; ++i)
+        if (const double l = (*corners[(i + 1) % 3] - *corners[i]).squaredNorm(); l > longest)
+            longest = l, k = i;
+    const Vec3 &a = *corners[k], &b = *corners[(k + 1) % 3], &c = *corners[(k + 2) % 3];
+    const Vec3 middle = 0.5 * (a + b);
+    return apart({a, middle, c}, distance) && apart({middle, b, c}, distance);
+}
+
+bool MeshQuery::apart(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double distance) const {
+    std::vector<std::uint32_t> stack;
+    if (!other.bvh_.empty()) stack.push_back(0);
+    while (!stack.empty()) {
+        const Bvh::Node& node = other.bvh_.nodes[stack.back()];
+        stack.pop_back();
+        const Vec3 centre = otherToThis * Vec3(0.5 * (node.lower + node.upper) + other.origin_);
+        const double radius = 0.5 * (node.upper - node.lower).norm();
+        if (!std::isfinite(this->distance(centre, distance + radius))) continue;
+        if (node.count == 0) stack.insert(stack.end(), {node.first, node.first + 1});
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const Corners& k = other.corners_[other.bvh_.items[i]];
+            if (!apart({otherToThis * Vec3(k.a + other.origin_), otherToThis * Vec3(k.b + other.origin_),
+                        otherToThis * Vec3(k.c + other.origin_)},
+                       distance))
+                return false;
+        }
+    }
+    return true;
 }
 
 void MeshQuery::buildDipoles() {

@@ -49,6 +49,10 @@ public:
     /// |winding number| >= 1/2: inside the union of the components, whichever way they are turned.
     bool inside(const Vec3& p) const;
 
+    /// Proves that the other mesh, moved into this one's frame, stays at least `distance` away. False: it
+    /// does not, or is so nearly as near that a twentieth of the distance tells. distance: > 0.
+    bool apart(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double distance) const;
+
     const Bvh& bvh() const { return bvh_; }
 
 private:
@@ -62,6 +66,8 @@ private:
         double radius = 0; ///< all the node's corners lie within it about the centre
     };
 
+    /// The same for one triangle, halved until it tells.
+    bool apart(const Corners& triangle, double distance) const;
     void buildDipoles();
     double exactWinding(const Vec3& local) const;
     /// A node's dipole stands for its triangles when it is farther than beta of its radii.

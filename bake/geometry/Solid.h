@@ -8,26 +8,38 @@ namespace tss {
 /// Fans of triangles that close the openings of a mesh: over each connected set of edges that triangles do
 /// not run through equally often in both directions, a cone to the mean of its vertices. With them every
 /// mesh, also a misoriented or non-manifold one and a soup of triangles, has an integer winding number off
-/// its surface. Vertices of the mesh first, one apex an opening after them; the triangles are the fans'
-/// alone.
+/// its surface. Edges that lie on each other to 1e-6 of the mesh's diagonal or a hundredth of the median open
+/// edge are no opening, whether or not they share vertices: seams that were not welded, T-junctions, cracks.
+/// Vertices of the mesh first, one apex an opening after them; the triangles are the fans' alone.
 TriangleMesh closingFans(const TriangleMesh& mesh);
+
+/// What an open mesh stands for.
+enum class Interior {
+    Filled, ///< the body behind it, as far as closing fans over its openings
+    Hollow, ///< nothing but its surface: a cup, a bent sheet, the shell of a housing
+};
 
 /// The body that a mesh bounds: all points whose winding number about the mesh and its closing fans is not 0,
 /// and the surface itself. Several closed components count as their union, cavities stay cavities.
+/// A hollow one is its surface alone, and nothing is inside.
 /// Its boundary lies on the triangles and the fans, so that for every point p inside, the ball about p of
 /// radius distance(p) is inside: this is what the protrusion of spheres is proven with.
 class Solid {
 public:
     /// Throws InputError as checkIndices() does.
-    explicit Solid(const TriangleMesh& mesh);
+    explicit Solid(const TriangleMesh& mesh, Interior interior = Interior::Filled);
 
     /// The mesh alone, without fans.
     const TriangleMesh& mesh() const { return mesh_; }
 
-    /// Triangles and fans together.
+    /// Triangles and fans together; of a hollow one the triangles.
     const MeshQuery& boundary() const { return boundary_; }
 
-    bool inside(const Vec3& p) const { return boundary_.inside(p); }
+    bool inside(const Vec3& p) const { return !hollow_ && boundary_.inside(p); }
+
+    /// The mesh has openings.
+    bool open() const { return openEdges_ > 0; }
+    bool hollow() const { return hollow_; }
 
     /// A bound on how far a point of the ball lies from the solid, >= 0; 0 for a ball that is inside.
     double protrusion(const Vec3& centre, double radius) const;
@@ -40,6 +52,8 @@ public:
 
 private:
     TriangleMesh mesh_;
+    bool hollow_ = false;
+    std::size_t openEdges_ = 0;
     MeshQuery boundary_;
     double diagonal_ = 0;
     std::string assumptions_;

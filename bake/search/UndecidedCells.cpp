@@ -39,7 +39,8 @@ struct Problem {
 /// Whether a pair of inscribed spheres with the same overlap as these fires for certain all over the cell.
 bool firesEverywhere(const Problem& p, std::uint32_t i, std::uint32_t j, double distance, double move) {
     const double inA = p.a.spheres[i].radius - p.a.protrusion, inB = p.b.spheres[j].radius - p.b.protrusion;
-    if (inA <= 0 || inB <= 0 || distance + move > inA + inB - p.options.depth) return false;
+    // One of them may be a point of a surface, which the other body then has inside; two points say nothing.
+    if (inA < 0 || inB < 0 || inA + inB <= 0 || distance + move > inA + inB - p.options.depth) return false;
     return distance + move <= inA + inB + p.threshold(i, j, inA + inB) - p.options.depth;
 }
 

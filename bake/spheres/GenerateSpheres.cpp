@@ -139,7 +139,7 @@ double protrusionFor(double tolerance, double magnitude) {
 
 SphereFit fitSpheres(const TriangleMesh& mesh, const SphereOptions& options, const Progress& progress) {
     checkOptions(options);
-    const Solid solid(cleaned(mesh));
+    const Solid solid(cleaned(mesh), options.hollow ? Interior::Hollow : Interior::Filled);
     const bool tunable = options.method == SphereMethod::Medial || options.method == SphereMethod::Shrinking;
     SphereFit fit = tunable && options.maxSpheres > 0
                         ? limitedFit(solid, options, progress)

@@ -39,6 +39,7 @@ bool inside(const Solid& solid, const Vec3& p, const KnownInside& known) {
 
 Sphere medialBall(const Solid& solid, const Vec3& p, const Vec3& n, double protrusion, double slack,
                   double hint, KnownInside& known) {
+    if (solid.hollow()) return {p, protrusion};
     const double longest = solid.diagonal() / 2;
     for (int attempt = 0; attempt < 3; ++attempt, slack /= 32) {
         // A misoriented triangle has its inside on the other side.

@@ -50,6 +50,7 @@ struct SphereOptions {
     double tolerance =
         0; ///< L, scene units: the spheres stick out of the body at most this far; 0: diagonal/400
     int maxSpheres = 0;       ///< > 0: the best tolerance for at most so many, not finer than `tolerance`
+    bool hollow = false;      ///< the body is its surface alone (Interior::Hollow; medial and shrinking)
     bool conservative = true; ///< the union contains the surface; else the spheres are inside the body
                               ///< (medial and shrinking; METHOD 1.6)
     MedialOptions medial;

@@ -147,6 +147,70 @@ TEST_CASE("open meshes are refined like closed ones") {
     CHECK(verdicts(truth, fit, scene.motion, tss::compare::randomPoses(scene.motion, 1000, 4)).missed == 0);
 }
 
+namespace {
+
+/// What is left of a ball below a height: a bowl of one layer.
+TriangleMesh bowl(double height) {
+    TriangleMesh mesh = ballMesh(Vec3::Zero(), 1, 2);
+    std::erase_if(mesh.triangles, [&](const Tri& t) {
+        return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]).z() / 3 > height;
+    });
+    return mesh;
+}
+
+/// A ball that goes about inside the bowl, through its wall and over its rim.
+Scene ballInBowl(double height) {
+    Scene scene{bowl(height), ballMesh(Vec3::Zero(), 0.3, 1), {}};
+    scene.motion.dofs = {slide(Vec3::UnitX(), -1, 1), slide(Vec3::UnitZ(), -1.2, 1)};
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("an open mesh that the other body enters is hollow: only its surface is touched") {
+    const double height = GENERATE(0.0, 0.4, -0.4); // half a shell, a cup, a dish
+    CAPTURE(height);
+    Scene scene = ballInBowl(height);
+    const bool turned = GENERATE(false, true), swapped = GENERATE(false, true);
+    if (turned) scene.a = turnedInsideOut(scene.a);
+    if (swapped) std::swap(scene.a, scene.b);
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.04));
+    CHECK((swapped ? fit.b : fit.a).hollow);
+    CHECK_FALSE((swapped ? fit.a : fit.b).hollow);
+    CHECK((swapped ? fit.b : fit.a).fit.note.find("hollow") != std::string::npos);
+    checkVerdicts(scene.a, scene.b, scene.motion, fit, 0.04, 1000);
+}
+
+TEST_CASE("a mesh with a hole that nothing enters stays filled") {
+    Scene scene = lumpyPair(9);
+    scene.a.triangles.resize(scene.a.triangles.size() - 6);
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.01));
+    CHECK_FALSE(fit.a.hollow);
+    checkVerdicts(scene.a, scene.b, scene.motion, fit, 0.01, 1000);
+}
+
+TEST_CASE(
+    "meshes of several overlapping bodies, faces given twice and T-junctions touch as their surfaces do") {
+    Scene scene = lumpyPair(11);
+    const TriangleMesh one = scene.a;
+    const Eigen::Affine3d aside(Eigen::Translation3d(0, 0.5, 0));
+    const int kind = GENERATE(0, 1, 2, 3);
+    CAPTURE(kind);
+    if (kind == 0) append(scene.a, transformed(one, aside));
+    if (kind == 1) append(scene.a, turnedInsideOut(transformed(one, aside)));
+    if (kind == 2) append(scene.a, turnedInsideOut(one));
+    if (kind == 3)
+        for (std::size_t i = 0; i < one.triangles.size(); i += 3) {
+            const Tri t = one.triangles[i];
+            const auto middle = static_cast<int>(scene.a.vertices.size());
+            scene.a.vertices.emplace_back(0.5 * (one.vertices[t[0]] + one.vertices[t[1]]));
+            scene.a.triangles[i] = Tri(t[0], middle, t[2]);
+            scene.a.triangles.emplace_back(middle, t[1], t[2]);
+        }
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.02));
+    checkVerdicts(scene.a, scene.b, scene.motion, fit, 0.02, 1000);
+}
+
 TEST_CASE("a motion without limits and a mesh of nothing are refused") {
     Scene scene = lumpyPair(10);
     CHECK_THROWS_AS(fitContactZone({}, scene.b, scene.motion, tolerance(0.01)), InputError);

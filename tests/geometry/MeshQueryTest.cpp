@@ -162,3 +162,33 @@ TEST_CASE("many triangles at one place do not break the hierarchy") {
     const MeshQuery query(mesh);
     CHECK(query.distance({2, 0.5, 0.5}) == Approx(1));
 }
+
+TEST_CASE("meshes proven apart are, and those much farther apart are proven") {
+    std::mt19937_64 random(6);
+    const TriangleMesh a = lumpyMesh(random, 2, 0.3), b = soupMesh(random, 40, 0.6, 0.4);
+    const MeshQuery queryA(a), queryB(b);
+    int proven = 0, refuted = 0;
+    for (int i = 0; i < 200; ++i) {
+        Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+        pose.linear() =
+            Eigen::AngleAxisd(uniform(random, 0, 3), uniformPoint(random, 1).normalized()).toRotationMatrix();
+        pose.translation() = uniformPoint(random, 2.5);
+        // Sampled: no less than the distance of the surfaces.
+        double sampled = std::numeric_limits<double>::infinity();
+        for (std::size_t t = 0; t < b.triangles.size(); ++t)
+            for (int u = 0; u <= 6; ++u)
+                for (int v = 0; u + v <= 6; ++v)
+                    sampled = std::min(sampled,
+                                       queryA.distance(pose * Vec3((u * b.corner(t, 0) + v * b.corner(t, 1) +
+                                                                    (6 - u - v) * b.corner(t, 2)) /
+                                                                   6)));
+        const double asked = uniform(random, 0.01, 0.5);
+        const bool apart = queryA.apart(queryB, pose, asked);
+        (apart ? proven : refuted) += 1;
+        if (apart) CHECK(sampled >= asked);
+        // No point is farther from a sampled one than a sixth of the longest edge.
+        if (sampled > 1.1 * asked + 0.8 / 6) CHECK(apart);
+    }
+    CHECK(proven > 20);
+    CHECK(refuted > 20);
+}

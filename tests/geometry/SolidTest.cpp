@@ -50,6 +50,53 @@ TEST_CASE("the winding number about any heap of triangles and its fans is an int
     }
 }
 
+TEST_CASE("seams, T-junctions and cracks are no openings") {
+    std::mt19937_64 random(4);
+    const TriangleMesh whole = lumpyMesh(random, 2, 0.3);
+    TriangleMesh soup;
+    for (const Tri& t : whole.triangles) {
+        const auto at = static_cast<int>(soup.vertices.size());
+        for (int k = 0; k < 3; ++k) soup.vertices.push_back(whole.vertices[t[k]]);
+        soup.triangles.emplace_back(at, at + 1, at + 2);
+    }
+    TriangleMesh cracked = soup;
+    for (Vec3& v : cracked.vertices) v += uniformPoint(random, 1e-4);
+    TriangleMesh junctions = whole;
+    for (std::size_t i = 0; i < whole.triangles.size(); i += 3) {
+        const Tri t = junctions.triangles[i];
+        const auto middle = static_cast<int>(junctions.vertices.size());
+        junctions.vertices.emplace_back(0.5 * (junctions.vertices[t[0]] + junctions.vertices[t[1]]));
+        junctions.triangles[i] = Tri(t[0], middle, t[2]);
+        junctions.triangles.emplace_back(middle, t[1], t[2]);
+    }
+    const Solid solid(whole);
+    for (const TriangleMesh& mesh : {soup, cracked, junctions}) {
+        CHECK_FALSE(auditMesh(mesh).watertight);
+        const Solid seamed(mesh);
+        CHECK_FALSE(seamed.open());
+        CHECK(seamed.assumptions().empty());
+        for (int i = 0; i < 200; ++i) {
+            const Vec3 p = uniformPoint(random, 1.3);
+            if (solid.boundary().distance(p) > 1e-3) CHECK(seamed.inside(p) == solid.inside(p));
+        }
+    }
+    // A triangle that is not there is an opening, among seams too.
+    soup.triangles.pop_back();
+    CHECK(Solid(soup).open());
+}
+
+TEST_CASE("a hollow mesh is its surface alone") {
+    TriangleMesh mesh = boxMesh({-1, -1, -1}, {1, 1, 1});
+    mesh.triangles.erase(mesh.triangles.begin() + 2, mesh.triangles.begin() + 4);
+    const Solid solid(mesh, Interior::Hollow);
+    CHECK(solid.open());
+    CHECK_FALSE(solid.inside({0, 0, 0}));
+    CHECK(solid.boundary().distance({0, 0, 1.5}) > 1); // no fan over the opening
+    CHECK(solid.protrusion({0, 0, 0}, 0.5) == Approx(1.5));
+    CHECK(solid.protrusion({0, 0, -1}, 0.5) == Approx(0.5));
+    CHECK(solid.assumptions().find("hollow") != std::string::npos);
+}
+
 TEST_CASE("a cavity is outside, an overlap of two components inside") {
     TriangleMesh hollow = boxMesh({0, 0, 0}, {4, 4, 4});
     append(hollow, turnedInsideOut(boxMesh({1, 1, 1}, {3, 3, 3})));

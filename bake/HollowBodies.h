@@ -1,0 +1,28 @@
+#pragma once
+#include "bake/geometry/Solid.h"
+#include "bake/motion/Motion.h"
+#include "bake/spheres/SphereSet.h"
+
+namespace tss {
+
+/// One body of a pair as its spheres take it.
+struct FilledBody {
+    const Solid& solid;
+    const MeshQuery& surface; ///< of the mesh alone, without closing fans
+    const SphereSet& spheres;
+    double protrusion; ///< of the spheres, scene units
+};
+
+/// Of which of two bodies it is wrong to say that its openings are closed and what is behind them is body.
+struct HollowBodies {
+    bool a = false, b = false;
+    explicit operator bool() const { return a || b; }
+};
+
+/// An open mesh may be a bone whose scan has holes or a cup; the mesh does not tell, but the motion does:
+/// where the other body stands inside without the surfaces being near each other, there is no material.
+/// Looks at poses over all of Q (those of a sampled search, the rest pose first) at which spheres touch
+/// though the surfaces are farther apart than `reach`, > 0; only bodies with openings can be hollow.
+HollowBodies findHollow(const FilledBody& a, const FilledBody& b, const Motion& motion, double reach);
+
+} // namespace tss
