@@ -1,8 +1,10 @@
 #include "bake/BakePair.h"
 
 #include "bake/ContactZoneFit.h"
+#include "bake/HollowBodies.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
+#include "bake/geometry/Solid.h"
 #include "bake/reduce/CertifiedCover.h"
 #include "bake/reduce/Cooccurrence.h"
 #include "bake/reduce/Minimal.h"
@@ -65,6 +67,20 @@ SphereFit wholeBody(const Body& body, const BakeOptions& options, double toleran
     return fitSpheres(cleaned(meshOf(body)), how, progress);
 }
 
+/// The spheres that touch without reason show it (see findHollow()).
+HollowBodies hollowBodies(const Body& a, const Body& b, const PairSpheres& spheres, const HollowBodies& known,
+                          const Motion& motion, double tolerance) {
+    const auto solid = [](const Body& body, bool hollow) {
+        return Solid(cleaned(meshOf(body)), hollow ? Interior::Hollow : Interior::Filled);
+    };
+    const Solid solidA = solid(a, known.a), solidB = solid(b, known.b);
+    if (!solidA.open() && !solidB.open()) return known;
+    const HollowBodies more = findHollow(
+        {solidA, MeshQuery(solidA.mesh()), spheres.a.spheres, spheres.a.protrusion},
+        {solidB, MeshQuery(solidB.mesh()), spheres.b.spheres, spheres.b.protrusion}, motion, 2 * tolerance);
+    return {known.a || more.a, known.b || more.b};
+}
+
 /// Spheres of two bodies whose surfaces are known never to come near each other, as coarse as shows it: what
 /// can be proven again from the file alone.
 PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, double tolerance,
@@ -75,15 +91,24 @@ PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, dou
     apart.measureClearance = false;
     apart.effort = 5'000'000;
     const double smaller = std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm());
-    for (how.tolerance = std::max(tolerance, smaller / 30);;
-         how.tolerance = std::max(tolerance, how.tolerance / 2)) {
-        PairSpheres spheres{fitSpheres(cleaned(meshOf(a)), how, progress),
-                            fitSpheres(cleaned(meshOf(b)), how, progress),
+    HollowBodies hollow;
+    for (how.tolerance = std::max(tolerance, smaller / 30);;) {
+        SphereOptions howA = how, howB = how;
+        howA.hollow = hollow.a;
+        howB.hollow = hollow.b;
+        PairSpheres spheres{fitSpheres(cleaned(meshOf(a)), howA, progress),
+                            fitSpheres(cleaned(meshOf(b)), howB, progress),
                             {},
                             {}};
         const CandidatePairs meeting =
             searchCertified(spheres.a.spheres, spheres.b.spheres, motion, apart, progress);
-        if ((meeting.certified && meeting.pairs.empty()) || how.tolerance <= tolerance) return spheres;
+        if (meeting.certified && meeting.pairs.empty()) return spheres;
+        const HollowBodies now = hollowBodies(a, b, spheres, hollow, motion, how.tolerance);
+        const bool news = now.a != hollow.a || now.b != hollow.b;
+        hollow = now;
+        if (news) continue;
+        if (how.tolerance <= tolerance) return spheres;
+        how.tolerance = std::max(tolerance, how.tolerance / 2);
     }
 }
 
@@ -214,16 +239,31 @@ Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& c
     return selection;
 }
 
-/// What the meshes may expect of a certified table (METHOD 3.5). Pairs that overlap at rest are outside of
-/// it.
-void setBounds(Table& table, const SphereFit& a, const SphereFit& b, bool overlapAtRest) {
+/// What the meshes may expect of a certified table (METHOD 3.5). Pairs that overlap at rest count from their
+/// gap there.
+void setBounds(Table& table, const SphereFit& a, const SphereFit& b, bool overlapAtRest, PairReport& report) {
     if (!table.certified) return;
     table.boundEarly = known(a.protrusion + b.protrusion + table.epsilon);
-    // Where spheres touch, some test's gap is at most epsilon. Counted as contact from there on it misses
-    // nothing; but a test that overlaps at rest must not count from before that, and then nothing is known.
-    if (table.epsilon > 0 && overlapAtRest) return;
-    table.boundMiss = known(a.coverage + b.coverage);
+    const double lacking = a.coverage + b.coverage;
+    if (table.epsilon > 0 && overlapAtRest) {
+        // A test may stay epsilon short of its own contact while it answers for others that touch. Counted
+        // from epsilon on, it would miss nothing, but one that overlaps at rest would then touch at rest.
+        // Where the gap is right to epsilon down to a depth of epsilon, it has answered when the others are
+        // that deep; a yes/no table does not say how deep they are.
+        if (table.gapDepth >= table.epsilon)
+            table.boundMiss = known(lacking + table.epsilon);
+        else
+            report.notes.push_back(fmt::format(
+                "how late contact may be reported is not known: spheres overlap at rest, and within epsilon "
+                "a "
+                "yes/no table does not tell how deep they are; --epsilon 0 or --depth {:.4g} gives a bound",
+                table.epsilon));
+        return;
+    }
+    table.boundMiss = known(lacking);
     if (!(table.epsilon > 0)) return;
+    // Where spheres touch, some test's gap is at most epsilon: counted as contact from there on it misses
+    // nothing.
     table.restGaps.resize(table.testCount(), 0);
     for (double& gap : table.restGaps) gap += table.epsilon;
 }
@@ -301,7 +341,8 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
     table->record = record;
     table->record.lowerBound = static_cast<std::uint64_t>(std::ceil(selection.reduced.lowerBound));
     setBounds(*table, fitA, fitB,
-              options.atRest != AtRest::Collide && !restOverlaps(fitA.spheres, fitB.spheres, motion).empty());
+              options.atRest != AtRest::Collide && !restOverlaps(fitA.spheres, fitB.spheres, motion).empty(),
+              report);
     report.epsilon = table->epsilon;
     return {table, nullptr};
 }

@@ -1,5 +1,6 @@
 #include "bake/tool/Summary.h"
 
+#include "bake/EarlyContact.h"
 #include "bake/table/PreparedTable.h"
 
 #include <algorithm>
@@ -68,6 +69,36 @@ void addKernel(Json& json, const Table& table) {
                       {"band", prepared.signBand()}};
 }
 
+/// What the meshes do where the table says contact already.
+void addEarlyContact(Json& json, const SceneModel& scene, const Pair& pair) {
+    const std::optional<EarlyContact> early = measureEarlyContact(scene, pair);
+    if (!early) return;
+    json["clearanceAtRest"] = early->atRest;
+    json["earlyContact"] = {{"freePoses", early->freePoses},
+                            {"share", early->share},
+                            {"atRest", early->restReported},
+                            {"coarse", early->coarse()},
+                            {"tolerance", early->tolerance > 0 ? Json(early->tolerance) : Json()},
+                            {"shareThen", early->tolerance > 0 ? Json(early->shareThen) : Json()}};
+}
+
+std::string describeEarlyContact(const Json& pair) {
+    const double atRest = pair["clearanceAtRest"].get<double>();
+    const Json& early = pair["earlyContact"];
+    std::string text = fmt::format(
+        "  meshes       {} at rest; contact reported at {:.0f} % of {} poses where they do not touch\n",
+        atRest > 0 ? fmt::format("{:.4g} apart", atRest) : "touch or overlap",
+        100 * early["share"].get<double>(), early["freePoses"].dump());
+    if (!early["coarse"].get<bool>()) return text;
+    text += fmt::format("  too coarse   for the clearance of this joint: it {} where nothing touches\n",
+                        early["atRest"].get<bool>() ? "sticks at rest," : "is stopped early, or sticks,");
+    if (!early["tolerance"].is_null())
+        text += fmt::format(
+            "  propose      --tolerance {:.4g}: contact at no more than {:.0f} % of those poses\n",
+            early["tolerance"].get<double>(), 100 * early["shareThen"].get<double>());
+    return text;
+}
+
 std::string length(const Json& value) {
     return value.is_null() ? "not known" : fmt::format("{:.4g}", value.get<double>());
 }
@@ -85,6 +116,7 @@ Json summary(const SceneModel& scene, const Pair& pair) {
     if (pair.table) {
         addTable(json, *pair.table);
         addKernel(json, *pair.table);
+        addEarlyContact(json, scene, pair);
     }
     if (pair.proof) {
         addRecord(json, pair.proof->record);
@@ -150,6 +182,7 @@ std::string describe(const Json& scene) {
                     "  bounds       miss {}, early {}, epsilon {}, {}\n", length(item["boundMiss"]),
                     length(item["boundEarly"]), length(item["epsilon"]),
                     item["certified"].get<bool>() ? "certified for every pose" : "sampled poses only");
+                if (item.contains("earlyContact")) text += describeEarlyContact(item);
                 if (item["overlapAtRest"].get<int>() > 0)
                     text += fmt::format("  at rest      {} tests overlap and count from there\n",
                                         item["overlapAtRest"].dump());

@@ -3,6 +3,8 @@
 #include "bake/verify/Implication.h"
 #include "bake/verify/PoseBox.h"
 
+#include <algorithm>
+
 namespace tss {
 
 namespace {
@@ -17,6 +19,15 @@ VerifyResult refused(std::string reason) {
 
 double bandOf(const Models& models, const VerifyOptions& options) {
     return options.band >= 0 ? options.band : 1e-9 * models.extent + 1e-12 * models.size;
+}
+
+/// How much later than the spheres touch the table may say so. A bound on misses that is no more than what
+/// the spheres lack of the surfaces says: by nothing.
+double lateness(const Table& table) {
+    if (table.boundMiss < 0) return table.epsilon;
+    const double lacking =
+        std::max(0.0, table.record.fitA.coverage) + std::max(0.0, table.record.fitB.coverage);
+    return std::clamp(table.boundMiss * (1 + 1e-12) - lacking, 0.0, table.epsilon);
 }
 
 } // namespace
@@ -34,8 +45,10 @@ VerifyResult verifyTable(const SphereSet& a, const SphereSet& b, const Table& ta
     std::string reason;
     claim.tests = matchTests(models, table, band, reason);
     if (!reason.empty()) return refused(reason);
-    // A bound on misses says that no contact of the spheres is reported late, by however little.
-    claim.epsilon = (table.boundMiss >= 0 ? 0 : table.epsilon) + band;
+    const double late = lateness(table);
+    if (table.boundMiss >= 0 && late > table.gapDepth)
+        return refused("its bound on misses needs the gap to be right as deep as contact may be late");
+    claim.epsilon = late + band;
     claim.depth = table.gapDepth;
     claim.margin = table.gapMargin;
     VerifyResult result = proveClaim(models, claim, options.cells, progress);

@@ -91,3 +91,47 @@ TEST_CASE("a table with a tolerance misses no contact: it reports by as much ear
     // The tolerance was used: without what the thresholds carry contact would have been missed.
     CHECK(missedInAll > 0);
 }
+
+TEST_CASE(
+    "where spheres overlap at rest, a table with a tolerance says how late it may be or why it cannot") {
+    int deep = 0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        CAPTURE(seed);
+        SceneModel scene = lumpyPair(seed);
+        scene.bodies[1].mesh =
+            transformed(scene.bodies[1].mesh, Eigen::Affine3d(Eigen::Translation3d(-0.7, 0, 0)));
+        const Motion motion = swing();
+        BakeOptions options;
+        options.tolerance = options.epsilon = 0.05;
+        const PairSpheres spheres = fillPair(scene, scene.pairs[0], motion, options);
+        const ContactRule rule(spheres.a.spheres, spheres.b.spheres, motion, AtRest::Offset);
+        REQUIRE_FALSE(rule.atRest().empty());
+        PairReport unknown, report;
+        const Table yesNo = *tabulatePair(spheres, motion, options, unknown).table;
+        CHECK(yesNo.boundMiss < 0);
+        REQUIRE(unknown.notes.size() == 2);
+        CHECK(unknown.notes[1].find("--depth") != std::string::npos);
+
+        options.depth = 0.06;
+        const Table table = *tabulatePair(spheres, motion, options, report).table;
+        CHECK(table.boundMiss == Approx(table.epsilon));
+        CHECK_FALSE(query(table, restValues(motion)).hit());
+        random_table::Random random(seed);
+        const SphereTree a(spheres.a.spheres), b(spheres.b.spheres);
+        for (int i = 0; i < 500; ++i) {
+            const std::vector<double> q = random_table::values(random, motion);
+            double deepest = 1; // beyond where each pair's contact begins
+            visitPairsWithin(a, b, pose(motion, q), 0, [&](std::uint32_t j, std::uint32_t k, double gap) {
+                deepest = std::min(deepest, gap - rule.threshold({j, k}));
+            });
+            const bool hit = query(table, q).hit();
+            if (deepest <= -table.boundMiss) CHECK(hit);
+            deep += deepest <= -table.boundMiss;
+        }
+        CHECK(verifyTable(spheres.a.spheres, spheres.b.spheres, table, motion).reason.empty());
+        Table forged = table;
+        forged.gapDepth = 0.5 * table.epsilon;
+        CHECK_FALSE(verifyTable(spheres.a.spheres, spheres.b.spheres, forged, motion).reason.empty());
+    }
+    CHECK(deep > 200);
+}

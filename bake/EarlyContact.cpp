@@ -1,0 +1,89 @@
+#include "bake/EarlyContact.h"
+
+#include "bake/base/Parallel.h"
+#include "bake/geometry/MeshAudit.h"
+#include "bake/geometry/MeshQuery.h"
+#include "bake/search/ExploredPoses.h"
+#include "bake/table/Query.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tss {
+
+namespace {
+
+/// The distance of the surfaces from below, to a tenth of itself; `most` where it is more, 0 under a
+/// thousandth of that.
+double clearance(const MeshQuery& a, const MeshQuery& b, const Pose& bToA, double most) {
+    if (a.apart(b, bToA, most)) return most;
+    double near = most / 1000, far = most;
+    if (!a.apart(b, bToA, near)) return 0;
+    while (far > 1.1 * near) {
+        const double middle = std::sqrt(near * far);
+        (a.apart(b, bToA, middle) ? near : far) = middle;
+    }
+    return near;
+}
+
+/// To one digit.
+double roundedDown(double length) {
+    const double power = std::pow(10.0, std::floor(std::log10(length)));
+    return std::floor(length / power) * power;
+}
+
+double shareBelow(const std::vector<double>& lengths, double limit) {
+    if (lengths.empty()) return 0;
+    const auto below = std::count_if(lengths.begin(), lengths.end(), [&](double l) { return l < limit; });
+    return static_cast<double>(below) / static_cast<double>(lengths.size());
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+} // namespace
+
+std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const Pair& pair) {
+    const TriangleMesh &meshA = scene.bodies[pair.bodyA].mesh, &meshB = scene.bodies[pair.bodyB].mesh;
+    if (!pair.table || !(pair.table->boundEarly > 0) || meshA.empty() || meshB.empty()) return std::nullopt;
+    const double early = pair.table->boundEarly, epsilon = pair.table->epsilon;
+    const Motion motion = pairMotion(scene, pair);
+    const MeshQuery a(meshA), b(meshB);
+    EarlyContact result;
+    const double size = std::min(bounds(meshA).diagonal().norm(), bounds(meshB).diagonal().norm());
+    const std::vector<double> rest = restValues(motion);
+    result.atRest = clearance(a, b, pose(motion, rest), std::max(size, early));
+    const Table& table = *pair.table;
+    result.restReported = result.atRest > 0 && query(table, rest).hit();
+
+    const std::vector<std::vector<double>> poses = exploredPoses(motion, 200, 1);
+    std::vector<double> distances(poses.size());
+    std::vector<char> reported(poses.size());
+    parallelFor(poses.size(), [&](std::size_t i) {
+        distances[i] = clearance(a, b, pose(motion, poses[i]), early);
+        reported[i] = query(table, poses[i]).hit();
+    });
+    std::vector<double> free, wrong; // distances: of the free poses, and of those reported nevertheless
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (distances[i] > 0) free.push_back(distances[i]);
+        if (distances[i] > 0 && reported[i]) wrong.push_back(distances[i]);
+    }
+    result.freePoses = static_cast<int>(free.size());
+    if (!free.empty()) result.share = static_cast<double>(wrong.size()) / static_cast<double>(free.size());
+    if (!result.coarse()) return result;
+
+    // The spheres of both bodies then take at most six tenths of the play that the joint has where it is
+    // reported without reason.
+    const double play =
+        std::min(wrong.empty() ? early : median(wrong), result.atRest > 0 ? result.atRest : early);
+    const double proposed = roundedDown(0.3 * play), now = (early - epsilon) / 2;
+    if (proposed >= 0.9 * now) return result;
+    result.tolerance = proposed;
+    result.shareThen = shareBelow(free, 2 * proposed + epsilon);
+    return result;
+}
+
+} // namespace tss

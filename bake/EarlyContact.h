@@ -1,0 +1,26 @@
+#pragma once
+#include "bake/scene/SceneModel.h"
+
+#include <optional>
+
+namespace tss {
+
+/// How often a table reports contact where the meshes do not touch: a bound tells how far apart they may be
+/// then, not whether the joint ever opens that far. Measured on the meshes, at poses spread over all limits.
+struct EarlyContact {
+    double atRest = 0; ///< scene units: the surfaces are that far apart at rest, to a tenth; 0: they touch
+    bool restReported = false; ///< contact is reported at rest, though the surfaces are apart
+    int freePoses = 0;         ///< of those looked at, where the surfaces are apart
+    double share = 0;          ///< of the free ones: contact is reported
+    double tolerance =
+        0; ///< scene units: one that leaves the joint most of its clearance; 0: none needed or found
+    double shareThen = 0; ///< of the free ones, with that tolerance: no more than this
+
+    /// The tolerance is coarse beside the joint's clearance: it is reported early, or sticks.
+    bool coarse() const { return restReported || share > 0.1; }
+};
+
+/// Nothing for a pair without a table or a table without a bound.
+std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const Pair& pair);
+
+} // namespace tss
