@@ -58,7 +58,7 @@ tss::SceneModel jawScene() {
     const int mandible = addBody(scene, "Mandible", mandibleMesh(), paleBone);
     scene.bodies[skull].rigid = scene.bodies[mandible].rigid = true;
     const int jaw = addPair(scene, skull, mandible, jawMotion(), "Jaw");
-    scene.pairs[jaw].settings["tolerance"] = "0.2mm"; // finer than the clearance of the condyles
+    scene.pairs[jaw].settings["tolerance"] = "0.1mm"; // leaves the condyles most of their clearance
 
     // Degrees. The bites ask for 3 degrees beyond closed and grind to one side and then to the other.
     const tss::TimeSamples lateral = sampled({{0, 0},
