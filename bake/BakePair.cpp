@@ -129,9 +129,9 @@ double known(double bound) {
 
 /// The figures of a fit; its bounds become those measured where these are better.
 FitRecord measured(const Body& body, SphereFit& fit, const std::optional<std::vector<Patch>>& zone) {
-    const Solid solid(cleaned(meshOf(body)));
+    const Solid solid(cleaned(meshOf(body)), fit.hollow ? Interior::Hollow : Interior::Filled);
     FitMetrics metrics = measureFit(solid, fit.spheres, zone ? *zone : patchesOf(solid.mesh()));
-    measureVolumes(metrics, solid, fit.spheres);
+    if (!fit.hollow) measureVolumes(metrics, solid, fit.spheres);
     fit.coverage = std::min(fit.coverage, metrics.coverage);
     fit.protrusion = std::min(fit.protrusion, metrics.protrusion);
     FitRecord figures;
@@ -139,7 +139,7 @@ FitRecord measured(const Body& body, SphereFit& fit, const std::optional<std::ve
     figures.coverageP95 = known(metrics.coverageP95);
     figures.protrusionMean = known(metrics.protrusionMean);
     figures.protrusionP95 = known(metrics.protrusionP95);
-    figures.volumeRatio = known(metrics.volumeRatio);
+    figures.volumeRatio = fit.hollow ? -1 : known(metrics.volumeRatio);
     return figures;
 }
 
@@ -352,6 +352,7 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
     const Motion motion = pairMotion(scene, pair);
     checkMotion(motion);
     PairSpheres spheres = fillPair(scene, pair, motion, options, progress);
+    if (!tss::report(progress, "spheres", 1)) throw InputError("stopped before the table was made");
     spheres.figuresA = measured(scene.bodies[pair.bodyA], spheres.a, spheres.zoneA);
     spheres.figuresB = measured(scene.bodies[pair.bodyB], spheres.b, spheres.zoneB);
     const std::pair<int, const SphereFit*> fits[] = {{pair.bodyA, &spheres.a}, {pair.bodyB, &spheres.b}};

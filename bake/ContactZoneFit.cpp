@@ -50,7 +50,7 @@ struct Body {
         body.fit.protrusion = options.conservative ? level.protrusion : 0;
         body.fit.coverage = options.conservative ? 0 : level.protrusion;
         body.fit.note = solid.assumptions();
-        body.hollow = solid.hollow();
+        body.fit.hollow = solid.hollow();
         body.fine = body.fit.spheres.size();
         body.zone = zone;
         if (options.keepCoarse) body.fit.spheres.insert(body.fit.spheres.end(), coarse.begin(), coarse.end());

@@ -26,7 +26,6 @@ struct ContactZoneBody {
     SphereFit fit;           ///< protrusion of all spheres; coverage of the zone
     std::vector<Patch> zone; ///< the surface that the finest spheres cover, in the body's frame
     std::size_t fine = 0;    ///< the first so many spheres are the finest, the others inscribed coarser ones
-    bool hollow = false;     ///< its openings are none that one may close: see findHollow()
 };
 
 /// What one level did, for people and for tests.

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/base/Progress.h"
 #include "bake/spheres/Patches.h"
 
 #include <cstdint>
@@ -18,8 +19,9 @@ struct CoverSets {
 
 /// candidates: one a patch, that covers it. Large ones come first, and those whose own patch `enough` others
 /// kept cover are left out: this bounds the memory by about the number of patches times `enough`, for
-/// whatever tolerance, and costs few spheres.
-CoverSets coverSets(std::span<const Sphere> candidates, std::span<const Patch> patches, int enough = 24);
+/// whatever tolerance, and costs few spheres. Asked to stop, it returns none.
+CoverSets coverSets(std::span<const Sphere> candidates, std::span<const Patch> patches,
+                    const Progress& progress = {}, int enough = 24);
 
 /// A small choice of spheres that covers every patch: lazy greedy by the number of patches gained (ties: the
 /// one kept earlier), then the latest chosen are dropped where the others suffice (METHOD 1.3). Returns

@@ -147,6 +147,7 @@ SphereFit fitSpheres(const TriangleMesh& mesh, const SphereOptions& options, con
     if (options.maxSpheres > 0 && fit.spheres.size() > static_cast<std::size_t>(options.maxSpheres))
         addNote(fit, fmt::format("{} spheres instead of {}: this method has no tolerance to widen",
                                  fit.spheres.size(), options.maxSpheres));
+    fit.hollow = solid.hollow();
     addNote(fit, solid.assumptions());
     return fit;
 }

@@ -12,6 +12,7 @@ struct SphereFit {
     double protrusion =
         0; ///< no point of a sphere is farther from the body (METHOD 1.5); infinity: not bounded here
     double coverage = 0; ///< no point of the surface is farther from the union; infinity: not bounded here
+    bool hollow = false; ///< the body was taken for its surface alone
     std::string note;    ///< what was assumed of the mesh and what could not be reached; empty: nothing
 };
 

@@ -10,7 +10,9 @@ SphereSet medialSpheres(const Solid& solid, std::span<const Patch> patches, doub
                         const MedialOptions& options, const Progress& progress) {
     const PatchOptions patchOptions{protrusion, options.slackFactor, options.sizeFactor, options.mostPatches};
     const FittedPatches fitted = fitPatches(solid, patches, patchOptions, progress);
-    const CoverSets sets = coverSets(fitted.candidates, fitted.patches);
+    const CoverSets sets = coverSets(fitted.candidates, fitted.patches, progress);
+    // Stopped there, all candidates are the cover that there is.
+    if (sets.spheres.empty()) return fitted.candidates;
     SphereSet spheres;
     for (const std::uint32_t i : greedyCover(sets, fitted.patches.size()))
         spheres.push_back(fitted.candidates[i]);

@@ -175,8 +175,8 @@ TEST_CASE("an open mesh that the other body enters is hollow: only its surface i
     if (turned) scene.a = turnedInsideOut(scene.a);
     if (swapped) std::swap(scene.a, scene.b);
     const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.04));
-    CHECK((swapped ? fit.b : fit.a).hollow);
-    CHECK_FALSE((swapped ? fit.a : fit.b).hollow);
+    CHECK((swapped ? fit.b : fit.a).fit.hollow);
+    CHECK_FALSE((swapped ? fit.a : fit.b).fit.hollow);
     CHECK((swapped ? fit.b : fit.a).fit.note.find("hollow") != std::string::npos);
     checkVerdicts(scene.a, scene.b, scene.motion, fit, 0.04, 1000);
 }
@@ -185,7 +185,7 @@ TEST_CASE("a mesh with a hole that nothing enters stays filled") {
     Scene scene = lumpyPair(9);
     scene.a.triangles.resize(scene.a.triangles.size() - 6);
     const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.01));
-    CHECK_FALSE(fit.a.hollow);
+    CHECK_FALSE(fit.a.fit.hollow);
     checkVerdicts(scene.a, scene.b, scene.motion, fit, 0.01, 1000);
 }
 
