@@ -83,8 +83,11 @@ public:
         std::vector<double> levels = levelTolerances(finest, smaller);
         for (std::size_t i = 0; i < levels.size(); ++i) {
             if (!narrow(levels[i])) break;
-            if (i == 0) levels[0] = coarsened(levels[0]);
-            if (!fit(levels[i])) break;
+            if (i == 0) levels = coarsened(std::move(levels));
+            if (!fit(levels[i])) {
+                if (i > 0 && note_.empty()) fitBetween(levels[i - 1], levels[i]);
+                break;
+            }
             if ((entered_ = entered(2 * levels[i]))) return {};
             if (!decide(levels[i], levels[i] <= finest)) break;
         }
@@ -140,21 +143,49 @@ private:
         }
     }
 
-    /// The first level's tolerance, doubled until no body takes too many spheres.
-    double coarsened(double tolerance) {
-        if (options_.maxSpheres <= 0) return tolerance;
+    bool few(double tolerance) {
         const auto limit = static_cast<std::size_t>(options_.maxSpheres);
         const MedialOptions trial = forTrial(options_.medial, limit);
-        for (int round = 0; round < 20; ++round, tolerance *= 2) {
-            try {
-                a_.fit(tolerance, trial, progress_);
-                b_.fit(tolerance, trial, progress_);
-            } catch (const TooFine&) {
-                continue;
-            }
-            if (std::max(a_.level.spheres.size(), b_.level.spheres.size()) <= limit) break;
+        try {
+            a_.fit(tolerance, trial, progress_);
+            b_.fit(tolerance, trial, progress_);
+        } catch (const TooFine&) {
+            return false;
         }
-        return tolerance;
+        return std::max(a_.level.spheres.size(), b_.level.spheres.size()) <= limit;
+    }
+
+    /// The levels from the finest tolerance on with which no body takes too many spheres.
+    std::vector<double> coarsened(std::vector<double> levels) {
+        if (options_.maxSpheres <= 0) return levels;
+        int doubled = 0;
+        for (; doubled < 20 && !few(levels[0]); ++doubled) levels.insert(levels.begin(), 2 * levels[0]);
+        if (doubled == 0) return levels;
+        double good = levels[0], bad = levels[1];
+        for (int round = 0; round < 3; ++round) {
+            const double middle = std::sqrt(good * bad);
+            (few(middle) ? good : bad) = middle;
+        }
+        levels[0] = good;
+        return levels;
+    }
+
+    /// After a level that took too many spheres: the finest one between it and the one before that does not.
+    void fitBetween(double good, double bad) {
+        const std::array<LevelSpheres, 2> before{a_.level, b_.level};
+        const std::array<SphereSet, 2> coarse{a_.coarse, b_.coarse};
+        const std::vector<ContactZoneLevel> levels = result_.levels;
+        const auto refit = [&](double tolerance) {
+            a_.level = before[0], a_.coarse = coarse[0];
+            b_.level = before[1], b_.coarse = coarse[1];
+            result_.levels = levels;
+            return fit(tolerance);
+        };
+        for (int round = 0; round < 3; ++round) {
+            const double middle = std::sqrt(good * bad);
+            (refit(middle) ? good : bad) = middle;
+        }
+        if (result_.levels.back().tolerance != good) refit(good);
     }
 
     /// False: it took too many spheres and the level before stands.

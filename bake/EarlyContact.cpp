@@ -59,12 +59,14 @@ std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const P
     const Table& table = *pair.table;
     result.restReported = result.atRest > 0 && query(table, rest).hit();
 
-    const std::vector<std::vector<double>> poses = exploredPoses(motion, 200, 1);
-    std::vector<double> distances(poses.size());
+    const std::vector<std::vector<double>> poses = exploredPoses(motion, 100, 1);
+    std::vector<double> distances(poses.size(), early);
     std::vector<char> reported(poses.size());
     parallelFor(poses.size(), [&](std::size_t i) {
-        distances[i] = clearance(a, b, pose(motion, poses[i]), early);
         reported[i] = query(table, poses[i]).hit();
+        // Where no contact is reported there is none when nothing is missed; how near it is comes later.
+        if (reported[i] || pair.table->boundMiss != 0)
+            distances[i] = clearance(a, b, pose(motion, poses[i]), early);
     });
     std::vector<double> free, wrong; // distances: of the free poses, and of those reported nevertheless
     for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -82,7 +84,12 @@ std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const P
     const double proposed = roundedDown(0.3 * play), now = (early - epsilon) / 2;
     if (proposed >= 0.9 * now) return result;
     result.tolerance = proposed;
-    result.shareThen = shareBelow(free, 2 * proposed + epsilon);
+    const double then = 2 * proposed + epsilon;
+    parallelFor(poses.size(), [&](std::size_t i) {
+        if (distances[i] >= early && !a.apart(b, pose(motion, poses[i]), then)) distances[i] = 0.5 * then;
+    });
+    std::erase(distances, 0.0);
+    result.shareThen = shareBelow(distances, then);
     return result;
 }
 
