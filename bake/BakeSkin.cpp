@@ -35,6 +35,7 @@ void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, Pa
     SkinSearchOptions search;
     search.thickness = floatAbove(2 * (skin.thickness > 0 ? skin.thickness : skinThickness(mesh))) / 2.0;
     search.travel = skin.travel;
+    search.stray = skinStray(mesh, filled.deformers, skinParameters(scene, skin), search.thickness);
     SkinSearchCounts counts;
     auto table = std::make_shared<SkinTable>(searchSkin(mesh, filled.searched, search, progress, &counts));
     if (counts.stopped) throw InputError("stopped before the table was complete");

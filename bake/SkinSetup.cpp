@@ -1,6 +1,10 @@
 #include "bake/SkinSetup.h"
 
 #include "bake/base/Error.h"
+#include "bake/scene/Kinematics.h"
+
+#include <cmath>
+#include <utility>
 
 namespace tss {
 namespace {
@@ -15,6 +19,34 @@ const TriangleMesh& meshOf(const SceneModel& scene, const SkinModel& skin) {
     if (skin.body < 0 || skin.body >= static_cast<int>(scene.bodies.size()))
         throw InputError(Where{"", "", skin.path}, "the skin has no mesh");
     return scene.bodies[skin.body].mesh;
+}
+
+/// The motions of the bone that a muscle rides on, with one joint value at a time at either limit.
+std::vector<Pose> swingsOf(const SceneModel& scene, const SkinModel& skin, int muscle) {
+    std::vector<Pose> swings;
+    const int bone = scene.muscles.at(static_cast<std::size_t>(muscle)).bone;
+    if (bone < 0) return swings;
+    std::vector<double> values;
+    for (const Joint& joint : scene.joints)
+        for (const Dof& dof : joint.dofs) values.push_back(dof.rest);
+    const auto place = static_cast<std::size_t>(bone), under = static_cast<std::size_t>(skin.body);
+    const Pose& skinRest = scene.bodies[under].placement;
+    const Pose& boneRest = scene.bodies[place].placement;
+    std::size_t next = 0;
+    for (const Joint& joint : scene.joints)
+        for (const Dof& dof : joint.dofs) {
+            for (const double limit : {dof.lower, dof.upper}) {
+                if (!std::isfinite(limit)) continue;
+                const double rest = std::exchange(values[next], limit);
+                const std::vector<Pose> now = posedBodies(scene, values);
+                values[next] = rest;
+                if (now[place].matrix() == boneRest.matrix() && now[under].matrix() == skinRest.matrix())
+                    continue;
+                swings.push_back(now[under].inverse() * now[place] * boneRest.inverse() * skinRest);
+            }
+            ++next;
+        }
+    return swings;
 }
 
 } // namespace
@@ -46,6 +78,7 @@ SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin) {
     SkinParameters parameters;
     parameters.stretchCompliance = skin.stretchCompliance;
     parameters.bendCompliance = skin.bendCompliance;
+    for (const int index : skin.muscles) parameters.swings.push_back(swingsOf(scene, skin, index));
     parameters.tether = skin.tether;
     parameters.attach = skin.attach;
     return parameters;

@@ -3,6 +3,7 @@
 #include "bake/respond/SkinWalk.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace tss {
 namespace {
@@ -123,13 +124,27 @@ SkinContact rowContact(const SkinRig& rig, const SkinScene& scene, std::size_t i
     }
     const double limit = row.radius + std::max(rig.travel, row.radius);
     SkinContact contact;
+    // The spheres select: whether anything is near, and where to look when the skin was not before it at any
+    // node of the muscle's own motion.
     bool near = false;
-    for (std::uint32_t k = row.first; k < row.last && !near; ++k) {
-        const std::uint32_t sphere = rig.tests[k].sphere;
-        const double reach = limit + placed.radii[sphere];
-        near = (x - placed.centres[sphere]).squaredNorm() <= reach * reach;
+    int start = -1;
+    if (!row.met) {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::uint32_t k = row.first; k < row.last; ++k) {
+            const std::uint32_t sphere = rig.tests[k].sphere;
+            const double gap = (x - placed.centres[sphere]).norm() - placed.radii[sphere];
+            if (gap > limit || gap >= least) continue;
+            least = gap;
+            start = muscle.behind[sphere];
+        }
+    } else {
+        for (std::uint32_t k = row.first; k < row.last && !near; ++k) {
+            const std::uint32_t sphere = rig.tests[k].sphere;
+            const double reach = limit + placed.radii[sphere];
+            near = (x - placed.centres[sphere]).squaredNorm() <= reach * reach;
+        }
+        if (near) start = startAt(&rig.rowTriangles[row.triangles], placed.dragPlace);
     }
-    const int start = near ? startAt(&rig.rowTriangles[row.triangles], placed.dragPlace) : -1;
     if (start < 0) return contact;
 
     const auto at = [&](int v) -> const Vec3& { return placed.surface[v]; };

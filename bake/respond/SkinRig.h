@@ -50,6 +50,7 @@ struct SkinMuscle {
     MuscleTrack spheres;            ///< the spheres of the table that are its own
     MuscleTrack skin;               ///< the skin vertices that it carries
     std::vector<double> radii;      ///< #spheres, at activation 0
+    std::vector<int> behind;        ///< #spheres, the triangle nearest to each at activation 0
     std::vector<Tri> across;        ///< per triangle the one beyond each edge (k, k+1), -1: none
     std::vector<SkinCarry> carried; ///< one a point of `skin`
     SkinDrag drag;
@@ -63,6 +64,7 @@ struct SkinRow {
     std::uint32_t first = 0, last = 0; ///< range in SkinRig::tests
     std::uint32_t triangles = 0;       ///< in SkinRig::rowTriangles, one a node
     double radius = 0;
+    bool met = false;      ///< some node of the drag has the muscle before it
     int restTriangle = -1; ///< that it is in front of at rest, -1: none is near
     Vec3 restWeights = Vec3::Zero();
     double restHeight = 0;

@@ -2,6 +2,7 @@
 #include "bake/respond/SkinWalk.h"
 
 #include <functional>
+#include <limits>
 
 namespace tss::rig {
 namespace {
@@ -83,6 +84,14 @@ void addRowTriangles(SkinRig& rig, std::uint32_t index, double reach) {
     std::vector<MuscleLocator> locators;
     locators.reserve(at.size());
     for (const Station& s : at) locators.emplace_back(s.surface);
+    muscle.behind.clear();
+    const std::size_t restAt = restNode(muscle.drag);
+    const TrackPlace restPlace = locate(muscle.spheres.nodes, muscle.drag.nodes[restAt]);
+    for (std::size_t s = 0; s < muscle.spheres.points; ++s)
+        muscle.behind.push_back(
+            locators[restAt]
+                .nearest(trackPosition(muscle.spheres, restPlace, s), std::numeric_limits<double>::infinity())
+                .triangle);
     for (SkinRow& row : rig.rows) {
         if (row.muscle != index) continue;
         row.triangles = static_cast<std::uint32_t>(rig.rowTriangles.size());
@@ -98,6 +107,7 @@ void addRowTriangles(SkinRig& rig, std::uint32_t index, double reach) {
             [&](std::size_t n, const Vec3& x, const Vec3&) { return locators[n].nearest(x, reach); }};
         const std::size_t rest = restNode(muscle.drag);
         follower.follow(at.size(), rest, &rig.rowTriangles[row.triangles]);
+        for (std::size_t n = 0; n < at.size(); ++n) row.met |= rig.rowTriangles[row.triangles + n] >= 0;
         row.facing = rig.restNormals[row.vertex];
         if (const int t = rig.rowTriangles[row.triangles + rest]; t >= 0) {
             const TriangleMesh& mesh = at[rest].surface;

@@ -54,14 +54,47 @@ TriangleMesh irisesMesh() {
     return meshOf(balls(eyeCentre + 4.8 * gaze, 6.2), {1, 0.06}, {});
 }
 
-TriangleMesh leftSkinMesh(const Detail& detail) {
+namespace {
+
+TriangleMesh untrimmedSkin(const Detail& detail, double finest, double longest) {
     const Field head = headSkin();
-    RemeshOptions options{.shortest = 1.1, .longest = 4.5};
-    options.limit = [muscle = frontalis()](const Vec3& p) { return std::max(2.2, 1 + 0.25 * muscle(p)); };
+    RemeshOptions options{.shortest = finest / 2, .longest = longest};
+    options.limit = [finest, muscle = frontalis()](const Vec3& p) {
+        return std::max(finest, finest - 1.2 + 0.25 * muscle(p));
+    };
     options.deviation = detail.deviation;
     const TriangleMesh whole = remesh(polygonize(head, detail.cell), head, options);
-    const TriangleMesh withNeck = trim(whole, Vec3(-52, 0, -36), Vec3(-0.8, 0, -0.55));
-    return rounded(trim(withNeck, Vec3(0, -3, 0), -Vec3::UnitY()));
+    return trim(whole, Vec3(-52, 0, -36), Vec3(-0.8, 0, -0.55));
+}
+
+} // namespace
+
+TriangleMesh leftSkinMesh(const Detail& detail) {
+    return rounded(trim(untrimmedSkin(detail, 2.2, 4.5), Vec3(0, -3, 0), -Vec3::UnitY()));
+}
+
+TriangleMesh skinMesh(const Detail& detail) {
+    return rounded(untrimmedSkin(detail, 2.6, 5.5));
+}
+
+TriangleMesh earCartilageMesh(const Detail& detail) {
+    return bodyMesh(earCartilage(), detail);
+}
+
+TriangleMesh bodyMesh(const Field& field, const Detail& detail) {
+    return meshOf(field, detail, {.shortest = 0.8, .longest = 4});
+}
+
+tss::Motion earMotion() {
+    tss::Dof back;
+    back.name = "back";
+    back.origin = Vec3(-12, 33, 46);
+    back.axis = -Vec3::UnitY();
+    back.lower = 0;
+    back.upper = 80 * M_PI / 180;
+    tss::Motion motion;
+    motion.dofs = {back};
+    return motion;
 }
 
 tss::Motion jawMotion() {

@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/geometry/TriangleMesh.h"
 #include "bake/motion/Motion.h"
+#include "examples/doghead/implicit/Field.h"
 
 namespace doghead {
 
@@ -24,6 +25,16 @@ TriangleMesh irisesMesh(); ///< both, let into the eyeballs
 /// The skin of the left half of the head, over the middle line by a few millimetres; open at the neck and
 /// along the cut, finer over the forehead.
 TriangleMesh leftSkinMesh(const Detail& detail = {1.2, 0.25});
+
+/// The skin of the whole head, coarser than the half; open at the neck.
+TriangleMesh skinMesh(const Detail& detail = {1.6, 0.4});
+TriangleMesh earCartilageMesh(const Detail& detail = {0.7, 0.25}); ///< the left one
+/// A muscle under the skin, and the like.
+TriangleMesh bodyMesh(const Field& field, const Detail& detail = {0.7, 0.2});
+
+/// The left ear laid back: about the left-right axis through its root; 0 upright, positive back. Its upper
+/// limit lies beyond the contact with the skull on purpose.
+tss::Motion earMotion();
 
 /// The jaw: yaw about Z, then open about Y (T = Rz(yaw) Ry(open)), both through the origin. open 0 is the
 /// mouth closed, + opens; it rests ajar. The limits lie beyond the contact of the teeth on purpose.

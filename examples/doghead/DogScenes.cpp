@@ -2,7 +2,9 @@
 
 #include "bake/scene/AddPair.h"
 #include "examples/doghead/DogMeshes.h"
+#include "examples/doghead/anatomy/FaceMuscles.h"
 #include "examples/doghead/anatomy/Frontalis.h"
+#include "examples/doghead/anatomy/Head.h"
 #include "examples/doghead/implicit/Curve.h"
 
 #include <algorithm>
@@ -50,6 +52,71 @@ double smoothStep(double from, double to, double x) {
     return t * t * (3 - 2 * t);
 }
 
+/// Nose, eyes and irises: there to be looked at.
+void addNoseAndEyes(tss::SceneModel& scene) {
+    addBody(scene, "Nose", nosePadMesh({0.8, 0.15}), black);
+    addBody(scene, "Eyes", eyesMesh(), eyeWhite);
+    addBody(scene, "Irises", irisesMesh(), amber);
+}
+
+/// A muscle prim over a body of its own; returns its index.
+int addMuscle(tss::SceneModel& scene, const std::string& name, TriangleMesh surface, std::vector<Vec3> fibre,
+              int bone) {
+    tss::MuscleModel model;
+    model.path = "/" + scene.defaultPrim + "/" + name;
+    model.body = addBody(scene, name + "Surface", std::move(surface), flesh);
+    model.bone = bone;
+    model.muscle.surface = scene.bodies[model.body].mesh;
+    model.muscle.fibre = std::move(fibre);
+    scene.muscles.push_back(std::move(model));
+    return static_cast<int>(scene.muscles.size()) - 1;
+}
+
+int addStrap(tss::SceneModel& scene, const Strap& strap, const std::string& side, int bone) {
+    const int index = addMuscle(scene, strap.name + side, bodyMesh(strap.field), strap.fibre, bone);
+    scene.muscles[index].muscle.maxContraction = strap.contraction;
+    return index;
+}
+
+int addFrontalis(tss::SceneModel& scene, int bone) {
+    const int index = addMuscle(scene, "Frontalis", frontalisMesh({0.8, 0.12}), frontalisFibre(), bone);
+    scene.muscles[index].muscle.form = tss::MuscleForm::Sheet;
+    scene.muscles[index].muscle.maxContraction = 0.25;
+    return index;
+}
+
+/// A bone under the skin: a muscle that does not contract and carries the skin firmly.
+int addUnder(tss::SceneModel& scene, const std::string& name, int body, int bone) {
+    tss::MuscleModel model;
+    model.path = "/" + scene.defaultPrim + "/" + name;
+    model.body = body;
+    model.bone = bone;
+    model.muscle.surface = scene.bodies[body].mesh;
+    const Eigen::AlignedBox3d box = bounds(model.muscle.surface);
+    model.muscle.fibre = {box.min(), box.max()};
+    model.muscle.activationUpper = 0;
+    scene.muscles.push_back(std::move(model));
+    return static_cast<int>(scene.muscles.size()) - 1;
+}
+
+void addSkin(tss::SceneModel& scene, TriangleMesh mesh) {
+    tss::SkinModel skin;
+    skin.body = addBody(scene, "Skin", std::move(mesh), fur);
+    scene.bodies[skin.body].doubleSided = true;
+    skin.path = scene.bodies[skin.body].path;
+    for (std::size_t m = 0; m < scene.muscles.size(); ++m) skin.muscles.push_back(static_cast<int>(m));
+    scene.skins.push_back(std::move(skin));
+}
+
+/// Tightens from `from` to a full activation in the middle, and lets go until `to`.
+tss::TimeSamples twitch(double from, double to, double last, double most = 1) {
+    const double part = (to - from) / 3;
+    std::vector<Profile::Knot> knots{{from, 0}, {from + part, most}, {to - part, most}, {to, 0}};
+    if (from > 0) knots.insert(knots.begin(), {0, 0});
+    if (to < last) knots.push_back({last, 0});
+    return sampled(knots, 2, 1);
+}
+
 } // namespace
 
 tss::SceneModel jawScene() {
@@ -86,33 +153,45 @@ tss::SceneModel frontalisScene() {
     const int mandible = addBody(scene, "Mandible", mandibleMesh(), paleBone);
     scene.bodies[mandible].placement.rotate(
         Eigen::AngleAxisd(1.5 * degree, Vec3::UnitY())); // teeth just apart
-    const int muscle = addBody(scene, "FrontalisSurface", frontalisMesh({0.8, 0.12}), flesh);
-    const int skin = addBody(scene, "Skin", leftSkinMesh(), fur);
-    scene.bodies[skin].doubleSided = true;
-    addBody(scene, "Nose", nosePadMesh({0.8, 0.15}), black);
-    addBody(scene, "Eyes", eyesMesh(), eyeWhite);
-    addBody(scene, "Irises", irisesMesh(), amber);
-
-    tss::MuscleModel frontalisModel;
-    frontalisModel.path = "/DogFrontalis/Frontalis";
-    frontalisModel.body = muscle;
-    frontalisModel.bone = skull;
-    frontalisModel.muscle.surface = scene.bodies[muscle].mesh;
-    frontalisModel.muscle.fibre = frontalisFibre();
-    frontalisModel.muscle.form = tss::MuscleForm::Sheet;
-    frontalisModel.muscle.maxContraction = 0.25;
-    frontalisModel.activation = sampled({{0, 0}, {8, 0}, {32, 1}, {44, 1}, {66, 0}, {72, 0}}, 2, 1);
-    scene.muscles.push_back(frontalisModel);
-
-    tss::SkinModel skinModel;
-    skinModel.path = scene.bodies[skin].path;
-    skinModel.body = skin;
-    skinModel.muscles = {0};
+    const int muscle = addFrontalis(scene, skull);
+    scene.muscles[muscle].activation = sampled({{0, 0}, {8, 0}, {32, 1}, {44, 1}, {66, 0}, {72, 0}}, 2, 1);
+    addSkin(scene, leftSkinMesh());
+    addNoseAndEyes(scene);
     // Free over and around the muscle, held to the bone towards ears, eyes, cheeks and muzzle.
     const Field field = frontalis();
-    for (const Vec3& v : scene.bodies[skin].mesh.vertices)
-        skinModel.tether.push_back(std::round(1000 * smoothStep(5, 24, field(v))) / 1000);
-    scene.skins.push_back(skinModel);
+    for (const Vec3& v : scene.bodies[scene.skins[0].body].mesh.vertices)
+        scene.skins[0].tether.push_back(std::round(1000 * smoothStep(5, 24, field(v))) / 1000);
+    return scene;
+}
+
+tss::SceneModel faceScene() {
+    constexpr double each = 20, last = 140;
+    tss::SceneModel scene = emptyScene("DogFace", last);
+    const int frontalis = addFrontalis(scene, -1);
+    scene.muscles[frontalis].activation = twitch(0, each, last);
+    double from = each;
+    for (const Strap& left : faceStraps()) {
+        for (const auto& [strap, side] : {std::pair(left, "L"), std::pair(mirroredStrap(left), "R")})
+            scene.muscles[addStrap(scene, strap, side, -1)].activation = twitch(from, from + each, last);
+        from += each;
+    }
+    addSkin(scene, skinMesh());
+    addNoseAndEyes(scene);
+    return scene;
+}
+
+tss::SceneModel earsScene() {
+    tss::SceneModel scene = emptyScene("DogEars", 72);
+    const int skull = addBody(scene, "Skull", skullMesh({1, 0.3}), ivory);
+    const int ear = addBody(scene, "EarCartilage", earCartilageMesh(), paleBone);
+    scene.bodies[skull].rigid = scene.bodies[ear].rigid = true;
+    const int pair = addPair(scene, skull, ear, earMotion(), "Ear");
+    scene.pairs[pair].settings["tolerance"] = "0.4mm";
+    scene.joints.front().drives = {sampled(
+        {{0, 0}, {10, 0}, {28, 80}, {36, 80}, {52, 0}, {56, 0}, {60, 18}, {64, 0}, {72, 0}}, 2, degree)};
+    addUnder(scene, "EarShell", ear, ear);
+    addSkin(scene, leftSkinMesh({1.4, 0.35}));
+    addNoseAndEyes(scene);
     return scene;
 }
 

@@ -11,4 +11,10 @@ tss::SceneModel jawScene();
 /// the head; the right half lies open. The mandible, the nose and the eyes are there to be looked at.
 tss::SceneModel frontalisScene();
 
+/// The skin of the whole head over thirteen muscles, which tighten in turn.
+tss::SceneModel faceScene();
+
+/// The left ear laid back until its stiff shell meets the skull, and let go; the skin of the head follows.
+tss::SceneModel earsScene();
+
 } // namespace doghead

@@ -16,20 +16,33 @@ void write(const tss::SceneModel& scene, const std::filesystem::path& file) {
     std::fprintf(stderr, "%s\n", file.string().c_str());
 }
 
+struct Named {
+    const char* name;
+    tss::SceneModel (*make)();
+};
+constexpr Named all[] = {{"dog_jaw", doghead::jawScene},
+                         {"dog_frontalis", doghead::frontalisScene},
+                         {"dog_face", doghead::faceScene},
+                         {"dog_ears", doghead::earsScene}};
+
 } // namespace
 
-/// tss-dog [DIR]: writes dog_jaw.tss and dog_frontalis.tss, the repository's own dog, into a folder.
+/// tss-dog [DIR [NAME...]]: writes the repository's own dog into a folder, all scenes or those named.
 int main(int count, char** arguments) {
-    if (count > 2 || (count == 2 && arguments[1][0] == '-')) {
+    if (count > 1 && arguments[1][0] == '-') {
         std::fprintf(stderr,
-                     "usage: tss-dog [DIR]\n\nWrites dog_jaw.tss and dog_frontalis.tss into DIR (default: "
-                     "the current folder).\n");
+                     "usage: tss-dog [DIR [NAME...]]\n\nWrites NAME.tss into DIR (default: the current "
+                     "folder), by default each of:\n");
+        for (const Named& scene : all) std::fprintf(stderr, "  %s\n", scene.name);
         return count == 2 && !std::strcmp(arguments[1], "--help") ? 0 : 2;
     }
     try {
-        const std::filesystem::path folder = count == 2 ? arguments[1] : ".";
-        write(doghead::jawScene(), folder / "dog_jaw.tss");
-        write(doghead::frontalisScene(), folder / "dog_frontalis.tss");
+        const std::filesystem::path folder = count > 1 ? arguments[1] : ".";
+        for (const Named& scene : all) {
+            bool wanted = count <= 2;
+            for (int k = 2; k < count; ++k) wanted = wanted || !std::strcmp(arguments[k], scene.name);
+            if (wanted) write(scene.make(), folder / (std::string(scene.name) + ".tss"));
+        }
         return 0;
     } catch (const tss::InputError& error) {
         std::fprintf(stderr, "tss-dog: %s\n", error.what());

@@ -9,12 +9,12 @@ namespace doghead {
 namespace {
 
 constexpr double originX = 8, insertionX = 69;
-constexpr double above = 2.7; ///< of the sheet's middle surface over the cranium, mm
+constexpr double above = 3.5; ///< of the sheet's middle surface over the cranium, mm
 
 } // namespace
 
 Field frontalis() {
-    const Profile halfThickness({{originX, 0.9}, {24, 1.7}, {42, 2.1}, {58, 1.9}, {insertionX, 0.9}});
+    const Profile halfThickness({{originX, 1}, {24, 2.2}, {42, 2.8}, {58, 2.5}, {insertionX, 1}});
     const Profile halfWidth({{originX, 11}, {20, 18}, {36, 21}, {50, 22.5}, {60, 20}, {insertionX, 11}});
     const Box box(Vec3(originX - 2, -30, 14), Vec3(insertionX + 2, 30, 58));
     const auto distance = [=, bone = cranium()](const Vec3& p) {

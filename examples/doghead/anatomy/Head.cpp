@@ -9,6 +9,8 @@
 namespace doghead {
 namespace {
 
+constexpr double frontalisCover = 0.5; ///< least thickness of the skin over the frontalis: they touch
+
 Field muzzle() {
     const Field upper = loft({{30, -52, 44, 40, 0.10, 2.3},
                               {46, -52, 44, 40, 0.15, 2.3},
@@ -108,6 +110,11 @@ Field nosePad() {
         .field();
 }
 
+Field earCartilage() {
+    const Box below(Vec3(-60, 0, 0), Vec3(40, 80, 56));
+    return Sculpture().add(grown(ear(), -1.1)).carve(halfSpace({-12, 36, 56}, Vec3::UnitZ(), below), 2).field();
+}
+
 Field headSkin() {
     Sculpture head;
     head.add(muzzle());
@@ -120,7 +127,7 @@ Field headSkin() {
     head.carve(mouthLine(), 2);
     openEyes(head);
     head.add(mirrored(ear()), 7);
-    head.add(grown(frontalis(), 1.3), 6);
+    head.add(grown(frontalis(), frontalisCover), 6);
     return head.field();
 }
 

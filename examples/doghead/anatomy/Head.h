@@ -13,6 +13,9 @@ constexpr double eyeRadius = 10.2;
 /// skull, mandible and frontalis().
 Field headSkin();
 
+/// The stiff shell in the left ear above its root, wholly inside the skin.
+Field earCartilage();
+
 /// The nose pad with its nostrils: a body of its own, let into the muzzle's tip.
 Field nosePad();
 
