@@ -35,7 +35,7 @@ Player::Player(const SceneModel& scene, std::vector<std::string>& warnings) : sc
         const SkinModel& skin = scene.skins[k];
         if (!skin.table) continue;
         skins_.push_back(
-            {static_cast<int>(k), skinMuscles(scene, skin), SkinResponse(skinRig(scene, skin)), {}, {}});
+            {static_cast<int>(k), skinMuscles(scene, skin), SkinResponse(skinRig(scene, skin)), {}, {}, {}});
         skins_.back().activations.assign(skin.muscles.size(), 0.0);
         skins_.back().restDepths = depths(skins_.back(), skins_.back().response.rig().rest);
     }
@@ -59,7 +59,10 @@ std::vector<double> Player::depths(const Skin& skin, std::span<const Vec3> posit
     std::vector<double> deepest(positions.size(), 0.0);
     for (std::size_t m = 0; m < skin.muscles.size(); ++m) {
         const MuscleDeformer& deformer = *skin.muscles[m];
-        const Solid solid({deformer.vertices(skin.activations[m]), deformer.muscle().surface.triangles});
+        std::vector<Vec3> places = deformer.vertices(skin.activations[m]);
+        if (!skin.poses.empty())
+            for (Vec3& v : places) v = skin.poses[m] * v;
+        const Solid solid({std::move(places), deformer.muscle().surface.triangles});
         for (std::size_t i = 0; i < positions.size(); ++i)
             if (solid.inside(positions[i]))
                 deepest[i] = std::max(deepest[i], solid.boundary().distance(positions[i]));
@@ -95,7 +98,8 @@ Player::Step Player::step(const std::vector<double>& asked, double timeCode) {
     for (Skin& skin : skins_) {
         const SkinModel& model = scene_.skins[skin.index];
         skin.activations = skinActivations(scene_, model, timeCode);
-        skin.response.update(skin.activations, skinPoses(scene_, model, placements));
+        skin.poses = skinPoses(scene_, model, placements);
+        skin.response.update(skin.activations, skin.poses);
         const std::vector<double> now = depths(skin, skin.response.positions());
         double worst = 0;
         for (std::size_t i = 0; i < now.size(); ++i) worst = std::max(worst, now[i] - skin.restDepths[i]);

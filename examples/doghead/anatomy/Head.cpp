@@ -112,7 +112,10 @@ Field nosePad() {
 
 Field earCartilage() {
     const Box below(Vec3(-60, 0, 0), Vec3(40, 80, 56));
-    return Sculpture().add(grown(ear(), -1.1)).carve(halfSpace({-12, 36, 56}, Vec3::UnitZ(), below), 2).field();
+    return Sculpture()
+        .add(grown(ear(), -1.1))
+        .carve(halfSpace({-12, 36, 56}, Vec3::UnitZ(), below), 2)
+        .field();
 }
 
 Field headSkin() {
