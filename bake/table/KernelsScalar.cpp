@@ -2,8 +2,10 @@
 
 #include "bake/table/Contact.h"
 
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace tss {
 
@@ -53,16 +55,17 @@ T leastOffset(const KernelData& data, const T* pose, std::uint32_t stride) {
 template <class T, class Row>
 KernelGap leastGap(const KernelData& data, const T* pose, std::uint32_t stride) {
     T best = std::numeric_limits<T>::max();
-    std::int32_t test = -1, number = 0;
+    using Number = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+    std::int32_t test = -1;
     const T* end = static_cast<const T*>(data.end);
     for (const T* row = static_cast<const T*>(data.blocks); row < end; row += Row::width(data.columns)) {
         const T square = Row::square(row, pose + stride, stride, data.columns) - pose[0];
         const T gap = std::sqrt(std::max(square, T(0))) - Row::reach(row, data.columns);
         if (gap < best) {
             best = gap;
-            test = number;
+            // Not a count: the one row of an empty table is no test.
+            test = static_cast<std::int32_t>(std::bit_cast<Number>(row[Row::width(data.columns) - 1]));
         }
-        ++number;
     }
     return {static_cast<double>(best), test};
 }

@@ -262,6 +262,7 @@ TEST_CASE("the kernels of an empty table never hit") {
         t.features(&q, f);
         CHECK_FALSE(t.hit(f));
         CHECK(t.gap(f).gap > 1e17);
+        CHECK(t.gap(f).test == -1);
         std::vector<std::uint32_t> found(t.testRoom());
         CHECK(t.under(f, 1e3, found.data()) == 0);
     }

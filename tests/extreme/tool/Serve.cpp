@@ -61,8 +61,11 @@ private:
         if (!figures.verdict.holds() && !stopped()) trouble("{}: {}", pair.path, figures.verdict.reason);
         if (!pair.table) return;
         const Table& table = *pair.table;
+        // With an epsilon and pairs that overlap at rest the bake says that how late contact may be reported
+        // is not known.
+        const bool told = table.epsilon > table.gapDepth && !table.restGaps.empty();
         if (table.certified &&
-            !(table.boundMiss >= 0 && table.boundEarly >= 0 && std::isfinite(table.epsilon)))
+            !((table.boundMiss >= 0 || told) && table.boundEarly >= 0 && std::isfinite(table.epsilon)))
             trouble("{}: certified, and states no bound", pair.path);
         figures.kernel = kernels(pair, table);
         compareMeshes(pair, table);
