@@ -95,6 +95,7 @@ private:
                 const bool hit = prepared.hit(features);
                 notFinite += !std::isfinite(prepared.gap(features).gap);
                 wrong += std::abs(exact) > prepared.signBand() && hit != (exact <= 0);
+                if (table.testCount() == 0) continue; // no contact to speak of
                 MotionFrame frame;
                 prepared.frame(q.data(), frame);
                 TableContact contact;
