@@ -69,15 +69,16 @@ SphereFit wholeBody(const Body& body, const BakeOptions& options, double toleran
 
 /// The spheres that touch without reason show it (see findHollow()).
 HollowBodies hollowBodies(const Body& a, const Body& b, const PairSpheres& spheres, const HollowBodies& known,
-                          const Motion& motion, double tolerance) {
+                          const Motion& motion, double tolerance, const Progress& progress) {
     const auto solid = [](const Body& body, bool hollow) {
         return Solid(cleaned(meshOf(body)), hollow ? Interior::Hollow : Interior::Filled);
     };
     const Solid solidA = solid(a, known.a), solidB = solid(b, known.b);
     if (!solidA.open() && !solidB.open()) return known;
-    const HollowBodies more = findHollow(
-        {solidA, MeshQuery(solidA.mesh()), spheres.a.spheres, spheres.a.protrusion},
-        {solidB, MeshQuery(solidB.mesh()), spheres.b.spheres, spheres.b.protrusion}, motion, 2 * tolerance);
+    const HollowBodies more =
+        findHollow({solidA, MeshQuery(solidA.mesh()), spheres.a.spheres, spheres.a.protrusion},
+                   {solidB, MeshQuery(solidB.mesh()), spheres.b.spheres, spheres.b.protrusion}, motion,
+                   2 * tolerance, progress);
     return {known.a || more.a, known.b || more.b};
 }
 
@@ -103,7 +104,7 @@ PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, dou
         const CandidatePairs meeting =
             searchCertified(spheres.a.spheres, spheres.b.spheres, motion, apart, progress);
         if (meeting.certified && meeting.pairs.empty()) return spheres;
-        const HollowBodies now = hollowBodies(a, b, spheres, hollow, motion, how.tolerance);
+        const HollowBodies now = hollowBodies(a, b, spheres, hollow, motion, how.tolerance, progress);
         const bool news = now.a != hollow.a || now.b != hollow.b;
         hollow = now;
         if (news) continue;

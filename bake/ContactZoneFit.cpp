@@ -108,7 +108,7 @@ private:
         if (!a_.solid.open() && !b_.solid.open()) return {};
         const SphereSet a = a_.spheres(), b = b_.spheres();
         return findHollow({a_.solid, a_.surface, a, a_.level.protrusion},
-                          {b_.solid, b_.surface, b, b_.level.protrusion}, motion_, reach);
+                          {b_.solid, b_.surface, b, b_.level.protrusion}, motion_, reach, progress_);
     }
 
     /// The zones within reach over what is left of Q. False: there are none.

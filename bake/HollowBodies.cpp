@@ -54,7 +54,8 @@ HollowBodies judge(const FilledBody& a, const FilledBody& b, const Trees& trees,
 
 } // namespace
 
-HollowBodies findHollow(const FilledBody& a, const FilledBody& b, const Motion& motion, double reach) {
+HollowBodies findHollow(const FilledBody& a, const FilledBody& b, const Motion& motion, double reach,
+                        const Progress& progress) {
     HollowBodies hollow;
     if (!(fillable(a) || fillable(b)) || a.spheres.empty() || b.spheres.empty()) return hollow;
     std::vector<std::vector<double>> poses = exploredPoses(motion, 2000, 1);
@@ -63,6 +64,7 @@ HollowBodies findHollow(const FilledBody& a, const FilledBody& b, const Motion& 
     constexpr std::size_t batch = 64; // of fixed size, so that the outcome does not depend on threads
     std::vector<HollowBodies> found(batch);
     for (std::size_t first = 0; first < poses.size() && !hollow; first += batch) {
+        if (!report(progress, "openings", double(first) / double(poses.size()))) break;
         const std::size_t count = std::min(batch, poses.size() - first);
         parallelFor(count, [&](std::size_t k) {
             found[k] = judge(a, b, trees, pose(motion, poses[first + k]), reach);
