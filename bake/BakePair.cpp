@@ -254,11 +254,11 @@ void setBounds(Table& table, const SphereFit& a, const SphereFit& b, bool overla
         if (table.gapDepth >= table.epsilon)
             table.boundMiss = known(lacking + table.epsilon);
         else
-            report.notes.push_back(fmt::format(
-                "how late contact may be reported is not known: spheres overlap at rest, and within epsilon "
-                "a "
-                "yes/no table does not tell how deep they are; --epsilon 0 or --depth {:.4g} gives a bound",
-                table.epsilon));
+            report.notes.push_back(
+                fmt::format("how late contact may be reported is not known: spheres overlap at rest, and a "
+                            "yes/no table does not tell how deep within epsilon; --epsilon 0 or --depth "
+                            "{:.4g} gives a bound",
+                            table.epsilon));
         return;
     }
     table.boundMiss = known(lacking);

@@ -38,7 +38,8 @@ HollowBodies judge(const FilledBody& a, const FilledBody& b, const Trees& trees,
     constexpr std::size_t enough = 64; // pairs; they all tell about the same place
     std::vector<SpherePair> touching;
     visitPairsWithin(trees.a, trees.b, bToA, 0, [&](std::uint32_t i, std::uint32_t j, double) {
-        if (touching.size() < enough) touching.push_back({i, j});
+        touching.push_back({i, j});
+        return touching.size() < enough;
     });
     if (touching.empty() || !a.surface.apart(b.surface, bToA, reach)) return {};
     const Pose aToB = bToA.inverse();

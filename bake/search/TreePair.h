@@ -2,13 +2,14 @@
 #include "bake/motion/Motion.h"
 #include "bake/search/SphereTree.h"
 
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace tss {
 
 /// Calls visit(i, j, gap) for every sphere i of A and j of B whose gap at the pose is <= reach, in an order
-/// that depends on the trees alone.
+/// that depends on the trees alone. A visit that returns false is the last one; it may return nothing.
 template <typename Visit>
 void visitPairsWithin(const SphereTree& a, const SphereTree& b, const Pose& pose, double reach,
                       Visit&& visit) {
@@ -29,7 +30,11 @@ void visitPairsWithin(const SphereTree& a, const SphereTree& b, const Pose& pose
         if (squared > limit * limit * (1 + 1e-14)) continue;
         if (na.leaf() && nb.leaf()) {
             const double gap = std::sqrt(squared) - sum;
-            if (gap <= reach) visit(na.sphere, nb.sphere, gap);
+            if (gap > reach) continue;
+            if constexpr (std::is_void_v<decltype(visit(na.sphere, nb.sphere, gap))>)
+                visit(na.sphere, nb.sphere, gap);
+            else if (!visit(na.sphere, nb.sphere, gap))
+                return;
         } else if (!na.leaf() && (nb.leaf() || na.radius >= nb.radius)) {
             stack.push_back({na.right, item.b, item.centreB});
             stack.push_back({item.a + 1, item.b, item.centreB});

@@ -272,23 +272,23 @@ namespace tss {
 
 template <class T>
 void addFoldPoses(KernelTarget target, std::size_t dofs, KernelSet& set) {
-    const auto kernels = [target, dofs]() -> KernelSet {
+    const KernelSet made = [target, dofs]() -> KernelSet {
         TSS_TARGETS(fold<T>(dofs))
         (void)target, (void)dofs;
         return {};
-    };
-    set.pose = kernels().pose;
-    set.poses = kernels().poses;
+    }();
+    set.pose = made.pose;
+    set.poses = made.poses;
 }
 template <class T>
 void addDirectPoses(KernelTarget target, KernelSet& set) {
-    const auto kernels = [target]() -> KernelSet {
+    const KernelSet made = [target]() -> KernelSet {
         TSS_TARGETS(direct<T>())
         (void)target;
         return {};
-    };
-    set.pose = kernels().pose;
-    set.poses = kernels().poses;
+    }();
+    set.pose = made.pose;
+    set.poses = made.poses;
 }
 template void addFoldPoses<float>(KernelTarget, std::size_t, KernelSet&);
 template void addFoldPoses<double>(KernelTarget, std::size_t, KernelSet&);
