@@ -12,5 +12,5 @@ strip() { # SCENE EVERY [OPTION...]
         convert - +dither -colors 96 -define png:compression-level=9 "PNG8:$root/docs/pictures/$1.png"
 }
 strip dog_face 16 --frames 113
-strip dog_ears 16
+strip dog_ears 8 --frames 57 --view "$root/examples/views/dog_ears.path"
 strip dog_frontalis 8 --frames 57 --view "$root/examples/views/dog_frontalis.path"

@@ -88,18 +88,22 @@ void placeMuscles(const SkinRig& rig, std::span<const double> activations, std::
                   SkinScene& scene) {
     scene.muscles.resize(rig.muscles.size());
     scene.drag.assign(rig.rest.size(), Move::Zero());
+    scene.turn.clear();
     for (std::size_t m = 0; m < rig.muscles.size(); ++m) {
         const SkinMuscle& muscle = rig.muscles[m];
         place(muscle, activations[m], poses[m], scene.muscles[m]);
         addDrag(muscle.drag, scene.muscles[m].dragPlace, scene.drag);
         if (isIdentity(poses[m])) continue;
         const TrackPlace at = locate(muscle.skin.nodes, activations[m]);
+        const Eigen::Quaterniond rotation(poses[m].linear());
         for (std::size_t i = 0; i < muscle.carried.size(); ++i) {
             const Vec3 x = trackPosition(muscle.skin, at, i);
             const SkinCarry& c = muscle.carried[i];
             scene.drag[c.vertex].head<3>() += c.pull * (poses[m] * x - x).cast<float>();
+            scene.turn.add(rig.rest.size(), c.vertex, static_cast<double>(c.pull), rotation);
         }
     }
+    scene.turn.normalise();
     scene.predicted.resize(rig.rest.size());
     for (std::size_t v = 0; v < rig.rest.size(); ++v)
         scene.predicted[v] = rig.rest[v] + scene.drag[v].head<3>().cast<double>();
@@ -174,7 +178,10 @@ SkinContact pokeContact(const SkinRig& rig, const SkinScene& scene, std::size_t 
     const SurfacePoint hit = walkDownhill(x, start, rig.triangles, rig.across, at, walkSteps);
     const Tri& corners = rig.triangles[hit.triangle];
     Vec3 smooth = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) smooth += hit.weights[k] * rig.restNormals[corners[k]];
+    for (int k = 0; k < 3; ++k) {
+        const auto v = static_cast<std::uint32_t>(corners[k]);
+        smooth += hit.weights[k] * (scene.turn.of(v) * rig.restNormals[v]);
+    }
     smooth.normalize();
     contact.trust = trust(smooth.dot(muscle.normals[poke.vertex]));
     if (!(contact.trust > 0)) return contact;

@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/motion/Motion.h"
 #include "bake/respond/SkinRig.h"
+#include "bake/respond/SkinTurn.h"
 
 #include <limits>
 #include <span>
@@ -23,6 +24,7 @@ struct SkinScene {
     std::vector<PlacedMuscle> muscles;
     std::vector<Move> drag;      ///< #touched: displacement, the sum over the muscles and their bones
     std::vector<Vec3> predicted; ///< #touched: rest and drag; where contacts are looked up
+    SkinTurn turn;               ///< #touched: by the bones alone
 };
 
 /// Moves the muscles and the skin's prediction. activations, poses (motion of each muscle since rest in the

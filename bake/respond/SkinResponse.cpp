@@ -106,12 +106,14 @@ void SkinResponse::solve() {
     const std::span<const Move> moves = solver_.displacements();
     for (std::size_t v = 0; v < positions_.size(); ++v)
         positions_[v] = rig_->rest[v] + scene_.drag[v].head<3>().cast<double>();
-    for (std::size_t i = 0; i < patch.size(); ++i) positions_[patch[i]] += moves[i].head<3>().cast<double>();
-    strain_.relax(rig_->rest, planes_, patch, scene_.drag, positions_);
+    for (std::size_t i = 0; i < patch.size(); ++i)
+        positions_[patch[i]] += scene_.turn.of(patch[i]) * moves[i].head<3>().cast<double>();
+    strain_.relax(rig_->rest, planes_, patch, scene_.drag, scene_.turn, positions_);
 }
 
 void SkinResponse::findContacts() {
     const std::size_t rows = rig_->rows.size();
+    const std::span<const std::uint32_t> patch = rig_->contactPatch.vertices;
     for (std::size_t i = 0; i < planes_.size(); ++i) {
         const SkinContact contact =
             i < rows ? rowContact(*rig_, scene_, i) : pokeContact(*rig_, scene_, i - rows);
@@ -123,11 +125,6 @@ void SkinResponse::findContacts() {
             predicted +=
                 contact.weight[k] * (scene_.predicted[contact.vertex[k]] - rig_->rest[contact.vertex[k]]);
         const double distance = contact.distance + contact.normal.dot(predicted);
-        Move normal = Move::Zero();
-        normal.head<3>() = contact.normal.cast<float>();
-        // A push carried over to a normal that has turned away would cycle.
-        if (normal.dot(plane.normal) < 0.5f) plane.multiplier = 0;
-        plane.normal = normal;
         // What is not quite believed asks for less, so that contacts come and go without a jump.
         const double depth = offset - distance;
         const double excess = (1 - contact.trust) * (std::max(depth, 0.0) + radius);
@@ -141,6 +138,12 @@ void SkinResponse::findContacts() {
             bound -= contact.weight[k] * contact.normal.dot(scene_.drag[v].head<3>().cast<double>());
         }
         plane.bound = static_cast<float>(bound);
+        // The sheet is solved as it lies at rest, wherever bones have turned it.
+        Move normal = Move::Zero();
+        normal.head<3>() = (scene_.turn.of(cornersOf(plane, patch)).inverse() * contact.normal).cast<float>();
+        // A push carried over to a normal that has turned away would cycle.
+        if (normal.dot(plane.normal) < 0.5f) plane.multiplier = 0;
+        plane.normal = normal;
     }
 }
 

@@ -4,15 +4,19 @@
 #include <cmath>
 #include <queue>
 #include <span>
+#include <tuple>
 
 namespace tss::rig {
 namespace {
 
-constexpr double carryReach = 6;     ///< in thicknesses: height at which a muscle lets go of the skin
-constexpr double grownDepth = 0.25;  ///< in thicknesses: depth in a muscle from which skin is grown into it
-constexpr double attachReach = 0.3;  ///< share of the fibre around its moving end over which it is attached
-constexpr double carryStrain = 0.3;  ///< how much the fall-off of what a muscle carries may stretch the skin
-constexpr double mostCarried = 0.97; ///< share of all muscles together in a vertex's move
+constexpr double carryReach = 6;    ///< in thicknesses: height at which a muscle lets go of the skin
+constexpr double grownDepth = 0.25; ///< in thicknesses: depth in a muscle from which skin is grown into it
+constexpr double attachReach = 0.3; ///< share of the fibre around its moving end over which it is attached
+constexpr double carryStrain = 0.3; ///< how much the fall-off of what a muscle carries may stretch the skin
+constexpr double mostCarried =
+    0.97; ///< share of all muscles together in a vertex's move, unless it lags too far
+constexpr double allCarried = 0.999; ///< the same however far it would lag
+constexpr double lag = 0.25;         ///< in thicknesses: how far what is carried may stay behind
 constexpr double leastPull = 0.01;
 constexpr int spreadRounds = 8;
 
@@ -35,6 +39,11 @@ void spread(std::vector<double>& values, const Rings& rings) {
         }
         values.swap(next);
     }
+}
+
+/// The share of a move that leaves no more than the lag behind.
+double shareOf(double move, double thickness) {
+    return move > 0 ? std::clamp(1 - lag * thickness / move, mostCarried, allCarried) : mostCarried;
 }
 
 /// A skin over one muscle: what the muscle does to a vertex.
@@ -82,22 +91,31 @@ struct Hold {
 };
 
 /// Raises values so that they fall along the skin no faster than what is moved by as much may be stretched.
-/// move(v): how far a vertex may be moved.
+/// move(v): how far a vertex may be moved. What counts is the least of it on the way from where the value
+/// stands: a bone that swings takes along what lies about its root, however far its swing would carry what
+/// lies beyond.
 template <class Move>
 void limitSlope(std::vector<double>& values, const TriangleMesh& skin, const Rings& rings, const Move& move) {
-    std::priority_queue<std::pair<double, std::uint32_t>> queue;
+    struct Front {
+        double value, moved;
+        std::uint32_t vertex;
+        bool operator<(const Front& o) const {
+            return std::tie(value, moved, vertex) < std::tie(o.value, o.moved, o.vertex);
+        }
+    };
+    std::priority_queue<Front> queue;
     for (std::uint32_t v = 0; v < values.size(); ++v)
-        if (values[v] > leastPull) queue.push({values[v], v});
+        if (values[v] > leastPull) queue.push({values[v], move(v), v});
     while (!queue.empty()) {
-        const auto [value, v] = queue.top();
+        const auto [value, before, v] = queue.top();
         queue.pop();
         if (value < values[v]) continue;
-        const double most = move(v);
-        if (!(most > 0)) continue;
+        const double moved = std::min(before, move(v));
+        if (!(moved > 0)) continue;
         for (const std::uint32_t w : rings.ring[v]) {
-            const double least = value - carryStrain / most * (skin.vertices[v] - skin.vertices[w]).norm();
+            const double least = value - carryStrain / moved * (skin.vertices[v] - skin.vertices[w]).norm();
             if (least <= std::max(values[w], leastPull)) continue;
-            queue.push({values[w] = least, w});
+            queue.push({values[w] = least, moved, w});
         }
     }
 }
@@ -135,7 +153,11 @@ Hold holdOf(const TriangleMesh& skin, const std::vector<Vec3>& normals, const Ri
     if (p.attach.empty()) spread(attach, rings);
     for (std::uint32_t v = 0; v < count; ++v) {
         const double stiffness = p.fascia * close[v] + p.attachment * attach[v];
-        hold.pull[v] = carry * stiffness / (1 + stiffness);
+        hold.pull[v] = stiffness / (1 + stiffness);
+        // What does not contract has nothing that skin would slide over: it swings as a whole.
+        if (rigid && close[v] > leastPull)
+            hold.pull[v] = std::max(hold.pull[v], close[v] * shareOf(hold.carrier.farthest(v), thickness));
+        hold.pull[v] *= carry;
     }
     return hold;
 }
@@ -178,10 +200,11 @@ carriedSkin(const TriangleMesh& skin, const std::vector<Vec3>& normals, const Ri
     std::vector<std::vector<Carried>> result(muscles.size());
     for (std::size_t m = 0; m < muscles.size(); ++m)
         for (std::uint32_t v = 0; v < count; ++v) {
-            const double pull = holds[m].pull[v] * mostCarried / std::max(1.0, total[v]);
-            if (pull > leastPull)
-                result[m].push_back(
-                    {v, holds[m].carrier.point(v), pull - leastPull, holds[m].carrier.farthest(v)});
+            const double part = holds[m].pull[v] / std::max(1.0, total[v]);
+            if (!(part > leastPull)) continue;
+            const double farthest = holds[m].carrier.farthest(v);
+            const double pull = shareOf(farthest, thickness) * (part - leastPull) / (1 - leastPull);
+            result[m].push_back({v, holds[m].carrier.point(v), pull, farthest});
         }
     return result;
 }

@@ -72,15 +72,16 @@ void SkinStrain::touch(std::uint32_t vertex) {
     moved_.push_back(vertex);
 }
 
-/// With d the edge at rest and m the difference of the displacements: the largest s in [0, 1] for which
-/// |d + s m| is within the limits. s = 0 always is.
-bool SkinStrain::relaxLink(const SkinLink& link, std::span<const Vec3> rest,
+/// With d the edge at rest, turned, and m the difference of the displacements: the largest s in [0, 1] for
+/// which |d + s m| is within the limits. s = 0 always is.
+bool SkinStrain::relaxLink(const SkinLink& link, std::span<const Vec3> rest, const SkinTurn& turn,
                            std::span<Vec3> positions) const {
     const double now = (positions[link.i] - positions[link.j]).squaredNorm();
     const double low = shortestEdge * shortestEdge * link.squared,
                  high = longestEdge * longestEdge * link.squared;
     if (now >= low && now <= high) return false;
-    const Vec3 d = rest[link.i] - rest[link.j];
+    const std::uint32_t ends[] = {link.i, link.j};
+    const Vec3 d = turn.of(ends) * (rest[link.i] - rest[link.j]);
     const Vec3 m = positions[link.i] - positions[link.j] - d;
     const double mm = m.squaredNorm(), md = m.dot(d), limit = now > high ? high : low;
     // mm s^2 + 2 md s + dd - limit = 0; too long: the root from inside, too short: the first one met from 0.
@@ -93,31 +94,39 @@ bool SkinStrain::relaxLink(const SkinLink& link, std::span<const Vec3> rest,
 }
 
 /// A triangle that turns over gives up half of the differences of its displacements.
-bool SkinStrain::relaxTriangle(std::uint32_t index, std::span<const Vec3> rest,
+bool SkinStrain::relaxTriangle(std::uint32_t index, std::span<const Vec3> rest, const SkinTurn& turn,
                                std::span<Vec3> positions) const {
     const Tri& t = weave_.triangles[index];
-    const Vec3& before = weave_.normals[index];
+    const std::uint32_t corners[] = {static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
+                                     static_cast<std::uint32_t>(t[2])};
+    const Eigen::Quaterniond turned = turn.of(corners);
+    const Vec3 before = turned * weave_.normals[index];
     const Vec3 now = areaNormal(positions, t);
     const double along = now.dot(before);
     if (along > 0 && along * along >= leastCosine * leastCosine * now.squaredNorm() * before.squaredNorm())
         return false;
-    Vec3 mean = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) mean += (positions[t[k]] - rest[t[k]]) / 3;
-    for (int k = 0; k < 3; ++k) positions[t[k]] = rest[t[k]] + (positions[t[k]] - rest[t[k]] + mean) / 2;
+    Vec3 mean = Vec3::Zero(), shape[3];
+    for (int k = 0; k < 3; ++k) {
+        shape[k] = turned * rest[t[k]];
+        mean += (positions[t[k]] - shape[k]) / 3;
+    }
+    for (int k = 0; k < 3; ++k) positions[t[k]] = shape[k] + (positions[t[k]] - shape[k] + mean) / 2;
     return true;
 }
 
 void SkinStrain::press(std::span<const SheetPlane> planes, std::span<const std::uint32_t> patch,
-                       std::span<const Vec3> rest, std::span<const Move> without, std::span<Vec3> positions) {
+                       std::span<const Vec3> rest, std::span<const Move> without, const SkinTurn& turn,
+                       std::span<Vec3> positions) {
     for (const SheetPlane& p : planes) {
         if (!p.used()) continue;
+        const std::array<std::uint32_t, 3> corners = cornersOf(p, patch);
         bool near = false;
-        for (int k = 0; k < 3; ++k) near = near || vertexRound_[patch[p.vertex[k]]] == round_;
+        for (const std::uint32_t v : corners) near = near || vertexRound_[v] == round_;
         if (!near) continue;
-        const Vec3 normal = p.normal.head<3>().cast<double>();
+        const Vec3 normal = turn.of(corners) * p.normal.head<3>().cast<double>();
         double gap = -p.bound, weights = 0;
         for (int k = 0; k < 3; ++k) {
-            const std::uint32_t v = patch[p.vertex[k]];
+            const std::uint32_t v = corners[k];
             gap += static_cast<double>(p.weight[k]) *
                    normal.dot(positions[v] - rest[v] - without[v].head<3>().cast<double>());
             weights += static_cast<double>(p.weight[k] * p.weight[k]);
@@ -125,9 +134,8 @@ void SkinStrain::press(std::span<const SheetPlane> planes, std::span<const std::
         if (gap >= 0 || !(weights > 0)) continue;
         for (int k = 0; k < 3; ++k) {
             if (p.weight[k] == 0) continue;
-            positions[patch[p.vertex[k]]] -=
-                (pressShare * gap * static_cast<double>(p.weight[k]) / weights) * normal;
-            touch(patch[p.vertex[k]]);
+            positions[corners[k]] -= (pressShare * gap * static_cast<double>(p.weight[k]) / weights) * normal;
+            touch(corners[k]);
         }
     }
 }
@@ -154,7 +162,7 @@ void SkinStrain::gather() {
 
 std::size_t SkinStrain::relax(std::span<const Vec3> rest, std::span<const SheetPlane> planes,
                               std::span<const std::uint32_t> patch, std::span<const Move> without,
-                              std::span<Vec3> positions) {
+                              const SkinTurn& turn, std::span<Vec3> positions) {
     std::fill(vertexRound_.begin(), vertexRound_.end(), 0);
     std::fill(linkRound_.begin(), linkRound_.end(), 0);
     std::fill(triangleRound_.begin(), triangleRound_.end(), 0);
@@ -164,13 +172,13 @@ std::size_t SkinStrain::relax(std::span<const Vec3> rest, std::span<const SheetP
         moved_.clear();
         beyond = 0;
         const auto link = [&](std::uint32_t e) {
-            if (!relaxLink(weave_.links[e], rest, positions)) return;
+            if (!relaxLink(weave_.links[e], rest, turn, positions)) return;
             ++beyond;
             touch(weave_.links[e].i);
             touch(weave_.links[e].j);
         };
         const auto triangle = [&](std::uint32_t e) {
-            if (!relaxTriangle(e, rest, positions)) return;
+            if (!relaxTriangle(e, rest, turn, positions)) return;
             ++beyond;
             for (int k = 0; k < 3; ++k) touch(static_cast<std::uint32_t>(weave_.triangles[e][k]));
         };
@@ -182,7 +190,7 @@ std::size_t SkinStrain::relax(std::span<const Vec3> rest, std::span<const SheetP
             for (const std::uint32_t e : triangles_) triangle(e);
         }
         if (moved_.empty()) break;
-        if (round < pressedRounds) press(planes, patch, rest, without, positions);
+        if (round < pressedRounds) press(planes, patch, rest, without, turn, positions);
         gather();
     }
     return beyond;

@@ -1,7 +1,9 @@
 #pragma once
 #include "bake/motion/Motion.h"
 #include "bake/respond/SkinSolver.h"
+#include "bake/respond/SkinTurn.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,6 +16,11 @@ struct SkinLink {
     double squared = 0;           ///< of its length at rest
     float shareI = 0, shareJ = 0; ///< of what is to be given up, 1 together; 0: fixed
 };
+
+/// The vertices of a plane of a patch, in the whole sheet.
+inline std::array<std::uint32_t, 3> cornersOf(const SheetPlane& plane, std::span<const std::uint32_t> patch) {
+    return {patch[plane.vertex[0]], patch[plane.vertex[1]], patch[plane.vertex[2]]};
+}
 
 /// The edges and triangles of a skin that may move, and which of them meet at each vertex. Immutable.
 struct SkinWeave {
@@ -41,19 +48,23 @@ public:
 
     explicit SkinStrain(const SkinWeave& weave);
 
-    /// positions: #vertices, changed. planes: contacts, with vertices of a patch; patch: its vertices;
-    /// without: #vertices, the displacement that the bounds of the planes are relative to. Returns the number
-    /// of links and triangles that are still beyond their limits.
+    /// positions: #vertices, changed. planes: contacts as the sheet lies at rest, with vertices of a patch;
+    /// patch: its vertices; without: #vertices, the displacement that the bounds of the planes are relative
+    /// to; turn: of the shape at rest that each place strives for. Returns the number of links and triangles
+    /// that are still beyond their limits.
     std::size_t relax(std::span<const Vec3> rest, std::span<const SheetPlane> planes,
                       std::span<const std::uint32_t> patch, std::span<const Move> without,
-                      std::span<Vec3> positions);
+                      const SkinTurn& turn, std::span<Vec3> positions);
 
 private:
-    bool relaxLink(const SkinLink& link, std::span<const Vec3> rest, std::span<Vec3> positions) const;
-    bool relaxTriangle(std::uint32_t t, std::span<const Vec3> rest, std::span<Vec3> positions) const;
+    bool relaxLink(const SkinLink& link, std::span<const Vec3> rest, const SkinTurn& turn,
+                   std::span<Vec3> positions) const;
+    bool relaxTriangle(std::uint32_t t, std::span<const Vec3> rest, const SkinTurn& turn,
+                       std::span<Vec3> positions) const;
     void touch(std::uint32_t vertex);
     void press(std::span<const SheetPlane> planes, std::span<const std::uint32_t> patch,
-               std::span<const Vec3> rest, std::span<const Move> without, std::span<Vec3> positions);
+               std::span<const Vec3> rest, std::span<const Move> without, const SkinTurn& turn,
+               std::span<Vec3> positions);
     void gather();
 
     const SkinWeave& weave_;

@@ -108,6 +108,12 @@ void addSkin(tss::SceneModel& scene, TriangleMesh mesh) {
     scene.skins.push_back(std::move(skin));
 }
 
+/// Free over and around a body, held to the bone farther away.
+void tetherBeyond(tss::SceneModel& scene, const Field& body, double from, double to) {
+    for (const Vec3& v : scene.bodies[scene.skins[0].body].mesh.vertices)
+        scene.skins[0].tether.push_back(std::round(1000 * smoothStep(from, to, body(v))) / 1000);
+}
+
 /// Tightens from `from` to a full activation in the middle, and lets go until `to`.
 tss::TimeSamples twitch(double from, double to, double last, double most = 1) {
     const double part = (to - from) / 3;
@@ -157,10 +163,7 @@ tss::SceneModel frontalisScene() {
     scene.muscles[muscle].activation = sampled({{0, 0}, {8, 0}, {32, 1}, {44, 1}, {66, 0}, {72, 0}}, 2, 1);
     addSkin(scene, leftSkinMesh());
     addNoseAndEyes(scene);
-    // Free over and around the muscle, held to the bone towards ears, eyes, cheeks and muzzle.
-    const Field field = frontalis();
-    for (const Vec3& v : scene.bodies[scene.skins[0].body].mesh.vertices)
-        scene.skins[0].tether.push_back(std::round(1000 * smoothStep(5, 24, field(v))) / 1000);
+    tetherBeyond(scene, frontalis(), 5, 24); // ears, eyes, cheeks and muzzle stay
     return scene;
 }
 
@@ -190,8 +193,10 @@ tss::SceneModel earsScene() {
     scene.joints.front().drives = {sampled(
         {{0, 0}, {10, 0}, {28, 80}, {36, 80}, {52, 0}, {56, 0}, {60, 18}, {64, 0}, {72, 0}}, 2, degree)};
     addUnder(scene, "EarShell", ear, ear);
+    addUnder(scene, "SkullUnder", skull, -1);
     addSkin(scene, leftSkinMesh({1.4, 0.35}));
     addNoseAndEyes(scene);
+    tetherBeyond(scene, earCartilage(), 12, 50);
     return scene;
 }
 

@@ -15,7 +15,7 @@ struct Sheet {
 
     std::size_t relax() {
         const SkinWeave weave = makeWeave(mesh.vertices, mesh.triangles, masses);
-        return SkinStrain(weave).relax(mesh.vertices, {}, {}, still, places);
+        return SkinStrain(weave).relax(mesh.vertices, {}, {}, still, {}, places);
     }
     double ratio(int i, int j) const {
         return (places[i] - places[j]).norm() / (mesh.vertices[i] - mesh.vertices[j]).norm();

@@ -1,0 +1,102 @@
+#include "SkinShapes.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tss;
+
+namespace {
+
+/// A surface of revolution about z from points (r, z), outward where r falls as z rises; open at the first
+/// one.
+TriangleMesh revolved(const std::vector<std::pair<double, double>>& profile, int sides) {
+    TriangleMesh mesh;
+    const int rows = static_cast<int>(profile.size());
+    for (const auto& [r, z] : profile)
+        for (int k = 0; k < sides; ++k) {
+            const double a = 2 * M_PI * k / sides;
+            mesh.vertices.emplace_back(r * std::cos(a), r * std::sin(a), z);
+        }
+    const int top = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.emplace_back(0, 0, profile.back().second);
+    for (int j = 0; j < rows; ++j)
+        for (int k = 0; k < sides; ++k) {
+            const int a = j * sides + k, b = j * sides + (k + 1) % sides;
+            if (j + 1 == rows) {
+                mesh.triangles.emplace_back(a, b, top);
+                continue;
+            }
+            mesh.triangles.emplace_back(a, b, b + sides);
+            mesh.triangles.emplace_back(a, b + sides, a + sides);
+        }
+    return mesh;
+}
+
+/// A finger of skin upright on a plate, over a bone that begins above the plate.
+struct Finger {
+    static constexpr double thickness = 0.2;
+    skins::Couple couple;
+    SkinParameters parameters;
+    Pose swung = Pose::Identity();
+
+    explicit Finger(double degrees) {
+        std::vector<std::pair<double, double>> skin, bone;
+        for (double r = 24; r > 1.4; r *= 0.9) skin.emplace_back(r, 0);
+        for (double z = 0.1; z < 10; z += 0.25) skin.emplace_back(1.25, z);
+        for (double a = 0; a < 1.4; a += 0.3) skin.emplace_back(1.25 * std::cos(a), 10 + 1.25 * std::sin(a));
+        for (double a = -1.4; a < 0; a += 0.3) bone.emplace_back(std::cos(a), 2 + std::sin(a));
+        for (double z = 2; z < 10; z += 0.25) bone.emplace_back(1, z);
+        for (double a = 0; a < 1.4; a += 0.3) bone.emplace_back(std::cos(a), 10 + std::sin(a));
+        Muscle muscle;
+        muscle.surface = revolved(bone, 24);
+        muscle.surface.vertices.emplace_back(0, 0, bone.front().second);
+        for (int k = 0; k < 24; ++k)
+            muscle.surface.triangles.emplace_back((k + 1) % 24, k,
+                                                  static_cast<int>(muscle.surface.vertices.size()) - 1);
+        muscle.fibre = {{0, 0, 1}, {0, 0, 11}};
+        muscle.activationUpper = 0;
+        couple = skins::couple(revolved(skin, 24), {muscle}, thickness);
+        swung.linear() = Eigen::AngleAxisd(degrees * M_PI / 180, Vec3::UnitY()).toRotationMatrix();
+        parameters.swings = {{swung}};
+    }
+};
+
+} // namespace
+
+TEST_CASE("a bone that swings wide takes its skin along as it turns; skin far from its root stays") {
+    for (const double degrees : {20.0, 80.0, 135.0}) {
+        INFO(degrees << " degrees");
+        const Finger finger(degrees);
+        const auto rig = finger.couple.rig(finger.parameters);
+        SkinResponse response(rig);
+        for (int f = 0; f < 40; ++f) response.update(std::vector<double>{0}, std::vector<Pose>{finger.swung});
+        double behind = 0, strayed = 0;
+        int carried = 0, far = 0;
+        std::vector<bool> onBone(rig->rest.size(), false);
+        for (std::size_t v = 0; v < rig->rest.size(); ++v) {
+            const Vec3 rest = rig->rest[v], now = response.positions()[v];
+            if (rest.z() > 4) {
+                onBone[v] = true;
+                ++carried;
+                behind = std::max(behind, (now - finger.swung * rest).norm());
+            } else if (rest.z() == 0 && rest.norm() > 12) {
+                ++far;
+                strayed = std::max(strayed, (now - rest).norm());
+            }
+        }
+        CHECK(carried > 500);
+        CHECK(behind < 0.6 * Finger::thickness);
+        CHECK(strayed < Finger::thickness);
+        // The plate beyond what may move at all is not in the rig.
+        CHECK(far + 500 < static_cast<int>(finger.couple.skin.vertices.size()));
+        double leastCosine = 1;
+        for (const Tri& t : rig->triangles) {
+            if (!onBone[t[0]] || !onBone[t[1]] || !onBone[t[2]]) continue;
+            const auto normal = [&](const auto& x) -> Vec3 {
+                return (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).normalized();
+            };
+            leastCosine = std::min(
+                leastCosine, normal(response.positions()).dot(finger.swung.linear() * normal(rig->rest)));
+        }
+        CHECK(leastCosine > 0.9);
+    }
+}
