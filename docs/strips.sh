@@ -14,3 +14,13 @@ strip() { # SCENE EVERY [OPTION...]
 strip dog_face 16 --frames 113
 strip dog_ears 8 --frames 57 --view "$root/examples/views/dog_ears.path"
 strip dog_frontalis 8 --frames 57 --view "$root/examples/views/dog_frontalis.path"
+# A captured brow beside ours: needs the real meshes, and the shapes that the test writes.
+if [ -d "$root/../shared/meshes" ]; then
+    "$root/build/bin/test_respond" "a frontalis set up from its anatomy*" >/dev/null
+    for state in rest muscle captured; do
+        "$root/build/bin/tss-render" "$root/build/brow_$state.obj" -o "$work/brow_$state.png" --frames 1 --quiet \
+            --size 640x640 --view "$root/examples/views/human_brow.path" 2>/dev/null
+    done
+    montage "$work"/brow_{rest,muscle,captured}.png -tile 3x -geometry 400x400+1+1 -background '#808080' miff:- |
+        convert - +dither -colors 96 -define png:compression-level=9 "PNG8:$root/docs/pictures/human_brow.png"
+fi

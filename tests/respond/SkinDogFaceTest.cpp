@@ -1,12 +1,10 @@
+#include "RealSkins.h"
 #include "SkinMeasure.h"
-#include "tests/SharedMeshes.h"
 
 #include <ctime>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <random>
-#include <sstream>
 
 using namespace tss;
 using skins::depths;
@@ -17,28 +15,8 @@ namespace {
 
 constexpr double mm = 1e-3; // the dog is in metres
 
-TriangleMesh readObj(const std::string& file) {
-    TriangleMesh mesh;
-    std::ifstream stream(file);
-    for (std::string line; std::getline(stream, line);) {
-        std::istringstream words(line);
-        std::string key;
-        words >> key;
-        if (key == "v") {
-            Vec3 v;
-            words >> v[0] >> v[1] >> v[2];
-            mesh.vertices.push_back(v);
-        } else if (key == "f") {
-            Tri t;
-            words >> t[0] >> t[1] >> t[2];
-            mesh.triangles.push_back(t - Tri::Ones());
-        }
-    }
-    return mesh;
-}
-
 TriangleMesh dogMesh(const std::string& name) {
-    return readObj(sharedMesh("dog_face/" + name + ".obj"));
+    return skins::realSkin("dog_face/" + name + ".obj");
 }
 
 /// The mask over brow and cheeks: a sheet, its fibre along the middle of the forehead from the back of the
