@@ -5,6 +5,9 @@
 
 #include <cstdlib>
 #include <filesystem>
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized" // gcc 12 of its own <regex>, with sanitizers
+#endif
 #include <regex>
 #include <set>
 
