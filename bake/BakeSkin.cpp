@@ -35,7 +35,11 @@ void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, Pa
     SkinSearchOptions search;
     search.thickness = floatAbove(2 * (skin.thickness > 0 ? skin.thickness : skinThickness(mesh))) / 2.0;
     search.travel = skin.travel;
-    search.stray = skinStray(mesh, filled.deformers, skinParameters(scene, skin), search.thickness);
+    const SkinParameters parameters = skinParameters(scene, skin);
+    SkinMoves moves = skinMoves(mesh, filled.deformers, parameters, search.thickness);
+    search.stray = std::move(moves.stray);
+    search.shares = std::move(moves.shares);
+    search.swings = parameters.swings;
     SkinSearchCounts counts;
     auto table = std::make_shared<SkinTable>(searchSkin(mesh, filled.searched, search, progress, &counts));
     if (counts.stopped) throw InputError("stopped before the table was complete");

@@ -121,7 +121,9 @@ private:
             // The poses left are free; what was decided before stays with the inscribed spheres.
             decided_ = true;
             result_.neverMeet = !hits_;
-            if (hits_ || result_.levels.empty()) finish(std::move(zoneA), std::move(zoneB));
+            // Spheres of the last level may touch there yet: finer ones of the last zone show that nothing does.
+            if (!hits_ && !result_.levels.empty()) return true;
+            finish(std::move(zoneA), std::move(zoneB));
             return false;
         }
         a_.zone = std::move(zoneA);

@@ -4,7 +4,6 @@
 #include "bake/scene/Kinematics.h"
 
 #include <cmath>
-#include <utility>
 
 namespace tss {
 namespace {
@@ -21,28 +20,30 @@ const TriangleMesh& meshOf(const SceneModel& scene, const SkinModel& skin) {
     return scene.bodies[skin.body].mesh;
 }
 
-/// The motions of the bone that a muscle rides on, with one joint value at a time at either limit.
-std::vector<Pose> swingsOf(const SceneModel& scene, const SkinModel& skin, int muscle) {
-    std::vector<Pose> swings;
-    const int bone = scene.muscles.at(static_cast<std::size_t>(muscle)).bone;
-    if (bone < 0) return swings;
+constexpr int stations = 16; ///< of a swing, after rest
+
+/// What the bones under a skin do while one joint value at a time goes to either limit.
+std::vector<BoneSwing> swingsOf(const SceneModel& scene, const SkinModel& skin) {
     std::vector<double> values;
     for (const Joint& joint : scene.joints)
         for (const Dof& dof : joint.dofs) values.push_back(dof.rest);
-    const auto place = static_cast<std::size_t>(bone), under = static_cast<std::size_t>(skin.body);
-    const Pose& skinRest = scene.bodies[under].placement;
-    const Pose& boneRest = scene.bodies[place].placement;
+    const std::vector<double> rest = values;
+    std::vector<BoneSwing> swings;
     std::size_t next = 0;
     for (const Joint& joint : scene.joints)
         for (const Dof& dof : joint.dofs) {
             for (const double limit : {dof.lower, dof.upper}) {
-                if (!std::isfinite(limit)) continue;
-                const double rest = std::exchange(values[next], limit);
-                const std::vector<Pose> now = posedBodies(scene, values);
-                values[next] = rest;
-                if (now[place].matrix() == boneRest.matrix() && now[under].matrix() == skinRest.matrix())
-                    continue;
-                swings.push_back(now[under].inverse() * now[place] * boneRest.inverse() * skinRest);
+                if (!std::isfinite(limit) || limit == dof.rest) continue;
+                BoneSwing swing;
+                bool moves = false;
+                for (int s = 1; s <= stations; ++s) {
+                    values[next] = s == stations ? limit : dof.rest + (limit - dof.rest) * s / stations;
+                    swing.push_back(skinPoses(scene, skin, posedBodies(scene, values)));
+                    for (const Pose& pose : swing.back())
+                        moves = moves || pose.matrix() != Pose::Identity().matrix();
+                }
+                values = rest;
+                if (moves) swings.push_back(std::move(swing));
             }
             ++next;
         }
@@ -78,7 +79,7 @@ SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin) {
     SkinParameters parameters;
     parameters.stretchCompliance = skin.stretchCompliance;
     parameters.bendCompliance = skin.bendCompliance;
-    for (const int index : skin.muscles) parameters.swings.push_back(swingsOf(scene, skin, index));
+    parameters.swings = swingsOf(scene, skin);
     parameters.tether = skin.tether;
     parameters.attach = skin.attach;
     return parameters;

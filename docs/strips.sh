@@ -13,6 +13,7 @@ strip() { # SCENE EVERY [OPTION...]
 }
 strip dog_face 16 --frames 113
 strip dog_ears 8 --frames 57 --view "$root/examples/views/dog_ears.path"
+strip dog_lips 8 --frames 57 --view "$root/examples/views/dog_lips.path"
 strip dog_frontalis 8 --frames 57 --view "$root/examples/views/dog_frontalis.path"
 # A captured brow beside ours: needs the real meshes, and the shapes that the test writes.
 if [ -d "$root/../shared/meshes" ]; then

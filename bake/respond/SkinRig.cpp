@@ -41,8 +41,10 @@ void check(const TriangleMesh& skin, const std::vector<std::shared_ptr<const Mus
         throw InputError("carry of a skin needs one value a muscle");
     for (const double w : p.carry)
         if (!(w >= 0 && w <= 1)) throw InputError("carry of a skin lies in [0, 1]");
-    if (!p.swings.empty() && p.swings.size() != muscles.size())
-        throw InputError("swings of a skin need one list a muscle");
+    for (const BoneSwing& swing : p.swings)
+        for (const std::vector<Pose>& station : swing)
+            if (station.size() != muscles.size())
+                throw InputError("the swings of the bones under a skin need one pose a muscle");
     if (p.iterations < 1) throw InputError("a skin needs at least one iteration");
     const Table& t = table.table;
     if (table.skinVertices.size() != t.a.size() || table.muscleOf.size() != t.b.size() ||
@@ -138,6 +140,12 @@ std::vector<double> areaMasses(const SkinRig& rig) {
     return areas;
 }
 
+/// Stiffness of what holds a vertex to its rest place, beside the 1 that holds every one.
+double tetherOf(const SkinParameters& p, std::uint32_t vertex) {
+    const double tether = p.tether.empty() ? 0 : p.tether[vertex];
+    return p.attachment * tether / (1.001 - tether);
+}
+
 void addHolds(SkinRig& rig, const Touched& touched, const std::vector<std::vector<Carried>>& close) {
     const SkinParameters& p = rig.parameters;
     const std::vector<double> areas = areaMasses(rig);
@@ -146,9 +154,8 @@ void addHolds(SkinRig& rig, const Touched& touched, const std::vector<std::vecto
         for (const Carried& c : list) carried[touched.indexOf[c.vertex]] += c.pull;
     for (std::size_t i = 0; i < rig.vertices.size(); ++i) {
         const std::uint32_t v = rig.vertices[i];
-        const double tether = p.tether.empty() ? 0 : p.tether[v];
         const double out = touched.reach > 0 ? std::min(1.0, touched.distance[v] / touched.reach) : 0;
-        const double kept = 1 + rimStiffness * out * out + p.attachment * tether / (1.001 - tether);
+        const double kept = 1 + rimStiffness * out * out + tetherOf(p, v);
         // Carried by the muscles for a share of the way: as if by springs so much stiffer than the first.
         const double held = areas[i] * (kept + carried[i] / (1 - carried[i]));
         rig.sheet.inverseMass.push_back(std::isfinite(touched.distance[v]) ? static_cast<float>(1 / held)
@@ -271,17 +278,24 @@ std::vector<Vec3> skinNormals(const TriangleMesh& skin) {
     return normals;
 }
 
-std::vector<std::vector<double>> skinStray(const TriangleMesh& skin,
-                                           const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
-                                           const SkinParameters& parameters, double thickness) {
-    std::vector<std::vector<double>> stray(muscles.size(), std::vector<double>(skin.vertices.size(), 0));
+SkinMoves skinMoves(const TriangleMesh& skin,
+                    const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
+                    const SkinParameters& parameters, double thickness) {
+    SkinMoves moves;
+    moves.stray.assign(muscles.size(), std::vector<double>(skin.vertices.size(), 0));
+    moves.shares = moves.stray;
     const auto carried =
         rig::carriedSkin(skin, skinNormals(skin), rig::rings(skin), muscles, parameters, thickness);
+    std::vector<double> total(skin.vertices.size(), 0);
+    for (const auto& list : carried)
+        for (const Carried& c : list) total[c.vertex] += c.pull;
     for (std::size_t m = 0; m < muscles.size(); ++m)
-        for (const Carried& c : carried[m])
+        for (const Carried& c : carried[m]) {
+            moves.shares[m][c.vertex] = c.pull / (1 + (1 - total[c.vertex]) * tetherOf(parameters, c.vertex));
             for (std::size_t other = 0; other < muscles.size(); ++other)
-                if (other != m) stray[other][c.vertex] += c.pull * c.farthest;
-    return stray;
+                if (other != m) moves.stray[other][c.vertex] += c.pull * c.contracted;
+        }
+    return moves;
 }
 
 std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,

@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/motion/Motion.h"
+#include "bake/motion/BoneSwing.h"
 #include "bake/motion/MuscleTrack.h"
 #include "bake/respond/SkinSolver.h"
 #include "bake/respond/SkinStrain.h"
@@ -18,14 +18,12 @@ struct SkinParameters {
     double attachment = 20;       ///< stiffness where attach is 1, >= 0
     std::vector<double> carry; ///< #muscles in [0,1], how firmly each carries skin at all; empty: 1. A body
                                ///< that only pushes has 0
-    std::vector<std::vector<Pose>>
-        swings;                 ///< #muscles: extreme motions of its bone since rest, skin's frame;
-                                ///< empty: none. The skin between bones gives way over as long a way
-    std::vector<double> tether; ///< #V in [0,1], how firmly a vertex keeps its rest place; empty: 0
-    std::vector<double> attach; ///< #V in [0,1], how firmly the muscle below carries it; empty: falls off
-                                ///< smoothly around the end of the fibre that moves
-    int iterations = 8;         ///< most sweeps over all constraints an update, >= 1
-    bool faithful = false;      ///< [paper] spheres push spheres out, no elastic sheet
+    std::vector<BoneSwing> swings; ///< of the bones; the skin between them gives way over as long a way
+    std::vector<double> tether;    ///< #V in [0,1], how firmly a vertex keeps its rest place; empty: 0
+    std::vector<double> attach;    ///< #V in [0,1], how firmly the muscle below carries it; empty: falls off
+                                   ///< smoothly around the end of the fibre that moves
+    int iterations = 8;            ///< most sweeps over all constraints an update, >= 1
+    bool faithful = false;         ///< [paper] spheres push spheres out, no elastic sheet
 };
 
 /// A hold of a skin vertex on a muscle.
@@ -121,11 +119,15 @@ struct SkinRig {
 /// Unit normals of all vertices, weighted by area: those of SkinResponse at rest.
 std::vector<Vec3> skinNormals(const TriangleMesh& skin);
 
-/// How far the other muscles may move each vertex of a skin under which a muscle is looked for: what
-/// SkinSearchOptions::stray wants. One list a muscle, #V each.
-std::vector<std::vector<double>> skinStray(const TriangleMesh& skin,
-                                           const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
-                                           const SkinParameters& parameters, double thickness);
+/// What muscles and bones do to the vertices of a skin, as SkinSearchOptions wants it: one list a muscle, #V
+/// each.
+struct SkinMoves {
+    std::vector<std::vector<double>> stray;  ///< how far the contraction of the others may move the vertex
+    std::vector<std::vector<double>> shares; ///< of the muscle's move that the vertex makes
+};
+SkinMoves skinMoves(const TriangleMesh& skin,
+                    const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
+                    const SkinParameters& parameters, double thickness);
 
 /// Makes a rig. skin: the mesh the table was made for. muscles: in the order the table knows them, in the
 /// skin's frame. Throws InputError when they do not fit each other.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 #include <span>
 #include <tuple>
@@ -18,6 +19,7 @@ constexpr double mostCarried =
 constexpr double allCarried = 0.999; ///< the same however far it would lag
 constexpr double lag = 0.25;         ///< in thicknesses: how far what is carried may stay behind
 constexpr double leastPull = 0.01;
+constexpr double nearestReach = 2; ///< in thicknesses: how much farther a bone is that has no hold any more
 constexpr int spreadRounds = 8;
 
 /// 1 at 0, 0 from 1 on, smooth.
@@ -49,9 +51,10 @@ double shareOf(double move, double thickness) {
 /// A skin over one muscle: what the muscle does to a vertex.
 class Carrier {
 public:
-    Carrier(const TriangleMesh& skin, const MuscleDeformer& muscle, std::span<const Pose> swings)
-        : skin_(skin), muscle_(muscle), swings_(swings), ends_{muscle.state(muscle.muscle().activationLower),
-                                                               muscle.state(muscle.muscle().activationUpper)},
+    Carrier(const TriangleMesh& skin, const MuscleDeformer& muscle, std::vector<Pose> swings)
+        : skin_(skin), muscle_(muscle),
+          swings_(std::move(swings)), ends_{muscle.state(muscle.muscle().activationLower),
+                                            muscle.state(muscle.muscle().activationUpper)},
           points_(skin.vertices.size()), farthest_(skin.vertices.size(), -1) {}
 
     const MusclePoint& point(std::uint32_t v) {
@@ -65,19 +68,26 @@ public:
         return farthest_[v];
     }
 
+    /// How far its contraction alone would.
+    double contracted(std::uint32_t v) {
+        double most = 0;
+        for (const MuscleState& end : ends_)
+            most = std::max(most, (muscle_.map(point(v), end) - skin_.vertices[v]).norm());
+        return most;
+    }
+
 private:
     void bind(std::uint32_t v) {
         const Vec3& x = skin_.vertices[v];
         points_[v] = muscle_.bind(x);
         farthest_[v] = 0;
-        for (const MuscleState& end : ends_)
-            farthest_[v] = std::max(farthest_[v], (muscle_.map(points_[v], end) - x).norm());
+        farthest_[v] = contracted(v);
         for (const Pose& swing : swings_) farthest_[v] = std::max(farthest_[v], (swing * x - x).norm());
     }
 
     const TriangleMesh& skin_;
     const MuscleDeformer& muscle_;
-    std::span<const Pose> swings_;
+    std::vector<Pose> swings_;
     MuscleState ends_[2];
     std::vector<MusclePoint> points_;
     std::vector<double> farthest_; ///< -1: not known yet
@@ -86,16 +96,19 @@ private:
 /// What one muscle would do to the skin, were there no other.
 struct Hold {
     Carrier carrier;
-    std::vector<double> pull;  ///< #V share of the muscle's move that the vertex makes
-    std::vector<double> grown; ///< #V the same, of what is grown into the muscle alone
+    std::vector<double> pull;   ///< #V share of the muscle's move that the vertex makes
+    std::vector<double> grown;  ///< #V the same, of what is grown into the muscle, or held by a bone, alone
+    std::vector<double> height; ///< #V over a bone, infinite away from it; empty: a muscle that contracts
 };
 
 /// Raises values so that they fall along the skin no faster than what is moved by as much may be stretched.
 /// move(v): how far a vertex may be moved. What counts is the least of it on the way from where the value
 /// stands: a bone that swings takes along what lies about its root, however far its swing would carry what
 /// lies beyond.
+/// tether: #V, empty: none; what is tethered does not give way.
 template <class Move>
-void limitSlope(std::vector<double>& values, const TriangleMesh& skin, const Rings& rings, const Move& move) {
+void limitSlope(std::vector<double>& values, const TriangleMesh& skin, const Rings& rings,
+                const std::vector<double>& tether, const Move& move) {
     struct Front {
         double value, moved;
         std::uint32_t vertex;
@@ -113,7 +126,9 @@ void limitSlope(std::vector<double>& values, const TriangleMesh& skin, const Rin
         const double moved = std::min(before, move(v));
         if (!(moved > 0)) continue;
         for (const std::uint32_t w : rings.ring[v]) {
-            const double least = value - carryStrain / moved * (skin.vertices[v] - skin.vertices[w]).norm();
+            const double free = tether.empty() ? 1 : 1 - tether[w];
+            const double least =
+                free * (value - carryStrain / moved * (skin.vertices[v] - skin.vertices[w]).norm());
             if (least <= std::max(values[w], leastPull)) continue;
             queue.push({values[w] = least, moved, w});
         }
@@ -123,9 +138,14 @@ void limitSlope(std::vector<double>& values, const TriangleMesh& skin, const Rin
 Hold holdOf(const TriangleMesh& skin, const std::vector<Vec3>& normals, const Rings& rings,
             const MuscleDeformer& muscle, const SkinParameters& p, std::size_t index, double thickness) {
     const std::size_t count = skin.vertices.size();
-    const std::span<const Pose> swings =
-        index < p.swings.size() ? std::span<const Pose>(p.swings[index]) : std::span<const Pose>();
-    Hold hold{Carrier(skin, muscle, swings), std::vector<double>(count, 0), std::vector<double>(count, 0)};
+    std::vector<Pose> swings;
+    for (const BoneSwing& swing : p.swings)
+        for (const std::vector<Pose>& station : swing)
+            if (station[index].matrix() != Pose::Identity().matrix()) swings.push_back(station[index]);
+    Hold hold{Carrier(skin, muscle, std::move(swings)),
+              std::vector<double>(count, 0),
+              std::vector<double>(count, 0),
+              {}};
     const double reach = carryReach * thickness;
     const double carry = index < p.carry.size() ? p.carry[index] : 1;
     if (!(reach > 0) || !(carry > 0)) return hold; // a table without spheres: the muscle meets nothing
@@ -134,10 +154,12 @@ Hold holdOf(const TriangleMesh& skin, const std::vector<Vec3>& normals, const Ri
     box.max().array() += reach;
     const bool rigid = muscle.muscle().activationLower == 0 && muscle.muscle().activationUpper == 0;
     const double movingEnd = muscle.muscle().anchor < 0.5 ? 1 : 0;
+    if (rigid) hold.height.assign(count, std::numeric_limits<double>::infinity());
     std::vector<double> close(count, 0), attach(count, 0);
     for (std::uint32_t v = 0; v < count; ++v) {
         if (!box.contains(skin.vertices[v])) continue;
         const MusclePoint& point = hold.carrier.point(v);
+        if (rigid) hold.height[v] = point.height;
         // Away from the muscle only what faces as it does; what touches it, whichever way.
         const double facing =
             std::max(point.normal.dot(normals[v]), falloff(std::max(0.0, point.height) / thickness));
@@ -155,11 +177,29 @@ Hold holdOf(const TriangleMesh& skin, const std::vector<Vec3>& normals, const Ri
         const double stiffness = p.fascia * close[v] + p.attachment * attach[v];
         hold.pull[v] = stiffness / (1 + stiffness);
         // What does not contract has nothing that skin would slide over: it swings as a whole.
-        if (rigid && close[v] > leastPull)
+        if (rigid && close[v] > leastPull) {
             hold.pull[v] = std::max(hold.pull[v], close[v] * shareOf(hold.carrier.farthest(v), thickness));
+            hold.grown[v] = std::max(hold.grown[v], carry * close[v]);
+        }
         hold.pull[v] *= carry;
     }
     return hold;
+}
+
+/// Skin between bones is held by the nearest: what lies beyond another one does not reach it.
+void ownNearest(std::vector<Hold>& holds, std::size_t count, double thickness) {
+    for (std::uint32_t v = 0; v < count; ++v) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Hold& hold : holds)
+            if (!hold.height.empty()) nearest = std::min(nearest, hold.height[v]);
+        if (!std::isfinite(nearest)) continue;
+        for (Hold& hold : holds) {
+            if (hold.height.empty()) continue;
+            const double own = falloff((hold.height[v] - nearest) / (nearestReach * thickness));
+            hold.pull[v] *= own;
+            hold.grown[v] *= own;
+        }
+    }
 }
 
 } // namespace
@@ -173,23 +213,30 @@ carriedSkin(const TriangleMesh& skin, const std::vector<Vec3>& normals, const Ri
     for (std::size_t m = 0; m < muscles.size(); ++m)
         holds.push_back(holdOf(skin, normals, rings, *muscles[m], parameters, m, thickness));
 
+    ownNearest(holds, count, thickness);
+
     // What is grown into one muscle is not pulled out of it by the others: their pull fades towards it.
-    std::vector<double> grown(count, 0), farthest(holds.size(), 0);
-    for (std::size_t m = 0; m < holds.size(); ++m)
-        for (std::uint32_t v = 0; v < count; ++v)
-            if (holds[m].pull[v] > leastPull)
-                farthest[m] = std::max(farthest[m], holds[m].carrier.farthest(v));
+    std::vector<double> grown(count, 0);
     for (Hold& hold : holds) {
-        double most = 0;
-        for (std::uint32_t v = 0; v < count; ++v)
-            for (std::size_t m = 0; hold.grown[v] > leastPull && m < holds.size(); ++m)
-                if (&holds[m] == &hold || holds[m].pull[v] > leastPull) most = std::max(most, farthest[m]);
-        limitSlope(hold.grown, skin, rings, [&](std::uint32_t) { return most; });
+        std::vector<Hold*> meets;
+        for (Hold& other : holds)
+            for (std::uint32_t v = 0; v < count; ++v)
+                if (hold.grown[v] > leastPull && (&other == &hold || other.pull[v] > leastPull)) {
+                    meets.push_back(&other);
+                    break;
+                }
+        if (hold.height.empty())
+            limitSlope(hold.grown, skin, rings, parameters.tether, [&](std::uint32_t v) {
+                double most = 0;
+                for (Hold* other : meets) most = std::max(most, other->carrier.farthest(v));
+                return most;
+            });
         for (std::uint32_t v = 0; v < count; ++v) grown[v] += hold.grown[v];
     }
     std::vector<double> total(count, 0);
     for (Hold& hold : holds) {
-        limitSlope(hold.pull, skin, rings, [&](std::uint32_t v) { return hold.carrier.farthest(v); });
+        limitSlope(hold.pull, skin, rings, parameters.tether,
+                   [&](std::uint32_t v) { return hold.carrier.farthest(v); });
         for (std::uint32_t v = 0; v < count; ++v) {
             hold.pull[v] *= std::max(0.0, 1 - (grown[v] - hold.grown[v]));
             hold.pull[v] = std::max(hold.pull[v], hold.grown[v]);
@@ -202,9 +249,10 @@ carriedSkin(const TriangleMesh& skin, const std::vector<Vec3>& normals, const Ri
         for (std::uint32_t v = 0; v < count; ++v) {
             const double part = holds[m].pull[v] / std::max(1.0, total[v]);
             if (!(part > leastPull)) continue;
-            const double farthest = holds[m].carrier.farthest(v);
-            const double pull = shareOf(farthest, thickness) * (part - leastPull) / (1 - leastPull);
-            result[m].push_back({v, holds[m].carrier.point(v), pull, farthest});
+            Carrier& carrier = holds[m].carrier;
+            const double pull =
+                shareOf(carrier.farthest(v), thickness) * (part - leastPull) / (1 - leastPull);
+            result[m].push_back({v, carrier.point(v), pull, carrier.contracted(v)});
         }
     return result;
 }

@@ -15,7 +15,7 @@ struct Carried {
     std::uint32_t vertex = 0; ///< of the skin mesh
     MusclePoint point;        ///< as the muscle carries it
     double pull = 0;          ///< share of the muscle's move that the vertex makes; all muscles together < 1
-    double farthest = 0;      ///< how far the muscle itself would ever move it, scene units
+    double contracted = 0;    ///< how far the muscle's contraction would ever move it, scene units
 };
 
 /// What each muscle carries of a skin: firmly what it is attached to and what is grown into it, weakly what

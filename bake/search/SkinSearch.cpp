@@ -78,6 +78,47 @@ bool reaches(const Reach& reach, std::size_t j, const Vec3& rest, std::size_t v,
     return false;
 }
 
+/// Where a skin vertex is, seen from the bone of muscle m, at each station of each swing; rest where it does
+/// not move against it.
+using SwungPaths = std::vector<std::vector<Vec3>>;
+
+SwungPaths swungPaths(const SkinSearchOptions& options, std::size_t m, const Vec3& x, std::size_t v) {
+    SwungPaths paths;
+    for (const BoneSwing& swing : options.swings) {
+        std::vector<Vec3> path{x};
+        bool moves = false;
+        for (const std::vector<Pose>& station : swing) {
+            Vec3 y = x;
+            for (std::size_t k = 0; k < options.shares.size(); ++k)
+                if (options.shares[k][v] > 0) y += options.shares[k][v] * (station[k] * x - x);
+            path.push_back(station[m].inverse() * y);
+            moves = moves || path.back() != x;
+        }
+        if (moves) paths.push_back(std::move(path));
+    }
+    return paths;
+}
+
+constexpr double stepSlack = 0.1; ///< of a step between stations: how far the true path may leave the chord
+
+/// The same while the bones swing. carried: how far muscle j's own contraction may carry the vertex
+/// meanwhile.
+bool reachesSwung(const Reach& reach, std::size_t j, const SwungPaths& paths, double near, double carried) {
+    const std::size_t nodes = reach.spheres.nodes.size(), stride = reach.spheres.points;
+    for (const std::vector<Vec3>& path : paths)
+        for (std::size_t s = 0; s + 1 < path.size(); ++s)
+            for (std::size_t n = 0; n < nodes; ++n) {
+                const std::size_t m = std::min(n + 1, nodes - 1);
+                const double distance = near + carried + stepSlack * (path[s + 1] - path[s]).norm() +
+                                        std::max(reach.radii[n * stride + j], reach.radii[m * stride + j]);
+                if (squaredDistanceOfSegments(reach.spheres.positions[n * stride + j],
+                                              reach.spheres.positions[m * stride + j], path[s],
+                                              path[s + 1]) <= distance * distance)
+                    return true;
+            }
+    return false;
+}
+
 /// Everything that a muscle sphere sweeps.
 Box sweptBox(const Reach& reach, std::size_t j) {
     Box box;
@@ -100,16 +141,29 @@ Box pathBox(const Reach& reach, const Vec3& rest, std::size_t v) {
 
 std::vector<SpherePair> pairsOfMuscle(const Reach& reach, const SphereSet& spheres, const TriangleMesh& skin,
                                       const std::vector<Vec3>& normals, const std::vector<double>& radii,
-                                      const SkinSearchOptions& options, std::span<const double> stray) {
+                                      const SkinSearchOptions& options, std::size_t muscle) {
+    const std::span<const double> stray =
+        options.stray.empty() ? std::span<const double>() : std::span<const double>(options.stray[muscle]);
     const auto near = [&](std::uint32_t v) {
         return radii[v] + options.travel + (stray.empty() ? 0 : stray[v]);
     };
     // Skin boxes in rising order of their lower x, so that a sphere looks only at a window of them.
     std::vector<Box> boxes(skin.vertices.size());
+    std::vector<SwungPaths> swung(skin.vertices.size());
+    std::vector<double> carried(skin.vertices.size(), 0);
     double widest = 0;
     for (std::size_t v = 0; v < boxes.size(); ++v) {
         boxes[v] = pathBox(reach, skin.vertices[v], v);
-        const Vec3 grow = Vec3::Constant(near(static_cast<std::uint32_t>(v)));
+        carried[v] =
+            std::max((boxes[v].max() - skin.vertices[v]).norm(), (boxes[v].min() - skin.vertices[v]).norm());
+        swung[v] = swungPaths(options, muscle, skin.vertices[v], v);
+        double slack = 0;
+        for (const std::vector<Vec3>& path : swung[v])
+            for (std::size_t s = 0; s + 1 < path.size(); ++s) {
+                boxes[v].extend(path[s + 1]);
+                slack = std::max(slack, carried[v] + stepSlack * (path[s + 1] - path[s]).norm());
+            }
+        const Vec3 grow = Vec3::Constant(near(static_cast<std::uint32_t>(v)) + slack);
         boxes[v].min() -= grow;
         boxes[v].max() += grow;
         widest = std::max(widest, boxes[v].sizes()[0]);
@@ -130,7 +184,8 @@ std::vector<SpherePair> pairsOfMuscle(const Reach& reach, const SphereSet& spher
             if (!boxes[v].intersects(swept)) continue;
             const double before = normals[v].dot(spheres[j].centre - skin.vertices[v]);
             if (options.facingOnly && before > spheres[j].radius) continue;
-            if (reaches(reach, j, skin.vertices[v], v, near(v)))
+            if (reaches(reach, j, skin.vertices[v], v, near(v)) ||
+                reachesSwung(reach, j, swung[v], near(v), carried[v]))
                 found[j].push_back({v, static_cast<std::uint32_t>(j)});
         }
     });
@@ -154,11 +209,17 @@ SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscl
         throw InputError("the travel of a skin must be a finite length of at least 0");
     if (!(options.thickness >= 0) || !std::isfinite(options.thickness))
         throw InputError("the thickness of a skin must be a finite length of at least 0");
-    if (!options.stray.empty() && options.stray.size() != muscles.size())
-        throw InputError("stray of a skin needs one list a muscle");
-    for (const std::vector<double>& stray : options.stray)
-        if (stray.size() != skin.vertices.size())
-            throw InputError("stray of a skin needs one value a vertex");
+    for (const auto* lists : {&options.stray, &options.shares}) {
+        if (!lists->empty() && lists->size() != muscles.size())
+            throw InputError("stray and shares of a skin need one list a muscle");
+        for (const std::vector<double>& list : *lists)
+            if (list.size() != skin.vertices.size())
+                throw InputError("stray and shares of a skin need one value a vertex");
+    }
+    for (const BoneSwing& swing : options.swings)
+        for (const std::vector<Pose>& station : swing)
+            if (station.size() != muscles.size())
+                throw InputError("the swings of the bones under a skin need one pose a muscle");
     SkinSearchCounts count;
     const double thickness = options.thickness > 0 ? options.thickness : skinThickness(skin);
     const std::vector<double> radii(skin.vertices.size(), thickness);
@@ -175,9 +236,7 @@ SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscl
         }
         const Reach reach = makeReach(muscles[m], skin, options.path);
         const auto first = static_cast<std::uint32_t>(muscleSpheres.size());
-        const std::span<const double> stray =
-            options.stray.empty() ? std::span<const double>() : std::span<const double>(options.stray[m]);
-        for (SpherePair p : pairsOfMuscle(reach, muscles[m].spheres, skin, normals, radii, options, stray))
+        for (SpherePair p : pairsOfMuscle(reach, muscles[m].spheres, skin, normals, radii, options, m))
             pairs.push_back({p.a, p.b + first});
         muscleSpheres.insert(muscleSpheres.end(), muscles[m].spheres.begin(), muscles[m].spheres.end());
         muscleOf.resize(muscleSpheres.size(), static_cast<std::uint32_t>(m));

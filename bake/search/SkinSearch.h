@@ -1,5 +1,6 @@
 #pragma once
 #include "bake/base/Progress.h"
+#include "bake/motion/BoneSwing.h"
 #include "bake/motion/MuscleTrack.h"
 #include "bake/table/SkinTable.h"
 
@@ -21,8 +22,12 @@ struct SkinSearchOptions {
     double thickness = 0; ///< radius of every skin sphere, scene units; 0: skinThickness()
     double travel = 0;    ///< how far a vertex may stray from its path, scene units, >= 0
     SkinPath path = SkinPath::Carried;
-    std::vector<std::vector<double>> stray; ///< #muscles of #V: how far the others may move a vertex from the
-                                            ///< path of that muscle, scene units; empty: not at all
+    std::vector<std::vector<double>>
+        stray; ///< #muscles of #V: how far the contraction of the others may move a vertex from the path of
+               ///< that muscle, scene units; empty: not at all
+    std::vector<std::vector<double>>
+        shares; ///< #muscles of #V in [0, 1]: of a bone's motion that a vertex makes; empty: none
+    std::vector<BoneSwing> swings; ///< of the bones that the muscles ride on
     bool facingOnly =
         false; ///< leave out spheres that lie wholly outside the skin, before the vertex's normal
 };
@@ -41,9 +46,10 @@ double skinThickness(const TriangleMesh& skin);
 /// Which skin spheres some muscle sphere can reach (METHOD 6.2): every pair whose gap gets to `travel` or
 /// less somewhere in the activation range of its muscle is a test of the table. Complete, not sampled:
 /// spheres move as their MuscleTrack, linear between its nodes, and each stretch is tested as the capsule it
-/// sweeps; the run time moves them on the same track. One skin sphere a vertex; rows of skin out of reach do
-/// not exist. restGaps: the negative gap of a pair that overlaps at activation 0 (2.4). Same table for any
-/// number of threads.
+/// sweeps; the run time moves them on the same track. Bones swing one joint value at a time, the others at
+/// rest; a vertex moves against them by its shares, linear between the stations but for a tenth of each step.
+/// One skin sphere a vertex; rows of skin out of reach do not exist. restGaps: the negative gap of a pair
+/// that overlaps at activation 0 (2.4). Same table for any number of threads.
 SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscle>& muscles,
                      const SkinSearchOptions& options, const Progress& progress = {},
                      SkinSearchCounts* counts = nullptr);

@@ -56,8 +56,7 @@ TriangleMesh irisesMesh() {
 
 namespace {
 
-TriangleMesh untrimmedSkin(const Detail& detail, double finest, double longest) {
-    const Field head = headSkin();
+TriangleMesh untrimmedSkin(const Field& head, const Detail& detail, double finest, double longest) {
     RemeshOptions options{.shortest = finest / 2, .longest = longest};
     options.limit = [finest, muscle = frontalis()](const Vec3& p) {
         return std::max(finest, finest - 1.2 + 0.25 * muscle(p));
@@ -70,11 +69,15 @@ TriangleMesh untrimmedSkin(const Detail& detail, double finest, double longest) 
 } // namespace
 
 TriangleMesh leftSkinMesh(const Detail& detail) {
-    return rounded(trim(untrimmedSkin(detail, 2.2, 4.5), Vec3(0, -3, 0), -Vec3::UnitY()));
+    return rounded(trim(untrimmedSkin(headSkin(), detail, 2.2, 4.5), Vec3(0, -3, 0), -Vec3::UnitY()));
+}
+
+TriangleMesh leftSkinMouthCutMesh(const Detail& detail) {
+    return rounded(trim(untrimmedSkin(headSkinMouthCut(), detail, 2.2, 4.5), Vec3(0, -3, 0), -Vec3::UnitY()));
 }
 
 TriangleMesh skinMesh(const Detail& detail) {
-    return rounded(untrimmedSkin(detail, 2.6, 5.5));
+    return rounded(untrimmedSkin(headSkin(), detail, 2.6, 5.5));
 }
 
 TriangleMesh earCartilageMesh(const Detail& detail) {

@@ -200,4 +200,34 @@ tss::SceneModel earsScene() {
     return scene;
 }
 
+tss::SceneModel lipsScene() {
+    tss::SceneModel scene = emptyScene("DogLips", 64);
+    const int skull = addBody(scene, "Skull", skullMesh(), ivory);
+    TriangleMesh apart = mandibleMesh(); // its teeth just clear of the skull's
+    for (Vec3& v : apart.vertices) v = Eigen::AngleAxisd(1.5 * degree, Vec3::UnitY()) * v;
+    const int mandible = addBody(scene, "Mandible", std::move(apart), paleBone);
+    scene.bodies[skull].rigid = scene.bodies[mandible].rigid = true;
+    tss::Dof open;
+    open.name = "open";
+    open.axis = Vec3::UnitY();
+    open.lower = -4 * degree;
+    open.upper = 20 * degree;
+    tss::Motion motion;
+    motion.dofs = {open};
+    const int pair = addPair(scene, skull, mandible, motion, "Jaw");
+    scene.pairs[pair].settings["tolerance"] = "0.1mm";
+    scene.joints.front().drives = {
+        sampled({{0, 0}, {6, 0}, {22, 16}, {32, 16}, {44, -3}, {52, -3}, {58, 0}, {64, 0}}, 2, degree)};
+    addUnder(scene, "SkullUnder", skull, -1);
+    addUnder(scene, "MandibleUnder", mandible, mandible);
+    addSkin(scene, leftSkinMouthCutMesh());
+    // What lies above the mouth is held to the skull; cheeks and throat give way.
+    for (const Vec3& v : scene.bodies[scene.skins[0].body].mesh.vertices) {
+        const double lip = smoothStep(78, 100, v.x()) * smoothStep(-0.4, 0.8, v.z() - mouthHeight(v.x()));
+        scene.skins[0].tether.push_back(std::round(970 * std::max(lip, smoothStep(-30, 0, v.z()))) / 1000);
+    }
+    addNoseAndEyes(scene);
+    return scene;
+}
+
 } // namespace doghead

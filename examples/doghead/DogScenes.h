@@ -17,4 +17,8 @@ tss::SceneModel faceScene();
 /// The left ear laid back until its stiff shell meets the skull, and let go; the skin of the head follows.
 tss::SceneModel earsScene();
 
+/// The mouth opens, closes and bites until the teeth meet: lips, cheek and throat ride on skull and mandible,
+/// and slide over the teeth.
+tss::SceneModel lipsScene();
+
 } // namespace doghead

@@ -23,7 +23,8 @@ struct Named {
 constexpr Named all[] = {{"dog_jaw", doghead::jawScene},
                          {"dog_frontalis", doghead::frontalisScene},
                          {"dog_face", doghead::faceScene},
-                         {"dog_ears", doghead::earsScene}};
+                         {"dog_ears", doghead::earsScene},
+                         {"dog_lips", doghead::lipsScene}};
 
 } // namespace
 

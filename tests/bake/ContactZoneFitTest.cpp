@@ -100,6 +100,23 @@ TEST_CASE("bodies that pass closely without touching get spheres that show it") 
     for (double q = 0; q <= 1; q += 0.01) CHECK(smallestGap(a, b, pose(scene.motion, std::vector{q}), 1) > 0);
 }
 
+TEST_CASE("bodies that pass more closely than coarse spheres stick out get finer ones that show it") {
+    // 0.0035 apart: spheres of 0.004 touch, patches of the next level are known to be out of reach.
+    Scene scene{boxMesh({0, 0, 0}, {1, 1, 1}), boxMesh({0.8, 0.48, 1.0035}, {2.6, 0.52, 2}), {}};
+    Dof slide;
+    slide.name = "slide";
+    slide.kind = DofKind::Translation;
+    slide.upper = 1;
+    scene.motion.dofs = {slide};
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.0005));
+    CHECK(fit.neverMeet);
+    REQUIRE(!fit.levels.empty());
+    CHECK(fit.levels.front().tolerance > 0.003);
+    CHECK(fit.a.fit.protrusion < 0.003);
+    const SphereTree a(fit.a.fit.spheres), b(fit.b.fit.spheres);
+    for (double q = 0; q <= 1; q += 0.01) CHECK(smallestGap(a, b, pose(scene.motion, std::vector{q}), 1) > 0);
+}
+
 TEST_CASE("a limit on spheres keeps the finest level that fits and says so") {
     const Scene scene = lumpyPair(6);
     ContactZoneOptions options = tolerance(0.004);

@@ -152,7 +152,8 @@ TEST_CASE("the committed scenes are what the generator writes", "[.long]") {
     for (const auto& [name, scene] : {std::pair("dog_jaw.tss", jawScene()),
                                       {"dog_frontalis.tss", frontalisScene()},
                                       {"dog_face.tss", faceScene()},
-                                      {"dog_ears.tss", earsScene()}}) {
+                                      {"dog_ears.tss", earsScene()},
+                                      {"dog_lips.tss", lipsScene()}}) {
         tss::saveScene(scene, (folder / name).string());
         CHECK(bytes(folder / name) == bytes(scenes + name));
     }

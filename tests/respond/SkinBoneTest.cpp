@@ -56,7 +56,7 @@ struct Finger {
         muscle.activationUpper = 0;
         couple = skins::couple(revolved(skin, 24), {muscle}, thickness);
         swung.linear() = Eigen::AngleAxisd(degrees * M_PI / 180, Vec3::UnitY()).toRotationMatrix();
-        parameters.swings = {{swung}};
+        parameters.swings = {BoneSwing{{swung}}};
     }
 };
 

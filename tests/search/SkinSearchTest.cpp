@@ -87,6 +87,48 @@ TEST_CASE("every skin sphere that a muscle sphere reaches at some activation is 
     }
 }
 
+TEST_CASE("every skin sphere that a swinging bone reaches, or is swung to, is in the table") {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+        std::mt19937_64 random(seed);
+        std::uniform_real_distribution<double> unit(-1, 1);
+        Scene scene = randomScene(seed);
+        Muscle bone = scene.muscle->muscle();
+        bone.activationLower = bone.activationUpper = 0; // no contraction: what swings is all that moves
+        scene.muscle = std::make_unique<MuscleDeformer>(std::move(bone));
+        std::vector<double> share;
+        for (std::size_t v = 0; v < scene.skin.vertices.size(); ++v)
+            share.push_back(std::max(0.0, unit(random)));
+        const Vec3 axis = Vec3(unit(random), unit(random), unit(random)).normalized(), origin(0.8, 0, 0);
+        const auto swung = [&](double angle) {
+            return Pose(Eigen::Translation3d(origin) * Eigen::AngleAxisd(angle, axis) *
+                        Eigen::Translation3d(-origin));
+        };
+        SkinSearchOptions o = options(SkinPath::Carried);
+        const std::size_t without = searchSkin(scene.skin, scene.muscles(), o).table.testCount();
+        o.shares = {share};
+        BoneSwing swing;
+        for (int k = 1; k <= 16; ++k) swing.push_back({swung(1.2 * k / 16)});
+        o.swings = {swing};
+        const SkinTable table = searchSkin(scene.skin, scene.muscles(), o);
+        std::set<std::pair<std::uint32_t, double>> found;
+        for (const SpherePair& p : tests(table.table))
+            found.insert({table.skinVertices[p.a], table.table.b[p.b].centre.x()});
+        CHECK(table.table.testCount() > 2 * without);
+        for (int k = 0; k <= 100; ++k) {
+            const Pose pose = swung(1.2 * k / 100);
+            for (std::uint32_t v = 0; v < share.size(); ++v) {
+                const Vec3& rest = scene.skin.vertices[v];
+                const Vec3 x = rest + share[v] * (pose * rest - rest);
+                for (const Sphere& sphere : scene.spheres) {
+                    if ((x - pose * sphere.centre).norm() > 0.03 + sphere.radius) continue;
+                    INFO("seed " << seed << ", vertex " << v << ", angle " << 1.2 * k / 100);
+                    REQUIRE(found.count({v, sphere.centre.x()}) == 1);
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("what stays out of reach of all activations is not in the table") {
     const Scene scene = randomScene(5);
     SkinSearchCounts counts;

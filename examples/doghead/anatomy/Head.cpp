@@ -9,6 +9,7 @@
 namespace doghead {
 namespace {
 
+constexpr double lipThickness = 4.5;   ///< and depth of the mouth line, mm
 constexpr double frontalisCover = 0.5; ///< least thickness of the skin over the frontalis: they touch
 
 Field muzzle() {
@@ -33,13 +34,22 @@ Field muzzle() {
     return Sculpture().add(upper).add(lower, 2).field();
 }
 
-/// A thin sheet where the lips meet, from the nose's foot to the corner of the mouth, a few millimetres deep.
-Field mouthLine() {
-    const Profile height({{76, -41}, {90, -45.5}, {112, -48}, {130, -46}, {142, -42.5}, {152, -38}});
-    const Box box(Vec3(76, -60, -52), Vec3(170, 60, -38));
-    const auto distance = [height, flesh = grown(muzzle(), -4.5)](const Vec3& p) {
-        const double sheet = std::abs(p.z() - height(p.x())) - 0.9;
+/// A thin sheet where the lips meet, from the nose's foot, or through under it, to the corner of the mouth.
+Field mouthLine(bool through) {
+    const Box box(Vec3(76, -60, -52), Vec3(170, 60, through ? -30 : -38));
+    const auto distance = [flesh = grown(muzzle(), -lipThickness)](const Vec3& p) {
+        const double sheet = std::abs(p.z() - mouthHeight(p.x())) - 0.9;
         return -smoothMin(-sheet, std::min(p.x() - 78, flesh(p)), 2);
+    };
+    return {distance, box};
+}
+
+/// The room for teeth behind lips of some millimetres.
+Field mouthRoom() {
+    const Box box(Vec3(76, -60, -62), Vec3(160, 60, -28));
+    const auto distance = [flesh = grown(muzzle(), -lipThickness)](const Vec3& p) {
+        const double slab = std::abs(p.z() - mouthHeight(p.x())) - 9;
+        return -smoothMin(-slab, std::min(p.x() - 80, -flesh(p)), 3);
     };
     return {distance, box};
 }
@@ -118,7 +128,9 @@ Field earCartilage() {
         .field();
 }
 
-Field headSkin() {
+namespace {
+
+Field head(bool mouthCut) {
     Sculpture head;
     head.add(muzzle());
     head.add(cheeksAndBrow(), 10);
@@ -127,11 +139,27 @@ Field headSkin() {
     head.add(mirrored(ellipsoid({133, 11, -29}, {17, 11.5, 16})), 6); // whisker pads
     head.add(ellipsoid({146, 0, -10}, {9, 11, 10}), 5);
     head.carve(cone({157, 0, -20}, {151, 0, -42}, 0.7, 0.9), 2); // philtrum
-    head.carve(mouthLine(), 2);
+    head.carve(mouthLine(mouthCut), 2);
+    if (mouthCut) head.carve(mouthRoom(), 1);
     openEyes(head);
     head.add(mirrored(ear()), 7);
     head.add(grown(frontalis(), frontalisCover), 6);
     return head.field();
+}
+
+} // namespace
+
+double mouthHeight(double x) {
+    static const Profile height({{76, -41}, {90, -45.5}, {112, -48}, {130, -46}, {142, -42.5}, {152, -38}});
+    return height(x);
+}
+
+Field headSkin() {
+    return head(false);
+}
+
+Field headSkinMouthCut() {
+    return head(true);
 }
 
 } // namespace doghead

@@ -13,6 +13,12 @@ constexpr double eyeRadius = 10.2;
 /// skull, mandible and frontalis().
 Field headSkin();
 
+/// z where the lips meet, for x from the corner of the mouth to the nose's foot.
+double mouthHeight(double x);
+
+/// The same with the mouth cut through from lip to lip, so that it can open.
+Field headSkinMouthCut();
+
 /// The stiff shell in the left ear above its root, wholly inside the skin.
 Field earCartilage();
 
