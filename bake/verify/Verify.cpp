@@ -27,7 +27,9 @@ double lateness(const Table& table) {
     if (table.boundMiss < 0) return table.epsilon;
     const double lacking =
         std::max(0.0, table.record.fitA.coverage) + std::max(0.0, table.record.fitB.coverage);
-    return std::clamp(table.boundMiss * (1 + 1e-12) - lacking, 0.0, table.epsilon);
+    const double late = table.boundMiss - lacking;
+    // What is rounding of the sum claims to be none, and is held to that.
+    return late > 1e-12 * table.boundMiss ? std::min(late * (1 + 1e-12), table.epsilon) : 0;
 }
 
 } // namespace
