@@ -73,6 +73,7 @@ std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const P
         if (distances[i] > 0) free.push_back(distances[i]);
         if (distances[i] > 0 && reported[i]) wrong.push_back(distances[i]);
     }
+    result.poses = static_cast<int>(poses.size());
     result.freePoses = static_cast<int>(free.size());
     if (!free.empty()) result.share = static_cast<double>(wrong.size()) / static_cast<double>(free.size());
     if (!result.coarse()) return result;

@@ -10,7 +10,8 @@ namespace tss {
 struct EarlyContact {
     double atRest = 0; ///< scene units: the surfaces are that far apart at rest, to a tenth; 0: they touch
     bool restReported = false; ///< contact is reported at rest, though the surfaces are apart
-    int freePoses = 0;         ///< of those looked at, where the surfaces are apart
+    int poses = 0;             ///< looked at
+    int freePoses = 0;         ///< of those, where the surfaces are apart
     double share = 0;          ///< of the free ones: contact is reported
     double tolerance =
         0; ///< scene units: one that leaves the joint most of its clearance; 0: none needed or found
@@ -18,6 +19,9 @@ struct EarlyContact {
 
     /// The tolerance is coarse beside the joint's clearance: it is reported early, or sticks.
     bool coarse() const { return restReported || share > 0.1; }
+
+    /// The bodies overlap wherever the joint goes: it cannot leave its rest.
+    bool stuck() const { return atRest == 0 && 20 * freePoses < poses; }
 };
 
 /// Nothing for a pair without a table or a table without a bound.

@@ -74,7 +74,9 @@ void addEarlyContact(Json& json, const SceneModel& scene, const Pair& pair) {
     const std::optional<EarlyContact> early = measureEarlyContact(scene, pair);
     if (!early) return;
     json["clearanceAtRest"] = early->atRest;
-    json["earlyContact"] = {{"freePoses", early->freePoses},
+    json["earlyContact"] = {{"poses", early->poses},
+                            {"freePoses", early->freePoses},
+                            {"stuck", early->stuck()},
                             {"share", early->share},
                             {"atRest", early->restReported},
                             {"coarse", early->coarse()},
@@ -89,6 +91,13 @@ std::string describeEarlyContact(const Json& pair) {
         "  meshes       {} at rest; contact reported at {:.0f} % of {} poses where they do not touch\n",
         atRest > 0 ? fmt::format("{:.4g} apart", atRest) : "touch or overlap",
         100 * early["share"].get<double>(), early["freePoses"].dump());
+    if (early["stuck"].get<bool>())
+        text += fmt::format(
+            "  stuck        the meshes touch or overlap at {} of {} poses. Where B does not lie "
+            "right, move it (tss make\n"
+            "               --b-offset); where they overlap on purpose, as in a socket, bake with "
+            "--at-rest ignore\n",
+            early["poses"].get<int>() - early["freePoses"].get<int>(), early["poses"].get<int>());
     if (!early["coarse"].get<bool>()) return text;
     text += fmt::format("  too coarse   for the clearance of this joint: it {} where nothing touches\n",
                         early["atRest"].get<bool>() ? "sticks at rest," : "is stopped early, or sticks,");

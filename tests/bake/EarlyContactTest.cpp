@@ -12,15 +12,15 @@ using namespace tss::test;
 
 namespace {
 
-/// A block that slides 0.06 above a floor and against a wall at its end.
-SceneModel slidingBlock(double tolerance) {
+/// A block that slides above a floor and against a wall at its end.
+SceneModel slidingBlock(double tolerance, double above = 0.06) {
     SceneModel scene;
     scene.metersPerUnit = 1;
     scene.defaultPrim = "Scene";
     TriangleMesh floor = boxMesh({0, 0, 0}, {3, 1, 1});
     append(floor, boxMesh({2.8, 0, 1}, {3, 1, 2}));
     for (const auto& [name, mesh] :
-         {std::pair("Floor", floor), std::pair("Block", boxMesh({0, 0.2, 1.06}, {0.5, 0.8, 1.5}))}) {
+         {std::pair("Floor", floor), std::pair("Block", boxMesh({0, 0.2, 1 + above}, {0.5, 0.8, 1.5}))}) {
         Body body;
         body.path = std::string("/Scene/") + name;
         body.mesh = mesh;
@@ -38,8 +38,8 @@ SceneModel slidingBlock(double tolerance) {
     return scene;
 }
 
-EarlyContact baked(double tolerance) {
-    SceneModel scene = slidingBlock(tolerance);
+EarlyContact baked(double tolerance, double above = 0.06) {
+    SceneModel scene = slidingBlock(tolerance, above);
     CHECK_FALSE(measureEarlyContact(scene, scene.pairs[0]));
     bake(scene, {});
     const auto measured = measureEarlyContact(scene, scene.pairs[0]);
@@ -62,4 +62,9 @@ TEST_CASE("a tolerance that a joint's clearance cannot bear is told, and one tha
     CHECK_FALSE(fine.coarse());
     CHECK(fine.share <= coarse.shareThen);
     CHECK(fine.tolerance == 0);
+}
+
+TEST_CASE("bodies that overlap wherever the joint goes are told to be stuck") {
+    CHECK(baked(0.02, -0.1).stuck());
+    CHECK_FALSE(baked(0.02).stuck());
 }
