@@ -72,6 +72,7 @@ public:
     Splitter(const Solid& solid, Shared& shared) : solid_(solid), options_(shared.options), shared_(shared) {}
 
     void add(const Patch& patch, double radiusExpected) {
+        if (shared_.poll.stopped()) throw InputError("stopped before the spheres were made");
         const double radius = patch.radius();
         // Not worth a ball of its own while far larger than the balls about it allow.
         if (radiusExpected > 0 && radius > 1.5 * largest(radiusExpected)) return split(patch, radiusExpected);
@@ -102,7 +103,6 @@ private:
                 fmt::format("a tolerance of about {:.4g} takes more than {} patches of a mesh {:.4g} "
                             "in size: expected a coarser one",
                             options_.protrusion, options_.mostPatches, solid_.diagonal()));
-        if (shared_.poll.stopped()) throw InputError("stopped before the spheres were made");
         ++depth_;
         for (const Patch& half : halves(patch)) add(half, radiusExpected);
         --depth_;
