@@ -186,6 +186,19 @@ Hold holdOf(const TriangleMesh& skin, const std::vector<Vec3>& normals, const Ri
     return hold;
 }
 
+/// How far another muscle moves any vertex that it pulls at, where it pulls at skin that is grown into this
+/// one.
+double farthestBeside(const Hold& hold, Hold& other) {
+    double most = 0;
+    bool meets = false;
+    for (std::uint32_t v = 0; v < hold.grown.size(); ++v) {
+        if (!(other.pull[v] > leastPull)) continue;
+        meets = meets || hold.grown[v] > leastPull;
+        most = std::max(most, other.carrier.farthest(v));
+    }
+    return meets ? most : 0;
+}
+
 /// Skin between bones is held by the nearest: what lies beyond another one does not reach it.
 void ownNearest(std::vector<Hold>& holds, std::size_t count, double thickness) {
     for (std::uint32_t v = 0; v < count; ++v) {
@@ -218,19 +231,11 @@ carriedSkin(const TriangleMesh& skin, const std::vector<Vec3>& normals, const Ri
     // What is grown into one muscle is not pulled out of it by the others: their pull fades towards it.
     std::vector<double> grown(count, 0);
     for (Hold& hold : holds) {
-        std::vector<Hold*> meets;
-        for (Hold& other : holds)
-            for (std::uint32_t v = 0; v < count; ++v)
-                if (hold.grown[v] > leastPull && (&other == &hold || other.pull[v] > leastPull)) {
-                    meets.push_back(&other);
-                    break;
-                }
-        if (hold.height.empty())
-            limitSlope(hold.grown, skin, rings, parameters.tether, [&](std::uint32_t v) {
-                double most = 0;
-                for (Hold* other : meets) most = std::max(most, other->carrier.farthest(v));
-                return most;
-            });
+        if (hold.height.empty()) { // a bone's own hold falls off as it is
+            double most = 0;
+            for (Hold& other : holds) most = std::max(most, farthestBeside(hold, other));
+            limitSlope(hold.grown, skin, rings, parameters.tether, [&](std::uint32_t) { return most; });
+        }
         for (std::uint32_t v = 0; v < count; ++v) grown[v] += hold.grown[v];
     }
     std::vector<double> total(count, 0);
