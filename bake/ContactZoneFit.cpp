@@ -119,10 +119,11 @@ private:
             findReach(b_.zone, Side::B, a_.surface, motion_, cells_, tolerance, options_.margin, progress_);
         if (zoneA.empty() || zoneB.empty()) {
             // The poses left are free; what was decided before stays with the inscribed spheres.
-            decided_ = true;
             result_.neverMeet = !hits_;
-            // Spheres of the last level may touch there yet: finer ones of the last zone show that nothing does.
+            // Spheres of the last level may touch there yet: finer ones of the last zone show that nothing
+            // does.
             if (!hits_ && !result_.levels.empty()) return true;
+            decided_ = true;
             finish(std::move(zoneA), std::move(zoneB));
             return false;
         }

@@ -42,6 +42,22 @@ ContactZoneOptions tolerance(double value) {
     return options;
 }
 
+/// A box that slides by 1 over the unit cube.
+Scene slidingOver(TriangleMesh box) {
+    Dof slide;
+    slide.name = "slide";
+    slide.kind = DofKind::Translation;
+    slide.upper = 1;
+    Scene scene{boxMesh({0, 0, 0}, {1, 1, 1}), std::move(box), {}};
+    scene.motion.dofs = {slide};
+    return scene;
+}
+
+void checkApart(const ContactZoneFit& fit, const Motion& motion) {
+    const SphereTree a(fit.a.fit.spheres), b(fit.b.fit.spheres);
+    for (double q = 0; q <= 1; q += 0.01) CHECK(smallestGap(a, b, pose(motion, std::vector{q}), 1) > 0);
+}
+
 } // namespace
 
 TEST_CASE("spheres fine in the contact zone alone miss no contact and claim none beyond their tolerance") {
@@ -88,33 +104,33 @@ TEST_CASE("bodies that never come near need no spheres") {
 
 TEST_CASE("bodies that pass closely without touching get spheres that show it") {
     // 0.03 apart; the reach of patches of the first level does not tell, the spheres do.
-    Scene scene{boxMesh({0, 0, 0}, {1, 1, 1}), boxMesh({-1, 0, 1.03}, {1, 1, 2}), {}};
-    Dof slide;
-    slide.name = "slide";
-    slide.kind = DofKind::Translation;
-    slide.upper = 1;
-    scene.motion.dofs = {slide};
+    const Scene scene = slidingOver(boxMesh({-1, 0, 1.03}, {1, 1, 2}));
     const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.01));
     CHECK(fit.neverMeet);
-    const SphereTree a(fit.a.fit.spheres), b(fit.b.fit.spheres);
-    for (double q = 0; q <= 1; q += 0.01) CHECK(smallestGap(a, b, pose(scene.motion, std::vector{q}), 1) > 0);
+    checkApart(fit, scene.motion);
 }
 
 TEST_CASE("bodies that pass more closely than coarse spheres stick out get finer ones that show it") {
     // 0.0035 apart: spheres of 0.004 touch, patches of the next level are known to be out of reach.
-    Scene scene{boxMesh({0, 0, 0}, {1, 1, 1}), boxMesh({0.8, 0.48, 1.0035}, {2.6, 0.52, 2}), {}};
-    Dof slide;
-    slide.name = "slide";
-    slide.kind = DofKind::Translation;
-    slide.upper = 1;
-    scene.motion.dofs = {slide};
+    const Scene scene = slidingOver(boxMesh({0.8, 0.48, 1.0035}, {2.6, 0.52, 2}));
     const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.0005));
     CHECK(fit.neverMeet);
     REQUIRE(!fit.levels.empty());
     CHECK(fit.levels.front().tolerance > 0.003);
     CHECK(fit.a.fit.protrusion < 0.003);
-    const SphereTree a(fit.a.fit.spheres), b(fit.b.fit.spheres);
-    for (double q = 0; q <= 1; q += 0.01) CHECK(smallestGap(a, b, pose(scene.motion, std::vector{q}), 1) > 0);
+    CHECK(fit.a.fit.note.empty());
+    checkApart(fit, scene.motion);
+}
+
+TEST_CASE("where a limit on spheres keeps bodies that never meet from being told apart, that is said") {
+    const Scene scene = slidingOver(boxMesh({0.8, 0.48, 1.0035}, {2.6, 0.52, 2}));
+    ContactZoneOptions options = tolerance(0.0005);
+    const ContactZoneLevel first = fitContactZone(scene.a, scene.b, scene.motion, options).levels.front();
+    options.maxSpheres = static_cast<int>(std::max(first.spheresA, first.spheresB));
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, options);
+    CHECK(fit.neverMeet);
+    CHECK(fit.a.fit.protrusion > 0.002);
+    CHECK(fit.a.fit.note.find("spheres do not suffice") != std::string::npos);
 }
 
 TEST_CASE("a limit on spheres keeps the finest level that fits and says so") {
