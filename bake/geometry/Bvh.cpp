@@ -27,7 +27,8 @@ struct Split {
 
 class Builder {
 public:
-    Builder(std::span<const Box> boxes, std::uint32_t leafSize) : boxes_(boxes), leafSize_(leafSize) {
+    Builder(std::span<const Box> boxes, std::uint32_t leafSize, const std::function<bool()>& stop)
+        : boxes_(boxes), leafSize_(leafSize), stop_(stop) {
         bvh_.items.resize(boxes.size());
         std::iota(bvh_.items.begin(), bvh_.items.end(), 0u);
         bvh_.nodes.reserve(boxes.size());
@@ -48,7 +49,7 @@ private:
         }
         bvh_.nodes[index].lower = box.min();
         bvh_.nodes[index].upper = box.max();
-        if (count <= leafSize_ || depth >= deepest) {
+        if (count <= leafSize_ || depth >= deepest || (stop_ && stop_())) {
             bvh_.nodes[index].first = first;
             bvh_.nodes[index].count = count;
             return;
@@ -117,14 +118,15 @@ private:
 
     std::span<const Box> boxes_;
     std::uint32_t leafSize_;
+    const std::function<bool()>& stop_;
     Bvh bvh_;
 };
 
 } // namespace
 
-Bvh buildBvh(std::span<const Box> boxes, std::uint32_t leafSize) {
+Bvh buildBvh(std::span<const Box> boxes, std::uint32_t leafSize, const std::function<bool()>& stop) {
     if (boxes.empty()) return {};
-    return Builder(boxes, std::max(leafSize, 1u)).build();
+    return Builder(boxes, std::max(leafSize, 1u), stop).build();
 }
 
 } // namespace tss

@@ -26,7 +26,7 @@ struct Problem {
     const MeshQuery& other;
     const MotionRates& rates;
     Bvh tree;
-    std::vector<Ball> balls; ///< one a node; a leaf is one patch
+    std::vector<Ball> balls; ///< one a node; a leaf is one patch, or many where there was no time to divide
     double resolution;       ///< the motion in a cell that is small enough to settle a patch
     double margin;
     std::unique_ptr<std::atomic<char>[]> reached; ///< one a node: all below it is
@@ -41,7 +41,7 @@ void buildTree(Problem& p, std::span<const Patch> patches) {
         Eigen::AlignedBox3d box(patch.corners[0]);
         boxes.push_back(box.extend(patch.corners[1]).extend(patch.corners[2]));
     }
-    p.tree = buildBvh(boxes, 1);
+    p.tree = buildBvh(boxes, 1, [&] { return p.poll.stopped(); });
     p.parents.resize(p.tree.nodes.size(), 0);
     p.reached = std::make_unique<std::atomic<char>[]>(p.tree.nodes.size());
     for (std::uint32_t n = 0; n < p.tree.nodes.size(); ++n) {
@@ -248,7 +248,8 @@ std::vector<Patch> findReach(std::span<const Patch> patches, Side side, const Me
         std::vector<Patch> fine;
         const bool whole = std::all_of(now.begin(), now.end(),
                                        [&](const Patch& patch) { return halveTo(patch, step, fine); });
-        if (!whole) break; // larger patches than asked for keep more of the surface than need be
+        // Larger patches than asked for keep more of the surface than need be.
+        if (!whole || !report(progress, "reach", size / step)) break;
         now = reachedInBudget(std::move(fine), side, other, rates, cells, step, margin, poll);
         if (!report(progress, "reach", size / step) || now.empty()) break;
         if (step <= size) break;

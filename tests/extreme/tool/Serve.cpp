@@ -63,7 +63,10 @@ private:
         const Table& table = *pair.table;
         // With an epsilon and pairs that overlap at rest the bake says that how late contact may be reported
         // is not known.
-        const bool told = table.epsilon > table.gapDepth && !table.restGaps.empty();
+        bool told = false;
+        for (const PairReport& report : out_.reports)
+            for (const std::string& note : report.notes)
+                told = told || (report.path == pair.path && note.find("is not known") != std::string::npos);
         if (table.certified &&
             !((table.boundMiss >= 0 || told) && table.boundEarly >= 0 && std::isfinite(table.epsilon)))
             trouble("{}: certified, and states no bound", pair.path);
@@ -112,7 +115,7 @@ private:
     /// Where the meshes go through each other the table must say contact. Not asked of pairs that overlap at
     /// rest and have an exception for it.
     void compareMeshes(const Pair& pair, const Table& table) {
-        if (!table.certified || table.boundMiss > 0) return;
+        if (!table.certified || table.boundMiss != 0) return; // nothing is claimed
         if (!table.restGaps.empty() || table.method.find("none") != std::string::npos) return;
         const auto setting = pair.settings.find("at-rest");
         if (setting != pair.settings.end() && setting->second == "ignore") return;
