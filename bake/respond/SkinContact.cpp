@@ -162,6 +162,7 @@ SkinContact rowContact(const SkinRig& rig, const SkinScene& scene, std::size_t i
     contact.normal = pushDirection(smooth, x - hit.point, row.radius);
     for (std::uint32_t& v : contact.vertex) v = row.vertex;
     contact.weight[0] = 1;
+    contact.vertices = 1;
     contact.distance = contact.normal.dot(rig.rest[row.vertex] - hit.point);
     return contact;
 }

@@ -36,6 +36,7 @@ void placeMuscles(const SkinRig& rig, std::span<const double> activations, std::
 struct SkinContact {
     std::uint32_t vertex[3] = {0, 0, 0};
     double weight[3] = {0, 0, 0}; ///< sum 1
+    int vertices = 3;             ///< of the three, from the first on; the others weigh 0
     Vec3 normal = Vec3::Zero();   ///< unit; zero: nothing within reach
     double distance = 0;          ///< of the rest places from the plane: normal . sum weight_k rest_k - level
     double trust = 1;             ///< 0..1: 1 where skin and surface face the same way, falling smoothly to 0

@@ -121,7 +121,7 @@ void SkinResponse::findContacts() {
         const double radius = i < rows ? rig_->rows[i].radius : rig_->pokes[i - rows].radius;
         SheetPlane& plane = planes_[i];
         Vec3 predicted = Vec3::Zero();
-        for (int k = 0; k < 3; ++k)
+        for (int k = 0; k < contact.vertices; ++k)
             predicted +=
                 contact.weight[k] * (scene_.predicted[contact.vertex[k]] - rig_->rest[contact.vertex[k]]);
         const double distance = contact.distance + contact.normal.dot(predicted);
@@ -137,10 +137,13 @@ void SkinResponse::findContacts() {
             plane.weight[k] = moves ? static_cast<float>(contact.weight[k]) : 0.0f;
             bound -= contact.weight[k] * contact.normal.dot(scene_.drag[v].head<3>().cast<double>());
         }
+        plane.vertices = contact.vertices;
         plane.bound = static_cast<float>(bound);
         // The sheet is solved as it lies at rest, wherever bones have turned it.
+        Vec3 asAtRest = contact.normal;
+        if (!scene_.turn.none()) asAtRest = scene_.turn.of(cornersOf(plane, patch)).inverse() * asAtRest;
         Move normal = Move::Zero();
-        normal.head<3>() = (scene_.turn.of(cornersOf(plane, patch)).inverse() * contact.normal).cast<float>();
+        normal.head<3>() = asAtRest.cast<float>();
         // A push carried over to a normal that has turned away would cycle.
         if (normal.dot(plane.normal) < 0.5f) plane.multiplier = 0;
         plane.normal = normal;

@@ -92,7 +92,7 @@ Touched touch(SkinRig& rig, const TriangleMesh& skin, const rig::Rings& rings, c
         for (const std::uint32_t w : rings.ring[v]) keep[w] = true;
     }
     touched.indexOf.assign(skin.vertices.size(), std::numeric_limits<std::uint32_t>::max());
-    for (std::uint32_t v = 0; v < skin.vertices.size(); ++v) {
+    for (const std::uint32_t v : rig::alongCurve(skin.vertices)) {
         if (!keep[v]) continue;
         touched.indexOf[v] = static_cast<std::uint32_t>(rig.vertices.size());
         rig.vertices.push_back(v);
@@ -125,6 +125,9 @@ void addTriangles(SkinRig& rig, const TriangleMesh& skin, const Touched& touched
         if (inside == 3) rig.triangles.push_back(local);
         rig.normalTriangles.push_back(local);
     }
+    const auto byFirstVertex = [](const Tri& a, const Tri& b) { return a.minCoeff() < b.minCoeff(); };
+    std::stable_sort(rig.triangles.begin(), rig.triangles.end(), byFirstVertex);
+    std::stable_sort(rig.normalTriangles.begin(), rig.normalTriangles.end(), byFirstVertex);
 }
 
 /// Mass of a vertex from its area, 1 on average, so that the sheet behaves alike on meshes of uneven density.

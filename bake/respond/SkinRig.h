@@ -91,7 +91,7 @@ struct SkinRig {
     double size = 0;   ///< diagonal of the skin's bounds, scene units
     double travel = 0; ///< of the table
 
-    std::vector<std::uint32_t> vertices;     ///< rising; indices into the skin mesh
+    std::vector<std::uint32_t> vertices;     ///< indices into the skin mesh, near ones beside each other
     std::vector<Vec3> rest;                  ///< places of the touched vertices
     std::vector<Vec3> restNormals;           ///< unit
     SkinSheet sheet;                         ///< of the touched vertices; a fixed rim has inverse mass 0

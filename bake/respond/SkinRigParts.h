@@ -4,6 +4,10 @@
 // The steps of makeSkinRig(), each in its own source.
 namespace tss::rig {
 
+/// The indices of some points in the order of a curve that fills space (Morton's), so that what is near stays
+/// near in memory.
+std::vector<std::uint32_t> alongCurve(const std::vector<Vec3>& points);
+
 /// Neighbours of each vertex of a mesh, rising, and those of them along open or non-manifold edges.
 struct Rings {
     std::vector<std::vector<std::uint32_t>> ring, rim;

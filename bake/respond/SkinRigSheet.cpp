@@ -1,7 +1,6 @@
 #include "bake/respond/SkinRigParts.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -13,25 +12,6 @@ namespace {
 /// Share of a constraint's own inverse mass that its compliance never goes below: with less the multipliers
 /// of a sheet that is held in more ways than it can move creep (METHOD 6.3).
 constexpr double complianceFloor = 0.01;
-
-/// Sorts constraints into groups that share no vertex, each group in the order given: neighbours in the list
-/// do not wait for each other's result, which doubles the speed of a sweep. vertices(c, visit) visits those
-/// of c.
-template <class Constraint, class Vertices>
-void sortByColour(std::vector<Constraint>& constraints, std::size_t vertexCount, const Vertices& vertices) {
-    constexpr int colours = 64;
-    std::vector<std::uint64_t> taken(vertexCount, 0);
-    std::vector<std::vector<Constraint>> groups(colours);
-    for (const Constraint& c : constraints) {
-        std::uint64_t used = 0;
-        vertices(c, [&](std::uint32_t v) { used |= taken[v]; });
-        const int colour = std::min(std::countr_one(used), colours - 1);
-        vertices(c, [&](std::uint32_t v) { taken[v] |= std::uint64_t{1} << colour; });
-        groups[colour].push_back(c);
-    }
-    constraints.clear();
-    for (const auto& group : groups) constraints.insert(constraints.end(), group.begin(), group.end());
-}
 
 } // namespace
 
@@ -115,8 +95,6 @@ void addSheet(SkinRig& rig, const Rings& rings, const std::vector<std::uint32_t>
             edge.j = j;
             edge.compliance = compliance(rig.parameters.stretchCompliance, mass);
             edge.inverse = 1 / (mass + edge.compliance);
-            edge.massI = w[i];
-            edge.massJ = w[j];
             sheet.edges.push_back(edge);
         }
         // A rim bends along itself; where rims meet there is no Laplacian to speak of, and the vertices
@@ -143,23 +121,12 @@ void addSheet(SkinRig& rig, const Rings& rings, const std::vector<std::uint32_t>
         bend.first = first;
         bend.last = static_cast<std::uint32_t>(sheet.ring.size());
         float mass = w[i];
-        for (std::uint32_t k = first; k < bend.last; ++k) {
-            sheet.ringMass.push_back(w[sheet.ring[k]] * sheet.ringShare[k]);
-            mass += sheet.ringMass[k] * sheet.ringShare[k];
-        }
+        for (std::uint32_t k = first; k < bend.last; ++k)
+            mass += w[sheet.ring[k]] * sheet.ringShare[k] * sheet.ringShare[k];
         bend.compliance = compliance(rig.parameters.bendCompliance, mass);
         bend.inverse = 1 / (mass + bend.compliance);
-        bend.mass = w[i];
         sheet.bends.push_back(bend);
     }
-    sortByColour(sheet.edges, count, [](const SheetEdge& e, const auto& visit) {
-        visit(e.i);
-        visit(e.j);
-    });
-    sortByColour(sheet.bends, count, [&](const SheetBend& b, const auto& visit) {
-        visit(b.centre);
-        for (std::uint32_t k = b.first; k < b.last; ++k) visit(sheet.ring[k]);
-    });
 }
 
 } // namespace tss::rig

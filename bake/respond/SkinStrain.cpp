@@ -25,7 +25,7 @@ void index(std::size_t vertices, std::size_t count, int corners, const auto& cor
         for (int k = 0; k < corners; ++k) of[next[corner(e, k)]++] = static_cast<std::uint32_t>(e);
 }
 
-Vec3 areaNormal(std::span<const Vec3> x, const Tri& t) {
+inline Vec3 areaNormal(std::span<const Vec3> x, const Tri& t) {
     return (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
 }
 
@@ -76,12 +76,14 @@ void SkinStrain::touch(std::uint32_t vertex) {
 /// which |d + s m| is within the limits. s = 0 always is.
 bool SkinStrain::relaxLink(const SkinLink& link, std::span<const Vec3> rest, const SkinTurn& turn,
                            std::span<Vec3> positions) const {
+    constexpr double low2 = shortestEdge * shortestEdge, high2 = longestEdge * longestEdge;
+    constexpr double allowed2 = (1 - slack) * (1 - slack), beyond2 = (1 + slack) * (1 + slack);
     const double now = (positions[link.i] - positions[link.j]).squaredNorm();
-    const double low = shortestEdge * shortestEdge * link.squared,
-                 high = longestEdge * longestEdge * link.squared;
-    if (now >= low && now <= high) return false;
+    if (now >= allowed2 * low2 * link.squared && now <= beyond2 * high2 * link.squared) return false;
+    const double low = low2 * link.squared, high = high2 * link.squared;
     const std::uint32_t ends[] = {link.i, link.j};
-    const Vec3 d = turn.of(ends) * (rest[link.i] - rest[link.j]);
+    Vec3 d = rest[link.i] - rest[link.j];
+    if (!turn.none()) d = turn.of(ends) * d;
     const Vec3 m = positions[link.i] - positions[link.j] - d;
     const double mm = m.squaredNorm(), md = m.dot(d), limit = now > high ? high : low;
     // mm s^2 + 2 md s + dd - limit = 0; too long: the root from inside, too short: the first one met from 0.
@@ -100,7 +102,8 @@ bool SkinStrain::relaxTriangle(std::uint32_t index, std::span<const Vec3> rest, 
     const std::uint32_t corners[] = {static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
                                      static_cast<std::uint32_t>(t[2])};
     const Eigen::Quaterniond turned = turn.of(corners);
-    const Vec3 before = turned * weave_.normals[index];
+    Vec3 before = weave_.normals[index];
+    if (!turn.none()) before = turned * before;
     const Vec3 now = areaNormal(positions, t);
     const double along = now.dot(before);
     if (along > 0 && along * along >= leastCosine * leastCosine * now.squaredNorm() * before.squaredNorm())

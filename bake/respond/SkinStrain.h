@@ -45,6 +45,7 @@ SkinWeave makeWeave(const std::vector<Vec3>& rest, const std::vector<Tri>& trian
 class SkinStrain {
 public:
     static constexpr double shortestEdge = 0.65, longestEdge = 1.5;
+    static constexpr double slack = 1e-3; ///< of a limit, that an edge may be beyond it: it is only neared
 
     explicit SkinStrain(const SkinWeave& weave);
 

@@ -1,0 +1,339 @@
+#include "bake/table/VectorTargets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "bake/respond/SheetKernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "bake/respond/SheetKernels.h"
+
+#include <algorithm>
+
+HWY_BEFORE_NAMESPACE();
+namespace tss {
+namespace HWY_NAMESPACE {
+namespace {
+
+// One vertex in 128 bits, two side by side where vectors are wider. Wider still is not worth it: each vertex
+// is a load of its own.
+#undef TSS_SHEET_PAIRS
+#if HWY_TARGET == HWY_SCALAR
+#define TSS_SHEET_PAIRS 0
+using V = Eigen::Array4f;
+constexpr std::size_t lanes = 4;
+
+HWY_INLINE V load(const float* from) {
+    return V::Map(from);
+}
+HWY_INLINE void store(const V& value, float* to) {
+    V::Map(to) = value;
+}
+HWY_INLINE V all(float x) {
+    return V::Constant(x);
+}
+HWY_INLINE V mulAdd(const V& a, const V& b, const V& c) {
+    return a * b + c;
+}
+HWY_INLINE V negMulAdd(const V& a, const V& b, const V& c) {
+    return c - a * b;
+}
+template <int k> HWY_INLINE V broadcast(const V& value) {
+    return V::Constant(value[k]);
+}
+/// Sum of the lanes of each of four vertices, a lane each.
+HWY_INLINE V sums(const V& a, const V& b, const V& c, const V& d) {
+    return {a.sum(), b.sum(), c.sum(), d.sum()};
+}
+#else
+namespace hn = hwy::HWY_NAMESPACE;
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+#define TSS_SHEET_PAIRS 1
+constexpr std::size_t lanes = 8;
+#else
+#define TSS_SHEET_PAIRS 0
+constexpr std::size_t lanes = 4;
+#endif
+using One = hn::FixedTag<float, 4>;
+using Floats = hn::FixedTag<float, lanes>;
+using V = hn::Vec<Floats>;
+
+HWY_INLINE V load(const float* from) {
+    return hn::LoadU(Floats(), from);
+}
+HWY_INLINE void store(V value, float* to) {
+    hn::StoreU(value, Floats(), to);
+}
+HWY_INLINE V all(float x) {
+    return hn::Set(Floats(), x);
+}
+HWY_INLINE V mulAdd(V a, V b, V c) {
+    return hn::MulAdd(a, b, c);
+}
+HWY_INLINE V negMulAdd(V a, V b, V c) {
+    return hn::NegMulAdd(a, b, c);
+}
+/// Of each half its own lane.
+template <int k> HWY_INLINE V broadcast(V value) {
+    return hn::Broadcast<k>(value);
+}
+HWY_INLINE V sums(V a, V b, V c, V d) {
+    const Floats f;
+    const hn::Repartition<double, Floats> pairs;
+    const V ab = hn::Add(hn::InterleaveLower(f, a, b), hn::InterleaveUpper(f, a, b));
+    const V cd = hn::Add(hn::InterleaveLower(f, c, d), hn::InterleaveUpper(f, c, d));
+    const auto x = hn::BitCast(pairs, ab), y = hn::BitCast(pairs, cd);
+    return hn::Add(hn::BitCast(f, hn::InterleaveLower(pairs, x, y)),
+                   hn::BitCast(f, hn::InterleaveUpper(pairs, x, y)));
+}
+#endif
+
+/// One vertex, or beside it the one `stride` later in the list.
+HWY_INLINE V gather(const float* u, const std::uint32_t* list, std::size_t stride) {
+#if TSS_SHEET_PAIRS
+    return hn::Combine(Floats(), hn::Load(One(), u + 4 * list[stride]), hn::Load(One(), u + 4 * list[0]));
+#else
+    (void)stride;
+    return load(u + 4 * list[0]);
+#endif
+}
+HWY_INLINE void scatter(const V& value, float* u, const std::uint32_t* list, std::size_t stride) {
+#if TSS_SHEET_PAIRS
+    hn::Store(hn::LowerHalf(One(), value), One(), u + 4 * list[0]);
+    hn::Store(hn::UpperHalf(One(), value), One(), u + 4 * list[stride]);
+#else
+    (void)stride;
+    store(value, u + 4 * list[0]);
+#endif
+}
+
+double sum(const V& values) {
+    alignas(32) float list[lanes];
+    store(values, list);
+    double result = 0;
+    for (const float x : list) result += static_cast<double>(x);
+    return result;
+}
+
+/// The lanes of four edges, or of four in each half.
+struct Edges {
+    V ui[4], uj[4], direction[4];
+};
+
+template <int k> HWY_INLINE V read(const EdgePack& pack, std::size_t lane, const float* u, Edges& e) {
+    e.ui[k] = gather(u, pack.i + lane + k, 4);
+    e.uj[k] = gather(u, pack.j + lane + k, 4);
+    e.direction[k] = load(pack.direction[2 * k + lane / 4]);
+    return e.direction[k] * (e.ui[k] - e.uj[k]);
+}
+
+template <int k>
+HWY_INLINE void move(const EdgePack& pack, std::size_t lane, const V& step, float* u, const Edges& e) {
+    const V along = broadcast<k>(step) * e.direction[k];
+    scatter(mulAdd(broadcast<3>(e.ui[k]), along, e.ui[k]), u, pack.i + lane + k, 4);
+    scatter(negMulAdd(broadcast<3>(e.uj[k]), along, e.uj[k]), u, pack.j + lane + k, 4);
+}
+
+/// Returns compliance m^2 of each edge.
+HWY_INLINE V stretch(const EdgePack& pack, std::size_t lane, float* multipliers, float* u) {
+    Edges e;
+    const V a = read<0>(pack, lane, u, e), b = read<1>(pack, lane, u, e), c = read<2>(pack, lane, u, e),
+            d = read<3>(pack, lane, u, e);
+    const V m = load(multipliers + lane), compliance = load(pack.compliance + lane);
+    const V step = negMulAdd(mulAdd(compliance, m, sums(a, b, c, d)), load(pack.inverse + lane), all(0));
+    const V now = m + step;
+    store(now, multipliers + lane);
+    move<0>(pack, lane, step, u, e);
+    move<1>(pack, lane, step, u, e);
+    move<2>(pack, lane, step, u, e);
+    move<3>(pack, lane, step, u, e);
+    return compliance * now * now;
+}
+
+/// The same of a bend, or of two.
+HWY_INLINE V bend(const PackedSheet& sheet, const BendPack& pack, std::size_t lane, float* multipliers,
+                  float* u) {
+    const std::uint32_t* ring = sheet.ring.data() + pack.first + lane / 4;
+    const std::uint32_t* end = ring + 2 * pack.size;
+    V sum = all(0);
+    for (const std::uint32_t* v = ring; v != end; v += 2) sum = sum + gather(u, v, 1);
+    const std::uint32_t* centre = pack.centre + lane / 4;
+    const V share = all(1.0f / static_cast<float>(pack.size)), at = gather(u, centre, 1);
+    const V m = load(multipliers + lane), compliance = load(pack.compliance + lane);
+    // The fourth lane of `inverse` is 0, whatever the inverse masses came to.
+    const V step =
+        negMulAdd(mulAdd(compliance, m, negMulAdd(share, sum, at)), load(pack.inverse + lane), all(0));
+    const V now = m + step;
+    store(now, multipliers + lane);
+    scatter(mulAdd(broadcast<3>(at), step, at), u, centre, 1);
+    const V back = share * step;
+    for (const std::uint32_t* v = ring; v != end; v += 2) {
+        const V x = gather(u, v, 1);
+        scatter(negMulAdd(broadcast<3>(x), back, x), u, v, 1);
+    }
+    return compliance * now * now;
+}
+
+HWY_INLINE double bendRim(const RimBend& bend, Move& multiplier, Move* u) {
+    Move &centre = u[bend.centre], &a = u[bend.neighbour[0]], &b = u[bend.neighbour[1]];
+    Move step = -bend.inverse *
+                (centre - bend.share[0] * a - bend.share[1] * b + bend.compliance * multiplier);
+    step[3] = 0;
+    multiplier += step;
+    centre += centre[3] * step;
+    a -= (a[3] * bend.share[0]) * step;
+    b -= (b[3] * bend.share[1]) * step;
+    return static_cast<double>(bend.compliance * multiplier.squaredNorm());
+}
+
+void displace(const PackedSheet& sheet, const Move* reference, SheetState& s) {
+    std::fill(s.u.begin(), s.u.end(), Move::Zero());
+    float* u = s.u.data()->data();
+    for (std::size_t p = 0; p < sheet.edges.size(); ++p)
+        for (std::size_t lane = 0; lane < 8; lane += lanes) {
+            const EdgePack& pack = sheet.edges[p];
+            const V m = load(&s.stretch[8 * p + lane]);
+            const auto add = [&](const V& along, std::size_t k) {
+                scatter(gather(u, pack.i + lane + k, 4) + along, u, pack.i + lane + k, 4);
+                scatter(gather(u, pack.j + lane + k, 4) - along, u, pack.j + lane + k, 4);
+            };
+            add(broadcast<0>(m) * load(pack.direction[lane / 4]), 0);
+            add(broadcast<1>(m) * load(pack.direction[2 + lane / 4]), 1);
+            add(broadcast<2>(m) * load(pack.direction[4 + lane / 4]), 2);
+            add(broadcast<3>(m) * load(pack.direction[6 + lane / 4]), 3);
+        }
+    for (std::size_t p = 0; p < sheet.bends.size(); ++p)
+        for (std::size_t lane = 0; lane < 8; lane += lanes) {
+            const BendPack& pack = sheet.bends[p];
+            const V m = load(&s.bend[8 * p + lane]);
+            const std::uint32_t* centre = pack.centre + lane / 4;
+            scatter(gather(u, centre, 1) + m, u, centre, 1);
+            const V back = all(1.0f / static_cast<float>(pack.size)) * m;
+            const std::uint32_t* ring = sheet.ring.data() + pack.first + lane / 4;
+            for (const std::uint32_t* v = ring; v != ring + 2 * pack.size; v += 2)
+                scatter(gather(u, v, 1) - back, u, v, 1);
+        }
+    for (std::size_t r = 0; r < sheet.rims.size(); ++r) {
+        const RimBend& bend = sheet.rims[r];
+        s.u[bend.centre] += s.rim[r];
+        for (int k = 0; k < 2; ++k) s.u[bend.neighbour[k]] -= bend.share[k] * s.rim[r];
+    }
+    for (std::size_t v = 0; v < sheet.vertexCount(); ++v) {
+        const float w = sheet.inverseMass[v];
+        s.u[v] = reference[v] + w * s.u[v];
+        s.u[v][3] = w;
+    }
+}
+
+void sweepTo(const PackedSheet& sheet, SheetState& s) {
+    float* u = s.u.data()->data();
+    SheetBlock from;
+    for (const SheetBlock& to : sheet.blocks) {
+        for (std::size_t p = from.edges; p < to.edges; ++p)
+            for (std::size_t lane = 0; lane < 8; lane += lanes)
+                stretch(sheet.edges[p], lane, &s.stretch[8 * p], u);
+        for (std::size_t p = from.bends; p < to.bends; ++p)
+            for (std::size_t lane = 0; lane < 8; lane += lanes)
+                bend(sheet, sheet.bends[p], lane, &s.bend[8 * p], u);
+        for (std::size_t r = from.rims; r < to.rims; ++r) bendRim(sheet.rims[r], s.rim[r], s.u.data());
+        from = to;
+    }
+}
+
+double sweepFro(const PackedSheet& sheet, SheetState& s) {
+    float* u = s.u.data()->data();
+    double energy = 0;
+    for (std::size_t b = sheet.blocks.size(); b-- > 0;) {
+        const SheetBlock& to = sheet.blocks[b];
+        const SheetBlock from = b > 0 ? sheet.blocks[b - 1] : SheetBlock{};
+        for (std::size_t r = to.rims; r-- > from.rims;)
+            energy += bendRim(sheet.rims[r], s.rim[r], s.u.data());
+        V energies = all(0); // of a block in floats
+        for (std::size_t p = to.bends; p-- > from.bends;)
+            for (std::size_t lane = 8; lane > 0;) {
+                lane -= lanes;
+                energies = energies + bend(sheet, sheet.bends[p], lane, &s.bend[8 * p], u);
+            }
+        for (std::size_t p = to.edges; p-- > from.edges;)
+            for (std::size_t lane = 8; lane > 0;) {
+                lane -= lanes;
+                energies = energies + stretch(sheet.edges[p], lane, &s.stretch[8 * p], u);
+            }
+        energy += sum(energies);
+    }
+    return energy / 2;
+}
+
+double strainEnergy(const PackedSheet& sheet, const SheetState& s) {
+    double energy = 0;
+    const auto add = [&](const float* multipliers, const float* compliances) {
+        V energies = all(0);
+        for (std::size_t lane = 0; lane < 8; lane += lanes) {
+            const V m = load(multipliers + lane);
+            energies = energies + load(compliances + lane) * m * m;
+        }
+        energy += sum(energies);
+    };
+    for (std::size_t p = 0; p < sheet.edges.size(); ++p) add(&s.stretch[8 * p], sheet.edges[p].compliance);
+    for (std::size_t p = 0; p < sheet.bends.size(); ++p) add(&s.bend[8 * p], sheet.bends[p].compliance);
+    for (std::size_t r = 0; r < sheet.rims.size(); ++r)
+        energy += static_cast<double>(sheet.rims[r].compliance * s.rim[r].squaredNorm());
+    return energy / 2;
+}
+
+SheetMeasure measure(const PackedSheet& sheet, const Move* reference, const Move* before, const Move* u) {
+    constexpr std::size_t block = 256; // in floats, then in doubles
+    SheetMeasure result;
+    for (std::size_t v = 0; v < sheet.vertexCount();) {
+        Move energies = Move::Zero(), change = Move::Zero();
+        for (const std::size_t end = std::min(v + block, sheet.vertexCount()); v < end; ++v) {
+            const Move moved = u[v] - reference[v];
+            change = change.cwiseMax((u[v] - before[v]).cwiseAbs());
+            energies += (sheet.mass[v] * moved).cwiseProduct(0.5f * moved + reference[v]);
+        }
+        for (int k = 0; k < 3; ++k) { // the fourth lane is no length
+            result.dual += static_cast<double>(energies[k]);
+            result.change = std::max(result.change, change[k]);
+        }
+    }
+    return result;
+}
+
+void extrapolate(float momentum, float* now, float* before, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float x = now[i];
+        now[i] += momentum * (x - before[i]);
+        before[i] = x;
+    }
+}
+
+constexpr SheetKernels kernels{displace, sweepTo, sweepFro, strainEnergy, measure, extrapolate};
+
+const SheetKernels* choose() { return &kernels; }
+
+} // namespace
+} // namespace HWY_NAMESPACE
+} // namespace tss
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tss {
+
+SheetState::SheetState(const PackedSheet& sheet)
+    : u(sheet.vertexCount() + 1, Move::Zero()), stretch(8 * sheet.edges.size(), 0),
+      bend(8 * sheet.bends.size(), 0), rim(sheet.rims.size(), Move::Zero()) {}
+
+namespace {
+
+const SheetKernels* kernelsFor(KernelTarget target) {
+    TSS_TARGETS(choose())
+    (void)target;
+    return HWY_STATIC_DISPATCH(choose)();
+}
+
+} // namespace
+
+const SheetKernels& sheetKernels(KernelTarget target) {
+    return *kernelsFor(target == KernelTarget::Best ? bestTarget() : target);
+}
+
+} // namespace tss
+#endif

@@ -1,0 +1,171 @@
+#include "bake/respond/SheetPatch.h"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <utility>
+
+namespace tss {
+namespace {
+
+/// Vertices of a block: 16 kB of displacements, half of a small nearest cache.
+constexpr std::uint32_t blockSize = 1024;
+
+/// The constraints of a block in groups that share no vertex, so that they can be taken at once, and that
+/// neighbours in the list do not wait for each other's result.
+template <class Constraint> class Colours {
+public:
+    explicit Colours(std::size_t vertexCount) : taken_(vertexCount, 0) {}
+
+    /// vertices(visit) visits those of the constraint.
+    template <class Vertices> void add(const Constraint& c, const Vertices& vertices) {
+        std::uint64_t used = 0;
+        vertices([&](std::uint32_t v) { used |= taken_[v]; });
+        const auto colour = static_cast<std::size_t>(std::countr_one(used));
+        if (groups_.size() < 64) groups_.resize(64);
+        if (colour == 64) return groups_.push_back({c}); // alone, it shares nothing
+        vertices([&](std::uint32_t v) {
+            taken_[v] |= std::uint64_t{1} << colour;
+            touched_.push_back(v);
+        });
+        groups_[colour].push_back(c);
+    }
+
+    /// Hands out the groups, and starts anew.
+    std::vector<std::vector<Constraint>> take() {
+        for (const std::uint32_t v : touched_) taken_[v] = 0;
+        touched_.clear();
+        return std::exchange(groups_, {});
+    }
+
+private:
+    std::vector<std::uint64_t> taken_; ///< colours of each vertex
+    std::vector<std::uint32_t> touched_;
+    std::vector<std::vector<Constraint>> groups_;
+};
+
+class Packer {
+public:
+    Packer(const SkinSheet& whole, const std::vector<bool>& inside) : whole_(whole), inside_(inside) {
+        const auto count = static_cast<std::uint32_t>(whole.inverseMass.size());
+        indexOf_.resize(count, 0);
+        for (std::uint32_t v = 0; v < count; ++v) {
+            if (!inside[v]) continue;
+            indexOf_[v] = static_cast<std::uint32_t>(patch_.vertices.size());
+            patch_.vertices.push_back(v);
+            const float w = whole.inverseMass[v];
+            patch_.sheet.inverseMass.push_back(w);
+            patch_.sheet.mass.push_back(w > 0 ? 1 / w : 0);
+        }
+        past_ = static_cast<std::uint32_t>(patch_.vertices.size());
+        patch_.sheet.inverseMass.push_back(0);
+        patch_.sheet.mass.push_back(0);
+    }
+
+    SheetPatch pack() {
+        const std::size_t blocks = (past_ + blockSize - 1) / blockSize;
+        std::vector<std::vector<SheetEdge>> edges(blocks);
+        std::vector<std::vector<SheetBend>> bends(blocks);
+        for (const SheetEdge& e : whole_.edges)
+            if (inside_[e.i] && inside_[e.j])
+                edges[std::min(indexOf_[e.i], indexOf_[e.j]) / blockSize].push_back(e);
+        for (const SheetBend& b : whole_.bends) {
+            bool inside = inside_[b.centre];
+            for (std::uint32_t k = b.first; k < b.last; ++k) inside = inside && inside_[whole_.ring[k]];
+            if (inside) bends[indexOf_[b.centre] / blockSize].push_back(b);
+        }
+        Colours<SheetEdge> edgeColours(past_);
+        Colours<SheetBend> bendColours(past_);
+        for (std::size_t block = 0; block < blocks; ++block) {
+            for (const SheetEdge& e : edges[block])
+                edgeColours.add(e, [&](const auto& visit) { visit(indexOf_[e.i]), visit(indexOf_[e.j]); });
+            for (const auto& group : edgeColours.take()) addEdges(group);
+            for (const SheetBend& b : bends[block])
+                bendColours.add(b, [&](const auto& visit) {
+                    visit(indexOf_[b.centre]);
+                    for (std::uint32_t k = b.first; k < b.last; ++k) visit(indexOf_[whole_.ring[k]]);
+                });
+            for (const auto& group : bendColours.take()) addBends(group);
+            patch_.sheet.blocks.push_back({size(patch_.sheet.edges), size(patch_.sheet.bends),
+                                           size(patch_.sheet.rims)});
+        }
+        return std::move(patch_);
+    }
+
+private:
+    template <class List> static std::uint32_t size(const List& list) {
+        return static_cast<std::uint32_t>(list.size());
+    }
+
+    void addEdges(const std::vector<SheetEdge>& group) {
+        for (std::size_t begin = 0; begin < group.size(); begin += 8) {
+            EdgePack pack{};
+            for (std::size_t lane = 0; lane < 8; ++lane) {
+                pack.i[lane] = pack.j[lane] = past_;
+                if (begin + lane >= group.size()) continue;
+                const SheetEdge& e = group[begin + lane];
+                Move::Map(pack.direction[EdgePack::slot(lane)]) = e.direction;
+                pack.compliance[lane] = e.compliance;
+                pack.inverse[lane] = e.inverse;
+                pack.i[lane] = indexOf_[e.i];
+                pack.j[lane] = indexOf_[e.j];
+            }
+            patch_.sheet.edges.push_back(pack);
+        }
+    }
+
+    bool isPlain(const SheetBend& b) const {
+        const float share = whole_.ringShare[b.first];
+        return std::all_of(whole_.ringShare.begin() + b.first, whole_.ringShare.begin() + b.last,
+                           [&](float s) { return s == share; });
+    }
+
+    void addBends(const std::vector<SheetBend>& group) {
+        std::map<std::uint32_t, std::vector<SheetBend>> bySize;
+        for (const SheetBend& b : group) {
+            if (isPlain(b)) {
+                bySize[b.last - b.first].push_back(b);
+                continue;
+            }
+            RimBend rim{indexOf_[b.centre], {}, {}, b.compliance, b.inverse};
+            for (const std::uint32_t k : {0u, 1u}) {
+                rim.neighbour[k] = indexOf_[whole_.ring[b.first + k]];
+                rim.share[k] = whole_.ringShare[b.first + k];
+            }
+            patch_.sheet.rims.push_back(rim);
+        }
+        for (const auto& [ringSize, bends] : bySize)
+            for (std::size_t begin = 0; begin < bends.size(); begin += 2) addPair(ringSize, bends, begin);
+    }
+
+    void addPair(std::uint32_t ringSize, const std::vector<SheetBend>& bends, std::size_t begin) {
+        BendPack pack{{}, {}, {past_, past_}, size(patch_.sheet.ring), ringSize};
+        for (std::uint32_t k = 0; k < ringSize; ++k)
+            for (const std::size_t b : {begin, begin + 1})
+                patch_.sheet.ring.push_back(
+                    b < bends.size() ? indexOf_[whole_.ring[bends[b].first + k]] : past_);
+        for (std::size_t b = 0; b < 2 && begin + b < bends.size(); ++b) {
+            const SheetBend& bend = bends[begin + b];
+            pack.centre[b] = indexOf_[bend.centre];
+            for (std::size_t k = 0; k < 3; ++k) {
+                pack.compliance[4 * b + k] = bend.compliance;
+                pack.inverse[4 * b + k] = bend.inverse;
+            }
+        }
+        patch_.sheet.bends.push_back(pack);
+    }
+
+    const SkinSheet& whole_;
+    const std::vector<bool>& inside_;
+    std::vector<std::uint32_t> indexOf_;
+    std::uint32_t past_ = 0;
+    SheetPatch patch_;
+};
+
+} // namespace
+
+SheetPatch patchOf(const SkinSheet& whole, const std::vector<bool>& inside) {
+    return Packer(whole, inside).pack();
+}
+
+} // namespace tss
