@@ -36,7 +36,8 @@ HWY_INLINE V mulAdd(const V& a, const V& b, const V& c) {
 HWY_INLINE V negMulAdd(const V& a, const V& b, const V& c) {
     return c - a * b;
 }
-template <int k> HWY_INLINE V broadcast(const V& value) {
+template <int k>
+HWY_INLINE V broadcast(const V& value) {
     return V::Constant(value[k]);
 }
 /// Sum of the lanes of each of four vertices, a lane each.
@@ -72,7 +73,8 @@ HWY_INLINE V negMulAdd(V a, V b, V c) {
     return hn::NegMulAdd(a, b, c);
 }
 /// Of each half its own lane.
-template <int k> HWY_INLINE V broadcast(V value) {
+template <int k>
+HWY_INLINE V broadcast(V value) {
     return hn::Broadcast<k>(value);
 }
 HWY_INLINE V sums(V a, V b, V c, V d) {
@@ -118,7 +120,8 @@ struct Edges {
     V ui[4], uj[4], direction[4];
 };
 
-template <int k> HWY_INLINE V read(const EdgePack& pack, std::size_t lane, const float* u, Edges& e) {
+template <int k>
+HWY_INLINE V read(const EdgePack& pack, std::size_t lane, const float* u, Edges& e) {
     e.ui[k] = gather(u, pack.i + lane + k, 4);
     e.uj[k] = gather(u, pack.j + lane + k, 4);
     e.direction[k] = load(pack.direction[2 * k + lane / 4]);
@@ -174,8 +177,8 @@ HWY_INLINE V bend(const PackedSheet& sheet, const BendPack& pack, std::size_t la
 
 HWY_INLINE double bendRim(const RimBend& bend, Move& multiplier, Move* u) {
     Move &centre = u[bend.centre], &a = u[bend.neighbour[0]], &b = u[bend.neighbour[1]];
-    Move step = -bend.inverse *
-                (centre - bend.share[0] * a - bend.share[1] * b + bend.compliance * multiplier);
+    Move step =
+        -bend.inverse * (centre - bend.share[0] * a - bend.share[1] * b + bend.compliance * multiplier);
     step[3] = 0;
     multiplier += step;
     centre += centre[3] * step;
@@ -307,7 +310,9 @@ void extrapolate(float momentum, float* now, float* before, std::size_t count) {
 
 constexpr SheetKernels kernels{displace, sweepTo, sweepFro, strainEnergy, measure, extrapolate};
 
-const SheetKernels* choose() { return &kernels; }
+const SheetKernels* choose() {
+    return &kernels;
+}
 
 } // namespace
 } // namespace HWY_NAMESPACE
