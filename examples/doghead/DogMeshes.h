@@ -29,8 +29,8 @@ TriangleMesh leftSkinMesh(const Detail& detail = {1.2, 0.25});
 /// The same with the mouth cut through, finer about it.
 TriangleMesh leftSkinMouthCutMesh(const Detail& detail = {1, 0.25});
 
-/// The skin of the whole head, coarser than the half; open at the neck.
-TriangleMesh skinMesh(const Detail& detail = {1.6, 0.4});
+/// The skin of the whole head; open at the neck.
+TriangleMesh skinMesh(const Detail& detail);
 TriangleMesh earCartilageMesh(const Detail& detail = {0.7, 0.25}); ///< the left one
 /// A muscle under the skin, and the like.
 TriangleMesh bodyMesh(const Field& field, const Detail& detail = {0.7, 0.2});

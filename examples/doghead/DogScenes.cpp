@@ -167,7 +167,7 @@ tss::SceneModel frontalisScene() {
     return scene;
 }
 
-tss::SceneModel faceScene() {
+tss::SceneModel faceScene(const Detail& skin) {
     constexpr double each = 20, last = 140;
     tss::SceneModel scene = emptyScene("DogFace", last);
     const int frontalis = addFrontalis(scene, -1);
@@ -178,7 +178,7 @@ tss::SceneModel faceScene() {
             scene.muscles[addStrap(scene, strap, side, -1)].activation = twitch(from, from + each, last);
         from += each;
     }
-    addSkin(scene, skinMesh());
+    addSkin(scene, skinMesh(skin));
     addNoseAndEyes(scene);
     return scene;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include "bake/scene/SceneModel.h"
+#include "examples/doghead/DogMeshes.h"
 
 namespace doghead {
 
@@ -12,7 +13,7 @@ tss::SceneModel jawScene();
 tss::SceneModel frontalisScene();
 
 /// The skin of the whole head over thirteen muscles, which tighten in turn.
-tss::SceneModel faceScene();
+tss::SceneModel faceScene(const Detail& skin = {1.6, 0.4});
 
 /// The left ear laid back until its stiff shell meets the skull, and let go; the skin of the head follows.
 tss::SceneModel earsScene();

@@ -22,7 +22,7 @@ struct Named {
 };
 constexpr Named all[] = {{"dog_jaw", doghead::jawScene},
                          {"dog_frontalis", doghead::frontalisScene},
-                         {"dog_face", doghead::faceScene},
+                         {"dog_face", [] { return doghead::faceScene(); }},
                          {"dog_ears", doghead::earsScene},
                          {"dog_lips", doghead::lipsScene}};
 

@@ -1,6 +1,8 @@
 #include "RealSkins.h"
 #include "SkinMeasure.h"
 
+#include "bake/geometry/MeshAudit.h"
+
 #include <ctime>
 #include <iostream>
 #include <map>
@@ -115,6 +117,7 @@ TEST_CASE("the frontal mask slides under the skin of the dog's head and the skin
     SkinResponse skin(couple.rig()), spheres(couple.rig(faithful));
     constexpr int frames = 60;
     double farthestOff = 0;
+    const double volumeBelow = auditMesh(mask.surface).signedVolume;
     for (int f = 1; f <= frames; ++f) {
         const std::vector<double> a{static_cast<double>(f) / frames};
         skin.update(a);
@@ -134,7 +137,9 @@ TEST_CASE("the frontal mask slides under the skin of the dog's head and the skin
         const double off = distance(skin, converged) / largestMove(converged);
         std::cout << " slide " << slide / mm << " mm, skin moves " << largestMove(skin) / mm
                   << " mm, from converged " << 100 * off << " %, edges " << strain.shortest << " to "
-                  << strain.longest << ", flipped " << strain.flipped << '\n';
+                  << strain.longest << ", flipped " << strain.flipped << ", area " << 100 * strain.area
+                  << " %, volume below it " << strain.volume / (mm * mm * mm) << " mm^3 (muscle "
+                  << volumeBelow / (mm * mm * mm) << ")\n";
         print("skin in muscle", in);
         print("muscle through skin", out);
         print("skin in muscle, spheres alone [paper]", alone);

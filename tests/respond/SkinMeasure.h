@@ -52,12 +52,15 @@ inline Depths beyond(const std::vector<double>& now, const std::vector<double>& 
 struct Strain {
     double shortest = 1, longest = 1; ///< of an edge, in rest lengths
     int flipped = 0;                  ///< triangles turned over
+    double area = 0;                  ///< of the touched skin, change as a share of it at rest
+    double volume = 0;                ///< below the touched skin, change in units of the scene
 };
 
 inline Strain strain(const tss::SkinResponse& response) {
     Strain result;
     const auto& rest = response.rig().rest;
     const auto now = response.positions();
+    double areaBefore = 0, areaNow = 0;
     for (const tss::Tri& t : response.rig().triangles) {
         for (int k = 0; k < 3; ++k) {
             const int i = t[k], j = t[(k + 1) % 3];
@@ -68,7 +71,14 @@ inline Strain strain(const tss::SkinResponse& response) {
         const tss::Vec3 before = (rest[t[1]] - rest[t[0]]).cross(rest[t[2]] - rest[t[0]]);
         const tss::Vec3 after = (now[t[1]] - now[t[0]]).cross(now[t[2]] - now[t[0]]);
         result.flipped += before.dot(after) <= 0;
+        areaBefore += before.norm() / 2;
+        areaNow += after.norm() / 2;
+        // The rim stays, so that what the sheet has swept does not depend on the origin.
+        result.volume += (now[t[0]].dot(now[t[1]].cross(now[t[2]])) -
+                          rest[t[0]].dot(rest[t[1]].cross(rest[t[2]]))) /
+                         6;
     }
+    result.area = areaBefore > 0 ? areaNow / areaBefore - 1 : 0;
     return result;
 }
 

@@ -1,0 +1,86 @@
+// A skin of a whole head over thirteen muscles that all move at once: bench_skin [FRAMES, 240 [FILE]]. Prints
+// the processor time of an update, by the size of the skin. With FILE the largest scene, baked, goes there,
+// to be played in osgviewer.
+#include "bake/Bake.h"
+#include "bake/SkinSetup.h"
+#include "bake/respond/SkinResponse.h"
+#include "bake/scene/ReadScene.h"
+#include "bake/scene/SceneFile.h"
+#include "bake/scene/ToLayer.h"
+#include "examples/doghead/DogScenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+
+namespace {
+
+constexpr int lastCode = 240;
+
+/// Muscle m tightens and lets go again and again, each at its own time.
+double activation(std::size_t m, double code) {
+    return 0.5 - 0.5 * std::cos(0.1 * code + 2.4 * static_cast<double>(m));
+}
+
+tss::SceneModel bakedFace(const doghead::Detail& skin) {
+    tss::SceneModel scene = doghead::faceScene(skin);
+    scene.endTimeCode = lastCode;
+    for (std::size_t m = 0; m < scene.muscles.size(); ++m) {
+        tss::TimeSamples& samples = scene.muscles[m].activation;
+        samples = {};
+        for (int code = 0; code <= lastCode; ++code) {
+            samples.times.push_back(code);
+            samples.values.push_back(activation(m, code));
+        }
+    }
+    scene = tss::readScene(tss::toLayer(scene), "dog_face"); // its numbers as a file holds them
+    tss::bake(scene, {});
+    return scene;
+}
+
+double cpuSeconds() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+void measure(const tss::SceneModel& scene, int frames) {
+    const tss::SkinModel& skin = scene.skins.front();
+    double start = cpuSeconds();
+    tss::SkinResponse response(tss::skinRig(scene, skin));
+    const double loading = cpuSeconds() - start;
+    const tss::SkinRig& rig = response.rig();
+    std::vector<double> activations(skin.muscles.size());
+    std::size_t contacts = 0;
+    double worst = 0, whole = 0;
+    for (int f = 0; f < frames; ++f) {
+        for (std::size_t m = 0; m < activations.size(); ++m) activations[m] = activation(m, f);
+        start = cpuSeconds();
+        contacts += response.update(activations).contacts;
+        const double frame = cpuSeconds() - start;
+        whole += frame;
+        worst = std::max(worst, frame);
+    }
+    std::size_t active = 0;
+    for (const float w : rig.sheet.inverseMass) active += w > 0;
+    std::printf("%6zu vertices   %6zu move   %6zu give way to contacts   %6zu tests   %5zu contacts   "
+                "%7.3f ms an update (%.0f a second), worst %.3f   loaded in %.2f s\n",
+                scene.bodies[skin.body].mesh.vertices.size(), active, rig.contactPatch.vertices.size(),
+                rig.tests.size(), contacts / static_cast<std::size_t>(frames), 1e3 * whole / frames,
+                frames / whole, 1e3 * worst, loading);
+}
+
+} // namespace
+
+int main(int count, char** arguments) {
+    const int frames = count > 1 ? std::atoi(arguments[1]) : 240;
+    if (frames < 1) {
+        std::fprintf(stderr, "usage: bench_skin [FRAMES [FILE]]\n");
+        return 2;
+    }
+    for (const doghead::Detail& detail : {doghead::Detail{1.6, 0.4}, {0.9, 0.06}, {0.6, 0.02}}) {
+        const tss::SceneModel scene = bakedFace(detail);
+        measure(scene, frames);
+        if (count > 2) tss::saveScene(scene, arguments[2]); // the last one stays
+    }
+}
