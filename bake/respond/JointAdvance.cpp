@@ -16,7 +16,7 @@ void observe(const JointModel& model, const JointValues& q, const JointValues& w
     for (std::size_t i = 0; i < activeCount; ++i) {
         NearPair& near = ws.near[ws.active[i]];
         const JointModel::Pair& pair = model.pairs[near.pair];
-        const MotionFrame& frame = ws.frames[pair.group];
+        const MotionFrame& frame = ws.groups[pair.group].frame;
         if (pair.group != at) {
             at = pair.group;
             whole = DofTwist();

@@ -122,12 +122,18 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
 void placeGroup(const JointModel& model, std::size_t g, const JointValues& q, const JointValues& way,
                 JointWorkspace& ws) {
     const JointModel::Group& group = model.groups[g];
-    JointValues own, direction;
+    PlacedGroup& placed = ws.groups[g];
+    JointValues direction;
+    bool same = placed.known && !group.paths; // a path's twist depends on the way
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
-        own[k] = q[group.dofs[k]];
+        const double value = q[group.dofs[k]];
+        same = same && placed.at[k] == value;
+        placed.at[k] = value;
         direction[k] = way[group.dofs[k]];
     }
-    evaluateFrame(group.motion, own.data(), direction.data(), ws.frames[g]);
+    if (same) return;
+    placed.known = true;
+    evaluateFrame(group.motion, placed.at.data(), direction.data(), placed.frame);
 }
 
 void placeGroups(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws) {
@@ -176,11 +182,11 @@ void cull(const JointModel& model, const JointValues& q, const JointValues& reac
             if (found == 0) continue;
             placeGroup(model, g, q, reach, ws);
             for (std::uint32_t i = 0; i < found; ++i)
-                takeIfNear(model, group.firstPair + ws.found[i], ws.frames[g].pose, reach, ws);
+                takeIfNear(model, group.firstPair + ws.found[i], ws.groups[g].frame.pose, reach, ws);
         } else {
             placeGroup(model, g, q, reach, ws);
             for (std::uint32_t p = group.firstPair; p < group.lastPair; ++p)
-                takeIfNear(model, p, ws.frames[g].pose, reach, ws);
+                takeIfNear(model, p, ws.groups[g].frame.pose, reach, ws);
         }
     }
 }
@@ -202,7 +208,7 @@ void linearise(const JointModel& model, const JointValues& q, const JointValues&
         NearPair& near = ws.near[i];
         const JointModel::Pair& pair = model.pairs[near.pair];
         const JointModel::Group& group = model.groups[pair.group];
-        const MotionFrame& frame = ws.frames[pair.group];
+        const MotionFrame& frame = ws.groups[pair.group].frame;
         Vec3 centre, normal;
         near.gap = pairGap(pair, frame.pose, centre, normal);
         if (!ws.common) near.threshold = std::min(near.threshold, near.gap);
@@ -218,7 +224,7 @@ double smallestGap(const JointModel& model, const JointValues& q, JointWorkspace
     int found = -1;
     Vec3 centre, normal;
     for (std::size_t p = 0; p < model.pairs.size(); ++p) {
-        const double gap = pairGap(model.pairs[p], ws.frames[model.pairs[p].group].pose, centre, normal);
+        const double gap = pairGap(model.pairs[p], ws.groups[model.pairs[p].group].frame.pose, centre, normal);
         if (gap < smallest) {
             smallest = gap;
             found = static_cast<int>(p);

@@ -65,6 +65,16 @@ struct NearPair {
     double acceleration = 0; ///< bound of -rate' on the way
     double lift = 0;         ///< what a slide asks above the threshold, room for the bend of its way
     JointValues gradient;    ///< of the gap, set by `linearise`
+    int row = -1;            ///< of the slide's rows, -1: not among them; a demand d has the bound ...
+    double rowScale = 0, rowOffset = 0; ///< ... rowScale * d + rowOffset there
+};
+
+/// A group as it stands, and where its joint's values are then: what asks again for the same place is served
+/// at once.
+struct PlacedGroup {
+    MotionFrame frame;
+    JointValues at;
+    bool known = false;
 };
 
 /// Room for one response, made once per thread by JointResponder::workspace.
@@ -76,10 +86,11 @@ struct JointWorkspace {
     std::vector<std::uint32_t> active; ///< places in `near` of those that can matter on one way
     std::vector<std::uint32_t> found;  ///< tests of one table
     QpRows rows;
-    std::vector<MotionFrame> frames; ///< one a group
+    std::vector<PlacedGroup> groups; ///< one a group
+    std::vector<Pose> ends;          ///< one a group: where a way would end
 };
 
-/// Places one group, or every group, at q (values of the joint) into ws.frames.
+/// Places one group, or every group, at q (values of the joint) into ws.groups.
 void placeGroup(const JointModel& model, std::size_t group, const JointValues& q, const JointValues& way,
                 JointWorkspace& ws);
 void placeGroups(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws);

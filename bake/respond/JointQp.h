@@ -23,6 +23,7 @@ public:
 
     const double* normal(int row) const { return numbers_.data() + stride() * std::size_t(row); }
     double bound(int row) const { return normal(row)[n_]; }
+    void setBound(int row, double bound) { numbers_[stride() * std::size_t(row) + std::size_t(n_)] = bound; }
     int unknowns() const { return n_; }
     int count() const { return count_; }
 

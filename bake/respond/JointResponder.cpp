@@ -53,7 +53,8 @@ JointWorkspace JointResponder::workspace() const {
         if (group.prepared) room = std::max(room, group.prepared->testRoom());
     ws.found.resize(room);
     ws.rows = QpRows(model_.pairs.size() + 2 * std::size_t(model_.dofCount) + model_.planes.size());
-    ws.frames.resize(model_.groups.size());
+    ws.groups.resize(model_.groups.size());
+    ws.ends.resize(model_.groups.size());
     return ws;
 }
 
@@ -94,7 +95,7 @@ JointAnswer JointResponder::judged(const JointValues& q, JointStatus status, Joi
         const JointModel::Pair& pair = model_.pairs[ws.near[i].pair];
         if (pair.group != at) {
             at = pair.group;
-            inverse = ws.frames[at].pose.inverse(Eigen::Isometry);
+            inverse = ws.groups[at].frame.pose.inverse(Eigen::Isometry);
         }
         const double gap = queryGap(pair, inverse);
         if (gap < answer.gap) {

@@ -10,44 +10,72 @@ namespace {
 
 /// Room kept above a threshold where a move ends, as a share of model.off: `advance` stops at a twentieth.
 constexpr double endRoom = 0.1;
+/// Less than so much of model.off too little room is no reason to look for a way again.
+constexpr double liftSlack = 0.04;
+/// What a pair had to be lifted in a round, above endRoom, it has to be lifted in the next by this share: ways
+/// get shorter, and what they bend shrinks with their square.
+constexpr double liftKept = 0.25;
 
-/// The way from q to the pose nearest to the goal where every near pair's linearised gap is at least
-/// demand(near). False where there is none.
-template <class Demand>
-bool nearestWay(const JointModel& model, const JointValues& q, const JointValues& goal, double trust,
-                JointWorkspace& ws, Demand demand, JointValues& way) {
-    const int n = model.dofCount;
-    ws.rows.clear(n);
-    addLimits(model, q, trust, goal, ws.rows);
-    const double distance = weightedDistance(model, q, goal);
-    for (std::size_t i = 0; i < ws.nearCount; ++i) {
-        const NearPair& near = ws.near[i];
-        double* row = ws.rows.add();
-        double squared = 0, bound = demand(near) - near.gap;
-        for (int l = 0; l < n; ++l) {
-            row[l] = near.gradient[l] * model.perWeight[l];
-            squared += row[l] * row[l];
-            bound -= near.gradient[l] * (goal[l] - q[l]);
+/// The rows of a slide at q: limits, and of every near pair the gap linearised there. Bounds are still to be
+/// set. A pair that no way in question can bring to its threshold has no row.
+class SlideRows {
+public:
+    SlideRows(const JointModel& model, const JointValues& q, const JointValues& goal, double trust,
+              JointWorkspace& ws)
+        : model_(model), q_(q), goal_(goal), ws_(ws),
+          least_(-1.5 * weightedDistance(model, q, goal) - model.off) {
+        ws.rows.clear(model.dofCount);
+        addLimits(model, q, trust, goal, ws.rows);
+        for (std::size_t i = 0; i < ws.nearCount; ++i) {
+            NearPair& near = ws.near[i];
+            double squared = 0, offset = -near.gap;
+            for (int l = 0; l < model.dofCount; ++l) {
+                const double part = near.gradient[l] * model.perWeight[l];
+                squared += part * part;
+                offset -= near.gradient[l] * (goal[l] - q[l]);
+            }
+            near.row = -1;
+            // A gap that no DOF changes is no demand on them.
+            near.rowScale = squared >= 1e-18 ? 1 / std::sqrt(squared) : 0;
+            near.rowOffset = offset * near.rowScale;
         }
-        const double length = std::sqrt(squared);
-        // A gap that no DOF changes is no demand on them; nor is one met however far the way may go.
-        if (length < 1e-9 || bound < (-1.5 * distance - model.off) * length) {
-            ws.rows.dropLast();
-            continue;
+    }
+
+    /// The way from q to the pose nearest to the goal where every near pair's linearised gap is at least
+    /// demand(near). False where there is none.
+    template <class Demand>
+    bool nearest(Demand demand, JointValues& way) {
+        for (std::size_t i = 0; i < ws_.nearCount; ++i) {
+            NearPair& near = ws_.near[i];
+            if (near.rowScale == 0) continue;
+            const double bound = near.rowScale * demand(near) + near.rowOffset;
+            if (near.row < 0 && bound < least_) continue; // met, however far the way may go
+            if (near.row < 0) addRow(near);
+            ws_.rows.setBound(near.row, bound);
         }
-        const double scale = 1 / length;
-        for (int l = 0; l < n; ++l) row[l] *= scale;
-        row[n] = bound * scale;
+        JointValues y;
+        const double tolerance = 1e-13 * model_.scale + 1e-3 * endRoom * model_.off;
+        if (!nearestToOrigin(ws_.rows, tolerance, y)) return false;
+        for (int l = 0; l < model_.dofCount; ++l) {
+            const double end = goal_[l] + y[l] * model_.perWeight[l];
+            way[l] = std::clamp(end, model_.lower[l], model_.upper[l]) - q_[l];
+        }
+        return true;
     }
-    JointValues y;
-    const double tolerance = 1e-13 * model.scale + 1e-3 * endRoom * model.off;
-    if (!nearestToOrigin(ws.rows, tolerance, y)) return false;
-    for (int l = 0; l < n; ++l) {
-        const double end = goal[l] + y[l] * model.perWeight[l];
-        way[l] = std::clamp(end, model.lower[l], model.upper[l]) - q[l];
+
+private:
+    void addRow(NearPair& near) {
+        near.row = ws_.rows.count();
+        double* row = ws_.rows.add();
+        for (int l = 0; l < model_.dofCount; ++l)
+            row[l] = near.gradient[l] * model_.perWeight[l] * near.rowScale;
     }
-    return true;
-}
+
+    const JointModel& model_;
+    const JointValues &q_, &goal_;
+    JointWorkspace& ws_;
+    double least_; ///< bounds below it cannot matter
+};
 
 double weightedLength(const JointModel& model, const JointValues& way) {
     double sum = 0;
@@ -66,11 +94,15 @@ double shareOfRange(const JointModel& model, const JointValues& way) {
 
 /// What each near pair needs above its threshold at the end of a way so that the bend of its gap does not
 /// block the way: what the gap there lacks against the linear guess, and room for the bound that `advance`
-/// must assume. Returns whether any demand of the first guess was too low.
+/// must assume. Returns whether any demand that the way was found with was too low.
 bool findLifts(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws) {
-    JointValues end = q;
-    for (int l = 0; l < model.dofCount; ++l) end[l] += way[l];
-    placeGroups(model, end, way, ws);
+    for (std::size_t g = 0; g < model.groups.size(); ++g) {
+        const JointModel::Group& group = model.groups[g];
+        JointValues end;
+        for (std::size_t k = 0; k < group.dofs.size(); ++k)
+            end[k] = q[group.dofs[k]] + way[group.dofs[k]];
+        ws.ends[g] = pose(group.motion, {end.data(), group.dofs.size()});
+    }
     bool short_ = false;
     Vec3 centre, normal;
     MotionBounds bounds;
@@ -79,31 +111,33 @@ bool findLifts(const JointModel& model, const JointValues& q, const JointValues&
         const JointModel::Pair& pair = model.pairs[near.pair];
         double guess = near.gap;
         for (int l = 0; l < model.dofCount; ++l) guess += near.gradient[l] * way[l];
-        const double real = pairGap(pair, ws.frames[pair.group].pose, centre, normal);
+        const double real = pairGap(pair, ws.ends[pair.group], centre, normal);
         bounds.bound(model, way, near);
         near.lift = endRoom * model.off + near.acceleration / 8 + std::max(0.0, guess - real);
-        short_ = short_ || guess < near.threshold + near.lift;
+        short_ = short_ || guess < near.threshold + near.lift - liftSlack * model.off;
     }
     return short_;
 }
 
-/// The way of one round of a slide; false where none goes on.
+/// The way of one round of a slide; false where none goes on. corner: whether the joint is known to be where
+/// no way lifts all pairs; set here.
 bool slideWay(const JointModel& model, const JointValues& q, const JointValues& goal, double trust,
-              JointWorkspace& ws, JointValues& way) {
-    for (std::size_t i = 0; i < ws.nearCount; ++i) ws.near[i].lift = endRoom * model.off;
+              JointWorkspace& ws, bool& corner, JointValues& way) {
     const auto lifted = [](const NearPair& near) { return near.threshold + near.lift; };
     // In a corner the lift cannot be had: where the pair is now is always feasible.
     const auto held = [](const NearPair& near) {
         return std::min(near.threshold + near.lift, std::max(near.threshold, near.gap));
     };
-    if (!nearestWay(model, q, goal, trust, ws, lifted, way) &&
-        !nearestWay(model, q, goal, trust, ws, held, way))
-        return false;
+    SlideRows rows(model, q, goal, trust, ws);
+    const auto find = [&](JointValues& found) {
+        if (!corner && rows.nearest(lifted, found)) return true;
+        corner = true;
+        return rows.nearest(held, found);
+    };
+    if (!find(way)) return false;
     if (!findLifts(model, q, way, ws)) return true;
     JointValues second;
-    if (nearestWay(model, q, goal, trust, ws, lifted, second) ||
-        nearestWay(model, q, goal, trust, ws, held, second))
-        way = second;
+    if (find(second)) way = second;
     return true;
 }
 
@@ -113,13 +147,20 @@ void slide(const JointModel& model, const JointValues& goal, JointValues& q, Joi
     double trust = 1;
     double distance = weightedDistance(model, q, goal);
     const double least = std::clamp(1e-3 * distance, 1e-7 * model.scale, 1e-5 * model.scale);
+    bool corner = false;
+    const double leastLift = endRoom * model.off;
+    for (std::size_t i = 0; i < ws.nearCount; ++i) ws.near[i].lift = leastLift;
     for (int round = 0; round < 20 && distance > least; ++round) {
         JointValues way{};
         for (int l = 0; l < model.dofCount; ++l) way[l] = goal[l] - q[l];
         linearise(model, q, way, ws);
         // No pose from here on is farther from the goal than this one, so from this one than twice that.
         narrow(model, 2 * distance, ws);
-        if (!slideWay(model, q, goal, trust, ws, way)) return;
+        for (std::size_t i = 0; i < ws.nearCount; ++i) {
+            NearPair& near = ws.near[i];
+            near.lift = leastLift + liftKept * (near.lift - leastLift);
+        }
+        if (!slideWay(model, q, goal, trust, ws, corner, way)) return;
         if (weightedLength(model, way) < least) return;
         // Pairs are known to be near only where a pose is no farther from the goal than this one.
         JointValues end = q, next = q;
@@ -149,8 +190,8 @@ double pushOut(const JointModel& model, JointValues& q, JointWorkspace& ws) {
         linearise(model, q, way, ws);
         double share = 1;
         const double missing = (1 + endRoom) * model.off - depth;
-        while (!nearestWay(
-            model, q, q, trust, ws, [&](const NearPair&) { return depth + share * missing; }, way)) {
+        SlideRows rows(model, q, q, trust, ws);
+        while (!rows.nearest([&](const NearPair&) { return depth + share * missing; }, way)) {
             share *= 0.5;
             if (share < 1e-4) break;
         }
