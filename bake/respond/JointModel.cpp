@@ -224,7 +224,8 @@ double smallestGap(const JointModel& model, const JointValues& q, JointWorkspace
     int found = -1;
     Vec3 centre, normal;
     for (std::size_t p = 0; p < model.pairs.size(); ++p) {
-        const double gap = pairGap(model.pairs[p], ws.groups[model.pairs[p].group].frame.pose, centre, normal);
+        const double gap =
+            pairGap(model.pairs[p], ws.groups[model.pairs[p].group].frame.pose, centre, normal);
         if (gap < smallest) {
             smallest = gap;
             found = static_cast<int>(p);

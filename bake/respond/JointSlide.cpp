@@ -12,8 +12,8 @@ namespace {
 constexpr double endRoom = 0.1;
 /// Less than so much of model.off too little room is no reason to look for a way again.
 constexpr double liftSlack = 0.04;
-/// What a pair had to be lifted in a round, above endRoom, it has to be lifted in the next by this share: ways
-/// get shorter, and what they bend shrinks with their square.
+/// What a pair had to be lifted in a round, above endRoom, it has to be lifted in the next by this share:
+/// ways get shorter, and what they bend shrinks with their square.
 constexpr double liftKept = 0.25;
 
 /// The rows of a slide at q: limits, and of every near pair the gap linearised there. Bounds are still to be
@@ -99,8 +99,7 @@ bool findLifts(const JointModel& model, const JointValues& q, const JointValues&
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
         const JointModel::Group& group = model.groups[g];
         JointValues end;
-        for (std::size_t k = 0; k < group.dofs.size(); ++k)
-            end[k] = q[group.dofs[k]] + way[group.dofs[k]];
+        for (std::size_t k = 0; k < group.dofs.size(); ++k) end[k] = q[group.dofs[k]] + way[group.dofs[k]];
         ws.ends[g] = pose(group.motion, {end.data(), group.dofs.size()});
     }
     bool short_ = false;

@@ -13,12 +13,14 @@ constexpr std::uint32_t blockSize = 1024;
 
 /// The constraints of a block in groups that share no vertex, so that they can be taken at once, and that
 /// neighbours in the list do not wait for each other's result.
-template <class Constraint> class Colours {
+template <class Constraint>
+class Colours {
 public:
     explicit Colours(std::size_t vertexCount) : taken_(vertexCount, 0) {}
 
     /// vertices(visit) visits those of the constraint.
-    template <class Vertices> void add(const Constraint& c, const Vertices& vertices) {
+    template <class Vertices>
+    void add(const Constraint& c, const Vertices& vertices) {
         std::uint64_t used = 0;
         vertices([&](std::uint32_t v) { used |= taken_[v]; });
         const auto colour = static_cast<std::size_t>(std::countr_one(used));
@@ -86,14 +88,15 @@ public:
                     for (std::uint32_t k = b.first; k < b.last; ++k) visit(indexOf_[whole_.ring[k]]);
                 });
             for (const auto& group : bendColours.take()) addBends(group);
-            patch_.sheet.blocks.push_back({size(patch_.sheet.edges), size(patch_.sheet.bends),
-                                           size(patch_.sheet.rims)});
+            patch_.sheet.blocks.push_back(
+                {size(patch_.sheet.edges), size(patch_.sheet.bends), size(patch_.sheet.rims)});
         }
         return std::move(patch_);
     }
 
 private:
-    template <class List> static std::uint32_t size(const List& list) {
+    template <class List>
+    static std::uint32_t size(const List& list) {
         return static_cast<std::uint32_t>(list.size());
     }
 
@@ -142,8 +145,8 @@ private:
         BendPack pack{{}, {}, {past_, past_}, size(patch_.sheet.ring), ringSize};
         for (std::uint32_t k = 0; k < ringSize; ++k)
             for (const std::size_t b : {begin, begin + 1})
-                patch_.sheet.ring.push_back(
-                    b < bends.size() ? indexOf_[whole_.ring[bends[b].first + k]] : past_);
+                patch_.sheet.ring.push_back(b < bends.size() ? indexOf_[whole_.ring[bends[b].first + k]]
+                                                             : past_);
         for (std::size_t b = 0; b < 2 && begin + b < bends.size(); ++b) {
             const SheetBend& bend = bends[begin + b];
             pack.centre[b] = indexOf_[bend.centre];

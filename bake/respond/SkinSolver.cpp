@@ -40,8 +40,7 @@ float SkinSolver::solve(std::span<const Move> reference, std::vector<SheetPlane>
     energy_ = kernels_.strainEnergy(sheet_, state_);
     // 1/2 |W^1/2 J^T m|^2 + m . J reference + 1/2 compliance m^2 - bound . m, with W J^T m = u - reference.
     const auto measure = [&] {
-        SheetMeasure measured =
-            kernels_.measure(sheet_, reference.data(), before_.u.data(), state_.u.data());
+        SheetMeasure measured = kernels_.measure(sheet_, reference.data(), before_.u.data(), state_.u.data());
         measured.dual += energy_ + planeEnergy(planes);
         return measured;
     };
@@ -71,7 +70,8 @@ void SkinSolver::prepare(std::vector<SheetPlane>& planes) {
     for (std::uint32_t i = 0; i < planes.size(); ++i) {
         SheetPlane& p = planes[i];
         float mass = 0;
-        for (int k = 0; k < p.vertices; ++k) mass += sheet_.inverseMass[p.vertex[k]] * p.weight[k] * p.weight[k];
+        for (int k = 0; k < p.vertices; ++k)
+            mass += sheet_.inverseMass[p.vertex[k]] * p.weight[k] * p.weight[k];
         mass *= p.normal.squaredNorm();
         p.compliance = contactFloor * mass;
         p.inverse = mass > 0 ? 1 / (mass + p.compliance) : 0;
