@@ -26,12 +26,15 @@ using namespace extreme;
 constexpr const char* usage =
     "usage: tss-extreme scenes DIR          writes the stiff and extreme scenes into DIR\n"
     "       tss-extreme check [NAME...]     takes them through bake, verify and play\n"
-    "       tss-extreme random N [FIRST]    the same with N random scenes, seeds from FIRST on (1)\n"
+    "       tss-extreme random N [FIRST [SECONDS]]\n"
+    "                                       the same with N random scenes, seeds from FIRST on (1), each "
+    "asked\n"
+    "                                       to stop after SECONDS of processor time (5)\n"
     "       tss-extreme page FILE STEPS FRAMES SCENES   measures all of it anew and writes the page about "
     "it\n";
 
 /// Seconds of processor time after which a random scene is asked to stop, and after which it has hung.
-constexpr double budget = 5;
+constexpr double usualBudget = 5;
 constexpr long hang = 60;
 
 std::atomic<unsigned long long> seedNow{0};
@@ -92,7 +95,7 @@ void allow(long seconds) {
     setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
-int searchForTrouble(std::uint64_t count, std::uint64_t first) {
+int searchForTrouble(std::uint64_t count, std::uint64_t first, double budget) {
     std::uint64_t refused = 0, stopped = 0, bad = 0, tables = 0;
     double longest = 0;
     std::map<std::string, int> refusals;
@@ -133,8 +136,9 @@ int main(int count, char** arguments) {
             return 0;
         }
         if (command == "check") return check(count - 2, arguments + 2);
-        if (command == "random" && (count == 3 || count == 4))
-            return searchForTrouble(std::stoull(arguments[2]), count == 4 ? std::stoull(arguments[3]) : 1);
+        if (command == "random" && count >= 3 && count <= 5)
+            return searchForTrouble(std::stoull(arguments[2]), count > 3 ? std::stoull(arguments[3]) : 1,
+                                    count > 4 ? std::stod(arguments[4]) : usualBudget);
         if (command == "page" && count == 6) {
             const PageOptions options{std::stol(arguments[3]), std::stol(arguments[4]),
                                       std::stoull(arguments[5])};
