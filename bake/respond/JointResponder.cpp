@@ -162,6 +162,7 @@ JointAnswer JointResponder::fromCollision(const JointValues& start, const JointV
 }
 
 JointAnswer JointResponder::respond(const double* last, const double* asked, JointWorkspace& ws) const {
+    for (PlacedGroup& group : ws.groups) group.known = false; // it may have served another joint
     const JointValues start = clampToLimits(model_, last, ws);
     const JointValues goal = clampToLimits(model_, asked, ws);
     JointValues reach{};
