@@ -50,6 +50,32 @@ ClosestPoint MeshQuery::closest(const Vec3& p, double within) const {
     return result;
 }
 
+bool MeshQuery::comesWithin(const Vec3& p, double within) const {
+    if (bvh_.empty() || !(within > 0)) return false;
+    const Vec3 local = p - origin_;
+    const double within2 = within * within;
+    std::array<std::uint32_t, 128> stack; // as deep as visitNearest's
+    std::size_t top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+        const Bvh::Node& node = bvh_.nodes[stack[--top]];
+        if (!(squaredDistance(node, local) < within2)) continue;
+        // All of the node's triangles are.
+        if ((local - node.lower).cwiseAbs().cwiseMax((node.upper - local).cwiseAbs()).squaredNorm() < within2)
+            return true;
+        for (std::uint32_t i = 0; i < node.count; ++i) {
+            const Corners& k = corners_[bvh_.items[node.first + i]];
+            if ((closestOnTriangle(local, k.a, k.b, k.c) - local).squaredNorm() < within2) return true;
+        }
+        if (node.count > 0) continue;
+        const std::uint32_t a = node.first, b = node.first + 1;
+        const bool bFirst = squaredDistance(bvh_.nodes[b], local) < squaredDistance(bvh_.nodes[a], local);
+        stack[top++] = bFirst ? a : b;
+        stack[top++] = bFirst ? b : a;
+    }
+    return false;
+}
+
 namespace {
 
 /// Where the ray meets the box, as the least t; infinity where it does not before maxT.

@@ -32,6 +32,10 @@ public:
     /// The nearest point of the mesh to p, if it is nearer than `within`.
     ClosestPoint closest(const Vec3& p, double within = std::numeric_limits<double>::infinity()) const;
 
+    /// Whether some point of the mesh is nearer to p than `within`: closest() without the answer to which, at
+    /// a fraction of the time where the mesh is well within.
+    bool comesWithin(const Vec3& p, double within) const;
+
     /// Distance from p to the mesh, or infinity where it is not below `within`.
     double distance(const Vec3& p, double within = std::numeric_limits<double>::infinity()) const {
         return closest(p, within).distance;

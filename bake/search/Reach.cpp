@@ -106,7 +106,7 @@ public:
             const Ball& ball = p_.balls[n];
             const Look at = look(p_, motion, inverse, ball);
             const double within = (ball.radius + at.move + p_.margin) * (1 + 1e-9) + 1e-13 * at.centre.norm();
-            if (std::isfinite(within) && p_.other.closest(at.centre, within).triangle < 0) continue;
+            if (std::isfinite(within) && !p_.other.comesWithin(at.centre, within)) continue;
             const Bvh::Node& node = p_.tree.nodes[n];
             const bool settled = at.move <= p_.resolution;
             if (node.count == 0 && (settled || ball.radius >= at.move)) {

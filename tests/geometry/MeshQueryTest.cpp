@@ -72,6 +72,27 @@ TEST_CASE("the nearest point of a mesh is the best of all its triangles") {
     }
 }
 
+TEST_CASE("what comes within a distance is what is nearer") {
+    const std::uint64_t seed = GENERATE(8u, 9u);
+    CAPTURE(seed);
+    std::mt19937_64 random(seed);
+    const TriangleMesh mesh = seed % 2 ? lumpyMesh(random, 3, 0.3) : soupMesh(random, 300, 1, 0.2);
+    const MeshQuery query(mesh);
+    int near = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 p = uniformPoint(random, 3);
+        const double distance = query.distance(p), within = uniform(random, 0, 4);
+        if (std::abs(distance - within) < 1e-9) continue; // rounding may tell either
+        CAPTURE(i, distance, within);
+        CHECK(query.comesWithin(p, within) == (distance < within));
+        near += distance < within;
+    }
+    CHECK(near > 500);
+    CHECK(near < 1900);
+    CHECK_FALSE(query.comesWithin({0, 0, 0}, 0));
+    CHECK_FALSE(MeshQuery(TriangleMesh{}).comesWithin({0, 0, 0}, 1));
+}
+
 TEST_CASE("distances are right far from the origin and for tiny meshes") {
     const Eigen::Affine3d far(Eigen::Translation3d(1e7, -1e7, 1e7));
     const MeshQuery moved(transformed(boxMesh({0, 0, 0}, {1, 1, 1}), far));
