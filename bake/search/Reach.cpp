@@ -248,8 +248,7 @@ std::vector<Patch> findReach(std::span<const Patch> patches, Side side, const Me
         std::vector<Patch> fine;
         const bool whole = std::all_of(now.begin(), now.end(),
                                        [&](const Patch& patch) { return halveTo(patch, step, fine); });
-        // Larger patches than asked for keep more of the surface than need be.
-        if (!whole || !report(progress, "reach", size / step)) break;
+        if (!whole) break; // larger patches than asked for keep more of the surface than need be
         now = reachedInBudget(std::move(fine), side, other, rates, cells, step, margin, poll);
         if (!report(progress, "reach", size / step) || now.empty()) break;
         if (step <= size) break;

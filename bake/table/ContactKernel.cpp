@@ -57,7 +57,7 @@ void contact(const ContactTest& test, const MotionFrame& frame, std::size_t dofs
     }
 }
 #else
-constexpr auto contact = plainContact;
+[[maybe_unused]] constexpr auto contact = plainContact;
 #endif
 
 } // namespace
