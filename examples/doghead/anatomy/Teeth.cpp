@@ -9,7 +9,6 @@
 namespace doghead {
 namespace {
 
-constexpr double blend = 0.7; ///< between the parts of one crown
 
 /// A place on a dental arch: at the gum, the row's direction towards the nose, outwards (buccal), and towards
 /// the biting edge.
