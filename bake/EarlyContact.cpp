@@ -13,17 +13,10 @@ namespace tss {
 
 namespace {
 
-/// The distance of the surfaces from below, to a tenth of itself; `most` where it is more, 0 under a
-/// thousandth of that.
+/// The distance of the surfaces; `most` where it is more, 0 under a thousandth of that.
 double clearance(const MeshQuery& a, const MeshQuery& b, const Pose& bToA, double most) {
-    if (a.apart(b, bToA, most)) return most;
-    double near = most / 1000, far = most;
-    if (!a.apart(b, bToA, near)) return 0;
-    while (far > 1.1 * near) {
-        const double middle = std::sqrt(near * far);
-        (a.apart(b, bToA, middle) ? near : far) = middle;
-    }
-    return near;
+    const double distance = std::min(a.distanceTo(b, bToA, most), most);
+    return distance < most / 1000 ? 0 : distance;
 }
 
 /// To one digit.

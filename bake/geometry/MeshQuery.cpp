@@ -1,6 +1,7 @@
 #include "bake/geometry/MeshQuery.h"
 
 #include "bake/geometry/MeshAudit.h"
+#include "bake/geometry/TriangleDistance.h"
 #include "bake/geometry/TrianglePoint.h"
 
 #include <algorithm>
@@ -134,44 +135,76 @@ std::optional<RayHit> MeshQuery::ray(const Vec3& origin, const Vec3& direction, 
     return hit;
 }
 
-bool MeshQuery::apart(const Corners& triangle, double distance) const {
-    const Vec3 centre = (triangle.a + triangle.b + triangle.c) / 3;
-    const double radius =
-        std::sqrt(std::max({(triangle.a - centre).squaredNorm(), (triangle.b - centre).squaredNorm(),
-                            (triangle.c - centre).squaredNorm()}));
-    const double near = this->distance(centre, distance + radius);
-    if (!std::isfinite(near)) return true;
-    if (near < distance || radius <= 0.05 * distance) return false;
-    const std::array<const Vec3*, 3> corners{&triangle.a, &triangle.b, &triangle.c};
-    int k = 0;
-    double longest = 0;
-    for (int i = 0; i < 3; ++i)
-        if (const double l = (*corners[(i + 1) % 3] - *corners[i]).squaredNorm(); l > longest)
-            longest = l, k = i;
-    const Vec3 &a = *corners[k], &b = *corners[(k + 1) % 3], &c = *corners[(k + 2) % 3];
-    const Vec3 middle = 0.5 * (a + b);
-    return apart({a, middle, c}, distance) && apart({middle, b, c}, distance);
+namespace {
+
+/// Squared distance of two boxes, the second one given by its middle and half its sides.
+double squaredDistanceOfBoxes(const Bvh::Node& node, const Vec3& middle, const Vec3& half) {
+    return (node.lower - (middle + half)).cwiseMax((middle - half) - node.upper).cwiseMax(0.0).squaredNorm();
+}
+
+} // namespace
+
+double MeshQuery::searchOther(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double best2,
+                              bool anyWill) const {
+    if (bvh_.empty() || other.bvh_.empty()) return best2;
+    const Eigen::Matrix3d turn = otherToThis.linear(), size = turn.cwiseAbs();
+    const Vec3 shift = otherToThis * other.origin_ - origin_;
+    const auto bound2 = [&](std::uint32_t here, std::uint32_t there) {
+        const Bvh::Node& node = other.bvh_.nodes[there];
+        const Vec3 middle = turn * (0.5 * (node.lower + node.upper)) + shift;
+        return squaredDistanceOfBoxes(bvh_.nodes[here], middle, size * (0.5 * (node.upper - node.lower)));
+    };
+    const double asked2 = best2;
+    struct Both {
+        double bound2;
+        std::uint32_t here, there;
+    };
+    std::vector<Both> stack{{bound2(0, 0), 0, 0}};
+    std::vector<TriangleCorners> moved;
+    while (!stack.empty()) {
+        const Both both = stack.back();
+        stack.pop_back();
+        if (!(both.bound2 < best2)) continue;
+        const Bvh::Node &a = bvh_.nodes[both.here], &b = other.bvh_.nodes[both.there];
+        if (a.count > 0 && b.count > 0) {
+            moved.clear();
+            for (std::uint32_t j = b.first; j < b.first + b.count; ++j) {
+                const Corners& k = other.corners_[other.bvh_.items[j]];
+                moved.push_back({turn * k.a + shift, turn * k.b + shift, turn * k.c + shift});
+            }
+            for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
+                const Corners& k = corners_[bvh_.items[i]];
+                for (const TriangleCorners& t : moved)
+                    best2 = std::min(best2, squaredDistanceOfTriangles({k.a, k.b, k.c}, t));
+            }
+            if (best2 == 0 || (anyWill && best2 < asked2)) return best2;
+            continue;
+        }
+        // The larger one is opened; what is nearer comes first.
+        const bool openHere = b.count > 0 || (a.count == 0 && (a.upper - a.lower).squaredNorm() >=
+                                                                  (b.upper - b.lower).squaredNorm());
+        Both parts[2];
+        for (std::uint32_t k = 0; k < 2; ++k) {
+            parts[k].here = openHere ? a.first + k : both.here;
+            parts[k].there = openHere ? both.there : b.first + k;
+            parts[k].bound2 = bound2(parts[k].here, parts[k].there);
+        }
+        const bool swap = parts[0].bound2 < parts[1].bound2;
+        stack.push_back(parts[swap ? 1 : 0]);
+        stack.push_back(parts[swap ? 0 : 1]);
+    }
+    return best2;
+}
+
+double MeshQuery::distanceTo(const MeshQuery& other, const Eigen::Isometry3d& otherToThis,
+                             double within) const {
+    const double best2 = searchOther(other, otherToThis, within * within, false);
+    return best2 < within * within ? std::sqrt(best2) : std::numeric_limits<double>::infinity();
 }
 
 bool MeshQuery::apart(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double distance) const {
-    std::vector<std::uint32_t> stack;
-    if (!other.bvh_.empty()) stack.push_back(0);
-    while (!stack.empty()) {
-        const Bvh::Node& node = other.bvh_.nodes[stack.back()];
-        stack.pop_back();
-        const Vec3 centre = otherToThis * Vec3(0.5 * (node.lower + node.upper) + other.origin_);
-        const double radius = 0.5 * (node.upper - node.lower).norm();
-        if (!std::isfinite(this->distance(centre, distance + radius))) continue;
-        if (node.count == 0) stack.insert(stack.end(), {node.first, node.first + 1});
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            const Corners& k = other.corners_[other.bvh_.items[i]];
-            if (!apart({otherToThis * Vec3(k.a + other.origin_), otherToThis * Vec3(k.b + other.origin_),
-                        otherToThis * Vec3(k.c + other.origin_)},
-                       distance))
-                return false;
-        }
-    }
-    return true;
+    const double distance2 = distance * distance;
+    return !(searchOther(other, otherToThis, distance2, true) < distance2);
 }
 
 void MeshQuery::buildDipoles() {

@@ -53,8 +53,12 @@ public:
     /// |winding number| >= 1/2: inside the union of the components, whichever way they are turned.
     bool inside(const Vec3& p) const;
 
-    /// Proves that the other mesh, moved into this one's frame, stays at least `distance` away. False: it
-    /// does not, or is so nearly as near that a twentieth of the distance tells. distance: > 0.
+    /// The least distance of the surfaces, the other mesh moved into this one's frame: 0 where they cross,
+    /// infinity where it is not below `within`. Right to rounding.
+    double distanceTo(const MeshQuery& other, const Eigen::Isometry3d& otherToThis,
+                      double within = std::numeric_limits<double>::infinity()) const;
+
+    /// The surfaces stay at least `distance` away from each other.
     bool apart(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double distance) const;
 
     const Bvh& bvh() const { return bvh_; }
@@ -70,8 +74,10 @@ private:
         double radius = 0; ///< all the node's corners lie within it about the centre
     };
 
-    /// The same for one triangle, halved until it tells.
-    bool apart(const Corners& triangle, double distance) const;
+    /// The square of the least distance of the surfaces where that is below best2, else best2. anyWill: the
+    /// first that is found will do.
+    double searchOther(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double best2,
+                       bool anyWill) const;
     void buildDipoles();
     double exactWinding(const Vec3& local) const;
     /// A node's dipole stands for its triangles when it is farther than beta of its radii.

@@ -2,6 +2,7 @@
 
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
+#include "bake/geometry/TriangleDistance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,18 +18,6 @@ double squaredDistanceToSegment(const Vec3& x, const Vec3& a, const Vec3& b) {
     const double length = d.squaredNorm();
     const double t = length > 0 ? std::clamp((x - a).dot(d) / length, 0.0, 1.0) : 0;
     return (x - a - t * d).squaredNorm();
-}
-
-double squaredDistanceOfSegments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    // The nearest pair of two segments has an end in it, or lies inside both.
-    double best = std::min({squaredDistanceToSegment(a, c, d), squaredDistanceToSegment(b, c, d),
-                            squaredDistanceToSegment(c, a, b), squaredDistanceToSegment(d, a, b)});
-    const Vec3 u = b - a, v = d - c, w = a - c;
-    const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), det = uu * vv - uv * uv;
-    if (!(det > 1e-12 * uu * vv)) return best;
-    const double s = (uv * v.dot(w) - vv * u.dot(w)) / det, t = (uu * v.dot(w) - uv * u.dot(w)) / det;
-    if (s > 0 && s < 1 && t > 0 && t < 1) best = std::min(best, (w + s * u - t * v).squaredNorm());
-    return best;
 }
 
 /// The moving spheres of one muscle, and the skin carried by it.

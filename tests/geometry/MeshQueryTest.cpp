@@ -1,6 +1,7 @@
 #include "bake/geometry/MeshQuery.h"
 
 #include "bake/base/Error.h"
+#include "bake/geometry/TriangleDistance.h"
 #include "bake/geometry/TrianglePoint.h"
 #include "tests/geometry/TestMeshes.h"
 
@@ -184,32 +185,67 @@ TEST_CASE("many triangles at one place do not break the hierarchy") {
     CHECK(query.distance({2, 0.5, 0.5}) == Approx(1));
 }
 
-TEST_CASE("meshes proven apart are, and those much farther apart are proven") {
+TEST_CASE("the distance of two triangles is that of their nearest points, 0 where they cross") {
+    std::mt19937_64 random(6);
+    int crossing = 0;
+    for (int i = 0; i < 400; ++i) {
+        TriangleCorners s, t;
+        for (int k = 0; k < 3; ++k) {
+            s[k] = uniformPoint(random, 1);
+            t[k] = uniformPoint(random, 1) + Vec3(i % 3, 0, 0);
+        }
+        if (i % 7 == 0) s[2] = s[0] + uniform(random, 0, 1) * (s[1] - s[0]); // a segment
+        if (i % 31 == 0) s[2] = s[1] = s[0];                                 // a point
+        const double distance = std::sqrt(squaredDistanceOfTriangles(s, t));
+        CHECK(distance == Approx(std::sqrt(squaredDistanceOfTriangles(t, s))).margin(1e-12));
+        // Sampled on one of them, nearest on the other: no less, and no more than a sample is off.
+        constexpr int steps = 40;
+        double sampled = std::numeric_limits<double>::infinity(), longest = 0;
+        for (int k = 0; k < 3; ++k) longest = std::max(longest, (s[(k + 1) % 3] - s[k]).norm());
+        for (int u = 0; u <= steps; ++u)
+            for (int v = 0; u + v <= steps; ++v) {
+                const Vec3 x = (u * s[0] + v * s[1] + (steps - u - v) * s[2]) / steps;
+                sampled = std::min(sampled, (closestOnTriangle(x, t[0], t[1], t[2]) - x).norm());
+            }
+        CAPTURE(i, distance, sampled);
+        CHECK(distance <= sampled + 1e-12);
+        CHECK(sampled <= distance + longest / steps);
+        crossing += distance == 0;
+    }
+    CHECK(crossing > 10);
+}
+
+TEST_CASE("the distance of two meshes is the least of their triangles'") {
     std::mt19937_64 random(6);
     const TriangleMesh a = lumpyMesh(random, 2, 0.3), b = soupMesh(random, 40, 0.6, 0.4);
     const MeshQuery queryA(a), queryB(b);
-    int proven = 0, refuted = 0;
+    int far = 0, crossing = 0;
     for (int i = 0; i < 200; ++i) {
         Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
         pose.linear() =
             Eigen::AngleAxisd(uniform(random, 0, 3), uniformPoint(random, 1).normalized()).toRotationMatrix();
         pose.translation() = uniformPoint(random, 2.5);
-        // Sampled: no less than the distance of the surfaces.
-        double sampled = std::numeric_limits<double>::infinity();
+        double expected = std::numeric_limits<double>::infinity();
         for (std::size_t t = 0; t < b.triangles.size(); ++t)
-            for (int u = 0; u <= 6; ++u)
-                for (int v = 0; u + v <= 6; ++v)
-                    sampled = std::min(sampled,
-                                       queryA.distance(pose * Vec3((u * b.corner(t, 0) + v * b.corner(t, 1) +
-                                                                    (6 - u - v) * b.corner(t, 2)) /
-                                                                   6)));
-        const double asked = uniform(random, 0.01, 0.5);
-        const bool apart = queryA.apart(queryB, pose, asked);
-        (apart ? proven : refuted) += 1;
-        if (apart) CHECK(sampled >= asked);
-        // No point is farther from a sampled one than a sixth of the longest edge.
-        if (sampled > 1.1 * asked + 0.8 / 6) CHECK(apart);
+            for (std::size_t u = 0; u < a.triangles.size(); ++u)
+                expected = std::min(
+                    expected, squaredDistanceOfTriangles(
+                                  {a.corner(u, 0), a.corner(u, 1), a.corner(u, 2)},
+                                  {pose * b.corner(t, 0), pose * b.corner(t, 1), pose * b.corner(t, 2)}));
+        expected = std::sqrt(expected);
+        CAPTURE(i, expected);
+        CHECK(queryA.distanceTo(queryB, pose) == Approx(expected).margin(1e-12));
+        CHECK(queryB.distanceTo(queryA, pose.inverse()) == Approx(expected).margin(1e-12));
+        crossing += expected == 0;
+        if (expected == 0) {
+            CHECK_FALSE(queryA.apart(queryB, pose, 1e-9));
+            continue;
+        }
+        ++far;
+        CHECK(queryA.apart(queryB, pose, expected * (1 - 1e-9)));
+        CHECK_FALSE(queryA.apart(queryB, pose, expected * (1 + 1e-9)));
+        CHECK(std::isinf(queryA.distanceTo(queryB, pose, expected * (1 - 1e-9))));
     }
-    CHECK(proven > 20);
-    CHECK(refuted > 20);
+    CHECK(far > 20);
+    CHECK(crossing > 20);
 }
