@@ -162,14 +162,20 @@ void CellExaminer::openNodes(const CellMotion& motion, const std::vector<NodePai
 /// Drops the pairs that a member answers for, then those that some deeper pair still open makes superfluous:
 /// what answers for that one answers for them.
 void CellExaminer::dropAnswered(const CellMotion& motion) {
-    std::size_t recent = 0;
+    ranks_.clear();
+    for (std::uint32_t k = 0; k < near_.size(); ++k) ranks_.emplace_back(answerRank(near_[k], owed_), k);
+    std::sort(ranks_.begin(), ranks_.end());
+    std::uint32_t recent = 0;
     const auto answered = [&](const PairHere& p) {
         if (recent < near_.size() && dominates(motion, near_[recent], p, owed_, p_.band)) return true;
-        for (std::size_t k = 0; k < near_.size(); ++k)
+        const double needed = rankNeeded(p, owed_);
+        for (const auto& [rank, k] : ranks_) {
+            if (rank >= needed) break;
             if (k != recent && dominates(motion, near_[k], p, owed_, p_.band)) {
                 recent = k;
                 return true;
             }
+        }
         return false;
     };
     std::erase_if(here_, answered);

@@ -1,10 +1,13 @@
 #include "bake/reduce/Domination.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tss {
 
 namespace {
+
+constexpr double largestLambda = 10; ///< that is tried
 
 /// How much the comparison of k with p can grow over the cell against its value at the centre. With D the
 /// moves of the two centres: 2 y_k . D_k - 2 beta y_p . D_p + |D_k|^2 - lambda |D_p|^2. Gives up, above
@@ -38,7 +41,7 @@ bool firesWith(const CellMotion& cell, const PairHere& k, const PairHere& p, dou
         const double free = lambda * ownP - ownK - slack * (1 + lambda);
         return free > 0 && change(cell, k, p, lambda, lambda, free) <= free;
     };
-    const double lambda = pp > 0 ? std::clamp(kp / pp, 0.0, 10.0) : 1.0;
+    const double lambda = pp > 0 ? std::clamp(kp / pp, 0.0, largestLambda) : 1.0;
     return lambda > 0 && shown(lambda);
 }
 
@@ -60,6 +63,16 @@ bool dominates(const CellMotion& cell, const PairHere& k, const PairHere& p, con
     const double slack = 4 * (k.distance + p.distance + band) * band;
     if (owed.yesNo()) return firesWith(cell, k, p, k.reachPair.reach + owed.epsilon, slack);
     return staysNearer(cell, k, p, k.reachPair.reach - p.reachPair.reach + owed.epsilon, slack);
+}
+
+double answerRank(const PairHere& k, const Obligation& owed) {
+    const double limit = k.reachPair.reach + owed.epsilon;
+    return owed.yesNo() ? k.squared - limit * limit : k.gap;
+}
+
+double rankNeeded(const PairHere& p, const Obligation& owed) {
+    if (!owed.yesNo()) return p.gap + owed.epsilon;
+    return largestLambda * std::max(0.0, p.squared - p.reachPair.reach * p.reachPair.reach);
 }
 
 } // namespace tss

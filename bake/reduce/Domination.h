@@ -22,4 +22,8 @@ struct PairHere : PairAt {
 bool dominates(const CellMotion& cell, const PairHere& k, const PairHere& p, const Obligation& owed,
                double band);
 
+/// A quick look before it: k cannot dominate p unless answerRank(k) < rankNeeded(p).
+double answerRank(const PairHere& k, const Obligation& owed);
+double rankNeeded(const PairHere& p, const Obligation& owed);
+
 } // namespace tss
