@@ -212,7 +212,10 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
         SampledSearchOptions sampling;
         sampling.samples = 1024;
         sampling.atRest = options.atRest;
-        for (const SpherePair& pair : searchSampled(a, b, motion, sampling).pairs) known.insert(pair);
+        const Progress asked = [&](std::string_view, double) {
+            return report(progress, "certified search", 0);
+        };
+        for (const SpherePair& pair : searchSampled(a, b, motion, sampling, asked).pairs) known.insert(pair);
     }
     const double tolerance = std::max(options.tolerance >= 0 ? options.tolerance : 0.01 * meanRadius(a, b),
                                       1e-9 * (treeA[0].radius + treeB[0].radius));

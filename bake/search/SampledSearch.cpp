@@ -1,6 +1,7 @@
 #include "bake/search/SampledSearch.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/base/Poll.h"
 #include "bake/search/ExploredPoses.h"
 #include "bake/search/PairBits.h"
 #include "bake/search/TreePair.h"
@@ -20,17 +21,22 @@ CandidatePairs searchSampled(const SphereSet& a, const SphereSet& b, const Motio
     std::vector<char> hit(poses.size(), 0);
     PairBits found(a.size(), b.size());
     constexpr std::size_t batch = 256;
+    Poll poll(progress, "sampled search"); // at one pose alone, millions of pairs may touch
     for (std::size_t first = 0; first < poses.size(); first += batch) {
         if (!report(progress, "sampled search", double(first) / double(poses.size()))) break;
         const std::size_t count = std::min(batch, poses.size() - first);
         parallelFor(count, [&](std::size_t k) {
+            std::uint32_t seen = 0;
             visitPairsWithin(treeA, treeB, pose(motion, poses[first + k]), 0,
                              [&](std::uint32_t i, std::uint32_t j, double gap) {
-                                 if (!rule.touches({i, j}, gap)) return;
-                                 found.insert({i, j});
-                                 hit[first + k] = 1;
+                                 if (rule.touches({i, j}, gap)) {
+                                     found.insert({i, j});
+                                     hit[first + k] = 1;
+                                 }
+                                 return ++seen % 256 != 0 || !poll.stopped();
                              });
         });
+        if (poll.stopped()) break;
         result.explored += count;
     }
     report(progress, "sampled search", 1);
