@@ -66,7 +66,7 @@ struct NeverCollides {
 /// Row and column of each test, in order.
 struct SpherePair {
     std::uint32_t a = 0, b = 0;
-    friend auto operator<=>(const SpherePair&, const SpherePair&) = default;
+    friend auto operator<=>(const SpherePair&, const SpherePair&) = default; // NOLINT(modernize-use-nullptr)
 };
 std::vector<SpherePair> tests(const Table& table);
 
