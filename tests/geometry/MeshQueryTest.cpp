@@ -36,6 +36,10 @@ double bruteDistance(const TriangleMesh& mesh, const Vec3& p) {
     return best;
 }
 
+TriangleMesh closedOrSoup(std::uint64_t seed, std::mt19937_64& random) {
+    return seed % 2 ? lumpyMesh(random, 3, 0.3) : soupMesh(random, 300, 1, 0.2);
+}
+
 } // namespace
 
 TEST_CASE("the nearest point of a triangle agrees with a search over it, slivers and segments included") {
@@ -59,7 +63,7 @@ TEST_CASE("the nearest point of a mesh is the best of all its triangles") {
     const std::uint64_t seed = GENERATE(4u, 5u);
     CAPTURE(seed);
     std::mt19937_64 random(seed);
-    const TriangleMesh mesh = seed % 2 ? lumpyMesh(random, 3, 0.3) : soupMesh(random, 300, 1, 0.2);
+    const TriangleMesh mesh = closedOrSoup(seed, random);
     const MeshQuery query(mesh);
     for (int i = 0; i < 300; ++i) {
         const Vec3 p = uniformPoint(random, 1.5);
@@ -77,7 +81,7 @@ TEST_CASE("what comes within a distance is what is nearer") {
     const std::uint64_t seed = GENERATE(8u, 9u);
     CAPTURE(seed);
     std::mt19937_64 random(seed);
-    const TriangleMesh mesh = seed % 2 ? lumpyMesh(random, 3, 0.3) : soupMesh(random, 300, 1, 0.2);
+    const TriangleMesh mesh = closedOrSoup(seed, random);
     const MeshQuery query(mesh);
     int near = 0;
     for (int i = 0; i < 2000; ++i) {
