@@ -82,16 +82,14 @@ public:
             name,
             "TSS",
             std::string("the prepared table, ") + tss::name(prepared_.form()) + " kernel in " +
-                tss::name(prepared_.precision()) + ", features made from q each time",
+                tss::name(prepared_.precision()) +
+                (prepared_.cells().empty() ? ", features made from q each time"
+                                           : ", asked from q: cell, features where it leaves tests, tests"),
             {stated.miss < 0 ? -1 : stated.miss + band, stated.early < 0 ? -1 : stated.early + band},
             prepared_.bytes(),
             0};
     }
-    bool hit(const PoseQuery& query) const override {
-        TableFeatures features;
-        prepared_.features(query.q.data(), features);
-        return prepared_.hit(features);
-    }
+    bool hit(const PoseQuery& query) const override { return prepared_.hit(query.q.data()); }
     std::optional<double> gap(const PoseQuery& query) const override {
         TableFeatures features;
         prepared_.features(query.q.data(), features);

@@ -166,9 +166,7 @@ std::uint32_t findUnder(const JointModel& model, const JointModel::Group& group,
         own[k] = q[group.dofs[k]];
         margin += model.weights[group.dofs[k]] * reach[group.dofs[k]];
     }
-    TableFeatures features;
-    group.prepared->features(own.data(), features);
-    return group.prepared->under(features, margin, ws.found.data());
+    return group.prepared->under(own.data(), margin, ws.found.data());
 }
 
 } // namespace

@@ -7,6 +7,9 @@
 
 namespace tss {
 
+/// Moves by more than this share of a DOF's range are made in parts, so that few pairs are near each.
+inline constexpr double farMove = 1.0 / 8;
+
 /// A table that bears on a joint: dofs[k] is the place of DOF k of the table's motion among the joint's
 /// values. Several tables may share a joint (a mandible against a skull, a tooth guard against both).
 struct TableOnJoint {

@@ -20,6 +20,37 @@ TableOnJoint wholeJoint(const Table& table) {
     return entry;
 }
 
+/// Into how many legs a way is parted, so that few pairs are near each.
+int legsOf(const JointModel& model, const JointValues& start, const JointValues& goal) {
+    double legs = 1;
+    for (int l = 0; l < model.dofCount; ++l) {
+        const double most = farMove * (model.upper[l] - model.lower[l]);
+        if (most > 0) legs = std::max(legs, std::ceil(std::abs(goal[l] - start[l]) / most));
+    }
+    return static_cast<int>(legs);
+}
+
+/// Culls for the first of so many legs from q to the goal.
+void cullLeg(const JointModel& model, const JointValues& q, const JointValues& goal, int legs,
+             JointWorkspace& ws) {
+    JointValues reach{};
+    for (int l = 0; l < model.dofCount; ++l) reach[l] = std::abs(goal[l] - q[l]) / legs;
+    cull(model, q, reach, ws);
+}
+
+/// Goes from q to the goal as far as the way is free, in legs; the near pairs must be those of the first one,
+/// and are those of the last one gone. False where it is not free to the end.
+bool walk(const JointModel& model, const JointValues& goal, int legs, JointValues& q, JointWorkspace& ws) {
+    JointValues way{};
+    for (; legs > 0; --legs) {
+        for (int l = 0; l < model.dofCount; ++l) way[l] = (goal[l] - q[l]) / legs;
+        if (advance(model, way, q, ws) < 1) return false;
+        if (legs > 1) cullLeg(model, q, goal, legs - 1, ws);
+    }
+    q = goal;
+    return true;
+}
+
 /// The gap exactly as the plain query computes it.
 double queryGap(const JointModel::Pair& pair, const Pose& inverse) {
     const Vec3 centre = inverse * pair.a;
@@ -107,19 +138,15 @@ JointAnswer JointResponder::judged(const JointValues& q, JointStatus status, Joi
     return answer;
 }
 
-JointAnswer JointResponder::fromFree(const JointValues& start, const JointValues& goal,
+JointAnswer JointResponder::fromFree(const JointValues& start, const JointValues& goal, int legs,
                                      JointWorkspace& ws) const {
-    JointValues q = start, way{}, reach{};
-    for (int l = 0; l < model_.dofCount; ++l) way[l] = goal[l] - start[l];
-    if (advance(model_, way, q, ws) == 1) {
-        q = goal;
+    JointValues q = start;
+    if (walk(model_, goal, legs, q, ws)) {
         const JointAnswer free = judged(q, JointStatus::Free, ws);
         if (free.gap > 0) return free;
         q = start;
     }
     const double before = weightedDistance(model_, q, goal);
-    for (int l = 0; l < model_.dofCount; ++l) reach[l] = 2 * before / model_.weights[l];
-    cull(model_, q, reach, ws);
     slide(model_, goal, q, ws);
     const double after = weightedDistance(model_, q, goal);
     const bool slid = after < before - 1e-6 * model_.scale;
@@ -136,10 +163,9 @@ JointAnswer JointResponder::fromCollision(const JointValues& start, const JointV
     const bool deep = knownDepth_ > 0 && depth < -knownDepth_ && hasFreePose_;
     const double pushed = deep ? depth : pushOut(model_, q, ws);
     if (pushed > 0) {
-        JointValues reach{};
-        for (int l = 0; l < model_.dofCount; ++l) reach[l] = std::abs(goal[l] - q[l]);
-        cull(model_, q, reach, ws);
-        JointAnswer answer = fromFree(q, goal, ws);
+        const int legs = legsOf(model_, q, goal);
+        cullLeg(model_, q, goal, legs, ws);
+        JointAnswer answer = fromFree(q, goal, legs, ws);
         answer.status = JointStatus::Separated;
         if (answer.gap > 0) return answer;
     }
@@ -165,21 +191,20 @@ JointAnswer JointResponder::respond(const double* last, const double* asked, Joi
     for (PlacedGroup& group : ws.groups) group.known = false; // it may have served another joint
     const JointValues start = clampToLimits(model_, last, ws);
     const JointValues goal = clampToLimits(model_, asked, ws);
-    JointValues reach{};
-    for (int l = 0; l < model_.dofCount; ++l) reach[l] = std::abs(goal[l] - start[l]);
+    const int legs = legsOf(model_, start, goal);
     ws.common = false;
-    cull(model_, start, reach, ws);
-    if (ws.nearCount == 0) {
+    cullLeg(model_, start, goal, legs, ws);
+    if (legs == 1 && ws.nearCount == 0) {
         JointAnswer free;
         free.q = goal;
         free.gap = std::numeric_limits<double>::infinity();
         return free;
     }
-    double gap = ws.near[0].gap;
-    for (std::size_t i = 1; i < ws.nearCount; ++i) gap = std::min(gap, ws.near[i].gap);
+    double gap = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < ws.nearCount; ++i) gap = std::min(gap, ws.near[i].gap);
     // Nearer to 0 than any rounding, only the exact query's own arithmetic can tell.
     if (std::abs(gap) < 0.5 * model_.off) gap = judged(start, JointStatus::Free, ws).gap;
-    return gap > 0 ? fromFree(start, goal, ws) : fromCollision(start, goal, gap, ws);
+    return gap > 0 ? fromFree(start, goal, legs, ws) : fromCollision(start, goal, gap, ws);
 }
 
 } // namespace tss

@@ -47,7 +47,8 @@ public:
 
 private:
     void findFreePose(const JointValues& rest);
-    JointAnswer fromFree(const JointValues& start, const JointValues& goal, JointWorkspace& ws) const;
+    JointAnswer fromFree(const JointValues& start, const JointValues& goal, int legs,
+                         JointWorkspace& ws) const;
     JointAnswer fromCollision(const JointValues& start, const JointValues& goal, double depth,
                               JointWorkspace& ws) const;
     JointAnswer judged(const JointValues& q, JointStatus status, JointWorkspace& ws) const;

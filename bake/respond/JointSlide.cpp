@@ -12,6 +12,8 @@ namespace {
 constexpr double endRoom = 0.1;
 /// Less than so much of model.off too little room is no reason to look for a way again.
 constexpr double liftSlack = 0.04;
+/// The first round of a slide goes no farther than this share of a range.
+constexpr double firstMove = 1.0 / 128;
 /// What a pair had to be lifted in a round, above endRoom, it has to be lifted in the next by this share:
 /// ways get shorter, and what they bend shrinks with their square.
 constexpr double liftKept = 0.25;
@@ -140,25 +142,49 @@ bool slideWay(const JointModel& model, const JointValues& q, const JointValues& 
     return true;
 }
 
+/// Culls for a round at q, `distance` from the goal. Returns whether for all that follow, too, none of which
+/// is farther from the goal. Else for moves of no more than `trust` of each range.
+bool cullRound(const JointModel& model, const JointValues& q, double distance, double trust,
+               JointWorkspace& ws) {
+    bool all = true;
+    JointValues reach{};
+    for (int l = 0; l < model.dofCount; ++l) {
+        const double most = trust * (model.upper[l] - model.lower[l]);
+        reach[l] = 2 * distance * model.perWeight[l];
+        if (reach[l] > most && most > 0) {
+            reach[l] = most;
+            all = false;
+        }
+    }
+    cull(model, q, reach, ws);
+    return all;
+}
+
 } // namespace
 
 void slide(const JointModel& model, const JointValues& goal, JointValues& q, JointWorkspace& ws) {
-    double trust = 1;
+    double trust = firstMove;
     double distance = weightedDistance(model, q, goal);
     const double least = std::clamp(1e-3 * distance, 1e-7 * model.scale, 1e-5 * model.scale);
-    bool corner = false;
+    bool corner = false, complete = false;
     const double leastLift = endRoom * model.off;
-    for (std::size_t i = 0; i < ws.nearCount; ++i) ws.near[i].lift = leastLift;
-    for (int round = 0; round < 20 && distance > least; ++round) {
+    for (int round = 0, far = 0; round < 20 && far < 40 && distance > least; ++(complete ? round : far)) {
+        if (!complete) {
+            trust = std::min(trust, farMove);
+            complete = cullRound(model, q, distance, trust, ws);
+            if (complete) trust = 1;
+            for (std::size_t i = 0; i < ws.nearCount; ++i) ws.near[i].lift = leastLift;
+        } else {
+            for (std::size_t i = 0; i < ws.nearCount; ++i) {
+                NearPair& near = ws.near[i];
+                near.lift = leastLift + liftKept * (near.lift - leastLift);
+            }
+        }
         JointValues way{};
         for (int l = 0; l < model.dofCount; ++l) way[l] = goal[l] - q[l];
         linearise(model, q, way, ws);
         // No pose from here on is farther from the goal than this one, so from this one than twice that.
         narrow(model, 2 * distance, ws);
-        for (std::size_t i = 0; i < ws.nearCount; ++i) {
-            NearPair& near = ws.near[i];
-            near.lift = leastLift + liftKept * (near.lift - leastLift);
-        }
         if (!slideWay(model, q, goal, trust, ws, corner, way)) return;
         if (weightedLength(model, way) < least) return;
         // Pairs are known to be near only where a pose is no farther from the goal than this one.

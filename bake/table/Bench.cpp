@@ -30,6 +30,7 @@ bool benchWith(std::string_view name, BenchWith& with) {
     if (name == "gap") return with = BenchWith::Gap, true;
     if (name == "contact") return with = BenchWith::Contact, true;
     if (name == "features") return with = BenchWith::Features, true;
+    if (name == "pose") return with = BenchWith::Pose, true;
     return false;
 }
 
@@ -67,6 +68,9 @@ BenchResult benchQueries(const PreparedTable& table, const Motion& motion, std::
         break;
     case BenchWith::Features:
         repeat(queries, poses.size(), [&](std::size_t i) { table.features(poses[i].data(), features[i]); });
+        break;
+    case BenchWith::Pose:
+        repeat(queries, poses.size(), [&](std::size_t i) { result.hits += table.hit(poses[i].data()); });
         break;
     }
     result.nanoseconds = nanoseconds(start, Clock::now(), static_cast<double>(queries));

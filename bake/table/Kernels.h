@@ -37,6 +37,16 @@ struct KernelData {
     std::uint32_t columns = 0; ///< features of the fold
 };
 
+/// Which blocks a query looks at (TableCells.h): those whose code is at most `limit`, below 255.
+struct NearBlocks {
+    static constexpr std::uint32_t codesPerGroup = 16; ///< as many are compared at once
+    static constexpr std::uint32_t headerCodes = 2;    ///< that mean something else
+
+    const std::uint8_t* codes = nullptr; ///< the header, then one a block, 255 to the end of the last group
+    std::uint32_t groups = 0;
+    std::uint8_t limit = 0;
+};
+
 struct KernelGap {
     double gap = 0;
     std::int32_t test = -1;
@@ -51,10 +61,16 @@ struct KernelSet {
     bool (*hit)(const KernelData& data, const void* pose) = nullptr;
     KernelGap (*gap)(const KernelData& data, const void* pose) = nullptr;
 
-    /// Numbers of the tests whose gap is at most `margin` >= 0, rising, into `out` (room for all lanes of
-    /// all blocks). Returns how many; lanes beyond the last pair never qualify.
+    /// Numbers of the tests whose gap is at most `margin` >= 0, in the order of the blocks, into `out` (room
+    /// for all lanes of all blocks). Returns how many; lanes beyond the last pair never qualify.
     std::uint32_t (*under)(const KernelData& data, const void* pose, double margin,
                            std::uint32_t* out) = nullptr;
+
+    /// The same of some blocks.
+    bool (*hitNear)(const KernelData& data, const void* pose, const NearBlocks& near) = nullptr;
+    KernelGap (*gapNear)(const KernelData& data, const void* pose, const NearBlocks& near) = nullptr;
+    std::uint32_t (*underNear)(const KernelData& data, const void* pose, const NearBlocks& near,
+                               double margin, std::uint32_t* out) = nullptr;
 
     /// Many poses at once against data of lanes 1: value k of pose i at poses[k * stride + i], i up to count
     /// rounded up to 16; so much is written, too. hit: 1 or 0.

@@ -43,56 +43,104 @@ struct DirectRow {
     static std::uint32_t width(std::uint32_t) { return directColumns; }
 };
 
+/// Calls take(row) for every row.
 template <class T, class Row>
-T leastOffset(const KernelData& data, const T* pose, std::uint32_t stride) {
+struct AllRows {
+    const KernelData& data;
+    template <class Take>
+    void each(Take take) const {
+        const T* end = static_cast<const T*>(data.end);
+        for (const T* row = static_cast<const T*>(data.blocks); row < end; row += Row::width(data.columns))
+            take(row);
+    }
+};
+
+/// The same for those that are near.
+template <class T, class Row>
+struct NearRows {
+    const KernelData& data;
+    const NearBlocks& near;
+    template <class Take>
+    void each(Take take) const {
+        const T* rows = static_cast<const T*>(data.blocks);
+        const std::size_t width = Row::width(data.columns);
+        const std::size_t count = static_cast<std::size_t>(static_cast<const T*>(data.end) - rows) / width;
+        for (std::size_t i = 0; i < count; ++i)
+            if (near.codes[i + NearBlocks::headerCodes] <= near.limit) take(rows + i * width);
+    }
+};
+
+/// Not a count: the one row of an empty table is no test.
+template <class T, class Row>
+std::int32_t testOf(const T* row, const KernelData& data) {
+    using Number = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+    return static_cast<std::int32_t>(std::bit_cast<Number>(row[Row::width(data.columns) - 1]));
+}
+
+template <class T, class Row, class Rows>
+T leastOffset(const Rows& rows, const T* pose, std::uint32_t stride) {
     T least = std::numeric_limits<T>::max();
-    const T* end = static_cast<const T*>(data.end);
-    for (const T* row = static_cast<const T*>(data.blocks); row < end; row += Row::width(data.columns))
-        least = std::min(least, Row::offset(row, pose + stride, stride, data.columns));
+    rows.each([&](const T* row) {
+        least = std::min(least, Row::offset(row, pose + stride, stride, rows.data.columns));
+    });
     return least;
 }
 
-template <class T, class Row>
-KernelGap leastGap(const KernelData& data, const T* pose, std::uint32_t stride) {
+template <class T, class Row, class Rows>
+KernelGap leastGap(const Rows& rows, const T* pose, std::uint32_t stride) {
     T best = std::numeric_limits<T>::max();
-    using Number = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
     std::int32_t test = -1;
-    const T* end = static_cast<const T*>(data.end);
-    for (const T* row = static_cast<const T*>(data.blocks); row < end; row += Row::width(data.columns)) {
-        const T square = Row::square(row, pose + stride, stride, data.columns) - pose[0];
-        const T gap = std::sqrt(std::max(square, T(0))) - Row::reach(row, data.columns);
+    rows.each([&](const T* row) {
+        const T square = Row::square(row, pose + stride, stride, rows.data.columns) - pose[0];
+        const T gap = std::sqrt(std::max(square, T(0))) - Row::reach(row, rows.data.columns);
         if (gap < best) {
             best = gap;
-            // Not a count: the one row of an empty table is no test.
-            test = static_cast<std::int32_t>(std::bit_cast<Number>(row[Row::width(data.columns) - 1]));
+            test = testOf<T, Row>(row, rows.data);
         }
-    }
+    });
     return {static_cast<double>(best), test};
+}
+
+template <class T, class Row, class Rows>
+std::uint32_t allUnder(const Rows& rows, const T* pose, double marginWide, std::uint32_t* out) {
+    const T margin = static_cast<T>(marginWide);
+    std::uint32_t count = 0;
+    rows.each([&](const T* row) {
+        const T allowed = margin * (2 * Row::reach(row, rows.data.columns) + margin) + pose[0];
+        if (Row::offset(row, pose + 1, 1, rows.data.columns) <= allowed)
+            out[count++] = static_cast<std::uint32_t>(testOf<T, Row>(row, rows.data));
+    });
+    return count;
 }
 
 template <class T, class Row>
 bool hit(const KernelData& data, const void* pose) {
     const T* values = static_cast<const T*>(pose);
-    return leastOffset<T, Row>(data, values, 1) <= values[0];
+    return leastOffset<T, Row>(AllRows<T, Row>{data}, values, 1) <= values[0];
+}
+template <class T, class Row>
+bool hitNear(const KernelData& data, const void* pose, const NearBlocks& near) {
+    const T* values = static_cast<const T*>(pose);
+    return leastOffset<T, Row>(NearRows<T, Row>{data, near}, values, 1) <= values[0];
 }
 
 template <class T, class Row>
 KernelGap gap(const KernelData& data, const void* pose) {
-    return leastGap<T, Row>(data, static_cast<const T*>(pose), 1);
+    return leastGap<T, Row>(AllRows<T, Row>{data}, static_cast<const T*>(pose), 1);
+}
+template <class T, class Row>
+KernelGap gapNear(const KernelData& data, const void* pose, const NearBlocks& near) {
+    return leastGap<T, Row>(NearRows<T, Row>{data, near}, static_cast<const T*>(pose), 1);
 }
 
 template <class T, class Row>
-std::uint32_t under(const KernelData& data, const void* pose, double marginWide, std::uint32_t* out) {
-    const T* values = static_cast<const T*>(pose);
-    const T margin = static_cast<T>(marginWide);
-    std::uint32_t count = 0, number = 0;
-    const T* end = static_cast<const T*>(data.end);
-    for (const T* row = static_cast<const T*>(data.blocks); row < end; row += Row::width(data.columns)) {
-        const T allowed = margin * (2 * Row::reach(row, data.columns) + margin) + values[0];
-        if (Row::offset(row, values + 1, 1, data.columns) <= allowed) out[count++] = number;
-        ++number;
-    }
-    return count;
+std::uint32_t under(const KernelData& data, const void* pose, double margin, std::uint32_t* out) {
+    return allUnder<T, Row>(AllRows<T, Row>{data}, static_cast<const T*>(pose), margin, out);
+}
+template <class T, class Row>
+std::uint32_t underNear(const KernelData& data, const void* pose, const NearBlocks& near, double margin,
+                        std::uint32_t* out) {
+    return allUnder<T, Row>(NearRows<T, Row>{data, near}, static_cast<const T*>(pose), margin, out);
 }
 
 template <class T, class Row>
@@ -100,14 +148,15 @@ void hits(const KernelData& rows, const void* poses, std::uint32_t stride, std::
           std::uint8_t* hit) {
     const T* values = static_cast<const T*>(poses);
     for (std::uint32_t i = 0; i < count; ++i)
-        hit[i] = leastOffset<T, Row>(rows, values + i, stride) <= values[i];
+        hit[i] = leastOffset<T, Row>(AllRows<T, Row>{rows}, values + i, stride) <= values[i];
 }
 
 template <class T, class Row>
 void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count, float* gap,
           std::int32_t* test) {
     for (std::uint32_t i = 0; i < count; ++i) {
-        const KernelGap best = leastGap<T, Row>(rows, static_cast<const T*>(poses) + i, stride);
+        const KernelGap best =
+            leastGap<T, Row>(AllRows<T, Row>{rows}, static_cast<const T*>(poses) + i, stride);
         gap[i] = static_cast<float>(best.gap);
         test[i] = best.test;
     }
@@ -115,8 +164,17 @@ void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::
 
 template <class T, class Row>
 KernelSet kernels() {
-    return {1,       hit<T, Row>, gap<T, Row>, under<T, Row>, hits<T, Row>, gaps<T, Row>,
-            nullptr, nullptr,     plainContact};
+    KernelSet set;
+    set.hit = hit<T, Row>;
+    set.gap = gap<T, Row>;
+    set.under = under<T, Row>;
+    set.hitNear = hitNear<T, Row>;
+    set.gapNear = gapNear<T, Row>;
+    set.underNear = underNear<T, Row>;
+    set.hits = hits<T, Row>;
+    set.gaps = gaps<T, Row>;
+    set.contact = plainContact;
+    return set;
 }
 
 } // namespace

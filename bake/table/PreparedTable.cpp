@@ -15,6 +15,10 @@ namespace {
 /// What stands for a pair that is none: never under a margin, farther than any other.
 constexpr double farOffset = 3e37, farReach = -1e18;
 
+/// Cells pay for more blocks than this, where a query looks at this share of them on average, at most.
+constexpr std::uint32_t fewBlocks = 4;
+constexpr double mostLooked = 0.6;
+
 /// Poses at which the bodies are nearest to touching: a twentieth of a lattice over the limits.
 std::vector<std::vector<double>> nearContact(const Motion& motion, const std::vector<TablePair>& pairs) {
     const int count = std::clamp(static_cast<int>(1000000 / (pairs.size() + 1)), 64, 2000);
@@ -102,9 +106,9 @@ PreparedTable::PreparedTable(const Table& table, const PrepareOptions& options)
                                  0.5 * (p.radiusA - p.radiusB)});
     choose(options);
     if (float_)
-        prepareKernels<float>();
+        prepareKernels<float>(options.cells);
     else
-        prepareKernels<double>();
+        prepareKernels<double>(options.cells);
 }
 
 void PreparedTable::Bands::widen(double u, double error, double reach) {
@@ -184,7 +188,8 @@ void PreparedTable::choose(const PrepareOptions& options) {
 }
 
 template <class T>
-void PreparedTable::fill(std::uint32_t lanes, std::vector<Chunk>& store, KernelData& data) const {
+void PreparedTable::fill(std::uint32_t lanes, std::span<const std::uint32_t> order, std::vector<Chunk>& store,
+                         KernelData& data) const {
     using Number = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
     data.columns = fold_ ? std::uint32_t(fold_->features.size()) : 0;
     const std::uint32_t columns = fold_ ? foldColumns(data.columns) : directColumns;
@@ -194,9 +199,10 @@ void PreparedTable::fill(std::uint32_t lanes, std::vector<Chunk>& store, KernelD
     T* blocks = reinterpret_cast<T*>(store.data());
     data.blocks = blocks;
     data.end = blocks + count * step;
-    for (std::size_t i = 0; i < count * lanes; ++i) {
-        T* block = blocks + i / lanes * step + i % lanes;
-        const bool real = i < pairs_.size();
+    for (std::size_t place = 0; place < count * lanes; ++place) {
+        T* block = blocks + place / lanes * step + place % lanes;
+        const bool real = place < pairs_.size();
+        const std::size_t i = real && !order.empty() ? order[place] : place;
         const double reach = real ? pairs_[i].reach : farReach;
         *column(block, lanes, columns - 1) = std::bit_cast<T>(real ? Number(i) : Number(-1));
         *column(block, lanes, columns - 2) = T(reach);
@@ -216,8 +222,18 @@ void PreparedTable::fill(std::uint32_t lanes, std::vector<Chunk>& store, KernelD
     }
 }
 
+void PreparedTable::makeCells(CellUse use) {
+    bool moves = false;
+    for (const Dof& dof : motion_.dofs) moves = moves || dof.upper > dof.lower;
+    if (use == CellUse::Never || !moves || pairs_.empty()) return;
+    // To look up a cell costs as much as a few blocks.
+    if (use == CellUse::Auto && pairs_.size() <= std::size_t(fewBlocks) * kernels_.lanes) return;
+    TableCells cells(motion_, pairs_, kernels_.lanes);
+    if (use == CellUse::Always || cells.looked() <= mostLooked) cells_ = std::move(cells);
+}
+
 template <class T>
-void PreparedTable::prepareKernels() {
+void PreparedTable::prepareKernels(CellUse use) {
     kernels_ = fold_ ? foldKernels<T>(target_, std::uint32_t(fold_->features.size()), motion_.dofCount())
                      : directKernels<T>(target_);
     if (fold_)
@@ -226,16 +242,33 @@ void PreparedTable::prepareKernels() {
         plan_ = PosePlan(recipe_);
     else
         kernels_.pose = nullptr, kernels_.poses = nullptr;
-    fill<T>(kernels_.lanes, blocks_, data_);
-    fill<T>(1, rowStore_, rows_);
+    makeCells(use);
+    fill<T>(kernels_.lanes, cells_.order(), blocks_, data_);
+    fill<T>(1, {}, rowStore_, rows_);
     room_ = std::max<std::size_t>(1, (pairs_.size() + kernels_.lanes - 1) / kernels_.lanes) * kernels_.lanes;
 }
 
 std::size_t PreparedTable::bytes() const {
-    return blocks_.size() * sizeof(Chunk);
+    return blocks_.size() * sizeof(Chunk) + cells_.bytes();
 }
 
 void PreparedTable::features(const double* q, TableFeatures& out) const {
+    if (!cells_.empty()) out.cell = cells_.rowAt(q);
+    poseFeatures(q, out);
+}
+
+bool PreparedTable::hit(const double* q) const {
+    TableFeatures f;
+    if (!cells_.empty()) {
+        f.cell = cells_.rowAt(q);
+        if (cells_.allTouch(f.cell)) return true;
+        if (cells_.noneTouches(f.cell)) return false;
+    }
+    poseFeatures(q, f);
+    return hit(f);
+}
+
+void PreparedTable::poseFeatures(const double* q, TableFeatures& out) const {
     if (kernels_.pose) return kernels_.pose(plan_, q, out.doubles);
     if (fold_) {
         if (float_)
@@ -262,7 +295,7 @@ void PreparedTable::frame(const double* q, MotionFrame& out) const {
 }
 
 void PreparedTable::contact(const TableFeatures& f, const MotionFrame& frame, TableContact& out) const {
-    out.test = kernels_.gap(data_, f.doubles).test;
+    out.test = nearest(f).test;
     if (out.test < 0) {
         out.gap = std::numeric_limits<double>::infinity();
         return;
@@ -272,7 +305,23 @@ void PreparedTable::contact(const TableFeatures& f, const MotionFrame& frame, Ta
 
 std::uint32_t PreparedTable::under(const TableFeatures& f, double margin, std::uint32_t* out) const {
     // Rounding grows with the margin; twice the band at 0 and some roundoffs of the margin cover it.
-    return kernels_.under(data_, f.doubles, margin + 2 * std::max(signBand_, gapBand_) + 2e-6 * margin, out);
+    const double wide = margin + 2 * std::max(signBand_, gapBand_) + 2e-6 * margin;
+    if (!cells_.empty())
+        if (const std::uint8_t limit = cells_.code(margin); limit < TableCells::nearCode)
+            return kernels_.underNear(data_, f.doubles, cells_.under(f.cell, limit), wide, out);
+    return kernels_.under(data_, f.doubles, wide, out);
+}
+
+std::uint32_t PreparedTable::under(const double* q, double margin, std::uint32_t* out) const {
+    TableFeatures f;
+    if (!cells_.empty()) {
+        f.cell = cells_.rowAt(q);
+        if (const std::uint8_t limit = cells_.code(margin);
+            limit < TableCells::nearCode && cells_.nearestCode(f.cell) > limit)
+            return 0;
+    }
+    poseFeatures(q, f);
+    return under(f, margin, out);
 }
 
 } // namespace tss

@@ -2,6 +2,7 @@
 #include "bake/table/Contact.h"
 #include "bake/table/Kernels.h"
 #include "bake/table/PosePlan.h"
+#include "bake/table/TableCells.h"
 
 #include <optional>
 
@@ -13,6 +14,9 @@ enum class KernelPrecision { Float, Double };
 const char* name(KernelForm form);
 const char* name(KernelPrecision precision);
 
+/// Whether a table gets cells (TableCells.h). Auto: where they leave out much.
+enum class CellUse { Auto, Never, Always };
+
 /// What to prepare a table for. What is not given is chosen by METHOD 4: the fold up to 10 features, float
 /// where its rounding band is within epsilon / 10, or for a table without epsilon, within a thousandth of
 /// what its spheres are off the meshes anyway.
@@ -20,6 +24,7 @@ struct PrepareOptions {
     KernelTarget target = KernelTarget::Best; ///< must be available
     std::optional<KernelForm> form;           ///< Fold is not to be had for every motion
     std::optional<KernelPrecision> precision;
+    CellUse cells = CellUse::Auto; ///< for a motion without DOFs or range there are none
 };
 
 /// A pose as the kernels want it. Made by PreparedTable::features, good for that table only.
@@ -29,6 +34,7 @@ struct TableFeatures {
         alignas(64) double doubles[room];
         float floats[room];
     };
+    std::uint32_t cell = 0; ///< where the pose is among the table's cells
     TableFeatures() : doubles{} {}
 };
 
@@ -62,11 +68,18 @@ public:
 
     /// Some test touches. Never false where a gap is <= 0, and true only where one is <= signBand(): the
     /// kernels reach further by what they may round.
-    bool hit(const TableFeatures& f) const { return kernels_.hit(data_, f.doubles); }
+    bool hit(const TableFeatures& f) const {
+        if (cells_.empty()) return kernels_.hit(data_, f.doubles);
+        if (cells_.allTouch(f.cell)) return true;
+        return kernels_.hitNear(data_, f.doubles, cells_.under(f.cell, TableCells::contactCode));
+    }
+
+    /// The same from the values themselves: most poses are in a cell that has the answer, without features.
+    bool hit(const double* q) const;
 
     /// The smallest gap, within gapBand() for gaps up to the table's margin, and its test.
     TableGap gap(const TableFeatures& f) const {
-        const KernelGap g = kernels_.gap(data_, f.doubles);
+        const KernelGap g = nearest(f);
         return {g.gap, g.test};
     }
 
@@ -78,9 +91,12 @@ public:
     /// T(q) and how each DOF moves B from there, for `contact`.
     void frame(const double* q, MotionFrame& out) const;
 
-    /// Numbers of all tests whose gap may be at most margin (>= 0; none is missed within the band), rising.
-    /// out: room for testRoom() numbers. Returns how many.
+    /// Numbers of all tests whose gap may be at most margin (>= 0; none is missed within the band), always in
+    /// the same order. out: room for testRoom() numbers. Returns how many.
     std::uint32_t under(const TableFeatures& f, double margin, std::uint32_t* out) const;
+
+    /// The same from the values themselves, without features where the cell of q has no test to be asked.
+    std::uint32_t under(const double* q, double margin, std::uint32_t* out) const;
 
     /// Many instances at once. q: count rows of one value a DOF. Allocates when `out` has to grow.
     void instanceFeatures(const double* q, std::uint32_t count, InstanceFeatures& out) const;
@@ -93,6 +109,7 @@ public:
     std::size_t testRoom() const { return room_; }
     std::size_t dofCount() const { return motion_.dofCount(); }
     const TablePair& pair(std::size_t test) const { return pairs_[test]; }
+    const TableCells& cells() const { return cells_; } ///< empty where they do not pay
 
     KernelForm form() const { return form_; }
     KernelPrecision precision() const { return float_ ? KernelPrecision::Float : KernelPrecision::Double; }
@@ -116,6 +133,8 @@ public:
     double margin() const { return margin_; }
     const std::optional<Fold>& fold() const { return fold_; } ///< nothing for the direct form
     const KernelData& rows() const { return rows_; }          ///< one pair after the other
+    const KernelData& blocks() const { return data_; }        ///< the same in blocks of lanes()
+    std::uint32_t lanes() const { return kernels_.lanes; }
     const Vec3& originA() const { return originA_; }
     const Vec3& originB() const { return originB_; }
     double farthestT() const { return farthestT_; } ///< bound of |T(q) originB - originA|
@@ -131,13 +150,23 @@ private:
         void widen(double u, double error, double reach);
     };
 
+    KernelGap nearest(const TableFeatures& f) const {
+        if (cells_.empty()) return kernels_.gap(data_, f.doubles);
+        const std::uint8_t reached = cells_.reachedCode(f.cell);
+        return reached == TableCells::farCode
+                   ? kernels_.gap(data_, f.doubles)
+                   : kernels_.gapNear(data_, f.doubles, cells_.under(f.cell, reached));
+    }
+    void poseFeatures(const double* q, TableFeatures& out) const;
     Bands foldBands(double u) const;
     Bands directBands(double u) const;
     void choose(const PrepareOptions& options);
     template <class T>
-    void fill(std::uint32_t lanes, std::vector<Chunk>& store, KernelData& data) const;
+    void fill(std::uint32_t lanes, std::span<const std::uint32_t> order, std::vector<Chunk>& store,
+              KernelData& data) const;
     template <class T>
-    void prepareKernels();
+    void prepareKernels(CellUse use);
+    void makeCells(CellUse use);
 
     Motion motion_;
     std::vector<TablePair> pairs_;
@@ -148,6 +177,7 @@ private:
     double farthestT_ = 0; ///< bound of |T(q) originB - originA|
     std::optional<Fold> fold_;
     PoseRecipe recipe_;
+    TableCells cells_;
     PosePlan plan_; ///< of the form that was chosen; empty for the direct one of a path or of no DOF
 
     KernelForm form_ = KernelForm::Direct;

@@ -102,6 +102,52 @@ struct Broadcast {
     }
 };
 
+/// Calls take(block) for every block.
+template <class T, class Form>
+struct AllBlocks {
+    const KernelData& data;
+    template <class Take>
+    HWY_INLINE void each(Take take) const {
+        const std::size_t step = Form::columns * hn::Lanes(Lanes<T>());
+        const T *block = static_cast<const T*>(data.blocks), *end = static_cast<const T*>(data.end);
+        for (; block < end; block += step) take(block);
+    }
+};
+
+/// The same for those that are near.
+template <class T, class Form>
+struct SomeBlocks {
+    const KernelData& data;
+    const NearBlocks& near;
+    template <class Take>
+    HWY_INLINE void each(Take take) const {
+        constexpr std::uint32_t perGroup = NearBlocks::codesPerGroup, header = NearBlocks::headerCodes;
+        const hn::FixedTag<std::uint8_t, perGroup> bytes;
+        const std::size_t step = Form::columns * hn::Lanes(Lanes<T>());
+        const T* blocks = static_cast<const T*>(data.blocks);
+        const auto limit = hn::Set(bytes, near.limit);
+        unsigned mask = 0xffffu << header;
+        for (std::uint32_t group = 0; group < near.groups; ++group) {
+            const auto codes = hn::LoadU(bytes, near.codes + perGroup * group);
+            std::uint8_t in[8] = {};
+            hn::StoreMaskBits(bytes, hn::Eq(hn::Min(codes, limit), codes), in);
+            for (mask &= in[0] | unsigned(in[1]) << 8; mask != 0; mask &= mask - 1)
+                take(blocks + (perGroup * group + hwy::Num0BitsBelowLS1Bit_Nonzero32(mask) - header) * step);
+            mask = 0xffffu;
+        }
+    }
+};
+
+template <class T, class Form>
+bool hitNear(const KernelData& data, const void* pose, const NearBlocks& near) {
+    const Lanes<T> d;
+    const Broadcast<T, Form::values> p(pose);
+    V<T> least = farthest<T>();
+    SomeBlocks<T, Form>{data, near}.each(
+        [&](const T* block) { least = hn::Min(least, Form::offset(p.values + 1, LoadColumn<T>{block})); });
+    return !hn::AllFalse(d, hn::Le(least, p.values[0]));
+}
+
 template <class T, class Form>
 bool hit(const KernelData& data, const void* pose) {
     const Lanes<T> d;
@@ -136,19 +182,11 @@ HWY_INLINE V<T> gapOf(const V<T>* pose, Column column) {
     return hn::Sub(hn::Sqrt(hn::Max(square, hn::Zero(Lanes<T>()))), column(Form::reach));
 }
 
-template <class T, class Form>
-KernelGap gap(const KernelData& data, const void* pose) {
+/// The least lane, and the number of its test.
+template <class T>
+HWY_INLINE KernelGap leastOf(const Nearest<T>& nearest) {
     using Number = hwy::MakeSigned<T>;
     const Lanes<T> d;
-    const Broadcast<T, Form::values> p(pose);
-    const std::size_t step = Form::columns * hn::Lanes(d);
-    const T *block = static_cast<const T*>(data.blocks), *end = static_cast<const T*>(data.end);
-    const LoadColumn<T> first{block};
-    Nearest<T> nearest{gapOf<T, Form>(p.values, first), first(Form::reach + 1)};
-    for (block += step; block < end; block += step) {
-        const LoadColumn<T> column{block};
-        nearest.take(gapOf<T, Form>(p.values, column), column(Form::reach + 1));
-    }
     const V<T> least = hn::MinOfLanes(d, nearest.gap);
     // A pose that is not a number equals nothing: whatever lane that gives is as good as any.
     const auto equal = hn::Eq(nearest.gap, least);
@@ -160,27 +198,64 @@ KernelGap gap(const KernelData& data, const void* pose) {
 }
 
 template <class T, class Form>
-std::uint32_t under(const KernelData& data, const void* pose, double marginWide, std::uint32_t* out) {
+KernelGap gap(const KernelData& data, const void* pose) {
+    const Broadcast<T, Form::values> p(pose);
+    const std::size_t step = Form::columns * hn::Lanes(Lanes<T>());
+    const T *block = static_cast<const T*>(data.blocks), *end = static_cast<const T*>(data.end);
+    const LoadColumn<T> first{block};
+    Nearest<T> nearest{gapOf<T, Form>(p.values, first), first(Form::reach + 1)};
+    for (block += step; block < end; block += step) {
+        const LoadColumn<T> column{block};
+        nearest.take(gapOf<T, Form>(p.values, column), column(Form::reach + 1));
+    }
+    return leastOf(nearest);
+}
+
+template <class T, class Form>
+KernelGap gapNear(const KernelData& data, const void* pose, const NearBlocks& near) {
+    const Lanes<T> d;
+    const Broadcast<T, Form::values> p(pose);
+    Nearest<T> nearest{farthest<T>(), hn::BitCast(d, hn::Set(hn::RebindToSigned<Lanes<T>>(), -1))};
+    SomeBlocks<T, Form>{data, near}.each([&](const T* block) {
+        const LoadColumn<T> column{block};
+        nearest.take(gapOf<T, Form>(p.values, column), column(Form::reach + 1));
+    });
+    return leastOf(nearest);
+}
+
+template <class T, class Form, class Blocks>
+HWY_INLINE std::uint32_t allUnder(const Blocks& blocks, const void* pose, double marginWide,
+                                  std::uint32_t* out) {
     const Lanes<T> d;
     const Broadcast<T, Form::values> p(pose);
     const T margin = static_cast<T>(marginWide);
-    const std::size_t step = Form::columns * hn::Lanes(d);
     const V<T> twice = hn::Set(d, 2 * margin), rest = hn::Add(hn::Set(d, margin * margin), p.values[0]);
-    std::uint32_t count = 0, first = 0;
-    const T *block = static_cast<const T*>(data.blocks), *end = static_cast<const T*>(data.end);
-    for (; block < end; block += step) {
+    std::uint32_t count = 0;
+    blocks.each([&](const T* block) {
         const LoadColumn<T> column{block};
         const auto in =
             hn::Le(Form::offset(p.values + 1, column), hn::MulAdd(column(Form::reach), twice, rest));
-        if (!hn::AllFalse(d, in)) {
-            std::uint8_t bytes[8] = {};
-            hn::StoreMaskBits(d, in, bytes);
-            for (unsigned bits = bytes[0] | unsigned(bytes[1]) << 8; bits != 0; bits &= bits - 1)
-                out[count++] = first + static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+        if (hn::AllFalse(d, in)) return;
+        std::uint8_t bytes[8] = {};
+        hn::StoreMaskBits(d, in, bytes);
+        const T* numbers = block + (Form::reach + 1) * hn::Lanes(d);
+        for (unsigned bits = bytes[0] | unsigned(bytes[1]) << 8; bits != 0; bits &= bits - 1) {
+            hwy::MakeSigned<T> number;
+            hwy::CopyBytes<sizeof(T)>(numbers + hwy::Num0BitsBelowLS1Bit_Nonzero32(bits), &number);
+            out[count++] = static_cast<std::uint32_t>(number);
         }
-        first += static_cast<std::uint32_t>(hn::Lanes(d));
-    }
+    });
     return count;
+}
+
+template <class T, class Form>
+std::uint32_t under(const KernelData& data, const void* pose, double margin, std::uint32_t* out) {
+    return allUnder<T, Form>(AllBlocks<T, Form>{data}, pose, margin, out);
+}
+template <class T, class Form>
+std::uint32_t underNear(const KernelData& data, const void* pose, const NearBlocks& near, double margin,
+                        std::uint32_t* out) {
+    return allUnder<T, Form>(SomeBlocks<T, Form>{data, near}, pose, margin, out);
 }
 
 template <class T, class Form>
@@ -231,12 +306,17 @@ void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::
 
 template <class T, class Form>
 KernelSet kernels() {
-    return {static_cast<std::uint32_t>(hn::Lanes(Lanes<T>())),
-            hit<T, Form>,
-            gap<T, Form>,
-            under<T, Form>,
-            hits<T, Form>,
-            gaps<T, Form>};
+    KernelSet set;
+    set.lanes = static_cast<std::uint32_t>(hn::Lanes(Lanes<T>()));
+    set.hit = hit<T, Form>;
+    set.gap = gap<T, Form>;
+    set.under = under<T, Form>;
+    set.hitNear = hitNear<T, Form>;
+    set.gapNear = gapNear<T, Form>;
+    set.underNear = underNear<T, Form>;
+    set.hits = hits<T, Form>;
+    set.gaps = gaps<T, Form>;
+    return set;
 }
 
 template <class T>

@@ -15,6 +15,12 @@ struct BenchArguments {
     std::uint64_t queries = 10'000'000;
 };
 
+std::string cellText(const TableCells& cells) {
+    if (cells.empty()) return "";
+    return fmt::format("; {} cells, in which it looks at {:.2g} % of the tests", cells.rowCount() - 1,
+                       100 * cells.looked());
+}
+
 void runBench(const BenchArguments& arguments, const Console& console) {
     PrepareOptions options;
     BenchWith with{};
@@ -22,7 +28,8 @@ void runBench(const BenchArguments& arguments, const Console& console) {
         throw InputError("--kernel: expected best, scalar, sse2, avx2, avx512 or neon, found \"" +
                          arguments.kernel + "\"");
     if (!benchWith(arguments.with, with))
-        throw InputError("--with: expected hit, gap, contact or features, found \"" + arguments.with + "\"");
+        throw InputError("--with: expected hit, gap, contact, features or pose, found \"" + arguments.with +
+                         "\"");
     const SceneModel scene = loadScene(arguments.scene);
     const Pair& pair = choosePair(scene, arguments.pair, arguments.scene);
     if (!pair.table) throw InputError(Where{arguments.scene, "", pair.path}, "has no table to be timed");
@@ -30,11 +37,12 @@ void runBench(const BenchArguments& arguments, const Console& console) {
     const BenchResult result = benchQueries(table, pair.table->motion, arguments.queries, with);
     const char* form = table.form() == KernelForm::Fold ? "fold" : "direct";
     const char* precision = table.precision() == KernelPrecision::Float ? "float" : "double";
-    console.say(fmt::format("{}: {} tests, {} bytes; {} {} of {} features, {}", pair.path, table.testCount(),
-                            table.bytes(), precision, form, table.featureCount(), name(table.target())));
-    console.say(fmt::format("{} queries ({}): {:.2f} ns each, features of a pose {:.2f} ns more; {} hits",
+    console.say(fmt::format("{}: {} tests, {} bytes; {} {} of {} features, {}{}", pair.path,
+                            table.testCount(), table.bytes(), precision, form, table.featureCount(),
+                            name(table.target()), cellText(table.cells())));
+    console.say(fmt::format("{} queries ({}): {:.2f} ns each, features of a pose {:.2f} ns{}; {} hits",
                             arguments.queries, arguments.with, result.nanoseconds, result.featureNanoseconds,
-                            result.hits));
+                            with == BenchWith::Pose ? "" : " more", result.hits));
     console.say(
         fmt::format("rounding: no touch missed, none reported from farther than {:.3g}; gaps within {:.3g}",
                     table.signBand(), table.gapBand()));
@@ -45,6 +53,8 @@ void runBench(const BenchArguments& arguments, const Console& console) {
                    {"form", form},
                    {"precision", precision},
                    {"features", table.featureCount()},
+                   {"cells", table.cells().empty() ? 0 : table.cells().rowCount() - 1},
+                   {"looked", table.cells().looked()},
                    {"with", arguments.with},
                    {"queries", arguments.queries},
                    {"ns", result.nanoseconds},
@@ -66,9 +76,10 @@ void addBench(CLI::App& app, Console& console) {
     command->add_option("--kernel", arguments->kernel, "best, scalar, sse2, avx2, avx512 or neon")
         ->capture_default_str();
     command
-        ->add_option(
-            "--with", arguments->with,
-            "hit, gap (and test), contact (and point, normal, gradient) or features (of the poses, no query)")
+        ->add_option("--with", arguments->with,
+                     "hit, gap (and test), contact (and point, normal, gradient), features (of the poses, no "
+                     "query) or "
+                     "pose (hit, features included)")
         ->capture_default_str();
     command->footer(
         "Instructions a query: run under callgrind with two values of --queries and divide the difference.");

@@ -1,5 +1,7 @@
 #include "bake/verify/Kernel.h"
 
+#include "bake/verify/KernelCells.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -372,6 +374,7 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
     if (verdict.reason.empty() && verdict.seen > verdict.gapOff)
         verdict.reason = fmt::format("its gap was off by {:.3g} at a pose, more than {:.3g}", verdict.seen,
                                      verdict.gapOff);
+    if (verdict.reason.empty()) verdict.reason = verify::refuteCells(table, prepared);
     verdict.proven = verdict.reason.empty();
     return verdict;
 }

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     if (argc != 6 || !motions.contains(argv[1]) || !kernelTarget(argv[3], options.target) ||
         !benchWith(argv[4], with)) {
         std::fputs("usage: bench_queries hinge|hinge-slide|two-hinges|general PAIRS KERNEL "
-                   "hit|gap|contact|features N\n",
+                   "hit|gap|contact|features|pose N\n",
                    stderr);
         return 2;
     }

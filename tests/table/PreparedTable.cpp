@@ -20,19 +20,21 @@ std::vector<PreparedTable> allPreparations(const Table& table) {
     for (KernelTarget target : targets) {
         if (!available(target)) continue;
         for (KernelForm form : {KernelForm::Fold, KernelForm::Direct})
-            for (KernelPrecision precision : {KernelPrecision::Float, KernelPrecision::Double}) {
-                try {
-                    all.emplace_back(table, PrepareOptions{target, form, precision});
-                } catch (const InputError&) {
-                    REQUIRE(form == KernelForm::Fold);
+            for (KernelPrecision precision : {KernelPrecision::Float, KernelPrecision::Double})
+                for (CellUse cells : {CellUse::Never, CellUse::Always}) {
+                    try {
+                        all.emplace_back(table, PrepareOptions{target, form, precision, cells});
+                    } catch (const InputError&) {
+                        REQUIRE(form == KernelForm::Fold);
+                    }
                 }
-            }
     }
     return all;
 }
 
 std::string describe(const PreparedTable& t) {
-    return std::string(name(t.target())) + " " + name(t.form()) + " " + name(t.precision());
+    return std::string(name(t.target())) + " " + name(t.form()) + " " + name(t.precision()) +
+           (t.cells().empty() ? "" : " with cells");
 }
 
 Dof hinge(const Vec3& origin, const Vec3& axis, double lower = -0.4, double upper = 0.6) {
@@ -87,7 +89,7 @@ TEST_CASE("no kernel misses a touch, and verdicts and gaps are right outside the
                 t.features(poses[i].data(), f);
                 ++checked;
                 if (gaps[i] <= 0 || gaps[i] > t.signBand())
-                    REQUIRE(t.hit(f) == (gaps[i] <= 0));
+                    REQUIRE((t.hit(f) == (gaps[i] <= 0) && t.hit(poses[i].data()) == (gaps[i] <= 0)));
                 else
                     ++inside;
                 const TableGap g = t.gap(f);
@@ -121,10 +123,13 @@ TEST_CASE("all tests under a margin are found, and none far above it") {
                 TableFeatures f;
                 t.features(q.data(), f);
                 const std::uint32_t count = t.under(f, margin, found.data());
-                REQUIRE(std::is_sorted(found.begin(), found.begin() + count));
+                std::vector<std::uint32_t> same(t.testRoom());
+                REQUIRE(t.under(q.data(), margin, same.data()) == count);
+                REQUIRE(std::equal(same.begin(), same.begin() + count, found.begin()));
                 std::vector<bool> in(pairs.size());
                 for (std::uint32_t i = 0; i < count; ++i) {
                     REQUIRE(found[i] < pairs.size());
+                    REQUIRE_FALSE(in[found[i]]);
                     in[found[i]] = true;
                 }
                 for (std::size_t p = 0; p < pairs.size(); ++p) {

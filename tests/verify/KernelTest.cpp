@@ -1,5 +1,6 @@
 #include "bake/verify/Kernel.h"
 #include "bake/base/Error.h"
+#include "bake/verify/KernelCells.h"
 #include "tests/table/RandomTable.h"
 #include "tests/verify/Baked.h"
 
@@ -14,12 +15,13 @@ namespace {
 std::vector<PreparedTable> allForms(const Table& table) {
     std::vector<PreparedTable> forms;
     for (KernelForm form : {KernelForm::Fold, KernelForm::Direct})
-        for (KernelPrecision precision : {KernelPrecision::Float, KernelPrecision::Double}) {
-            try {
-                forms.emplace_back(table, PrepareOptions{KernelTarget::Best, form, precision});
-            } catch (const InputError&) { // no fold for this motion
+        for (KernelPrecision precision : {KernelPrecision::Float, KernelPrecision::Double})
+            for (CellUse cells : {CellUse::Never, CellUse::Always}) {
+                try {
+                    forms.emplace_back(table, PrepareOptions{KernelTarget::Best, form, precision, cells});
+                } catch (const InputError&) { // no fold for this motion
+                }
             }
-        }
     return forms;
 }
 
@@ -66,4 +68,35 @@ TEST_CASE("a kernel made from other spheres or another axis is refused") {
         }
     }
     CHECK(tried >= 4 * 20);
+}
+
+TEST_CASE("cells made for other spheres are refused, and for the right ones proven") {
+    int tried = 0;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        CAPTURE(seed);
+        const Table table = baked(scenes::randomScene(seed, 1 + int(seed % 3), 30, false));
+        if (table.testCount() < 2) continue;
+        PrepareOptions withCells;
+        withCells.cells = CellUse::Always;
+        const PreparedTable prepared(table, withCells);
+        if (prepared.cells().empty()) continue;
+        REQUIRE(verify::refuteCells(table, prepared) == "");
+        const TableCells& cells = prepared.cells();
+        // As large as some ball on the joint moves within a cell: some cell's word must break.
+        double move = 0;
+        DofValues speeds{};
+        for (const Sphere& b : table.b) {
+            speedBounds(table.motion, b.centre, speeds.data());
+            double sum = 0;
+            for (std::size_t k = 0; k < table.motion.dofCount(); ++k) sum += speeds[k] * cells.box(1).half[k];
+            move = std::max(move, sum);
+        }
+        Table larger = table, smaller = table;
+        for (Sphere& s : larger.a) s.radius += 2 * move;
+        for (Sphere& s : smaller.a) s.radius -= 2 * move;
+        CHECK(verify::refuteCells(larger, prepared) != "");
+        CHECK(verify::refuteCells(smaller, prepared) != "");
+        ++tried;
+    }
+    CHECK(tried >= 20);
 }

@@ -1,0 +1,99 @@
+#pragma once
+#include "bake/motion/MotionFrame.h"
+#include "bake/table/Kernels.h"
+#include "bake/table/TablePairs.h"
+
+#include <cmath>
+
+namespace tss {
+
+/// The limits of a motion cut into cells, and for every cell how near the tests of each block of the kernels
+/// can come anywhere in it (METHOD 4, cells): a query leaves out what cannot matter where the joint stands.
+/// Gaps are kept as codes of one byte that never fall as gaps rise, so that comparing codes leaves out no
+/// test that comparing gaps would not.
+class TableCells {
+public:
+    /// Codes of gaps up to 0 and above it part here.
+    static constexpr std::uint8_t contactCode = 64;
+    /// Every test of a smaller code is known in every cell.
+    static constexpr std::uint8_t nearCode = 160;
+    /// Stands for "farther than what matters": not to be compared with.
+    static constexpr std::uint8_t farCode = 255;
+    static constexpr std::uint32_t codesPerGroup = NearBlocks::codesPerGroup;
+    static constexpr std::uint32_t headerCodes = NearBlocks::headerCodes;
+
+    TableCells() = default;
+    /// Of a motion with 1 DOF at least, over `pairs`. See `order` for what comes where.
+    TableCells(const Motion& motion, std::span<const TablePair> pairs, std::uint32_t lanes);
+
+    bool empty() const { return rows_.empty(); }
+
+    /// The tests in the order in which they make up blocks of `lanes`: those that come near in the same cells
+    /// share blocks.
+    const std::vector<std::uint32_t>& order() const { return order_; }
+
+    /// The row of codes of the cell that q is in; beyond the limits, that of no cell, where every block may
+    /// touch.
+    std::uint32_t rowAt(const double* q) const {
+        std::uint32_t row = 1;
+        bool inside = true;
+        for (std::size_t k = 0; k < dofs_; ++k) {
+            const Axis& axis = axes_[k];
+            const double x = (q[k] - axis.lower) * axis.perWidth;
+            // Comparisons that do not trap: what is no number is in no cell.
+            inside = inside && std::isgreaterequal(x, 0.0) && std::isless(x, double(axis.cells));
+            row += static_cast<std::uint32_t>(inside ? static_cast<std::int32_t>(x) : 0) * axis.stride;
+        }
+        return inside ? row : 0;
+    }
+
+    /// The blocks that can hold a gap up to the code `limit` in the cell of that row: limit below nearCode,
+    /// or its reachedCode.
+    NearBlocks under(std::uint32_t row, std::uint8_t limit) const {
+        return {rows_.data() + std::size_t(row) * rowCodes_, rowCodes_ / codesPerGroup, limit};
+    }
+    /// Everywhere in the cell some test's gap is so small. farCode: not known.
+    std::uint8_t reachedCode(std::uint32_t row) const { return rows_[std::size_t(row) * rowCodes_]; }
+    /// Some test touches at every pose of the cell.
+    bool allTouch(std::uint32_t row) const { return reachedCode(row) <= contactCode; }
+    /// No test touches anywhere in the cell.
+    bool noneTouches(std::uint32_t row) const { return nearestCode(row) > contactCode; }
+    /// No gap of the cell has a lower code.
+    std::uint8_t nearestCode(std::uint32_t row) const { return rows_[std::size_t(row) * rowCodes_ + 1]; }
+
+    /// The code of a gap, scene units.
+    std::uint8_t code(double gap) const;
+
+    /// How much of the blocks a yes-or-no query looks at, on average over the cells: 0 to 1.
+    double looked() const { return looked_; }
+    std::size_t bytes() const { return rows_.size(); }
+
+    /// For those who check it (verify). Rows from 1 on are cells.
+    std::uint32_t rowCount() const { return static_cast<std::uint32_t>(rows_.size() / rowCodes_); }
+    struct Box {
+        DofValues centre{}, half{};
+    };
+    Box box(std::uint32_t row) const; ///< every q with rowAt(q) == row is in it
+    std::uint8_t blockCode(std::uint32_t row, std::uint32_t block) const {
+        return rows_[std::size_t(row) * rowCodes_ + headerCodes + block];
+    }
+
+private:
+    struct Axis {
+        double lower = 0, perWidth = 0, width = 0;
+        std::int32_t cells = 1;
+        std::uint32_t stride = 0;
+    };
+    class Maker;
+
+    std::size_t dofs_ = 0;
+    std::array<Axis, maxDofs> axes_{};
+    double perUnit_ = 0; ///< codes per scene unit, up to nearCode; from there on for an ever larger range
+    std::uint32_t rowCodes_ = codesPerGroup;
+    /// Per row: reachedCode, the least code of a block, one code a block, farCode up to a whole group.
+    std::vector<std::uint8_t> rows_;
+    std::vector<std::uint32_t> order_;
+    double looked_ = 1;
+};
+
+} // namespace tss

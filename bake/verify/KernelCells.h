@@ -1,0 +1,15 @@
+#pragma once
+#include "bake/table/PreparedTable.h"
+
+#include <string>
+
+namespace tss::verify {
+
+/// Proves, with the verifier's own bounds of motion, that the cells of a prepared table leave out no test
+/// that matters: in every cell, tests of a block left out of a yes-or-no query stay apart, those left out
+/// under a margin stay above it, those left out of the smallest gap never have it; and where a cell answers
+/// by itself, some test touches all over it. Also that the blocks hold each test once, as its row has it.
+/// Returns what does not hold; empty: proven.
+std::string refuteCells(const Table& table, const PreparedTable& prepared);
+
+} // namespace tss::verify
