@@ -177,7 +177,6 @@ private:
     double farthestT_ = 0; ///< bound of |T(q) originB - originA|
     std::optional<Fold> fold_;
     PoseRecipe recipe_;
-    TableCells cells_;
     PosePlan plan_; ///< of the form that was chosen; empty for the direct one of a path or of no DOF
 
     KernelForm form_ = KernelForm::Direct;
@@ -190,6 +189,7 @@ private:
     std::vector<Chunk> blocks_, rowStore_;
     KernelSet kernels_;
     KernelData data_, rows_;
+    TableCells cells_;
 };
 
 } // namespace tss
