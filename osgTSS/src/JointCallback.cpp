@@ -16,11 +16,10 @@ namespace osgTSS {
 /// What belongs to one node that the callback stands on.
 struct JointCallback::Binding {
     std::shared_ptr<const tss::SceneModel> model; ///< that the rest was made from
-    std::shared_ptr<const tss::JointPlan> plan;
+    std::shared_ptr<SharedPlan> plan;
     std::vector<std::unique_ptr<JointNode>> joints; ///< of the plan's; empty when one is missing
-    std::vector<tss::JointWorkspace> workspaces;
-    std::vector<double> q;     ///< where the joints are
-    std::vector<double> asked; ///< room for what is asked
+    std::vector<double> q;                          ///< where the joints are
+    std::vector<double> asked;                      ///< room for what is asked
     std::vector<tss::JointAnswer> found;
     ContactReport contacts;
     unsigned int traversal = 0, frame = 0; ///< of the last update
@@ -39,9 +38,9 @@ struct JointCallback::Binding {
 
 JointCallback::Binding::Binding(osg::Node& owner, const Scene& scene,
                                 const std::vector<std::string>& pairPaths)
-    : model(scene.shareModel()), plan(scene.getCache().plan(pairPaths)), workspaces(tss::workspaces(*plan)) {
+    : model(scene.shareModel()), plan(scene.getCache().plan(pairPaths)) {
     const auto nodes = findJointNodes(owner);
-    for (int index : plan->joints) {
+    for (int index : (*plan)->joints) {
         const tss::Joint& joint = model->joints[index];
         const auto found = nodes.find(joint.path);
         auto access = found == nodes.end() ? nullptr : makeJointNode(*found->second, joint);
@@ -65,7 +64,7 @@ void JointCallback::Binding::resolve() {
         const std::vector<double> values = joint->asked();
         asked.insert(asked.end(), values.begin(), values.end());
     }
-    found = tss::resolve(*plan, q, asked, workspaces);
+    found = plan->resolve(q, asked);
     q = asked;
 }
 
@@ -80,7 +79,7 @@ void JointCallback::Binding::show() const {
 
 void JointCallback::Binding::tell(const Scene& scene, osg::NodeVisitor& visitor) {
     if (ContactCallback* callback = scene.getContactCallback(); callback && !joints.empty())
-        contacts.tell(scene, *plan, q, found, *callback, visitor);
+        contacts.tell(scene, **plan, q, found, *callback, visitor);
 }
 
 struct JointCallback::Bindings : PerNode<Binding> {};
@@ -115,7 +114,8 @@ std::vector<JointCallback::Answer> JointCallback::getAnswers(const osg::Node& no
         const std::string path =
             found.table < 0
                 ? ""
-                : binding->model->pairs[binding->plan->groups[g].pairs[static_cast<std::size_t>(found.table)]]
+                : binding->model
+                      ->pairs[(*binding->plan)->groups[g].pairs[static_cast<std::size_t>(found.table)]]
                       .path;
         answers.push_back({found.status, found.gap, path, found.test});
     }

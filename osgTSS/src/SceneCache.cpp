@@ -6,12 +6,28 @@
 
 namespace osgTSS {
 
-std::shared_ptr<const tss::JointPlan> Scene::Cache::plan(const std::vector<std::string>& pairPaths) {
+std::vector<tss::JointAnswer> SharedPlan::resolve(const std::vector<double>& last, std::vector<double>& q) {
+    std::vector<tss::JointWorkspace> room;
+    {
+        const std::lock_guard lock(_mutex);
+        if (!_rooms.empty()) {
+            room = std::move(_rooms.back());
+            _rooms.pop_back();
+        }
+    }
+    if (room.empty()) room = tss::workspaces(*_plan);
+    std::vector<tss::JointAnswer> answers = tss::resolve(*_plan, last, q, room);
+    const std::lock_guard lock(_mutex);
+    _rooms.push_back(std::move(room));
+    return answers;
+}
+
+std::shared_ptr<SharedPlan> Scene::Cache::plan(const std::vector<std::string>& pairPaths) {
     const std::lock_guard lock(mutex);
-    std::shared_ptr<const tss::JointPlan>& plan = plans[pairPaths];
+    std::shared_ptr<SharedPlan>& plan = plans[pairPaths];
     if (plan) return plan;
     std::vector<std::string> warnings;
-    plan = tss::makeJointPlan(*model, pairPaths, &warnings);
+    plan = std::make_shared<SharedPlan>(tss::makeJointPlan(*model, pairPaths, &warnings));
     for (const std::string& warning : warnings) OSG_WARN << "osgTSS: " << warning << std::endl;
     return plan;
 }

@@ -12,11 +12,28 @@
 
 namespace osgTSS {
 
+/// How some pairs are resolved, and room to do it in: one room serves one update after another, warm in the
+/// processor's caches, where rooms of a thousand instances would not be.
+class SharedPlan {
+public:
+    explicit SharedPlan(std::shared_ptr<const tss::JointPlan> plan) : _plan(std::move(plan)) {}
+    const tss::JointPlan& operator*() const { return *_plan; }
+    const tss::JointPlan* operator->() const { return _plan.get(); }
+
+    /// tss::resolve(). Safe from any thread.
+    std::vector<tss::JointAnswer> resolve(const std::vector<double>& last, std::vector<double>& q);
+
+private:
+    std::shared_ptr<const tss::JointPlan> _plan;
+    std::mutex _mutex;
+    std::vector<std::vector<tss::JointWorkspace>> _rooms; ///< that nobody is in
+};
+
 /// What is made once from a scene's model and shared by all graphs that play it. Safe from any thread.
 struct Scene::Cache {
     explicit Cache(std::shared_ptr<const tss::SceneModel> model) : model(std::move(model)) {}
 
-    std::shared_ptr<const tss::JointPlan> plan(const std::vector<std::string>& pairPaths);
+    std::shared_ptr<SharedPlan> plan(const std::vector<std::string>& pairPaths);
 
     /// Of one muscle, in the frame of its own surface. Throws tss::InputError.
     std::shared_ptr<const tss::MuscleDeformer> muscle(int index);
@@ -30,7 +47,7 @@ struct Scene::Cache {
 private:
     std::shared_ptr<const tss::SceneModel> model;
     std::mutex mutex;
-    std::map<std::vector<std::string>, std::shared_ptr<const tss::JointPlan>> plans;
+    std::map<std::vector<std::string>, std::shared_ptr<SharedPlan>> plans;
     std::map<int, std::shared_ptr<const tss::MuscleDeformer>> muscles;
     std::map<int, std::shared_ptr<const tss::SkinRig>> rigs;
 };
