@@ -92,6 +92,7 @@ private:
 /// How far apart edges may be and still be taken for one: what is a hundredth of an edge wide is no opening.
 double seam(const TriangleMesh& mesh, const std::vector<OpenEdge>& open) {
     std::vector<double> lengths;
+    lengths.reserve(open.size());
     for (const OpenEdge& e : open) lengths.push_back((mesh.vertices[e.to] - mesh.vertices[e.from]).norm());
     const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
     std::nth_element(lengths.begin(), middle, lengths.end());

@@ -15,9 +15,11 @@ namespace {
 /// What stands for a pair that is none: never under a margin, farther than any other.
 constexpr double farOffset = 3e37, farReach = -1e18;
 
-/// Cells pay for more blocks than this, where a query looks at this share of them on average, at most.
+/// Cells pay for more blocks than this, where a query looks at this share of them on average, at most; of
+/// more tests than that they would be too few.
 constexpr std::uint32_t fewBlocks = 4;
 constexpr double mostLooked = 0.6;
+constexpr std::size_t mostTests = 4096;
 
 /// Poses at which the bodies are nearest to touching: a twentieth of a lattice over the limits.
 std::vector<std::vector<double>> nearContact(const Motion& motion, const std::vector<TablePair>& pairs) {
@@ -227,7 +229,8 @@ void PreparedTable::makeCells(CellUse use) {
     for (const Dof& dof : motion_.dofs) moves = moves || dof.upper > dof.lower;
     if (use == CellUse::Never || !moves || pairs_.empty()) return;
     // To look up a cell costs as much as a few blocks.
-    if (use == CellUse::Auto && pairs_.size() <= std::size_t(fewBlocks) * kernels_.lanes) return;
+    const std::size_t least = std::size_t(fewBlocks) * kernels_.lanes;
+    if (use == CellUse::Auto && (pairs_.size() <= least || pairs_.size() > mostTests)) return;
     TableCells cells(motion_, pairs_, kernels_.lanes);
     if (use == CellUse::Always || cells.looked() <= mostLooked) cells_ = std::move(cells);
 }
@@ -258,12 +261,14 @@ void PreparedTable::features(const double* q, TableFeatures& out) const {
 }
 
 bool PreparedTable::hit(const double* q) const {
-    TableFeatures f;
+    std::uint32_t cell = 0;
     if (!cells_.empty()) {
-        f.cell = cells_.rowAt(q);
-        if (cells_.allTouch(f.cell)) return true;
-        if (cells_.noneTouches(f.cell)) return false;
+        cell = cells_.rowAt(q);
+        const bool all = cells_.allTouch(cell);
+        if (static_cast<int>(all) | static_cast<int>(cells_.noneTouches(cell))) return all;
     }
+    TableFeatures f;
+    f.cell = cell;
     poseFeatures(q, f);
     return hit(f);
 }

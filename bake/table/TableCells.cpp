@@ -10,8 +10,11 @@ namespace tss {
 
 namespace {
 
-/// At most so many cells, and so many codes while they are made.
+/// At most so many cells in the grid, and so many codes for them before those that are far are left out.
 constexpr std::size_t mostCells = 1024, mostCodes = std::size_t(1) << 18;
+/// How often a cell is halved in which it is open whether tests touch, and how many bytes all may take.
+constexpr std::uint32_t mostHalvings = 4;
+constexpr std::size_t mostBytes = std::size_t(1) << 18;
 /// Cells in which a test moves by less than this share of its reach are small enough.
 constexpr double smallMove = 0.02;
 /// Codes for the half of a cell's largest move.
@@ -61,56 +64,74 @@ public:
         middleReach_ = reaches[reaches.size() / 2];
     }
 
-    /// Cuts the limits, always across the DOF that moves most within a cell.
+    /// Cuts the limits into the grid and its cells into parts, always across the DOF that moves most within a
+    /// piece.
     void cut() {
         std::array<double, maxDofs> move{};
-        std::array<int, maxDofs> halvings{};
+        std::array<std::uint32_t, maxDofs> halvings{};
         for (std::size_t k = 0; k < dofs_; ++k)
             move[k] = weights_[k] * (motion_.dofs[k].upper - motion_.dofs[k].lower);
-        const std::size_t most = std::min(mostCells, mostCodes / pairs_.size());
-        std::size_t count = 1;
         const auto whole = [&] {
             return std::accumulate(move.begin(), move.begin() + std::ptrdiff_t(dofs_), 0.0);
         };
-        while (2 * count <= most && whole() > smallMove * middleReach_) {
+        const auto halveWidest = [&] {
+            if (!(whole() > smallMove * middleReach_)) return false;
             const auto k =
                 static_cast<std::size_t>(std::max_element(move.begin(), move.end()) - move.begin());
             move[k] /= 2;
             ++halvings[k];
             order_.push_back(k);
-            count *= 2;
-        }
+            return true;
+        };
+        const std::size_t most = std::min(mostCells, mostCodes / pairs_.size());
+        while (2 * cellCount_ <= most && halveWidest()) cellCount_ *= 2;
+        cellHalvings_ = order_.size();
+        const double cellMove = 0.5 * whole();
+        const auto ofCells = halvings;
+        while (partHalvings_ < mostHalvings && halveWidest()) ++partHalvings_;
+
         cells_.dofs_ = dofs_;
-        std::uint32_t stride = 1;
+        std::uint32_t stride = 1, shift = 0;
         for (std::size_t k = 0; k < dofs_; ++k) {
             const Dof& dof = motion_.dofs[k];
             Axis& axis = cells_.axes_[k];
-            axis.cells = 1 << halvings[k];
+            axis.parts = 1u << halvings[k];
+            axis.beyond = axis.parts + 1.0;
+            axis.halvings = halvings[k] - ofCells[k];
+            axis.partMask = (1u << axis.halvings) - 1;
+            axis.partShift = shift;
+            shift += axis.halvings;
             axis.stride = stride;
-            stride *= static_cast<std::uint32_t>(axis.cells);
-            // A little over the limits, so that what rounding puts beyond them has a cell.
+            stride <<= ofCells[k];
+            // A little over the limits, so that what rounding puts beyond them has a cell, and so that a DOF
+            // without a range has a width.
             const double range = dof.upper - dof.lower;
-            const double over = 1e-9 * range + 4 * std::numeric_limits<double>::epsilon() *
-                                                   std::max(std::abs(dof.lower), std::abs(dof.upper));
+            const double size = std::max(std::abs(dof.lower), std::abs(dof.upper));
+            const double over = 1e-9 * range + 4 * std::numeric_limits<double>::epsilon() * size + 1e-290;
             axis.lower = dof.lower - over;
-            axis.width = (range + 2 * over) / axis.cells;
-            axis.perWidth = axis.width > 0 ? 1 / axis.width : 0;
+            axis.width = (range + 2 * over) / axis.parts;
+            axis.perWidth = 1 / axis.width;
+            axis.before = axis.lower - axis.width;
         }
-        cellCount_ = count;
-        const double cellMove = 0.5 * whole();
         cells_.perUnit_ = cellMove > 0 ? codesPerMove / cellMove : 0; // 0: nothing moves anything
         nearGap_ = cellMove / codesPerMove * evenCodes;
     }
 
-    void find() {
-        codes_.assign(cellCount_ * pairs_.size(), farCode);
-        reached_.assign(cellCount_, farCode);
-        visited_.clear();
+    /// Finds all rows: first those of the grid, then those of the parts of cells that leave it open whether
+    /// tests touch.
+    void find(std::uint32_t lanes) {
         std::vector<std::uint32_t> all(pairs_.size());
         std::iota(all.begin(), all.end(), 0u);
         Piece limits;
-        for (std::size_t k = 0; k < dofs_; ++k) limits.size[k] = cells_.axes_[k].cells;
+        for (std::size_t k = 0; k < dofs_; ++k) limits.size[k] = std::int32_t(cells_.axes_[k].parts);
+        cells_.grid_.resize(cellCount_);
+        found_.resize(1); // that of no cell
+        cells_.cellOf_.assign(1, 0);
         halve(limits, all, 0);
+        const std::size_t blocks = (pairs_.size() + lanes - 1) / lanes;
+        rowCodes_ = (blocks + headerCodes + codesPerGroup - 1) / codesPerGroup * codesPerGroup;
+        const std::size_t parts = std::size_t(1) << partHalvings_;
+        if (parts > 1 && (found_.size() + open_.size() * parts) * rowCodes_ <= mostBytes) divide(parts);
     }
 
     /// Blocks of tests that can touch in the same parts of the limits.
@@ -119,24 +140,24 @@ public:
         order.resize(pairs_.size());
         std::iota(order.begin(), order.end(), 0u);
         if (lanes == 1) return;
-        const std::size_t perPart = std::max<std::size_t>(1, cellCount_ / mostParts);
+        // Rows were found by halving, those of neighbours near one another.
+        const std::size_t perPart = (found_.size() + mostParts - 1) / mostParts;
         std::vector<Parts> parts(pairs_.size(), Parts{});
-        std::vector<int> counts(pairs_.size(), 0); // of parts
-        std::vector<double> place(pairs_.size(), -1);
-        for (std::size_t p = 0; p < pairs_.size(); ++p) {
-            double sum = 0, count = 0;
-            for (std::size_t i = 0; i < cellCount_; ++i) {
-                if (codes_[visited_[i] * pairs_.size() + p] > contactCode) continue;
-                const std::size_t part = i / perPart;
-                parts[p][part / 64] |= std::uint64_t(1) << part % 64;
-                sum += double(i);
-                ++count;
+        std::vector<double> sums(pairs_.size(), 0), rows(pairs_.size(), 0);
+        for (std::size_t row = 1; row < found_.size(); ++row)
+            for (const Near& near : found_[row].near) {
+                if (near.code > contactCode) continue;
+                const std::size_t part = row / perPart;
+                parts[near.pair][part / 64] |= std::uint64_t(1) << part % 64;
+                sums[near.pair] += double(row);
+                ++rows[near.pair];
             }
-            if (count > 0) place[p] = sum / count;
+        std::vector<int> counts(pairs_.size(), 0); // of parts
+        for (std::size_t p = 0; p < pairs_.size(); ++p)
             for (std::uint64_t word : parts[p]) counts[p] += std::popcount(word);
-        }
+        const auto place = [&](std::uint32_t p) { return rows[p] > 0 ? sums[p] / rows[p] : -1; };
         std::stable_sort(order.begin(), order.end(),
-                         [&](std::uint32_t x, std::uint32_t y) { return place[x] < place[y]; });
+                         [&](std::uint32_t x, std::uint32_t y) { return place(x) < place(y); });
         for (std::size_t first = 0; first < order.size(); first += lanes) {
             Parts block = parts[order[first]];
             const std::size_t last = std::min(order.size(), first + lanes);
@@ -164,26 +185,29 @@ public:
 
     void write(std::uint32_t lanes) {
         const std::size_t blocks = (pairs_.size() + lanes - 1) / lanes;
-        const std::size_t rowCodes =
-            (blocks + headerCodes + codesPerGroup - 1) / codesPerGroup * codesPerGroup;
-        cells_.rowCodes_ = static_cast<std::uint32_t>(rowCodes);
-        cells_.rows_.assign((cellCount_ + 1) * rowCodes, farCode);
+        std::vector<std::size_t> blockOf(pairs_.size());
+        for (std::size_t i = 0; i < pairs_.size(); ++i) blockOf[cells_.order_[i]] = i / lanes;
+        cells_.rowCodes_ = static_cast<std::uint32_t>(rowCodes_);
+        cells_.rows_.assign(found_.size() * rowCodes_, farCode);
         std::fill_n(cells_.rows_.begin() + 1, blocks + 1, std::uint8_t(0));
-        std::size_t looked = 0;
-        for (std::size_t cell = 0; cell < cellCount_; ++cell) {
-            std::uint8_t* row = &cells_.rows_[(cell + 1) * rowCodes];
-            row[0] = reached_[cell];
-            for (std::size_t i = 0; i < pairs_.size(); ++i) {
-                std::uint8_t& block = row[headerCodes + i / lanes];
-                block = std::min(block, codes_[cell * pairs_.size() + cells_.order_[i]]);
+        double looked = 0;
+        for (std::size_t i = 1; i < found_.size(); ++i) {
+            std::uint8_t* row = &cells_.rows_[i * rowCodes_];
+            std::uint8_t* codes = row + headerCodes;
+            row[0] = found_[i].reached;
+            for (const Near& near : found_[i].near) {
+                std::uint8_t& block = codes[blockOf[near.pair]];
+                block = std::min(block, near.code);
             }
-            const std::uint8_t *first = row + headerCodes, *last = first + blocks;
-            row[1] = *std::min_element(first, last);
-            if (row[0] > contactCode)
-                looked +=
-                    std::size_t(std::count_if(first, last, [](std::uint8_t c) { return c <= contactCode; }));
+            row[1] = *std::min_element(codes, codes + blocks);
+            if (row[0] <= contactCode) continue;
+            const GridCell& cell = cells_.grid_[cells_.cellOf_[i]];
+            if (cell.mask != 0 && i < cell.first) continue; // its parts stand for it
+            looked += double(std::count_if(codes, codes + blocks,
+                                           [](std::uint8_t c) { return c <= contactCode; })) /
+                      (cell.mask + 1);
         }
-        cells_.looked_ = double(looked) / double(cellCount_ * blocks);
+        cells_.looked_ = looked / double(cellCount_ * blocks);
     }
 
 private:
@@ -219,19 +243,25 @@ private:
         return found;
     }
 
-    void halve(const Piece& piece, const std::vector<std::uint32_t>& list, std::size_t depth) {
+    /// Halves a piece of the limits down to the grid, or of a cell down to its parts, of which the first has
+    /// row `firstRow`.
+    void halve(const Piece& piece, const std::vector<std::uint32_t>& list, std::size_t depth,
+               std::uint32_t firstRow = 0) {
+        const bool inCell = firstRow != 0;
+        const bool leaf = depth == (inCell ? order_.size() : cellHalvings_);
         DofValues centre{}, half{}, way;
         way.fill(1);
+        std::uint32_t cell = 0, part = 0;
         for (std::size_t k = 0; k < dofs_; ++k) {
             const Axis& axis = cells_.axes_[k];
+            const auto first = static_cast<std::uint32_t>(piece.first[k]);
             centre[k] = axis.lower + axis.width * (piece.first[k] + 0.5 * piece.size[k]);
             half[k] = 0.5 * axis.width * piece.size[k] * (1 + wider);
+            cell += (first >> axis.halvings) * axis.stride;
+            part += (first & axis.partMask) << axis.partShift;
         }
         MotionFrame frame;
         evaluateFrame(motion_, centre.data(), way.data(), frame);
-        const bool leaf = depth == order_.size();
-        std::size_t cell = 0;
-        for (std::size_t k = 0; k < dofs_; ++k) cell += std::size_t(piece.first[k]) * cells_.axes_[k].stride;
         std::vector<double> lows(list.size());
         double reached = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < list.size(); ++i) {
@@ -241,26 +271,62 @@ private:
         }
         // A test that is neither near nor ever the nearest does not matter here.
         const double matters = std::max(reached, nearGap_);
-        std::vector<std::uint32_t> near;
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            if (lows[i] > matters) continue;
-            if (leaf)
-                codes_[cell * pairs_.size() + list[i]] = cells_.code(lows[i]);
-            else
-                near.push_back(list[i]);
-        }
         if (leaf) {
-            reached_[cell] = cells_.code(reached);
-            visited_.push_back(cell);
+            Row row;
+            row.reached = cells_.code(reached);
+            bool touches = false;
+            for (std::size_t i = 0; i < list.size(); ++i) {
+                if (lows[i] > matters) continue;
+                row.near.push_back({list[i], cells_.code(lows[i])});
+                touches = touches || row.near.back().code <= contactCode;
+            }
+            if (inCell) {
+                found_[firstRow + part] = std::move(row);
+                return;
+            }
+            if (touches && row.reached > contactCode) open_.push_back(piece);
+            cells_.grid_[cell].first = static_cast<std::uint32_t>(found_.size());
+            cells_.cellOf_.push_back(cell);
+            found_.push_back(std::move(row));
             return;
         }
+        std::vector<std::uint32_t> near;
+        for (std::size_t i = 0; i < list.size(); ++i)
+            if (!(lows[i] > matters)) near.push_back(list[i]);
         const std::size_t k = order_[depth];
         Piece lower = piece, upper = piece;
         lower.size[k] = upper.size[k] = piece.size[k] / 2;
         upper.first[k] += lower.size[k];
-        halve(lower, near, depth + 1);
-        halve(upper, near, depth + 1);
+        halve(lower, near, depth + 1, firstRow);
+        halve(upper, near, depth + 1, firstRow);
     }
+
+    void divide(std::size_t parts) {
+        for (const Piece& piece : open_) {
+            std::uint32_t cell = 0;
+            for (std::size_t k = 0; k < dofs_; ++k)
+                cell += (static_cast<std::uint32_t>(piece.first[k]) >> cells_.axes_[k].halvings) *
+                        cells_.axes_[k].stride;
+            GridCell& entry = cells_.grid_[cell];
+            std::vector<std::uint32_t> list;
+            for (const Near& near : found_[entry.first].near) list.push_back(near.pair);
+            entry.first = static_cast<std::uint32_t>(found_.size());
+            entry.mask = static_cast<std::uint32_t>(parts - 1);
+            found_.resize(found_.size() + parts);
+            cells_.cellOf_.resize(found_.size(), cell);
+            halve(piece, list, cellHalvings_, entry.first);
+        }
+    }
+
+    /// A test that matters in a row.
+    struct Near {
+        std::uint32_t pair;
+        std::uint8_t code;
+    };
+    struct Row {
+        std::vector<Near> near;
+        std::uint8_t reached = farCode;
+    };
 
     TableCells& cells_;
     const Motion& motion_;
@@ -273,16 +339,17 @@ private:
     double slack_ = 0, middleReach_ = 0;
     double nearGap_ = 0;             ///< gaps up to it have codes up to nearCode
     std::vector<std::size_t> order_; ///< which DOF each halving cuts
-    std::size_t cellCount_ = 1;
-    std::vector<std::uint8_t> codes_;   ///< #cells by #pairs
-    std::vector<std::uint8_t> reached_; ///< one a cell
-    std::vector<std::size_t> visited_;  ///< cells in the order of halving, neighbours near one another
+    std::size_t cellCount_ = 1, cellHalvings_ = 0;
+    std::uint32_t partHalvings_ = 0;
+    std::size_t rowCodes_ = codesPerGroup;
+    std::vector<Row> found_;  ///< one a row
+    std::vector<Piece> open_; ///< cells in which some tests may touch and none does everywhere
 };
 
 TableCells::TableCells(const Motion& motion, std::span<const TablePair> pairs, std::uint32_t lanes) {
     Maker maker(*this, motion, pairs);
     maker.cut();
-    maker.find();
+    maker.find(lanes);
     maker.put(lanes);
     maker.write(lanes);
 }
@@ -298,12 +365,19 @@ std::uint8_t TableCells::code(double gap) const {
 }
 
 TableCells::Box TableCells::box(std::uint32_t row) const {
+    const std::uint32_t cell = cellOf_[row];
+    const GridCell& entry = grid_[cell];
+    const bool whole = entry.mask == 0 || row < entry.first; // of a cell that was divided, before it was
     Box found;
     for (std::size_t k = 0; k < dofs_; ++k) {
         const Axis& axis = axes_[k];
-        const std::uint32_t at = (row - 1) / axis.stride % std::uint32_t(axis.cells);
-        found.centre[k] = axis.lower + axis.width * (at + 0.5);
-        found.half[k] = 0.5 * axis.width;
+        const std::uint32_t perCell = 1u << axis.halvings;
+        const std::uint32_t cells = axis.parts / perCell;
+        const std::uint32_t first = cell / axis.stride % cells * perCell;
+        const std::uint32_t part = whole ? 0 : (row - entry.first) >> axis.partShift & axis.partMask;
+        const double size = whole ? perCell : 1;
+        found.centre[k] = axis.lower + axis.width * (first + part + 0.5 * size);
+        found.half[k] = 0.5 * axis.width * size;
     }
     return found;
 }

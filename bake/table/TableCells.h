@@ -3,12 +3,13 @@
 #include "bake/table/Kernels.h"
 #include "bake/table/TablePairs.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace tss {
 
-/// The limits of a motion cut into cells, and for every cell how near the tests of each block of the kernels
-/// can come anywhere in it (METHOD 4, cells): a query leaves out what cannot matter where the joint stands.
+/// The limits of a motion cut into cells, those where contact begins more finely, and for every cell how near
+/// the tests of each block of the kernels can come anywhere in it (METHOD 4, cells): a query leaves out what
+/// cannot matter where the joint stands.
 /// Gaps are kept as codes of one byte that never fall as gaps rise, so that comparing codes leaves out no
 /// test that comparing gaps would not.
 class TableCells {
@@ -35,16 +36,19 @@ public:
     /// The row of codes of the cell that q is in; beyond the limits, that of no cell, where every block may
     /// touch.
     std::uint32_t rowAt(const double* q) const {
-        std::uint32_t row = 1;
-        bool inside = true;
+        std::uint32_t cell = 0, part = 0, beyond = 0;
         for (std::size_t k = 0; k < dofs_; ++k) {
             const Axis& axis = axes_[k];
-            const double x = (q[k] - axis.lower) * axis.perWidth;
-            // Comparisons that do not trap: what is no number is in no cell.
-            inside = inside && std::isgreaterequal(x, 0.0) && std::isless(x, double(axis.cells));
-            row += static_cast<std::uint32_t>(inside ? static_cast<std::int32_t>(x) : 0) * axis.stride;
+            // Counted from 1; what is beyond the limits, or no number, becomes 0 or more than there are.
+            const double x = std::min(std::max(0.0, (q[k] - axis.before) * axis.perWidth), axis.beyond);
+            const std::uint32_t i = static_cast<std::uint32_t>(static_cast<std::int32_t>(x)) - 1;
+            beyond |= static_cast<std::uint32_t>(i >= axis.parts);
+            cell += (i >> axis.halvings) * axis.stride;
+            part += (i & axis.partMask) << axis.partShift;
         }
-        return inside ? row : 0;
+        if (beyond) return 0;
+        const GridCell& found = grid_[cell];
+        return found.first + (part & found.mask);
     }
 
     /// The blocks that can hold a gap up to the code `limit` in the cell of that row: limit below nearCode,
@@ -66,7 +70,7 @@ public:
 
     /// How much of the blocks a yes-or-no query looks at, on average over the cells: 0 to 1.
     double looked() const { return looked_; }
-    std::size_t bytes() const { return rows_.size(); }
+    std::size_t bytes() const { return rows_.size() + grid_.size() * sizeof(GridCell); }
 
     /// For those who check it (verify). Rows from 1 on are cells.
     std::uint32_t rowCount() const { return static_cast<std::uint32_t>(rows_.size() / rowCodes_); }
@@ -80,18 +84,27 @@ public:
 
 private:
     struct Axis {
-        double lower = 0, perWidth = 0, width = 0;
-        std::int32_t cells = 1;
-        std::uint32_t stride = 0;
+        double before = 0, perWidth = 0; ///< a part's width before the first part; parts per unit
+        double beyond = 2;               ///< parts and one
+        std::uint32_t parts = 1;         ///< over the whole range
+        std::uint32_t halvings = 0;      ///< that make parts of a cell
+        std::uint32_t stride = 0, partShift = 0, partMask = 0;
+        double lower = 0, width = 0; ///< of the first part
+    };
+    /// A cell of the grid: one row, or where it does not tell whether tests touch, one row a part.
+    struct GridCell {
+        std::uint32_t first = 0, mask = 0; ///< mask 0: one row
     };
     class Maker;
 
     std::size_t dofs_ = 0;
     std::array<Axis, maxDofs> axes_{};
+    std::vector<GridCell> grid_;
     double perUnit_ = 0; ///< codes per scene unit, up to nearCode; from there on for an ever larger range
     std::uint32_t rowCodes_ = codesPerGroup;
     /// Per row: reachedCode, the least code of a block, one code a block, farCode up to a whole group.
     std::vector<std::uint8_t> rows_;
+    std::vector<std::uint32_t> cellOf_; ///< of each row; queries do not need it
     std::vector<std::uint32_t> order_;
     double looked_ = 1;
 };
