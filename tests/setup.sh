@@ -2,7 +2,7 @@
 # install_packages installs what is missing, with apt, as root or through sudo; build_release builds into build/.
 
 packages=(
-    build-essential cmake ninja-build pkg-config
+    build-essential cmake ninja-build pkg-config file
     libopenscenegraph-dev openscenegraph
     libeigen3-dev libassimp-dev nlohmann-json3-dev catch2
     libtbb-dev libhwy-dev libcli11-dev libfmt-dev

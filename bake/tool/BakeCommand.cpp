@@ -86,7 +86,7 @@ void addBake(CLI::App& app, Console& console) {
     command
         ->add_option("--pair", arguments->request.pairs,
                      "prim path of a pair or a skin; repeat; default: all")
-        ->expected(1);
+        ->allow_extra_args(false);
     CLI::Option* allPairs = command->add_flag(
         "--all-pairs", arguments->allPairs,
         "first make pairs of all bodies that joints link, neighbours and over chains of joints");

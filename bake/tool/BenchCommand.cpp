@@ -31,7 +31,7 @@ void runBench(const BenchArguments& arguments, const Console& console) {
         throw InputError("--with: expected hit, gap, contact, features or pose, found \"" + arguments.with +
                          "\"");
     const SceneModel scene = loadScene(arguments.scene);
-    const Pair& pair = choosePair(scene, arguments.pair, arguments.scene);
+    const Pair& pair = chooseFreshPair(scene, arguments.pair, arguments.scene);
     if (!pair.table) throw InputError(Where{arguments.scene, "", pair.path}, "has no table to be timed");
     const PreparedTable table(*pair.table, options);
     const BenchResult result = benchQueries(table, pair.table->motion, arguments.queries, with);

@@ -1,6 +1,7 @@
 #include "bake/tool/ChoosePair.h"
 
 #include "bake/base/Error.h"
+#include "bake/scene/SourceHash.h"
 
 namespace tss::tool {
 
@@ -10,7 +11,16 @@ const Pair& choosePair(const SceneModel& scene, const std::string& path, const s
     if (found >= 0) return scene.pairs[found];
     std::string known;
     for (const Pair& pair : scene.pairs) known += (known.empty() ? "" : ", ") + pair.path;
+    if (known.empty())
+        throw InputError(Where{file, "", path}, "expected a pair of rigid bodies, the scene has none");
     throw InputError(Where{file, "", path}, "no such pair; expected --pair with one of: " + known);
+}
+
+const Pair& chooseFreshPair(const SceneModel& scene, const std::string& path, const std::string& file) {
+    const Pair& pair = choosePair(scene, path, file);
+    if (const std::string stale = staleness(scene, pair); !stale.empty())
+        throw InputError(Where{file, "", pair.path}, stale + ": expected a fresh table, bake it again");
+    return pair;
 }
 
 } // namespace tss::tool

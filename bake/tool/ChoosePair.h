@@ -9,4 +9,7 @@ namespace tss::tool {
 /// names the file and the pairs there are.
 const Pair& choosePair(const SceneModel& scene, const std::string& path, const std::string& file);
 
+/// The same, and throws where its table was made for another scene.
+const Pair& chooseFreshPair(const SceneModel& scene, const std::string& path, const std::string& file);
+
 } // namespace tss::tool

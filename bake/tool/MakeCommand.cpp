@@ -8,6 +8,7 @@
 #include "bake/tool/DofSpec.h"
 
 #include <filesystem>
+#include <fmt/format.h>
 
 namespace tss::tool {
 
@@ -24,11 +25,16 @@ int addBody(SceneModel& scene, const std::string& file, const Vec3& color, Json&
     Body body;
     body.mesh = importMesh(file);
     const MeshAudit audit = auditMesh(body.mesh);
-    console.say(file + ": " + text(audit));
+    const Vec3 size = bounds(body.mesh).isEmpty()
+                          ? Vec3::Zero()
+                          : Vec3(1000 * scene.metersPerUnit * bounds(body.mesh).sizes());
+    console.say(fmt::format("{}: {}\n  {:.4g} x {:.4g} x {:.4g} mm", file, text(audit), size.x(), size.y(),
+                            size.z()));
     audits.push_back({{"file", file},
                       {"vertices", body.mesh.vertices.size()},
                       {"triangles", body.mesh.triangles.size()},
                       {"watertight", audit.watertight},
+                      {"sizeMm", {size.x(), size.y(), size.z()}},
                       {"text", text(audit)}});
     body.path =
         "/" + scene.defaultPrim + "/" + freePrimName(scene, std::filesystem::path(file).stem().string());

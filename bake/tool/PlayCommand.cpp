@@ -2,6 +2,7 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/scene/SceneFile.h"
+#include "bake/scene/SourceHash.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/Csv.h"
 #include "bake/tool/DofSpec.h"
@@ -111,8 +112,13 @@ std::string line(const SceneModel& scene, std::size_t number, const std::vector<
 
 void play(const PlayArguments& arguments, const Console& console) {
     const SceneModel scene = loadScene(arguments.scene);
+    requireFresh(scene, arguments.scene);
     const auto steps = askedSteps(scene, arguments);
     std::vector<std::string> warnings;
+    for (const Pair& pair : scene.pairs)
+        if (!pair.table && !pair.proof)
+            warnings.push_back("pair " + pair.path +
+                               " is not kept apart: it has no table, tss bake makes one");
     Player player = inFile(arguments.scene, [&] { return Player(scene, warnings); });
     for (const std::string& warning : warnings) console.say(warning);
 

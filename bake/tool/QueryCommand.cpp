@@ -19,7 +19,7 @@ struct QueryArguments {
 
 void runQuery(const QueryArguments& arguments, const Console& console) {
     const SceneModel scene = loadScene(arguments.scene);
-    const Pair& pair = choosePair(scene, arguments.pair, arguments.scene);
+    const Pair& pair = chooseFreshPair(scene, arguments.pair, arguments.scene);
     if (!pair.table && !pair.proof)
         throw InputError(Where{arguments.scene, "", pair.path},
                          "has no table; expected a scene written by tss bake");

@@ -5,6 +5,7 @@
 #include "bake/tool/Csv.h"
 #include "bake/tool/DofSpec.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -68,6 +69,10 @@ void runReport(ReportArguments& arguments, const Console& console) {
     std::size_t methods = 0;
     for (const auto& pair : report.pairs) methods += pair.rows.size();
     for (const auto& skin : report.skins) methods += skin.methods.size();
+    const bool asked = std::any_of(report.pairs.begin(), report.pairs.end(),
+                                   [](const auto& pair) { return !pair.neverCollides; });
+    if (methods == 0 && asked && !arguments.options.methods.empty())
+        throw InputError("--methods: no method has such a name; without it the report names them all");
     if (!report.plotProblem.empty()) console.say(report.plotProblem);
     console.say(fmt::format("{} pairs and {} skins, {} rows in {:.0f} s, wrote {}/report.md",
                             report.pairs.size(), report.skins.size(), methods, report.seconds,
@@ -86,15 +91,17 @@ void addReport(CLI::App& app, Console& console) {
         ->add_option("-o,--output", arguments->output,
                      "folder for report.md, report.json, report.csv and plots")
         ->required();
-    command->add_option("--pair", arguments->pairs,
-                        "prim path of a pair or skin (repeat; all when not given)");
+    command
+        ->add_option("--pair", arguments->pairs, "prim path of a pair or skin (repeat; all when not given)")
+        ->allow_extra_args(false);
     command->add_option(
         "--motion", arguments->motion,
         "CSV, one column a DOF (degrees, or the DOF's own unit): the steps to count tests along");
     command->add_option("--methods", arguments->options.methods, "parts of the names of the methods wanted")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command->add_option("--seed", arguments->options.seed, "of the random poses");
-    command->add_flag("--quick", arguments->options.quick, "fewer poses and settings, under a minute");
+    command->add_flag("--quick", arguments->options.quick, "fewer poses and settings, a minute or two");
     command->callback([arguments, &console] { runReport(*arguments, console); });
 }
 

@@ -1,6 +1,7 @@
 #include "bake/tool/Summary.h"
 
 #include "bake/EarlyContact.h"
+#include "bake/scene/SourceHash.h"
 #include "bake/table/PreparedTable.h"
 
 #include <algorithm>
@@ -112,6 +113,13 @@ std::string length(const Json& value) {
     return value.is_null() ? "not known" : fmt::format("{:.4g}", value.get<double>());
 }
 
+/// The bound of late contact. What overlaps at rest is not counted as missed.
+std::string missed(const Json& item) {
+    const bool excepted = item["overlapAtRest"].get<int>() > 0 || item.value("ignoresRest", false);
+    return length(item["boundMiss"]) +
+           (excepted && !item["boundMiss"].is_null() ? " (but for what overlaps at rest)" : "");
+}
+
 } // namespace
 
 Json summary(const SceneModel& scene, const Pair& pair) {
@@ -121,11 +129,14 @@ Json summary(const SceneModel& scene, const Pair& pair) {
                  {"dofs", pairMotion(scene, pair).dofCount()},
                  {"baked", pair.table || pair.proof},
                  {"neverCollides", pair.proof != nullptr},
+                 {"stale", staleness(scene, pair)},
                  {"seconds", nullptr}};
     if (pair.table) {
         addTable(json, *pair.table);
         addKernel(json, *pair.table);
         addEarlyContact(json, scene, pair);
+        const auto atRest = pair.settings.find("at-rest");
+        json["ignoresRest"] = atRest != pair.settings.end() && atRest->second == "ignore";
     }
     if (pair.proof) {
         addRecord(json, pair.proof->record);
@@ -147,6 +158,7 @@ Json summary(const SceneModel& scene, const SkinModel& skin) {
     Json json = {{"path", skin.path},
                  {"baked", skin.table != nullptr},
                  {"muscles", Json::array()},
+                 {"stale", staleness(scene, skin)},
                  {"seconds", nullptr}};
     for (int muscle : skin.muscles) json["muscles"].push_back(scene.muscles[muscle].path);
     if (skin.table) {
@@ -173,6 +185,8 @@ std::string describe(const Json& scene) {
                 text += "  not baked yet\n";
                 continue;
             }
+            if (const auto stale = item["stale"].get<std::string>(); !stale.empty())
+                text += "  stale        " + stale + ": bake it again\n";
             text += fmt::format("  spheres      {} + {}\n", item["spheresA"].dump(), item["spheresB"].dump());
             if (item.value("neverCollides", false)) {
                 text += fmt::format(
@@ -187,13 +201,16 @@ std::string describe(const Json& scene) {
                                     item["candidatePairs"].is_null() ? "uncounted"
                                                                      : item["candidatePairs"].dump(),
                                     item["lowerBound"].is_null() ? "(not known)" : item["lowerBound"].dump());
-                text += fmt::format(
-                    "  bounds       miss {}, early {}, epsilon {}, {}\n", length(item["boundMiss"]),
-                    length(item["boundEarly"]), length(item["epsilon"]),
-                    item["certified"].get<bool>() ? "certified for every pose" : "sampled poses only");
+                if (item["tests"] == 0 && !item["certified"].get<bool>())
+                    text += "  no contact   at any sampled pose: no proof that the bodies never meet\n";
+                text += fmt::format("  bounds       miss {}, early {}, epsilon {}, {}\n", missed(item),
+                                    length(item["boundEarly"]), length(item["epsilon"]),
+                                    item["certified"].get<bool>() ? "certified for every pose"
+                                                                  : "sampled poses only");
                 if (item.contains("earlyContact")) text += describeEarlyContact(item);
                 if (item["overlapAtRest"].get<int>() > 0)
-                    text += fmt::format("  at rest      {} tests overlap and count from there\n",
+                    text += fmt::format("  at rest      {} tests overlap and count from there; the bounds "
+                                        "are about all others\n",
                                         item["overlapAtRest"].dump());
             }
             if (item.contains("kernel"))

@@ -61,7 +61,8 @@ void verify(const std::string& file, Console& console) {
         result["pairs"].push_back(json);
     }
     if (result["pairs"].empty())
-        throw InputError(Where{file, "", ""}, "nothing to verify; expected a baked scene");
+        throw InputError(Where{file, "", ""},
+                         "nothing to verify; expected a scene with a baked pair of rigid bodies");
     result["holds"] = bad == 0;
     console.print(result);
     console.exitCode = bad == 0 ? 0 : 1;

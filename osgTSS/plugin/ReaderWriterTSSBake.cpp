@@ -95,11 +95,15 @@ private:
                               "\"");
     }
 
-    /// Other plugins have words of their own in the same option string.
+    /// Other plugins have words of their own in the same option string, so that a word that is none of ours
+    /// is only remarked upon.
     static tss::BakeSettings settingsOf(const osgTSS::LoadOptions& load) {
         tss::BakeSettings given;
         for (const auto& [key, value] : load.others)
-            if (tss::isOption(key)) given[key] = value;
+            if (tss::isOption(key))
+                given[key] = value;
+            else if (key != "pairs")
+                OSG_NOTICE << "osgTSS: option \"" << key << "\" is none of tss bake's" << std::endl;
         return given;
     }
 };

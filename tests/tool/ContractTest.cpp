@@ -269,3 +269,48 @@ TEST_CASE("a baked table is verified, and one with a test taken out is not") {
     CHECK(bad.exit == 1);
     CHECK(bad.err.find("/swing/Joint") != std::string::npos);
 }
+
+TEST_CASE("a table made for other limits is refused by all that answer from it, and shown as stale") {
+    const Folder folder;
+    writeSwing(folder);
+    REQUIRE(runTss("bake swing.tss -o baked.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
+    std::string text = readText(folder.path() / "baked.tss");
+    const std::size_t limit = text.find("upperLimit");
+    const std::size_t value = text.find("90", limit);
+    REQUIRE(value != std::string::npos);
+    writeText(folder.path() / "stale.tss", text.replace(value, 2, "80"));
+    writeText(folder.path() / "q.csv", "0\n10\n");
+    for (const char* command :
+         {"query stale.tss --poses q.csv -o r.csv", "play stale.tss --motion q.csv -o r.csv",
+          "bench stale.tss --queries 10", "verify stale.tss"}) {
+        const Ran ran = runTss(command, folder.path());
+        INFO(command << ": " << ran.err);
+        CHECK(ran.exit == 1);
+        CHECK(ran.err.find("/swing/Joint") != std::string::npos);
+        CHECK(ran.err.find("limits") != std::string::npos);
+    }
+    const Ran info = runTss("info stale.tss", folder.path());
+    CHECK(info.exit == 0);
+    CHECK(info.out.find("stale") != std::string::npos);
+    CHECK(runTss("info baked.tss", folder.path()).out.find("stale") == std::string::npos);
+}
+
+TEST_CASE("a motion played without tables says that nothing is kept apart") {
+    const Folder folder;
+    writeSwing(folder);
+    writeText(folder.path() / "q.csv", "0\n10\n");
+    const Ran ran = runTss("play swing.tss --motion q.csv -o r.csv", folder.path());
+    CHECK(ran.exit == 0);
+    CHECK(ran.out.find("/swing/Joint is not kept apart") != std::string::npos);
+}
+
+TEST_CASE("--pair may be repeated, and takes nothing after its path") {
+    const Folder folder;
+    writeSwing(folder);
+    const Ran ran = runTss("bake --pair /swing/Joint swing.tss -o baked.tss --tolerance 0.5", folder.path());
+    INFO(ran.err);
+    CHECK(ran.exit == 0);
+    const Ran twice = runTss("bake --pair /swing/Joint --pair /swing/No swing.tss -o b.tss", folder.path());
+    CHECK(twice.exit == 1);
+    CHECK(twice.err.find("/swing/No") != std::string::npos);
+}
