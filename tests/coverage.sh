@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Lines and branches of the library, the node kit and the tools that the tests reach: a table by folder, and
 # build-coverage/coverage.html with every line. Branches are those written in the source: what the compiler adds
-# for exceptions is left out. Takes an hour on two cores. usage: tests/coverage.sh   (needs gcovr)
+# for exceptions is left out. Takes an hour on two cores. usage: tests/coverage.sh [TESTS...], names as in ctest
+# (geometry, table, ...; all when none is given).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source tests/setup.sh
@@ -9,10 +10,13 @@ packages+=(gcovr)
 install_packages
 
 cmake --preset coverage
-cmake --build --preset coverage --parallel "$(nproc)"
+targets=()
+for test in "$@"; do targets+=(--target "test_$test"); done
+cmake --build --preset coverage --parallel "$(nproc)" "${targets[@]}"
 find build-coverage -name '*.gcda' -delete
 failed=
-ctest --preset coverage || failed=yes
+names=$(IFS='|'; echo "$*")
+ctest --preset coverage --tests-regex "^(${names:-.*})$" || failed=yes
 
 say "Coverage"
 gcovr --root . --object-directory build-coverage --filter bake/ --filter osgTSS/ --exclude-throw-branches \

@@ -57,7 +57,7 @@ double rootNearOne(const double (&c)[4], double scale) {
 
 double enclosedVolume(const std::vector<Vec3>& vertices, const std::vector<Tri>& triangles) {
     if (vertices.empty()) return 0;
-    const Vec3 o = vertices.front();
+    const Vec3& o = vertices.front();
     double sum = 0;
     for (const Tri& t : triangles) sum += det(vertices[t[0]] - o, vertices[t[1]] - o, vertices[t[2]] - o);
     return sum / 6;

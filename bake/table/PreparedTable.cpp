@@ -19,7 +19,7 @@ constexpr double farOffset = 3e37, farReach = -1e18;
 /// more tests than that they would be too few.
 constexpr std::uint32_t fewBlocks = 4;
 constexpr double mostLooked = 0.6;
-constexpr std::size_t mostTests = 4096;
+constexpr std::size_t mostTests = 1 << 16;
 
 /// Poses at which the bodies are nearest to touching: a twentieth of a lattice over the limits.
 std::vector<std::vector<double>> nearContact(const Motion& motion, const std::vector<TablePair>& pairs) {
