@@ -27,7 +27,7 @@ public:
     /// Of a motion with 1 DOF at least, over `pairs`. See `order` for what comes where.
     TableCells(const Motion& motion, std::span<const TablePair> pairs, std::uint32_t lanes);
 
-    bool empty() const { return rows_.empty(); }
+    bool empty() const { return dofs_ == 0; }
 
     /// The tests in the order in which they make up blocks of `lanes`: those that come near in the same cells
     /// share blocks.
