@@ -225,9 +225,7 @@ void PreparedTable::fill(std::uint32_t lanes, std::span<const std::uint32_t> ord
 }
 
 void PreparedTable::makeCells(CellUse use) {
-    bool moves = false;
-    for (const Dof& dof : motion_.dofs) moves = moves || dof.upper > dof.lower;
-    if (use == CellUse::Never || !moves || pairs_.empty()) return;
+    if (use == CellUse::Never || pairs_.empty()) return;
     // To look up a cell costs as much as a few blocks.
     const std::size_t least = std::size_t(fewBlocks) * kernels_.lanes;
     if (use == CellUse::Auto && (pairs_.size() <= least || pairs_.size() > mostTests)) return;

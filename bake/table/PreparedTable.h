@@ -24,7 +24,7 @@ struct PrepareOptions {
     KernelTarget target = KernelTarget::Best; ///< must be available
     std::optional<KernelForm> form;           ///< Fold is not to be had for every motion
     std::optional<KernelPrecision> precision;
-    CellUse cells = CellUse::Auto; ///< for a motion without DOFs or range there are none
+    CellUse cells = CellUse::Auto; ///< where nothing moves there are none
 };
 
 /// A pose as the kernels want it. Made by PreparedTable::features, good for that table only.

@@ -64,6 +64,14 @@ public:
         middleReach_ = reaches[reaches.size() / 2];
     }
 
+    /// Some DOF moves some test by more than rounding: else there is nothing to tell cells apart by.
+    bool moves() const {
+        double most = 0;
+        for (std::size_t k = 0; k < dofs_; ++k)
+            most = std::max(most, weights_[k] * (motion_.dofs[k].upper - motion_.dofs[k].lower));
+        return most > slack_;
+    }
+
     /// Cuts the limits into the grid and its cells into parts, always across the DOF that moves most within a
     /// piece.
     void cut() {
@@ -113,7 +121,7 @@ public:
             axis.perWidth = 1 / axis.width;
             axis.before = axis.lower - axis.width;
         }
-        cells_.perUnit_ = cellMove > 0 ? codesPerMove / cellMove : 0; // 0: nothing moves anything
+        cells_.perUnit_ = codesPerMove / cellMove;
         nearGap_ = cellMove / codesPerMove * evenCodes;
     }
 
@@ -348,6 +356,7 @@ private:
 
 TableCells::TableCells(const Motion& motion, std::span<const TablePair> pairs, std::uint32_t lanes) {
     Maker maker(*this, motion, pairs);
+    if (!maker.moves()) return;
     maker.cut();
     maker.find(lanes);
     maker.put(lanes);

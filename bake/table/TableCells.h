@@ -24,7 +24,7 @@ public:
     static constexpr std::uint32_t headerCodes = NearBlocks::headerCodes;
 
     TableCells() = default;
-    /// Of a motion with 1 DOF at least, over `pairs`. See `order` for what comes where.
+    /// Empty where no DOF moves any test. See `order` for what comes where.
     TableCells(const Motion& motion, std::span<const TablePair> pairs, std::uint32_t lanes);
 
     bool empty() const { return dofs_ == 0; }

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # Instructions a query, pose features given (but for "pose", which makes them where needed), by callgrind: the
-# difference between two runs of bench_queries that
-# differ by 200,000 queries alone. usage: tests/bench/instructions.sh BUILD [KERNEL...]   (needs valgrind)
+# difference between two runs of bench_queries that differ by 200,000 queries alone. usage: tests/bench/instructions.sh BUILD [KERNEL...]   (needs valgrind)
 set -euo pipefail
 program=$1/bin/bench_queries
 shift

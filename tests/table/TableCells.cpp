@@ -1,4 +1,4 @@
-#include "bake/table/TableCells.h"
+#include "bake/table/PreparedTable.h"
 #include "tests/table/ExactGap.h"
 #include "tests/table/RandomTable.h"
 
@@ -95,5 +95,33 @@ TEST_CASE("a DOF without a range takes no cell away from the others") {
             const std::vector<double> q = random_table::values(random, table.motion);
             REQUIRE(cells.rowAt(q.data()) > 0);
         }
+    }
+}
+
+TEST_CASE("tests that no DOF moves have no cells, and all under a margin are found") {
+    Motion motion;
+    Dof turn;
+    turn.kind = DofKind::Rotation;
+    turn.axis = Vec3::UnitZ();
+    turn.lower = -1;
+    turn.upper = 1;
+    motion.dofs.push_back(turn);
+    SphereSet a, b;
+    std::vector<SpherePair> pairs;
+    for (std::uint32_t i = 0; i < 100; ++i) {
+        a.push_back({Vec3(3 + 0.01 * i, 0, 0), 1});
+        b.push_back({Vec3::Zero(), 1}); // on the axis
+        pairs.push_back({i, i});
+    }
+    const Table table = makeTable(a, b, pairs, {}, motion);
+    for (CellUse use : {CellUse::Auto, CellUse::Always}) {
+        PrepareOptions options;
+        options.cells = use;
+        const PreparedTable prepared(table, options);
+        CHECK(prepared.cells().empty());
+        std::vector<std::uint32_t> found(prepared.testRoom());
+        const double q = 0.5;
+        CHECK(prepared.under(&q, 2.5, found.data()) == 100);
+        CHECK_FALSE(prepared.hit(&q));
     }
 }
