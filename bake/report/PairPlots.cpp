@@ -108,11 +108,12 @@ void drawSteps(Drawing& drawing, const PairStudy& study) {
               "angular "
               "region\", FILE using 1:($3 > 0 ? 0.25 : NaN) with points pt 5 ps 0.5 lc rgb \"#dd181f\" title "
               "\"meshes touch\"\n";
-    drawing.draw("steps", data, script,
-                 "Sphere tests a step along the motion (the paper's Figure 2j). Sphere trees and all pairs "
-                 "stop at the "
-                 "first hit; the table makes all of its tests at every step.",
-                 1100, 560);
+    drawing.draw(
+        "steps", data, script,
+        "Sphere tests a step along the motion (the paper's Figure 2j). Sphere trees and all pairs "
+        "stop at the first hit; the table is counted with all of its tests, of which its kernels leave out "
+        "what cannot matter at the step.",
+        1100, 560);
 }
 
 void drawRegion(Drawing& drawing, const PairStudy& study) {

@@ -352,9 +352,10 @@ std::string pairText(const PairStudy& study, const std::vector<Plot>& plots) {
     text += study.leadingUnit == "degrees" ? fmt::format(", and the angle of {} in between", study.leadingDof)
                                            : "";
     text +=
-        ". Tests: of two spheres, a query, 4 products each as the paper counts; a table makes all of its "
-        "tests in "
-        "every query, the others stop at the first hit.\n\n### How much quicker, at which error\n\n"
+        ". Tests: of two spheres, a query, 4 products each as the paper counts; a table is counted with "
+        "all of its tests, of which its kernels leave out what cannot matter at the pose; the others stop at "
+        "the "
+        "first hit.\n\n### How much quicker, at which error\n\n"
         "The table for each model, and how many times its time others take. The loop over indices is the "
         "same table "
         "as the paper runs it, the sphere tree stands on the same spheres; FCL answers for the triangles "

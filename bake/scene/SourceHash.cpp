@@ -95,6 +95,10 @@ std::string difference(const std::string& stored, const std::string& now,
     return changed + " changed since its table was baked";
 }
 
+void refuse(const std::string& why, const std::string& path, const std::string& fileName) {
+    if (!why.empty()) throw InputError({fileName, "", path}, why + ": expected a fresh table, bake it again");
+}
+
 } // namespace
 
 std::string sourceHash(const SceneModel& scene, const Pair& pair) {
@@ -135,13 +139,13 @@ std::string staleness(const SceneModel& scene, const SkinModel& skin) {
                        "the activations, thickness or travel", "the settings"});
 }
 
+void requireFresh(const SceneModel& scene, const Pair& pair, const std::string& fileName) {
+    refuse(staleness(scene, pair), pair.path, fileName);
+}
+
 void requireFresh(const SceneModel& scene, const std::string& fileName) {
-    const auto require = [&](const std::string& path, const std::string& why) {
-        if (!why.empty())
-            throw InputError({fileName, "", path}, why + ": expected a fresh table, bake it again");
-    };
-    for (const Pair& pair : scene.pairs) require(pair.path, staleness(scene, pair));
-    for (const SkinModel& skin : scene.skins) require(skin.path, staleness(scene, skin));
+    for (const Pair& pair : scene.pairs) requireFresh(scene, pair, fileName);
+    for (const SkinModel& skin : scene.skins) refuse(staleness(scene, skin), skin.path, fileName);
 }
 
 } // namespace tss

@@ -19,7 +19,8 @@ std::string sourceHash(const SceneModel& scene, const SkinModel& skin);
 std::string staleness(const SceneModel& scene, const Pair& pair);
 std::string staleness(const SceneModel& scene, const SkinModel& skin);
 
-/// Throws InputError naming the first pair or skin whose table is stale.
+/// Throws InputError where the table of the pair is stale; of a scene, naming the first pair or skin.
+void requireFresh(const SceneModel& scene, const Pair& pair, const std::string& fileName);
 void requireFresh(const SceneModel& scene, const std::string& fileName);
 
 } // namespace tss

@@ -18,8 +18,7 @@ const Pair& choosePair(const SceneModel& scene, const std::string& path, const s
 
 const Pair& chooseFreshPair(const SceneModel& scene, const std::string& path, const std::string& file) {
     const Pair& pair = choosePair(scene, path, file);
-    if (const std::string stale = staleness(scene, pair); !stale.empty())
-        throw InputError(Where{file, "", pair.path}, stale + ": expected a fresh table, bake it again");
+    requireFresh(scene, pair, file);
     return pair;
 }
 
