@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fmt/format.h>
 #include <functional>
 #include <initializer_list>
 #include <utility>
@@ -93,6 +94,13 @@ double parseLength(const std::string& text, double metersPerUnit) {
                metersPerUnit;
     }
     return parseNumber(text, "length (a number, or a number with um, mm, cm, m, km, in or ft)");
+}
+
+std::string lengthText(double length, double metersPerUnit) {
+    const double meters = length * metersPerUnit, size = std::abs(meters);
+    if (size >= 1) return fmt::format("{:.4g} m", meters);
+    if (size >= 1e-5 || size == 0) return fmt::format("{:.4g} mm", 1e3 * meters);
+    return fmt::format("{:.4g} um", 1e6 * meters);
 }
 
 namespace {

@@ -42,6 +42,9 @@ BakeOptions optionsFor(const BakeSettings& ofScene, const BakeSettings& given, d
 /// "0.2mm", "1cm", "2e-3m", "0.01in" or a plain number in scene units. Throws InputError.
 double parseLength(const std::string& text, double metersPerUnit);
 
+/// A length in scene units as people read it: "0.2 mm", "350 um", "1.2 m".
+std::string lengthText(double length, double metersPerUnit);
+
 /// A finite number and nothing else. Throws InputError that names `what`.
 double parseNumber(const std::string& text, const std::string& what);
 

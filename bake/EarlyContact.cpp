@@ -37,6 +37,48 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
+/// Whether one of the first steps from rest this way is reported: 1/1024 to 1/128 of each DOF's range.
+/// Nothing where the limits are in the way.
+std::optional<bool> stopped(const Table& table, const Motion& motion, const std::vector<double>& rest,
+                            const std::vector<int>& way) {
+    for (double step = 1.0 / 1024; step <= 1.0 / 128; step *= 2) {
+        std::vector<double> q = rest;
+        for (std::size_t k = 0; k < q.size(); ++k)
+            q[k] += step * way[k] * (motion.dofs[k].upper - motion.dofs[k].lower);
+        if (!withinLimits(motion, q, 0)) return std::nullopt;
+        if (query(table, q).hit()) return true;
+    }
+    return false;
+}
+
+/// All ways that turn each DOF back, on or not at all; with many DOFs one at a time.
+bool heldAtRest(const Table& table, const Motion& motion, const std::vector<double>& rest) {
+    constexpr std::size_t most = 5; // 242 ways
+    const std::size_t dofs = rest.size();
+    std::vector<std::vector<int>> ways;
+    if (dofs <= most) {
+        std::size_t count = 1;
+        for (std::size_t k = 0; k < dofs; ++k) count *= 3;
+        for (std::size_t number = 0; number < count; ++number) {
+            std::vector<int> way;
+            for (std::size_t k = 0, digits = number; k < dofs; ++k, digits /= 3)
+                way.push_back(static_cast<int>(digits % 3) - 1);
+            ways.push_back(std::move(way));
+        }
+    } else {
+        for (std::size_t k = 0; k < dofs; ++k)
+            for (const int sign : {-1, 1}) ways.emplace_back(dofs, 0)[k] = sign;
+    }
+    bool any = false;
+    for (const std::vector<int>& way : ways) {
+        if (std::all_of(way.begin(), way.end(), [](int turn) { return turn == 0; })) continue;
+        const std::optional<bool> stop = stopped(table, motion, rest, way);
+        if (stop == false) return false;
+        any |= stop.has_value();
+    }
+    return any;
+}
+
 } // namespace
 
 std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const Pair& pair) {
@@ -50,7 +92,9 @@ std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const P
     const std::vector<double> rest = restValues(motion);
     result.atRest = clearance(a, b, pose(motion, rest), std::max(size, early));
     const Table& table = *pair.table;
-    result.restReported = result.atRest > 0 && query(table, rest).hit();
+    const bool contact = query(table, rest).hit();
+    result.restReported = result.atRest > 0 && contact;
+    result.held = !contact && heldAtRest(table, motion, rest);
 
     const std::vector<std::vector<double>> poses = exploredPoses(motion, 100, 1);
     std::vector<double> distances(poses.size(), early);

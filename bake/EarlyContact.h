@@ -8,8 +8,9 @@ namespace tss {
 /// How often a table reports contact where the meshes do not touch: a bound tells how far apart they may be
 /// then, not whether the joint ever opens that far. Measured on the meshes, at poses spread over all limits.
 struct EarlyContact {
-    double atRest = 0; ///< scene units: the surfaces are that far apart at rest; 0: they touch
+    double atRest = 0;         ///< scene units: the surfaces are that far apart at rest; 0: they touch
     bool restReported = false; ///< contact is reported at rest, though the surfaces are apart
+    bool held = false;         ///< not at rest, but every small step from there is reported, whichever way
     int poses = 0;             ///< looked at
     int freePoses = 0;         ///< of those, where the surfaces are apart
     double share = 0;          ///< of the free ones: contact is reported

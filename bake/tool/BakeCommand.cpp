@@ -94,7 +94,7 @@ void addBake(CLI::App& app, Console& console) {
         ->add_flag("--pairs-only", arguments->pairsOnly, "write the scene with those pairs and bake none yet")
         ->needs(allPairs);
     const std::pair<const char*, const char*> settings[] = {
-        {"spheres", "medial (default), growth or surface"},
+        {"spheres", "medial (default), shrinking, growth or surface"},
         {"growth",
          "START,STEP,END,MAXRADIUS of --spheres growth: fractions of the bounding diagonal (default "
          "0.01,0.01,0.101,0.02) or lengths"},

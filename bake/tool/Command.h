@@ -23,6 +23,9 @@ struct Console {
     Progress progress() const;
 };
 
+/// Throws InputError where the output would replace a file that is read.
+void refuseOverwriting(const std::string& output, std::initializer_list<std::string> inputs);
+
 /// Adds --json and --quiet to a command.
 CLI::App* addCommand(CLI::App& app, Console& console, const std::string& name,
                      const std::string& description);

@@ -1,5 +1,8 @@
 #include "bake/tool/Command.h"
 
+#include "bake/base/Error.h"
+
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <unistd.h>
@@ -26,6 +29,14 @@ Progress Console::progress() const {
         fmt::print(stderr, "{}{}", line, done >= 1 ? "\r\033[K" : "");
         return true;
     };
+}
+
+void refuseOverwriting(const std::string& output, std::initializer_list<std::string> inputs) {
+    for (const std::string& input : inputs) {
+        std::error_code none;
+        if (std::filesystem::equivalent(output, input, none))
+            throw InputError(Where{output, "", ""}, "is read here; expected another name for the output");
+    }
 }
 
 CLI::App* addCommand(CLI::App& app, Console& console, const std::string& name,

@@ -27,7 +27,15 @@ std::vector<std::string> split(const std::string& line) {
     return cells;
 }
 
+/// What reads as no number though it stands for one: in a first line, that is a bad value and no header.
+bool isNotFinite(std::string cell) {
+    std::transform(cell.begin(), cell.end(), cell.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return cell == "nan" || cell == "inf" || cell == "infinity";
+}
+
 bool isName(const std::string& cell) {
+    if (isNotFinite(cell)) return false;
     return cell.empty() || std::isalpha(static_cast<unsigned char>(cell[0])) || cell[0] == '_' ||
            cell[0] == '/';
 }

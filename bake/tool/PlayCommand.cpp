@@ -51,6 +51,19 @@ std::vector<std::vector<double>> askedSteps(const SceneModel& scene, const PlayA
     return steps;
 }
 
+/// How many steps ask for a pose outside of a joint's limits.
+std::size_t countOutside(const SceneModel& scene, const std::vector<std::vector<double>>& steps) {
+    return static_cast<std::size_t>(std::count_if(steps.begin(), steps.end(), [&](const auto& row) {
+        std::size_t column = 0;
+        for (const Joint& joint : scene.joints)
+            for (const Dof& dof : joint.dofs) {
+                const double slack = 1e-6 * (dof.upper - dof.lower), value = row[column++];
+                if (value < dof.lower - slack || value > dof.upper + slack) return true;
+            }
+        return false;
+    }));
+}
+
 /// All bodies in one OBJ with a group each.
 std::string objText(const SceneModel& scene, const std::vector<TriangleMesh>& meshes) {
     std::string text;
@@ -111,6 +124,7 @@ std::string line(const SceneModel& scene, std::size_t number, const std::vector<
 }
 
 void play(const PlayArguments& arguments, const Console& console) {
+    refuseOverwriting(arguments.output, {arguments.scene, arguments.motion});
     const SceneModel scene = loadScene(arguments.scene);
     requireFresh(scene, arguments.scene);
     const auto steps = askedSteps(scene, arguments);
@@ -120,6 +134,11 @@ void play(const PlayArguments& arguments, const Console& console) {
             warnings.push_back("pair " + pair.path +
                                " is not kept apart: it has no table, tss bake makes one");
     Player player = inFile(arguments.scene, [&] { return Player(scene, warnings); });
+    const std::size_t outside = countOutside(scene, steps);
+    if (outside > 0)
+        warnings.push_back(fmt::format(
+            "{} of {} steps ask for more than the limits of a joint allow: they end at the limits", outside,
+            steps.size()));
     for (const std::string& warning : warnings) console.say(warning);
 
     std::string text = header(scene);
@@ -139,6 +158,7 @@ void play(const PlayArguments& arguments, const Console& console) {
     if (!scene.skins.empty()) console.say(fmt::format("  deepest residual of a skin {:.4g}", deepest));
     console.print({{"steps", steps.size()},
                    {"statuses", statuses},
+                   {"outsideLimits", outside},
                    {"residualDepth", deepest},
                    {"warnings", warnings},
                    {"output", arguments.output}});

@@ -18,6 +18,7 @@ struct QueryArguments {
 };
 
 void runQuery(const QueryArguments& arguments, const Console& console) {
+    refuseOverwriting(arguments.output, {arguments.scene, arguments.poses});
     const SceneModel scene = loadScene(arguments.scene);
     const Pair& pair = chooseFreshPair(scene, arguments.pair, arguments.scene);
     if (!pair.table && !pair.proof)

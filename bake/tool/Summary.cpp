@@ -1,5 +1,6 @@
 #include "bake/tool/Summary.h"
 
+#include "bake/BakeOptions.h"
 #include "bake/EarlyContact.h"
 #include "bake/scene/SourceHash.h"
 #include "bake/table/PreparedTable.h"
@@ -78,6 +79,7 @@ void addEarlyContact(Json& json, const SceneModel& scene, const Pair& pair) {
     json["earlyContact"] = {{"poses", early->poses},
                             {"freePoses", early->freePoses},
                             {"stuck", early->stuck()},
+                            {"held", early->held},
                             {"share", early->share},
                             {"atRest", early->restReported},
                             {"coarse", early->coarse()},
@@ -85,12 +87,19 @@ void addEarlyContact(Json& json, const SceneModel& scene, const Pair& pair) {
                             {"shareThen", early->tolerance > 0 ? Json(early->shareThen) : Json()}};
 }
 
-std::string describeEarlyContact(const Json& pair) {
+/// As --tolerance takes it.
+std::string lengthOption(double length, double metersPerUnit) {
+    std::string text = lengthText(length, metersPerUnit);
+    std::erase(text, ' ');
+    return text;
+}
+
+std::string describeEarlyContact(const Json& pair, double metersPerUnit) {
     const double atRest = pair["clearanceAtRest"].get<double>();
     const Json& early = pair["earlyContact"];
     std::string text = fmt::format(
         "  meshes       {} at rest; contact reported at {:.0f} % of {} poses where they do not touch\n",
-        atRest > 0 ? fmt::format("{:.4g} apart", atRest) : "touch or overlap",
+        atRest > 0 ? lengthText(atRest, metersPerUnit) + " apart" : "touch or overlap",
         100 * early["share"].get<double>(), early["freePoses"].dump());
     if (early["stuck"].get<bool>())
         text += fmt::format(
@@ -99,24 +108,32 @@ std::string describeEarlyContact(const Json& pair) {
             "               --b-offset); where they overlap on purpose, as in a socket, bake with "
             "--at-rest ignore\n",
             early["poses"].get<int>() - early["freePoses"].get<int>(), early["poses"].get<int>());
+    else if (early["held"].get<bool>())
+        text += "  held         at rest: every small step from there is contact, whichever way. Let it rest "
+                "where "
+                "nothing touches (tss\n"
+                "               make --rest, --b-offset); where the bodies overlap on purpose, as in a "
+                "socket, bake "
+                "with --at-rest ignore\n";
     if (!early["coarse"].get<bool>()) return text;
     text += fmt::format("  too coarse   for the clearance of this joint: it {} where nothing touches\n",
                         early["atRest"].get<bool>() ? "sticks at rest," : "is stopped early, or sticks,");
     if (!early["tolerance"].is_null())
-        text += fmt::format(
-            "  propose      --tolerance {:.4g}: contact at no more than {:.0f} % of those poses\n",
-            early["tolerance"].get<double>(), 100 * early["shareThen"].get<double>());
+        text +=
+            fmt::format("  propose      --tolerance {}: contact at no more than {:.0f} % of those poses\n",
+                        lengthOption(early["tolerance"].get<double>(), metersPerUnit),
+                        100 * early["shareThen"].get<double>());
     return text;
 }
 
-std::string length(const Json& value) {
-    return value.is_null() ? "not known" : fmt::format("{:.4g}", value.get<double>());
+std::string length(const Json& value, double metersPerUnit) {
+    return value.is_null() ? "not known" : lengthText(value.get<double>(), metersPerUnit);
 }
 
 /// The bound of late contact. What overlaps at rest is not counted as missed.
-std::string missed(const Json& item) {
+std::string missed(const Json& item, double metersPerUnit) {
     const bool excepted = item["overlapAtRest"].get<int>() > 0 || item.value("ignoresRest", false);
-    return length(item["boundMiss"]) +
+    return length(item["boundMiss"], metersPerUnit) +
            (excepted && !item["boundMiss"].is_null() ? " (but for what overlaps at rest)" : "");
 }
 
@@ -177,6 +194,7 @@ Json summary(const SceneModel& scene) {
 }
 
 std::string describe(const Json& scene) {
+    const auto metersPerUnit = scene["metersPerUnit"].get<double>();
     std::string text;
     for (const char* kind : {"pairs", "skins"})
         for (const Json& item : scene[kind]) {
@@ -192,7 +210,7 @@ std::string describe(const Json& scene) {
                 text += fmt::format(
                     "  never collide: the spheres stay {} apart over the whole motion; no table, no "
                     "callback\n",
-                    length(item["clearance"]));
+                    length(item["clearance"], metersPerUnit));
             } else {
                 text += fmt::format("  used         {} + {}\n  tests a step {} ({} products)\n",
                                     item["usedA"].dump(), item["usedB"].dump(), item["tests"].dump(),
@@ -203,11 +221,11 @@ std::string describe(const Json& scene) {
                                     item["lowerBound"].is_null() ? "(not known)" : item["lowerBound"].dump());
                 if (item["tests"] == 0 && !item["certified"].get<bool>())
                     text += "  no contact   at any sampled pose: no proof that the bodies never meet\n";
-                text += fmt::format("  bounds       miss {}, early {}, epsilon {}, {}\n", missed(item),
-                                    length(item["boundEarly"]), length(item["epsilon"]),
-                                    item["certified"].get<bool>() ? "certified for every pose"
-                                                                  : "sampled poses only");
-                if (item.contains("earlyContact")) text += describeEarlyContact(item);
+                text += fmt::format(
+                    "  bounds       miss {}, early {}, epsilon {}, {}\n", missed(item, metersPerUnit),
+                    length(item["boundEarly"], metersPerUnit), length(item["epsilon"], metersPerUnit),
+                    item["certified"].get<bool>() ? "certified for every pose" : "sampled poses only");
+                if (item.contains("earlyContact")) text += describeEarlyContact(item, metersPerUnit);
                 if (item["overlapAtRest"].get<int>() > 0)
                     text += fmt::format("  at rest      {} tests overlap and count from there; the bounds "
                                         "are about all others\n",
@@ -215,9 +233,9 @@ std::string describe(const Json& scene) {
             }
             if (item.contains("kernel"))
                 text += fmt::format(
-                    "  query        {} in {}, condition {:.3g}, verdicts right beyond {:.3g}\n",
+                    "  query        {} in {}, condition {:.3g}, verdicts right beyond {}\n",
                     item["kernel"]["form"].get<std::string>(), item["kernel"]["precision"].get<std::string>(),
-                    item["kernel"]["condition"].get<double>(), item["kernel"]["band"].get<double>());
+                    item["kernel"]["condition"].get<double>(), length(item["kernel"]["band"], metersPerUnit));
             text += fmt::format("  made by      {}, {} bytes", item["method"].get<std::string>(),
                                 item["bytes"].dump());
             if (!item["seconds"].is_null()) text += fmt::format(", {:.2f} s", item["seconds"].get<double>());

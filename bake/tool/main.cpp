@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/tool/Command.h"
 
+#include <algorithm>
 #include <csignal>
 #include <fmt/format.h>
 
@@ -16,6 +17,17 @@ int fail(const tss::tool::Console& console, int code, const std::string& message
           {{"message", message}, {"file", where.file}, {"pointer", where.pointer}, {"path", where.path}}},
          {"exit", code}});
     return code;
+}
+
+/// A word that is no command; said here, as it would else be called a missing one.
+bool isMistyped(const CLI::App& app, const std::string& word) {
+    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+    const auto named = [&](const CLI::App* command) { return command->get_name() == word; };
+    if (word.starts_with('-') || std::any_of(commands.begin(), commands.end(), named)) return false;
+    std::string names;
+    for (const CLI::App* command : commands) names += " " + command->get_name();
+    fmt::print(stderr, "tss: \"{}\" is no command; expected one of{}\n", word, names);
+    return true;
 }
 
 } // namespace
@@ -43,6 +55,7 @@ int main(int argc, char** argv) {
 #ifdef OSGTSS_HAVE_REPORT
     addReport(app, console);
 #endif
+    if (argc > 1 && isMistyped(app, argv[1])) return 2;
     try {
         app.parse(argc, argv);
         return console.exitCode;

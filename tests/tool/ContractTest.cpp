@@ -33,7 +33,10 @@ TEST_CASE("every command answers --help with exit 0, and an unknown one is a usa
     }
     CHECK(runTss("--help", folder.path()).exit == 0);
     CHECK(runTss("", folder.path()).exit == 2);
-    CHECK(runTss("nonsense", folder.path()).exit == 2);
+    const Ran nonsense = runTss("nonsense", folder.path());
+    CHECK(nonsense.exit == 2);
+    CHECK(nonsense.err.find("\"nonsense\"") != std::string::npos);
+    CHECK(nonsense.err.find("verify") != std::string::npos);
     CHECK(runTss("bake", folder.path()).exit == 2);
     CHECK(runTss("info --nonsense x.tss", folder.path()).exit == 2);
 }
@@ -302,6 +305,47 @@ TEST_CASE("a motion played without tables says that nothing is kept apart") {
     const Ran ran = runTss("play swing.tss --motion q.csv -o r.csv", folder.path());
     CHECK(ran.exit == 0);
     CHECK(ran.out.find("/swing/Joint is not kept apart") != std::string::npos);
+}
+
+TEST_CASE("a motion that asks for more than the limits is played up to them, and that is said") {
+    const Folder folder;
+    writeSwing(folder);
+    REQUIRE(runTss("bake swing.tss -o baked.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
+    writeText(folder.path() / "q.csv", "0\n10\n90\n170\n");
+    const Ran ran = runTss("play baked.tss --motion q.csv -o r.csv", folder.path());
+    CHECK(ran.exit == 0);
+    CHECK(ran.out.find("1 of 4 steps") != std::string::npos);
+    writeText(folder.path() / "q.csv", "0\n10\n90\n");
+    CHECK(runTss("play baked.tss --motion q.csv -o r.csv", folder.path()).out.find("limits") ==
+          std::string::npos);
+}
+
+TEST_CASE("a file that is read is not overwritten by the answer") {
+    const Folder folder;
+    writeSwing(folder);
+    REQUIRE(runTss("bake swing.tss -o baked.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
+    writeText(folder.path() / "q.csv", "0\n10\n");
+    for (const char* command :
+         {"query baked.tss --poses q.csv -o ./q.csv", "query baked.tss --poses q.csv -o baked.tss",
+          "play baked.tss --motion q.csv -o q.csv"}) {
+        const Ran ran = runTss(command, folder.path());
+        INFO(command << ": " << ran.err);
+        CHECK(ran.exit == 1);
+        CHECK(ran.err.find("another name") != std::string::npos);
+    }
+    CHECK(readText(folder.path() / "q.csv") == "0\n10\n");
+}
+
+TEST_CASE("a first line of nan is a bad number, not a header") {
+    const Folder folder;
+    writeSwing(folder);
+    REQUIRE(runTss("bake swing.tss -o baked.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
+    for (const char* value : {"nan", "NaN", "inf", "-inf"}) {
+        writeText(folder.path() / "q.csv", std::string(value) + "\n0\n");
+        const Ran ran = runTss("query baked.tss --poses q.csv -o r.csv", folder.path());
+        CHECK(ran.exit == 1);
+        CHECK(ran.err.find("q.csv:1: column 1") != std::string::npos);
+    }
 }
 
 TEST_CASE("--pair may be repeated, and takes nothing after its path") {
