@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs a build into a prefix of its own, builds the project beside this script against it twice, with find_package
-# and with pkg-config, and runs both. Arguments: the build folder, a scene with a table.
+# and with pkg-config, and runs both; then the same with the core alone, which brings no OpenSceneGraph along.
+# Arguments: the build folder, a scene with a table and two degrees of freedom.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 build=$1 scene=$2
@@ -29,3 +30,19 @@ headers=$(cd "$prefix/include" && printf '#include <%s>\n' osgTSS/*)
 c++ -std=c++20 -Wall -Wextra -Werror -fsyntax-only -x c++ - $(pkg-config --cflags osgTSS) <<<"$headers"
 c++ -std=c++20 -O1 "$here/main.cpp" -o "$work/consumer" $(pkg-config --cflags --libs osgTSS)
 LD_LIBRARY_PATH=$libraries "$work/consumer" "$scene"
+
+# Not by name, as in "grep osg": the core's own library has one that begins so.
+noOsg() { if ldd "$1" | grep -E 'libosg[A-Z]?[a-z]*\.so'; then echo "$1 loads OpenSceneGraph"; exit 1; fi; }
+example=$here/../../examples/core/main.cpp
+
+echo "the core, with find_package"
+cmake -S "$here/core" -B "$work/core" -DCMAKE_PREFIX_PATH="$prefix" -DEXAMPLE="$example" \
+      -DCMAKE_BUILD_TYPE=Release >"$work/configure.log"
+cmake --build "$work/core" >"$work/build.log" || { cat "$work/build.log"; exit 1; }
+"$work/core/consumer_core" "$scene" 0 0.1
+noOsg "$work/core/consumer_core"
+
+echo "the core, with pkg-config"
+c++ -std=c++20 -O1 "$example" -o "$work/consumer_core" $(pkg-config --cflags --libs osgTSSCore)
+LD_LIBRARY_PATH=$libraries "$work/consumer_core" "$scene" 0 0.1
+LD_LIBRARY_PATH=$libraries noOsg "$work/consumer_core"

@@ -1,0 +1,43 @@
+# Where the installed libraries stand, and how other projects find them: headers, libraries, plugins in the folder that
+# OSG looks into, a CMake package and pkg-config files. Everything finds its neighbours by relative paths, so that a
+# prefix may be moved, and needs no environment variable below /usr and /usr/local. Without the node kit, the core alone.
+include(CMakePackageConfigHelpers)
+
+set(OSGTSS_CORE_INCLUDES ${CMAKE_INSTALL_INCLUDEDIR}/tss) # the headers of bake/, named "bake/..." in there too
+set(OSGTSS_PACKAGE_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/osgTSS)
+set(OSGTSS_PLUGIN_DESTINATION ${CMAKE_INSTALL_LIBDIR}/${OSGTSS_PLUGIN_FOLDER})
+file(RELATIVE_PATH OSGTSS_PREFIX_FROM_PC /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+
+# osgtss_install(<target> <name>): the library, its CMake targets in <name>Targets.cmake, and <name>.pc.
+function(osgtss_install target name)
+    install(TARGETS ${target} EXPORT ${name}Targets
+            LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    install(EXPORT ${name}Targets NAMESPACE osgTSS:: DESTINATION ${OSGTSS_PACKAGE_DESTINATION})
+    configure_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/${name}.pc.in ${PROJECT_BINARY_DIR}/package/${name}.pc @ONLY)
+    install(FILES ${PROJECT_BINARY_DIR}/package/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+
+osgtss_install(osgTSSCore osgTSSCore)
+target_include_directories(osgTSSCore INTERFACE $<INSTALL_INTERFACE:${OSGTSS_CORE_INCLUDES}>)
+# The headers of what the library holds.
+install(FILES bake/JointPlan.h bake/SkinSetup.h bake/Player.h DESTINATION ${OSGTSS_CORE_INCLUDES}/bake)
+install(FILES bake/geometry/TriangleMesh.h DESTINATION ${OSGTSS_CORE_INCLUDES}/bake/geometry)
+install(FILES bake/spheres/SphereSet.h DESTINATION ${OSGTSS_CORE_INCLUDES}/bake/spheres)
+foreach(folder base motion table respond scene)
+    install(DIRECTORY bake/${folder} DESTINATION ${OSGTSS_CORE_INCLUDES}/bake FILES_MATCHING PATTERN "*.h")
+endforeach()
+
+if(OSGTSS_NODEKIT)
+    osgtss_install(osgTSS osgTSS)
+    install(DIRECTORY osgTSS/include/osgTSS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/osgTSS FILES_MATCHING PATTERN "*.tss"
+            PATTERN extreme EXCLUDE)
+endif()
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/osgTSSConfig.cmake.in
+                              ${PROJECT_BINARY_DIR}/package/osgTSSConfig.cmake
+                              INSTALL_DESTINATION ${OSGTSS_PACKAGE_DESTINATION} PATH_VARS OSGTSS_PLUGIN_DESTINATION)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/osgTSSConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/package/osgTSSConfig.cmake ${PROJECT_BINARY_DIR}/package/osgTSSConfigVersion.cmake
+        DESTINATION ${OSGTSS_PACKAGE_DESTINATION})
