@@ -79,6 +79,7 @@ SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin) {
     SkinParameters parameters;
     parameters.stretchCompliance = skin.stretchCompliance;
     parameters.bendCompliance = skin.bendCompliance;
+    parameters.selfContact = skin.selfContact;
     parameters.swings = swingsOf(scene, skin);
     parameters.tether = skin.tether;
     parameters.attach = skin.attach;

@@ -14,9 +14,14 @@ constexpr double lookSlide = 2; ///< in radii: how far skin that has slid along 
 constexpr double leastFacing = 0.1; ///< cosine between muscle and skin at which a contact is not believed ...
 constexpr double fullFacing = 0.5;  ///< ... and from which on it is
 
-double trust(double facing) {
-    const double t = std::clamp((facing - leastFacing) / (fullFacing - leastFacing), 0.0, 1.0);
+/// From 0 at 0 to 1 at 1.
+double smoothStep(double t) {
+    t = std::clamp(t, 0.0, 1.0);
     return t * t * (3 - 2 * t);
+}
+
+double trust(double facing) {
+    return smoothStep((facing - leastFacing) / (fullFacing - leastFacing));
 }
 
 bool isIdentity(const Pose& pose) {
@@ -80,6 +85,16 @@ Vec3 pushDirection(const Vec3& smooth, const Vec3& away, double radius) {
     const Vec3 blend = radius * smooth + away;
     const double length = blend.norm();
     return length > 0 ? Vec3(blend / length) : smooth;
+}
+
+/// Of the predicted skin.
+Vec3 predictedNormal(const SkinRig& rig, const SkinScene& scene, const SurfacePoint& at) {
+    Vec3 smooth = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) {
+        const auto v = static_cast<std::uint32_t>(rig.triangles[at.triangle][k]);
+        smooth += at.weights[k] * (scene.turn.of(v) * rig.restNormals[v]);
+    }
+    return smooth.normalized();
 }
 
 } // namespace
@@ -178,12 +193,7 @@ SkinContact pokeContact(const SkinRig& rig, const SkinScene& scene, std::size_t 
     const auto at = [&](int v) -> const Vec3& { return scene.predicted[v]; };
     const SurfacePoint hit = walkDownhill(x, start, rig.triangles, rig.across, at, walkSteps);
     const Tri& corners = rig.triangles[hit.triangle];
-    Vec3 smooth = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) {
-        const auto v = static_cast<std::uint32_t>(corners[k]);
-        smooth += hit.weights[k] * (scene.turn.of(v) * rig.restNormals[v]);
-    }
-    smooth.normalize();
+    const Vec3 smooth = predictedNormal(rig, scene, hit);
     contact.trust = trust(smooth.dot(muscle.normals[poke.vertex]));
     if (!(contact.trust > 0)) return contact;
     contact.normal =
@@ -195,6 +205,50 @@ SkinContact pokeContact(const SkinRig& rig, const SkinScene& scene, std::size_t 
         onSkin += hit.weights[k] * rig.rest[corners[k]];
     }
     contact.distance = contact.normal.dot(onSkin - x);
+    return contact;
+}
+
+SkinContact foldContact(const SkinRig& rig, const SkinScene& scene, std::size_t index) {
+    const SkinFold& fold = rig.folds[index];
+    const Vec3& x = scene.predicted[fold.vertex];
+    SkinContact contact;
+    double least = rig.foldReach * rig.foldReach;
+    int start = -1;
+    for (std::uint32_t k = fold.first; k < fold.last; ++k) {
+        const auto triangle = static_cast<int>(rig.foldTriangles[k]);
+        const double squared = (x - scene.predicted[rig.triangles[triangle][0]]).squaredNorm();
+        if (squared >= least) continue;
+        least = squared;
+        start = triangle;
+    }
+    if (start < 0) return contact;
+
+    const auto at = [&](int v) -> const Vec3& { return scene.predicted[v]; };
+    const SurfacePoint hit = walkDownhill(x, start, rig.triangles, rig.across, at, walkSteps);
+    const Tri& corners = rig.triangles[hit.triangle];
+    // Around a fold's end the walk comes to the vertex itself.
+    if ((corners.array() == static_cast<int>(fold.vertex)).any()) return contact;
+    const Vec3 smooth = predictedNormal(rig, scene, hit);
+    const Vec3 own = scene.turn.of(fold.vertex) * rig.restNormals[fold.vertex];
+    contact.trust = trust(-smooth.dot(own));
+    if (!(contact.trust > 0)) return contact;
+    const Vec3 between = (smooth - own).normalized(), away = x - hit.point;
+    const Vec3 normal = pushDirection(between, away, rig.foldRadius);
+    // Beside the other part's rim there is nothing to keep out of.
+    const double depth = normal.dot(away), beside = (away - depth * normal).norm() / rig.foldRadius;
+    contact.trust *= 1 - smoothStep(beside - 1);
+    if (!(contact.trust > 0)) return contact;
+    int nearest = 0;
+    hit.weights.maxCoeff(&nearest);
+    const auto other = static_cast<std::uint32_t>(corners[nearest]);
+    contact.normal = normal;
+    contact.vertex[0] = contact.vertex[2] = fold.vertex;
+    contact.vertex[1] = other;
+    contact.weight[0] = 1;
+    contact.weight[1] = -1;
+    contact.vertices = 2;
+    contact.distance =
+        depth - normal.dot((x - rig.rest[fold.vertex]) - (scene.predicted[other] - rig.rest[other]));
     return contact;
 }
 

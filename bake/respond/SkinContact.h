@@ -35,7 +35,7 @@ void placeMuscles(const SkinRig& rig, std::span<const double> activations, std::
 /// normal . sum weight_k (rest + u)_k >= level + offset of its row.
 struct SkinContact {
     std::uint32_t vertex[3] = {0, 0, 0};
-    double weight[3] = {0, 0, 0}; ///< sum 1
+    double weight[3] = {0, 0, 0}; ///< sum 1; across a fold 1 and -1
     int vertices = 3;             ///< of the three, from the first on; the others weigh 0
     Vec3 normal = Vec3::Zero();   ///< unit; zero: nothing within reach
     double distance = 0;          ///< of the rest places from the plane: normal . sum weight_k rest_k - level
@@ -50,5 +50,8 @@ SkinContact rowContact(const SkinRig& rig, const SkinScene& scene, std::size_t r
 
 /// The plane that keeps skin above a muscle vertex which could poke through between skin vertices.
 SkinContact pokeContact(const SkinRig& rig, const SkinScene& scene, std::size_t poke);
+
+/// The plane that keeps a vertex out of another part of the skin, which gives way as much as the vertex.
+SkinContact foldContact(const SkinRig& rig, const SkinScene& scene, std::size_t fold);
 
 } // namespace tss

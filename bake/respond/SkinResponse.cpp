@@ -20,7 +20,7 @@ double activationOf(std::span<const double> activations, const SkinMuscle& muscl
 
 SkinResponse::SkinResponse(std::shared_ptr<const SkinRig> rig)
     : rig_(std::move(rig)), solver_(rig_->contactPatch.sheet), strain_(rig_->weave),
-      planes_(rig_->rows.size() + rig_->pokes.size()),
+      planes_(rig_->rows.size() + rig_->pokes.size() + rig_->folds.size()),
       still_(rig_->contactPatch.vertices.size(), Move::Zero()), positions_(rig_->rest),
       normals_(rig_->restNormals), activations_(rig_->muscles.size(), 0),
       poses_(rig_->muscles.size(), Pose::Identity()) {}
@@ -112,13 +112,18 @@ void SkinResponse::solve() {
 }
 
 void SkinResponse::findContacts() {
-    const std::size_t rows = rig_->rows.size();
+    const std::size_t rows = rig_->rows.size(), pokes = rows + rig_->pokes.size();
     const std::span<const std::uint32_t> patch = rig_->contactPatch.vertices;
     for (std::size_t i = 0; i < planes_.size(); ++i) {
-        const SkinContact contact =
-            i < rows ? rowContact(*rig_, scene_, i) : pokeContact(*rig_, scene_, i - rows);
-        const double offset = i < rows ? rig_->rowOffsets[i] : rig_->pokeOffsets[i - rows];
-        const double radius = i < rows ? rig_->rows[i].radius : rig_->pokes[i - rows].radius;
+        const SkinContact contact = i < rows    ? rowContact(*rig_, scene_, i)
+                                    : i < pokes ? pokeContact(*rig_, scene_, i - rows)
+                                                : foldContact(*rig_, scene_, i - pokes);
+        const double offset = i < rows    ? rig_->rowOffsets[i]
+                              : i < pokes ? rig_->pokeOffsets[i - rows]
+                                          : rig_->foldOffsets[i - pokes];
+        const double radius = i < rows    ? rig_->rows[i].radius
+                              : i < pokes ? rig_->pokes[i - rows].radius
+                                          : rig_->foldRadius;
         SheetPlane& plane = planes_[i];
         Vec3 predicted = Vec3::Zero();
         for (int k = 0; k < contact.vertices; ++k)

@@ -57,7 +57,7 @@ private:
     SkinScene scene_;
     SkinSolver solver_;
     SkinStrain strain_;
-    std::vector<SheetPlane> planes_; ///< rows, then pokes
+    std::vector<SheetPlane> planes_; ///< rows, then pokes, then folds
     std::vector<Move> still_;        ///< #vertices of the contact patch: the drags are taken in already
     std::vector<Vec3> positions_, normals_;
     std::vector<double> activations_;

@@ -15,6 +15,7 @@ namespace {
 using rig::Carried;
 
 constexpr double lookReach = 6;     ///< in thicknesses: how far contacts are looked for
+constexpr double foldReach = 3;     ///< in thicknesses: how far another part of the skin is looked for
 constexpr double sheetReach = 24;   ///< in thicknesses: how far beyond what is held or hit the sheet moves
 constexpr double contactReach = 12; ///< in thicknesses: how far around what may be pushed the sheet gives way
 constexpr int dragSteps = 6;        ///< nodes of a drag, without the first
@@ -239,6 +240,10 @@ void addOffsets(SkinRig& rig) {
         rig.pokeOffsets.push_back(c.found() ? std::min(c.distance, rig.pokes[i].radius)
                                             : rig.pokes[i].radius);
     }
+    for (std::size_t i = 0; i < rig.folds.size(); ++i) {
+        const SkinContact c = foldContact(rig, scene, i);
+        rig.foldOffsets.push_back(c.found() ? std::min(c.distance, 0.0) : 0);
+    }
 }
 
 void addDrags(SkinRig& rig, const TriangleMesh& skin, const rig::Rings& rings,
@@ -261,6 +266,12 @@ void addContactPatch(SkinRig& rig, const TriangleMesh& skin, const rig::Rings& r
     for (const int t : rig.pokeTriangles)
         if (t >= 0)
             for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<std::uint32_t>(rig.triangles[t][k]));
+    for (const SkinFold& fold : rig.folds) {
+        vertices.push_back(fold.vertex);
+        for (std::uint32_t k = fold.first; k < fold.last; ++k)
+            for (const int corner : rig.triangles[rig.foldTriangles[k]])
+                vertices.push_back(static_cast<std::uint32_t>(corner));
+    }
     rig.contactPatch = rig::patchAround(rig, skin, rings, vertices, reach);
     // The walk of a poke may end a little outside: there, and beyond, nothing moves.
     rig.contactIndex.assign(rig.rest.size(), SkinRig::outside);
@@ -333,6 +344,7 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
             rig::addRowTriangles(rig, m, reach);
             rig::addPokes(rig, m, thickness, reach);
         }
+        if (parameters.selfContact) rig::addFolds(rig, thickness, foldReach * thickness);
     }
     if (!parameters.faithful) addOffsets(rig);
     addContactPatch(rig, skin, rings, contactReach * thickness);

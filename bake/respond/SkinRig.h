@@ -22,6 +22,7 @@ struct SkinParameters {
     std::vector<double> tether;    ///< #V in [0,1], how firmly a vertex keeps its rest place; empty: 0
     std::vector<double> attach;    ///< #V in [0,1], how firmly the muscle below carries it; empty: falls off
                                    ///< smoothly around the end of the fibre that moves
+    bool selfContact = false;      ///< the skin also keeps out of itself: lip against lip, lid against lid
     int iterations = 8;            ///< most sweeps over all constraints an update, >= 1
     bool faithful = false;         ///< [paper] spheres push spheres out, no elastic sheet
 };
@@ -83,6 +84,13 @@ struct SkinPoke {
     double radius = 0;
 };
 
+/// A skin vertex that may meet another part of the skin (SkinParameters::selfContact), and the triangles that
+/// it was before somewhere in the motion.
+struct SkinFold {
+    std::uint32_t vertex = 0;          ///< index into SkinRig::vertices
+    std::uint32_t first = 0, last = 0; ///< range in SkinRig::foldTriangles
+};
+
 /// The part of a skin that never changes: which vertices may move, what holds them, which tests they take.
 /// Immutable once made, shared between instances (SkinResponse) and threads. Indices of vertices are into
 /// `vertices`, the touched ones; the rest of the skin stays as modelled.
@@ -110,10 +118,14 @@ struct SkinRig {
     std::vector<int> rowTriangles;  ///< into the triangles of the row's muscle
     std::vector<int> pokeTriangles; ///< into `triangles`
     std::vector<Tri> across;        ///< per triangle the one beyond each edge (k, k+1), -1: none
+    std::vector<SkinFold> folds;
+    std::vector<std::uint32_t> foldTriangles; ///< into `triangles`
+    double foldRadius = 0, foldReach = 0; ///< scene units: how far contact across a fold fades, and is seen
 
     std::vector<double>
         rowOffsets; ///< signed distance that each row keeps, found by the run-time look-up at rest
     std::vector<double> pokeOffsets; ///< the same for the pokes
+    std::vector<double> foldOffsets; ///< the same for the folds, at most 0: what touches may touch
 };
 
 /// Unit normals of all vertices, weighted by area: those of SkinResponse at rest.

@@ -51,4 +51,8 @@ void addRowTriangles(SkinRig& rig, std::uint32_t muscle, double reach);
 /// The muscle vertices that could poke through the skin, and where under it they are at each node.
 void addPokes(SkinRig& rig, std::uint32_t muscle, double radius, double reach);
 
+/// The vertices that may meet another part of the skin, and where: found at rest, at both ends of each muscle
+/// and along the swings of the bones. radius: of the skin; reach: how far a vertex is seen from.
+void addFolds(SkinRig& rig, double radius, double reach);
+
 } // namespace tss::rig

@@ -93,6 +93,7 @@ void readSkins(SceneReading& reading) {
         skin.travel = prim.real(schema::travel, 0, positive);
         skin.stretchCompliance = prim.real(schema::stretchCompliance, 0, positive);
         skin.bendCompliance = prim.real(schema::bendCompliance, 0, positive);
+        skin.selfContact = prim.flag(schema::selfContact, false);
         const std::size_t vertices = reading.scene.bodies[skin.body].mesh.vertices.size();
         skin.tether = readWeights(prim, schema::tether, vertices);
         skin.attach = readWeights(prim, schema::attach, vertices);

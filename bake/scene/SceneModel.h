@@ -76,6 +76,7 @@ struct SkinModel {
     double travel = 0;        ///< how far a vertex may stray from rest; 0: from the muscles' motion
     double stretchCompliance = 0;
     double bendCompliance = 0;
+    bool selfContact = false;   ///< the skin also keeps out of itself
     std::vector<double> tether; ///< #V, 0..1, how firmly a vertex is held to its rest place; empty: 0
     std::vector<double>
         attach; ///< #V, 0..1, how firmly it is carried by the muscle below; empty: from the muscles

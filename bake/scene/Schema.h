@@ -121,6 +121,7 @@ inline constexpr Attribute thickness{"tss:thickness", "double", true};
 inline constexpr Attribute travel{"tss:travel", "double", true};
 inline constexpr Attribute stretchCompliance{"tss:stretchCompliance", "double", true};
 inline constexpr Attribute bendCompliance{"tss:bendCompliance", "double", true};
+inline constexpr Attribute selfContact{"tss:selfContact", "bool", true};
 inline constexpr Attribute tether{"primvars:tss:tether", "float[]"};
 inline constexpr Attribute attach{"primvars:tss:attach", "float[]"};
 

@@ -68,6 +68,7 @@ void writeSkins(Layer& layer, const SceneModel& scene) {
         prim.setUnless(schema::travel, skin.travel, 0.0);
         prim.setUnless(schema::stretchCompliance, skin.stretchCompliance, 0.0);
         prim.setUnless(schema::bendCompliance, skin.bendCompliance, 0.0);
+        prim.setUnless(schema::selfContact, Value(skin.selfContact), Value(false));
         for (const auto& [attribute, weights] :
              {std::pair(schema::tether, &skin.tether), std::pair(schema::attach, &skin.attach)})
             if (!weights->empty()) {

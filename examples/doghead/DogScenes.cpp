@@ -221,6 +221,7 @@ tss::SceneModel lipsScene() {
     addUnder(scene, "SkullUnder", skull, -1);
     addUnder(scene, "MandibleUnder", mandible, mandible);
     addSkin(scene, leftSkinMouthCutMesh());
+    scene.skins[0].selfContact = true; // lip against lip
     // What lies above the mouth is held to the skull; cheeks and throat give way.
     for (const Vec3& v : scene.bodies[scene.skins[0].body].mesh.vertices) {
         const double lip = smoothStep(78, 100, v.x()) * smoothStep(-0.4, 0.8, v.z() - mouthHeight(v.x()));

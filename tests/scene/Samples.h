@@ -71,6 +71,7 @@ inline tss::SceneModel brow() {
     skin.thickness = 0.5;
     skin.tether = {0, 0.25, 0.5, 1};
     skin.settings["tolerance"] = "0.2mm";
+    skin.selfContact = true;
     scene.skins.push_back(skin);
     return scene;
 }

@@ -114,6 +114,7 @@ TEST_CASE("muscles and skins come back as they were") {
     CHECK(back.skins[0].muscles == std::vector<int>{0});
     CHECK(back.skins[0].thickness == 0.5);
     CHECK(back.skins[0].tether == scene.skins[0].tether);
+    CHECK(back.skins[0].selfContact);
     CHECK(back.skins[0].attach.empty());
     CHECK(back.skins[0].settings == scene.skins[0].settings);
 }

@@ -87,6 +87,7 @@ TEST_CASE("a skin's table is stale when a muscle changed, not when a compliance 
     skin.table = std::make_shared<SkinTable>();
     skin.sourceHash = sourceHash(scene, skin);
     skin.bendCompliance = 2;
+    skin.selfContact = !skin.selfContact;
     CHECK(staleness(scene, skin).empty());
     scene.muscles[0].muscle.maxContraction = 0.31;
     CHECK_THAT(staleness(scene, skin), Catch::StartsWith("the muscles' fibres or forms changed"));

@@ -185,6 +185,7 @@ SceneModel randomSkin(Random& random) {
             skin.tether.push_back(random.below(2) ? 0 : random.in(0, 1));
             skin.attach.push_back(random.below(2) ? 0 : random.in(0, 1));
         }
+    skin.selfContact = random.below(3) == 0;
     scene.skins = {skin};
     return scene;
 }
