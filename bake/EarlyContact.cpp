@@ -41,7 +41,7 @@ double median(std::vector<double> values) {
 /// Nothing where the limits are in the way.
 std::optional<bool> stopped(const Table& table, const Motion& motion, const std::vector<double>& rest,
                             const std::vector<int>& way) {
-    for (double step = 1.0 / 1024; step <= 1.0 / 128; step *= 2) {
+    for (const double step : {1.0 / 1024, 1.0 / 512, 1.0 / 256, 1.0 / 128}) {
         std::vector<double> q = rest;
         for (std::size_t k = 0; k < q.size(); ++k)
             q[k] += step * way[k] * (motion.dofs[k].upper - motion.dofs[k].lower);

@@ -13,7 +13,7 @@ strip() { # SCENE EVERY FRAME... : of the frames that are multiples of EVERY, th
         --frames $((${*: -1} + 1)) --size 640x480 --quiet --view "$root/examples/views/$scene.path"
     for frame in "$@"; do pictures+=("$work/${scene}_$(printf %04d "$frame").png"); done
     montage "${pictures[@]}" -tile 4x -geometry 320x240+1+1 -background '#808080' miff:- |
-        convert - +dither -colors 96 -define png:compression-level=9 "PNG8:$root/docs/pictures/$scene.png"
+        convert - +dither -colors 96 -define png:compression-level=9 -define png:exclude-chunks=date,tIME "PNG8:$root/docs/pictures/$scene.png"
 }
 strip dog_face 10 0 10 30 50 70 90 110 130 # at rest, then where each muscle is at its most
 strip dog_ears 8 $(seq 0 8 56)
@@ -27,5 +27,5 @@ if [ -d "$root/../shared/meshes" ]; then
             --size 640x640 --view "$root/examples/views/human_brow.path" 2>/dev/null
     done
     montage "$work"/brow_{rest,muscle,captured}.png -tile 3x -geometry 400x400+1+1 -background '#808080' miff:- |
-        convert - +dither -colors 256 -define png:compression-level=9 "PNG8:$root/docs/pictures/human_brow.png"
+        convert - +dither -colors 256 -define png:compression-level=9 -define png:exclude-chunks=date,tIME "PNG8:$root/docs/pictures/human_brow.png"
 fi
