@@ -40,11 +40,10 @@ public:
     void value(Wanted& wanted, std::size_t depth = 0) {
         space();
         wanted.offset = at_;
-        if (wanted.below.empty() || depth == TreeBuilder::deepest)
-            skip();
-        else if (next() == '{')
+        const bool leaf = wanted.below.empty() || depth == TreeBuilder::deepest;
+        if (!leaf && next() == '{')
             object(wanted, depth);
-        else if (next() == '[')
+        else if (!leaf && next() == '[')
             array(wanted, depth);
         else
             skip();
@@ -137,7 +136,7 @@ void advance(TextPosition& position, std::string_view between) {
 } // namespace
 
 std::string LocatedError::text() const {
-    const std::string all = what();
+    std::string all = what();
     if (position.line == 0 || where.file.empty()) return all;
     return where.file + ":" + std::to_string(position.line) + ":" + std::to_string(position.column) +
            all.substr(where.file.size());

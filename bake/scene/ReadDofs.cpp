@@ -60,9 +60,9 @@ std::vector<std::string> freeTokens(const PrimReader& prim) {
 
 /// tss:dofOrder, checked against what the joint leaves free; paths come on top.
 std::vector<std::string> readOrder(const PrimReader& prim) {
-    const auto free = freeTokens(prim);
+    auto free = freeTokens(prim);
     if (!prim.value(schema::dofOrder)) return free;
-    const auto order = prim.texts(schema::dofOrder);
+    auto order = prim.texts(schema::dofOrder);
     std::set<std::string> seen;
     for (const std::string& token : order) {
         Dof dof;

@@ -39,12 +39,13 @@ std::vector<std::vector<double>> askedSteps(const SceneModel& scene, const PlayA
         }
         return steps;
     }
-    for (double time = scene.startTimeCode; time <= scene.endTimeCode; ++time) {
+    for (int k = 0; scene.startTimeCode + k <= scene.endTimeCode; ++k) {
+        const double time = scene.startTimeCode + k;
         std::vector<double> row;
         for (const Joint& joint : scene.joints)
-            for (std::size_t k = 0; k < joint.dofs.size(); ++k) {
-                const bool driven = k < joint.drives.size() && !joint.drives[k].empty();
-                row.push_back(driven ? joint.drives[k].at(time) : joint.dofs[k].rest);
+            for (std::size_t dof = 0; dof < joint.dofs.size(); ++dof) {
+                const bool driven = dof < joint.drives.size() && !joint.drives[dof].empty();
+                row.push_back(driven ? joint.drives[dof].at(time) : joint.dofs[dof].rest);
             }
         steps.push_back(row);
     }
