@@ -26,6 +26,7 @@ void addStaleness(const SceneModel& scene, Problems& problems) {
 
 std::vector<LocatedError> located(const std::vector<InputError>& errors, std::string_view text) {
     std::vector<std::string> pointers;
+    pointers.reserve(errors.size());
     for (const InputError& error : errors) pointers.push_back(error.where.pointer);
     std::vector<TextPosition> positions(errors.size());
     if (!text.empty() && !looksLikeCbor(text)) positions = locateJson(text, pointers);

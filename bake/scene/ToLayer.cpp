@@ -20,6 +20,7 @@ void writeMetadata(Layer& layer, const SceneModel& scene) {
 template <class Items>
 std::vector<std::string> pathsOf(const Items& items, const std::vector<int>& indices) {
     std::vector<std::string> paths;
+    paths.reserve(indices.size());
     for (int index : indices) paths.push_back(items[index].path);
     return paths;
 }

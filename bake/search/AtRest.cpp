@@ -33,6 +33,7 @@ double ContactRule::threshold(SpherePair pair) const {
 
 std::vector<double> ContactRule::thresholds(const std::vector<SpherePair>& pairs) const {
     std::vector<double> all;
+    all.reserve(pairs.size());
     for (const SpherePair& pair : pairs) all.push_back(threshold(pair));
     if (std::all_of(all.begin(), all.end(), [](double t) { return t == 0; })) all.clear();
     return all;

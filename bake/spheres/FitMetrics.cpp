@@ -48,9 +48,7 @@ double refined(const SphereQuery& tree, const Patch& patch, double known) {
         stack.pop_back();
         const Look l = look(tree, top);
         known = std::max(known, l.lower);
-        if (l.upper <= std::max(1.02 * known, 0.0)) {
-            bound = std::max(bound, l.upper);
-        } else if (looks >= budget || top.radius() < settled) {
+        if (l.upper <= std::max(1.02 * known, 0.0) || looks >= budget || top.radius() < settled) {
             bound = std::max(bound, l.upper);
         } else {
             for (const Patch& half : halves(top)) stack.push_back(half);
@@ -68,7 +66,8 @@ std::vector<Vec3> samplesOf(std::span<const Patch> patches, std::size_t count) {
     double owed = 0.5, u = 0.5, v = 0.5;
     for (const Patch& patch : patches) {
         owed += total > 0 ? patch.area() / total * static_cast<double>(count) : 0;
-        for (; owed >= 1; owed -= 1) {
+        while (owed >= 1) {
+            owed -= 1;
             u = std::fmod(u + 0.7548776662466927, 1.0);
             v = std::fmod(v + 0.5698402909980532, 1.0);
             const double s = u + v > 1 ? 1 - u : u, t = u + v > 1 ? 1 - v : v;
