@@ -22,7 +22,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 }
 
 Vec3 parseAxis(const std::string& text, const std::string& what) {
-    const Vec3 axis = parseVector(text, what);
+    Vec3 axis = parseVector(text, what);
     if (!(axis.norm() > 0))
         throw InputError(what + ": expected an axis that is not zero, found \"" + text + "\"");
     return axis;

@@ -145,7 +145,7 @@ private:
     void write(const osg::Matrixd& matrix) {
         if (auto* transform = dynamic_cast<osg::MatrixTransform*>(_node.get()))
             return transform->setMatrix(matrix);
-        auto& transform = static_cast<osg::PositionAttitudeTransform&>(*_node.get());
+        auto& transform = static_cast<osg::PositionAttitudeTransform&>(*_node);
         osg::Vec3d position, scale;
         osg::Quat attitude, none;
         matrix.decompose(position, attitude, scale, none);
