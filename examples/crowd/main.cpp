@@ -66,8 +66,9 @@ osg::ref_ptr<osg::Group> makeCrowd(osgTSS::Scene& scene, unsigned int count, boo
         EachJoint wander(0.37 * i);
         member->accept(wander);
         if (keptApart) osgTSS::install(*member, scene);
+        const unsigned int column = i % side, row = i / side;
         osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(
-            osg::Matrix::translate(room * (i % side), room * static_cast<float>(i / side), 0));
+            osg::Matrix::translate(room * static_cast<float>(column), room * static_cast<float>(row), 0));
         place->addChild(member);
         crowd->addChild(place);
     }
