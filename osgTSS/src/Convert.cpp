@@ -39,7 +39,8 @@ std::optional<Similarity> toSimilarity(const osg::Matrixd& matrix) {
         return result;
     }
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const tss::Vec3& scales = svd.singularValues();
+    // A reference gcc 12 takes for uninitialised. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
+    const tss::Vec3 scales = svd.singularValues();
     if (!(scales[2] > 0) || scales[0] - scales[2] > tolerance * scales[0]) return std::nullopt;
     const Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
     const double hand = rotation.determinant() < 0 ? -1 : 1;
