@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Lines and branches of the library, the node kit and the tools that the tests reach: a table by folder, and
 # build-coverage/coverage.html with every line. Branches are those written in the source: what the compiler adds
-# for exceptions is left out. Takes hours on two cores: counting slows tests down 30 to 60 times. usage: tests/coverage.sh [TESTS...], names as in ctest
-# (geometry, table, ...; all when none is given).
+# for exceptions is left out. Takes hours on two cores: counting slows tests down 30 to 60 times.
+# usage: tests/coverage.sh [TESTS...], names as in ctest (geometry, table, ...; all when none is given).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source tests/setup.sh
