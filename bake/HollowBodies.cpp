@@ -1,6 +1,7 @@
 #include "bake/HollowBodies.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/base/Poll.h"
 #include "bake/search/ExploredPoses.h"
 #include "bake/search/TreePair.h"
 #include "bake/table/Table.h"
@@ -61,7 +62,10 @@ HollowBodies findHollow(const FilledBody& a, const FilledBody& b, const Motion& 
     if (!(fillable(a) || fillable(b)) || a.spheres.empty() || b.spheres.empty()) return hollow;
     std::vector<std::vector<double>> poses = exploredPoses(motion, 2000, 1);
     poses.insert(poses.begin(), restValues(motion));
-    const Trees trees{SphereTree(a.spheres), SphereTree(b.spheres)};
+    Poll poll(progress, "openings");
+    const auto stop = [&] { return poll.stopped(); };
+    const Trees trees{SphereTree(a.spheres, stop), SphereTree(b.spheres, stop)};
+    if (poll.stopped()) return hollow;
     constexpr std::size_t batch = 64; // of fixed size, so that the outcome does not depend on threads
     std::vector<HollowBodies> found(batch);
     for (std::size_t first = 0; first < poses.size() && !hollow; first += batch) {

@@ -1,6 +1,7 @@
 #include "bake/search/CertifiedSearch.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/base/Poll.h"
 #include "bake/search/CellTools.h"
 #include "bake/search/ExploredPoses.h"
 #include "bake/search/PairAt.h"
@@ -206,7 +207,13 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
         return result;
     }
     const ContactRule rule(a, b, motion, options.atRest);
-    const SphereTree treeA(a), treeB(b);
+    Poll poll(progress, "certified search");
+    const auto stop = [&] { return poll.stopped(); };
+    const SphereTree treeA(a, stop), treeB(b, stop);
+    if (poll.stopped()) {
+        result.certified = false;
+        return result;
+    }
     PairBits known(a.size(), b.size());
     if (rule.mode() != AtRest::Ignore) {
         SampledSearchOptions sampling;
@@ -242,7 +249,10 @@ double provenClearance(const SphereSet& a, const SphereSet& b, const Motion& mot
     if (a.empty() || b.empty()) return std::numeric_limits<double>::infinity();
     const MotionRates rates(motion);
     const ContactRule rule(a, b, motion, AtRest::Collide);
-    const SphereTree treeA(a), treeB(b);
+    Poll poll(progress, "proven clearance");
+    const auto stop = [&] { return poll.stopped(); };
+    const SphereTree treeA(a, stop), treeB(b, stop);
+    if (poll.stopped()) return 0;
     const PairBits none(a.size(), b.size());
     Problem problem{a, b, treeA, treeB, rates, rule, 0, 0, none, true, effortOfPart(effort)};
     const double seen = smallestGapSeen(problem);

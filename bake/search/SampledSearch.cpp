@@ -16,12 +16,15 @@ CandidatePairs searchSampled(const SphereSet& a, const SphereSet& b, const Motio
     const ContactRule rule(a, b, motion, options.atRest);
     result.atRest = rule.atRest();
 
-    const SphereTree treeA(a), treeB(b);
+    Poll poll(progress, "sampled search"); // of millions of spheres the trees alone, or the pairs that touch
+                                           // at one pose, may take long
+    const auto stop = [&] { return poll.stopped(); };
+    const SphereTree treeA(a, stop), treeB(b, stop);
+    if (poll.stopped()) return result;
     const auto poses = exploredPoses(motion, options.samples, options.seed);
     std::vector<char> hit(poses.size(), 0);
     PairBits found(a.size(), b.size());
     constexpr std::size_t batch = 256;
-    Poll poll(progress, "sampled search"); // at one pose alone, millions of pairs may touch
     for (std::size_t first = 0; first < poses.size(); first += batch) {
         if (!report(progress, "sampled search", double(first) / double(poses.size()))) break;
         const std::size_t count = std::min(batch, poses.size() - first);

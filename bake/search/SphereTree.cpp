@@ -25,25 +25,30 @@ void enclose(const SphereTree::Node& x, const SphereTree::Node& y, Vec3& centre,
 
 } // namespace
 
-SphereTree::SphereTree(const SphereSet& spheres) {
+SphereTree::SphereTree(const SphereSet& spheres, const std::function<bool()>& stop) {
     if (spheres.empty()) return;
     nodes_.reserve(2 * spheres.size() - 1);
     std::vector<std::uint32_t> order(spheres.size());
     std::iota(order.begin(), order.end(), 0u);
-    build(spheres, order, 0, order.size());
+    if (!build(spheres, order, 0, order.size(), stop)) {
+        nodes_.clear();
+        return;
+    }
     leaves_.resize(spheres.size());
     for (std::uint32_t n = 0; n < nodes_.size(); ++n)
         if (nodes_[n].leaf()) leaves_[nodes_[n].sphere] = n;
 }
 
-void SphereTree::build(const SphereSet& spheres, std::vector<std::uint32_t>& order, std::size_t first,
-                       std::size_t last) {
+/// False: asked to stop.
+bool SphereTree::build(const SphereSet& spheres, std::vector<std::uint32_t>& order, std::size_t first,
+                       std::size_t last, const std::function<bool()>& stop) {
+    if (stop && stop()) return false;
     const std::size_t self = nodes_.size();
     nodes_.emplace_back();
     if (last - first == 1) {
         const Sphere& s = spheres[order[first]];
         nodes_[self] = {s.centre, s.radius, 0, order[first]};
-        return;
+        return true;
     }
     Eigen::AlignedBox3d box;
     for (std::size_t k = first; k < last; ++k) box.extend(spheres[order[k]].centre);
@@ -55,9 +60,9 @@ void SphereTree::build(const SphereSet& spheres, std::vector<std::uint32_t>& ord
                          const double cx = spheres[x].centre[axis], cy = spheres[y].centre[axis];
                          return cx != cy ? cx < cy : x < y;
                      });
-    build(spheres, order, first, middle);
+    if (!build(spheres, order, first, middle, stop)) return false;
     const std::size_t right = nodes_.size();
-    build(spheres, order, middle, last);
+    if (!build(spheres, order, middle, last, stop)) return false;
 
     // The ball about the two children grows loose up the tree, the one about the box's middle does not.
     Node& node = nodes_[self];
@@ -73,6 +78,7 @@ void SphereTree::build(const SphereSet& spheres, std::vector<std::uint32_t>& ord
     }
     // A few units in the last place, so that rounding cannot leave a sphere sticking out.
     node.radius += 1e-15 * (node.radius + node.centre.norm());
+    return true;
 }
 
 } // namespace tss

@@ -2,6 +2,7 @@
 #include "bake/spheres/SphereSet.h"
 
 #include <cstdint>
+#include <functional>
 
 namespace tss {
 
@@ -17,7 +18,8 @@ public:
         bool leaf() const { return right == 0; }
     };
 
-    explicit SphereTree(const SphereSet& spheres);
+    /// stop: asked at each node; once it says true, the tree is empty.
+    explicit SphereTree(const SphereSet& spheres, const std::function<bool()>& stop = {});
 
     bool empty() const { return nodes_.empty(); }
     const Node& operator[](std::uint32_t i) const { return nodes_[i]; }
@@ -25,8 +27,8 @@ public:
     std::uint32_t leafOf(std::uint32_t sphere) const { return leaves_[sphere]; }
 
 private:
-    void build(const SphereSet& spheres, std::vector<std::uint32_t>& order, std::size_t first,
-               std::size_t last);
+    bool build(const SphereSet& spheres, std::vector<std::uint32_t>& order, std::size_t first,
+               std::size_t last, const std::function<bool()>& stop);
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> leaves_;
 };

@@ -1,6 +1,7 @@
 #include "bake/search/UndecidedCells.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/base/Poll.h"
 #include "bake/search/CellTools.h"
 #include "bake/search/SphereTree.h"
 
@@ -161,13 +162,16 @@ CellTree wholeQ(const Motion& motion) {
 Undecided undecidedCells(const LevelSpheres& a, const LevelSpheres& b, const Motion& motion,
                          const CellTree& from, const UndecidedOptions& options, const Progress& progress) {
     if (a.spheres.empty() || b.spheres.empty()) return {};
+    Poll poll(progress, "undecided cells");
+    const auto asked = [&] { return poll.stopped(); };
     const Problem problem{a,
                           b,
-                          SphereTree(a.spheres),
-                          SphereTree(b.spheres),
+                          SphereTree(a.spheres, asked),
+                          SphereTree(b.spheres, asked),
                           MotionRates(motion),
                           pose(motion, restValues(motion)),
                           options};
+    if (poll.stopped()) return {from, false};
     const std::vector<CellTree> parts = pieces(problem, from, 64);
     std::vector<std::optional<CellTree>> kept(parts.size());
     std::vector<char> hits(parts.size(), 0);

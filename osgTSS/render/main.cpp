@@ -56,7 +56,8 @@ osg::ref_ptr<osg::Node> load(const Arguments& arguments) {
         osg::ref_ptr<osgTSS::Scene> scene = osgTSS::readScene(arguments.scene);
         return osgTSS::createPlayingGraph(*scene, options);
     }
-    osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(arguments.scene, new osgDB::Options(words));
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options(words);
+    osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(arguments.scene, options.get());
     if (!node) throw tss::InputError({arguments.scene, "", ""}, "no scene that can be read");
     return node;
 }

@@ -3,6 +3,8 @@
 #include "bake/base/Parallel.h"
 #include "bake/search/CellTools.h"
 #include "bake/search/SampledSearch.h"
+#include "bake/search/SphereTree.h"
+#include "bake/search/UndecidedCells.h"
 #include "bake/table/Query.h"
 #include "tests/search/Scenes.h"
 
@@ -126,6 +128,27 @@ TEST_CASE("a search that is stopped is not certified") {
     const auto stopped =
         searchCertified(scene.a, scene.b, scene.motion, {}, [](std::string_view, double) { return false; });
     CHECK_FALSE(stopped.certified);
+}
+
+TEST_CASE("searches of many spheres stop while their trees are built") {
+    const auto scene = scenes::jawLike(3000, 3000);
+    int nodes = 0;
+    CHECK(SphereTree(scene.a, [&] { return ++nodes == 2000; }).empty());
+    CHECK(nodes == 2000);
+    const auto no = [](std::string_view, double) { return false; };
+    const CandidatePairs certified = searchCertified(scene.a, scene.b, scene.motion, {}, no);
+    CHECK_FALSE(certified.certified);
+    CHECK(certified.pairs.empty());
+    const CandidatePairs sampled = searchSampled(scene.a, scene.b, scene.motion, {}, no);
+    CHECK(sampled.explored == 0);
+    CHECK(sampled.pairs.empty());
+    CHECK(provenClearance(scene.a, scene.b, scene.motion, nullptr, no) == 0);
+    UndecidedOptions options;
+    options.resolution = 0.1;
+    const CellTree all = wholeQ(scene.motion);
+    const Undecided undecided = undecidedCells({scene.a, 0}, {scene.b, 0}, scene.motion, all, options, no);
+    REQUIRE(undecided.cells);
+    CHECK(undecided.cells->leaves() == all.leaves());
 }
 
 TEST_CASE("degenerate input: no spheres, no freedom, limits of zero width, too many DOFs") {
