@@ -1,6 +1,7 @@
 #include "bake/respond/SkinRigParts.h"
 #include "bake/respond/SkinWalk.h"
 
+#include <deque>
 #include <functional>
 #include <limits>
 
@@ -14,26 +15,59 @@ constexpr double enterDepth =
 /// Skin and muscle at one node of the muscle's drag.
 struct Station {
     TriangleMesh skin, surface;
-    std::vector<Vec3> skinNormals, surfaceNormals;
+    std::vector<Vec3> surfaceNormals;
 };
 
 std::vector<Station> stations(const SkinRig& rig, const SkinMuscle& muscle) {
     std::vector<Station> result;
     const SkinDrag& drag = muscle.drag;
     for (std::size_t n = 0; n < drag.nodes.size(); ++n) {
-        Station s{{rig.rest, rig.triangles}, {{}, muscle.triangles}, {}, {}};
+        Station s{{rig.rest, rig.triangles}, {{}, muscle.triangles}, {}};
         for (std::size_t k = 0; k < drag.vertices.size(); ++k)
             s.skin.vertices[drag.vertices[k]] +=
                 drag.moves[n * drag.vertices.size() + k].head<3>().cast<double>();
         const TrackPlace place = locate(muscle.surface.nodes, drag.nodes[n]);
         for (std::size_t v = 0; v < muscle.surface.points; ++v)
             s.surface.vertices.push_back(trackPosition(muscle.surface, place, v));
-        s.skinNormals = vertexNormals(s.skin);
         s.surfaceNormals = vertexNormals(s.surface);
         result.push_back(std::move(s));
     }
     return result;
 }
+
+/// Nearest points on the part of a surface that comes into reach of some points; knows no others.
+class PartLocator {
+public:
+    PartLocator(const TriangleMesh& whole, Eigen::AlignedBox3d box, double reach)
+        : part_{whole.vertices, {}}, of_(trianglesNear(whole, box, reach, part_)), locator_(part_) {}
+    PartLocator(const PartLocator&) = delete;
+
+    NearestPoint nearestFacing(const Vec3& x, double range, const Vec3& facing) const {
+        NearestPoint near = locator_.nearestFacing(x, range, facing);
+        if (near.triangle >= 0) near.triangle = of_[near.triangle];
+        return near;
+    }
+
+private:
+    static std::vector<int> trianglesNear(const TriangleMesh& whole, Eigen::AlignedBox3d box, double reach,
+                                          TriangleMesh& part) {
+        std::vector<int> of;
+        box.min().array() -= reach;
+        box.max().array() += reach;
+        for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+            Eigen::AlignedBox3d corners;
+            for (int k = 0; k < 3; ++k) corners.extend(whole.corner(t, k));
+            if (!box.intersects(corners)) continue;
+            of.push_back(static_cast<int>(t));
+            part.triangles.push_back(whole.triangles[t]);
+        }
+        return of;
+    }
+
+    TriangleMesh part_;
+    std::vector<int> of_; ///< #triangles of the part, in the whole
+    MuscleLocator locator_;
+};
 
 /// One point at each station against a surface that moves too: found where it comes into reach from outside,
 /// then followed over the surface. triangles: one a station, -1 where there is none.
@@ -128,9 +162,8 @@ void addRowTriangles(SkinRig& rig, std::uint32_t index, double reach) {
 void addPokes(SkinRig& rig, std::uint32_t index, double radius, double reach) {
     const SkinMuscle& muscle = rig.muscles[index];
     const std::vector<Station> at = stations(rig, muscle);
-    std::vector<MuscleLocator> locators;
-    locators.reserve(at.size());
-    for (const Station& s : at) locators.emplace_back(s.skin);
+    std::deque<PartLocator> locators;
+    for (const Station& s : at) locators.emplace_back(s.skin, bounds(s.surface), reach);
     std::vector<int> triangles(at.size());
     for (std::uint32_t v = 0; v < muscle.rest.size(); ++v) {
         const Follower follower{reach,
