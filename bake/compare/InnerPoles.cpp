@@ -1,18 +1,27 @@
 #include "bake/compare/InnerPoles.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>
-#include <CGAL/Delaunay_triangulation_cell_base_with_circumcenter_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 namespace tss::compare {
 
+namespace {
+
+/// Not finite for a tetrahedron so flat that its volume is lost in rounding; CGAL's own asserts there.
+Vec3 circumcentre(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
+    const Vec3 a = q - p, b = r - p, c = s - p;
+    const Vec3 sum =
+        a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) + c.squaredNorm() * a.cross(b);
+    return p + sum / (2 * a.dot(b.cross(c)));
+}
+
+} // namespace
+
 SphereSet innerPoles(std::span<const Vec3> places, std::span<const Vec3> normals) {
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
     using Vertex = CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Kernel>;
-    using Cell = CGAL::Delaunay_triangulation_cell_base_with_circumcenter_3<Kernel>;
-    using Delaunay =
-        CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex, Cell>>;
+    using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex>>;
     std::vector<std::pair<Kernel::Point_3, std::uint32_t>> points;
     Eigen::AlignedBox3d box;
     for (std::uint32_t i = 0; i < places.size(); ++i) {
@@ -24,8 +33,8 @@ SphereSet innerPoles(std::span<const Vec3> places, std::span<const Vec3> normals
     const Delaunay delaunay(points.begin(), points.end());
     SphereSet poles(places.size(), {Vec3::Zero(), 0});
     for (auto cell = delaunay.finite_cells_begin(); cell != delaunay.finite_cells_end(); ++cell) {
-        const Kernel::Point_3 c = cell->circumcenter();
-        const Vec3 centre(c.x(), c.y(), c.z());
+        const auto place = [&](int k) -> const Vec3& { return places[cell->vertex(k)->info()]; };
+        const Vec3 centre = circumcentre(place(0), place(1), place(2), place(3));
         if (!centre.allFinite()) continue;
         for (int k = 0; k < 4; ++k) {
             const std::uint32_t i = cell->vertex(k)->info();
