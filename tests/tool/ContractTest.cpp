@@ -298,6 +298,35 @@ TEST_CASE("a table made for other limits is refused by all that answer from it, 
     CHECK(runTss("info baked.tss", folder.path()).out.find("stale") == std::string::npos);
 }
 
+TEST_CASE(
+    "a baked table is timed in every kernel and question, with as many hits as each other kernel finds") {
+    const Folder folder;
+    writeSwing(folder);
+    REQUIRE(runTss("bake swing.tss -o baked.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
+    const auto bench = [&](const std::string& options) {
+        const Ran ran = runTss("bench baked.tss --queries 3000 --json " + options, folder.path());
+        INFO(options << ": " << ran.err);
+        REQUIRE(ran.exit == 0);
+        return Json::parse(ran.out);
+    };
+    const Json best = bench("");
+    CHECK(best["queries"] == 3000);
+    CHECK(best["tests"].get<int>() > 0);
+    CHECK(best["ns"].get<double>() > 0);
+    CHECK(best["hits"].get<int>() > 0);
+    CHECK(best["hits"].get<int>() < 3000);
+    for (const char* options : {"--kernel scalar", "--with gap", "--with contact", "--with pose"}) {
+        INFO(options);
+        const Json other = bench(options);
+        CHECK(other["ns"].get<double>() > 0);
+        CHECK(std::abs(other["hits"].get<int>() - best["hits"].get<int>()) <= 3); // at the very verge
+    }
+    CHECK(bench("--with features")["hits"] == 0); // no test is asked
+    const Ran unknown = runTss("bench baked.tss --with luck", folder.path());
+    CHECK(unknown.exit == 1);
+    CHECK(unknown.err.find("luck") != std::string::npos);
+}
+
 TEST_CASE("a motion played without tables says that nothing is kept apart") {
     const Folder folder;
     writeSwing(folder);
