@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 
 using namespace files;
 
@@ -105,4 +106,17 @@ TEST_CASE("a table that was made from other limits is refused, with the reason")
     const auto result = osgDB::Registry::instance()->readNode(file.string(), nullptr);
     CHECK(result.status() == osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE);
     CHECK(result.message().find("stale") != std::string::npos);
+}
+
+TEST_CASE("a scene is read from a stream as from its file") {
+    const osg::ref_ptr<osg::Node> file = load(saveHinge());
+    std::ifstream stream(saveHinge());
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("clock=frame");
+    osgDB::ReaderWriter* plugin = osgDB::Registry::instance()->getReaderWriterForExtension("tss");
+    REQUIRE(plugin);
+    const osg::ref_ptr<osg::Node> streamed = plugin->readNode(stream, options).takeNode();
+    REQUIRE(streamed);
+    CHECK(states(*streamed) == states(*file));
+    std::istringstream nonsense("{");
+    CHECK_FALSE(plugin->readNode(nonsense, options).validNode());
 }

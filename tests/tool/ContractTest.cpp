@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 using Json = nlohmann::json;
 
@@ -325,6 +326,33 @@ TEST_CASE(
     const Ran unknown = runTss("bench baked.tss --with luck", folder.path());
     CHECK(unknown.exit == 1);
     CHECK(unknown.err.find("luck") != std::string::npos);
+}
+
+TEST_CASE("a degree of freedom along a measured path stops where the meshes meet") {
+    const Folder folder;
+    writeObj(ballMesh({0, 0, 0}, 10, 3), folder / "still.obj");
+    writeObj(ballMesh({30, 0, 0}, 5, 3), folder / "moving.obj");
+    // 20 units along -x, then out sideways.
+    writeText(folder.path() / "way.csv", "0,0,0,0\n1,-20,0,0\n2,-20,40,0\n");
+    const std::string make = "make --a still.obj --b moving.obj --meters-per-unit 0.001 ";
+    const Ran made = runTss(make + "-o path.tss --dof path:way.csv:0:2", folder.path());
+    INFO(made.err);
+    REQUIRE(made.exit == 0);
+    REQUIRE(runTss("bake path.tss -o baked.tss --tolerance 0.2mm --quiet", folder.path()).exit == 0);
+    // Centres 30, 16, 14, 10, 12.8 and 41 apart; the radii make 15.
+    writeText(folder.path() / "q.csv", "0\n0.7\n0.8\n1\n1.2\n2\n");
+    REQUIRE(runTss("query baked.tss --poses q.csv -o r.csv", folder.path()).exit == 0);
+    std::istringstream rows(readText(folder.path() / "r.csv"));
+    std::string verdicts, row;
+    std::getline(rows, row);
+    while (std::getline(rows, row)) verdicts += row[row.find(',') + 1];
+    CHECK(verdicts == "001110");
+
+    writeText(folder.path() / "short.csv", "0,0,0\n1,-20,0\n");
+    const Ran short_ = runTss(make + "-o short.tss --dof path:short.csv:0:1", folder.path());
+    CHECK(short_.exit == 1);
+    CHECK(short_.err.find("short.csv") != std::string::npos);
+    CHECK(short_.err.find("4 or 7 columns") != std::string::npos);
 }
 
 TEST_CASE("a motion played without tables says that nothing is kept apart") {

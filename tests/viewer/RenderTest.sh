@@ -20,6 +20,12 @@ cmp "$out/a_008.png" "$out/b_008.png" || fail "the same frame is another picture
 ! cmp -s "$out/a_000.png" "$out/a_008.png" || fail "nothing moves"
 ends 0 "$render" "$jaw" -o "$out/o_%03d.png" --frames 1 --size 160x120 --overlay
 ! cmp -s "$out/a_000.png" "$out/o_000.png" || fail "no overlay"
+skin=$scenes/dog_frontalis_baked.tss
+ends 0 "$render" "$skin" -o "$out/skin_%03d.png" --frames 9 --every 8 --size 160x120
+ends 0 "$render" "$skin" -o "$out/spheres_%03d.png" --frames 9 --every 8 --size 160x120 --overlay
+for frame in 000 008; do
+    ! cmp -s "$out/skin_$frame.png" "$out/spheres_$frame.png" || fail "no overlay over a skin"
+done
 ends 0 "$render" "$jaw" -o "$out/one.png" --frames 1
 ends 0 "$render" --help
 ends 1 "$render" "$scenes/none.tss" -o "$out/n_%d.png"
