@@ -19,6 +19,7 @@
 #include <cmath>
 #include <fstream>
 #include <unistd.h>
+#include <vector>
 
 namespace {
 
@@ -41,10 +42,16 @@ osgTSS::Shot shotOf(const Arguments& arguments) {
     shot.finer = arguments.finer;
     if (arguments.view.empty()) return shot;
     std::ifstream file(arguments.view);
-    shot.view = new osg::AnimationPath;
-    shot.view->read(file);
-    if (shot.view->empty())
+    std::vector<double> numbers;
+    for (double number = 0; file >> number;) numbers.push_back(number);
+    // The path's own reader would wait forever for the end of what is no number.
+    if (numbers.empty() || numbers.size() % 8 != 0 || !file.eof())
         throw tss::InputError({arguments.view, "", ""}, "expected a camera path as osgviewer -p reads it");
+    shot.view = new osg::AnimationPath;
+    for (std::size_t k = 0; k < numbers.size(); k += 8) {
+        const double* n = &numbers[k]; // time, x, y, z, and the rotation
+        shot.view->insert(n[0], {{n[1], n[2], n[3]}, {n[4], n[5], n[6], n[7]}});
+    }
     return shot;
 }
 

@@ -29,6 +29,9 @@ done
 ends 0 "$render" "$jaw" -o "$out/one.png" --frames 1
 ends 0 "$render" --help
 ends 1 "$render" "$scenes/none.tss" -o "$out/n_%d.png"
+ends 1 "$render" "$jaw" -o "$out/n_%d.png" --frames 1 --view "$out/none.path"
+echo "0 1 2 three" >"$out/bad.path"
+ends 1 "$render" "$jaw" -o "$out/n_%d.png" --frames 1 --view "$out/bad.path"
 ends 1 "$render" "$jaw" -o "$out/nowhere/n_%d.png" --frames 1
 ends 2 "$render" "$jaw" -o "$out/n_%d_%d.png"
 ends 2 "$render" "$jaw" -o "$out/n_%d.png" --size big
