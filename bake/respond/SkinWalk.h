@@ -15,9 +15,30 @@ struct SurfacePoint {
     double squared = std::numeric_limits<double>::infinity(); ///< distance
 };
 
-/// From a triangle downhill over the edges to the nearest point of the surface around. What is near through
-/// the solid or across a fold is never reached, so that the answer moves without jumps when the surface does.
-/// place(v): where vertex v is.
+/// look(triangle) at those that meet at a corner of `from`, beside it.
+template <class Look>
+void lookAround(int from, int corner, const std::vector<Tri>& triangles, const std::vector<Tri>& across,
+                const Look& look) {
+    constexpr int most =
+        64; // at a vertex through which a surface passes twice a way around may not come back
+    const int vertex = triangles[from][corner];
+    for (const int edge :
+         {0, 2}) { // out over the edge that leaves the vertex, then over that which comes to it
+        int at = from;
+        for (int i = 0; i < most; ++i) {
+            int k = 0;
+            while (triangles[at][k] != vertex) ++k;
+            at = across[at][(k + edge) % 3];
+            if (at == from) return;
+            if (at < 0) break;
+            look(at);
+        }
+    }
+}
+
+/// From a triangle downhill over edges and corners to the nearest point of the surface around. What is near
+/// through the solid or across a fold is never reached, so that the answer moves without jumps when the
+/// surface does. place(v): where vertex v is.
 template <class Place>
 SurfacePoint walkDownhill(const Vec3& x, int start, const std::vector<Tri>& triangles,
                           const std::vector<Tri>& across, const Place& place, int steps) {
@@ -32,10 +53,17 @@ SurfacePoint walkDownhill(const Vec3& x, int start, const std::vector<Tri>& tria
     look(start);
     for (int step = 0; step < steps; ++step) {
         const int from = best.triangle;
-        // Only an edge that the nearest point lies on leads downhill.
         const Vec3 w = best.weights;
-        for (int k = 0; k < 3; ++k)
-            if (w[(k + 2) % 3] <= 0 && across[from][k] >= 0) look(across[from][k]);
+        // Only over an edge that the nearest point lies on it may go on downhill, at a corner to any triangle
+        // that meets there.
+        if ((w.array() > 0).count() == 1) {
+            int corner = 0;
+            w.maxCoeff(&corner);
+            lookAround(from, corner, triangles, across, look);
+        } else {
+            for (int k = 0; k < 3; ++k)
+                if (w[(k + 2) % 3] <= 0 && across[from][k] >= 0) look(across[from][k]);
+        }
         if (best.triangle == from) break;
     }
     return best;
