@@ -11,6 +11,7 @@ constexpr int pressedRounds = 16;   ///< in which contacts have their say
 constexpr int freeRounds = 200;     ///< at most, after them
 constexpr double leastCosine = 0.1; ///< of a triangle's normal with itself at rest
 constexpr double relaxation = 1.6;  ///< of what a link gives up: neighbours give back
+constexpr int halvings = 8;         ///< of the share of its motion that a triangle keeps
 constexpr double pressShare = 0.5;  ///< of the depth in a contact that a round takes away
 
 void index(std::size_t vertices, std::size_t count, int corners, const auto& corner,
@@ -95,7 +96,7 @@ bool SkinStrain::relaxLink(const SkinLink& link, std::span<const Vec3> rest, con
     return true;
 }
 
-/// A triangle that turns over gives up half of the differences of its displacements.
+/// The same with the largest s for which the triangle is not turned over.
 bool SkinStrain::relaxTriangle(std::uint32_t index, std::span<const Vec3> rest, const SkinTurn& turn,
                                std::span<Vec3> positions) const {
     const Tri& t = weave_.triangles[index];
@@ -104,16 +105,27 @@ bool SkinStrain::relaxTriangle(std::uint32_t index, std::span<const Vec3> rest, 
     const Eigen::Quaterniond turned = turn.of(corners);
     Vec3 before = weave_.normals[index];
     if (!turn.none()) before = turned * before;
-    const Vec3 now = areaNormal(positions, t);
-    const double along = now.dot(before);
-    if (along > 0 && along * along >= leastCosine * leastCosine * now.squaredNorm() * before.squaredNorm())
-        return false;
-    Vec3 mean = Vec3::Zero(), shape[3];
+    const auto lies = [&](const Vec3& now) {
+        const double along = now.dot(before);
+        return along > 0 &&
+               along * along >= leastCosine * leastCosine * now.squaredNorm() * before.squaredNorm();
+    };
+    if (lies(areaNormal(positions, t))) return false;
+    Vec3 mean = Vec3::Zero(), shape[3], moved[3];
     for (int k = 0; k < 3; ++k) {
         shape[k] = turned * rest[t[k]];
         mean += (positions[t[k]] - shape[k]) / 3;
     }
-    for (int k = 0; k < 3; ++k) positions[t[k]] = shape[k] + (positions[t[k]] - shape[k] + mean) / 2;
+    for (int k = 0; k < 3; ++k) moved[k] = positions[t[k]] - shape[k] - mean;
+    const Vec3 a = shape[1] - shape[0], b = shape[2] - shape[0], da = moved[1] - moved[0],
+               db = moved[2] - moved[0];
+    double s = 0, over = 1;
+    for (int i = 0; i < halvings; ++i) {
+        const double middle = (s + over) / 2;
+        (lies((a + middle * da).cross(b + middle * db)) ? s : over) = middle;
+    }
+    const double keep = std::max(0.0, 1 - relaxation * (1 - s));
+    for (int k = 0; k < 3; ++k) positions[t[k]] = shape[k] + mean + keep * moved[k];
     return true;
 }
 
@@ -127,7 +139,9 @@ void SkinStrain::press(std::span<const SheetPlane> planes, std::span<const std::
         for (const std::uint32_t v : corners) near = near || vertexRound_[v] == round_;
         if (!near) continue;
         const Vec3 normal = turn.of(corners) * p.normal.head<3>().cast<double>();
-        double gap = -p.bound, weights = 0;
+        // As deep as the solve has left it it may stay: else it would jump out as soon as an edge nearby is
+        // beyond its limits.
+        double gap = p.compliance * p.multiplier - p.bound, weights = 0;
         for (int k = 0; k < 3; ++k) {
             const std::uint32_t v = corners[k];
             gap += static_cast<double>(p.weight[k]) *

@@ -40,8 +40,9 @@ SkinWeave makeWeave(const std::vector<Vec3>& rest, const std::vector<Tri>& trian
 /// some edges stretch many times over and triangles turn over. Here neighbours then give up some of the
 /// difference of their displacements, until edges are between shortestEdge and longestEdge of their length at
 /// rest and no triangle is turned over. Each step averages displacements, so that nothing ever grows; what is
-/// within its limits is not touched. Rounds are limited: what is torn over very many edges may stay beyond.
-/// Contacts have their say in between. No state but its own scratch memory.
+/// within its limits is not touched, and what is hardly beyond them hardly moves: skin that comes near a limit
+/// does not jump. Rounds are limited: what is torn over very many edges may stay beyond. Contacts have their
+/// say in between, to be no deeper than they were. No state but its own scratch memory.
 class SkinStrain {
 public:
     static constexpr double shortestEdge = 0.65, longestEdge = 1.5;
