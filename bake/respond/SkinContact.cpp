@@ -92,7 +92,7 @@ Vec3 predictedNormal(const SkinRig& rig, const SkinScene& scene, const SurfacePo
     Vec3 smooth = Vec3::Zero();
     for (int k = 0; k < 3; ++k) {
         const auto v = static_cast<std::uint32_t>(rig.triangles[at.triangle][k]);
-        smooth += at.weights[k] * (scene.turn.of(v) * rig.restNormals[v]);
+        smooth += at.weights[k] * scene.turn.turned(v, rig.restNormals[v]);
     }
     return smooth.normalized();
 }
@@ -229,7 +229,7 @@ SkinContact foldContact(const SkinRig& rig, const SkinScene& scene, std::size_t 
     // Around a fold's end the walk comes to the vertex itself.
     if ((corners.array() == static_cast<int>(fold.vertex)).any()) return contact;
     const Vec3 smooth = predictedNormal(rig, scene, hit);
-    const Vec3 own = scene.turn.of(fold.vertex) * rig.restNormals[fold.vertex];
+    const Vec3 own = scene.turn.turned(fold.vertex, rig.restNormals[fold.vertex]);
     contact.trust = trust(-smooth.dot(own));
     if (!(contact.trust > 0)) return contact;
     const Vec3 between = (smooth - own).normalized(), away = x - hit.point;

@@ -107,7 +107,7 @@ void SkinResponse::solve() {
     for (std::size_t v = 0; v < positions_.size(); ++v)
         positions_[v] = rig_->rest[v] + scene_.drag[v].head<3>().cast<double>();
     for (std::size_t i = 0; i < patch.size(); ++i)
-        positions_[patch[i]] += scene_.turn.of(patch[i]) * moves[i].head<3>().cast<double>();
+        positions_[patch[i]] += scene_.turn.turned(patch[i], moves[i].head<3>().cast<double>());
     strain_.relax(rig_->rest, planes_, patch, scene_.drag, scene_.turn, positions_);
 }
 

@@ -13,7 +13,8 @@ constexpr float contactFloor = 0.01f;
 } // namespace
 
 SkinSolver::SkinSolver(const PackedSheet& sheet, KernelTarget target)
-    : sheet_(sheet), kernels_(sheetKernels(target)), state_(sheet), before_(sheet) {}
+    : sheet_(sheet), kernels_(sheetKernels(target)), state_(sheet), before_(sheet),
+      pushed_(sheet.vertexCount(), 0) {}
 
 void SkinSolver::reset() {
     state_ = SheetState(sheet_);
@@ -92,14 +93,24 @@ inline void SkinSolver::push(SheetPlane& p) {
     for (int k = 0; k < p.vertices; ++k) {
         Move& u = state_.u[p.vertex[k]];
         u += (u[3] * step * p.weight[k]) * p.normal;
+        pushed_[p.vertex[k]] = sweep_;
     }
+}
+
+/// Whether a second push may find anything to do: the plane pushed, or another did where it is.
+inline bool SkinSolver::stirred(const SheetPlane& p) const {
+    bool result = p.multiplier != 0;
+    for (int k = 0; k < p.vertices && !result; ++k) result = pushed_[p.vertex[k]] == sweep_;
+    return result;
 }
 
 void SkinSolver::sweep(std::vector<SheetPlane>& planes) {
     // To and fro: only then is a sweep a step in one fixed metric, which momentum needs.
+    ++sweep_;
     kernels_.sweepTo(sheet_, state_);
     for (const std::uint32_t i : used_) push(planes[i]);
-    for (std::size_t i = used_.size(); i-- > 0;) push(planes[used_[i]]);
+    for (std::size_t i = used_.size(); i-- > 0;)
+        if (SheetPlane& p = planes[used_[i]]; stirred(p)) push(p);
     energy_ = kernels_.sweepFro(sheet_, state_);
 }
 
@@ -107,6 +118,7 @@ double SkinSolver::planeEnergy(const std::vector<SheetPlane>& planes) const {
     double sum = 0;
     for (const std::uint32_t i : used_) {
         const SheetPlane& p = planes[i];
+        if (p.multiplier == 0) continue;
         sum += static_cast<double>((0.5f * p.compliance * p.multiplier - p.bound) * p.multiplier);
     }
     return sum;

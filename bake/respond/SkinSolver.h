@@ -44,6 +44,7 @@ public:
 private:
     void prepare(std::vector<SheetPlane>& planes);
     void push(SheetPlane& plane);
+    bool stirred(const SheetPlane& plane) const;
     void sweep(std::vector<SheetPlane>& planes);
     double planeEnergy(const std::vector<SheetPlane>& planes) const;
     void keep(const std::vector<SheetPlane>& planes);
@@ -53,9 +54,11 @@ private:
     const PackedSheet& sheet_;
     const SheetKernels& kernels_;
     SheetState state_, before_;
-    double energy_ = 0;               ///< 1/2 compliance m^2 of edges and bends, after the last sweep
-    std::vector<std::uint32_t> used_; ///< planes in use
-    std::vector<float> planeBefore_;  ///< #used
+    double energy_ = 0;                 ///< 1/2 compliance m^2 of edges and bends, after the last sweep
+    std::vector<std::uint32_t> used_;   ///< planes in use
+    std::vector<float> planeBefore_;    ///< #used
+    std::vector<std::uint32_t> pushed_; ///< #vertices: the last sweep in which a plane pushed it
+    std::uint32_t sweep_ = 0;
 };
 
 } // namespace tss

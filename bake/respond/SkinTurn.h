@@ -33,6 +33,8 @@ public:
     Eigen::Quaterniond of(std::uint32_t vertex) const {
         return none() ? Eigen::Quaterniond::Identity() : turns_[vertex];
     }
+    /// What turns with a vertex.
+    Vec3 turned(std::uint32_t vertex, const Vec3& x) const { return none() ? x : turns_[vertex] * x; }
     /// The mean over some vertices.
     Eigen::Quaterniond of(std::span<const std::uint32_t> vertices) const {
         if (none()) return Eigen::Quaterniond::Identity();
