@@ -26,7 +26,7 @@ bake() {
 
 # pictures <scene> <frames> <every>: PNG frames of the baked scene, one time code a frame
 pictures() {
-    say "Rendering $1: frames 0 to $2, every ${3}th"
+    say "Rendering $1: every ${3}th of $2 frames"
     rm -f "out/$1"_*.png
     # The capture pseudo-loader of examples/capture saves what osgviewer draws; -noreset, or Xvfb may end with the
     # first program that leaves it.

@@ -29,7 +29,7 @@ struct Dof {
     Vec3 axis = Vec3::UnitX();
     double lower = 0; ///< lower <= upper, finite
     double upper = 0;
-    double rest = 0;           ///< value at which the bodies stand as modelled
+    double rest = 0;           ///< value where the joint rests: motions start there, overlap there is free
     std::vector<PathRow> path; ///< at least two rows, values strictly rising, covering [lower, upper]
     Pose frame = Pose::Identity();
 };

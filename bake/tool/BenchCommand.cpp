@@ -1,3 +1,4 @@
+#include "bake/BakeOptions.h"
 #include "bake/base/Error.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/table/Bench.h"
@@ -43,9 +44,9 @@ void runBench(const BenchArguments& arguments, const Console& console) {
     console.say(fmt::format("{} queries ({}): {:.2f} ns each, features of a pose {:.2f} ns{}; {} hits",
                             arguments.queries, arguments.with, result.nanoseconds, result.featureNanoseconds,
                             with == BenchWith::Pose ? "" : " more", result.hits));
-    console.say(
-        fmt::format("rounding: no touch missed, none reported from farther than {:.3g}; gaps within {:.3g}",
-                    table.signBand(), table.gapBand()));
+    console.say(fmt::format("rounding: no touch missed, none reported from farther than {}; gaps within {}",
+                            lengthText(table.signBand(), scene.metersPerUnit),
+                            lengthText(table.gapBand(), scene.metersPerUnit)));
     console.print({{"path", pair.path},
                    {"tests", table.testCount()},
                    {"bytes", table.bytes()},

@@ -66,4 +66,15 @@ Csv readCsv(const std::string& file, std::size_t columns) {
     return csv;
 }
 
+void checkColumns(const Csv& csv, const std::vector<std::string>& names, const std::string& file,
+                  std::size_t first) {
+    for (std::size_t k = 0; k < names.size() && first + k < csv.header.size(); ++k) {
+        const std::string& found = csv.header[first + k];
+        if (found != names[k] && std::find(names.begin(), names.end(), found) != names.end())
+            throw InputError(Where{file, "", ""}, "column " + std::to_string(first + k + 1) +
+                                                      ": expected the degree of freedom \"" + names[k] +
+                                                      "\", found \"" + found + "\"");
+    }
+}
+
 } // namespace tss::tool

@@ -14,4 +14,9 @@ struct Csv {
 /// skipped. columns > 0: each row must have so many. Throws InputError with file, line and column.
 Csv readCsv(const std::string& file, std::size_t columns = 0);
 
+/// A first line that names one of `names` in another one's column is not what the columns are taken for:
+/// throws InputError. Names of its own are the writer's affair. first: the column of names[0].
+void checkColumns(const Csv& csv, const std::vector<std::string>& names, const std::string& file,
+                  std::size_t first = 0);
+
 } // namespace tss::tool

@@ -5,6 +5,7 @@
 #include "bake/tool/Csv.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <sstream>
 
 namespace tss::tool {
@@ -93,6 +94,15 @@ Dof parseDof(const std::string& text, double metersPerUnit) {
     dof.name = kind;
     if (dof.lower > dof.upper) throw InputError(what + ": expected LO <= HI");
     return dof;
+}
+
+std::string describeDofs(const Motion& motion) {
+    std::string text;
+    for (const Dof& dof : motion.dofs)
+        text += fmt::format("{}{} {:.6g} to {:.6g}{}, rest {:.6g}", text.empty() ? "" : "; ", dof.name,
+                            toUser(dof, dof.lower), toUser(dof, dof.upper),
+                            dof.kind == DofKind::Rotation ? " degrees" : "", toUser(dof, dof.rest));
+    return text;
 }
 
 double toUser(const Dof& dof, double q) {

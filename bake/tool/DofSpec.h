@@ -18,6 +18,9 @@ Vec3 parseVector(const std::string& text, const std::string& what);
 /// Comma-separated numbers. Throws InputError.
 std::vector<double> parseNumbers(const std::string& text, const std::string& what);
 
+/// "open 0 to 24 degrees, rest 0; ..."
+std::string describeDofs(const Motion& motion);
+
 /// Values of a DOF as people write them: degrees for rotations, else as they are.
 double toUser(const Dof& dof, double q);
 double fromUser(const Dof& dof, double value);

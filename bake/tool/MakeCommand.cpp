@@ -58,7 +58,8 @@ Motion parseMotion(const MakeArguments& arguments) {
         Dof& dof = motion.dofs[k];
         const double value = fromUser(dof, rest[k]);
         if (!arguments.rest.empty() && (value < dof.lower || value > dof.upper))
-            throw InputError("--rest: expected values within the limits of each DOF");
+            throw InputError(fmt::format("--rest: expected {} to {} for {}, found {}", toUser(dof, dof.lower),
+                                         toUser(dof, dof.upper), dof.name, rest[k]));
         dof.rest = std::clamp(value, dof.lower, dof.upper);
     }
     return motion;
@@ -93,6 +94,7 @@ void make(const MakeArguments& arguments, const Console& console) {
     const int pair = addPair(scene, a, b, motion, "Joint");
     addMotion(scene, scene.pairs[pair]);
     saveScene(scene, arguments.output);
+    console.say("joint  " + describeDofs(motion));
     console.say("wrote " + arguments.output + "; next: tss bake " + arguments.output + " -o BAKED.tss");
     console.print({{"output", arguments.output}, {"pair", scene.pairs[pair].path}, {"meshes", audits}});
 }
@@ -116,8 +118,10 @@ void addMake(CLI::App& app, Console& console) {
         ->required()
         ->expected(1, -1);
     command->add_option("--b-offset", arguments->offset, "x,y,z added to the points of B first");
-    command->add_option("--rest", arguments->rest,
-                        "DOF values at which the bodies rest (default 0, or the limit next to it)");
+    command->add_option(
+        "--rest", arguments->rest,
+        "DOF values at which the joint rests: where a motion starts, and spheres that overlap "
+        "are free (default 0, or the limit next to it). The meshes lie as they do at 0");
     command->footer("Example, a hinge of 30 degrees about the Y axis through 0.3,0,0.7:\n"
                     "  tss make -o jaw.tss --a skull.obj --b mandible.obj --dof rot:0.3,0,0.7:0,1,0:-24:6");
     command->callback([arguments, &console] { make(*arguments, console); });

@@ -26,6 +26,9 @@ void runQuery(const QueryArguments& arguments, const Console& console) {
                          "has no table; expected a scene written by tss bake");
     const Motion motion = pairMotion(scene, pair);
     const Csv poses = readCsv(arguments.poses, motion.dofCount());
+    std::vector<std::string> names;
+    for (const Dof& dof : motion.dofs) names.push_back(dof.name);
+    checkColumns(poses, names, arguments.poses);
 
     std::string text = "gap,hit,pair,px,py,pz,nx,ny,nz\n";
     std::size_t hits = 0, outside = 0;
@@ -64,7 +67,9 @@ void addQuery(CLI::App& app, Console& console) {
     command
         ->add_option(
             "-o,--output", arguments->output,
-            "CSV: gap,hit,pair,px,py,pz,nx,ny,nz; lengths in scene units, point and normal in body A's frame")
+            "CSV: gap,hit,pair,px,py,pz,nx,ny,nz; lengths in scene units, point and normal in body A's "
+            "frame. "
+            "The gap is that of the table's spheres: where it is above 0 it is no distance of the meshes")
         ->required();
     command->callback([arguments, &console] { runQuery(*arguments, console); });
 }

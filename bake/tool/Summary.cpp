@@ -4,6 +4,7 @@
 #include "bake/EarlyContact.h"
 #include "bake/scene/SourceHash.h"
 #include "bake/table/PreparedTable.h"
+#include "bake/tool/DofSpec.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -144,6 +145,7 @@ Json summary(const SceneModel& scene, const Pair& pair) {
                  {"bodyA", scene.bodies[pair.bodyA].path},
                  {"bodyB", scene.bodies[pair.bodyB].path},
                  {"dofs", pairMotion(scene, pair).dofCount()},
+                 {"joint", describeDofs(pairMotion(scene, pair))},
                  {"baked", pair.table || pair.proof},
                  {"neverCollides", pair.proof != nullptr},
                  {"stale", staleness(scene, pair)},
@@ -199,6 +201,7 @@ std::string describe(const Json& scene) {
     for (const char* kind : {"pairs", "skins"})
         for (const Json& item : scene[kind]) {
             text += item["path"].get<std::string>() + "\n";
+            if (item.contains("joint")) text += "  joint        " + item["joint"].get<std::string>() + "\n";
             if (!item["baked"].get<bool>()) {
                 text += "  not baked yet\n";
                 continue;
@@ -215,16 +218,24 @@ std::string describe(const Json& scene) {
                 text += fmt::format("  used         {} + {}\n  tests a step {} ({} products)\n",
                                     item["usedA"].dump(), item["usedB"].dump(), item["tests"].dump(),
                                     item["products"].dump());
-                text += fmt::format("  can meet     {} pairs; no table has fewer than {} tests\n",
-                                    item["candidatePairs"].is_null() ? "uncounted"
-                                                                     : item["candidatePairs"].dump(),
-                                    item["lowerBound"].is_null() ? "(not known)" : item["lowerBound"].dump());
+                text += fmt::format(
+                    "  can meet     {} pairs{}\n",
+                    item["candidatePairs"].is_null() ? "uncounted" : item["candidatePairs"].dump(),
+                    item["lowerBound"].is_null()
+                        ? ""
+                        : "; no table has fewer than " + item["lowerBound"].dump() + " tests");
                 if (item["tests"] == 0 && !item["certified"].get<bool>())
                     text += "  no contact   at any sampled pose: no proof that the bodies never meet\n";
-                text += fmt::format(
-                    "  bounds       miss {}, early {}, epsilon {}, {}\n", missed(item, metersPerUnit),
-                    length(item["boundEarly"], metersPerUnit), length(item["epsilon"], metersPerUnit),
-                    item["certified"].get<bool>() ? "certified for every pose" : "sampled poses only");
+                if (item.contains(
+                        "travel")) { // a skin's: complete for so long a way, without a bound of depth
+                    if (const auto travel = item["travel"].get<double>(); travel > 0)
+                        text += fmt::format("  complete     while skin strays no farther than {} from rest\n",
+                                            lengthText(travel, metersPerUnit));
+                } else
+                    text += fmt::format(
+                        "  bounds       miss {}, early {}, epsilon {}, {}\n", missed(item, metersPerUnit),
+                        length(item["boundEarly"], metersPerUnit), length(item["epsilon"], metersPerUnit),
+                        item["certified"].get<bool>() ? "certified for every pose" : "sampled poses only");
                 if (item.contains("earlyContact")) text += describeEarlyContact(item, metersPerUnit);
                 if (item["overlapAtRest"].get<int>() > 0)
                     text += fmt::format("  at rest      {} tests overlap and count from there; the bounds "

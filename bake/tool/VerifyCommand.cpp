@@ -1,3 +1,4 @@
+#include "bake/BakeOptions.h"
 #include "bake/VerifyPair.h"
 #include "bake/base/Error.h"
 #include "bake/scene/SceneFile.h"
@@ -54,8 +55,9 @@ void verify(const std::string& file, Console& console) {
         json["reason"] = why;
         bad += !why.empty();
         if (why.empty())
-            console.say(fmt::format("{}: holds at every pose ({} cells, rounding band {:.2g})", pair.path,
-                                    json["cells"].dump(), json["band"].get<double>()));
+            console.say(fmt::format("{}: holds at every pose ({} cells, rounding band {})", pair.path,
+                                    json["cells"].dump(),
+                                    lengthText(json["band"].get<double>(), scene.metersPerUnit)));
         else
             fmt::print(stderr, "{} (<{}>): {}\n", file, pair.path, why);
         result["pairs"].push_back(json);

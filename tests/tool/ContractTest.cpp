@@ -404,6 +404,34 @@ TEST_CASE("a first line of nan is a bad number, not a header") {
     }
 }
 
+TEST_CASE("columns that are named in another order than the joint has them are refused") {
+    const Folder folder;
+    writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
+    writeObj(boxMesh({1.5, -1, -1}, {2, 1, 1}), folder / "b.obj");
+    REQUIRE(runTss("make -o two.tss --a a.obj --b b.obj --dof rot:0,0,0:0,1,0:-5:5 --dof trans:1,0,0:-1:1 "
+                   "--rest 2,0.5",
+                   folder.path())
+                .exit == 0);
+    REQUIRE(runTss("bake two.tss -o baked.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
+    const Ran info = runTss("info baked.tss", folder.path());
+    CHECK(info.out.find("rot -5 to 5 degrees, rest 2; trans -1 to 1, rest 0.5") != std::string::npos);
+    const auto run = [&](const std::string& header, const std::string& command) {
+        writeText(folder.path() / "q.csv", header + "\n" + (command == "query" ? "0,0\n" : "0,0,0\n"));
+        return runTss(command + " baked.tss " + (command == "query" ? "--poses" : "--motion") +
+                          " q.csv -o r.csv",
+                      folder.path());
+    };
+    CHECK(run("rot,trans", "query").exit == 0);
+    CHECK(run("pitch,reach", "query").exit == 0);
+    CHECK(run("time,rot,trans", "play").exit == 0);
+    for (const auto& [header, command] : {std::pair{"trans,rot", "query"}, {"time,trans,rot", "play"}}) {
+        const Ran ran = run(header, command);
+        INFO(ran.err);
+        CHECK(ran.exit == 1);
+        CHECK(ran.err.find("expected the degree of freedom \"rot\", found \"trans\"") != std::string::npos);
+    }
+}
+
 TEST_CASE("--pair may be repeated, and takes nothing after its path") {
     const Folder folder;
     writeSwing(folder);
