@@ -116,6 +116,12 @@ std::string describeEarlyContact(const Json& pair, double metersPerUnit) {
                 "               make --rest, --b-offset); where the bodies overlap on purpose, as in a "
                 "socket, bake "
                 "with --at-rest ignore\n";
+    if (const int poses = early["poses"].get<int>(), free = early["freePoses"].get<int>();
+        !early["stuck"].get<bool>() && 2 * free < poses)
+        text +=
+            fmt::format("  touching     the meshes touch at {} of {} poses: where they should not, look at "
+                        "origin, axis and limits\n",
+                        poses - free, poses);
     if (!early["coarse"].get<bool>()) return text;
     text += fmt::format("  too coarse   for the clearance of this joint: it {} where nothing touches\n",
                         early["atRest"].get<bool>() ? "sticks at rest," : "is stopped early, or sticks,");
