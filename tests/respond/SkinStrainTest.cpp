@@ -1,6 +1,7 @@
 #include "SkinShapes.h"
 
 #include <catch2/catch.hpp>
+#include <numeric>
 #include <random>
 
 using namespace tss;
@@ -60,6 +61,51 @@ TEST_CASE(
         }
         for (std::size_t v = 0; v < sheet.places.size(); ++v)
             CHECK((sheet.places[v] - sheet.mesh.vertices[v]).norm() <= farthest);
+    }
+}
+
+TEST_CASE("a triangle that is hardly turned too far hardly moves") {
+    TriangleMesh mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 0.8, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    const SkinWeave weave = makeWeave(mesh.vertices, mesh.triangles, {1, 1, 1});
+    const std::vector<Move> still(3, Move::Zero());
+    for (const double cosine : {0.0999, 0.09}) { // 0.1 is let be
+        const Eigen::AngleAxisd turn(std::acos(cosine), Vec3(1, 0.3, 0).normalized());
+        std::vector<Vec3> places;
+        for (const Vec3& x : mesh.vertices) places.push_back(turn * x);
+        const std::vector<Vec3> before = places;
+        SkinStrain(weave).relax(mesh.vertices, {}, {}, still, {}, places);
+        double moved = 0;
+        for (int v = 0; v < 3; ++v) moved = std::max(moved, (places[v] - before[v]).norm());
+        CHECK(moved > 0);
+        CHECK(moved < 0.03);
+    }
+}
+
+TEST_CASE("a contact that the limits of edges touch is pressed no less deep than the solve left it") {
+    for (const double left : {0.05, 0.0}) {
+        Sheet sheet;
+        for (Vec3& x : sheet.places) x *= 1.503; // every edge a little too long
+        const std::size_t v = sheet.places.size() / 2;
+        std::vector<SheetPlane> planes(1);
+        planes[0].normal = Move(0, 0, 1, 0);
+        for (std::uint32_t& k : planes[0].vertex) k = static_cast<std::uint32_t>(v);
+        planes[0].weight[0] = 1;
+        planes[0].vertices = 1;
+        planes[0].bound = static_cast<float>((sheet.places[v] - sheet.mesh.vertices[v]).z() + 0.05);
+        planes[0].compliance = planes[0].inverse = 0.5f;
+        planes[0].multiplier = static_cast<float>(left / 0.5);
+        std::vector<std::uint32_t> patch(sheet.places.size());
+        std::iota(patch.begin(), patch.end(), 0u);
+        const Vec3 before = sheet.places[v];
+        const SkinWeave weave = makeWeave(sheet.mesh.vertices, sheet.mesh.triangles, sheet.masses);
+        SkinStrain(weave).relax(sheet.mesh.vertices, planes, patch, sheet.still, {}, sheet.places);
+        const double moved = std::abs(sheet.places[v].z() - before.z());
+        if (left > 0)
+            CHECK(moved < 0.005);
+        else
+            CHECK(moved > 0.01); // what has come in meanwhile is pressed out
     }
 }
 
