@@ -81,6 +81,23 @@ void addMotion(SceneModel& scene, const Pair& pair) {
     scene.endTimeCode = start;
 }
 
+/// An axis far away from both bodies, A and B of the scene, is mostly one in another unit.
+void remarkFarAxes(const Motion& motion, const SceneModel& scene, const Console& console) {
+    constexpr double far = 10; // of their size
+    Eigen::AlignedBox3d box;
+    for (const Vec3& v : scene.bodies[0].mesh.vertices) box.extend(v);
+    for (const Vec3& v : scene.bodies[1].mesh.vertices) box.extend(motion.base * v);
+    for (const Dof& dof : motion.dofs) {
+        if (dof.kind != DofKind::Rotation) continue;
+        const Vec3 middle = box.center();
+        const double away = dof.axis.cross(dof.origin - middle).norm(), size = box.diagonal().norm();
+        if (away > far * size)
+            console.say(fmt::format("note: the axis of {} passes the meshes at {:.3g} times their size; are "
+                                    "its origin and they in the same unit?",
+                                    dof.name, away / size));
+    }
+}
+
 void make(const MakeArguments& arguments, const Console& console) {
     if (!(arguments.metersPerUnit > 0) || !std::isfinite(arguments.metersPerUnit))
         throw InputError("--meters-per-unit: expected a number > 0");
@@ -95,6 +112,7 @@ void make(const MakeArguments& arguments, const Console& console) {
     addMotion(scene, scene.pairs[pair]);
     saveScene(scene, arguments.output);
     console.say("joint  " + describeDofs(motion));
+    remarkFarAxes(motion, scene, console);
     console.say("wrote " + arguments.output + "; next: tss bake " + arguments.output + " -o BAKED.tss");
     console.print({{"output", arguments.output}, {"pair", scene.pairs[pair].path}, {"meshes", audits}});
 }

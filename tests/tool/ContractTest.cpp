@@ -432,6 +432,20 @@ TEST_CASE("columns that are named in another order than the joint has them are r
     }
 }
 
+TEST_CASE("an axis that is in another unit than the meshes is remarked upon") {
+    const Folder folder;
+    writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
+    writeObj(boxMesh({1.5, -1, -1}, {2, 1, 1}), folder / "b.obj");
+    const auto said = [&](const std::string& origin) {
+        const Ran ran =
+            runTss("make -o s.tss --a a.obj --b b.obj --dof rot:" + origin + ":0,1,0:0:5", folder.path());
+        CHECK(ran.exit == 0);
+        return ran.out + ran.err;
+    };
+    CHECK(said("1200,0,300").find("same unit") != std::string::npos);
+    CHECK(said("1.2,5000,0.3").find("same unit") == std::string::npos); // anywhere along the axis
+}
+
 TEST_CASE("--pair may be repeated, and takes nothing after its path") {
     const Folder folder;
     writeSwing(folder);
