@@ -34,7 +34,8 @@ if(OSGTSS_NODEKIT)
             PATTERN extreme EXCLUDE)
 endif()
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md" PATTERN "*.png") # as README has them
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} # where README has them
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/osgTSSConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/package/osgTSSConfig.cmake
