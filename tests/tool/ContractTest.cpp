@@ -1,28 +1,12 @@
+// What the commands do, as scripts count on it.
 #include "bake/scene/SceneFile.h"
-#include "tests/Shapes.h"
-#include "tests/tool/Shell.h"
+#include "tests/tool/Swing.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 using Json = nlohmann::json;
-
-namespace {
-
-/// A ball of radius 10 and one of radius 5 that swings about the Z axis and can hit it.
-void writeSwing(const Folder& folder) {
-    writeObj(ballMesh({0, 0, 0}, 10, 3), folder / "still.obj");
-    writeObj(ballMesh({0, 30, 0}, 5, 3), folder / "swing.obj");
-    const Ran made = runTss("make -o swing.tss --a still.obj --b swing.obj --meters-per-unit 0.001 "
-                            "--dof rot:25,0,0:0,0,1:-40:90",
-                            folder.path());
-    INFO(made.err);
-    REQUIRE(made.exit == 0);
-}
-
-} // namespace
 
 TEST_CASE("every command answers --help with exit 0, and an unknown one is a usage error") {
     const Folder folder;
@@ -134,74 +118,6 @@ TEST_CASE("the paper's bake: growth, sampled search, co-occurrence, with the gro
     CHECK(spheres("--growth 0.03,0.015,0.35,0.35") > 0);
 }
 
-TEST_CASE("spheres that lack a part of the surface prove nothing by staying apart") {
-    const Folder folder;
-    writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
-    writeObj(boxMesh({1.1, -1, -1}, {2, 1, 1}), folder / "b.obj");
-    REQUIRE(runTss("make -o near.tss --a a.obj --b b.obj --dof trans:1,0,0:0:3", folder.path()).exit == 0);
-    const auto never = [&](const std::string& settings) {
-        const Ran ran = runTss("bake near.tss -o baked.tss --json " + settings, folder.path());
-        INFO(ran.err);
-        REQUIRE(ran.exit == 0);
-        return Json::parse(ran.out)["pairs"][0]["neverCollides"].get<bool>();
-    };
-    CHECK(never("--tolerance 0.02"));
-    CHECK(never("--tolerance 0.02 --no-conservative"));
-    CHECK_FALSE(never("--tolerance 0.2 --no-conservative"));
-    CHECK_FALSE(never("--spheres growth")); // none at all
-}
-
-TEST_CASE("bad input is exit 1 with a message that says where, and leaves no file") {
-    const Folder folder;
-    writeObj(boxMesh({0, 0, 0}, {1, 1, 1}), folder / "a.obj");
-    writeText(folder.path() / "bad.tss",
-              R"({"format": "osgtss", "formatVersion": "1.0", "primChildren": 7})");
-    writeText(folder.path() / "empty.obj", "");
-    const auto refused = [&](const std::string& arguments, const std::string& expected) {
-        const Ran ran = runTss(arguments, folder.path());
-        INFO(arguments << "\n" << ran.err);
-        CHECK(ran.exit == 1);
-        CHECK(ran.err.find(expected) != std::string::npos);
-    };
-    refused("info missing.tss", "missing.tss");
-    refused("info bad.tss", "/primChildren");
-    refused("bake bad.tss -o out.tss", "/primChildren");
-    refused("validate bad.tss", "/primChildren");
-    refused("make -o out.tss --a missing.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", "missing.obj");
-    refused("make -o out.tss --a empty.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", "empty.obj");
-    refused("make -o out.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,0:0:1", "axis that is not zero");
-    refused("make -o out.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:5:1", "LO <= HI");
-    refused("make -o out.tss --a a.obj --b a.obj --dof trans:0,0,1:nan:1", "finite number");
-    refused("make -o out.tss --a a.obj --b a.obj --dof swing:0,0,1:0:1", "rot:ORIGIN");
-    CHECK(fileCount(folder.path()) == 3);
-
-    REQUIRE(runTss("make -o ok.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", folder.path()).exit == 0);
-    refused("query ok.tss --poses bad.tss -o r.csv", "no table");
-    refused("bake ok.tss -o out.tss --tolerance -1mm", "--tolerance");
-    refused("bake ok.tss -o out.tss --tolerance 1furlong", "length");
-    refused("bake ok.tss -o out.tss --spheres cubes", "medial");
-    refused("bake ok.tss -o out.tss --spheres growth --growth 0.1,0.1mm,1,1", "START,STEP,END,MAXRADIUS");
-    refused("bake ok.tss -o out.tss --spheres growth --growth 0.1,0.1,1", "START,STEP,END,MAXRADIUS");
-    refused("bake ok.tss -o no/such/folder/out.tss --tolerance 0.1", "no/such/folder");
-    CHECK(fileCount(folder.path()) == 4);
-}
-
-TEST_CASE("validation says line and column of everything wrong") {
-    const Folder folder;
-    writeText(folder / "bad.tss", "{\"format\": \"osgtss\", \"formatVersion\": \"1.0\",\n"
-                                  " \"metadata\": {\"upAxis\": \"X\", \"metersPerUnit\": 0}}");
-    const Ran text = runTss("validate bad.tss", folder.path());
-    CHECK(text.exit == 1);
-    CHECK(text.err.find("bad.tss:2:47: /metadata/metersPerUnit: expected a number above 0") !=
-          std::string::npos);
-    CHECK(text.err.find("bad.tss:2:25: /metadata/upAxis: ") != std::string::npos);
-    const Json json = Json::parse(runTss("validate bad.tss --json", folder.path()).out);
-    REQUIRE(json["errors"].size() == 2);
-    CHECK(json["errors"][0]["pointer"] == "/metadata/metersPerUnit");
-    CHECK(json["errors"][0]["line"] == 2);
-    CHECK(json["errors"][0]["column"] == 47);
-}
-
 TEST_CASE(
     "a scene is converted to and from a buffer beside it, and a save that cannot end leaves the old files") {
     const Folder folder;
@@ -274,31 +190,6 @@ TEST_CASE("a baked table is verified, and one with a test taken out is not") {
     CHECK(bad.err.find("/swing/Joint") != std::string::npos);
 }
 
-TEST_CASE("a table made for other limits is refused by all that answer from it, and shown as stale") {
-    const Folder folder;
-    writeSwing(folder);
-    REQUIRE(runTss("bake swing.tss -o baked.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
-    std::string text = readText(folder.path() / "baked.tss");
-    const std::size_t limit = text.find("upperLimit");
-    const std::size_t value = text.find("90", limit);
-    REQUIRE(value != std::string::npos);
-    writeText(folder.path() / "stale.tss", text.replace(value, 2, "80"));
-    writeText(folder.path() / "q.csv", "0\n10\n");
-    for (const char* command :
-         {"query stale.tss --poses q.csv -o r.csv", "play stale.tss --motion q.csv -o r.csv",
-          "bench stale.tss --queries 10", "verify stale.tss"}) {
-        const Ran ran = runTss(command, folder.path());
-        INFO(command << ": " << ran.err);
-        CHECK(ran.exit == 1);
-        CHECK(ran.err.find("/swing/Joint") != std::string::npos);
-        CHECK(ran.err.find("limits") != std::string::npos);
-    }
-    const Ran info = runTss("info stale.tss", folder.path());
-    CHECK(info.exit == 0);
-    CHECK(info.out.find("stale") != std::string::npos);
-    CHECK(runTss("info baked.tss", folder.path()).out.find("stale") == std::string::npos);
-}
-
 TEST_CASE("a baked table is timed with each question, and with as many hits whichever way it is asked") {
     const Folder folder;
     writeSwing(folder);
@@ -352,98 +243,6 @@ TEST_CASE("a degree of freedom along a measured path stops where the meshes meet
     CHECK(short_.exit == 1);
     CHECK(short_.err.find("short.csv") != std::string::npos);
     CHECK(short_.err.find("4 or 7 columns") != std::string::npos);
-}
-
-TEST_CASE("a motion played without tables says that nothing is kept apart") {
-    const Folder folder;
-    writeSwing(folder);
-    writeText(folder.path() / "q.csv", "0\n10\n");
-    const Ran ran = runTss("play swing.tss --motion q.csv -o r.csv", folder.path());
-    CHECK(ran.exit == 0);
-    CHECK(ran.out.find("/swing/Joint is not kept apart") != std::string::npos);
-}
-
-TEST_CASE("a motion that asks for more than the limits is played up to them, and that is said") {
-    const Folder folder;
-    writeSwing(folder);
-    REQUIRE(runTss("bake swing.tss -o baked.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
-    writeText(folder.path() / "q.csv", "0\n10\n90\n170\n");
-    const Ran ran = runTss("play baked.tss --motion q.csv -o r.csv", folder.path());
-    CHECK(ran.exit == 0);
-    CHECK(ran.out.find("1 of 4 steps") != std::string::npos);
-    writeText(folder.path() / "q.csv", "0\n10\n90\n");
-    CHECK(runTss("play baked.tss --motion q.csv -o r.csv", folder.path()).out.find("limits") ==
-          std::string::npos);
-}
-
-TEST_CASE("a file that is read is not overwritten by the answer") {
-    const Folder folder;
-    writeSwing(folder);
-    REQUIRE(runTss("bake swing.tss -o baked.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
-    writeText(folder.path() / "q.csv", "0\n10\n");
-    for (const char* command :
-         {"query baked.tss --poses q.csv -o ./q.csv", "query baked.tss --poses q.csv -o baked.tss",
-          "play baked.tss --motion q.csv -o q.csv"}) {
-        const Ran ran = runTss(command, folder.path());
-        INFO(command << ": " << ran.err);
-        CHECK(ran.exit == 1);
-        CHECK(ran.err.find("another name") != std::string::npos);
-    }
-    CHECK(readText(folder.path() / "q.csv") == "0\n10\n");
-}
-
-TEST_CASE("a first line of nan is a bad number, not a header") {
-    const Folder folder;
-    writeSwing(folder);
-    REQUIRE(runTss("bake swing.tss -o baked.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
-    for (const char* value : {"nan", "NaN", "inf", "-inf"}) {
-        writeText(folder.path() / "q.csv", std::string(value) + "\n0\n");
-        const Ran ran = runTss("query baked.tss --poses q.csv -o r.csv", folder.path());
-        CHECK(ran.exit == 1);
-        CHECK(ran.err.find("q.csv:1: column 1") != std::string::npos);
-    }
-}
-
-TEST_CASE("columns that are named in another order than the joint has them are refused") {
-    const Folder folder;
-    writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
-    writeObj(boxMesh({1.5, -1, -1}, {2, 1, 1}), folder / "b.obj");
-    REQUIRE(runTss("make -o two.tss --a a.obj --b b.obj --dof rot:0,0,0:0,1,0:-5:5 --dof trans:1,0,0:-1:1 "
-                   "--rest 2,0.5",
-                   folder.path())
-                .exit == 0);
-    REQUIRE(runTss("bake two.tss -o baked.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
-    const Ran info = runTss("info baked.tss", folder.path());
-    CHECK(info.out.find("rot -5 to 5 degrees, rest 2; trans -1 to 1, rest 0.5") != std::string::npos);
-    const auto run = [&](const std::string& header, const std::string& command) {
-        writeText(folder.path() / "q.csv", header + "\n" + (command == "query" ? "0,0\n" : "0,0,0\n"));
-        return runTss(command + " baked.tss " + (command == "query" ? "--poses" : "--motion") +
-                          " q.csv -o r.csv",
-                      folder.path());
-    };
-    CHECK(run("rot,trans", "query").exit == 0);
-    CHECK(run("pitch,reach", "query").exit == 0);
-    CHECK(run("time,rot,trans", "play").exit == 0);
-    for (const auto& [header, command] : {std::pair{"trans,rot", "query"}, {"time,trans,rot", "play"}}) {
-        const Ran ran = run(header, command);
-        INFO(ran.err);
-        CHECK(ran.exit == 1);
-        CHECK(ran.err.find("expected the degree of freedom \"rot\", found \"trans\"") != std::string::npos);
-    }
-}
-
-TEST_CASE("an axis that is in another unit than the meshes is remarked upon") {
-    const Folder folder;
-    writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
-    writeObj(boxMesh({1.5, -1, -1}, {2, 1, 1}), folder / "b.obj");
-    const auto said = [&](const std::string& origin) {
-        const Ran ran =
-            runTss("make -o s.tss --a a.obj --b b.obj --dof rot:" + origin + ":0,1,0:0:5", folder.path());
-        CHECK(ran.exit == 0);
-        return ran.out + ran.err;
-    };
-    CHECK(said("1200,0,300").find("same unit") != std::string::npos);
-    CHECK(said("1.2,5000,0.3").find("same unit") == std::string::npos); // anywhere along the axis
 }
 
 TEST_CASE("--pair may be repeated, and takes nothing after its path") {
