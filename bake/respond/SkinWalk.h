@@ -19,11 +19,11 @@ struct SurfacePoint {
 template <class Look>
 void lookAround(int from, int corner, const std::vector<Tri>& triangles, const std::vector<Tri>& across,
                 const Look& look) {
-    constexpr int most =
-        64; // at a vertex through which a surface passes twice a way around may not come back
+    // At a vertex through which a surface passes twice a way around may not come back.
+    constexpr int most = 64;
     const int vertex = triangles[from][corner];
-    for (const int edge :
-         {0, 2}) { // out over the edge that leaves the vertex, then over that which comes to it
+    // Out over the edge that leaves the vertex, and at a rim again over that which comes to it.
+    for (const int edge : {0, 2}) {
         int at = from;
         for (int i = 0; i < most; ++i) {
             int k = 0;

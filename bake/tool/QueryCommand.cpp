@@ -68,8 +68,8 @@ void addQuery(CLI::App& app, Console& console) {
         ->add_option(
             "-o,--output", arguments->output,
             "CSV: gap,hit,pair,px,py,pz,nx,ny,nz; lengths in scene units, point and normal in body A's "
-            "frame. "
-            "The gap is that of the table's spheres: where it is above 0 it is no distance of the meshes")
+            "frame. The gap is that of the table's spheres: where it is above 0 it is no distance of the "
+            "meshes")
         ->required();
     command->callback([arguments, &console] { runQuery(*arguments, console); });
 }

@@ -232,12 +232,11 @@ std::string describe(const Json& scene) {
                         : "; no table has fewer than " + item["lowerBound"].dump() + " tests");
                 if (item["tests"] == 0 && !item["certified"].get<bool>())
                     text += "  no contact   at any sampled pose: no proof that the bodies never meet\n";
-                if (item.contains(
-                        "travel")) { // a skin's: complete for so long a way, without a bound of depth
-                    if (const auto travel = item["travel"].get<double>(); travel > 0)
-                        text += fmt::format("  complete     while skin strays no farther than {} from rest\n",
-                                            lengthText(travel, metersPerUnit));
-                } else
+                const double travel = item.value("travel", 0.0);
+                if (travel > 0)
+                    text += fmt::format("  complete     while skin strays no farther than {} from rest\n",
+                                        lengthText(travel, metersPerUnit));
+                if (!item.contains("travel")) // a skin's table has no bound of depth
                     text += fmt::format(
                         "  bounds       miss {}, early {}, epsilon {}, {}\n", missed(item, metersPerUnit),
                         length(item["boundEarly"], metersPerUnit), length(item["epsilon"], metersPerUnit),

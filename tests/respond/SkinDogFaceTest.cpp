@@ -84,6 +84,20 @@ TriangleMesh subdivided(const TriangleMesh& mesh) {
     return fine;
 }
 
+/// A skin over all facial muscles, and its table.
+skins::Couple faceCouple(const TriangleMesh& skin) {
+    skins::Couple couple{skin, {}, {}};
+    std::vector<SkinSearchMuscle> searched;
+    for (Muscle& m : allMuscles()) {
+        couple.muscles.push_back(std::make_shared<const MuscleDeformer>(m));
+        searched.push_back({couple.muscles.back().get(), skins::insetSpheres(m.surface, 1.5 * mm)});
+    }
+    SkinSearchOptions options;
+    options.thickness = options.travel = 2 * skinThickness(skin);
+    couple.table = searchSkin(skin, searched, options);
+    return couple;
+}
+
 double cpuSeconds() {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
@@ -159,15 +173,7 @@ TEST_CASE("the frontal mask slides under the skin of the dog's head and the skin
 
 TEST_CASE("a facial muscle of the dog that tightens slowly hardly ever makes the skin jump") {
     REQUIRE_SHARED_MESHES();
-    skins::Couple couple{dogMesh("skin_head"), {}, {}};
-    std::vector<SkinSearchMuscle> searched;
-    for (Muscle& m : allMuscles()) {
-        couple.muscles.push_back(std::make_shared<const MuscleDeformer>(m));
-        searched.push_back({couple.muscles.back().get(), skins::insetSpheres(m.surface, 1.5 * mm)});
-    }
-    SkinSearchOptions options;
-    options.thickness = options.travel = 2 * skinThickness(couple.skin);
-    couple.table = searchSkin(couple.skin, searched, options);
+    const skins::Couple couple = faceCouple(dogMesh("skin_head"));
     constexpr int steps = 125;
     std::size_t far = 0, all = 0;
     const std::shared_ptr<const SkinRig> rig = couple.rig();
@@ -202,15 +208,7 @@ TEST_CASE("a facial muscle of the dog that tightens slowly hardly ever makes the
 TEST_CASE("all facial muscles of the dog move one skin of 29,000 vertices", "[.long]") {
     REQUIRE_SHARED_MESHES();
     const TriangleMesh skinMesh = subdivided(dogMesh("skin_head"));
-    skins::Couple couple{skinMesh, {}, {}};
-    std::vector<SkinSearchMuscle> searched;
-    for (Muscle& m : allMuscles()) {
-        couple.muscles.push_back(std::make_shared<const MuscleDeformer>(m));
-        searched.push_back({couple.muscles.back().get(), skins::insetSpheres(m.surface, 1.5 * mm)});
-    }
-    SkinSearchOptions options;
-    options.thickness = options.travel = 2 * skinThickness(skinMesh);
-    couple.table = searchSkin(skinMesh, searched, options);
+    const skins::Couple couple = faceCouple(skinMesh);
     double start = cpuSeconds();
     SkinResponse skin(couple.rig());
     const double loading = cpuSeconds() - start;
