@@ -91,19 +91,19 @@ HWY_INLINE V sums(V a, V b, V c, V d) {
 /// One vertex, or beside it the one `stride` later in the list.
 HWY_INLINE V gather(const float* u, const std::uint32_t* list, std::size_t stride) {
 #if TSS_SHEET_PAIRS
-    return hn::Combine(Floats(), hn::Load(One(), u + 4 * list[stride]), hn::Load(One(), u + 4 * list[0]));
+    return hn::Combine(Floats(), hn::Load(One(), u + list[stride]), hn::Load(One(), u + list[0]));
 #else
     (void)stride;
-    return load(u + 4 * list[0]);
+    return load(u + list[0]);
 #endif
 }
 HWY_INLINE void scatter(const V& value, float* u, const std::uint32_t* list, std::size_t stride) {
 #if TSS_SHEET_PAIRS
-    hn::Store(hn::LowerHalf(One(), value), One(), u + 4 * list[0]);
-    hn::Store(hn::UpperHalf(One(), value), One(), u + 4 * list[stride]);
+    hn::Store(hn::LowerHalf(One(), value), One(), u + list[0]);
+    hn::Store(hn::UpperHalf(One(), value), One(), u + list[stride]);
 #else
     (void)stride;
-    store(value, u + 4 * list[0]);
+    store(value, u + list[0]);
 #endif
 }
 
@@ -151,13 +151,18 @@ HWY_INLINE V stretch(const EdgePack& pack, std::size_t lane, float* multipliers,
     return compliance * now * now;
 }
 
-/// The same of a bend, or of two.
+/// The same of a bend, or of two. `size`: of their rings, or 0: as the pack says, read twice in place of kept
+/// in registers.
+template <std::size_t size>
 HWY_INLINE V bend(const PackedSheet& sheet, const BendPack& pack, std::size_t lane, float* multipliers,
                   float* u) {
     const std::uint32_t* ring = sheet.ring.data() + pack.first + lane / 4;
     const std::uint32_t* end = ring + 2 * pack.size;
-    V sum = all(0);
-    for (const std::uint32_t* v = ring; v != end; v += 2) sum = sum + gather(u, v, 1);
+    V kept[size + 1], sum = all(0);
+    if constexpr (size > 0)
+        for (std::size_t k = 0; k < size; ++k) sum = sum + (kept[k] = gather(u, ring + 2 * k, 1));
+    else
+        for (const std::uint32_t* v = ring; v != end; v += 2) sum = sum + gather(u, v, 1);
     const std::uint32_t* centre = pack.centre + lane / 4;
     const V share = all(1.0f / static_cast<float>(pack.size)), at = gather(u, centre, 1);
     const V m = load(multipliers + lane), compliance = load(pack.compliance + lane);
@@ -168,11 +173,32 @@ HWY_INLINE V bend(const PackedSheet& sheet, const BendPack& pack, std::size_t la
     store(now, multipliers + lane);
     scatter(mulAdd(broadcast<3>(at), step, at), u, centre, 1);
     const V back = share * step;
-    for (const std::uint32_t* v = ring; v != end; v += 2) {
-        const V x = gather(u, v, 1);
+    const auto move = [&](const V& x, const std::uint32_t* v) {
         scatter(negMulAdd(broadcast<3>(x), back, x), u, v, 1);
-    }
+    };
+    if constexpr (size > 0)
+        for (std::size_t k = 0; k < size; ++k) move(kept[k], ring + 2 * k);
+    else
+        for (const std::uint32_t* v = ring; v != end; v += 2) move(gather(u, v, 1), v);
     return compliance * now * now;
+}
+
+HWY_INLINE V bend(const PackedSheet& sheet, const BendPack& pack, std::size_t lane, float* multipliers,
+                  float* u) {
+    switch (pack.size) {
+    case 4:
+        return bend<4>(sheet, pack, lane, multipliers, u);
+    case 5:
+        return bend<5>(sheet, pack, lane, multipliers, u);
+    case 6:
+        return bend<6>(sheet, pack, lane, multipliers, u);
+    case 7:
+        return bend<7>(sheet, pack, lane, multipliers, u);
+    case 8:
+        return bend<8>(sheet, pack, lane, multipliers, u);
+    default:
+        return bend<0>(sheet, pack, lane, multipliers, u);
+    }
 }
 
 HWY_INLINE double bendRim(const RimBend& bend, Move& multiplier, Move* u) {

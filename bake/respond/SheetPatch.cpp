@@ -104,14 +104,14 @@ private:
         for (std::size_t begin = 0; begin < group.size(); begin += 8) {
             EdgePack pack{};
             for (std::size_t lane = 0; lane < 8; ++lane) {
-                pack.i[lane] = pack.j[lane] = past_;
+                pack.i[lane] = pack.j[lane] = laneStart(past_);
                 if (begin + lane >= group.size()) continue;
                 const SheetEdge& e = group[begin + lane];
                 Move::Map(pack.direction[EdgePack::slot(lane)]) = e.direction;
                 pack.compliance[lane] = e.compliance;
                 pack.inverse[lane] = e.inverse;
-                pack.i[lane] = indexOf_[e.i];
-                pack.j[lane] = indexOf_[e.j];
+                pack.i[lane] = laneStart(indexOf_[e.i]);
+                pack.j[lane] = laneStart(indexOf_[e.j]);
             }
             patch_.sheet.edges.push_back(pack);
         }
@@ -142,14 +142,14 @@ private:
     }
 
     void addPair(std::uint32_t ringSize, const std::vector<SheetBend>& bends, std::size_t begin) {
-        BendPack pack{{}, {}, {past_, past_}, size(patch_.sheet.ring), ringSize};
+        BendPack pack{{}, {}, {laneStart(past_), laneStart(past_)}, size(patch_.sheet.ring), ringSize};
         for (std::uint32_t k = 0; k < ringSize; ++k)
             for (const std::size_t b : {begin, begin + 1})
-                patch_.sheet.ring.push_back(b < bends.size() ? indexOf_[whole_.ring[bends[b].first + k]]
-                                                             : past_);
+                patch_.sheet.ring.push_back(
+                    laneStart(b < bends.size() ? indexOf_[whole_.ring[bends[b].first + k]] : past_));
         for (std::size_t b = 0; b < 2 && begin + b < bends.size(); ++b) {
             const SheetBend& bend = bends[begin + b];
-            pack.centre[b] = indexOf_[bend.centre];
+            pack.centre[b] = laneStart(indexOf_[bend.centre]);
             for (std::size_t k = 0; k < 3; ++k) {
                 pack.compliance[4 * b + k] = bend.compliance;
                 pack.inverse[4 * b + k] = bend.inverse;

@@ -6,12 +6,18 @@
 
 namespace tss {
 
+/// Where the lanes of a vertex start in a list of displacements.
+using LaneStart = std::uint32_t;
+inline LaneStart laneStart(std::uint32_t vertex) {
+    return 4 * vertex;
+}
+
 /// Eight edges that share no vertex. A place that is left over holds an edge of no length with both ends at
 /// the vertex past the last.
 struct EdgePack {
     alignas(32) float direction[8][4]; ///< of edge n: at slot(n), so that n and n + 4 lie side by side
     float compliance[8], inverse[8];
-    std::uint32_t i[8], j[8];
+    LaneStart i[8], j[8];
 
     static std::size_t slot(std::size_t n) { return 2 * (n % 4) + n / 4; }
 };
@@ -19,7 +25,7 @@ struct EdgePack {
 /// Two bends that share no vertex, each about the plain mean of a ring of the same size.
 struct BendPack {
     alignas(32) float compliance[8], inverse[8]; ///< of each three times, then 0
-    std::uint32_t centre[2];
+    LaneStart centre[2];
     std::uint32_t first; ///< PackedSheet::ring[first + 2 k + b]: neighbour k of bend b
     std::uint32_t size;  ///< of each ring
 };
@@ -46,7 +52,7 @@ struct PackedSheet {
     std::vector<EdgePack> edges;
     std::vector<BendPack> bends;
     std::vector<RimBend> rims;
-    std::vector<std::uint32_t> ring;
+    std::vector<LaneStart> ring;
 
     std::size_t vertexCount() const { return mass.size() - 1; }
 };

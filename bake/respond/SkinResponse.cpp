@@ -22,8 +22,13 @@ SkinResponse::SkinResponse(std::shared_ptr<const SkinRig> rig)
     : rig_(std::move(rig)), solver_(rig_->contactPatch.sheet), strain_(rig_->weave),
       planes_(rig_->rows.size() + rig_->pokes.size() + rig_->folds.size()),
       still_(rig_->contactPatch.vertices.size(), Move::Zero()), positions_(rig_->rest),
-      normals_(rig_->restNormals), activations_(rig_->muscles.size(), 0),
-      poses_(rig_->muscles.size(), Pose::Identity()) {}
+      normals_(rig_->restNormals), kernels_(skinKernels()), activations_(rig_->muscles.size(), 0),
+      poses_(rig_->muscles.size(), Pose::Identity()) {
+    places_.resize(rig_->rest.size() + rig_->border.size(), SkinPlace::Zero());
+    for (std::size_t b = 0; b < rig_->border.size(); ++b)
+        places_[rig_->rest.size() + b].head<3>() = rig_->border[b];
+    normalSums_.resize(places_.size());
+}
 
 SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<const Pose> poses) {
     bool same = true, rest = true;
@@ -156,18 +161,10 @@ void SkinResponse::findContacts() {
 }
 
 void SkinResponse::findNormals() {
-    std::fill(normals_.begin(), normals_.end(), Vec3::Zero());
-    const int touched = static_cast<int>(positions_.size());
-    const auto place = [&](int v) -> const Vec3& {
-        return v < touched ? positions_[v] : rig_->border[v - touched];
-    };
-    for (const Tri& t : rig_->normalTriangles) {
-        const Vec3& a = place(t[0]);
-        const Vec3 n = (place(t[1]) - a).cross(place(t[2]) - a);
-        for (int k = 0; k < 3; ++k)
-            if (t[k] < touched) normals_[t[k]] += n;
-    }
-    for (Vec3& n : normals_) n.normalize();
+    for (std::size_t v = 0; v < positions_.size(); ++v) places_[v].head<3>() = positions_[v];
+    std::fill(normalSums_.begin(), normalSums_.end(), SkinPlace::Zero());
+    kernels_.normals(rig_->normalTriangles, places_.data(), normalSums_.data());
+    for (std::size_t v = 0; v < normals_.size(); ++v) normals_[v] = normalSums_[v].head<3>().normalized();
 }
 
 } // namespace tss

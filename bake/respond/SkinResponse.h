@@ -2,6 +2,7 @@
 #include "bake/motion/Motion.h"
 #include "bake/respond/SkinContact.h"
 #include "bake/respond/SkinRig.h"
+#include "bake/respond/SkinStrain.h"
 
 #include <span>
 
@@ -60,6 +61,9 @@ private:
     std::vector<SheetPlane> planes_; ///< rows, then pokes, then folds
     std::vector<Move> still_;        ///< #vertices of the contact patch: the drags are taken in already
     std::vector<Vec3> positions_, normals_;
+    const SkinKernels& kernels_;
+    std::vector<SkinPlace> places_;     ///< of the touched vertices, then of the border
+    std::vector<SkinPlace> normalSums_; ///< the same
     std::vector<double> activations_;
     std::vector<Pose> poses_;
     double residual_ = 0;

@@ -2,7 +2,7 @@
 #include "bake/motion/BoneSwing.h"
 #include "bake/motion/MuscleTrack.h"
 #include "bake/respond/SkinSolver.h"
-#include "bake/respond/SkinStrain.h"
+#include "bake/respond/SkinWeave.h"
 #include "bake/table/SkinTable.h"
 
 #include <memory>

@@ -84,8 +84,9 @@ void SkinSolver::prepare(std::vector<SheetPlane>& planes) {
 }
 
 inline void SkinSolver::push(SheetPlane& p) {
-    float c = -p.bound;
-    for (int k = 0; k < p.vertices; ++k) c += p.weight[k] * p.normal.dot(state_.u[p.vertex[k]]);
+    float c = p.weight[0] * p.normal.dot(state_.u[p.vertex[0]]) - p.bound;
+    for (int k = 1; k < p.vertices; ++k) c += p.weight[k] * p.normal.dot(state_.u[p.vertex[k]]);
+    if (c >= 0 && p.multiplier == 0) return; // most of them
     const float next = std::max(0.0f, p.multiplier - (c + p.compliance * p.multiplier) * p.inverse);
     const float step = next - p.multiplier;
     p.multiplier = next;

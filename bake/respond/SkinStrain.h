@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/motion/Motion.h"
+#include "bake/respond/SkinKernels.h"
 #include "bake/respond/SkinSolver.h"
 #include "bake/respond/SkinTurn.h"
 
@@ -10,45 +10,21 @@
 
 namespace tss {
 
-/// Two neighbours of a skin.
-struct SkinLink {
-    std::uint32_t i = 0, j = 0;
-    double squared = 0;           ///< of its length at rest
-    float shareI = 0, shareJ = 0; ///< of what is to be given up, 1 together; 0: fixed
-};
-
 /// The vertices of a plane of a patch, in the whole sheet.
 inline std::array<std::uint32_t, 3> cornersOf(const SheetPlane& plane, std::span<const std::uint32_t> patch) {
     return {patch[plane.vertex[0]], patch[plane.vertex[1]], patch[plane.vertex[2]]};
 }
 
-/// The edges and triangles of a skin that may move, and which of them meet at each vertex. Immutable.
-struct SkinWeave {
-    std::vector<SkinLink> links;
-    std::vector<Tri> triangles;
-    std::vector<Vec3> normals; ///< #triangles at rest, twice the area long
-    std::vector<std::uint32_t> linkStart,
-        linkOf; ///< of vertex v: linkOf[linkStart[v]] to linkOf[linkStart[v + 1]]
-    std::vector<std::uint32_t> triangleStart, triangleOf;
-};
-
-/// inverseMass: of each vertex, 0 where it is fixed.
-SkinWeave makeWeave(const std::vector<Vec3>& rest, const std::vector<Tri>& triangles,
-                    const std::vector<float>& inverseMass);
-
 /// Where muscles pull a skin apart, or a contact lifts one layer of a fold from the other, linear springs let
 /// some edges stretch many times over and triangles turn over. Here neighbours then give up some of the
 /// difference of their displacements, until edges are between shortestEdge and longestEdge of their length at
 /// rest and no triangle is turned over. Each step averages displacements, so that nothing ever grows; what is
-/// within its limits is not touched, and what is hardly beyond them hardly moves: skin that comes near a limit
-/// does not jump. Rounds are limited: what is torn over very many edges may stay beyond. Contacts have their
-/// say in between, to be no deeper than they were. No state but its own scratch memory.
+/// within its limits is not touched, and what is hardly beyond them hardly moves: skin that comes near a
+/// limit does not jump. Rounds are limited: what is torn over very many edges may stay beyond. Contacts have
+/// their say in between, to be no deeper than they were. No state but its own scratch memory.
 class SkinStrain {
 public:
-    static constexpr double shortestEdge = 0.65, longestEdge = 1.5;
-    static constexpr double slack = 1e-3; ///< of a limit, that an edge may be beyond it: it is only neared
-
-    explicit SkinStrain(const SkinWeave& weave);
+    explicit SkinStrain(const SkinWeave& weave, KernelTarget target = KernelTarget::Best);
 
     /// positions: #vertices, changed. planes: contacts as the sheet lies at rest, with vertices of a patch;
     /// patch: its vertices; without: #vertices, the displacement that the bounds of the planes are relative
@@ -59,17 +35,29 @@ public:
                       const SkinTurn& turn, std::span<Vec3> positions);
 
 private:
-    bool relaxLink(const SkinLink& link, std::span<const Vec3> rest, const SkinTurn& turn,
+    bool relaxLink(std::uint32_t link, std::span<const Vec3> rest, const SkinTurn& turn,
                    std::span<Vec3> positions) const;
     bool relaxTriangle(std::uint32_t t, std::span<const Vec3> rest, const SkinTurn& turn,
                        std::span<Vec3> positions) const;
+    void survey(const SkinTurn& turn, std::span<const Vec3> positions);
+    void markAround(std::uint32_t vertex);
     void touch(std::uint32_t vertex);
     void press(std::span<const SheetPlane> planes, std::span<const std::uint32_t> patch,
                std::span<const Vec3> rest, std::span<const Move> without, const SkinTurn& turn,
                std::span<Vec3> positions);
     void gather();
 
+    /// A contact that is in use, and its vertices in the whole sheet.
+    struct Press {
+        std::uint32_t plane = 0;
+        std::array<std::uint32_t, 3> corners{};
+    };
+
     const SkinWeave& weave_;
+    const SkinKernels& kernels_;
+    std::vector<SkinPlace> places_;
+    std::vector<std::uint64_t> linkMarks_, triangleMarks_; ///< a bit each: to be looked at in the first round
+    std::vector<Press> presses_;
     std::vector<std::uint32_t> links_, triangles_, moved_;
     std::vector<std::uint32_t> linkRound_, triangleRound_, vertexRound_;
     std::uint32_t round_ = 0;

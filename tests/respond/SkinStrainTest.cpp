@@ -51,8 +51,8 @@ TEST_CASE(
         for (const Tri& t : sheet.mesh.triangles) {
             for (int k = 0; k < 3; ++k) {
                 const double ratio = sheet.ratio(t[k], t[(k + 1) % 3]);
-                CHECK(ratio > SkinStrain::shortestEdge * (1 - SkinStrain::slack) - 1e-9);
-                CHECK(ratio < SkinStrain::longestEdge * (1 + SkinStrain::slack) + 1e-9);
+                CHECK(ratio > strain::shortestEdge * (1 - strain::slack) - 1e-9);
+                CHECK(ratio < strain::longestEdge * (1 + strain::slack) + 1e-9);
             }
             const auto normal = [&](const std::vector<Vec3>& x) -> Vec3 {
                 return (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
@@ -109,12 +109,60 @@ TEST_CASE("a contact that the limits of edges touch is pressed no less deep than
     }
 }
 
+TEST_CASE("every kernel finds what is beyond its limits, and the same normals to the bit") {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> any(-0.1, 0.1);
+    Sheet sheet;
+    for (Vec3& x : sheet.places) x += Vec3(any(random), any(random), any(random));
+    SkinWeave weave = makeWeave(sheet.mesh.vertices, sheet.mesh.triangles, sheet.masses);
+    for (const std::size_t left : {0u, 1u, 3u}) { // beyond the last four
+        weave.links.resize(weave.links.size() / 4 * 4 - 4 + left);
+        weave.triangles.resize(weave.triangles.size() / 4 * 4 - 4 + left);
+        std::vector<SkinPlace> places(sheet.places.size(), SkinPlace::Constant(std::nan("")));
+        std::vector<SkinPlace> normals(places.size(), SkinPlace::Zero());
+        for (std::size_t v = 0; v < places.size(); ++v) places[v].head<3>() = sheet.places[v];
+        std::vector<std::uint64_t> beyond((weave.links.size() + 63) / 64);
+        std::vector<std::uint64_t> over((weave.triangles.size() + 63) / 64);
+        std::size_t found = 0;
+        const auto mark = [&](std::vector<std::uint64_t>& marks, std::size_t k) {
+            marks[k / 64] |= std::uint64_t{1} << (k % 64);
+            ++found;
+        };
+        for (std::size_t e = 0; e < weave.links.size(); ++e) {
+            const SkinLink& l = weave.links[e];
+            const double now = (sheet.places[l.i] - sheet.places[l.j]).squaredNorm();
+            if (!strain::within(now, weave.squared[e])) mark(beyond, e);
+        }
+        for (std::size_t t = 0; t < weave.triangles.size(); ++t) {
+            const Vec3 now = areaNormal(sheet.places, weave.triangles[t]);
+            if (!strain::lies(now, weave.normals[t])) mark(over, t);
+            for (int k = 0; k < 3; ++k) normals[weave.triangles[t][k]].head<3>() += now;
+        }
+        CHECK(found > 50);
+        CHECK(found < weave.links.size());
+        for (const KernelTarget target : {KernelTarget::Scalar, KernelTarget::Sse2, KernelTarget::Avx2,
+                                          KernelTarget::Avx512, KernelTarget::Neon, KernelTarget::Best}) {
+            if (!available(target)) continue;
+            INFO(name(target));
+            const SkinKernels& kernels = skinKernels(target);
+            std::vector<std::uint64_t> links(beyond.size()), triangles(over.size());
+            std::vector<SkinPlace> sums(places.size(), SkinPlace::Zero());
+            kernels.links(weave, places.data(), links.data());
+            kernels.triangles(weave, places.data(), triangles.data());
+            kernels.normals(weave.triangles, places.data(), sums.data());
+            CHECK(links == beyond);
+            CHECK(triangles == over);
+            for (std::size_t v = 0; v < sums.size(); ++v) REQUIRE(sums[v].head<3>() == normals[v].head<3>());
+        }
+    }
+}
+
 TEST_CASE("what is fixed stays, its neighbours come to it") {
     Sheet sheet;
     for (int v = 0; v < 17; ++v) sheet.masses[v] = 0; // one side of the sheet
     for (std::size_t v = 17; v < sheet.places.size(); ++v) sheet.places[v] += Vec3(0, 0.25, 0);
     CHECK(sheet.relax() == 0);
     for (int v = 0; v < 17; ++v) CHECK(sheet.places[v] == sheet.mesh.vertices[v]);
-    CHECK(sheet.ratio(0, 17) < SkinStrain::longestEdge * (1 + SkinStrain::slack));
+    CHECK(sheet.ratio(0, 17) < strain::longestEdge * (1 + strain::slack));
     CHECK(sheet.places.back().y() > sheet.mesh.vertices.back().y() + 0.2);
 }
