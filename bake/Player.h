@@ -31,7 +31,7 @@ private:
         std::vector<std::shared_ptr<const MuscleDeformer>> muscles;
         SkinResponse response;
         std::vector<double> activations;
-        std::vector<Pose> poses; ///< of the muscles' bones since rest; empty: none moves
+        std::vector<Pose> poses;        ///< of the muscles' bones since rest; empty: none moves
         std::vector<double> restDepths; ///< one a touched vertex
     };
 

@@ -29,8 +29,8 @@ struct Bvh {
 };
 
 /// Builds the hierarchy by the surface area heuristic over 16 bins; the same input gives the same tree.
-/// leafSize: the largest number of items in a leaf, >= 1. stop: asked at each node; once it says true, what is
-/// not divided yet stays together in leaves of any size.
+/// leafSize: the largest number of items in a leaf, >= 1. stop: asked at each node; once it says true, what
+/// is not divided yet stays together in leaves of any size.
 Bvh buildBvh(std::span<const Eigen::AlignedBox3d> boxes, std::uint32_t leafSize = 4,
              const std::function<bool()>& stop = {});
 

@@ -75,7 +75,7 @@ private:
     std::vector<PairHere> here_; ///< open pairs
     std::vector<NodePair> nodes_, stack_;
     std::vector<std::pair<double, std::uint32_t>> ranks_; ///< of near_, the best first
-    double bestMember_ = 0; ///< smallest gap of a member at the centre
+    double bestMember_ = 0;                               ///< smallest gap of a member at the centre
 
     /// Where a node of B's tree is at the centre of the cell and how far it moves, worked out once a cell.
     struct Moved {

@@ -74,9 +74,8 @@ inline Strain strain(const tss::SkinResponse& response) {
         areaBefore += before.norm() / 2;
         areaNow += after.norm() / 2;
         // The rim stays, so that what the sheet has swept does not depend on the origin.
-        result.volume += (now[t[0]].dot(now[t[1]].cross(now[t[2]])) -
-                          rest[t[0]].dot(rest[t[1]].cross(rest[t[2]]))) /
-                         6;
+        result.volume +=
+            (now[t[0]].dot(now[t[1]].cross(now[t[2]])) - rest[t[0]].dot(rest[t[1]].cross(rest[t[2]]))) / 6;
     }
     result.area = areaBefore > 0 ? areaNow / areaBefore - 1 : 0;
     return result;

@@ -1,5 +1,5 @@
-#include "bake/geometry/TriangleMesh.h"
 #include "bake/respond/SkinSolver.h"
+#include "bake/geometry/TriangleMesh.h"
 
 #include <Eigen/SparseCholesky>
 #include <catch2/catch.hpp>
@@ -11,8 +11,8 @@ namespace {
 
 constexpr int side = 48; // vertices: more than a block of constraints has
 
-/// A grid of springs with Laplacians, random directions, masses and compliances, some vertices fixed; bends of
-/// several sizes and weighted ones along two sides.
+/// A grid of springs with Laplacians, random directions, masses and compliances, some vertices fixed; bends
+/// of several sizes and weighted ones along two sides.
 struct RandomSheet {
     SkinSheet sheet;
     std::vector<Move> reference;
@@ -21,9 +21,7 @@ struct RandomSheet {
     float any(double least, double most) {
         return static_cast<float>(std::uniform_real_distribution<double>(least, most)(random));
     }
-    Move move(double size) {
-        return {any(-size, size), any(-size, size), any(-size, size), 0};
-    }
+    Move move(double size) { return {any(-size, size), any(-size, size), any(-size, size), 0}; }
 
     RandomSheet() {
         for (int v = 0; v < side * side; ++v) {
@@ -127,9 +125,8 @@ TEST_CASE("every kernel brings a sheet to the minimum of its energy") {
     RandomSheet random;
     const SheetPatch patch = patchOf(random.sheet, std::vector<bool>(side * side, true));
     const std::vector<Vec3> expected = random.solved();
-    for (const KernelTarget target :
-         {KernelTarget::Scalar, KernelTarget::Sse2, KernelTarget::Avx2, KernelTarget::Avx512,
-          KernelTarget::Neon, KernelTarget::Best}) {
+    for (const KernelTarget target : {KernelTarget::Scalar, KernelTarget::Sse2, KernelTarget::Avx2,
+                                      KernelTarget::Avx512, KernelTarget::Neon, KernelTarget::Best}) {
         if (!available(target)) continue;
         INFO(name(target));
         SkinSolver solver(patch.sheet, target);
@@ -191,8 +188,7 @@ TEST_CASE("planes hold what they meet, alone or between three vertices") {
     CHECK(u[700][2] == Approx(1.5 - planes[0].compliance * planes[0].multiplier).margin(1e-4));
     CHECK(u[700][2] > 1.4f);
     float along = 0;
-    for (int k = 0; k < 3; ++k)
-        along += planes[1].weight[k] * planes[1].normal.dot(u[planes[1].vertex[k]]);
+    for (int k = 0; k < 3; ++k) along += planes[1].weight[k] * planes[1].normal.dot(u[planes[1].vertex[k]]);
     CHECK(along == Approx(1 - planes[1].compliance * planes[1].multiplier).margin(1e-4));
     // Nothing pulls: a plane that is kept anyway has no say.
     std::vector<SheetPlane> far = planes;

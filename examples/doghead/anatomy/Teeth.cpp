@@ -9,7 +9,6 @@
 namespace doghead {
 namespace {
 
-
 /// A place on a dental arch: at the gum, the row's direction towards the nose, outwards (buccal), and towards
 /// the biting edge.
 struct Place {
