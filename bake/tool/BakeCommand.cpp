@@ -24,13 +24,14 @@ struct BakeArguments {
 Json addPairs(SceneModel& scene, const Console& console) {
     const AllPairs found = addAllPairs(scene);
     for (const std::string& note : found.notes) console.say("no pair: " + note);
-    console.say(fmt::format("{} pairs added, {} in the scene", found.added.size(), scene.pairs.size()));
+    console.say(
+        fmt::format("{} added, {} in the scene", counted(found.added.size(), "pair"), scene.pairs.size()));
     return {{"added", found.added}, {"notes", found.notes}};
 }
 
 /// How many pairs never collide, overlap at rest, need a table of another kind.
 std::string tally(const Json& pairs) {
-    int never = 0, atRest = 0, others = 0;
+    std::size_t never = 0, atRest = 0, others = 0;
     for (const Json& pair : pairs) {
         if (!pair["baked"].get<bool>()) continue;
         if (pair["neverCollides"].get<bool>())
@@ -40,9 +41,8 @@ std::string tally(const Json& pairs) {
         else
             ++others;
     }
-    return fmt::format(
-        "{} pairs never collide, {} are tables of bodies that overlap at rest, {} other tables\n", never,
-        atRest, others);
+    return fmt::format("never collide: {}; {} of bodies that overlap at rest, {}\n", counted(never, "pair"),
+                       counted(atRest, "table"), counted(others, "other table"));
 }
 
 void runBake(BakeArguments& arguments, const Console& console) {

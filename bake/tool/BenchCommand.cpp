@@ -38,9 +38,9 @@ void runBench(const BenchArguments& arguments, const Console& console) {
     const BenchResult result = benchQueries(table, pair.table->motion, arguments.queries, with);
     const char* form = table.form() == KernelForm::Fold ? "fold" : "direct";
     const char* precision = table.precision() == KernelPrecision::Float ? "float" : "double";
-    console.say(fmt::format("{}: {} tests, {} bytes; {} {} of {} features, {}{}", pair.path,
-                            table.testCount(), table.bytes(), precision, form, table.featureCount(),
-                            name(table.target()), cellText(table.cells())));
+    console.say(fmt::format("{}: {}, {} bytes; {} {} of {} features, {}{}", pair.path,
+                            counted(table.testCount(), "test"), table.bytes(), precision, form,
+                            table.featureCount(), name(table.target()), cellText(table.cells())));
     console.say(fmt::format("{} queries ({}): {:.2f} ns each, features of a pose {:.2f} ns{}; {} hits",
                             arguments.queries, arguments.with, result.nanoseconds, result.featureNanoseconds,
                             with == BenchWith::Pose ? "" : " more", result.hits));

@@ -23,6 +23,9 @@ struct Console {
     Progress progress() const;
 };
 
+/// "1 pair", "2 pairs".
+std::string counted(std::size_t count, const std::string& thing);
+
 /// Throws InputError where the output would replace a file that is read.
 void refuseOverwriting(const std::string& output, std::initializer_list<std::string> inputs);
 

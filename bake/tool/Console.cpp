@@ -31,6 +31,10 @@ Progress Console::progress() const {
     };
 }
 
+std::string counted(std::size_t count, const std::string& thing) {
+    return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
 void refuseOverwriting(const std::string& output, std::initializer_list<std::string> inputs) {
     for (const std::string& input : inputs) {
         std::error_code none;

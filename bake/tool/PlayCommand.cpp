@@ -29,6 +29,7 @@ std::vector<std::vector<double>> askedSteps(const SceneModel& scene, const PlayA
         Csv csv = readCsv(arguments.motion);
         const bool numbered = !csv.header.empty() && (csv.header[0] == "step" || csv.header[0] == "time");
         std::vector<std::string> names;
+        names.reserve(dofs.size());
         for (const Dof* dof : dofs) names.push_back(dof->name);
         checkColumns(csv, names, arguments.motion, numbered ? 1 : 0);
         for (auto& row : csv.rows) {

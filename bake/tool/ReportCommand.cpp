@@ -74,8 +74,9 @@ void runReport(ReportArguments& arguments, const Console& console) {
     if (methods == 0 && asked && !arguments.options.methods.empty())
         throw InputError("--methods: no method has such a name; without it the report names them all");
     if (!report.plotProblem.empty()) console.say(report.plotProblem);
-    console.say(fmt::format("{} pairs and {} skins, {} rows in {:.0f} s, wrote {}/report.md",
-                            report.pairs.size(), report.skins.size(), methods, report.seconds,
+    console.say(fmt::format("{} and {}, {} in {:.0f} s, wrote {}/report.md",
+                            counted(report.pairs.size(), "pair"), counted(report.skins.size(), "skin"),
+                            counted(static_cast<std::size_t>(methods), "row"), report.seconds,
                             arguments.output));
     console.print(summary(report, arguments.output));
 }

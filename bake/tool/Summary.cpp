@@ -224,12 +224,14 @@ std::string describe(const Json& scene) {
                 text += fmt::format("  used         {} + {}\n  tests a step {} ({} products)\n",
                                     item["usedA"].dump(), item["usedB"].dump(), item["tests"].dump(),
                                     item["products"].dump());
-                text += fmt::format(
-                    "  can meet     {} pairs{}\n",
-                    item["candidatePairs"].is_null() ? "uncounted" : item["candidatePairs"].dump(),
-                    item["lowerBound"].is_null()
-                        ? ""
-                        : "; no table has fewer than " + item["lowerBound"].dump() + " tests");
+                const Json& met = item["candidatePairs"];
+                text +=
+                    fmt::format("  can meet     {}{}\n",
+                                met.is_null() ? "uncounted pairs" : counted(met.get<std::size_t>(), "pair"),
+                                item["lowerBound"].is_null()
+                                    ? ""
+                                    : "; no table has fewer than " +
+                                          counted(item["lowerBound"].get<std::size_t>(), "test"));
                 if (item["tests"] == 0 && !item["certified"].get<bool>())
                     text += "  no contact   at any sampled pose: no proof that the bodies never meet\n";
                 const double travel = item.value("travel", 0.0);
@@ -242,10 +244,11 @@ std::string describe(const Json& scene) {
                         length(item["boundEarly"], metersPerUnit), length(item["epsilon"], metersPerUnit),
                         item["certified"].get<bool>() ? "certified for every pose" : "sampled poses only");
                 if (item.contains("earlyContact")) text += describeEarlyContact(item, metersPerUnit);
-                if (item["overlapAtRest"].get<int>() > 0)
-                    text += fmt::format("  at rest      {} tests overlap and count from there; the bounds "
-                                        "are about all others\n",
-                                        item["overlapAtRest"].dump());
+                if (const int resting = item["overlapAtRest"].get<int>(); resting > 0)
+                    text += fmt::format(
+                        "  at rest      {} and {} from there; the bounds are about all others\n",
+                        resting == 1 ? "1 test overlaps" : fmt::format("{} tests overlap", resting),
+                        resting == 1 ? "counts" : "count");
             }
             if (item.contains("kernel"))
                 text += fmt::format(
