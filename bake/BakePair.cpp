@@ -183,7 +183,7 @@ void noteOverlap(const CandidatePairs& candidates, const BakeOptions& options, P
     double deepest = 0;
     for (const RestPair& pair : candidates.atRest) deepest = std::min(deepest, pair.gap);
     report.notes.push_back(fmt::format(
-        "{} sphere {} at rest, at most {:.4g} deep; {} (--at-rest collide makes no exception)",
+        "{} sphere {} at rest, at most {:.4g} scene units deep; {} (--at-rest collide makes no exception)",
         candidates.atRest.size(), candidates.atRest.size() == 1 ? "pair overlaps" : "pairs overlap", -deepest,
         options.atRest == AtRest::Offset ? "contact of those begins where they go deeper"
                                          : "those are left out"));

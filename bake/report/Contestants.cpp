@@ -3,12 +3,35 @@
 #include "bake/base/Error.h"
 
 #include <algorithm>
+#include <iterator>
+#include <stdexcept>
 
 namespace tss::reporting {
 
 namespace {
 
 using namespace compare;
+
+constexpr const char* names[] = {"tss",
+                                 "tss-float",
+                                 "tss-scalar",
+                                 "tss-plain",
+                                 "all-pairs",
+                                 "all-pairs-simd",
+                                 "tree-all",
+                                 "tree-used",
+                                 "octree",
+                                 "medial-hubbard",
+                                 "medial-adaptive",
+                                 "orourke-badler",
+                                 "angular-region",
+                                 "mixed-region",
+                                 "allowed-paths",
+                                 "gap-grid",
+                                 "fcl-obbrss",
+                                 "fcl-obb",
+                                 "fcl-aabb",
+                                 "bullet-gimpact"};
 
 /// Builds what is wanted and takes note of what cannot be.
 class Entry {
@@ -18,6 +41,8 @@ public:
 
     template <class Make>
     void add(const std::string& name, const Make& make) {
+        if (std::find(std::begin(names), std::end(names), name) == std::end(names))
+            throw std::logic_error(name + " is not among the names of the methods");
         if (!wanted(name)) return;
         try {
             if (auto rival = make()) contestants_.rivals.push_back(std::move(rival));
@@ -126,6 +151,10 @@ void addMeshMethods(Entry& entry, const Problem& problem) {
 }
 
 } // namespace
+
+std::span<const char* const> methodNames() {
+    return names;
+}
 
 Contestants makeContestants(const Model& model, Field field, bool quick, const std::vector<std::string>& only,
                             std::uint64_t seed) {

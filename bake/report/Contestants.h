@@ -3,6 +3,8 @@
 #include "bake/compare/Methods.h"
 #include "bake/report/Model.h"
 
+#include <span>
+
 namespace tss::reporting {
 
 /// A method that the paper or METHOD 7 names and that has no row here, and why.
@@ -20,6 +22,9 @@ enum class Field {
     Model, ///< the methods whose error follows the spheres, for a sweep
     Table, ///< the table alone
 };
+
+/// The names of all methods, for `only` below.
+std::span<const char* const> methodNames();
 
 /// Makes the methods for a model. quick: smaller settings of those that take long to build. only: parts of
 /// names or families wanted, empty: all. seed: of the sampled ones.

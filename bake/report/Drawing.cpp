@@ -28,7 +28,8 @@ bool runGnuplot(const std::string& folder, const std::string& script) {
     const pid_t child = fork();
     if (child < 0) return false;
     if (child == 0) {
-        if (chdir(folder.c_str()) != 0) _exit(127);
+        // In a bare locale it complains of every degree sign.
+        if (chdir(folder.c_str()) != 0 || setenv("LC_ALL", "C.UTF-8", 1) != 0) _exit(127);
         execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
         _exit(127);
     }

@@ -2,10 +2,12 @@
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/report/Contestants.h"
 
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <fmt/format.h>
 
 namespace tss::reporting {
 
@@ -29,11 +31,26 @@ void checkPaths(const SceneModel& scene, const ReportOptions& options, const std
     }
 }
 
+void checkMethods(const std::vector<std::string>& wanted) {
+    for (const std::string& part : wanted) {
+        std::string all;
+        bool found = false;
+        for (const std::string name : methodNames()) {
+            found = found || name.find(part) != std::string::npos;
+            all.append(" ").append(name);
+        }
+        if (!found)
+            throw InputError(
+                fmt::format("--methods: no method has \"{}\" in its name; expected parts of{}", part, all));
+    }
+}
+
 } // namespace
 
 Report makeReport(const SceneModel& scene, const std::string& sceneFile, const std::string& folder,
                   const ReportOptions& options, const Progress& progress) {
     checkPaths(scene, options, sceneFile);
+    checkMethods(options.methods);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw InputError(Where{folder, "", ""}, "cannot make the folder: " + error.message());

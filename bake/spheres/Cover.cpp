@@ -26,7 +26,7 @@ CoverSets coverSets(std::span<const Sphere> candidates, std::span<const Patch> p
     std::vector<std::vector<std::uint32_t>> found(block);
     std::vector<std::uint32_t> batch;
     for (std::size_t at = 0; at < order.size();) {
-        if (!report(progress, "cover", double(at) / double(order.size()))) return {};
+        if (!report(progress, "spheres that cover", double(at) / double(order.size()))) return {};
         batch.clear();
         for (; at < order.size() && batch.size() < block; ++at)
             if (counts[order[at]] < enough) batch.push_back(order[at]);

@@ -16,7 +16,7 @@ SphereSet medialSpheres(const Solid& solid, std::span<const Patch> patches, doub
     SphereSet spheres;
     for (const std::uint32_t i : greedyCover(sets, fitted.patches.size()))
         spheres.push_back(fitted.candidates[i]);
-    report(progress, "cover", 1);
+    report(progress, "spheres that cover", 1);
     return spheres;
 }
 

@@ -7,6 +7,7 @@
 #include "bake/tool/Command.h"
 #include "bake/tool/Summary.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace tss::tool {
@@ -45,11 +46,28 @@ std::string tally(const Json& pairs) {
                        counted(atRest, "table"), counted(others, "other table"));
 }
 
+/// A tolerance so fine for the size of a body is mostly one in another unit, and takes hours.
+void remarkTolerance(const SceneModel& scene, const BakeOptions& options, const Console& console) {
+    constexpr double fine = 2e-5; // of a body's diagonal
+    double size = 0;
+    for (const Body& body : scene.bodies)
+        if (!body.mesh.vertices.empty()) size = std::max(size, bounds(body.mesh).diagonal().norm());
+    if (options.tolerance && *options.tolerance < fine * size)
+        console.say(
+            fmt::format("note: a tolerance of {} on a body of {} takes very many spheres; is the scene's "
+                        "unit {} m long?",
+                        lengthText(*options.tolerance, scene.metersPerUnit),
+                        lengthText(size, scene.metersPerUnit), scene.metersPerUnit));
+}
+
 void runBake(BakeArguments& arguments, const Console& console) {
     if (arguments.inscribed) arguments.request.given["conservative"] = "false";
     if (arguments.keep) arguments.request.given["keep-spheres"] = "true";
     const ThreadLimit limit(arguments.threads);
+    expectFolder(arguments.output);
     SceneModel scene = loadScene(arguments.input);
+    // What is wrong with them is no fault of the file.
+    remarkTolerance(scene, optionsFor({}, arguments.request.given, scene.metersPerUnit), console);
     const Json pairs = arguments.allPairs ? addPairs(scene, console) : Json();
     std::vector<PairReport> reports;
     if (!arguments.pairsOnly)
@@ -98,7 +116,8 @@ void addBake(CLI::App& app, Console& console) {
         {"growth",
          "START,STEP,END,MAXRADIUS of --spheres growth: fractions of the bounding diagonal (default "
          "0.01,0.01,0.101,0.02) or lengths"},
-        {"tolerance", "how far the spheres may stick out of the meshes"},
+        {"tolerance",
+         "how far the spheres may stick out of the meshes (default: 1/500 of the smaller body's diagonal)"},
         {"epsilon", "gap that the table may add to that of all spheres; 0 (default): lossless"},
         {"depth", "the gap too is right down to this depth; 0 (default): yes or no only"},
         {"max-spheres", "at most so many spheres a body: the best tolerance for them"},
@@ -106,7 +125,7 @@ void addBake(CLI::App& app, Console& console) {
         {"search", "certified (default) or sampled"},
         {"samples", "poses explored by --search sampled"},
         {"at-rest", "spheres that overlap at rest: offset (default), ignore or collide"},
-        {"budget", "seconds for each pair's cover"}};
+        {"budget", "seconds to find the few tests of each pair; making its spheres does not count"}};
     for (const auto& [name, description] : settings)
         command->add_option_function<std::string>(
             std::string("--") + name,

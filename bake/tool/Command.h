@@ -29,6 +29,9 @@ std::string counted(std::size_t count, const std::string& thing);
 /// Throws InputError where the output would replace a file that is read.
 void refuseOverwriting(const std::string& output, std::initializer_list<std::string> inputs);
 
+/// Throws InputError where the folder of an output is not there: before long work, not after it.
+void expectFolder(const std::string& output);
+
 /// Adds --json and --quiet to a command.
 CLI::App* addCommand(CLI::App& app, Console& console, const std::string& name,
                      const std::string& description);

@@ -43,6 +43,13 @@ void refuseOverwriting(const std::string& output, std::initializer_list<std::str
     }
 }
 
+void expectFolder(const std::string& output) {
+    const std::filesystem::path folder = std::filesystem::path(output).parent_path();
+    std::error_code none;
+    if (!folder.empty() && !std::filesystem::is_directory(folder, none))
+        throw InputError(Where{output, "", ""}, "cannot be written: there is no folder " + folder.string());
+}
+
 CLI::App* addCommand(CLI::App& app, Console& console, const std::string& name,
                      const std::string& description) {
     CLI::App* command = app.add_subcommand(name, description);

@@ -7,8 +7,11 @@
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
 
+#include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace tss::tool {
 
@@ -25,11 +28,10 @@ int addBody(SceneModel& scene, const std::string& file, const Vec3& color, Json&
     Body body;
     body.mesh = importMesh(file);
     const MeshAudit audit = auditMesh(body.mesh);
-    const Vec3 size = bounds(body.mesh).isEmpty()
-                          ? Vec3::Zero()
-                          : Vec3(1000 * scene.metersPerUnit * bounds(body.mesh).sizes());
-    console.say(fmt::format("{}: {}\n  {:.4g} x {:.4g} x {:.4g} mm", file, text(audit), size.x(), size.y(),
-                            size.z()));
+    const Vec3 units = bounds(body.mesh).isEmpty() ? Vec3::Zero() : Vec3(bounds(body.mesh).sizes());
+    const Vec3 size = 1000 * scene.metersPerUnit * units;
+    const auto length = [&](int axis) { return lengthText(units[axis], scene.metersPerUnit); };
+    console.say(fmt::format("{}: {}\n  {} x {} x {}", file, text(audit), length(0), length(1), length(2)));
     audits.push_back({{"file", file},
                       {"vertices", body.mesh.vertices.size()},
                       {"triangles", body.mesh.triangles.size()},
@@ -98,7 +100,44 @@ void remarkFarAxes(const Motion& motion, const SceneModel& scene, const Console&
     }
 }
 
+/// What is larger than a house or smaller than a grain is mostly in another unit than was said.
+void remarkSizes(const SceneModel& scene, const Console& console) {
+    constexpr double house = 10, grain = 1e-3; // metres
+    double size = 0;
+    for (const Body& body : scene.bodies)
+        if (!body.mesh.vertices.empty()) size = std::max(size, bounds(body.mesh).diagonal().norm());
+    size *= scene.metersPerUnit;
+    if (size > house || (size > 0 && size < grain))
+        console.say(
+            fmt::format("note: the meshes are {} long if one of their units is {} m; if they are not, "
+                        "say what it is: --meters-per-unit 0.001 for millimetres",
+                        lengthText(size, 1), scene.metersPerUnit));
+}
+
+/// Limits that small are mostly radians.
+void remarkRadians(const Motion& motion, const Console& console) {
+    for (const Dof& dof : motion.dofs) {
+        const double span = toUser(dof, dof.upper) - toUser(dof, dof.lower);
+        if (dof.kind == DofKind::Rotation && span > 0 && span <= 2 * std::numbers::pi)
+            console.say(fmt::format(
+                "note: {} turns by {:.3g} degrees in all; limits are degrees, not radians", dof.name, span));
+    }
+}
+
+/// The output is a scene: no input, and none that looks like a mesh.
+void checkOutput(const MakeArguments& arguments) {
+    refuseOverwriting(arguments.output, {arguments.a, arguments.b});
+    expectFolder(arguments.output);
+    std::string extension = std::filesystem::path(arguments.output).extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (const char* mesh : {".obj", ".stl", ".ply", ".off", ".dae", ".fbx", ".gltf", ".glb", ".3ds"})
+        if (extension == mesh)
+            throw InputError(Where{arguments.output, "", ""},
+                             "is the name of a mesh; expected one of a scene, such as jaw.tss");
+}
+
 void make(const MakeArguments& arguments, const Console& console) {
+    checkOutput(arguments);
     if (!(arguments.metersPerUnit > 0) || !std::isfinite(arguments.metersPerUnit))
         throw InputError("--meters-per-unit: expected a number > 0");
     SceneModel scene;
@@ -112,6 +151,8 @@ void make(const MakeArguments& arguments, const Console& console) {
     addMotion(scene, scene.pairs[pair]);
     saveScene(scene, arguments.output);
     console.say("joint  " + describeDofs(motion));
+    remarkSizes(scene, console);
+    remarkRadians(motion, console);
     remarkFarAxes(motion, scene, console);
     console.say("wrote " + arguments.output + "; next: tss bake " + arguments.output + " -o BAKED.tss");
     console.print({{"output", arguments.output}, {"pair", scene.pairs[pair].path}, {"meshes", audits}});
@@ -141,7 +182,8 @@ void addMake(CLI::App& app, Console& console) {
         "DOF values at which the joint rests: where a motion starts, and spheres that overlap "
         "are free (default 0, or the limit next to it). The meshes lie as they do at 0");
     command->footer("Example, a hinge of 30 degrees about the Y axis through 0.3,0,0.7:\n"
-                    "  tss make -o jaw.tss --a skull.obj --b mandible.obj --dof rot:0.3,0,0.7:0,1,0:-24:6");
+                    "  tss make -o jaw.tss --a skull.obj --b mandible.obj --dof rot:0.3,0,0.7:0,1,0:-24:6\n"
+                    "The limits are degrees; for meshes in millimetres add --meters-per-unit 0.001.");
     command->callback([arguments, &console] { make(*arguments, console); });
 }
 

@@ -1,3 +1,4 @@
+#include "bake/BakeOptions.h"
 #include "bake/Player.h"
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
@@ -121,7 +122,7 @@ std::string line(const SceneModel& scene, std::size_t number, const std::vector<
     for (const auto* row : {&asked, &step.values}) {
         std::size_t column = 0;
         for (const Joint& joint : scene.joints)
-            for (const Dof& dof : joint.dofs) text += fmt::format(",{}", toUser(dof, (*row)[column++]));
+            for (const Dof& dof : joint.dofs) text += fmt::format(",{:.15g}", toUser(dof, (*row)[column++]));
     }
     text += fmt::format(",{},{}", step.gap, name(step.status));
     for (double depth : step.residualDepths) text += fmt::format(",{}", depth);
@@ -160,7 +161,8 @@ void play(const PlayArguments& arguments, const Console& console) {
     writeFileAtomically(arguments.output, text);
     console.say(fmt::format("{} steps, wrote {}", steps.size(), arguments.output));
     for (const auto& [status, count] : statuses) console.say(fmt::format("  {:<10}{}", status, count));
-    if (!scene.skins.empty()) console.say(fmt::format("  deepest residual of a skin {:.4g}", deepest));
+    if (!scene.skins.empty())
+        console.say("  deepest residual of a skin " + lengthText(deepest, scene.metersPerUnit));
     console.print({{"steps", steps.size()},
                    {"statuses", statuses},
                    {"outsideLimits", outside},

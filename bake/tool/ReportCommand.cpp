@@ -5,7 +5,6 @@
 #include "bake/tool/Csv.h"
 #include "bake/tool/DofSpec.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -69,10 +68,6 @@ void runReport(ReportArguments& arguments, const Console& console) {
     std::size_t methods = 0;
     for (const auto& pair : report.pairs) methods += pair.rows.size();
     for (const auto& skin : report.skins) methods += skin.methods.size();
-    const bool asked = std::any_of(report.pairs.begin(), report.pairs.end(),
-                                   [](const auto& pair) { return !pair.neverCollides; });
-    if (methods == 0 && asked && !arguments.options.methods.empty())
-        throw InputError("--methods: no method has such a name; without it the report names them all");
     if (!report.plotProblem.empty()) console.say(report.plotProblem);
     console.say(fmt::format("{} and {}, {} in {:.0f} s, wrote {}/report.md",
                             counted(report.pairs.size(), "pair"), counted(report.skins.size(), "skin"),

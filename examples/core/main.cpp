@@ -8,12 +8,18 @@
 #include <iostream>
 
 int main(int argc, char** argv) {
-    if (argc < 2) return 2;
+    if (argc < 2) {
+        std::cerr << "usage: " << argv[0] << " SCENE VALUE... (radians, or scene units)\n";
+        return 2;
+    }
     const tss::SceneModel scene = tss::loadScene(argv[1]);
     const tss::Pair& pair = scene.pairs.at(0);
     if (!pair.table) return 1;                   // proven never to meet, or not baked
     const tss::PreparedTable table(*pair.table); // once; shared by any number of threads and instances
-    if (argc - 2 != static_cast<int>(table.dofCount())) return 2;
+    if (argc - 2 != static_cast<int>(table.dofCount())) {
+        std::cerr << "expected " << table.dofCount() << " values\n";
+        return 2;
+    }
 
     const std::vector<double> rest = tss::restValues(tss::pairMotion(scene, pair));
     std::vector<double> asked;

@@ -6,6 +6,7 @@ include(CMakePackageConfigHelpers)
 set(OSGTSS_CORE_INCLUDES ${CMAKE_INSTALL_INCLUDEDIR}/tss) # the headers of bake/, named "bake/..." in there too
 set(OSGTSS_PACKAGE_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/osgTSS)
 set(OSGTSS_PLUGIN_DESTINATION ${CMAKE_INSTALL_LIBDIR}/${OSGTSS_PLUGIN_FOLDER})
+set(OSGTSS_DOCUMENTS ${CMAKE_INSTALL_DATAROOTDIR}/doc/osgtss) # named like the package, as Debian has it
 file(RELATIVE_PATH OSGTSS_PREFIX_FROM_PC /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 
 # osgtss_install(<target> <name>): the library, its CMake targets in <name>Targets.cmake, and <name>.pc.
@@ -33,8 +34,8 @@ if(OSGTSS_NODEKIT)
     install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/osgTSS FILES_MATCHING PATTERN "*.tss"
             PATTERN extreme EXCLUDE)
 endif()
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} # where README has them
+install(FILES LICENSE README.md DESTINATION ${OSGTSS_DOCUMENTS})
+install(DIRECTORY docs DESTINATION ${OSGTSS_DOCUMENTS} # where README has them
         FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/osgTSSConfig.cmake.in

@@ -9,13 +9,13 @@ foreach(program tss tss-render)
     install(FILES ${CMAKE_CURRENT_LIST_DIR}/completion.bash
             DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program})
     if(HELP2MAN AND NOT OSGTSS_SANITIZE)
-        add_custom_command(OUTPUT ${manual}/${program}.1
+        add_custom_command(OUTPUT ${manual}/${program}.1.gz
                            COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/manual.sh $<TARGET_FILE:${program}> ${manual} ${PROJECT_VERSION}
                            DEPENDS ${program} ${CMAKE_CURRENT_LIST_DIR}/manual.sh VERBATIM)
-        list(APPEND pages ${manual}/${program}.1)
+        list(APPEND pages ${manual}/${program}.1.gz)
     endif()
 endforeach()
 if(pages)
     add_custom_target(manual ALL DEPENDS ${pages})
-    install(DIRECTORY ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR} FILES_MATCHING PATTERN "*.1")
+    install(DIRECTORY ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR} FILES_MATCHING PATTERN "*.1.gz")
 endif()

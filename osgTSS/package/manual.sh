@@ -6,7 +6,9 @@ program=$1 folder=$2 version=$3
 mkdir -p "$folder"
 cd "$(dirname "$program")"
 name=$(basename "$program")
-page() { help2man --no-info --name "$1" --version-string "$version" "./${*:2}" > "$folder/$(tr ' ' - <<< "${*:2}").1"; }
+page() {
+    help2man --no-info --name "$1" --version-string "$version" "./${*:2}" | gzip -9n > "$folder/$(tr ' ' - <<< "${*:2}").1.gz"
+}
 
 page "$("./$name" --help | head -n 1)" "$name"
 "./$name" --help | sed -n '/^Subcommands:/,/^$/{s/^  \([a-z]*\) .*/\1/p}' | while read -r subcommand; do

@@ -31,6 +31,13 @@ const osg::Image& OffscreenViewer::draw(unsigned int frame) {
     return *_image;
 }
 
+void OffscreenViewer::pass(unsigned int frame) {
+    look(frame);
+    _viewer->advance(frame / framesPerSecond);
+    _viewer->eventTraversal();
+    _viewer->updateTraversal();
+}
+
 // Multisampled framebuffer objects are not to be had everywhere; a finer picture is.
 void OffscreenViewer::average() {
     const int n = _shot.finer;

@@ -20,8 +20,10 @@ class OffscreenViewer {
 public:
     OffscreenViewer(osg::Node& scene, const Shot& shot);
 
-    /// Frames from 0 upwards, each once. The image is written over by the next one.
+    /// Frames from 0 upwards, each once, by either. The image is written over by the next one.
     const osg::Image& draw(unsigned int frame);
+    /// Moves the scene on, without a picture.
+    void pass(unsigned int frame);
 
 private:
     void look(unsigned int frame);

@@ -15,6 +15,7 @@
 #include <osgTSS/Scene>
 #include <osgTSS/SceneFile>
 #include <osgTSS/Version>
+#include <osgTSS/ViewerCallback>
 
 #include <cmath>
 #include <fstream>
@@ -66,6 +67,13 @@ osg::ref_ptr<osg::Node> load(const Arguments& arguments) {
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options(words);
     osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(arguments.scene, options.get());
     if (!node) throw tss::InputError({arguments.scene, "", ""}, "no scene that can be read");
+    if (arguments.overlay) {
+        osgTSS::Scene* scene = osgTSS::Scene::on(*node);
+        if (!scene || !node->asGroup())
+            throw tss::InputError({arguments.scene, "", ""},
+                                  "has no tables of osgTSS that --overlay could show");
+        osgTSS::addViewerAids(*node->asGroup(), *scene, true);
+    }
     return node;
 }
 
@@ -100,8 +108,11 @@ int render(const Arguments& arguments) {
     {
         osgTSS::OffscreenViewer viewer(*scene, shot);
         for (unsigned int frame = 0; frame < frames; ++frame) {
+            if (frame % static_cast<unsigned int>(arguments.every) != 0) {
+                viewer.pass(frame);
+                continue;
+            }
             const osg::Image& image = viewer.draw(frame);
-            if (frame % static_cast<unsigned int>(arguments.every) != 0) continue;
             const std::string name = pattern ? osgTSS::frameName(arguments.output, frame) : arguments.output;
             write(image, name);
             files.push_back(name);
@@ -110,8 +121,9 @@ int render(const Arguments& arguments) {
         }
     }
     if (!arguments.quiet)
-        fmt::print(arguments.json ? stderr : stdout, "{} pictures, {} to {}\n", files.size(),
-                   files.front().get<std::string>(), files.back().get<std::string>());
+        fmt::print(arguments.json ? stderr : stdout, "{} picture{}, {} to {}\n", files.size(),
+                   files.size() == 1 ? "" : "s", files.front().get<std::string>(),
+                   files.back().get<std::string>());
     if (arguments.json)
         fmt::print("{}\n", nlohmann::ordered_json{{"frames", frames}, {"files", files}}.dump());
     return 0;

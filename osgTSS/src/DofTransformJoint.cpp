@@ -176,6 +176,9 @@ private:
 
 FoundJoints dofTransformJoint(const osgSim::DOFTransform& node, double timeCodesPerSecond) {
     const osg::Vec3 scale = node.getCurrentScale();
+    if (scale == osg::Vec3())
+        throw tss::InputError(
+            "its scale is 0, as OpenSceneGraph sets it: setCurrentScale(osg::Vec3(1, 1, 1))");
     if (scale.x() == 0 || scale != osg::Vec3(scale.x(), scale.x(), scale.x()) ||
         (node.getAnimationOn() && node.getIncrementScale() != osg::Vec3()))
         throw tss::InputError("expected a scale that is the same in all directions and at all times; tables "

@@ -282,6 +282,12 @@ TEST_CASE("a tag that cannot be served is refused with the path and what was exp
     }
 }
 
+TEST_CASE("a DOFTransform as OpenSceneGraph makes it, of scale 0, is refused with what helps") {
+    Rig rig(new osgSim::DOFTransform);
+    CHECK_THROWS_WITH(extract(*rig.root),
+                      Catch::Contains("Moving") && Catch::Contains("setCurrentScale(osg::Vec3(1, 1, 1))"));
+}
+
 TEST_CASE("any two tagged bodies make a pair, and others do not") {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     for (int i = 0; i < 4; ++i) {

@@ -124,6 +124,15 @@ TEST_CASE(
     CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == study.rows.size() + 1);
 }
 
+TEST_CASE("a method that there is none of is refused before anything is made") {
+    const OutFolder folder;
+    ReportOptions options = quickOptions();
+    options.methods.push_back("foo");
+    CHECK_THROWS_WITH(makeReport(armScene(0.6), "arm.tss", folder.path, options),
+                      Catch::Contains("\"foo\"") && Catch::Contains("bullet-gimpact"));
+    CHECK_FALSE(std::filesystem::exists(folder.path));
+}
+
 TEST_CASE("two runs of a report agree on every error figure") {
     const OutFolder folder;
     const SceneModel scene = armScene(0.6);

@@ -44,17 +44,42 @@ TEST_CASE("bad input is exit 1 with a message that says where, and leaves no fil
     refused("make -o out.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:5:1", "LO <= HI");
     refused("make -o out.tss --a a.obj --b a.obj --dof trans:0,0,1:nan:1", "finite number");
     refused("make -o out.tss --a a.obj --b a.obj --dof swing:0,0,1:0:1", "rot:ORIGIN");
+    refused("make -o a.obj --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", "is read here");
+    refused("make -o out.stl --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", "name of a mesh");
+    refused("make -o no/out.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", "no folder no");
+    CHECK(readText(folder.path() / "a.obj").starts_with("v "));
     CHECK(fileCount(folder.path()) == 3);
 
     REQUIRE(runTss("make -o ok.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", folder.path()).exit == 0);
     refused("query ok.tss --poses bad.tss -o r.csv", "no table");
     refused("bake ok.tss -o out.tss --tolerance -1mm", "--tolerance");
-    refused("bake ok.tss -o out.tss --tolerance 1furlong", "length");
+    refused("bake ok.tss -o out.tss --tolerance 1furlong", "tss: length"); // no fault of the file
     refused("bake ok.tss -o out.tss --spheres cubes", "medial");
     refused("bake ok.tss -o out.tss --spheres growth --growth 0.1,0.1mm,1,1", "START,STEP,END,MAXRADIUS");
     refused("bake ok.tss -o out.tss --spheres growth --growth 0.1,0.1,1", "START,STEP,END,MAXRADIUS");
     refused("bake ok.tss -o no/such/folder/out.tss --tolerance 0.1", "no/such/folder");
     CHECK(fileCount(folder.path()) == 4);
+}
+
+TEST_CASE("sizes and limits that look like another unit are remarked upon, others are not") {
+    const Folder folder;
+    writeObj(boxMesh({0, 0, 0}, {30, 1, 1}), folder / "a.obj");
+    const auto said = [&](const std::string& arguments) {
+        const Ran ran =
+            runTss("make -o out.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:" + arguments, folder.path());
+        INFO(ran.err);
+        REQUIRE(ran.exit == 0);
+        return ran.out;
+    };
+    const auto tells = [&](const std::string& arguments, const std::string& note) {
+        return said(arguments).find(note) != std::string::npos;
+    };
+    CHECK(tells("0:90", "--meters-per-unit 0.001"));
+    CHECK(tells("0:90", "30 m x 1 m x 1 m"));
+    CHECK_FALSE(tells("0:90 --meters-per-unit 0.001", "note:"));
+    CHECK(tells("-0.35:0.6 --meters-per-unit 0.001", "not radians"));
+    const Ran baked = runTss("bake out.tss -o baked.tss --tolerance 1e-4 --spheres growth", folder.path());
+    CHECK(baked.out.find("very many spheres") != std::string::npos);
 }
 
 TEST_CASE("validation says line and column of everything wrong") {

@@ -18,6 +18,8 @@ ends 0 "$render" "$jaw" -o "$out/a_%03d.png" --frames 9 --every 8 --size 160x120
 ends 0 "$render" "$jaw" -o "$out/b_%03d.png" --frames 9 --every 8 --size 160x120 --json --quiet
 cmp "$out/a_008.png" "$out/b_008.png" || fail "the same frame is another picture"
 ! cmp -s "$out/a_000.png" "$out/a_008.png" || fail "nothing moves"
+ends 0 "$render" "$jaw" -o "$out/c_%03d.png" --frames 9 --size 160x120
+cmp "$out/a_008.png" "$out/c_008.png" || fail "frames that are passed over change the next picture"
 ends 0 "$render" "$jaw" -o "$out/o_%03d.png" --frames 1 --size 160x120 --overlay
 ! cmp -s "$out/a_000.png" "$out/o_000.png" || fail "no overlay"
 skin=$scenes/dog_frontalis_baked.tss
@@ -37,6 +39,8 @@ ends 2 "$render" "$jaw" -o "$out/n_%d_%d.png"
 ends 2 "$render" "$jaw" -o "$out/n_%d.png" --size big
 ends 2 "$render"
 
+ends 1 "$render" "$scenes/../examples/hinge/upper.obj" -o "$out/n_%d.png" --frames 1 --overlay
+
 # Stock osgconv, round and back: the same motion as the tool plays it.
 for name in dog_jaw_baked dog_frontalis_baked; do
     from=$scenes/$name.tss
@@ -48,4 +52,7 @@ for name in dog_jaw_baked dog_frontalis_baked; do
     "$build/bin/tss" play "$from" -o "$out/$name.back.csv" --quiet
     cmp "$out/$name.csv" "$out/$name.back.csv" || fail "$name plays otherwise after osgconv"
 done
+ends 0 "$render" "$out/dog_jaw_baked.osgb" -o "$out/p_%03d.png" --frames 1 --size 160x120
+ends 0 "$render" "$out/dog_jaw_baked.osgb" -o "$out/q_%03d.png" --frames 1 --size 160x120 --overlay
+! cmp -s "$out/p_000.png" "$out/q_000.png" || fail "no overlay over a graph of osgconv"
 echo "tss-render and osgconv do as they say"
