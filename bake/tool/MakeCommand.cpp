@@ -18,8 +18,8 @@ namespace tss::tool {
 namespace {
 
 struct MakeArguments {
-    std::string output, a, b, offset = "0,0,0", rest;
-    double metersPerUnit = 1;
+    std::string output, a, b, offset = "0,0,0", rest, unit = "1";
+    double metersPerUnit = 1; ///< what `unit` says
     std::vector<std::string> dofs;
 };
 
@@ -136,10 +136,22 @@ void checkOutput(const MakeArguments& arguments) {
                              "is the name of a mesh; expected one of a scene, such as jaw.tss");
 }
 
-void make(const MakeArguments& arguments, const Console& console) {
+/// "0.001", or as well "1mm".
+double parseUnit(const std::string& text) {
+    double metres = 0;
+    try {
+        metres = parseLength(text, 1);
+    } catch (const InputError&) {
+    }
+    if (!(metres > 0))
+        throw InputError("--meters-per-unit: expected a number > 0 or a length such as 1mm, found \"" + text +
+                         "\"");
+    return metres;
+}
+
+void make(MakeArguments& arguments, const Console& console) {
     checkOutput(arguments);
-    if (!(arguments.metersPerUnit > 0) || !std::isfinite(arguments.metersPerUnit))
-        throw InputError("--meters-per-unit: expected a number > 0");
+    arguments.metersPerUnit = parseUnit(arguments.unit);
     SceneModel scene;
     scene.metersPerUnit = arguments.metersPerUnit;
     scene.defaultPrim = freePrimName(scene, std::filesystem::path(arguments.output).stem().string());
@@ -168,7 +180,9 @@ void addMake(CLI::App& app, Console& console) {
     command->add_option("--a", arguments->a, "mesh of the body that stays, any format that assimp reads")
         ->required();
     command->add_option("--b", arguments->b, "mesh of the body that moves")->required();
-    command->add_option("--meters-per-unit", arguments->metersPerUnit, "length of the meshes' unit in metres")
+    command
+        ->add_option("--meters-per-unit", arguments->unit,
+                     "length of the meshes' unit in metres, or with a unit of its own: 0.001 or 1mm")
         ->capture_default_str();
     command
         ->add_option(

@@ -44,6 +44,10 @@ TEST_CASE("bad input is exit 1 with a message that says where, and leaves no fil
     refused("make -o out.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:5:1", "LO <= HI");
     refused("make -o out.tss --a a.obj --b a.obj --dof trans:0,0,1:nan:1", "finite number");
     refused("make -o out.tss --a a.obj --b a.obj --dof swing:0,0,1:0:1", "rot:ORIGIN");
+    for (const std::string unit : {"0", "-1", "nan", "mm", "1 parsec"})
+        refused("make -o out.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1 --meters-per-unit '" + unit +
+                    "'",
+                "such as 1mm, found \"" + unit + "\"");
     refused("make -o a.obj --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", "is read here");
     refused("make -o out.stl --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", "name of a mesh");
     refused("make -o no/out.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", "no folder no");
@@ -77,6 +81,7 @@ TEST_CASE("sizes and limits that look like another unit are remarked upon, other
     CHECK(tells("0:90", "--meters-per-unit 0.001"));
     CHECK(tells("0:90", "30 m x 1 m x 1 m"));
     CHECK_FALSE(tells("0:90 --meters-per-unit 0.001", "note:"));
+    CHECK(tells("0:90 --meters-per-unit 1mm", "30 mm x 1 mm x 1 mm"));
     CHECK(tells("-0.35:0.6 --meters-per-unit 0.001", "not radians"));
     const Ran baked = runTss("bake out.tss -o baked.tss --tolerance 1e-4 --spheres growth", folder.path());
     CHECK(baked.out.find("very many spheres") != std::string::npos);
