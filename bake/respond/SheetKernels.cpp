@@ -252,10 +252,10 @@ void displace(const PackedSheet& sheet, const Move* reference, SheetState& s) {
     }
 }
 
-void sweepTo(const PackedSheet& sheet, SheetState& s) {
+void sweepTo(const PackedSheet& sheet, SheetKernels::Blocks blocks, SheetState& s) {
     float* u = s.u.data()->data();
-    SheetBlock from;
-    for (const SheetBlock& to : sheet.blocks) {
+    for (const std::uint32_t b : blocks) {
+        const SheetBlock from = sheet.blockStart(b), &to = sheet.blocks[b];
         for (std::size_t p = from.edges; p < to.edges; ++p)
             for (std::size_t lane = 0; lane < 8; lane += lanes)
                 stretch(sheet.edges[p], lane, &s.stretch[8 * p], u);
@@ -263,16 +263,14 @@ void sweepTo(const PackedSheet& sheet, SheetState& s) {
             for (std::size_t lane = 0; lane < 8; lane += lanes)
                 bend(sheet, sheet.bends[p], lane, &s.bend[8 * p], u);
         for (std::size_t r = from.rims; r < to.rims; ++r) bendRim(sheet.rims[r], s.rim[r], s.u.data());
-        from = to;
     }
 }
 
-double sweepFro(const PackedSheet& sheet, SheetState& s) {
+double sweepFro(const PackedSheet& sheet, SheetKernels::Blocks blocks, SheetState& s) {
     float* u = s.u.data()->data();
     double energy = 0;
-    for (std::size_t b = sheet.blocks.size(); b-- > 0;) {
-        const SheetBlock& to = sheet.blocks[b];
-        const SheetBlock from = b > 0 ? sheet.blocks[b - 1] : SheetBlock{};
+    for (std::size_t k = blocks.size(); k-- > 0;) {
+        const SheetBlock from = sheet.blockStart(blocks[k]), &to = sheet.blocks[blocks[k]];
         for (std::size_t r = to.rims; r-- > from.rims;)
             energy += bendRim(sheet.rims[r], s.rim[r], s.u.data());
         V energies = all(0); // of a block in floats
@@ -291,38 +289,46 @@ double sweepFro(const PackedSheet& sheet, SheetState& s) {
     return energy / 2;
 }
 
-double strainEnergy(const PackedSheet& sheet, const SheetState& s) {
+double strainEnergy(const PackedSheet& sheet, SheetKernels::Blocks blocks, const SheetState& s) {
     double energy = 0;
-    const auto add = [&](const float* multipliers, const float* compliances) {
+    for (const std::uint32_t b : blocks) {
+        const SheetBlock from = sheet.blockStart(b), &to = sheet.blocks[b];
         V energies = all(0);
-        for (std::size_t lane = 0; lane < 8; lane += lanes) {
-            const V m = load(multipliers + lane);
-            energies = energies + load(compliances + lane) * m * m;
-        }
+        const auto add = [&](const float* multipliers, const float* compliances) {
+            for (std::size_t lane = 0; lane < 8; lane += lanes) {
+                const V m = load(multipliers + lane);
+                energies = energies + load(compliances + lane) * m * m;
+            }
+        };
+        for (std::size_t p = from.edges; p < to.edges; ++p) add(&s.stretch[8 * p], sheet.edges[p].compliance);
+        for (std::size_t p = from.bends; p < to.bends; ++p) add(&s.bend[8 * p], sheet.bends[p].compliance);
         energy += sum(energies);
-    };
-    for (std::size_t p = 0; p < sheet.edges.size(); ++p) add(&s.stretch[8 * p], sheet.edges[p].compliance);
-    for (std::size_t p = 0; p < sheet.bends.size(); ++p) add(&s.bend[8 * p], sheet.bends[p].compliance);
-    for (std::size_t r = 0; r < sheet.rims.size(); ++r)
-        energy += static_cast<double>(sheet.rims[r].compliance * s.rim[r].squaredNorm());
+        for (std::size_t r = from.rims; r < to.rims; ++r)
+            energy += static_cast<double>(sheet.rims[r].compliance * s.rim[r].squaredNorm());
+    }
     return energy / 2;
 }
 
-SheetMeasure measure(const PackedSheet& sheet, const Move* reference, const Move* before, const Move* u) {
-    constexpr std::size_t block = 256; // in floats, then in doubles
+SheetMeasure measure(const PackedSheet& sheet, std::span<const SheetRun> runs, const Move* before,
+                     const Move* u) {
+    constexpr std::uint32_t most = 256; // vertices in floats, then in doubles
     SheetMeasure result;
-    for (std::size_t v = 0; v < sheet.vertexCount();) {
-        Move energies = Move::Zero(), change = Move::Zero();
-        for (const std::size_t end = std::min(v + block, sheet.vertexCount()); v < end; ++v) {
-            const Move moved = u[v] - reference[v];
-            change = change.cwiseMax((u[v] - before[v]).cwiseAbs());
-            energies += (sheet.mass[v] * moved).cwiseProduct(0.5f * moved + reference[v]);
+    Move change = Move::Zero(), energies = Move::Zero();
+    std::uint32_t count = 0;
+    const auto take = [&] {
+        for (int k = 0; k < 3; ++k) result.dual += static_cast<double>(energies[k]) / 2;
+        energies.setZero();
+        count = 0;
+    };
+    for (const SheetRun& run : runs)
+        for (std::size_t v = run.first; v < run.last; ++v) {
+            const Move moved = u[v] - before[v];
+            change = change.cwiseMax(moved.cwiseAbs());
+            energies += (sheet.mass[v] * moved).cwiseProduct(u[v] + before[v]);
+            if (++count == most) take();
         }
-        for (int k = 0; k < 3; ++k) { // the fourth lane is no length
-            result.dual += static_cast<double>(energies[k]);
-            result.change = std::max(result.change, change[k]);
-        }
-    }
+    take();
+    result.change = change.head<3>().maxCoeff(); // the fourth lane is no length
     return result;
 }
 
@@ -350,7 +356,9 @@ namespace tss {
 
 SheetState::SheetState(const PackedSheet& sheet)
     : u(sheet.vertexCount() + 1, Move::Zero()), stretch(8 * sheet.edges.size(), 0),
-      bend(8 * sheet.bends.size(), 0), rim(sheet.rims.size(), Move::Zero()) {}
+      bend(8 * sheet.bends.size(), 0), rim(sheet.rims.size(), Move::Zero()) {
+    for (std::size_t v = 0; v < sheet.vertexCount(); ++v) u[v][3] = sheet.inverseMass[v];
+}
 
 namespace {
 

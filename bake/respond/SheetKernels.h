@@ -15,23 +15,30 @@ struct SheetState {
     explicit SheetState(const PackedSheet& sheet);
 };
 
+/// Vertices from the first to before the last.
+struct SheetRun {
+    std::uint32_t first = 0, last = 0;
+};
+
 /// What a sweep came to.
 struct SheetMeasure {
     float change = 0; ///< largest of a coordinate of a displacement
-    double dual = 0;  ///< sum over vertices of mass (u - r).((u - r)/2 + r), r the reference
+    double dual = 0;  ///< sum over vertices of mass (u - b).(u + b)/2, b the displacement before
 };
 
-/// The loops over a packed sheet, for one kind of vectors.
+/// The loops over a packed sheet, or some blocks of it, rising, for one kind of vectors.
 struct SheetKernels {
+    using Blocks = std::span<const std::uint32_t>;
+
     /// u = reference + w J^T m.
     void (*displace)(const PackedSheet&, const Move* reference, SheetState&);
     /// Every edge and bend once, in order.
-    void (*sweepTo)(const PackedSheet&, SheetState&);
+    void (*sweepTo)(const PackedSheet&, Blocks, SheetState&);
     /// Every bend and edge once, in reverse order. Returns 1/2 sum compliance m^2.
-    double (*sweepFro)(const PackedSheet&, SheetState&);
+    double (*sweepFro)(const PackedSheet&, Blocks, SheetState&);
     /// The same sum without a sweep.
-    double (*strainEnergy)(const PackedSheet&, const SheetState&);
-    SheetMeasure (*measure)(const PackedSheet&, const Move* reference, const Move* before, const Move* u);
+    double (*strainEnergy)(const PackedSheet&, Blocks, const SheetState&);
+    SheetMeasure (*measure)(const PackedSheet&, std::span<const SheetRun>, const Move* before, const Move* u);
     /// now += momentum (now - before); before: the old now.
     void (*extrapolate)(float momentum, float* now, float* before, std::size_t count);
 };

@@ -8,9 +8,6 @@
 namespace tss {
 namespace {
 
-/// Vertices of a block: 16 kB of displacements, half of a small nearest cache.
-constexpr std::uint32_t blockSize = 1024;
-
 /// The constraints of a block in groups that share no vertex, so that they can be taken at once, and that
 /// neighbours in the list do not wait for each other's result.
 template <class Constraint>
@@ -62,19 +59,21 @@ public:
         past_ = static_cast<std::uint32_t>(patch_.vertices.size());
         patch_.sheet.inverseMass.push_back(0);
         patch_.sheet.mass.push_back(0);
+        for (std::uint32_t v = 0; v < past_; ++v) owners_.push_back({PackedSheet::blockOf(v)});
     }
 
     SheetPatch pack() {
+        constexpr std::uint32_t blockSize = PackedSheet::blockSize;
         const std::size_t blocks = (past_ + blockSize - 1) / blockSize;
         std::vector<std::vector<SheetEdge>> edges(blocks);
         std::vector<std::vector<SheetBend>> bends(blocks);
         for (const SheetEdge& e : whole_.edges)
             if (inside_[e.i] && inside_[e.j])
-                edges[std::min(indexOf_[e.i], indexOf_[e.j]) / blockSize].push_back(e);
+                edges[PackedSheet::blockOf(std::min(indexOf_[e.i], indexOf_[e.j]))].push_back(e);
         for (const SheetBend& b : whole_.bends) {
             bool inside = inside_[b.centre];
             for (std::uint32_t k = b.first; k < b.last; ++k) inside = inside && inside_[whole_.ring[k]];
-            if (inside) bends[indexOf_[b.centre] / blockSize].push_back(b);
+            if (inside) bends[PackedSheet::blockOf(indexOf_[b.centre])].push_back(b);
         }
         Colours<SheetEdge> edgeColours(past_);
         Colours<SheetBend> bendColours(past_);
@@ -88,9 +87,17 @@ public:
                     for (std::uint32_t k = b.first; k < b.last; ++k) visit(indexOf_[whole_.ring[k]]);
                 });
             for (const auto& group : bendColours.take()) addBends(group);
-            patch_.sheet.blocks.push_back(
-                {size(patch_.sheet.edges), size(patch_.sheet.bends), size(patch_.sheet.rims)});
+            patch_.sheet.blocks.push_back({std::min(static_cast<std::uint32_t>(block + 1) * blockSize, past_),
+                                           size(patch_.sheet.edges), size(patch_.sheet.bends),
+                                           size(patch_.sheet.rims)});
+            for (const SheetEdge& e : edges[block])
+                for (const std::uint32_t v : {e.i, e.j}) own(block, v);
+            for (const SheetBend& b : bends[block]) {
+                own(block, b.centre);
+                for (std::uint32_t k = b.first; k < b.last; ++k) own(block, whole_.ring[k]);
+            }
         }
+        listOwners();
         return std::move(patch_);
     }
 
@@ -114,6 +121,30 @@ private:
                 pack.j[lane] = laneStart(indexOf_[e.j]);
             }
             patch_.sheet.edges.push_back(pack);
+        }
+    }
+
+    /// Constraints of the block move this vertex of the whole sheet.
+    void own(std::size_t block, std::uint32_t vertex) {
+        std::vector<std::uint32_t>& owners = owners_[indexOf_[vertex]];
+        const auto b = static_cast<std::uint32_t>(block);
+        if (std::find(owners.begin(), owners.end(), b) == owners.end()) owners.push_back(b);
+    }
+
+    void listOwners() {
+        PackedSheet& sheet = patch_.sheet;
+        std::vector<std::vector<std::uint32_t>> halo(sheet.blocks.size());
+        for (std::uint32_t v = 0; v < past_; ++v)
+            for (const std::uint32_t block : owners_[v])
+                if (block != PackedSheet::blockOf(v)) halo[block].push_back(v);
+        append(owners_, sheet.owners);
+        append(halo, sheet.halo);
+    }
+
+    static void append(const std::vector<std::vector<std::uint32_t>>& from, SheetLists& to) {
+        for (const std::vector<std::uint32_t>& list : from) {
+            to.at.insert(to.at.end(), list.begin(), list.end());
+            to.start.push_back(size(to.at));
         }
     }
 
@@ -162,6 +193,7 @@ private:
     const std::vector<bool>& inside_;
     std::vector<std::uint32_t> indexOf_;
     std::uint32_t past_ = 0;
+    std::vector<std::vector<std::uint32_t>> owners_; ///< of each vertex
     SheetPatch patch_;
 };
 

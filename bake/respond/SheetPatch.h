@@ -37,15 +37,25 @@ struct RimBend {
     float compliance, inverse;
 };
 
-/// A range of each kind of constraints, all near each other, so that what they read and write stays in the
-/// nearest cache.
+/// A range of vertices and of each kind of constraints, all near each other: what is swept, or left alone,
+/// together. Numbers are past the last of each kind; the first is where the block before ends.
 struct SheetBlock {
-    std::uint32_t edges = 0, bends = 0, rims = 0; ///< past the last of them; the first is where the block
-                                                  ///< before ends
+    std::uint32_t vertices = 0, edges = 0, bends = 0, rims = 0;
+};
+
+/// Lists, one behind the other: those of k from start[k] to start[k + 1].
+struct SheetLists {
+    std::vector<std::uint32_t> start{0}, at;
+
+    std::span<const std::uint32_t> operator[](std::size_t k) const {
+        return {at.data() + start[k], at.data() + start[k + 1]};
+    }
 };
 
 /// A sheet as the kernels sweep over it. Immutable, shared by all instances.
 struct PackedSheet {
+    static constexpr std::uint32_t blockSize = 64; ///< vertices of each block but the last
+
     std::vector<float> inverseMass; ///< #vertices and 0 for the one past the last
     std::vector<float> mass;        ///< 1 / inverseMass; 0: fixed
     std::vector<SheetBlock> blocks;
@@ -53,8 +63,12 @@ struct PackedSheet {
     std::vector<BendPack> bends;
     std::vector<RimBend> rims;
     std::vector<LaneStart> ring;
+    SheetLists owners; ///< of each vertex: the blocks whose constraints move it, its own first
+    SheetLists halo;   ///< of each block: the vertices of others that its constraints move, rising
 
     std::size_t vertexCount() const { return mass.size() - 1; }
+    SheetBlock blockStart(std::size_t block) const { return block > 0 ? blocks[block - 1] : SheetBlock{}; }
+    static std::uint32_t blockOf(std::uint32_t vertex) { return vertex / blockSize; }
 };
 
 /// A part of a sheet; what lies around it does not move.

@@ -54,6 +54,22 @@ int startAt(const int* triangles, const TrackPlace& place) {
     return before >= 0 || place.t == 0 ? before : triangles[place.node + 1];
 }
 
+void placeSpheres(const SkinMuscle& muscle, double activation, const Pose* pose, PlacedMuscle& placed) {
+    const TrackPlace at = locate(muscle.spheres.nodes, activation);
+    placed.centres.resize(muscle.radii.size(), Vec3::Zero());
+    placed.radii.resize(muscle.radii.size(), 0);
+    double farthest = 0;
+    for (std::size_t i = 0; i < muscle.radii.size(); ++i) {
+        const Vec3 x = trackPosition(muscle.spheres, at, i), centre = pose ? Vec3(*pose * x) : x;
+        const double radius = muscle.radii[i] * trackThickness(muscle.spheres, at, i);
+        farthest =
+            std::max(farthest, (centre - placed.centres[i]).norm() + std::abs(radius - placed.radii[i]));
+        placed.centres[i] = centre;
+        placed.radii[i] = radius;
+    }
+    placed.path += farthest;
+}
+
 void place(const SkinMuscle& muscle, double activation, const Pose& pose, PlacedMuscle& placed) {
     if (placed.activation == activation && placed.pose.matrix() == pose.matrix()) return;
     placed.activation = activation;
@@ -61,12 +77,8 @@ void place(const SkinMuscle& muscle, double activation, const Pose& pose, Placed
     placed.dragPlace = locate(muscle.drag.nodes, activation);
     const Pose* moved = isIdentity(pose) ? nullptr : &pose;
     follow(muscle.surface, activation, moved, placed.surface);
-    follow(muscle.spheres, activation, moved, placed.centres);
     findNormals(muscle.triangles, placed);
-    placed.radii.resize(muscle.radii.size());
-    const TrackPlace at = locate(muscle.spheres.nodes, activation);
-    for (std::size_t i = 0; i < placed.radii.size(); ++i)
-        placed.radii[i] = muscle.radii[i] * trackThickness(muscle.spheres, at, i);
+    placeSpheres(muscle, activation, moved, placed);
 }
 
 void addDrag(const SkinDrag& drag, const TrackPlace& place, std::vector<Move>& sum) {
@@ -145,25 +157,23 @@ SkinContact rowContact(const SkinRig& rig, const SkinScene& scene, std::size_t i
     SkinContact contact;
     // The spheres select: whether anything is near, and where to look when the skin was not before it at any
     // node of the muscle's own motion.
-    bool near = false;
-    int start = -1;
-    if (!row.met) {
-        double least = std::numeric_limits<double>::infinity();
-        for (std::uint32_t k = row.first; k < row.last; ++k) {
-            const std::uint32_t sphere = rig.tests[k].sphere;
-            const double gap = (x - placed.centres[sphere]).norm() - placed.radii[sphere];
-            if (gap > limit || gap >= least) continue;
-            least = gap;
-            start = muscle.behind[sphere];
-        }
-    } else {
-        for (std::uint32_t k = row.first; k < row.last && !near; ++k) {
-            const std::uint32_t sphere = rig.tests[k].sphere;
-            const double reach = limit + placed.radii[sphere];
-            near = (x - placed.centres[sphere]).squaredNorm() <= reach * reach;
-        }
-        if (near) start = startAt(&rig.rowTriangles[row.triangles], placed.dragPlace);
+    double least = std::numeric_limits<double>::infinity();
+    std::uint32_t nearest = 0;
+    for (std::uint32_t k = row.first; k < row.last; ++k) {
+        const std::uint32_t sphere = rig.tests[k].sphere;
+        const double squared = (x - placed.centres[sphere]).squaredNorm(),
+                     within = least + placed.radii[sphere];
+        if (!(squared < within * within)) continue;
+        least = std::sqrt(squared) - placed.radii[sphere];
+        nearest = sphere;
+        if (row.met && least <= limit) break;
     }
+    if (least > limit) {
+        contact.clear = least - limit;
+        return contact;
+    }
+    const int start =
+        row.met ? startAt(&rig.rowTriangles[row.triangles], placed.dragPlace) : muscle.behind[nearest];
     if (start < 0) return contact;
 
     const auto at = [&](int v) -> const Vec3& { return placed.surface[v]; };
@@ -174,6 +184,8 @@ SkinContact rowContact(const SkinRig& rig, const SkinScene& scene, std::size_t i
     smooth.normalize();
     contact.trust = trust(smooth.dot(placed.pose.linear() * row.facing));
     if (!(contact.trust > 0)) return contact;
+    contact.triangle = hit.triangle;
+    contact.weights = hit.weights;
     contact.normal = pushDirection(smooth, x - hit.point, row.radius);
     for (std::uint32_t& v : contact.vertex) v = row.vertex;
     contact.weight[0] = 1;
@@ -196,6 +208,8 @@ SkinContact pokeContact(const SkinRig& rig, const SkinScene& scene, std::size_t 
     const Vec3 smooth = predictedNormal(rig, scene, hit);
     contact.trust = trust(smooth.dot(muscle.normals[poke.vertex]));
     if (!(contact.trust > 0)) return contact;
+    contact.triangle = hit.triangle;
+    contact.weights = hit.weights;
     contact.normal =
         pushDirection((smooth + muscle.normals[poke.vertex]).normalized(), hit.point - x, poke.radius);
     Vec3 onSkin = Vec3::Zero();
@@ -241,6 +255,8 @@ SkinContact foldContact(const SkinRig& rig, const SkinScene& scene, std::size_t 
     int nearest = 0;
     hit.weights.maxCoeff(&nearest);
     const auto other = static_cast<std::uint32_t>(corners[nearest]);
+    contact.triangle = hit.triangle;
+    contact.weights = hit.weights;
     contact.normal = normal;
     contact.vertex[0] = contact.vertex[2] = fold.vertex;
     contact.vertex[1] = other;

@@ -17,6 +17,7 @@ struct PlacedMuscle {
     std::vector<Vec3> normals; ///< #V, outward, unit
     std::vector<Vec3> centres; ///< #spheres
     std::vector<double> radii; ///< #spheres
+    double path = 0;           ///< how far any sphere's surface has moved, all updates together
 };
 
 /// All muscles at given activations, and the skin as they drag it along without contact.
@@ -40,6 +41,10 @@ struct SkinContact {
     Vec3 normal = Vec3::Zero();   ///< unit; zero: nothing within reach
     double distance = 0;          ///< of the rest places from the plane: normal . sum weight_k rest_k - level
     double trust = 1;             ///< 0..1: 1 where skin and surface face the same way, falling smoothly to 0
+
+    int triangle = -1;           ///< that was met, of the muscle or of the skin
+    Vec3 weights = Vec3::Zero(); ///< of the point in it
+    double clear = 0;            ///< of a row with nothing near: how far from that, scene units
 
     bool found() const { return normal != Vec3::Zero(); }
 };

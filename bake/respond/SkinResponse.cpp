@@ -8,6 +8,10 @@ namespace {
 
 /// Change of a displacement in a sweep, as a share of the skin's size, at which the skin has settled.
 constexpr double settledShare = 2e-9;
+/// What skin may have moved since all around it was last balanced before it is balanced anew, as a share of
+/// the largest move of all, at one sweep an update; the more sweeps, the less. Where nothing changes any more
+/// all of it is.
+constexpr double calmShare = 0.05;
 constexpr int pushRounds = 8; ///< of the faithful mode
 
 double activationOf(std::span<const double> activations, const SkinMuscle& muscle, std::size_t m) {
@@ -19,7 +23,7 @@ double activationOf(std::span<const double> activations, const SkinMuscle& muscl
 } // namespace
 
 SkinResponse::SkinResponse(std::shared_ptr<const SkinRig> rig)
-    : rig_(std::move(rig)), solver_(rig_->contactPatch.sheet), strain_(rig_->weave),
+    : rig_(std::move(rig)), solver_(rig_->contactPatch.sheet), strain_(rig_->weave), watch_(*rig_),
       planes_(rig_->rows.size() + rig_->pokes.size() + rig_->folds.size()),
       still_(rig_->contactPatch.vertices.size(), Move::Zero()), positions_(rig_->rest),
       normals_(rig_->restNormals), kernels_(skinKernels()), activations_(rig_->muscles.size(), 0),
@@ -56,7 +60,7 @@ SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<c
         if (rig_->parameters.faithful)
             pushOut();
         else
-            solve();
+            solve(same);
         findNormals();
     }
     for (const SheetPlane& p : planes_) result.contacts += p.multiplier > 0;
@@ -65,10 +69,11 @@ SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<c
 
 void SkinResponse::toRest() {
     solver_.reset();
+    watch_.forget();
     std::fill(planes_.begin(), planes_.end(), SheetPlane{});
     positions_ = rig_->rest;
     normals_ = rig_->restNormals;
-    residual_ = 0;
+    residual_ = largest_ = 0;
     settled_ = atRest_ = true;
 }
 
@@ -102,24 +107,33 @@ void SkinResponse::pushOut() {
     residual_ = 0;
 }
 
-void SkinResponse::solve() {
-    findContacts();
+void SkinResponse::solve(bool same) {
+    findContacts(same);
+    const int sweeps = rig_->parameters.iterations;
     const float tolerance = static_cast<float>(settledShare * rig_->size);
+    const float calm = static_cast<float>(calmShare * largest_ / sweeps);
     const std::vector<std::uint32_t>& patch = rig_->contactPatch.vertices;
-    residual_ = solver_.solve(still_, planes_, rig_->parameters.iterations, tolerance);
-    settled_ = residual_ <= tolerance;
+    residual_ = same ? solver_.solve(still_, planes_, sweeps, tolerance)
+                     : solver_.follow(planes_, sweeps, tolerance, calm);
+    settled_ = same && residual_ <= tolerance;
     const std::span<const Move> moves = solver_.displacements();
     for (std::size_t v = 0; v < positions_.size(); ++v)
         positions_[v] = rig_->rest[v] + scene_.drag[v].head<3>().cast<double>();
-    for (std::size_t i = 0; i < patch.size(); ++i)
+    float largest = 0;
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+        largest = std::max(largest, moves[i].head<3>().squaredNorm());
         positions_[patch[i]] += scene_.turn.turned(patch[i], moves[i].head<3>().cast<double>());
+    }
+    largest_ = std::sqrt(static_cast<double>(largest));
     strain_.relax(rig_->rest, planes_, patch, scene_.drag, scene_.turn, positions_);
 }
 
-void SkinResponse::findContacts() {
+void SkinResponse::findContacts(bool same) {
     const std::size_t rows = rig_->rows.size(), pokes = rows + rig_->pokes.size();
     const std::span<const std::uint32_t> patch = rig_->contactPatch.vertices;
     for (std::size_t i = 0; i < planes_.size(); ++i) {
+        SheetPlane& plane = planes_[i];
+        if (!same && !watch_.due(*rig_, scene_, i, solver_.slack(plane))) continue;
         const SkinContact contact = i < rows    ? rowContact(*rig_, scene_, i)
                                     : i < pokes ? pokeContact(*rig_, scene_, i - rows)
                                                 : foldContact(*rig_, scene_, i - pokes);
@@ -129,7 +143,7 @@ void SkinResponse::findContacts() {
         const double radius = i < rows    ? rig_->rows[i].radius
                               : i < pokes ? rig_->pokes[i - rows].radius
                                           : rig_->foldRadius;
-        SheetPlane& plane = planes_[i];
+        watch_.note(*rig_, scene_, i, contact);
         Vec3 predicted = Vec3::Zero();
         for (int k = 0; k < contact.vertices; ++k)
             predicted +=

@@ -3,6 +3,7 @@
 #include "bake/respond/SkinContact.h"
 #include "bake/respond/SkinRig.h"
 #include "bake/respond/SkinStrain.h"
+#include "bake/respond/SkinWatch.h"
 
 #include <span>
 
@@ -23,7 +24,8 @@ struct SkinUpdate {
 ///     for k: mesh.vertices[rig->vertices[k]] = response.positions()[k], and the same for normals()
 ///
 /// Quasi-static: no time step, no velocity; the state is the multipliers of the last update, which only make
-/// the next one converge sooner. Same calls, same bits. With all activations 0 and all poses the identity the
+/// the next one converge sooner, and what of skin and contacts can wait since it has hardly moved. An update
+/// that changes nothing leaves nothing waiting. Same calls, same bits. With all activations 0 and all poses the identity the
 /// skin is exactly at rest, at once, whatever came before. Nothing is allocated after the first update.
 /// Not thread-safe: one thread an instance.
 class SkinResponse {
@@ -50,14 +52,15 @@ public:
 private:
     void toRest();
     void pushOut();
-    void solve();
-    void findContacts();
+    void solve(bool same);
+    void findContacts(bool same);
     void findNormals();
 
     std::shared_ptr<const SkinRig> rig_;
     SkinScene scene_;
     SkinSolver solver_;
     SkinStrain strain_;
+    SkinWatch watch_;
     std::vector<SheetPlane> planes_; ///< rows, then pokes, then folds
     std::vector<Move> still_;        ///< #vertices of the contact patch: the drags are taken in already
     std::vector<Vec3> positions_, normals_;
@@ -66,7 +69,7 @@ private:
     std::vector<SkinPlace> normalSums_; ///< the same
     std::vector<double> activations_;
     std::vector<Pose> poses_;
-    double residual_ = 0;
+    double residual_ = 0, largest_ = 0; ///< the latter of the sheet's displacements
     bool atRest_ = true, settled_ = false;
 };
 

@@ -23,7 +23,7 @@ struct SkinParameters {
     std::vector<double> attach;    ///< #V in [0,1], how firmly the muscle below carries it; empty: falls off
                                    ///< smoothly around the end of the fibre that moves
     bool selfContact = false;      ///< the skin also keeps out of itself: lip against lip, lid against lid
-    int iterations = 8;            ///< most sweeps over all constraints an update, >= 1
+    int iterations = 8;            ///< most sweeps an update over the constraints of what moves, >= 1
     bool faithful = false;         ///< [paper] spheres push spheres out, no elastic sheet
 };
 

@@ -107,6 +107,7 @@ struct RandomSheet {
         matrix.setFromTriplets(entries.begin(), entries.end());
         const Eigen::VectorXd x = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(right);
         std::vector<Vec3> result;
+        result.reserve(n);
         for (int v = 0; v < n; ++v) result.emplace_back(x.segment<3>(3 * v));
         return result;
     }
@@ -198,4 +199,55 @@ TEST_CASE("planes hold what they meet, alone or between three vertices") {
     }
     solver.solve(random.reference, far, 300, 1e-7f);
     CHECK(largestDifference(solver.displacements(), random.solved()) < 1e-5);
+}
+
+TEST_CASE("planes that move on are followed where they push, what is not moved is left alone") {
+    RandomSheet random;
+    const SheetPatch patch = patchOf(random.sheet, std::vector<bool>(side * side, true));
+    const std::vector<Move> still(side * side, Move::Zero());
+    constexpr float calm = 1e-3f;
+    SheetPlane plane;
+    plane.normal = Move(0, 0.6f, 0.8f, 0);
+    for (int k = 0; k < 3; ++k) {
+        plane.vertex[k] = 700 + static_cast<std::uint32_t>(k);
+        plane.weight[k] = k == 0 ? 0.5f : 0.25f;
+    }
+    std::vector<SheetPlane> followed{plane}, solved{plane};
+    SkinSolver following(patch.sheet), solving(patch.sheet);
+    const auto difference = [&] {
+        double largest = 0;
+        for (std::size_t v = 0; v < still.size(); ++v)
+            largest = std::max(
+                largest,
+                static_cast<double>(
+                    (following.displacements()[v] - solving.displacements()[v]).cwiseAbs().maxCoeff()));
+        return largest;
+    };
+    const auto solve = [&] { solving.solve(still, solved, 300, 1e-7f); };
+    std::vector<Move> before;
+    for (int step = 1; step <= 50; ++step) {
+        followed[0].bound = solved[0].bound = 0.02f * static_cast<float>(step);
+        before.assign(following.displacements().begin(), following.displacements().end());
+        following.follow(followed, 8, 1e-7f, calm);
+        solve();
+        INFO("step " << step);
+        CHECK(difference() < 4 * calm);
+    }
+    CHECK(following.slack(followed[0]) > -0.05f);
+    std::size_t same = 0;
+    for (std::size_t v = 0; v < before.size(); ++v) same += before[v] == following.displacements()[v];
+    CHECK(same > still.size() / 2);
+    for (int step = 0; step < 600; ++step)
+        following.follow(followed, 8, 1e-7f, calm); // longer than rounding adds up
+    CHECK(difference() < 4 * calm);
+    // A plane that is no longer there has no say, and one that turns pushes the new way.
+    followed[0].normal = solved[0].normal = Move(0.8f, 0, 0.6f, 0);
+    for (int step = 0; step < 20; ++step) following.follow(followed, 8, 1e-7f, calm);
+    solve();
+    CHECK(difference() < 4 * calm);
+    followed[0].normal = solved[0].normal = Move::Zero();
+    for (int step = 0; step < 20; ++step) following.follow(followed, 8, 1e-7f, calm);
+    solve();
+    CHECK(difference() < 4 * calm);
+    CHECK(following.displacements()[700].head<3>().norm() < 4 * calm);
 }
