@@ -299,14 +299,13 @@ void CellExaminer::deepestBelow(const CellMotion& motion, ReachPair& best, doubl
 
 /// The DOF that moves the deepest pair most; another pair when that one hardly moves at all.
 std::size_t CellExaminer::widestDof(const CellMotion& motion) const {
-    Vec3 x;
     if (here_.empty()) {
-        x = motion.centrePose() * p_.treeB[nodes_.front().b].centre;
-    } else {
-        const auto fastest = std::max_element(here_.begin(), here_.end(),
-                                              [](const auto& p, const auto& q) { return p.move < q.move; });
-        x = here_.front().move >= 0.5 * fastest->move ? here_.front().x : fastest->x;
+        const SphereTree::Node& node = p_.treeB[nodes_.front().b];
+        return tss::widestDof(motion, node.centre, node.radius);
     }
+    const auto fastest = std::max_element(here_.begin(), here_.end(),
+                                          [](const auto& p, const auto& q) { return p.move < q.move; });
+    const Vec3 x = here_.front().move >= 0.5 * fastest->move ? here_.front().x : fastest->x;
     const auto share = motion.shares(x);
     return static_cast<std::size_t>(
         std::max_element(share.begin(), share.begin() + static_cast<std::ptrdiff_t>(motion.dofs())) -

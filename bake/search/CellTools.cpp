@@ -45,4 +45,11 @@ std::pair<Cell, Cell> splitCell(const MotionRates& rates, const Cell& cell, std:
     return halves;
 }
 
+std::size_t widestDof(const CellMotion& motion, const Vec3& centre, double radius) {
+    auto share = motion.shares(motion.centrePose() * centre);
+    for (std::size_t k = 0; k < motion.dofs(); ++k) share[k] += motion.relativeShare(k) * radius;
+    return static_cast<std::size_t>(std::max_element(share.begin(), share.begin() + motion.dofs()) -
+                                    share.begin());
+}
+
 } // namespace tss

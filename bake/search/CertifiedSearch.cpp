@@ -53,15 +53,17 @@ public:
         if (stop_ || done() || !shrinkToPlanes(p_.rates.motion(), inside)) return;
         ++cells_;
         const CellMotion motion(p_.rates, inside);
-        std::vector<NodePair> left, stack(open);
-        while (!stack.empty()) {
-            const NodePair pair = stack.back();
-            stack.pop_back();
-            ++looks_;
-            judge(motion, pair, stack, left);
-        }
+        std::vector<NodePair> left = judgeAll(motion, open);
         if (left.empty()) return;
-        const auto [lower, upper] = splitCell(p_.rates, inside, widest(motion));
+        const std::size_t k = widestDof(motion, p_.treeB[0].centre, p_.treeB[0].radius);
+        const auto [lower, upper] = splitCell(p_.rates, inside, k);
+        if (lower.upper[k] <= inside.lower[k] || lower.upper[k] >= inside.upper[k]) {
+            // No number is left between the limits: what may touch counts as touching.
+            finest_ = true;
+            judgeAll(motion, left);
+            finest_ = false;
+            return;
+        }
         run(lower, left);
         run(upper, left);
     }
@@ -74,6 +76,18 @@ public:
 private:
     bool done() const { return (p_.firstOnly && any_) || spent(); }
 
+    /// Returns the pairs that only smaller cells can tell of.
+    std::vector<NodePair> judgeAll(const CellMotion& motion, const std::vector<NodePair>& open) {
+        std::vector<NodePair> left, stack(open);
+        while (!stack.empty()) {
+            const NodePair pair = stack.back();
+            stack.pop_back();
+            ++looks_;
+            judge(motion, pair, stack, left);
+        }
+        return left;
+    }
+
     void judge(const CellMotion& motion, NodePair pair, std::vector<NodePair>& stack,
                std::vector<NodePair>& left) {
         const SphereTree::Node &na = p_.treeA[pair.a], &nb = p_.treeB[pair.b];
@@ -83,7 +97,7 @@ private:
         if (na.leaf() && nb.leaf()) return judgeSpheres(motion, pair, x, reach, left);
         if ((x - na.centre).norm() - reach.move > sum + p_.margin) return;
         // Smaller balls do not help where the motion is what blurs the answer.
-        if (sum < reach.move && reach.move > p_.tolerance) {
+        if (sum < reach.move && reach.move > p_.tolerance && !finest_) {
             left.push_back(pair);
         } else if (!na.leaf() && (nb.leaf() || na.radius >= nb.radius)) {
             stack.push_back({na.right, pair.b});
@@ -102,7 +116,7 @@ private:
         if (limit < 0 || found_.contains(pair) || p_.known.contains(pair)) return;
         const PairAt at(motion, x, reach, sa.centre);
         if (at.staysAbove(limit)) return;
-        if (reach.move <= p_.tolerance ||
+        if (reach.move <= p_.tolerance || finest_ ||
             (at.distance <= limit && withinLimits(p_.rates.motion(), motion.centre()))) {
             found_.insert(pair);
             any_ = true;
@@ -111,18 +125,10 @@ private:
         }
     }
 
-    /// The DOF that moves body B most, in this cell.
-    std::size_t widest(const CellMotion& motion) const {
-        const auto& root = p_.treeB[0];
-        const auto share = motion.shares(motion.centrePose() * root.centre + root.radius * Vec3::UnitX());
-        return static_cast<std::size_t>(std::max_element(share.begin(), share.begin() + motion.dofs()) -
-                                        share.begin());
-    }
-
     const Problem& p_;
     const std::atomic<bool>& stop_;
     PairBits found_;
-    bool any_ = false;
+    bool any_ = false, finest_ = false;
     std::uint64_t cells_ = 0, looks_ = 0;
 };
 

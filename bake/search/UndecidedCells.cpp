@@ -77,15 +77,6 @@ Verdict judge(const Problem& p, const CellMotion& motion, const std::vector<Node
     return open.empty() ? Verdict::Free : Verdict::Open;
 }
 
-/// The DOF that moves the spheres of B most; counts their spread about the centre, which may lie on an axis.
-std::size_t widest(const Problem& p, const CellMotion& motion) {
-    const SphereTree::Node& root = p.treeB[0];
-    auto share = motion.shares(motion.centrePose() * root.centre);
-    for (std::size_t k = 0; k < motion.dofs(); ++k) share[k] += motion.relativeShare(k) * root.radius;
-    return static_cast<std::size_t>(std::max_element(share.begin(), share.begin() + motion.dofs()) -
-                                    share.begin());
-}
-
 class Decider {
 public:
     Decider(const Problem& problem, const std::atomic<bool>& stop) : p_(problem), stop_(stop) {}
@@ -112,7 +103,8 @@ public:
 
 private:
     std::vector<CellTree> halves(const Cell& cell, const CellMotion& motion) const {
-        const auto [lower, upper] = splitCell(p_.rates, cell, widest(p_, motion));
+        const auto [lower, upper] =
+            splitCell(p_.rates, cell, widestDof(motion, p_.treeB[0].centre, p_.treeB[0].radius));
         return {CellTree{lower, {}}, CellTree{upper, {}}};
     }
 
@@ -131,7 +123,7 @@ std::vector<CellTree> pieces(const Problem& p, const CellTree& tree, std::size_t
                 continue;
             }
             const CellMotion motion(p.rates, piece.cell);
-            const std::size_t k = widest(p, motion);
+            const std::size_t k = widestDof(motion, p.treeB[0].centre, p.treeB[0].radius);
             if (!(piece.cell.upper[k] > piece.cell.lower[k])) {
                 next.push_back(piece);
                 continue;

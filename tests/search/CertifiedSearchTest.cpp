@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
 
 using namespace tss;
 
@@ -38,6 +40,56 @@ TEST_CASE("the certified search finds every pair that any sampled pose shows") {
         CHECK(std::includes(certified.pairs.begin(), certified.pairs.end(), sampled.pairs.begin(),
                             sampled.pairs.end()));
     }
+}
+
+TEST_CASE("a hinge is cut also where a point of the other body comes to lie on its axis") {
+    // Slides far from 0, in numbers that are 2e-13 apart, bring any point of B's ball onto the axis.
+    const double far = 1549, degree = std::numbers::pi / 180;
+    for (int direction = 0; direction < 16; ++direction) {
+        INFO("direction " << direction);
+        scenes::Random random(7);
+        SphereSet a;
+        for (int k = 0; k < 300; ++k) a.push_back({random.inBox(1.2), random.in(0.002, 0.01)});
+        const SphereSet b{{Vec3(-0.4, 0, 0), 0.1}, {Vec3(0.4, 0, 0), 0.1}};
+        const double angle = 22.5 * (direction + 0.5) * degree;
+        Motion motion;
+        motion.base.translation() = Vec3(0.5 * std::cos(angle) - far, 0.5 * std::sin(angle) - far, 0);
+        motion.dofs = {joints::turn({0, 0, 0}, {0, 0, 1}, -45 * degree, 45 * degree),
+                       joints::slide({1, 0, 0}, far - 0.02, far + 0.02),
+                       joints::slide({0, 1, 0}, far - 0.02, far + 0.02)};
+        const auto certified = searchCertified(a, b, motion, colliding(0.0005));
+        SampledSearchOptions options;
+        options.samples = 1000;
+        options.atRest = AtRest::Collide;
+        const auto sampled = searchSampled(a, b, motion, options);
+        CHECK(certified.certified);
+        CHECK(std::includes(certified.pairs.begin(), certified.pairs.end(), sampled.pairs.begin(),
+                            sampled.pairs.end()));
+    }
+}
+
+TEST_CASE("a search ends where no number is left between the limits of a cell") {
+    // At a lever of 1e9 two neighbouring angles are 4e-7 apart, a hundred times the tolerance. B comes from
+    // the side and all but touches A at the last of them.
+    const SphereSet a{{Vec3::Zero(), 1}}, b{{Vec3::Zero(), 1}};
+    std::size_t touching = 0, clear = 0;
+    double last = 3 + 1e-8;
+    for (int k = -20; k <= 20; ++k) {
+        INFO("gap " << k * 4e-8);
+        last = std::nextafter(last, 4); // even and odd in turn: one rounds to the last, one before it
+        const Dof turn = joints::turn({0, -1e9, 0}, {0, 0, 1}, 3, last);
+        Motion motion;
+        motion.dofs = {turn};
+        motion.base = dofPose(turn, last).inverse() * Eigen::Translation3d(2 + k * 4e-8, 0, 0);
+        CertifiedSearchOptions options;
+        options.atRest = AtRest::Ignore; // with another, samples would find the last angle first
+        options.tolerance = 0;
+        const auto found = searchCertified(a, b, motion, options);
+        CHECK(found.certified);
+        ++(found.pairs.empty() ? clear : touching);
+    }
+    CHECK(touching > 0);
+    CHECK(clear > 0);
 }
 
 TEST_CASE("no pair is listed whose gap stays above margin and tolerance") {
