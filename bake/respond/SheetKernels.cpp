@@ -36,6 +36,9 @@ HWY_INLINE V mulAdd(const V& a, const V& b, const V& c) {
 HWY_INLINE V negMulAdd(const V& a, const V& b, const V& c) {
     return c - a * b;
 }
+HWY_INLINE V larger(const V& a, const V& b) {
+    return a.max(b);
+}
 template <int k>
 HWY_INLINE V broadcast(const V& value) {
     return V::Constant(value[k]);
@@ -72,6 +75,9 @@ HWY_INLINE V mulAdd(V a, V b, V c) {
 HWY_INLINE V negMulAdd(V a, V b, V c) {
     return hn::NegMulAdd(a, b, c);
 }
+HWY_INLINE V larger(V a, V b) {
+    return hn::Max(a, b);
+}
 /// Of each half its own lane.
 template <int k>
 HWY_INLINE V broadcast(V value) {
@@ -95,6 +101,22 @@ HWY_INLINE V gather(const float* u, const std::uint32_t* list, std::size_t strid
 #else
     (void)stride;
     return load(u + list[0]);
+#endif
+}
+/// Of one vertex, or of it and the next.
+HWY_INLINE V masses(const float* mass) {
+#if TSS_SHEET_PAIRS
+    return hn::Combine(Floats(), hn::Set(One(), mass[1]), hn::Set(One(), mass[0]));
+#else
+    return all(mass[0]);
+#endif
+}
+/// One vertex, and nothing beside it.
+HWY_INLINE V one(const float* u) {
+#if TSS_SHEET_PAIRS
+    return hn::ZeroExtendVector(Floats(), hn::Load(One(), u));
+#else
+    return load(u);
 #endif
 }
 HWY_INLINE void scatter(const V& value, float* u, const std::uint32_t* list, std::size_t stride) {
@@ -311,24 +333,32 @@ double strainEnergy(const PackedSheet& sheet, SheetKernels::Blocks blocks, const
 
 SheetMeasure measure(const PackedSheet& sheet, std::span<const SheetRun> runs, const Move* before,
                      const Move* u) {
+    constexpr std::size_t together = lanes / 4;
     constexpr std::uint32_t most = 256; // vertices in floats, then in doubles
     SheetMeasure result;
-    Move change = Move::Zero(), energies = Move::Zero();
+    V farthest = all(0), energies = all(0); // the fourth lanes never change: 0
     std::uint32_t count = 0;
-    const auto take = [&] {
-        for (int k = 0; k < 3; ++k) result.dual += static_cast<double>(energies[k]) / 2;
-        energies.setZero();
-        count = 0;
+    const auto add = [&](const V& mass, const V& was, const V& is) {
+        const V moved = is - was;
+        farthest = larger(farthest, larger(moved, was - is));
+        energies = mulAdd(mass * moved, is + was, energies);
     };
-    for (const SheetRun& run : runs)
-        for (std::size_t v = run.first; v < run.last; ++v) {
-            const Move moved = u[v] - before[v];
-            change = change.cwiseMax(moved.cwiseAbs());
-            energies += (sheet.mass[v] * moved).cwiseProduct(u[v] + before[v]);
-            if (++count == most) take();
+    for (const SheetRun& run : runs) {
+        std::size_t v = run.first;
+        for (; v + together <= run.last; v += together) {
+            add(masses(&sheet.mass[v]), load(before[v].data()), load(u[v].data()));
+            if (++count == most) {
+                result.dual += sum(energies);
+                energies = all(0);
+                count = 0;
+            }
         }
-    take();
-    result.change = change.head<3>().maxCoeff(); // the fourth lane is no length
+        for (; v < run.last; ++v) add(all(sheet.mass[v]), one(before[v].data()), one(u[v].data()));
+    }
+    result.dual = (result.dual + sum(energies)) / 2;
+    float lane[lanes];
+    store(farthest, lane);
+    result.change = *std::max_element(lane, lane + lanes);
     return result;
 }
 

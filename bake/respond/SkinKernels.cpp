@@ -6,6 +6,8 @@
 
 #include "bake/respond/SkinKernels.h"
 
+#include <cmath>
+
 HWY_BEFORE_NAMESPACE();
 namespace tss {
 namespace HWY_NAMESPACE {
@@ -34,6 +36,9 @@ HWY_INLINE void transpose(V& a, V& b, V& c, V& d) {
     b = hn::ConcatLowerLower(f, CD, AB);
     c = hn::ConcatUpperUpper(f, cd, ab);
     d = hn::ConcatUpperUpper(f, CD, AB);
+}
+HWY_INLINE V root(V x) {
+    return hn::Sqrt(x);
 }
 using M = hn::Mask<Doubles>;
 HWY_INLINE M above(V a, V b) {
@@ -71,6 +76,9 @@ HWY_INLINE void transpose(V& a, V& b, V& c, V& d) {
     b = {A[1], B[1], C[1], D[1]};
     c = {A[2], B[2], C[2], D[2]};
     d = {A[3], B[3], C[3], D[3]};
+}
+HWY_INLINE V root(const V& x) {
+    return x.sqrt();
 }
 using M = Eigen::Array<bool, 4, 1>;
 HWY_INLINE M above(const V& a, const V& b) {
@@ -185,7 +193,32 @@ void normals(std::span<const Tri> triangles, const SkinPlace* places, SkinPlace*
             sums[triangles[e][corner]].head<3>() += normalOf(triangles[e], places);
 }
 
-constexpr SkinKernels kernels{links, triangles, normals};
+void normalise(const SkinPlace* sums, std::span<Vec3> normals) {
+    const std::size_t count = normals.size(), whole = count / 4 * 4;
+    const auto one = [&](std::size_t v) {
+        const Vec3 n = sums[v].head<3>();
+        const double squared = n.x() * n.x() + (n.y() * n.y() + n.z() * n.z());
+        normals[v] = squared > 0 ? Vec3(n / std::sqrt(squared)) : n;
+    };
+    for (std::size_t v = 0; v < whole; v += 4) {
+        const Vectors n = gather(sums + v, [](int k) { return k; });
+        const V squared = dot(n, n);
+        if (fails(above(squared, all(0))) != 0) {
+            for (std::size_t k = v; k < v + 4; ++k) one(k);
+            continue;
+        }
+        const V length = root(squared);
+        V of[4] = {n.x / length, n.y / length, n.z / length, all(0)};
+        transpose(of[0], of[1], of[2], of[3]);
+        SkinPlace last;
+        for (int k = 0; k < 3; ++k) store(of[k], normals[v + k].data()); // and over the start of the next one
+        store(of[3], last.data());
+        normals[v + 3] = last.head<3>();
+    }
+    for (std::size_t v = whole; v < count; ++v) one(v);
+}
+
+constexpr SkinKernels kernels{links, triangles, normals, normalise};
 
 const SkinKernels* choose() {
     return &kernels;

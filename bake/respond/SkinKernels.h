@@ -12,6 +12,8 @@ struct SkinKernels {
     void (*triangles)(const SkinWeave&, const SkinPlace* places, std::uint64_t* over);
     /// Adds the normal of each triangle, twice its area long, to its corners.
     void (*normals)(std::span<const Tri> triangles, const SkinPlace* places, SkinPlace* sums);
+    /// What is 0 long stays so.
+    void (*normalise)(const SkinPlace* sums, std::span<Vec3> normals);
 };
 
 /// target: must be available.

@@ -117,8 +117,7 @@ void SkinResponse::solve(bool same) {
                      : solver_.follow(planes_, sweeps, tolerance, calm);
     settled_ = same && residual_ <= tolerance;
     const std::span<const Move> moves = solver_.displacements();
-    for (std::size_t v = 0; v < positions_.size(); ++v)
-        positions_[v] = rig_->rest[v] + scene_.drag[v].head<3>().cast<double>();
+    positions_ = scene_.predicted;
     float largest = 0;
     for (std::size_t i = 0; i < patch.size(); ++i) {
         largest = std::max(largest, moves[i].head<3>().squaredNorm());
@@ -178,7 +177,7 @@ void SkinResponse::findNormals() {
     for (std::size_t v = 0; v < positions_.size(); ++v) places_[v].head<3>() = positions_[v];
     std::fill(normalSums_.begin(), normalSums_.end(), SkinPlace::Zero());
     kernels_.normals(rig_->normalTriangles, places_.data(), normalSums_.data());
-    for (std::size_t v = 0; v < normals_.size(); ++v) normals_[v] = normalSums_[v].head<3>().normalized();
+    kernels_.normalise(normalSums_.data(), normals_);
 }
 
 } // namespace tss

@@ -31,6 +31,7 @@ void SkinSolver::reset() {
     balanced_.assign(state_.u.begin(), state_.u.end() - 1);
     std::fill(isRestless_.begin(), isRestless_.end(), 1);
     old_.clear();
+    follows_ = 0; // or rounding would depend on how long ago it began
 }
 
 void SkinSolver::scale(float factor) {

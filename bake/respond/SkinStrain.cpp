@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace tss {
 namespace {
@@ -42,10 +43,11 @@ SkinStrain::SkinStrain(const SkinWeave& weave, KernelTarget target)
       linkRound_(weave.links.size(), 0), triangleRound_(weave.triangles.size(), 0),
       vertexRound_(places_.size(), 0) {}
 
-void SkinStrain::touch(std::uint32_t vertex) {
-    if (vertexRound_[vertex] == round_) return;
+bool SkinStrain::touch(std::uint32_t vertex) {
+    if (vertexRound_[vertex] == round_) return false;
     vertexRound_[vertex] = round_;
     moved_.push_back(vertex);
+    return true;
 }
 
 /// With d the edge at rest, turned, and m the difference of the displacements: the largest s in [0, 1] for
@@ -99,19 +101,33 @@ bool SkinStrain::relaxTriangle(std::uint32_t index, std::span<const Vec3> rest, 
     return true;
 }
 
-void SkinStrain::press(std::span<const SheetPlane> planes, std::span<const std::uint32_t> patch,
-                       std::span<const Vec3> rest, std::span<const Move> without, const SkinTurn& turn,
-                       std::span<Vec3> positions) {
-    if (round_ == 1) {
-        presses_.clear();
-        for (std::uint32_t i = 0; i < planes.size(); ++i)
-            if (planes[i].used()) presses_.push_back({i, cornersOf(planes[i], patch)});
+void SkinStrain::listPresses(std::span<const SheetPlane> planes, std::span<const std::uint32_t> patch) {
+    presses_.clear();
+    pressStart_.assign(places_.size() + 1, 0);
+    for (std::uint32_t i = 0; i < planes.size(); ++i) {
+        if (!planes[i].used()) continue;
+        presses_.push_back({i, cornersOf(planes[i], patch)});
+        for (const std::uint32_t v : presses_.back().corners) ++pressStart_[v];
     }
-    for (const Press& press : presses_) {
+    // From counts to ends, and while they are filled from the back to starts.
+    std::partial_sum(pressStart_.begin(), pressStart_.end(), pressStart_.begin());
+    pressOf_.resize(pressStart_.back());
+    for (std::size_t i = presses_.size(); i-- > 0;)
+        for (const std::uint32_t v : presses_[i].corners)
+            pressOf_[--pressStart_[v]] = static_cast<std::uint32_t>(i);
+}
+
+/// Of the contacts of what moved in this round, and what they move in turn.
+void SkinStrain::press(std::span<const SheetPlane> planes, std::span<const Vec3> rest,
+                       std::span<const Move> without, const SkinTurn& turn, std::span<Vec3> positions) {
+    pressMarks_.assign(wordsFor(presses_.size()), 0);
+    const auto mark = [&](std::uint32_t v) {
+        for (std::uint32_t k = pressStart_[v]; k < pressStart_[v + 1]; ++k) setBit(pressMarks_, pressOf_[k]);
+    };
+    for (const std::uint32_t v : moved_) mark(v);
+    forEachBit(pressMarks_, [&](std::uint32_t i) {
+        const Press& press = presses_[i];
         const std::array<std::uint32_t, 3>& corners = press.corners;
-        if (vertexRound_[corners[0]] != round_ && vertexRound_[corners[1]] != round_ &&
-            vertexRound_[corners[2]] != round_)
-            continue;
         const SheetPlane& p = planes[press.plane];
         const Vec3 normal = turn.of(corners) * p.normal.head<3>().cast<double>();
         // As deep as the solve has left it it may stay: else it would jump out as soon as an edge nearby is
@@ -123,13 +139,14 @@ void SkinStrain::press(std::span<const SheetPlane> planes, std::span<const std::
                    normal.dot(positions[v] - rest[v] - without[v].head<3>().cast<double>());
             weights += static_cast<double>(p.weight[k] * p.weight[k]);
         }
-        if (gap >= 0 || !(weights > 0)) continue;
+        if (gap >= 0 || !(weights > 0)) return;
         for (int k = 0; k < 3; ++k) {
+            const std::uint32_t v = corners[k];
             if (p.weight[k] == 0) continue;
-            positions[corners[k]] -= (pressShare * gap * static_cast<double>(p.weight[k]) / weights) * normal;
-            touch(corners[k]);
+            positions[v] -= (pressShare * gap * static_cast<double>(p.weight[k]) / weights) * normal;
+            if (touch(v)) mark(v);
         }
-    }
+    });
 }
 
 /// Marks what the first round has to look at: what is beyond its limits, to begin with.
@@ -207,7 +224,8 @@ std::size_t SkinStrain::relax(std::span<const Vec3> rest, std::span<const SheetP
             for (const std::uint32_t e : triangles_) triangle(e);
         }
         if (moved_.empty()) break;
-        if (round < pressedRounds) press(planes, patch, rest, without, turn, positions);
+        if (round == 0) listPresses(planes, patch);
+        if (round < pressedRounds) press(planes, rest, without, turn, positions);
         gather();
     }
     return beyond;

@@ -41,10 +41,10 @@ private:
                        std::span<Vec3> positions) const;
     void survey(const SkinTurn& turn, std::span<const Vec3> positions);
     void markAround(std::uint32_t vertex);
-    void touch(std::uint32_t vertex);
-    void press(std::span<const SheetPlane> planes, std::span<const std::uint32_t> patch,
-               std::span<const Vec3> rest, std::span<const Move> without, const SkinTurn& turn,
-               std::span<Vec3> positions);
+    bool touch(std::uint32_t vertex); ///< whether for the first time in this round
+    void listPresses(std::span<const SheetPlane> planes, std::span<const std::uint32_t> patch);
+    void press(std::span<const SheetPlane> planes, std::span<const Vec3> rest, std::span<const Move> without,
+               const SkinTurn& turn, std::span<Vec3> positions);
     void gather();
 
     /// A contact that is in use, and its vertices in the whole sheet.
@@ -58,6 +58,8 @@ private:
     std::vector<SkinPlace> places_;
     std::vector<std::uint64_t> linkMarks_, triangleMarks_; ///< a bit each: to be looked at in the first round
     std::vector<Press> presses_;
+    std::vector<std::uint32_t> pressStart_, pressOf_; ///< of each vertex in presses_, as in SkinWeave
+    std::vector<std::uint64_t> pressMarks_;           ///< a bit each: to be looked at in this round
     std::vector<std::uint32_t> links_, triangles_, moved_;
     std::vector<std::uint32_t> linkRound_, triangleRound_, vertexRound_;
     std::uint32_t round_ = 0;

@@ -1,6 +1,7 @@
 #include "SkinShapes.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -153,6 +154,15 @@ TEST_CASE("every kernel finds what is beyond its limits, and the same normals to
             CHECK(links == beyond);
             CHECK(triangles == over);
             for (std::size_t v = 0; v < sums.size(); ++v) REQUIRE(sums[v].head<3>() == normals[v].head<3>());
+            sums[6].setZero(); // as where no triangle is
+            std::vector<Vec3> units(sums.size() / 4 * 4 - 4 + left);
+            kernels.normalise(sums.data(), units);
+            CHECK(units[6] == Vec3::Zero());
+            for (std::size_t v = 0; v < units.size(); ++v) {
+                const Vec3 n = sums[v].head<3>();
+                const double squared = n.x() * n.x() + (n.y() * n.y() + n.z() * n.z());
+                REQUIRE(units[v] == (squared > 0 ? Vec3(n / std::sqrt(squared)) : n));
+            }
         }
     }
 }
