@@ -385,9 +385,17 @@ HWY_AFTER_NAMESPACE();
 namespace tss {
 
 SheetState::SheetState(const PackedSheet& sheet)
-    : u(sheet.vertexCount() + 1, Move::Zero()), stretch(8 * sheet.edges.size(), 0),
-      bend(8 * sheet.bends.size(), 0), rim(sheet.rims.size(), Move::Zero()) {
-    for (std::size_t v = 0; v < sheet.vertexCount(); ++v) u[v][3] = sheet.inverseMass[v];
+    : u(sheet.vertexCount() + 1, Move::Zero()), stretch(8 * sheet.edges.size()), bend(8 * sheet.bends.size()),
+      rim(sheet.rims.size()) {
+    reset(sheet);
+}
+
+void SheetState::reset(const PackedSheet& sheet) {
+    for (std::size_t v = 0; v < sheet.vertexCount(); ++v) u[v] = Move(0, 0, 0, sheet.inverseMass[v]);
+    u.back().setZero();
+    std::fill(stretch.begin(), stretch.end(), 0.0f);
+    std::fill(bend.begin(), bend.end(), 0.0f);
+    std::fill(rim.begin(), rim.end(), Move::Zero());
 }
 
 namespace {

@@ -13,6 +13,8 @@ struct SheetState {
     std::vector<Move> rim;      ///< one a bend along a rim
 
     explicit SheetState(const PackedSheet& sheet);
+    /// As it was made.
+    void reset(const PackedSheet& sheet);
 };
 
 /// Vertices from the first to before the last.

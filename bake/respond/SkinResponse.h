@@ -26,8 +26,8 @@ struct SkinUpdate {
 /// Quasi-static: no time step, no velocity; the state is the multipliers of the last update, which only make
 /// the next one converge sooner, and what of skin and contacts can wait since it has hardly moved. An update
 /// that changes nothing leaves nothing waiting. Same calls, same bits. With all activations 0 and all poses
-/// the identity the skin is exactly at rest, at once, whatever came before. Nothing is allocated after the
-/// first update. Not thread-safe: one thread an instance.
+/// the identity the skin is exactly at rest, at once, whatever came before. Nothing is allocated any more
+/// once its lists have grown to what the motion asks for. Not thread-safe: one thread an instance.
 class SkinResponse {
 public:
     explicit SkinResponse(std::shared_ptr<const SkinRig> rig);

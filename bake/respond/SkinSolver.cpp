@@ -26,7 +26,8 @@ SkinSolver::SkinSolver(const PackedSheet& sheet, KernelTarget target)
       balanced_(state_.u.begin(), state_.u.end() - 1) {}
 
 void SkinSolver::reset() {
-    state_ = before_ = SheetState(sheet_);
+    state_.reset(sheet_);
+    before_.reset(sheet_);
     std::fill(reference_.begin(), reference_.end(), Move::Zero());
     balanced_.assign(state_.u.begin(), state_.u.end() - 1);
     std::fill(isRestless_.begin(), isRestless_.end(), 1);
