@@ -33,6 +33,8 @@ std::pair<SphereSet, SphereSet> wholeSpheres(const SceneModel& scene, const Pair
     if (pair.table && pair.table->a.size() == record.spheresA && pair.table->b.size() == record.spheresB)
         return {pair.table->a, pair.table->b};
     PairSpheres spheres = fillPair(scene, pair, motion, options, progress);
+    if (!report(progress, "spheres", 1))
+        throw InputError(Where{"", "", pair.path}, "stopped before its spheres were made again");
     if (spheres.a.spheres.size() != record.spheresA || spheres.b.spheres.size() != record.spheresB)
         throw InputError(
             Where{"", "", pair.path},
