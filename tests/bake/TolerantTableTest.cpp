@@ -2,47 +2,13 @@
 #include "bake/search/TreePair.h"
 #include "bake/table/Query.h"
 #include "bake/verify/Verify.h"
-#include "tests/geometry/TestMeshes.h"
+#include "tests/bake/LumpyPair.h"
 #include "tests/table/RandomTable.h"
 
 #include <catch2/catch.hpp>
 
 using namespace tss;
 using namespace tss::test;
-
-namespace {
-
-/// Two lumpy balls, one on a hinge that swings it into the other.
-SceneModel lumpyPair(std::uint64_t seed) {
-    std::mt19937_64 random(seed);
-    SceneModel scene;
-    for (const char* name : {"A", "B"}) {
-        Body body;
-        body.path = std::string("/Scene/") + name;
-        body.mesh = lumpyMesh(random, 2, 0.3);
-        if (!scene.bodies.empty())
-            body.mesh = transformed(body.mesh, Eigen::Affine3d(Eigen::Translation3d(2.6, 0, 0)));
-        scene.bodies.push_back(body);
-    }
-    Pair pair;
-    pair.bodyA = 0;
-    pair.bodyB = 1;
-    scene.pairs.push_back(pair);
-    return scene;
-}
-
-Motion swing() {
-    Dof dof;
-    dof.origin = {1.3, 3, 0};
-    dof.axis = Vec3::UnitZ();
-    dof.lower = -0.5;
-    dof.upper = 0.5;
-    Motion motion;
-    motion.dofs = {dof};
-    return motion;
-}
-
-} // namespace
 
 TEST_CASE("a table with a tolerance misses no contact: it reports by as much earlier") {
     int missedInAll = 0, refused = 0;

@@ -2,9 +2,7 @@
 
 #include "bake/Bake.h"
 #include "bake/base/Error.h"
-#include "bake/scene/AddPair.h"
-#include "tests/Joints.h"
-#include "tests/geometry/TestMeshes.h"
+#include "tests/bake/LumpyPair.h"
 
 #include <catch2/catch.hpp>
 
@@ -12,21 +10,8 @@ using namespace tss;
 using namespace tss::test;
 
 TEST_CASE("a verification that is stopped says so, wherever it is") {
-    std::mt19937_64 random(5);
-    SceneModel scene;
-    scene.metersPerUnit = 1;
-    scene.defaultPrim = "Scene";
-    for (const char* name : {"A", "B"}) {
-        Body body;
-        body.path = std::string("/Scene/") + name;
-        body.mesh = lumpyMesh(random, 2, 0.3);
-        if (!scene.bodies.empty())
-            body.mesh = transformed(body.mesh, Eigen::Affine3d(Eigen::Translation3d(2.6, 0, 0)));
-        scene.bodies.push_back(body);
-    }
-    Motion motion;
-    motion.dofs = {joints::turn({1.3, 3, 0}, {0, 0, 1}, -0.5, 0.5)};
-    scene.pairs[addPair(scene, 0, 1, motion, "Swing")].settings["tolerance"] = "0.02";
+    SceneModel scene = lumpyPair(5);
+    scene.pairs[0].settings["tolerance"] = "0.02";
     bake(scene, {});
     const Pair& pair = scene.pairs[0];
 
