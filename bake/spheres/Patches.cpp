@@ -22,19 +22,8 @@ double Patch::area() const {
 }
 
 std::array<Patch, 2> halves(const Patch& patch) {
-    int longest = 0;
-    double best = -1;
-    for (int k = 0; k < 3; ++k) {
-        const double length2 = (patch.corners[(k + 1) % 3] - patch.corners[k]).squaredNorm();
-        if (length2 > best) {
-            best = length2;
-            longest = k;
-        }
-    }
-    const Vec3 &a = patch.corners[longest], &b = patch.corners[(longest + 1) % 3],
-               &c = patch.corners[(longest + 2) % 3];
-    const Vec3 middle = 0.5 * (a + b);
-    return {Patch{{a, middle, c}, patch.normal}, Patch{{middle, b, c}, patch.normal}};
+    const std::array<Corners, 2> both = halves(patch.corners);
+    return {Patch{both[0], patch.normal}, Patch{both[1], patch.normal}};
 }
 
 std::vector<Patch> patchesOf(const TriangleMesh& mesh) {

@@ -2,6 +2,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/Progress.h"
 #include "bake/geometry/Solid.h"
+#include "bake/geometry/SurfacePart.h"
 #include "bake/spheres/SphereSet.h"
 
 #include <array>
@@ -12,7 +13,7 @@ namespace tss {
 /// A piece of a triangle, the element that spheres must cover: a sphere that contains its three corners
 /// contains all of it.
 struct Patch {
-    std::array<Vec3, 3> corners;
+    Corners corners;
     Vec3 normal; ///< unit length, that of its triangle
 
     Vec3 centre() const { return (corners[0] + corners[1] + corners[2]) / 3; }

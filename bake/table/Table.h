@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/motion/Motion.h"
 #include "bake/spheres/SphereSet.h"
+#include "bake/table/RestRegion.h"
 
 #include <cstdint>
 #include <optional>
@@ -51,6 +52,7 @@ struct Table {
     bool certified = false; ///< the bounds hold for every pose of the limits, not for samples
     std::string method;     ///< how it was made, e.g. "medial/certified/cover"
     BakeRecord record;
+    RestRegion restRegion; ///< parts of the surfaces that the bounds say nothing about
 
     std::size_t testCount() const { return columns.size(); }
 };
@@ -61,6 +63,7 @@ struct NeverCollides {
     std::uint64_t cells = 0; ///< cells of Q that the proof took
     std::string method;
     BakeRecord record;
+    RestRegion restRegion; ///< parts of the surfaces that the proof says nothing about
 };
 
 /// Row and column of each test, in order.
