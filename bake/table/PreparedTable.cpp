@@ -111,6 +111,7 @@ PreparedTable::PreparedTable(const Table& table, const PrepareOptions& options)
         prepareKernels<float>(options.cells);
     else
         prepareKernels<double>(options.cells);
+    if (options.cells != CellUse::Never) verdicts_ = VerdictGrid(motion_, pairs_, signBand_);
 }
 
 void PreparedTable::Bands::widen(double u, double error, double reach) {
@@ -250,7 +251,7 @@ void PreparedTable::prepareKernels(CellUse use) {
 }
 
 std::size_t PreparedTable::bytes() const {
-    return blocks_.size() * sizeof(Chunk) + cells_.bytes();
+    return blocks_.size() * sizeof(Chunk) + cells_.bytes() + verdicts_.bytes();
 }
 
 void PreparedTable::features(const double* q, TableFeatures& out) const {
@@ -258,7 +259,7 @@ void PreparedTable::features(const double* q, TableFeatures& out) const {
     poseFeatures(q, out);
 }
 
-bool PreparedTable::hit(const double* q) const {
+bool PreparedTable::hitAsked(const double* q) const {
     std::uint32_t cell = 0;
     if (!cells_.empty()) {
         cell = cells_.rowAt(q);
@@ -306,9 +307,13 @@ void PreparedTable::contact(const TableFeatures& f, const MotionFrame& frame, Ta
     kernels_.contact(contactTests_[std::size_t(out.test)], frame, motion_.dofCount(), out);
 }
 
-std::uint32_t PreparedTable::under(const TableFeatures& f, double margin, std::uint32_t* out) const {
+double PreparedTable::reachOf(double margin) const {
     // Rounding grows with the margin; twice the band at 0 and some roundoffs of the margin cover it.
-    const double wide = margin + 2 * std::max(signBand_, gapBand_) + 2e-6 * margin;
+    return margin + 2 * std::max(signBand_, gapBand_) + 2e-6 * margin;
+}
+
+std::uint32_t PreparedTable::under(const TableFeatures& f, double margin, std::uint32_t* out) const {
+    const double wide = reachOf(margin);
     if (!cells_.empty())
         if (const std::uint8_t limit = cells_.code(margin); limit < TableCells::nearCode)
             return kernels_.underNear(data_, f.doubles, cells_.under(f.cell, limit), wide, out);
@@ -316,6 +321,7 @@ std::uint32_t PreparedTable::under(const TableFeatures& f, double margin, std::u
 }
 
 std::uint32_t PreparedTable::under(const double* q, double margin, std::uint32_t* out) const {
+    if (!verdicts_.empty() && verdicts_.clearance(q) > reachOf(margin)) return 0;
     TableFeatures f;
     if (!cells_.empty()) {
         f.cell = cells_.rowAt(q);

@@ -3,6 +3,7 @@
 #include "bake/table/Kernels.h"
 #include "bake/table/PosePlan.h"
 #include "bake/table/TableCells.h"
+#include "bake/table/VerdictGrid.h"
 
 #include <optional>
 
@@ -75,7 +76,12 @@ public:
     }
 
     /// The same from the values themselves: most poses are in a cell that has the answer, without features.
-    bool hit(const double* q) const;
+    bool hit(const double* q) const {
+        if (!verdicts_.empty())
+            if (const Verdict verdict = verdicts_.verdict(q); verdict != Verdict::Ask)
+                return verdict == Verdict::Touch;
+        return hitAsked(q);
+    }
 
     /// The smallest gap, within gapBand() for gaps up to the table's margin, and its test.
     TableGap gap(const TableFeatures& f) const {
@@ -109,7 +115,8 @@ public:
     std::size_t testRoom() const { return room_; }
     std::size_t dofCount() const { return motion_.dofCount(); }
     const TablePair& pair(std::size_t test) const { return pairs_[test]; }
-    const TableCells& cells() const { return cells_; } ///< empty where they do not pay
+    const TableCells& cells() const { return cells_; }        ///< empty where they do not pay
+    const VerdictGrid& verdicts() const { return verdicts_; } ///< empty for more than three DOFs
 
     KernelForm form() const { return form_; }
     KernelPrecision precision() const { return float_ ? KernelPrecision::Float : KernelPrecision::Double; }
@@ -157,6 +164,9 @@ private:
                    ? kernels_.gap(data_, f.doubles)
                    : kernels_.gapNear(data_, f.doubles, cells_.under(f.cell, reached));
     }
+    bool hitAsked(const double* q) const;
+    /// What tests are compared with where gaps up to the margin are asked for.
+    double reachOf(double margin) const;
     void poseFeatures(const double* q, TableFeatures& out) const;
     Bands foldBands(double u) const;
     Bands directBands(double u) const;
@@ -190,6 +200,7 @@ private:
     KernelSet kernels_;
     KernelData data_, rows_;
     TableCells cells_;
+    VerdictGrid verdicts_;
 };
 
 } // namespace tss

@@ -1,5 +1,7 @@
 #include "bake/table/TableCells.h"
 
+#include "bake/table/GapRanges.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -19,8 +21,6 @@ constexpr std::size_t mostBytes = std::size_t(1) << 18;
 constexpr double smallMove = 0.02;
 /// Codes for the half of a cell's largest move.
 constexpr double codesPerMove = 8;
-/// By how much a cell's box is taken wider than it is, for rounding when a cell is looked up.
-constexpr double wider = 1e-6;
 /// Tests are put into blocks by where they can touch, told apart by so many parts of the limits.
 constexpr std::uint32_t mostParts = 512;
 /// How many tests are looked through for the next place in a block.
@@ -42,34 +42,14 @@ double farCodes(double times) {
 class TableCells::Maker {
 public:
     Maker(TableCells& cells, const Motion& motion, std::span<const TablePair> pairs)
-        : cells_(cells), motion_(motion), pairs_(pairs), dofs_(motion.dofCount()) {
-        double coordinate = motion.base.translation().norm();
-        for (const Dof& dof : motion.dofs) {
-            turns_.push_back(turnBound(dof));
-            paths_ = paths_ || dof.kind == DofKind::Path;
-            coordinate += 2 * dof.origin.norm() + std::max(std::abs(dof.lower), std::abs(dof.upper));
-        }
-        speeds_.resize(pairs.size() * dofs_);
-        std::vector<double> reaches;
-        for (std::size_t p = 0; p < pairs.size(); ++p) {
-            speedBounds(motion, pairs[p].b, &speeds_[p * dofs_]);
-            for (std::size_t k = 0; k < dofs_; ++k)
-                weights_[k] = std::max(weights_[k], speeds_[p * dofs_ + k]);
-            reaches.push_back(std::abs(pairs[p].reach));
-            slack_ = std::max(slack_, pairs[p].a.norm() + pairs[p].b.norm() + reaches.back());
-        }
-        slack_ = 1e-13 * (slack_ + coordinate);
-        std::nth_element(reaches.begin(), reaches.begin() + std::ptrdiff_t(reaches.size() / 2),
-                         reaches.end());
-        middleReach_ = reaches[reaches.size() / 2];
-    }
+        : cells_(cells), motion_(motion), pairs_(pairs), dofs_(motion.dofCount()), ranges_(motion, pairs) {}
 
     /// Some DOF moves some test by more than rounding: else there is nothing to tell cells apart by.
     bool moves() const {
-        double most = 0;
         for (std::size_t k = 0; k < dofs_; ++k)
-            most = std::max(most, weights_[k] * (motion_.dofs[k].upper - motion_.dofs[k].lower));
-        return most > slack_;
+            if (ranges_.weight(k) * (motion_.dofs[k].upper - motion_.dofs[k].lower) > ranges_.slack())
+                return true;
+        return false;
     }
 
     /// Cuts the limits into the grid and its cells into parts, always across the DOF that moves most within a
@@ -78,12 +58,12 @@ public:
         std::array<double, maxDofs> move{};
         std::array<std::uint32_t, maxDofs> halvings{};
         for (std::size_t k = 0; k < dofs_; ++k)
-            move[k] = weights_[k] * (motion_.dofs[k].upper - motion_.dofs[k].lower);
+            move[k] = ranges_.weight(k) * (motion_.dofs[k].upper - motion_.dofs[k].lower);
         const auto whole = [&] {
             return std::accumulate(move.begin(), move.begin() + std::ptrdiff_t(dofs_), 0.0);
         };
         const auto halveWidest = [&] {
-            if (!(whole() > smallMove * middleReach_)) return false;
+            if (!(whole() > smallMove * ranges_.middleReach())) return false;
             const auto k =
                 static_cast<std::size_t>(std::max_element(move.begin(), move.end()) - move.begin());
             move[k] /= 2;
@@ -223,34 +203,6 @@ private:
         std::array<std::int32_t, maxDofs> first{}, size{};
     };
 
-    /// What a test's gap can be in a box about where `frame` is.
-    struct Range {
-        double low, high;
-    };
-    Range range(std::uint32_t p, const MotionFrame& frame, const DofValues& half) const {
-        const TablePair& pair = pairs_[p];
-        const double* speed = &speeds_[p * dofs_];
-        const Vec3 centre = frame.pose * pair.b, apart = centre - pair.a;
-        const double distance = apart.norm(), gap = distance - pair.reach;
-        double move = 0;
-        for (std::size_t k = 0; k < dofs_; ++k) move += speed[k] * half[k];
-        const double off = move * wider + slack_;
-        Range found{gap - move - off, gap + move + off};
-        if (paths_ || !(distance > move)) return found;
-        // To second order: a gap bends down no more than its point's way does, and up by what goes past it.
-        double slope = 0, bend = 0, turning = 0;
-        for (std::size_t k = 0; k < dofs_; ++k) {
-            slope += std::abs(apart.dot(frame.twists[k].velocity(centre))) * half[k];
-            const double turn = turns_[k] * half[k];
-            bend += speed[k] * half[k] * (turn + 2 * turning);
-            turning += turn;
-        }
-        slope /= distance;
-        found.low = std::max(found.low, gap - slope - 0.5 * bend - off);
-        found.high = std::min(found.high, gap + slope + 0.5 * (bend + move * move / (distance - move)) + off);
-        return found;
-    }
-
     /// Halves a piece of the limits down to the grid, or of a cell down to its parts, of which the first has
     /// row `firstRow`.
     void halve(const Piece& piece, const std::vector<std::uint32_t>& list, std::size_t depth,
@@ -264,7 +216,7 @@ private:
             const Axis& axis = cells_.axes_[k];
             const auto first = static_cast<std::uint32_t>(piece.first[k]);
             centre[k] = axis.lower + axis.width * (piece.first[k] + 0.5 * piece.size[k]);
-            half[k] = 0.5 * axis.width * piece.size[k] * (1 + wider);
+            half[k] = 0.5 * axis.width * piece.size[k] * (1 + GapRanges::wider);
             cell += (first >> axis.halvings) * axis.stride;
             part += (first & axis.partMask) << axis.partShift;
         }
@@ -273,7 +225,7 @@ private:
         std::vector<double> lows(list.size());
         double reached = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < list.size(); ++i) {
-            const Range found = range(list[i], frame, half);
+            const GapRanges::Range found = ranges_.range(list[i], frame, half);
             lows[i] = found.low;
             reached = std::min(reached, found.high);
         }
@@ -340,11 +292,7 @@ private:
     const Motion& motion_;
     std::span<const TablePair> pairs_;
     std::size_t dofs_;
-    std::vector<double> speeds_; ///< #pairs by #DOFs
-    std::vector<double> turns_;  ///< one a DOF
-    bool paths_ = false;
-    DofValues weights_{};
-    double slack_ = 0, middleReach_ = 0;
+    GapRanges ranges_;
     double nearGap_ = 0;             ///< gaps up to it have codes up to nearCode
     std::vector<std::size_t> order_; ///< which DOF each halving cuts
     std::size_t cellCount_ = 1, cellHalvings_ = 0;
