@@ -163,14 +163,16 @@ void checkIndices(const TriangleMesh& mesh) {
                              std::to_string(static_cast<long>(mesh.vertices.size()) - 1));
 }
 
-TriangleMesh cleaned(const TriangleMesh& mesh) {
+TriangleMesh cleaned(const TriangleMesh& mesh, std::vector<std::uint32_t>* loaded) {
     checkIndices(mesh);
+    if (loaded) loaded->clear();
     const std::vector<char> repeated = duplicates(mesh);
     TriangleMesh result;
     std::vector<int> place(mesh.vertices.size(), -1);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         if (!repeated[t] && !hasZeroArea(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2))) {
             result.triangles.push_back(mesh.triangles[t]);
+            if (loaded) loaded->push_back(static_cast<std::uint32_t>(t));
             for (int k = 0; k < 3; ++k) place[mesh.triangles[t][k]] = 0;
         }
     if (result.triangles.empty())

@@ -1,7 +1,9 @@
 #pragma once
 #include "bake/geometry/TriangleMesh.h"
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace tss {
 
@@ -41,7 +43,7 @@ void checkIndices(const TriangleMesh& mesh);
 
 /// The mesh without zero-area and duplicate triangles and without unused vertices; all else, order included,
 /// stays. Throws InputError for what cannot be used: vertices that are not finite, indices out of range, no
-/// triangle with an area.
-TriangleMesh cleaned(const TriangleMesh& mesh);
+/// triangle with an area. loaded, where given, says of each triangle kept its index in the mesh handed over.
+TriangleMesh cleaned(const TriangleMesh& mesh, std::vector<std::uint32_t>* loaded = nullptr);
 
 } // namespace tss

@@ -103,6 +103,18 @@ TEST_CASE("cleaning drops what has no area, what repeats and what nothing uses")
     CHECK(clean.triangles == box.triangles);
 }
 
+TEST_CASE("a cleaned mesh says which loaded triangle each of its own was") {
+    TriangleMesh mesh = boxMesh({0, 0, 0}, {1, 1, 1});
+    mesh.triangles.insert(mesh.triangles.begin() + 3, {Tri(1, 1, 2), mesh.triangles[0]});
+    std::vector<std::uint32_t> loaded{77};
+    const TriangleMesh clean = cleaned(mesh, &loaded);
+    REQUIRE(loaded.size() == clean.triangles.size());
+    for (std::size_t t = 0; t < loaded.size(); ++t)
+        for (int k = 0; k < 3; ++k) CHECK(clean.corner(t, k) == mesh.corner(loaded[t], k));
+    CHECK(loaded[2] == 2);
+    CHECK(loaded[3] == 5);
+}
+
 TEST_CASE("what cannot be cleaned is refused with the reason") {
     const FloatTrapsOff traps; // what is not a number is handed over on purpose
     TriangleMesh mesh = boxMesh({0, 0, 0}, {1, 1, 1});
