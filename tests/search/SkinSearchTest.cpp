@@ -160,6 +160,7 @@ TEST_CASE("a table of skin carries its overlap at rest and its travel") {
     const Scene scene = randomScene(6);
     const SkinTable table = searchSkin(scene.skin, scene.muscles(), options(SkinPath::AtRest));
     CHECK(table.travel == 0.01);
+    CHECK_FALSE(table.table.certified); // nothing is proven of muscles and bones that move at once
     REQUIRE_FALSE(table.table.restGaps.empty());
     const std::vector<SpherePair> pairs = tests(table.table);
     for (std::size_t k = 0; k < pairs.size(); ++k) {
