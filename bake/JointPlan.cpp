@@ -95,10 +95,21 @@ std::vector<JointWorkspace> workspaces(const JointPlan& plan) {
     return made;
 }
 
-std::vector<JointAnswer> resolve(const JointPlan& plan, const std::vector<double>& last,
+namespace {
+
+std::vector<int> heldOf(const JointAnswer& answer, const JointWorkspace& workspace) {
+    std::vector<int> held;
+    for (std::size_t k = 0; answer.status != JointStatus::Free && k < workspace.held.size(); ++k)
+        if (workspace.held[k]) held.push_back(static_cast<int>(k));
+    return held;
+}
+
+} // namespace
+
+std::vector<GroupAnswer> resolve(const JointPlan& plan, const std::vector<double>& last,
                                  std::vector<double>& q, std::vector<JointWorkspace>& workspaces) {
     constexpr int mostRounds = 16;
-    std::vector<JointAnswer> answers(plan.groups.size());
+    std::vector<GroupAnswer> answers(plan.groups.size());
     bool settled = false;
     for (int round = 0; round < mostRounds && !settled; ++round) {
         settled = true;
@@ -116,7 +127,7 @@ std::vector<JointAnswer> resolve(const JointPlan& plan, const std::vector<double
                 q[group.slots[k]] = answer.q[k];
             }
             // The first word of a group tells whether it stopped its joints; later rounds only confirm.
-            if (round == 0 || changed) answers[g] = answer;
+            if (round == 0 || changed) answers[g] = {answer, heldOf(answer, workspaces[g])};
             if (changed && plan.groups.size() > 1) settled = false;
         }
     }

@@ -23,6 +23,11 @@ struct JointPlan {
     std::vector<Group> groups;
 };
 
+/// What came of a group, and which of its tables held it.
+struct GroupAnswer : JointAnswer {
+    std::vector<int> held; ///< places in the group's pairs; of a group that is not Free at least one
+};
+
 /// Pairs without a table are passed over. All tables go into one group; where that has more values than a
 /// response serves, each table into its own. What cannot be served is left out;
 /// `warnings` then says which pair and why.
@@ -36,7 +41,7 @@ std::vector<JointWorkspace> workspaces(const JointPlan& plan);
 /// Takes all values from `last` towards `q` so that no pair collides, and leaves in q what was reached.
 /// Several groups are asked in turn until none changes anything any more; where they do not agree after some
 /// rounds everything stays at `last`. One answer a group.
-std::vector<JointAnswer> resolve(const JointPlan& plan, const std::vector<double>& last,
+std::vector<GroupAnswer> resolve(const JointPlan& plan, const std::vector<double>& last,
                                  std::vector<double>& q, std::vector<JointWorkspace>& workspaces);
 
 } // namespace tss

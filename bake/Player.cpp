@@ -78,7 +78,7 @@ Player::Step Player::step(const std::vector<double>& asked, double timeCode) {
         last.push_back(values_[place]);
         wanted.push_back(goal[place]);
     }
-    const std::vector<JointAnswer> answers = resolve(*plan_, last, wanted, workspaces_);
+    const std::vector<GroupAnswer> answers = resolve(*plan_, last, wanted, workspaces_);
     values_ = goal;
     for (std::size_t k = 0; k < places_.size(); ++k) values_[places_[k]] = wanted[k];
     for (const JointAnswer& answer : answers) result.status = std::max(result.status, answer.status);

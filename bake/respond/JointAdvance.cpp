@@ -29,7 +29,7 @@ void observe(const JointModel& model, const JointValues& q, const JointValues& w
         Vec3 centre, normal;
         near.gap = pairGap(pair, frame.pose, centre, normal);
         near.rate = normal.dot(whole.velocity(centre));
-        if (!ws.common) near.threshold = std::max(near.threshold, std::min(model.off, near.gap));
+        if (!ws.common) near.threshold = std::max(near.threshold, std::min(pair.off, near.gap));
     }
 }
 
@@ -56,16 +56,21 @@ double timeToRow(const JointModel::Group& group, const JointValues& q, const Joi
 
 /// The time for which no near pair can reach its threshold, 0 when one is there.
 double freeTime(const JointModel& model, const JointValues& q, const JointValues& way, double left,
-                std::size_t activeCount, const JointWorkspace& ws) {
+                std::size_t activeCount, JointWorkspace& ws) {
     double time = left;
     std::uint32_t at = ~0u;
     double row = HUGE_VAL;
     for (std::size_t i = 0; i < activeCount; ++i) {
         const NearPair& near = ws.near[ws.active[i]];
         const double room = near.gap - near.threshold;
-        if (near.speed * time < room) continue;
-        if (near.rate < 0 && room < 0.05 * model.off) return 0;
-        if (const std::uint32_t group = model.pairs[near.pair].group; group != at) {
+        if (time > 0 && near.speed * time < room) continue;
+        const JointModel::Pair& pair = model.pairs[near.pair];
+        if (near.rate < 0 && room < 0.05 * pair.off) {
+            ws.held[pair.group] |= stoppedWay;
+            time = 0; // the others are looked at too: several may hold
+        }
+        if (time == 0) continue;
+        if (const std::uint32_t group = pair.group; group != at) {
             at = group;
             row = timeToRow(model.groups[group], q, way);
         }

@@ -29,7 +29,7 @@ void addPairs(const Table& table, std::uint32_t group, JointModel& model) {
         const Sphere &a = table.a[list[k].a], &b = table.b[list[k].b];
         const double rest = table.restGaps.empty() ? 0 : table.restGaps[k];
         model.pairs.push_back(
-            {a.centre, b.centre, a.radius, b.radius, rest, a.radius + b.radius + rest, group, k, 0});
+            {a.centre, b.centre, a.radius, b.radius, rest, a.radius + b.radius + rest, group, k, 0, 0});
         JointValues own;
         speedBounds(table.motion, b.centre, own.data());
         const std::size_t row = model.speeds.size();
@@ -63,21 +63,23 @@ void addTable(const TableOnJoint& entry, int index, JointModel& model) {
     group.firstPair = static_cast<std::uint32_t>(model.pairs.size());
     model.groups.push_back(group);
     addPairs(*entry.table, static_cast<std::uint32_t>(model.groups.size() - 1), model);
-    model.groups.back().lastPair = static_cast<std::uint32_t>(model.pairs.size());
+    JointModel::Group& added = model.groups.back();
+    added.lastPair = static_cast<std::uint32_t>(model.pairs.size());
+    added.off = keptGap(model, added, entry.table->epsilon);
+    for (std::uint32_t p = added.firstPair; p < added.lastPair; ++p) model.pairs[p].off = added.off;
 }
 
-/// off = 1.5 epsilon (METHOD 5.3); for a lossless table a distance far above the rounding of a gap and far
-/// below anything seen.
-double keptGap(const JointModel& model, double epsilon) {
-    double size = 0, coordinate = 0;
-    for (const JointModel::Pair& p : model.pairs) {
+/// off = 1.5 epsilon (METHOD 5.3), of each table its own: a coarse one keeps its own bodies apart by more,
+/// and no others. For a lossless table a distance far above the rounding of a gap and far below anything
+/// seen.
+double keptGap(const JointModel& model, const JointModel::Group& group, double epsilon) {
+    double size = 0, coordinate = group.motion.base.translation().norm();
+    for (std::uint32_t i = group.firstPair; i < group.lastPair; ++i) {
+        const JointModel::Pair& p = model.pairs[i];
         size = std::max(size, p.radiusA + p.radiusB);
         coordinate = std::max({coordinate, p.a.norm(), p.b.norm()});
     }
-    for (const JointModel::Group& g : model.groups) {
-        coordinate = std::max(coordinate, g.motion.base.translation().norm());
-        for (const Dof& dof : g.motion.dofs) coordinate = std::max(coordinate, dof.origin.norm());
-    }
+    for (const Dof& dof : group.motion.dofs) coordinate = std::max(coordinate, dof.origin.norm());
     return std::max({1.5 * epsilon, 1e-6 * size, 1e-13 * coordinate, std::numeric_limits<double>::min()});
 }
 
@@ -91,13 +93,14 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
     model.dofCount = dofCount;
     model.lower.fill(-std::numeric_limits<double>::infinity());
     model.upper.fill(std::numeric_limits<double>::infinity());
-    double epsilon = 0;
+    model.leastOff = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < tables.size(); ++i) {
         checkFit(tables[i], dofCount);
         addTable(tables[i], static_cast<int>(i), model);
         if (prepare) model.groups.back().prepared = std::make_shared<PreparedTable>(*tables[i].table);
-        epsilon = std::max(epsilon, tables[i].table->epsilon);
+        model.leastOff = std::min(model.leastOff, model.groups.back().off);
     }
+    if (model.groups.empty()) model.leastOff = std::numeric_limits<double>::min();
     for (int l = 0; l < dofCount; ++l)
         if (!(model.lower[l] <= model.upper[l]))
             throw InputError("joint: expected limits of its tables that overlap");
@@ -115,7 +118,6 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
         model.pairs[p].lever = std::sqrt(squared);
     }
     model.scale = weightedDistance(model, model.upper, model.lower);
-    model.off = keptGap(model, epsilon);
     return model;
 }
 
@@ -147,21 +149,21 @@ void takeIfNear(const JointModel& model, std::uint32_t p, const Pose& pose, cons
                 JointWorkspace& ws) {
     const JointModel::Pair& pair = model.pairs[p];
     const double* speed = model.speed(p);
-    double far = pair.reach + 2 * model.off;
+    double far = pair.reach + 2 * pair.off;
     for (int l = 0; l < model.dofCount; ++l) far += speed[l] * reach[l];
     const double squared = (pose * pair.b - pair.a).squaredNorm();
     if (far < 0 || squared > far * far) return;
     NearPair& near = ws.near[ws.nearCount++];
     near.pair = p;
     near.gap = std::sqrt(squared) - pair.reach;
-    near.threshold = std::min(model.off, near.gap);
+    near.threshold = std::min(pair.off, near.gap);
 }
 
 /// The tests of a group that a vector query finds under the margin that its fastest pair needs.
 std::uint32_t findUnder(const JointModel& model, const JointModel::Group& group, const JointValues& q,
                         const JointValues& reach, JointWorkspace& ws) {
     JointValues own;
-    double margin = 2 * model.off;
+    double margin = 2 * group.off;
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
         own[k] = q[group.dofs[k]];
         margin += model.weights[group.dofs[k]] * reach[group.dofs[k]];
@@ -216,20 +218,14 @@ void linearise(const JointModel& model, const JointValues& q, const JointValues&
     }
 }
 
-double smallestGap(const JointModel& model, const JointValues& q, JointWorkspace& ws, int* pair) {
+double smallestLevel(const JointModel& model, const JointValues& q, JointWorkspace& ws) {
     placeGroups(model, q, q, ws);
     double smallest = std::numeric_limits<double>::infinity();
-    int found = -1;
     Vec3 centre, normal;
-    for (std::size_t p = 0; p < model.pairs.size(); ++p) {
-        const double gap =
-            pairGap(model.pairs[p], ws.groups[model.pairs[p].group].frame.pose, centre, normal);
-        if (gap < smallest) {
-            smallest = gap;
-            found = static_cast<int>(p);
-        }
-    }
-    if (pair) *pair = found;
+    for (const JointModel::Pair& pair : model.pairs)
+        smallest =
+            std::min(smallest, levelOf(model, pair.off,
+                                       pairGap(pair, ws.groups[pair.group].frame.pose, centre, normal)));
     return smallest;
 }
 

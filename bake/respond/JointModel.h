@@ -24,6 +24,8 @@ struct JointModel {
         std::vector<int> dofs;         ///< place of each DOF of the motion among the joint's values
         std::vector<double> turnRates; ///< turnBound of each
         bool paths = false;            ///< some DOF is a path, whose rate jumps at its rows
+        double off =
+            0; ///< gap that its pairs are kept at: above its own epsilon, so that the models are free
         std::uint32_t firstPair = 0, lastPair = 0;
         int table = 0;
         std::shared_ptr<const PreparedTable> prepared; ///< to cull with, none where that would not pay
@@ -35,6 +37,7 @@ struct JointModel {
         std::uint32_t group = 0;
         std::uint32_t test = 0; ///< index in its table
         double lever = 0;       ///< its gap changes by at most lever * |w (q - q')|
+        double off = 0;         ///< its group's
     };
 
     int dofCount = 0;
@@ -46,7 +49,7 @@ struct JointModel {
     std::vector<Pair> pairs;    ///< by group
     std::vector<double> speeds; ///< #pairs by dofCount: speed bound per unit of each value of the joint
     double scale = 0;           ///< length of the limits' diagonal in the weighted metric, scene units
-    double off = 0; ///< gap that a joint is kept at: above epsilon, so that the models are free too
+    double leastOff = 0;        ///< of the groups
 
     const double* speed(std::uint32_t pair) const {
         return speeds.data() + std::size_t(pair) * std::size_t(dofCount);
@@ -80,6 +83,12 @@ struct PlacedGroup {
     bool known = false;
 };
 
+/// Bits of JointWorkspace::held.
+enum : std::uint8_t {
+    stoppedWay = 1,    ///< a way ended at this table's contact, and the joint stayed there
+    touchedAtStart = 2 ///< the joint stood in its contact before
+};
+
 /// Room for one response, made once per thread by JointResponder::workspace.
 struct JointWorkspace {
     std::vector<NearPair> near;
@@ -91,6 +100,7 @@ struct JointWorkspace {
     QpRows rows;
     std::vector<PlacedGroup> groups; ///< one a group
     std::vector<Pose> ends;          ///< one a group: where a way would end
+    std::vector<std::uint8_t> held;  ///< one a group: 0, or by what it held the joint in the last response
 };
 
 /// Places one group, or every group, at q (values of the joint) into ws.groups.
@@ -108,7 +118,7 @@ inline double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& cent
 }
 
 /// Fills ws.near with the pairs whose gap can fall to their threshold when each DOF changes by at most
-/// reach[l] from q. Thresholds are min(model.off, gap at q).
+/// reach[l] from q. Thresholds are min(off, gap at q), each of its own table.
 void cull(const JointModel& model, const JointValues& q, const JointValues& reach, JointWorkspace& ws);
 
 /// Leaves out near pairs that stay above their threshold wherever |w (q - q')| is at most `distance`; gaps
@@ -119,8 +129,18 @@ void narrow(const JointModel& model, double distance, JointWorkspace& ws);
 /// gap fall to it, unless they are common.
 void linearise(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws);
 
-/// Smallest gap of all pairs of the model at q, and its pair (-1: no pairs).
-double smallestGap(const JointModel& model, const JointValues& q, JointWorkspace& ws, int* pair = nullptr);
+/// A gap on the scale that tables of one joint share: above contact as a share of what its own table keeps,
+/// in units of the least of them; in contact as it is. Monotone, and positive where the gap is.
+inline double levelOf(const JointModel& model, double off, double gap) {
+    return gap > 0 ? gap * (model.leastOff / off) : gap;
+}
+/// And back.
+inline double gapOf(const JointModel& model, double off, double level) {
+    return level > 0 ? level * (off / model.leastOff) : level;
+}
+
+/// Smallest level of all pairs of the model at q; infinity where there are none.
+double smallestLevel(const JointModel& model, const JointValues& q, JointWorkspace& ws);
 
 /// Adds limits and planes as rows about the goal, y = w (q + way - goal), each DOF staying within `trust` of
 /// its range from q.

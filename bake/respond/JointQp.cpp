@@ -74,7 +74,7 @@ struct ActiveSet {
 };
 
 template <int N>
-bool nearest(const QpRows& rows, double tolerance, double* y) {
+bool nearest(const QpRows& rows, double tolerance, double* y, QpActive* held) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     ActiveSet<N> active;
     for (int changes = 0; changes < 200;) {
@@ -88,7 +88,11 @@ bool nearest(const QpRows& rows, double tolerance, double* y) {
                 worst = i;
             }
         }
-        if (worst < 0) return true;
+        if (worst < 0) {
+            for (int j = 0; held && j < active.count; ++j)
+                if (active.multiplier[j] > 0) held->rows[std::size_t(held->count++)] = active.row[j];
+            return true;
+        }
 
         double multiplier = 0;
         for (bool added = false; !added; ++changes) {
@@ -123,17 +127,19 @@ bool nearest(const QpRows& rows, double tolerance, double* y) {
 }
 
 template <std::size_t... N>
-bool nearestOf(std::index_sequence<N...>, const QpRows& rows, double tolerance, double* y) {
-    using Solver = bool (*)(const QpRows&, double, double*);
+bool nearestOf(std::index_sequence<N...>, const QpRows& rows, double tolerance, double* y, QpActive* held) {
+    using Solver = bool (*)(const QpRows&, double, double*, QpActive*);
     constexpr Solver solvers[] = {nearest<int(N) + 1>...};
-    return solvers[rows.unknowns() - 1](rows, tolerance, y);
+    return solvers[rows.unknowns() - 1](rows, tolerance, y, held);
 }
 
 } // namespace
 
-bool nearestToOrigin(const QpRows& rows, double tolerance, JointValues& y) {
+bool nearestToOrigin(const QpRows& rows, double tolerance, JointValues& y, QpActive* active) {
     y.fill(0);
-    if (rows.unknowns() > 0) return nearestOf(std::make_index_sequence<maxDofs>(), rows, tolerance, y.data());
+    if (active) active->count = 0;
+    if (rows.unknowns() > 0)
+        return nearestOf(std::make_index_sequence<maxDofs>(), rows, tolerance, y.data(), active);
     for (int i = 0; i < rows.count(); ++i)
         if (rows.bound(i) > tolerance) return false;
     return true;

@@ -33,9 +33,15 @@ private:
     std::vector<double> numbers_;
 };
 
+/// The rows that hold a nearest point: without any of them it would be nearer.
+struct QpActive {
+    int count = 0;
+    std::array<int, maxDofs> rows{};
+};
+
 /// The point nearest to the origin that meets every row: the dual active-set method of Goldfarb and Idnani
 /// (Mathematical Programming 27, 1983) for an identity Hessian. A row counts as met within `tolerance`.
 /// Returns false where no point meets them all; y is then of no use. Allocates nothing.
-bool nearestToOrigin(const QpRows& rows, double tolerance, JointValues& y);
+bool nearestToOrigin(const QpRows& rows, double tolerance, JointValues& y, QpActive* active = nullptr);
 
 } // namespace tss

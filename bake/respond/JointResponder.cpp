@@ -86,26 +86,27 @@ JointWorkspace JointResponder::workspace() const {
     ws.rows = QpRows(model_.pairs.size() + 2 * std::size_t(model_.dofCount) + model_.planes.size());
     ws.groups.resize(model_.groups.size());
     ws.ends.resize(model_.groups.size());
+    ws.held.resize(model_.groups.size());
     return ws;
 }
 
 void JointResponder::findFreePose(const JointValues& rest) {
     JointWorkspace ws = workspace();
     freePose_ = clampToLimits(model_, rest.data(), ws);
-    double best = smallestGap(model_, freePose_, ws);
+    double best = smallestLevel(model_, freePose_, ws);
     // A grid of some thousand poses at most, inner points and borders alike.
     const int n = model_.dofCount;
     const int side = n == 0 ? 1 : std::max(2, static_cast<int>(std::pow(1000.0, 1.0 / n)));
     long count = 1;
     for (int l = 0; l < n && count < 5000; ++l) count *= side;
-    for (long i = 0; i < count && best <= 2 * model_.off; ++i) {
+    for (long i = 0; i < count && best <= 2 * model_.leastOff; ++i) {
         JointValues q{};
         long rest_ = i;
         for (int l = 0; l < n; ++l, rest_ /= side)
             q[l] = model_.lower[l] +
                    (model_.upper[l] - model_.lower[l]) * double(rest_ % side) / std::max(1, side - 1);
         q = clampToLimits(model_, q.data(), ws);
-        const double gap = smallestGap(model_, q, ws);
+        const double gap = smallestLevel(model_, q, ws);
         if (gap > best) {
             best = gap;
             freePose_ = q;
@@ -170,7 +171,8 @@ JointAnswer JointResponder::fromCollision(const JointValues& start, const JointV
         if (answer.gap > 0) return answer;
     }
     // Less than this is rounding, not a way out.
-    JointStatus status = pushed > depth + 1e-3 * model_.off ? JointStatus::Separated : JointStatus::Stuck;
+    JointStatus status =
+        pushed > depth + 1e-3 * model_.leastOff ? JointStatus::Separated : JointStatus::Stuck;
     if (hasFreePose_) {
         // From the start, not from where pushes ended: the next response would be pushed back there.
         const double far = weightedDistance(model_, start, freePose_);
@@ -189,6 +191,7 @@ JointAnswer JointResponder::fromCollision(const JointValues& start, const JointV
 
 JointAnswer JointResponder::respond(const double* last, const double* asked, JointWorkspace& ws) const {
     for (PlacedGroup& group : ws.groups) group.known = false; // it may have served another joint
+    std::fill(ws.held.begin(), ws.held.end(), std::uint8_t(0));
     const JointValues start = clampToLimits(model_, last, ws);
     const JointValues goal = clampToLimits(model_, asked, ws);
     const int legs = legsOf(model_, start, goal);
@@ -203,8 +206,12 @@ JointAnswer JointResponder::respond(const double* last, const double* asked, Joi
     double gap = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < ws.nearCount; ++i) gap = std::min(gap, ws.near[i].gap);
     // Nearer to 0 than any rounding, only the exact query's own arithmetic can tell.
-    if (std::abs(gap) < 0.5 * model_.off) gap = judged(start, JointStatus::Free, ws).gap;
-    return gap > 0 ? fromFree(start, goal, legs, ws) : fromCollision(start, goal, gap, ws);
+    const double deepest = std::max(gap, 0.0);
+    if (std::abs(gap) < 0.5 * model_.leastOff) gap = judged(start, JointStatus::Free, ws).gap;
+    if (gap > 0) return fromFree(start, goal, legs, ws);
+    for (std::size_t i = 0; i < ws.nearCount; ++i)
+        if (ws.near[i].gap <= deepest) ws.held[model_.pairs[ws.near[i].pair].group] = touchedAtStart;
+    return fromCollision(start, goal, gap, ws);
 }
 
 } // namespace tss

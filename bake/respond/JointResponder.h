@@ -35,13 +35,14 @@ public:
 
     JointWorkspace workspace() const;
 
-    /// last, asked: dofCount values each, finite. Both are clamped into the limits first.
+    /// last, asked: dofCount values each, finite. Both are clamped into the limits first. workspace.held then
+    /// says of each table whether it held the joint: of a joint that is not Free at least one did.
     JointAnswer respond(const double* last, const double* asked, JointWorkspace& workspace) const;
 
     int dofCount() const { return model_.dofCount; }
     const JointValues& weights() const { return model_.weights; }
-    /// The gap that a joint is kept at: 1.5 epsilon, or a millionth of the largest spheres.
-    double keptGap() const { return model_.off; }
+    /// The gap that one table is kept at: 1.5 of its own epsilon, or a millionth of its largest spheres.
+    double keptGap(std::size_t table = 0) const { return model_.groups[table].off; }
     /// A pose known to be free, towards which a joint returns from deeper than the tables know.
     const JointValues* freePose() const { return hasFreePose_ ? &freePose_ : nullptr; }
 

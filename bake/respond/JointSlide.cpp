@@ -8,9 +8,9 @@ namespace tss {
 
 namespace {
 
-/// Room kept above a threshold where a move ends, as a share of model.off: `advance` stops at a twentieth.
+/// Room kept above a threshold where a move ends, as a share of a pair's off: `advance` stops at a twentieth.
 constexpr double endRoom = 0.1;
-/// Less than so much of model.off too little room is no reason to look for a way again.
+/// Less than so much of a pair's off too little room is no reason to look for a way again.
 constexpr double liftSlack = 0.04;
 /// The first round of a slide goes no farther than this share of a range.
 constexpr double firstMove = 1.0 / 128;
@@ -25,7 +25,7 @@ public:
     SlideRows(const JointModel& model, const JointValues& q, const JointValues& goal, double trust,
               JointWorkspace& ws)
         : model_(model), q_(q), goal_(goal), ws_(ws),
-          least_(-1.5 * weightedDistance(model, q, goal) - model.off) {
+          least_(-1.5 * weightedDistance(model, q, goal) - model.leastOff) {
         ws.rows.clear(model.dofCount);
         addLimits(model, q, trust, goal, ws.rows);
         for (std::size_t i = 0; i < ws.nearCount; ++i) {
@@ -44,7 +44,7 @@ public:
     }
 
     /// The way from q to the pose nearest to the goal where every near pair's linearised gap is at least
-    /// demand(near). False where there is none.
+    /// demand(near). False where there is none. Marks the groups whose gaps bound the way in ws.held.
     template <class Demand>
     bool nearest(Demand demand, JointValues& way) {
         for (std::size_t i = 0; i < ws_.nearCount; ++i) {
@@ -56,8 +56,10 @@ public:
             ws_.rows.setBound(near.row, bound);
         }
         JointValues y;
-        const double tolerance = 1e-13 * model_.scale + 1e-3 * endRoom * model_.off;
-        if (!nearestToOrigin(ws_.rows, tolerance, y)) return false;
+        const double tolerance = 1e-13 * model_.scale + 1e-3 * endRoom * model_.leastOff;
+        QpActive active;
+        if (!nearestToOrigin(ws_.rows, tolerance, y, &active)) return false;
+        mark(active);
         for (int l = 0; l < model_.dofCount; ++l) {
             const double end = goal_[l] + y[l] * model_.perWeight[l];
             way[l] = std::clamp(end, model_.lower[l], model_.upper[l]) - q_[l];
@@ -66,6 +68,16 @@ public:
     }
 
 private:
+    void mark(const QpActive& active) {
+        for (std::uint8_t& held : ws_.held) held &= static_cast<std::uint8_t>(~stoppedWay);
+        for (std::size_t i = 0; i < ws_.nearCount && active.count > 0; ++i) {
+            const NearPair& near = ws_.near[i];
+            const auto end = active.rows.begin() + active.count;
+            if (near.row >= 0 && std::find(active.rows.begin(), end, near.row) != end)
+                ws_.held[model_.pairs[near.pair].group] |= stoppedWay;
+        }
+    }
+
     void addRow(NearPair& near) {
         near.row = ws_.rows.count();
         double* row = ws_.rows.add();
@@ -114,8 +126,8 @@ bool findLifts(const JointModel& model, const JointValues& q, const JointValues&
         for (int l = 0; l < model.dofCount; ++l) guess += near.gradient[l] * way[l];
         const double real = pairGap(pair, ws.ends[pair.group], centre, normal);
         bounds.bound(model, way, near);
-        near.lift = endRoom * model.off + near.acceleration / 8 + std::max(0.0, guess - real);
-        short_ = short_ || guess < near.threshold + near.lift - liftSlack * model.off;
+        near.lift = endRoom * pair.off + near.acceleration / 8 + std::max(0.0, guess - real);
+        short_ = short_ || guess < near.threshold + near.lift - liftSlack * pair.off;
     }
     return short_;
 }
@@ -167,17 +179,17 @@ void slide(const JointModel& model, const JointValues& goal, JointValues& q, Joi
     double distance = weightedDistance(model, q, goal);
     const double least = std::clamp(1e-3 * distance, 1e-7 * model.scale, 1e-5 * model.scale);
     bool corner = false, complete = false;
-    const double leastLift = endRoom * model.off;
+    const auto leastLift = [&](const NearPair& near) { return endRoom * model.pairs[near.pair].off; };
     for (int round = 0, far = 0; round < 20 && far < 40 && distance > least; ++(complete ? round : far)) {
         if (!complete) {
             trust = std::min(trust, farMove);
             complete = cullRound(model, q, distance, trust, ws);
             if (complete) trust = 1;
-            for (std::size_t i = 0; i < ws.nearCount; ++i) ws.near[i].lift = leastLift;
+            for (std::size_t i = 0; i < ws.nearCount; ++i) ws.near[i].lift = leastLift(ws.near[i]);
         } else {
             for (std::size_t i = 0; i < ws.nearCount; ++i) {
                 NearPair& near = ws.near[i];
-                near.lift = leastLift + liftKept * (near.lift - leastLift);
+                near.lift = leastLift(near) + liftKept * (near.lift - leastLift(near));
             }
         }
         JointValues way{};
@@ -207,29 +219,34 @@ double pushOut(const JointModel& model, JointValues& q, JointWorkspace& ws) {
     constexpr double trust = 0.25;
     JointValues reach{};
     for (int l = 0; l < model.dofCount; ++l) reach[l] = trust * (model.upper[l] - model.lower[l]);
-    double depth = smallestGap(model, q, ws);
+    double depth = smallestLevel(model, q, ws);
+    const auto gapAt = [&](const NearPair& near, double level) {
+        return gapOf(model, model.pairs[near.pair].off, level);
+    };
     ws.common = true;
-    for (int round = 0; round < 40 && depth < 0.5 * model.off; ++round) {
+    for (int round = 0; round < 40 && depth < 0.5 * model.leastOff; ++round) {
         cull(model, q, reach, ws);
         JointValues way{};
         linearise(model, q, way, ws);
         double share = 1;
-        const double missing = (1 + endRoom) * model.off - depth;
+        const double missing = (1 + endRoom) * model.leastOff - depth;
         SlideRows rows(model, q, q, trust, ws);
-        while (!rows.nearest([&](const NearPair&) { return depth + share * missing; }, way)) {
+        while (
+            !rows.nearest([&](const NearPair& near) { return gapAt(near, depth + share * missing); }, way)) {
             share *= 0.5;
             if (share < 1e-4) break;
         }
         if (share < 1e-4) break;
-        for (std::size_t i = 0; i < ws.nearCount; ++i) ws.near[i].threshold = std::min(depth, model.off);
+        for (std::size_t i = 0; i < ws.nearCount; ++i)
+            ws.near[i].threshold = gapAt(ws.near[i], std::min(depth, model.leastOff));
         JointValues end = q;
         double t = advance(model, way, end, ws);
         // The far end of the free way need not be the shallowest pose on it.
-        double there = smallestGap(model, end, ws);
+        double there = smallestLevel(model, end, ws);
         for (int halving = 0; halving < 20 && there < depth + 0.25 * t * share * missing; ++halving) {
             t *= 0.5;
             for (int l = 0; l < model.dofCount; ++l) end[l] = q[l] + t * way[l];
-            there = smallestGap(model, end, ws);
+            there = smallestLevel(model, end, ws);
         }
         if (!(there > depth + 1e-6 * share * missing)) break;
         q = end;

@@ -11,8 +11,8 @@ namespace tss {
 void slide(const JointModel& model, const JointValues& goal, JointValues& q, JointWorkspace& ws);
 
 /// Leads a joint out of collision by the shortest moves (METHOD 5.6): one common threshold, the deepest gap,
-/// which each move raises; demands are shortened where they cannot all be met. Returns the smallest gap at
-/// q then; > 0: it is out.
+/// which each move raises (above contact a share of what each table keeps, levelOf()); demands are shortened
+/// where they cannot all be met. Returns the smallest level at q then; > 0: it is out.
 double pushOut(const JointModel& model, JointValues& q, JointWorkspace& ws);
 
 } // namespace tss

@@ -5,12 +5,11 @@
 
 #include <osgTSS/Convert>
 
+#include <algorithm>
+
 namespace osgTSS {
 
 namespace {
-
-/// Joints are kept at a small gap; what is within this many times it touches.
-constexpr double nearEnough = 1.1;
 
 /// The values of a pair's own joints among all of a plan's, in the order of its table.
 std::vector<double> valuesOf(const tss::SceneModel& model, const tss::JointPlan& plan,
@@ -71,7 +70,7 @@ void ContactReport::locate(const tss::SceneModel& model, const tss::JointPlan& p
 }
 
 void ContactReport::tell(const Scene& scene, const tss::JointPlan& plan, const std::vector<double>& q,
-                         const std::vector<tss::JointAnswer>& answers, ContactCallback& callback,
+                         const std::vector<tss::GroupAnswer>& answers, ContactCallback& callback,
                          osg::NodeVisitor& visitor) {
     const tss::SceneModel& model = scene.getModel();
     if (_groups.size() != plan.groups.size()) {
@@ -79,19 +78,13 @@ void ContactReport::tell(const Scene& scene, const tss::JointPlan& plan, const s
         watch(scene, plan, visitor);
     }
     for (std::size_t g = 0; g < answers.size(); ++g) {
-        const bool stopped = answers[g].status != tss::JointStatus::Free;
-        const double near = nearEnough * plan.groups[g].responder.keptGap();
-        for (Watched& watched : _groups[g]) {
+        const std::vector<int>& held = answers[g].held;
+        for (std::size_t k = 0; k < _groups[g].size(); ++k) {
+            Watched& watched = _groups[g][k];
             const bool before = watched.touching;
-            if (!stopped && !before) continue;
-            watched.touching = false;
-            if (stopped) {
-                const Contact last = watched.last;
-                locate(model, plan, q, watched);
-                watched.touching = watched.last.gap <= near;
-                if (!watched.touching) watched.last = last;
-            }
+            watched.touching = std::find(held.begin(), held.end(), static_cast<int>(k)) != held.end();
             if (!watched.touching && !before) continue;
+            if (watched.touching) locate(model, plan, q, watched);
             watched.last.event = !watched.touching ? Contact::END : before ? Contact::STAY : Contact::BEGIN;
             watched.last.status = answers[g].status;
             callback(watched.last, visitor);

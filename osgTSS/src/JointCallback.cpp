@@ -20,7 +20,7 @@ struct JointCallback::Binding {
     std::vector<std::unique_ptr<JointNode>> joints; ///< of the plan's; empty when one is missing
     std::vector<double> q;                          ///< where the joints are
     std::vector<double> asked;                      ///< room for what is asked
-    std::vector<tss::JointAnswer> found;
+    std::vector<tss::GroupAnswer> found;
     ContactReport contacts;
     unsigned int traversal = 0, frame = 0; ///< of the last update
     bool updated = false;                  ///< there was one

@@ -6,7 +6,7 @@
 
 namespace osgTSS {
 
-std::vector<tss::JointAnswer> SharedPlan::resolve(const std::vector<double>& last, std::vector<double>& q) {
+std::vector<tss::GroupAnswer> SharedPlan::resolve(const std::vector<double>& last, std::vector<double>& q) {
     std::vector<tss::JointWorkspace> room;
     {
         const std::lock_guard lock(_mutex);
@@ -16,7 +16,7 @@ std::vector<tss::JointAnswer> SharedPlan::resolve(const std::vector<double>& las
         }
     }
     if (room.empty()) room = tss::workspaces(*_plan);
-    std::vector<tss::JointAnswer> answers = tss::resolve(*_plan, last, q, room);
+    std::vector<tss::GroupAnswer> answers = tss::resolve(*_plan, last, q, room);
     const std::lock_guard lock(_mutex);
     _rooms.push_back(std::move(room));
     return answers;

@@ -21,7 +21,7 @@ public:
     const tss::JointPlan* operator->() const { return _plan.get(); }
 
     /// tss::resolve(). Safe from any thread.
-    std::vector<tss::JointAnswer> resolve(const std::vector<double>& last, std::vector<double>& q);
+    std::vector<tss::GroupAnswer> resolve(const std::vector<double>& last, std::vector<double>& q);
 
 private:
     std::shared_ptr<const tss::JointPlan> _plan;
