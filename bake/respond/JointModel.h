@@ -1,6 +1,6 @@
 #pragma once
+#include "bake/motion/JointQp.h"
 #include "bake/motion/MotionFrame.h"
-#include "bake/respond/JointQp.h"
 #include "bake/table/PreparedTable.h"
 
 #include <memory>
