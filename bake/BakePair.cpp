@@ -2,6 +2,7 @@
 
 #include "bake/ContactZoneFit.h"
 #include "bake/HollowBodies.h"
+#include "bake/RestRule.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/Solid.h"
@@ -85,10 +86,9 @@ HollowBodies hollowBodies(const Body& a, const Body& b, const PairSpheres& spher
 /// Spheres of two bodies whose surfaces are known never to come near each other, as coarse as shows it: what
 /// can be proven again from the file alone.
 PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, double tolerance,
-                         const Progress& progress) {
+                         const ContactZoneFit& fit, const Progress& progress) {
     SphereOptions how;
     CertifiedSearchOptions apart;
-    apart.atRest = AtRest::Collide;
     apart.measureClearance = false;
     apart.effort = 5'000'000;
     const double smaller = std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm());
@@ -97,9 +97,15 @@ PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, dou
         SphereOptions howA = how, howB = how;
         howA.hollow = hollow.a;
         howB.hollow = hollow.b;
+        howA.medial.neighbour = fit.a.neighbour;
+        howB.medial.neighbour = fit.b.neighbour;
         PairSpheres spheres{fitSpheres(cleaned(meshOf(a)), howA, progress),
                             fitSpheres(cleaned(meshOf(b)), howB, progress),
                             {},
+                            {},
+                            {},
+                            {},
+                            fit.rest.clearance,
                             {}};
         const CandidatePairs meeting =
             searchCertified(spheres.a.spheres, spheres.b.spheres, motion, apart, progress);
@@ -150,11 +156,17 @@ FitRecord recorded(FitRecord figures, const SphereFit& fit) {
     return figures;
 }
 
-SampledSearchOptions sampled(const BakeOptions& options) {
+SampledSearchOptions sampled(const BakeOptions& options, const ContactRule& rule) {
     SampledSearchOptions search;
     search.samples = static_cast<std::size_t>(options.samples);
-    search.atRest = options.atRest;
+    search.rule = rule;
     return search;
+}
+
+double clearanceAtRest(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion) {
+    const std::vector<double> rest = restValues(motion);
+    const double distance = MeshQuery(a).distanceTo(MeshQuery(b), pose(motion, rest));
+    return distance > touchingDistance(a, b, motion) ? distance : 0;
 }
 
 double defaultTolerance(const Body& a, const Body& b) {
@@ -162,11 +174,11 @@ double defaultTolerance(const Body& a, const Body& b) {
 }
 
 CandidatePairs search(const SphereSet& a, const SphereSet& b, const Motion& motion,
-                      const BakeOptions& options, const Progress& progress) {
+                      const BakeOptions& options, const ContactRule& rule, const Progress& progress) {
     if (options.search == SearchMethod::Sampled)
-        return searchSampled(a, b, motion, sampled(options), progress);
+        return searchSampled(a, b, motion, sampled(options, rule), progress);
     CertifiedSearchOptions certified;
-    certified.atRest = options.atRest;
+    certified.rule = rule;
     // The cover does without the list, which wide limits can make longer than anybody needs; only the others
     // wait.
     if (options.reduce == ReduceMethod::Cover) certified.effort = 50'000'000;
@@ -178,17 +190,6 @@ std::string methodName(const BakeOptions& options) {
            (options.search == SearchMethod::Sampled ? "/sampled/" : "/certified/") + name(options.reduce);
 }
 
-void noteOverlap(const CandidatePairs& candidates, const BakeOptions& options, PairReport& report) {
-    if (candidates.atRest.empty() || options.atRest == AtRest::Collide) return;
-    double deepest = 0;
-    for (const RestPair& pair : candidates.atRest) deepest = std::min(deepest, pair.gap);
-    report.notes.push_back(fmt::format(
-        "{} sphere {} at rest, at most {:.4g} scene units deep; {} (--at-rest collide makes no exception)",
-        candidates.atRest.size(), candidates.atRest.size() == 1 ? "pair overlaps" : "pairs overlap", -deepest,
-        options.atRest == AtRest::Offset ? "contact of those begins where they go deeper"
-                                         : "those are left out"));
-}
-
 /// The table's tests by the method asked for. Only the cover proves something about every pose.
 struct Selection {
     Reduced reduced;
@@ -198,15 +199,15 @@ struct Selection {
 };
 
 Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& candidates,
-                 const Motion& motion, const BakeOptions& options, PairReport& report,
-                 const Progress& progress) {
+                 const Motion& motion, const BakeOptions& options, const ContactRule& rule,
+                 PairReport& report, const Progress& progress) {
     Selection selection;
     switch (options.reduce) {
     case ReduceMethod::Cooccurrence:
         selection.reduced = reduceCooccurrence(candidates);
         break;
     case ReduceMethod::Minimal:
-        selection.reduced = reduceMinimal(a, b, motion, sampled(options), progress);
+        selection.reduced = reduceMinimal(a, b, motion, sampled(options, rule), progress);
         break;
     case ReduceMethod::None:
         selection.reduced.pairs = candidates.pairs;
@@ -217,7 +218,7 @@ Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& c
         CoverOptions cover;
         cover.epsilon = options.epsilon;
         cover.gapDepth = options.depth;
-        cover.atRest = options.atRest;
+        cover.rule = rule;
         cover.seconds = options.budget;
         const bool sampled = options.search == SearchMethod::Sampled;
         const bool listed = sampled || candidates.certified;
@@ -230,7 +231,7 @@ Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& c
         selection.epsilon = result.epsilon;
         selection.certified = !sampled;
         if (selection.certified && result.complete && result.pairs.empty())
-            selection.proof = NeverCollides{result.clearance, result.cells, {}, {}};
+            selection.proof = NeverCollides{result.clearance, result.cells, {}, {}, {}};
         if (!result.complete)
             report.notes.push_back(fmt::format("the budget ended first: epsilon {} was reached, not {}",
                                                result.epsilon, options.epsilon));
@@ -240,31 +241,14 @@ Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& c
     return selection;
 }
 
-/// What the meshes may expect of a certified table (METHOD 3.5). Pairs that overlap at rest count from their
-/// gap there.
-void setBounds(Table& table, const SphereFit& a, const SphereFit& b, bool overlapAtRest, PairReport& report) {
+/// What the meshes may expect of a certified table, but for the region that overlaps at rest (METHOD 3.5).
+void setBounds(Table& table, const SphereFit& a, const SphereFit& b, const RuleAtRest& ruled) {
     if (!table.certified) return;
     table.boundEarly = known(a.protrusion + b.protrusion + table.epsilon);
-    const double lacking = a.coverage + b.coverage;
-    if (table.epsilon > 0 && overlapAtRest) {
-        // A test may stay epsilon short of its own contact while it answers for others that touch. Counted
-        // from epsilon on, it would miss nothing, but one that overlaps at rest would then touch at rest.
-        // Where the gap is right to epsilon down to a depth of epsilon, it has answered when the others are
-        // that deep; a yes/no table does not say how deep they are.
-        if (table.gapDepth >= table.epsilon)
-            table.boundMiss = known(lacking + table.epsilon);
-        else
-            report.notes.push_back(
-                fmt::format("how late contact may be reported is not known: spheres overlap at rest, and a "
-                            "yes/no table does not tell how deep within epsilon; --epsilon 0 or --depth "
-                            "{:.4g} gives a bound",
-                            table.epsilon));
-        return;
-    }
-    table.boundMiss = known(lacking);
+    if (!ruled.spheres) table.boundMiss = known(a.coverage + b.coverage);
     if (!(table.epsilon > 0)) return;
     // Where spheres touch, some test's gap is at most epsilon: counted as contact from there on it misses
-    // nothing.
+    // nothing. At rest all are farther apart than that.
     table.restGaps.resize(table.testCount(), 0);
     for (double& gap : table.restGaps) gap += table.epsilon;
 }
@@ -282,28 +266,39 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
         ContactZoneOptions zone;
         zone.tolerance = tolerance;
         zone.depth = options.depth;
+        zone.epsilon = options.epsilon;
         zone.atRest = options.atRest;
         zone.maxSpheres = options.maxSpheres;
         zone.conservative = options.conservative;
-        ContactZoneFit fit = fitContactZone(cleaned(meshOf(a)), cleaned(meshOf(b)), motion, zone, progress);
+        const TriangleMesh meshA = cleaned(meshOf(a)), meshB = cleaned(meshOf(b));
+        ContactZoneFit fit = fitContactZone(meshA, meshB, motion, zone, progress);
         if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
-            spheres = spheresApart(a, b, motion, tolerance, progress);
+            spheres = spheresApart(a, b, motion, tolerance, fit, progress);
         else
-            spheres = {std::move(fit.a.fit), std::move(fit.b.fit), std::move(fit.a.zone),
-                       std::move(fit.b.zone)};
+            spheres = {std::move(fit.a.fit),
+                       std::move(fit.b.fit),
+                       std::move(fit.a.zone),
+                       std::move(fit.b.zone),
+                       {},
+                       {},
+                       fit.rest.clearance,
+                       {partsOf(a.mesh, meshA, fit.rest.region.a), partsOf(b.mesh, meshB, fit.rest.region.b)}};
     } else {
-        spheres = {
-            wholeBody(a, options, tolerance, progress), wholeBody(b, options, tolerance, progress), {}, {}};
+        spheres.a = wholeBody(a, options, tolerance, progress);
+        spheres.b = wholeBody(b, options, tolerance, progress);
+        spheres.clearanceAtRest = clearanceAtRest(meshOf(a), meshOf(b), motion);
     }
     roundToFloat(spheres.a);
     roundToFloat(spheres.b);
+    checkRest(spheres, motion, options);
     return spheres;
 }
 
 PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const BakeOptions& options,
                        PairReport& report, const Progress& progress) {
     const SphereFit &fitA = spheres.a, &fitB = spheres.b;
-    const CandidatePairs candidates = search(fitA.spheres, fitB.spheres, motion, options, progress);
+    const RuleAtRest ruled = ruleAtRest(spheres, motion, options);
+    const CandidatePairs candidates = search(fitA.spheres, fitB.spheres, motion, options, ruled.rule, progress);
     BakeRecord record;
     record.spheresA = fitA.spheres.size();
     record.spheresB = fitB.spheres.size();
@@ -311,24 +306,25 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
     record.candidatePairs = listed ? candidates.pairs.size() : 0;
     record.fitA = recorded(spheres.figuresA, fitA);
     record.fitB = recorded(spheres.figuresB, fitB);
-    noteOverlap(candidates, options, report);
+    noteRest(spheres, ruled, motion, options, report.notes);
     Selection selection;
     if (candidates.certified && candidates.pairs.empty())
-        selection.proof = NeverCollides{candidates.clearance, candidates.explored, {}, {}};
+        selection.proof = NeverCollides{candidates.clearance, candidates.explored, {}, {}, {}};
     else
-        selection = select(fitA.spheres, fitB.spheres, candidates, motion, options, report, progress);
-    // Spheres that stay apart say that the bodies do where the spheres lack less of the surfaces than that.
-    const double lacking = fitA.coverage + fitB.coverage;
-    if (selection.proof && !(std::isfinite(lacking) && lacking <= selection.proof->clearance)) {
-        selection.proof.reset();
-        selection.certified = true;
+        selection = select(fitA.spheres, fitB.spheres, candidates, motion, options, ruled.rule, report, progress);
+    if (selection.proof) {
+        // The meshes stay as far apart as the spheres do, less what these lack of the surfaces. Where that is
+        // nothing, or the meshes meet at rest, it is a table without tests.
+        double& clearance = selection.proof->clearance;
+        clearance -= fitA.coverage + fitB.coverage;
+        if (!(std::isfinite(clearance) && clearance > 0) || !ruled.rule.empty() || !ruled.region.empty()) {
+            selection.proof.reset();
+            selection.certified = true;
+        }
     }
     const std::string method = methodName(options);
     if (selection.proof) {
         selection.proof->method = method;
-        // No sphere in reach: nothing more is known than that the two do not meet, and a file holds no
-        // infinity.
-        if (!std::isfinite(selection.proof->clearance)) selection.proof->clearance = 0;
         selection.proof->record = record;
         return {nullptr, std::make_shared<NeverCollides>(*selection.proof)};
     }
@@ -341,9 +337,8 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
     table->certified = selection.certified;
     table->record = record;
     table->record.lowerBound = static_cast<std::uint64_t>(std::ceil(selection.reduced.lowerBound));
-    setBounds(*table, fitA, fitB,
-              options.atRest != AtRest::Collide && !restOverlaps(fitA.spheres, fitB.spheres, motion).empty(),
-              report);
+    table->restRegion = ruled.region;
+    setBounds(*table, fitA, fitB, ruled);
     report.epsilon = table->epsilon;
     return {table, nullptr};
 }

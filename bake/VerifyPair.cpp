@@ -1,6 +1,6 @@
 #include "bake/VerifyPair.h"
 
-#include "bake/BakePair.h"
+#include "bake/RestRule.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/Solid.h"
@@ -14,25 +14,18 @@ namespace tss {
 
 namespace {
 
-RestOverlaps restOverlaps(AtRest mode) {
-    switch (mode) {
-    case AtRest::Ignore:
-        return RestOverlaps::Ignore;
-    case AtRest::Collide:
-        return RestOverlaps::Collide;
-    case AtRest::Offset:
-        break;
-    }
-    return RestOverlaps::Offset;
-}
-
 /// The spheres that the table answers for: those stored with --keep-spheres, or made again from the meshes.
-std::pair<SphereSet, SphereSet> wholeSpheres(const SceneModel& scene, const Pair& pair, const Motion& motion,
-                                             const BakeOptions& options, const Progress& progress) {
+PairSpheres wholeSpheres(const SceneModel& scene, const Pair& pair, const Motion& motion,
+                         const BakeOptions& options, const Progress& progress) {
     const BakeRecord& record = pair.table ? pair.table->record : pair.proof->record;
-    if (pair.table && pair.table->a.size() == record.spheresA && pair.table->b.size() == record.spheresB)
-        return {pair.table->a, pair.table->b};
-    PairSpheres spheres = fillPair(scene, pair, motion, options, progress);
+    PairSpheres spheres;
+    if (pair.table && pair.table->restRegion.empty() && pair.table->a.size() == record.spheresA &&
+        pair.table->b.size() == record.spheresB) {
+        spheres.a.spheres = pair.table->a;
+        spheres.b.spheres = pair.table->b;
+        return spheres;
+    }
+    spheres = fillPair(scene, pair, motion, options, progress);
     if (!report(progress, "spheres", 1))
         throw InputError(Where{"", "", pair.path}, "stopped before its spheres were made again");
     if (spheres.a.spheres.size() != record.spheresA || spheres.b.spheres.size() != record.spheresB)
@@ -41,7 +34,7 @@ std::pair<SphereSet, SphereSet> wholeSpheres(const SceneModel& scene, const Pair
             fmt::format("was made from {} + {} spheres, but its meshes and settings give {} + {}",
                         record.spheresA, record.spheresB, spheres.a.spheres.size(),
                         spheres.b.spheres.size()));
-    return {std::move(spheres.a.spheres), std::move(spheres.b.spheres)};
+    return spheres;
 }
 
 /// The farthest that a sphere sticks out of its body.
@@ -67,9 +60,13 @@ PairVerdict verifyPair(const SceneModel& scene, const Pair& pair, const Progress
     if (std::string stale = staleness(scene, pair); !stale.empty()) return fails(stale);
     const BakeOptions options = optionsFor(pair.settings, {}, scene.metersPerUnit);
     const Motion motion = pairMotion(scene, pair);
-    const auto [a, b] = wholeSpheres(scene, pair, motion, options, progress);
+    const PairSpheres spheres = wholeSpheres(scene, pair, motion, options, progress);
+    const SphereSet &a = spheres.a.spheres, &b = spheres.b.spheres;
+    const RuleAtRest ruled = ruleAtRest(spheres, motion, options);
     VerifyOptions how;
-    how.atRest = restOverlaps(options.atRest);
+    how.regionA = ruled.rule.regionA();
+    how.regionB = ruled.rule.regionB();
+    how.depth = options.atRest == AtRest::Offset ? -ruled.rule.threshold() : -1;
     const VerifyResult result =
         pair.proof ? verifyNeverCollides(a, b, pair.proof->clearance * (1 - 1e-9), motion, how, progress)
                    : verifyTable(a, b, *pair.table, motion, how, progress);

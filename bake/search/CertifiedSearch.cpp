@@ -212,7 +212,7 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
         result.clearance = std::numeric_limits<double>::infinity();
         return result;
     }
-    const ContactRule rule(a, b, motion, options.atRest);
+    const ContactRule& rule = options.rule;
     Poll poll(progress, "certified search");
     const auto stop = [&] { return poll.stopped(); };
     const SphereTree treeA(a, stop), treeB(b, stop);
@@ -221,10 +221,10 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
         return result;
     }
     PairBits known(a.size(), b.size());
-    if (rule.mode() != AtRest::Ignore) {
+    if (options.sampleFirst) {
         SampledSearchOptions sampling;
         sampling.samples = 1024;
-        sampling.atRest = options.atRest;
+        sampling.rule = rule;
         const Progress asked = [&](std::string_view, double) {
             return report(progress, "certified search", 0);
         };
@@ -235,14 +235,13 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
     const std::uint64_t effort = effortOfPart(options.effort);
     const Problem problem{a, b, treeA, treeB, rates, rule, options.margin, tolerance, known, false, effort};
     Found found = search(problem, progress);
-    result.atRest = rule.atRest();
     result.certified = found.complete;
     result.explored = found.cells;
     result.pairs = std::move(found.pairs);
     result.restGaps = rule.thresholds(result.pairs);
     if (result.pairs.empty() && result.certified) {
         result.clearance = options.margin;
-        if (options.measureClearance)
+        if (options.measureClearance && rule.empty())
             result.clearance = std::max(
                 result.clearance, provenClearance(a, b, motion, &result.explored, progress, options.effort));
     }
@@ -254,7 +253,7 @@ double provenClearance(const SphereSet& a, const SphereSet& b, const Motion& mot
                        const Progress& progress, std::uint64_t effort) {
     if (a.empty() || b.empty()) return std::numeric_limits<double>::infinity();
     const MotionRates rates(motion);
-    const ContactRule rule(a, b, motion, AtRest::Collide);
+    const ContactRule rule;
     Poll poll(progress, "proven clearance");
     const auto stop = [&] { return poll.stopped(); };
     const SphereTree treeA(a, stop), treeB(b, stop);

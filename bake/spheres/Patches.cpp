@@ -23,7 +23,7 @@ double Patch::area() const {
 
 std::array<Patch, 2> halves(const Patch& patch) {
     const std::array<Corners, 2> both = halves(patch.corners);
-    return {Patch{both[0], patch.normal}, Patch{both[1], patch.normal}};
+    return {Patch{both[0], patch.normal, patch.region}, Patch{both[1], patch.normal, patch.region}};
 }
 
 std::vector<Patch> patchesOf(const TriangleMesh& mesh) {
@@ -64,23 +64,26 @@ public:
         if (shared_.poll.stopped()) throw InputError("stopped before the spheres were made");
         const double radius = patch.radius();
         // Not worth a ball of its own while far larger than the balls about it allow.
-        if (radiusExpected > 0 && radius > 1.5 * largest(radiusExpected)) return split(patch, radiusExpected);
-        const Sphere ball = medialBall(solid_, patch.centre(), patch.normal, options_.protrusion,
-                                       options_.slackFactor * options_.protrusion,
-                                       radiusExpected > 0 ? 1.1 * radiusExpected : 4 * radius, known_);
-        if (radius <= largest(ball.radius) && covers(ball, patch)) {
+        if (radiusExpected > 0 && radius > 1.5 * largest(radiusExpected, options_.protrusion))
+            return split(patch, radiusExpected);
+        const MedialBall ball = medialBall(
+            solid_, patch.centre(), patch.normal, options_.protrusion, options_.slackFactor,
+            radiusExpected > 0 ? 1.1 * radiusExpected : 4 * radius, known_, options_.neighbour);
+        finest_ = std::min(finest_, ball.protrusion());
+        if (radius <= largest(ball.sphere.radius, ball.protrusion()) && covers(ball.sphere, patch)) {
             result.patches.push_back(patch);
-            result.candidates.push_back(ball);
+            result.candidates.push_back(ball.sphere);
+            result.inner.push_back(ball.inner);
         } else {
-            split(patch, ball.radius);
+            split(patch, std::max(ball.sphere.radius, ball.free));
         }
     }
 
     FittedPatches result;
 
 private:
-    double largest(double ballRadius) const {
-        return options_.sizeFactor * std::sqrt(2 * ballRadius * options_.protrusion);
+    double largest(double ballRadius, double protrusion) const {
+        return protrusion > 0 ? options_.sizeFactor * std::sqrt(2 * ballRadius * protrusion) : 0;
     }
 
     void split(const Patch& patch, double radiusExpected) {
@@ -88,19 +91,28 @@ private:
         constexpr int mostDeep = 128;
         if (shared_.splits.fetch_add(1, std::memory_order_relaxed) >= options_.mostPatches ||
             depth_ >= mostDeep)
-            throw TooFine(
-                fmt::format("a tolerance of about {:.4g} takes more than {} patches of a mesh {:.4g} "
-                            "in size: expected a coarser one",
-                            options_.protrusion, options_.mostPatches, solid_.diagonal()));
+            refuse();
         ++depth_;
         for (const Patch& half : halves(patch)) add(half, radiusExpected);
         --depth_;
+    }
+
+    [[noreturn]] void refuse() const {
+        if (options_.neighbour && finest_ < 0.5 * options_.protrusion)
+            throw RestTooClose(fmt::format("the meshes are {:.4g} apart at rest: spheres that are apart there too may stick "
+                               "out by no more than {:.4g} and take more than {} patches: expected a rest pose "
+                               "with more clearance, or meshes that overlap where they are meant to",
+                               options_.neighbour->clearance, std::max(finest_, 0.0), options_.mostPatches));
+        throw TooFine(fmt::format("a tolerance of about {:.4g} takes more than {} patches of a mesh {:.4g} in size: "
+                           "expected a coarser one",
+                           options_.protrusion, options_.mostPatches, solid_.diagonal()));
     }
 
     const Solid& solid_;
     const PatchOptions& options_;
     Shared& shared_;
     int depth_ = 0;
+    double finest_ = std::numeric_limits<double>::infinity(); ///< the least that a sphere may stick out
     KnownInside known_;
 };
 
@@ -123,6 +135,7 @@ FittedPatches fitPatches(const Solid& solid, std::span<const Patch> patches, con
     for (FittedPatches& part : parts) {
         all.patches.insert(all.patches.end(), part.patches.begin(), part.patches.end());
         all.candidates.insert(all.candidates.end(), part.candidates.begin(), part.candidates.end());
+        all.inner.insert(all.inner.end(), part.inner.begin(), part.inner.end());
         part = {};
     }
     return all;

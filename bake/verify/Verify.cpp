@@ -41,7 +41,7 @@ VerifyResult verifyTable(const SphereSet& a, const SphereSet& b, const Table& ta
         return refused(mismatch);
     if (!(table.epsilon >= 0) || !(table.gapDepth >= 0) || !(table.gapMargin >= 0))
         return refused("the table states no bound");
-    const Models models(a, b, motion, options.atRest);
+    const Models models(a, b, motion, options);
     const double band = bandOf(models, options);
     Claim claim;
     std::string reason;
@@ -62,7 +62,7 @@ VerifyResult verifyNeverCollides(const SphereSet& a, const SphereSet& b, double 
                                  const Motion& motion, const VerifyOptions& options,
                                  const Progress& progress) {
     checkMotion(motion);
-    const Models models(a, b, motion, options.atRest);
+    const Models models(a, b, motion, options);
     const double band = bandOf(models, options);
     Claim claim;
     claim.margin = clearance - band;
