@@ -15,8 +15,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Pairs that a box keeps open at most before it is halved with the rest as it is.
 constexpr std::size_t mostOpen = 3000;
-/// Tests that are tried on a pair, in the order of their use.
-constexpr std::size_t mostTried = 48;
+/// Tests that are tried on a pair, the deepest in the middle of the box first and those that answered for
+/// others before it. In small boxes, where few are left, all of them.
+constexpr std::size_t mostTried = 8;
+constexpr double smallBox = 1e-3; ///< of the largest reach
 
 Piece half(const SurfaceTree& tree, Piece piece, std::uint32_t side) {
     const SurfaceTree::Node& node = tree.nodes[static_cast<std::size_t>(piece.node)];
@@ -25,7 +27,8 @@ Piece half(const SurfaceTree& tree, Piece piece, std::uint32_t side) {
 }
 
 bool divisible(const SurfaceTree& tree, Piece piece) {
-    return tree.nodes[static_cast<std::size_t>(piece.node)].first >= 0 || std::bit_width(piece.cuts) < mostCuts;
+    return tree.nodes[static_cast<std::size_t>(piece.node)].first >= 0 ||
+           std::bit_width(piece.cuts) < mostCuts;
 }
 
 } // namespace
@@ -41,7 +44,8 @@ MeshBox::MeshBox(const SurfaceTree& a, const SurfaceTree& b, const Motion& motio
 const MeshBox::Moved& MeshBox::moved(std::int32_t node) {
     Moved& at = moved_[static_cast<std::size_t>(node)];
     if (at.stamp != stamp_) {
-        static_cast<MovingPoint&>(at) = box_->carry(b_.nodes[static_cast<std::size_t>(node)].slab.centre, true);
+        static_cast<MovingPoint&>(at) =
+            box_->carry(b_.nodes[static_cast<std::size_t>(node)].slab.centre, true);
         at.stamp = stamp_;
     }
     return at;
@@ -108,8 +112,8 @@ bool MeshBox::apart(const Slab& a, const Slab& b, const MovingPoint& at) const {
     return (distance > 0 && separates(between / distance)) || separates(a.axis) || separates(axisB);
 }
 
-// The test's gap at every pose of the box where the two pieces come as near as the claim says, T(q) y = x + e:
-// gap + lambda . (T(q) y - x - e), for any lambda.
+// The test's gap at every pose of the box where the two pieces come as near as the claim says, T(q) y = x +
+// e: gap + lambda . (T(q) y - x - e), for any lambda.
 double MeshBox::bound(const Near& test, const Vec3& lambda, const Slab& a, const Slab& b,
                       const MovingPoint& at, double& patches) const {
     const double length = lambda.norm();
@@ -139,7 +143,8 @@ bool MeshBox::answered(const Slab& a, const Slab& b, const MovingPoint& at, Verd
         }
         return gap <= limit;
     };
-    const std::size_t count = std::min(mostTried, near_.size());
+    const std::size_t count =
+        at.move < smallBox * largestReach_ ? near_.size() : std::min(mostTried, near_.size());
     for (std::size_t n = 0; n < count; ++n) {
         const Near& test = near_[n];
         const MeshTest& t = claim_.tests[test.test];
@@ -148,8 +153,8 @@ bool MeshBox::answered(const Slab& a, const Slab& b, const MovingPoint& at, Verd
             yes = tries(test, -test.normal);
             if (!yes) {
                 if (!inverted) {
-                    Eigen::Matrix3d m = Eigen::Matrix3d::Identity() *
-                                        (at.bend * at.bend + 1e-4 * scale_ * scale_ + 1e-300);
+                    Eigen::Matrix3d m =
+                        Eigen::Matrix3d::Identity() * (at.bend * at.bend + 1e-4 * scale_ * scale_ + 1e-300);
                     for (std::size_t l = 0; l < box_->dofs(); ++l) {
                         const Vec3 v = at.velocity[l] * box_->half(l);
                         m += v * v.transpose();
@@ -275,7 +280,7 @@ MeshBox::Outcome MeshBox::judge(const Box& dofs, const OpenPairs& open, OpenPair
     ++stamp_;
     work_ += 1 + open.tests.size() / 4;
     if (weighTests(open)) return Outcome::Shown;
-    std::stable_sort(near_.begin(), near_.begin(), [](const Near& x, const Near& y) { return x.gap < y.gap; });
+    std::stable_sort(near_.begin(), near_.end(), [](const Near& x, const Near& y) { return x.gap < y.gap; });
     left.pairs.clear();
     stack_ = open.pairs;
     while (!stack_.empty()) {

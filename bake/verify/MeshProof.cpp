@@ -78,8 +78,8 @@ PartOutcome runPart(MeshBox& prover, Job job, std::uint64_t work) {
     return part;
 }
 
-/// Poses spread over Q, to find what is plainly wrong before anything is proven: rest, the ends of every DOF, and
-/// a low-discrepancy sequence.
+/// Poses spread over Q, to find what is plainly wrong before anything is proven: rest, the ends of every DOF,
+/// and a low-discrepancy sequence.
 std::vector<std::vector<double>> firstPoses(const Motion& motion) {
     constexpr int count = 400;
     std::vector<std::vector<double>> poses{clampToLimits(motion, restValues(motion))};
@@ -99,6 +99,18 @@ std::vector<std::vector<double>> firstPoses(const Motion& motion) {
 
 } // namespace
 
+std::vector<MeshTest> meshTests(const Table& table) {
+    std::vector<MeshTest> all;
+    for (std::uint32_t i = 0; i + 1 < table.rowOffsets.size(); ++i)
+        for (std::uint32_t k = table.rowOffsets[i]; k < table.rowOffsets[i + 1]; ++k) {
+            const std::uint32_t j = table.columns[k];
+            const Sphere &a = table.a[i], &b = table.b[j];
+            const double threshold = table.restGaps.empty() ? 0 : table.restGaps[k];
+            all.push_back({a.centre, b.centre, a.radius + b.radius + threshold, threshold, i, j});
+        }
+    return all;
+}
+
 MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const Motion& motion, double size,
                                const MeshClaim& claim, const Progress& progress) {
     MeshProofResult result;
@@ -109,8 +121,9 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
     BoxPool pool([&] { return std::make_unique<MeshBox>(a, b, motion, size, claim); });
     auto open = std::make_shared<OpenPairs>();
     open->pairs.push_back({{a.root(), 1}, {b.root(), 1}});
-    const std::string broken = claim.tests.empty() ? "at a pose the meshes are nearer than the clearance"
-                                                   : "at a pose the meshes meet and the table does not answer";
+    const std::string broken = claim.tests.empty()
+                                   ? "at a pose the meshes are nearer than the clearance"
+                                   : "at a pose the meshes meet and the table does not answer";
     {
         std::unique_ptr<MeshBox> box = pool.take();
         for (const std::vector<double>& q : firstPoses(motion)) {
@@ -137,8 +150,7 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
         std::vector<PartOutcome> parts(count);
         parallelFor(count, [&](std::size_t k) {
             std::unique_ptr<MeshBox> box = pool.take();
-            parts[k] =
-                runPart(*box, std::move(jobs[jobs.size() - 1 - k]), count < width ? 20'000 : 200'000);
+            parts[k] = runPart(*box, std::move(jobs[jobs.size() - 1 - k]), count < width ? 20'000 : 200'000);
             pool.give(std::move(box));
         });
         jobs.resize(jobs.size() - count);

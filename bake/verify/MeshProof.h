@@ -1,5 +1,6 @@
 #pragma once
 #include "bake/base/Progress.h"
+#include "bake/table/Table.h"
 #include "bake/verify/PoseBox.h"
 #include "bake/verify/SurfaceTree.h"
 
@@ -13,14 +14,17 @@ namespace tss::verify {
 struct MeshTest {
     Vec3 centreA = Vec3::Zero(), centreB = Vec3::Zero();
     double reach = 0;
+    double threshold = 0; ///< what the reach is more than the sum of radii
+    std::uint32_t sphereA = 0, sphereB = 0;
 };
+std::vector<MeshTest> meshTests(const Table& table);
 
 /// Wherever the two surfaces come as near as `near`, pairs of exempt patches excepted, the gap of some test
 /// is at most `miss`.
 struct MeshClaim {
     std::vector<MeshTest> tests;
     double miss = 0, near = 0;
-    double band = 0;    ///< granted to `miss` (to `near`, where there are no tests) for rounding
+    double band = 0;        ///< granted to `miss` (to `near`, where there are no tests) for rounding
     std::uint64_t work = 0; ///< give up after about so many comparisons of patches; 0: never
 };
 
@@ -34,9 +38,9 @@ struct MeshProofResult {
     double bytes = 0;         ///< of the trees and of what was open at the same time, about
 };
 
-/// Proves the claim for every pose of the motion's limits from the surfaces themselves, by branch and bound over
-/// boxes of Q and pairs of patches, or finds a pose that breaks it. `size`: no coordinate on the way from B to
-/// A is larger. Rounding is bounded and counts against the claim. Deterministic.
+/// Proves the claim for every pose of the motion's limits from the surfaces themselves, by branch and bound
+/// over boxes of Q and pairs of patches, or finds a pose that breaks it. `size`: no coordinate on the way
+/// from B to A is larger. Rounding is bounded and counts against the claim. Deterministic.
 MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const Motion& motion, double size,
                                const MeshClaim& claim, const Progress& progress);
 
