@@ -55,7 +55,7 @@ private:
             const Vec3 apart = point.at - a.centre;
             const double distance = apart.norm();
             double along = 0, across = 0;
-            for (std::size_t k = 0; k < point.velocity.size(); ++k) {
+            for (std::size_t k = 0; k < pose.dofs(); ++k) {
                 along += std::abs(apart.dot(point.velocity[k])) * pose.half(k);
                 across += point.velocity[k].norm() * pose.half(k);
             }
