@@ -26,12 +26,23 @@ std::array<Patch, 2> halves(const Patch& patch) {
     return {Patch{both[0], patch.normal, patch.region}, Patch{both[1], patch.normal, patch.region}};
 }
 
+namespace {
+
+Vec3 normalOf(const Vec3& a, const Vec3& b, const Vec3& c) {
+    if (!hasZeroArea(a, b, c)) return (b - a).cross(c - a).stableNormalized();
+    const Vec3 ab = b - a, ac = c - a, along = ab.squaredNorm() > ac.squaredNorm() ? ab : ac;
+    const double length = along.stableNorm();
+    return length > 0 ? Vec3(Vec3(along / length).unitOrthogonal()) : Vec3::UnitX();
+}
+
+} // namespace
+
 std::vector<Patch> patchesOf(const TriangleMesh& mesh) {
     std::vector<Patch> patches;
     patches.reserve(mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
-        if (!hasZeroArea(a, b, c)) patches.push_back({{a, b, c}, (b - a).cross(c - a).stableNormalized()});
+        patches.push_back({{a, b, c}, normalOf(a, b, c)});
     }
     return patches;
 }

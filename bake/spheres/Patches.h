@@ -15,7 +15,7 @@ namespace tss {
 /// contains all of it.
 struct Patch {
     Corners corners;
-    Vec3 normal;         ///< unit length, that of its triangle
+    Vec3 normal;         ///< unit length, that of its triangle; some one where that has no area
     bool region = false; ///< of what overlaps at rest (METHOD 2.4)
 
     Vec3 centre() const { return (corners[0] + corners[1] + corners[2]) / 3; }
@@ -26,7 +26,7 @@ struct Patch {
 /// Cuts the longest edge in half.
 std::array<Patch, 2> halves(const Patch& patch);
 
-/// The triangles of a mesh as patches, those without an area left out.
+/// The triangles of a mesh as patches, those without an area too: segments and points of surface.
 std::vector<Patch> patchesOf(const TriangleMesh& mesh);
 
 /// Contains all three corners, with a little to spare for rounding.
