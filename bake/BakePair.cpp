@@ -290,6 +290,7 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
     }
     roundToFloat(spheres.a);
     roundToFloat(spheres.b);
+    spheres.stickOut = spheres.a.protrusion + spheres.b.protrusion;
     checkRest(spheres, motion, options);
     return spheres;
 }

@@ -22,7 +22,8 @@ RuleAtRest ruleAtRest(const PairSpheres& spheres, const Motion& motion, const Ba
     ruled.region = spheres.region;
     // Within what spheres stick out, deeper and less deep are not told apart. Tests count from epsilon on.
     if (options.atRest == AtRest::Offset)
-        ruled.region.depth = depthAtRest(a.spheres, b.spheres, motion, a.region, b.region) + options.epsilon;
+        ruled.region.depth = depthAtRest(a.spheres, b.spheres, motion, a.region, b.region) +
+                             spheres.stickOut + options.epsilon;
     ruled.rule = {a.region, b.region, ruled.region.depth};
     return ruled;
 }

@@ -88,6 +88,7 @@ inline tss::Table smallTable(const tss::Motion& motion) {
     table.rowOffsets = {0, 1, 2};
     table.columns = {0, 0};
     table.restGaps = {0, -0.1};
+    table.restRegion = {{{0, 2}, {2, 1}}, {{1, 5}}, 0.1};
     table.motion = motion;
     table.record.spheresA = table.record.spheresB = 9;
     return table;

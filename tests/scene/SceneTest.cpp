@@ -55,6 +55,7 @@ TEST_CASE("a table comes back number by number") {
     table.rowOffsets = {0, 1, 2};
     table.columns = {0, 0};
     table.restGaps = {0, -0.1};
+    table.restRegion = {{{0, 2}, {2, 1}}, {{1, 5}}, 0.1};
     table.motion = pairMotion(scene, scene.pairs[0]);
     table.epsilon = 1e-9;
     table.boundMiss = 0;
@@ -75,6 +76,9 @@ TEST_CASE("a table comes back number by number") {
     CHECK(read.rowOffsets == table.rowOffsets);
     CHECK(read.columns == table.columns);
     CHECK(read.restGaps == table.restGaps);
+    CHECK(read.restRegion.a == table.restRegion.a);
+    CHECK(read.restRegion.b == table.restRegion.b);
+    CHECK(read.restRegion.depth == 0.1);
     CHECK(read.epsilon == table.epsilon);
     CHECK(read.boundMiss == 0);
     CHECK(read.boundEarly == -1);

@@ -19,7 +19,6 @@ namespace {
 
 CertifiedSearchOptions colliding(double tolerance = -1) {
     CertifiedSearchOptions options;
-    options.atRest = AtRest::Collide;
     options.tolerance = tolerance;
     return options;
 }
@@ -34,7 +33,6 @@ TEST_CASE("the certified search finds every pair that any sampled pose shows") {
         SampledSearchOptions options;
         options.samples = 4000;
         options.seed = seed + 100;
-        options.atRest = AtRest::Collide;
         const auto sampled = searchSampled(scene.a, scene.b, scene.motion, options);
         CHECK(certified.certified);
         CHECK(std::includes(certified.pairs.begin(), certified.pairs.end(), sampled.pairs.begin(),
@@ -60,7 +58,6 @@ TEST_CASE("a hinge is cut also where a point of the other body comes to lie on i
         const auto certified = searchCertified(a, b, motion, colliding(0.0005));
         SampledSearchOptions options;
         options.samples = 1000;
-        options.atRest = AtRest::Collide;
         const auto sampled = searchSampled(a, b, motion, options);
         CHECK(certified.certified);
         CHECK(std::includes(certified.pairs.begin(), certified.pairs.end(), sampled.pairs.begin(),
@@ -82,7 +79,7 @@ TEST_CASE("a search ends where no number is left between the limits of a cell") 
         motion.dofs = {turn};
         motion.base = dofPose(turn, last).inverse() * Eigen::Translation3d(2 + k * 4e-8, 0, 0);
         CertifiedSearchOptions options;
-        options.atRest = AtRest::Ignore; // with another, samples would find the last angle first
+        options.sampleFirst = false; // samples would find the last angle first
         options.tolerance = 0;
         const auto found = searchCertified(a, b, motion, options);
         CHECK(found.certified);
