@@ -24,6 +24,7 @@ struct Problem {
     MotionRates rates;
     Pose rest;
     UndecidedOptions options;
+    double rounding = coordinateRounding(rates.motion(), treeA.extent(), treeB.extent());
 
     const Motion& motion() const { return rates.motion(); }
 
@@ -39,6 +40,7 @@ struct Problem {
 
 /// Whether a pair of inscribed spheres with the same overlap as these fires for certain all over the cell.
 bool firesEverywhere(const Problem& p, std::uint32_t i, std::uint32_t j, double distance, double move) {
+    move += p.rounding;
     const double inA = p.a.spheres[i].radius - p.a.protrusion, inB = p.b.spheres[j].radius - p.b.protrusion;
     // One of them may be a point of a surface, which the other body then has inside; two points say nothing.
     if (inA < 0 || inB < 0 || inA + inB <= 0 || distance + move > inA + inB - p.options.depth) return false;
@@ -56,8 +58,7 @@ Verdict judge(const Problem& p, const CellMotion& motion, const std::vector<Node
         const Vec3 x = motion.centrePose() * nb.centre;
         const double move = motion.reach(x).move, sum = na.radius + nb.radius;
         const double distance = (x - na.centre).norm();
-        // The hair covers rounding: what is dropped here is taken for proven.
-        if (distance * (1 + 1e-12) - move > sum + p.options.margin + 1e-12 * x.norm()) continue;
+        if (distance - move > sum + p.options.margin + p.rounding) continue;
         if (na.leaf() && nb.leaf()) {
             if (firesEverywhere(p, na.sphere, nb.sphere, distance, move)) return Verdict::Hit;
             open.push_back(pair);
