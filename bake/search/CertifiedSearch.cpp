@@ -32,6 +32,7 @@ struct Problem {
     const PairBits& known; ///< pairs found before, by sampling
     bool firstOnly;        ///< one pair is enough
     std::uint64_t effort;  ///< looks that each part has; 0: no limit
+    double rounding = coordinateRounding(rates.motion(), treeA.extent(), treeB.extent());
 };
 
 /// Parts that Q is cut into before the search.
@@ -95,7 +96,7 @@ private:
         const CellMotion::Reach reach = motion.reach(x);
         const double sum = na.radius + nb.radius;
         if (na.leaf() && nb.leaf()) return judgeSpheres(motion, pair, x, reach, left);
-        if ((x - na.centre).norm() - reach.move > sum + p_.margin) return;
+        if ((x - na.centre).norm() - reach.move > sum + p_.margin + p_.rounding) return;
         // Smaller balls do not help where the motion is what blurs the answer.
         if (sum < reach.move && reach.move > p_.tolerance && !finest_) {
             left.push_back(pair);
@@ -113,9 +114,9 @@ private:
         const SpherePair pair{p_.treeA[nodes.a].sphere, p_.treeB[nodes.b].sphere};
         const Sphere &sa = p_.a[pair.a], &sb = p_.b[pair.b];
         const double limit = sa.radius + sb.radius + p_.rule.threshold(pair) + p_.margin;
-        if (limit < 0 || found_.contains(pair) || p_.known.contains(pair)) return;
+        if (limit < -p_.rounding || found_.contains(pair) || p_.known.contains(pair)) return;
         const PairAt at(motion, x, reach, sa.centre);
-        if (at.staysAbove(limit)) return;
+        if (at.staysAbove(std::max(limit, 0.0), p_.rounding)) return;
         if (reach.move <= p_.tolerance || finest_ ||
             (at.distance <= limit && withinLimits(p_.rates.motion(), motion.centre()))) {
             found_.insert(pair);

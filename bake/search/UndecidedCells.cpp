@@ -23,6 +23,7 @@ struct Problem {
     SphereTree treeA, treeB;
     MotionRates rates;
     UndecidedOptions options;
+    double rounding = coordinateRounding(rates.motion(), treeA.extent(), treeB.extent());
 
     const Motion& motion() const { return rates.motion(); }
 
@@ -33,6 +34,7 @@ struct Problem {
 
 /// Whether the pair of inscribed spheres fires for certain all over the cell.
 bool firesEverywhere(const Problem& p, std::uint32_t i, std::uint32_t j, double distance, double move) {
+    move += p.rounding;
     const double inA = p.a.inner[i], inB = p.b.inner[j];
     // One of them may be a point of a surface, which the other body then has inside; two points say nothing.
     return inA + inB > 0 && distance + move <= inA + inB - p.options.depth;
@@ -49,8 +51,7 @@ Verdict judge(const Problem& p, const CellMotion& motion, const std::vector<Node
         const Vec3 x = motion.centrePose() * nb.centre;
         const double move = motion.reach(x).move, sum = na.radius + nb.radius;
         const double distance = (x - na.centre).norm();
-        // The hair covers rounding: what is dropped here is taken for proven.
-        if (distance * (1 + 1e-12) - move > sum + p.options.margin + 1e-12 * x.norm()) continue;
+        if (distance - move > sum + p.options.margin + p.rounding) continue;
         if (na.leaf() && nb.leaf()) {
             if (p.excepted(na.sphere, nb.sphere)) continue;
             if (firesEverywhere(p, na.sphere, nb.sphere, distance, move)) return Verdict::Hit;
