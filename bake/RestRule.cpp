@@ -20,10 +20,11 @@ RuleAtRest ruleAtRest(const PairSpheres& spheres, const Motion& motion, const Ba
     }
     if (a.region.empty() || b.region.empty()) return ruled;
     ruled.region = spheres.region;
-    // Within what spheres stick out, deeper and less deep are not told apart. Tests count from epsilon on.
+    // Spheres stick out by anything up to their tolerance: they do not tell depths apart that differ by less.
+    // Tests count from epsilon on.
     if (options.atRest == AtRest::Offset)
         ruled.region.depth = depthAtRest(a.spheres, b.spheres, motion, a.region, b.region) +
-                             spheres.stickOut + options.epsilon;
+                             spheres.stickOut / 2 + options.epsilon;
     ruled.rule = {a.region, b.region, ruled.region.depth};
     return ruled;
 }

@@ -23,6 +23,13 @@ CertifiedSearchOptions colliding(double tolerance = -1) {
     return options;
 }
 
+/// Spheres that stick out of their body by nothing.
+LevelSpheres levelOf(const SphereSet& spheres) {
+    LevelSpheres level{spheres, {}, {}};
+    for (const Sphere& sphere : spheres) level.inner.push_back(sphere.radius);
+    return level;
+}
+
 } // namespace
 
 TEST_CASE("the certified search finds every pair that any sampled pose shows") {
@@ -195,7 +202,7 @@ TEST_CASE("searches of many spheres stop while their trees are built") {
     UndecidedOptions options;
     options.resolution = 0.1;
     const CellTree all = wholeQ(scene.motion);
-    const Undecided undecided = undecidedCells({scene.a, 0}, {scene.b, 0}, scene.motion, all, options, no);
+    const Undecided undecided = undecidedCells(levelOf(scene.a), levelOf(scene.b), scene.motion, all, options, no);
     REQUIRE(undecided.cells);
     CHECK(undecided.cells->leaves() == all.leaves());
 }
