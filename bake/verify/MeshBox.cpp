@@ -95,39 +95,69 @@ bool MeshBox::weighTests(const OpenPairs& open) {
     return false;
 }
 
-bool MeshBox::apart(const Slab& a, const Slab& b, const MovingPoint& at) const {
+Shape MeshBox::shapeOf(const SurfaceTree& tree, Piece piece) const {
+    const SurfaceTree::Node& node = tree.nodes[static_cast<std::size_t>(piece.node)];
+    if (node.first >= 0) return {node.slab, {}};
+    Shape shape;
+    shape.corners = cornersOf(tree, piece);
+    shape.slab = piece.cuts == 1 ? node.slab : slabOf(*shape.corners);
+    return shape;
+}
+
+bool MeshBox::apart(const Shape& shapeA, const Shape& shapeB, const MovingPoint& at) const {
+    const Slab &a = shapeA.slab, &b = shapeB.slab;
     const Vec3 between = at.at - a.centre;
     const double distance = between.norm();
     if (distance * (1 - 1e-15) - at.move > a.reach + b.reach + claim_.near) return true;
-    const Vec3 axisB = box_->pose().linear() * b.axis;
-    const auto separates = [&](const Vec3& normal) {
-        double along = std::abs(normal.dot(between)), tilt = at.bend;
+    const Eigen::Matrix3d turned = box_->pose().linear();
+    const auto separates = [&](Vec3 normal) { // of length 1
+        double along = normal.dot(between), tilt = at.bend;
+        if (along < 0) {
+            along = -along;
+            normal = -normal;
+        }
         for (std::size_t l = 0; l < box_->dofs(); ++l)
             tilt += std::abs(normal.dot(at.velocity[l])) * box_->half(l);
         tilt = std::min(tilt, at.move);
-        const Vec3 inB = box_->pose().linear().transpose() * normal;
-        const double wide = a.support(normal) + std::min(b.reach, b.support(inB) + box_->turn() * b.reach);
-        return along * (1 - 1e-14) > (tilt + wide + claim_.near) * (1 + 1e-14) + 0.1 * claim_.band;
+        const Vec3 inB = turned.transpose() * normal;
+        const double wide =
+            shapeA.support(normal) + std::min(b.reach, shapeB.support(-inB) + box_->turn() * b.reach);
+        const double rounding = 1e-14 * (tilt + a.reach + b.reach + claim_.near) + 0.1 * claim_.band;
+        return along * (1 - 1e-14) > tilt + wide + claim_.near + rounding;
     };
-    return (distance > 0 && separates(between / distance)) || separates(a.axis) || separates(axisB);
+    if ((distance > 0 && separates(between / distance)) || separates(a.axis) || separates(turned * b.axis))
+        return true;
+    if (!shapeA.corners || !shapeB.corners) return false;
+    // Two triangles in nearly one plane: past each other's edges.
+    const auto pastEdges = [&](const Corners& corners, const Vec3& axis, const auto& seen) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 normal = axis.cross(corners[(k + 1) % 3] - corners[k]);
+            const double length = normal.norm();
+            if (length > 0 && separates(seen(normal / length))) return true;
+        }
+        return false;
+    };
+    return pastEdges(*shapeA.corners, a.axis, [](const Vec3& n) { return n; }) ||
+           pastEdges(*shapeB.corners, b.axis, [&](const Vec3& n) { return Vec3(turned * n); });
 }
 
 // The test's gap at every pose of the box where the two pieces come as near as the claim says, T(q) y = x +
 // e: gap + lambda . (T(q) y - x - e), for any lambda.
-double MeshBox::bound(const Near& test, const Vec3& lambda, const Slab& a, const Slab& b,
+double MeshBox::bound(const Near& test, const Vec3& lambda, const Shape& a, const Shape& b,
                       const MovingPoint& at, double& patches) const {
-    const double length = lambda.norm();
+    const double length = lambda.norm(), reachB = b.slab.reach;
     const Vec3 inB = box_->pose().linear().transpose() * lambda;
-    patches = a.support(lambda) +
-              std::min(length * b.reach, b.support(inB) + length * box_->turn() * b.reach) +
+    patches = a.support(-lambda) +
+              std::min(length * reachB, b.support(inB) + length * box_->turn() * reachB) +
               length * claim_.near;
     double motion = test.rest + length * at.bend;
     for (std::size_t l = 0; l < box_->dofs(); ++l)
         motion += std::abs(test.slope[l] + lambda.dot(at.velocity[l])) * box_->half(l);
-    return test.gap + lambda.dot(at.at - a.centre) + (patches + motion) * (1 + 1e-13);
+    const double rounding = 1e-13 * (motion + length * (a.slab.reach + reachB + claim_.near));
+    return test.gap + lambda.dot(at.at - a.slab.centre) + patches + motion + rounding;
 }
 
-bool MeshBox::answered(const Slab& a, const Slab& b, const MovingPoint& at, Verdict& blur) {
+bool MeshBox::answered(const Shape& a, const Shape& b, const MovingPoint& at, Verdict& blur) {
     const double limit = claim_.miss + 0.5 * claim_.band;
     const bool bent = !std::isfinite(at.bend);
     Eigen::Matrix3d inverse;
@@ -138,8 +168,8 @@ bool MeshBox::answered(const Slab& a, const Slab& b, const MovingPoint& at, Verd
         const double gap = bound(test, lambda, a, b, at, patches);
         if (gap < best) {
             best = gap;
-            blur = patches > 0.5 * (gap - test.gap - lambda.dot(at.at - a.centre)) ? Verdict::SplitPair
-                                                                                   : Verdict::SplitBox;
+            blur = patches > 0.5 * (gap - test.gap - lambda.dot(at.at - a.slab.centre)) ? Verdict::SplitPair
+                                                                                        : Verdict::SplitBox;
         }
         return gap <= limit;
     };
@@ -148,7 +178,7 @@ bool MeshBox::answered(const Slab& a, const Slab& b, const MovingPoint& at, Verd
     for (std::size_t n = 0; n < count; ++n) {
         const Near& test = near_[n];
         const MeshTest& t = claim_.tests[test.test];
-        bool yes = a.farthest(t.centreA) + b.farthest(t.centreB) + claim_.near <= t.reach + limit;
+        bool yes = a.slab.farthest(t.centreA) + b.slab.farthest(t.centreB) + claim_.near <= t.reach + limit;
         if (!yes && !bent) {
             yes = tries(test, -test.normal);
             if (!yes) {
@@ -163,8 +193,8 @@ bool MeshBox::answered(const Slab& a, const Slab& b, const MovingPoint& at, Verd
                         m += s.radius * s.radius * Eigen::Matrix3d::Identity() +
                              (s.half * s.half - s.radius * s.radius) * axis * axis.transpose();
                     };
-                    add(a, a.axis);
-                    add(b, box_->pose().linear() * b.axis);
+                    add(a.slab, a.slab.axis);
+                    add(b.slab, box_->pose().linear() * b.slab.axis);
                     inverse = m.inverse();
                     inverted = true;
                 }
@@ -188,18 +218,18 @@ MeshBox::Verdict MeshBox::weigh(const PiecePair& pair) {
     const SurfaceTree::Node &nodeA = a_.nodes[static_cast<std::size_t>(pair.a.node)],
                             &nodeB = b_.nodes[static_cast<std::size_t>(pair.b.node)];
     if (nodeA.exempt && nodeB.exempt) return Verdict::Done;
-    const Slab a = slabOfPiece(a_, pair.a), b = slabOfPiece(b_, pair.b);
+    const Shape a = shapeOf(a_, pair.a), b = shapeOf(b_, pair.b);
     MovingPoint at = moved(pair.b.node);
     if (pair.b.cuts != 1) {
-        const Vec3 arm = box_->pose().linear() * (b.centre - nodeB.slab.centre);
+        const Vec3 arm = box_->pose().linear() * (b.slab.centre - nodeB.slab.centre);
         const double length = arm.norm() * (1 + 1e-14);
         at.at += arm;
         at.move += box_->turn() * length;
-        at.bend += box_->turnBend() * length;
+        if (length > 0) at.bend += box_->turnBend() * length; // may be infinite
         for (std::size_t l = 0; l < box_->dofs(); ++l) at.velocity[l] += box_->spin(l).cross(arm);
     }
     if (apart(a, b, at)) return Verdict::Done;
-    scale_ = a.reach + b.reach;
+    scale_ = a.slab.reach + b.slab.reach;
     const bool divides = divisible(a_, pair.a) || divisible(b_, pair.b);
     // Far larger than what the box moves: smaller pieces first.
     if (divides && scale_ > 8 * at.move && scale_ > smallest_) return Verdict::SplitPair;

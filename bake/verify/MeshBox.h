@@ -53,12 +53,13 @@ private:
 
     const Moved& moved(std::int32_t node);
     Slab slabOfPiece(const SurfaceTree& tree, Piece piece) const;
+    Shape shapeOf(const SurfaceTree& tree, Piece piece) const;
     Corners cornersOf(const SurfaceTree& tree, Piece piece) const;
     bool weighTests(const OpenPairs& open);
     Verdict weigh(const PiecePair& pair);
-    bool apart(const Slab& a, const Slab& b, const MovingPoint& at) const;
-    bool answered(const Slab& a, const Slab& b, const MovingPoint& at, Verdict& blur);
-    double bound(const Near& test, const Vec3& lambda, const Slab& a, const Slab& b, const MovingPoint& at,
+    bool apart(const Shape& a, const Shape& b, const MovingPoint& at) const;
+    bool answered(const Shape& a, const Shape& b, const MovingPoint& at, Verdict& blur);
+    double bound(const Near& test, const Vec3& lambda, const Shape& a, const Shape& b, const MovingPoint& at,
                  double& patches) const;
     void halve(const PiecePair& pair, std::vector<PiecePair>& stack) const;
     void chooseCut(const OpenPairs& left, std::size_t& cut) const;

@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace tss::verify {
@@ -27,6 +28,7 @@ Vec3 circleCentre(const Corners& c) {
     if (b2 >= a2 + c2) return c[0] + 0.5 * ab;
     if (c2 >= a2 + b2) return c[0] + 0.5 * ac;
     const Vec3 normal = ab.cross(ac);
+    if (!(normal.squaredNorm() > 0)) return (c[0] + c[1] + c[2]) / 3;
     return c[0] + (c2 * normal.cross(ab) + b2 * ac.cross(normal)) / (2 * normal.squaredNorm());
 }
 
@@ -84,6 +86,13 @@ double Slab::farthest(const Vec3& p) const {
     const double across = (arm - axis.dot(arm) * axis).norm();
     return std::min(std::hypot(along + half, across + radius), arm.norm() + reach) * outward +
            hair * (centre.norm() + p.norm());
+}
+
+double Shape::support(const Vec3& direction) const {
+    if (!corners) return slab.support(direction);
+    double most = -std::numeric_limits<double>::infinity();
+    for (const Vec3& corner : *corners) most = std::max(most, direction.dot(corner - slab.centre));
+    return most + hair * direction.norm() * (slab.reach + 4 * slab.centre.lpNorm<Eigen::Infinity>());
 }
 
 Slab slabOf(const Corners& corners) {

@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/geometry/SurfacePart.h"
 
+#include <optional>
 #include <span>
 
 namespace tss::verify {
@@ -20,6 +21,16 @@ struct Slab {
 
 /// What holds all three corners, and so all of the triangle.
 Slab slabOf(const Corners& corners);
+
+/// A piece of surface: a slab about it, and its corners where it is one triangle.
+struct Shape {
+    Slab slab;
+    std::optional<Corners> corners;
+
+    /// No point of it lies farther in a direction, from the slab's centre, than this times the direction's
+    /// length.
+    double support(const Vec3& direction) const;
+};
 
 /// A triangle of a mesh, or a part of one. exempt: it is of the parts that were named when the tree was made.
 struct SurfacePatch {
