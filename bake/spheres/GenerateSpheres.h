@@ -13,7 +13,8 @@ struct SphereFit {
         0; ///< no point of a sphere is farther from the body (METHOD 1.5); infinity: not bounded here
     double coverage = 0; ///< no point of the surface is farther from the union; infinity: not bounded here
     bool hollow = false; ///< the body was taken for its surface alone
-    std::string note;    ///< what was assumed of the mesh and what could not be reached; empty: nothing
+    bool mayEnclose = false; ///< not shown that the other body never stands inside, surfaces apart
+    std::string note;        ///< what was assumed of the mesh and what could not be reached; empty: nothing
 };
 
 /// Fills a body with spheres by the method of the options. The mesh may be open, inside out, non-manifold or
