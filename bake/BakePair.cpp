@@ -327,18 +327,18 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
         selection.proof = NeverCollides{candidates.clearance, candidates.explored, {}, {}};
     else
         selection = select(fitA.spheres, fitB.spheres, candidates, motion, options, report, progress);
-    // Spheres that stay apart say that the bodies do where the spheres lack less of the surfaces than that.
+    // Spheres that stay apart say that the meshes do by what the spheres lack less; touching is not apart.
     const double lacking = fitA.coverage + fitB.coverage;
-    if (selection.proof && !(std::isfinite(lacking) && lacking <= selection.proof->clearance)) {
-        selection.proof.reset();
-        selection.certified = true;
+    if (selection.proof) {
+        selection.proof->clearance -= lacking;
+        if (!(selection.proof->clearance > 0 && std::isfinite(selection.proof->clearance))) {
+            selection.proof.reset();
+            selection.certified = true;
+        }
     }
     const std::string method = methodName(options);
     if (selection.proof) {
         selection.proof->method = method;
-        // No sphere in reach: nothing more is known than that the two do not meet, and a file holds no
-        // infinity.
-        if (!std::isfinite(selection.proof->clearance)) selection.proof->clearance = 0;
         selection.proof->record = record;
         return {nullptr, std::make_shared<NeverCollides>(*selection.proof)};
     }

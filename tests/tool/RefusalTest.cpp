@@ -22,6 +22,31 @@ TEST_CASE("spheres that lack a part of the surface prove nothing by staying apar
     CHECK_FALSE(never("--spheres growth")); // none at all
 }
 
+TEST_CASE("never to collide takes a distance of the meshes, and touching is none") {
+    const Folder folder;
+    writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
+    writeObj(boxMesh({1.1, -1, -1}, {2, 1, 1}), folder / "near.obj");
+    writeObj(boxMesh({1, -1, -1}, {2, 1, 1}), folder / "at.obj");
+    const auto baked = [&](const std::string& b, const std::string& settings) {
+        REQUIRE(runTss("make -o in.tss --a a.obj --b " + b + " --dof trans:1,0,0:0:3", folder.path()).exit ==
+                0);
+        const Ran ran = runTss("bake in.tss -o baked.tss --json --tolerance 0.02 " + settings, folder.path());
+        INFO(ran.err);
+        REQUIRE(ran.exit == 0);
+        return Json::parse(ran.out)["pairs"][0];
+    };
+    for (const std::string settings : {"", "--no-conservative", "--no-conservative --spheres shrinking"}) {
+        INFO(settings);
+        const Json pair = baked("near.obj", settings);
+        CHECK(pair["neverCollides"].get<bool>());
+        CHECK(pair["clearance"].get<double>() > 0);
+        CHECK(pair["clearance"].get<double>() <= 0.1); // inscribed spheres are farther apart than that
+    }
+    // Inscribed spheres of boxes that touch are apart.
+    CHECK_FALSE(baked("at.obj", "--no-conservative")["neverCollides"].get<bool>());
+    CHECK_FALSE(baked("at.obj", "--at-rest collide")["neverCollides"].get<bool>());
+}
+
 TEST_CASE("bad input is exit 1 with a message that says where, and leaves no file") {
     const Folder folder;
     writeObj(boxMesh({0, 0, 0}, {1, 1, 1}), folder / "a.obj");
