@@ -2,6 +2,7 @@
 
 #include "bake/ContactZoneFit.h"
 #include "bake/HollowBodies.h"
+#include "bake/NestedBodies.h"
 #include "bake/RestRule.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
@@ -57,9 +58,10 @@ const TriangleMesh& meshOf(const Body& body) {
     return body.mesh;
 }
 
-SphereFit wholeBody(const Body& body, const BakeOptions& options, double tolerance,
+SphereFit wholeBody(const Body& body, const BakeOptions& options, double tolerance, bool hollow,
                     const Progress& progress) {
     SphereOptions how;
+    how.hollow = hollow;
     how.method = options.spheres;
     how.tolerance = tolerance;
     how.maxSpheres = options.maxSpheres;
@@ -86,13 +88,12 @@ HollowBodies hollowBodies(const Body& a, const Body& b, const PairSpheres& spher
 /// Spheres of two bodies whose surfaces are known never to come near each other, as coarse as shows it: what
 /// can be proven again from the file alone.
 PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, double tolerance,
-                         const ContactZoneFit& fit, const Progress& progress) {
+                         HollowBodies hollow, const ContactZoneFit& fit, const Progress& progress) {
     SphereOptions how;
     CertifiedSearchOptions apart;
     apart.measureClearance = false;
     apart.effort = 5'000'000;
     const double smaller = std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm());
-    HollowBodies hollow;
     for (how.tolerance = std::max(tolerance, smaller / 30);;) {
         SphereOptions howA = how, howB = how;
         howA.hollow = hollow.a;
@@ -245,6 +246,7 @@ Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& c
 void setBounds(Table& table, const SphereFit& a, const SphereFit& b, const RuleAtRest& ruled) {
     if (!table.certified) return;
     table.boundEarly = known(a.protrusion + b.protrusion + table.epsilon);
+    if (a.mayEnclose || b.mayEnclose) table.boundEarly = -1;
     if (!ruled.spheres) table.boundMiss = known(a.coverage + b.coverage);
     if (!(table.epsilon > 0)) return;
     // Where spheres touch, some test's gap is at most epsilon: counted as contact from there on it misses
@@ -273,7 +275,7 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
         const TriangleMesh meshA = cleaned(meshOf(a)), meshB = cleaned(meshOf(b));
         ContactZoneFit fit = fitContactZone(meshA, meshB, motion, zone, progress);
         if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
-            spheres = spheresApart(a, b, motion, tolerance, fit, progress);
+            spheres = spheresApart(a, b, motion, tolerance, {fit.a.fit.hollow, fit.b.fit.hollow}, fit, progress);
         else
             spheres = {std::move(fit.a.fit),
                        std::move(fit.b.fit),
@@ -284,8 +286,14 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
                        fit.rest.clearance,
                        {partsOf(a.mesh, meshA, fit.rest.region.a), partsOf(b.mesh, meshB, fit.rest.region.b)}};
     } else {
-        spheres.a = wholeBody(a, options, tolerance, progress);
-        spheres.b = wholeBody(b, options, tolerance, progress);
+        Nesting nesting;
+        if (options.spheres != SphereMethod::Surface) // those stand on the surface anyway
+            nesting = findNested(Solid(cleaned(meshOf(a))), Solid(cleaned(meshOf(b))), motion, 2 * tolerance,
+                                 progress);
+        spheres.a = wholeBody(a, options, tolerance, nesting.outer.a, progress);
+        spheres.b = wholeBody(b, options, tolerance, nesting.outer.b, progress);
+        spheres.a.mayEnclose = nesting.undecided.a;
+        spheres.b.mayEnclose = nesting.undecided.b;
         spheres.clearanceAtRest = clearanceAtRest(meshOf(a), meshOf(b), motion);
     }
     roundToFloat(spheres.a);
@@ -353,9 +361,14 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
     spheres.figuresA = measured(scene.bodies[pair.bodyA], spheres.a, spheres.zoneA);
     spheres.figuresB = measured(scene.bodies[pair.bodyB], spheres.b, spheres.zoneB);
     const std::pair<int, const SphereFit*> fits[] = {{pair.bodyA, &spheres.a}, {pair.bodyB, &spheres.b}};
-    for (const auto& [body, fit] : fits)
-        if (!fit->note.empty())
-            report.notes.push_back(scene.bodies[static_cast<std::size_t>(body)].path + ": " + fit->note);
+    for (const auto& [body, fit] : fits) {
+        const std::string& path = scene.bodies[static_cast<std::size_t>(body)].path;
+        if (!fit->note.empty()) report.notes.push_back(path + ": " + fit->note);
+        if (fit->mayEnclose)
+            report.notes.push_back(
+                path + ": whether the other body ever stands inside without touching could not be "
+                       "decided for all poses: how early contact may be reported is not known");
+    }
     PairTable made = tabulatePair(spheres, motion, options, report, progress);
     pair.table = std::move(made.table);
     pair.proof = std::move(made.proof);

@@ -1,6 +1,7 @@
 #include "bake/ContactZoneFit.h"
 
 #include "bake/HollowBodies.h"
+#include "bake/NestedBodies.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/search/Reach.h"
@@ -331,12 +332,18 @@ ContactZoneFit fitContactZone(const TriangleMesh& a, const TriangleMesh& b, cons
     need(std::isfinite(options.epsilon) && options.epsilon >= 0, "epsilon must be a number >= 0");
     need(std::isfinite(options.depth) && options.depth >= 0, "the depth must be a number >= 0");
     checkMotion(motion);
-    HollowBodies hollow;
+    const Solid solidA(cleaned(a)), solidB(cleaned(b));
+    const double finest =
+        options.tolerance > 0 ? options.tolerance : std::min(solidA.diagonal(), solidB.diagonal()) / 500;
+    const Nesting nesting = findNested(solidA, solidB, motion, 2 * finest, progress);
+    HollowBodies hollow = nesting.outer;
     bool clearAtRest = true;
     for (;;) {
         Refiner refiner(a, b, motion, options, hollow, clearAtRest, progress);
         try {
             ContactZoneFit fit = refiner.run();
+            fit.a.fit.mayEnclose = nesting.undecided.a;
+            fit.b.fit.mayEnclose = nesting.undecided.b;
             const HollowBodies& more = refiner.entered();
             if (!more) return fit;
             hollow = {hollow.a || more.a, hollow.b || more.b};

@@ -83,6 +83,7 @@ struct JointCallback::Binding {
     unsigned int updates = 0;              ///< so far
     unsigned int traversal = 0, frame = 0; ///< of the last update
     bool updated = false;                  ///< there was one
+    bool toldBeyond = false;               ///< that more is asked than the limits allow
 
     Binding(osg::Node& node, const Scene& scene, const std::vector<std::string>& pairPaths,
             const Binding* before);
@@ -98,6 +99,7 @@ struct JointCallback::Binding {
     void watchGeometry(osg::Node& owner);
     void restoreAsked() const;
     void resolve();
+    void tellBeyond();
     void show() const;
     void tell(const Scene& scene, osg::NodeVisitor& visitor);
 };
@@ -221,8 +223,23 @@ void JointCallback::Binding::resolve() {
         const std::vector<double> values = joint->asked();
         asked.insert(asked.end(), values.begin(), values.end());
     }
+    if (!toldBeyond) tellBeyond();
     found = plan->resolve(q, asked);
     q = asked;
+}
+
+/// Once: the graph asks for values that no table was made for, at whose limits the joint stops.
+void JointCallback::Binding::tellBeyond() {
+    std::size_t next = 0;
+    for (int index : (*plan)->joints)
+        for (const tss::Dof& dof : model->joints[index].dofs) {
+            const double value = asked[next++], hair = 1e-6 * (dof.upper - dof.lower);
+            if (toldBeyond || (value >= dof.lower - hair && value <= dof.upper + hair)) continue;
+            toldBeyond = true;
+            OSG_WARN << "osgTSS: joint " << model->joints[index].path << ": \"" << dof.name
+                     << "\" is asked to go beyond the limits that its tables were made for; it stops there"
+                     << std::endl;
+        }
 }
 
 void JointCallback::Binding::show() const {
