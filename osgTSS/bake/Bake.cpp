@@ -15,6 +15,7 @@
 #include <osgTSS/ConstraintVisitor>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -114,6 +115,15 @@ std::size_t takeFromCache(tss::SceneModel& model, const std::string& file) {
     return taken;
 }
 
+void keep(const tss::SceneModel& model, const std::string& cache) {
+    if (cache.empty()) return;
+    try {
+        tss::saveScene(model, cache);
+    } catch (const std::exception& error) {
+        OSG_NOTICE << "osgTSS: the tables are not kept for the next time: " << error.what() << std::endl;
+    }
+}
+
 /// What a person should know before trusting the joint to its table: what `tss info` warns of.
 void warnOf(const tss::SceneModel& model, const tss::Pair& pair) {
     const auto early = tss::measureEarlyContact(model, pair);
@@ -181,6 +191,10 @@ osg::ref_ptr<Scene> bake(osg::Node& root, const BakeOptions& options, const Bake
     if (taken > 0)
         OSG_NOTICE << "osgTSS: " << taken << " of " << model->pairs.size() << " pairs are as baked in "
                    << cache << std::endl;
+    // Now and then, so that what a long bake has done by when it is ended is not lost.
+    using Time = std::chrono::steady_clock;
+    constexpr auto saveEvery = std::chrono::seconds(10);
+    Time::time_point saved = Time::now();
     const double count = static_cast<double>(model->pairs.size());
     for (std::size_t k = 0; k < model->pairs.size(); ++k) {
         const tss::Pair& pair = model->pairs[k];
@@ -192,14 +206,11 @@ osg::ref_ptr<Scene> bake(osg::Node& root, const BakeOptions& options, const Bake
                    progress(path + ": " + std::string(step), (static_cast<double>(k) + done) / count);
         });
         ++made;
+        if (Time::now() - saved < saveEvery) continue;
+        keep(*model, cache);
+        saved = Time::now();
     }
-    if (made > 0 && !cache.empty()) {
-        try {
-            tss::saveScene(*model, cache);
-        } catch (const std::exception& error) {
-            OSG_NOTICE << "osgTSS: the tables are not kept for the next time: " << error.what() << std::endl;
-        }
-    }
+    if (made > 0) keep(*model, cache);
     return new Scene(model);
 }
 

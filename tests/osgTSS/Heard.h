@@ -1,5 +1,6 @@
 #pragma once
 #include <osg/Notify>
+#include <osg/ref_ptr>
 
 #include <string>
 
