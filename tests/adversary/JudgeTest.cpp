@@ -19,7 +19,8 @@ Motion inwards() {
 
 /// The two balls as one sphere each, of this radius.
 tss::Table tableOf(double radius) {
-    tss::Table table = tss::makeTable({{Vec3::Zero(), radius}}, {{Vec3(3, 0, 0), radius}}, {{0, 0}}, {}, inwards());
+    tss::Table table =
+        tss::makeTable({{Vec3::Zero(), radius}}, {{Vec3(3, 0, 0), radius}}, {{0, 0}}, {}, inwards());
     table.certified = true;
     table.boundMiss = 0;
     table.boundEarly = 0.2;
@@ -98,7 +99,8 @@ TEST_CASE("a split surface is the surface") {
     Random random(5);
     const TriangleMesh mesh = ballMesh(Vec3::Zero(), 1, 1);
     std::vector<tss::SurfacePart> parts;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); t += 2) parts.push_back({t, 8u + unsigned(random.below(8))});
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); t += 2)
+        parts.push_back({t, 8u + unsigned(random.below(8))});
     const SplitSurface both = split(mesh, parts);
     CHECK(both.exempt.triangles.size() == parts.size());
     CHECK(both.exemptShare == Approx(0.5 / 8).epsilon(0.2));

@@ -24,6 +24,7 @@ using Values = std::vector<double>;
 struct Seen {
     bool meet = false;  ///< by the meshes
     bool fires = false; ///< by the table
+    bool hit = false;   ///< by its kernel
     double gap = std::numeric_limits<double>::infinity();
 };
 
@@ -52,19 +53,19 @@ class TableJudge final : public Judge {
 public:
     TableJudge(const Surfaces& surfaces, const Motion& motion, const Table& table, bool claims)
         : Judge(surfaces, motion), table_(table), prepared_(table), pairs_(tablePairs(table)),
-          claims_(claims) {}
+          near_(4 * prepared_.signBand() + 1e-10 * surfaces.size()), claims_(claims) {}
 
     std::optional<Seen> look(const Values& q) override {
         if (!withinLimits(motion, q)) return {};
         const Pose at = pose(motion, q);
-        Seen seen{surfaces.meet(at), false, query(table_, q).gap};
+        Seen seen{surfaces.meet(at), false, false, query(table_, q).gap};
         seen.fires = seen.gap <= 0;
         ++found.poses;
         found.contacts += seen.meet;
         found.fired += seen.fires;
         if (seen.meet) judgeMiss(q, at, seen.gap);
         if (seen.fires) judgeEarly(q, at);
-        judgeKernel(q, seen.fires);
+        judgeKernel(q, seen);
         return seen;
     }
 
@@ -96,18 +97,25 @@ private:
              fmt::format("reported {:.6g} apart, boundEarly {:.6g}", distance, table_.boundEarly));
     }
 
-    void judgeKernel(const Values& q, bool fires) {
-        if (table_.testCount() == 0 || prepared_.hit(q.data()) == fires) return;
-        const long double gap = exact::gap(motion, pairs_, q);
-        if (fires ? gap <= 0 : gap > static_cast<long double>(prepared_.signBand()))
+    /// What a kernel says is held against gaps that are not rounded to double anywhere, T(q) neither, and
+    /// against those that anybody sees who calculates them.
+    void judgeKernel(const Values& q, Seen& seen) {
+        if (table_.testCount() == 0) return;
+        seen.hit = prepared_.hit(q.data());
+        if (seen.hit == seen.fires && std::abs(seen.gap) > near_) return;
+        const long double gap = exact::gap(motion, pairs_, q), band = prepared_.signBand();
+        const bool so = seen.hit ? gap <= band && seen.gap <= band : gap > 0 && seen.gap > -band;
+        if (!so)
             fail(found.kernel, q,
-                 fmt::format("the kernel says {}, the gap is {:.3g}, its band {:.3g}",
-                             fires ? "free" : "contact", static_cast<double>(gap), prepared_.signBand()));
+                 fmt::format("the kernel says {}, the gap is {:.3g}, in double {:.3g}, its band {:.3g}",
+                             seen.hit ? "contact" : "free", static_cast<double>(gap), seen.gap,
+                             prepared_.signBand()));
     }
 
     const Table& table_;
     PreparedTable prepared_;
     std::vector<TablePair> pairs_;
+    double near_; ///< gaps at which the kernel is looked at closely
     bool claims_;
 };
 
@@ -119,7 +127,7 @@ public:
     std::optional<Seen> look(const Values& q) override {
         if (!withinLimits(motion, q)) return {};
         const Pose at = pose(motion, q);
-        Seen seen{surfaces.meet(at), false, 0};
+        Seen seen{surfaces.meet(at), false, false, 0};
         ++found.poses;
         found.contacts += seen.meet;
         const double claimed = clearance_ - surfaces.rounding(at);
@@ -135,6 +143,9 @@ public:
 private:
     double clearance_;
 };
+
+/// After so many failures it is clear.
+constexpr std::uint64_t enough = 100;
 
 /// Chooses the poses.
 class Search {
@@ -168,6 +179,8 @@ private:
     }
 
     double spent() {
+        const Findings& found = judge_.found;
+        if (found.missed + found.early + found.kernel >= enough) return 2;
         // Where planes leave little of the box most draws cost nothing but time.
         if (++draws_ > 50 * budget_ + 1000) return 2;
         return double(judge_.found.poses) / double(budget_);
@@ -240,20 +253,23 @@ private:
         return list[static_cast<std::size_t>(random_.below(static_cast<int>(list.size())))];
     }
 
-    /// Between contact and its absence, by the meshes and by the table in turn.
+    /// Between contact and its absence, by the meshes, the table and its kernel in turn.
     bool bisect() {
         const bool byMeshes = !meeting_.empty() && !free_.empty(),
                    byTable = !firing_.empty() && !silent_.empty();
         if (!byMeshes && !byTable) return false;
-        const bool meshes = byMeshes && (!byTable || random_.below(2));
+        const bool Seen::*said = byMeshes && (!byTable || random_.below(2)) ? &Seen::meet
+                                 : random_.below(3)                         ? &Seen::fires
+                                                                            : &Seen::hit;
+        const bool meshes = said == &Seen::meet;
         Values out = any(meshes ? free_ : silent_), in = any(meshes ? meeting_ : firing_);
-        for (int step = 0; step < 40; ++step) {
+        for (int step = 0; step < 44; ++step) {
             Values middle(in.size());
             for (std::size_t k = 0; k < in.size(); ++k) middle[k] = 0.5 * (in[k] + out[k]);
             if (middle == in || middle == out) break;
             const std::optional<Seen> seen = consider(middle);
             if (!seen) break;
-            ((meshes ? seen->meet : seen->fires) ? in : out) = middle;
+            ((*seen).*said ? in : out) = middle;
         }
         return true;
     }

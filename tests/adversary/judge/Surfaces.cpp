@@ -134,8 +134,8 @@ bool Surfaces::meet(const Part& a, const Part& b, const Pose& pose) const {
                          result) > 0)
             return true;
     }
-    return (a.wires && a.wires->distanceTo(b.all, pose, rounding(pose)) == 0) ||
-           (b.wires && a.all.distanceTo(*b.wires, pose, rounding(pose)) == 0);
+    return (a.wires && a.wires->distanceTo(b.all, pose, rounding(pose)) < rounding(pose) / 4) ||
+           (b.wires && a.all.distanceTo(*b.wires, pose, rounding(pose)) < rounding(pose) / 4);
 }
 
 bool Surfaces::meet(const Pose& pose) const {

@@ -49,6 +49,7 @@ public:
     /// How far calculating with coordinates of this size at this pose may be off, scene units.
     double rounding(const Pose& pose) const;
 
+    double size() const { return size_; } ///< largest coordinate
     double exemptShareA() const { return shareA_; }
     double exemptShareB() const { return shareB_; }
 
