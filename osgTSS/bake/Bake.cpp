@@ -200,7 +200,10 @@ osg::ref_ptr<Scene> bake(osg::Node& root, const BakeOptions& options, const Bake
         const tss::Pair& pair = model->pairs[k];
         const std::string path = pair.path;
         if (progress && !progress(path, static_cast<double>(k) / count)) break;
-        if (pair.table || pair.proof) continue;
+        if (pair.table || pair.proof) { // from the cache
+            warnOf(*model, pair);
+            continue;
+        }
         bakeOne(*model, k, options, [&](std::string_view step, double done) {
             return !progress ||
                    progress(path + ": " + std::string(step), (static_cast<double>(k) + done) / count);
