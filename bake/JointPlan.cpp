@@ -59,11 +59,16 @@ void warn(std::vector<std::string>* warnings, const Pair& pair, const std::strin
 void remark(std::vector<std::string>* warnings, const Pair& pair) {
     if (!warnings) return;
     const Table& table = *pair.table;
+    if (table.testCount() == 0) return;
     const double gap = query(table, restValues(table.motion)).gap, kept = 1.5 * table.epsilon;
+    // What overlaps at rest counts from there, and is at 0 but for rounding.
+    double size = 0;
+    for (const Sphere& sphere : table.a) size = std::max(size, sphere.radius);
+    const double rounding = 1e-6 * size;
     std::ostringstream text;
-    if (!(gap > 0))
+    if (gap < -rounding)
         text << "its table says contact where the joint rests, which is held there or pushed out";
-    else if (gap < kept)
+    else if (gap > rounding && gap < kept)
         text << "its table is too coarse: it keeps the bodies " << kept
              << " apart (1.5 epsilon), and they are " << gap << " apart where the joint rests";
     else

@@ -149,8 +149,9 @@ void warnOf(const tss::SceneModel& model, const tss::Pair& pair) {
 }
 
 /// A pair that cannot be baked is shown as it moves, and the others are kept apart all the same.
+/// told: notes so far, of which many are about a body and come with each of its pairs.
 void bakeOne(tss::SceneModel& model, std::size_t index, const BakeOptions& options,
-             const tss::Progress& progress) {
+             std::set<std::string>& told, const tss::Progress& progress) {
     tss::BakeRequest request;
     request.given = options.settings;
     const std::string path = model.pairs[index].path;
@@ -161,7 +162,8 @@ void bakeOne(tss::SceneModel& model, std::size_t index, const BakeOptions& optio
             OSG_NOTICE << "osgTSS: baked " << path << " in " << report.seconds << " s: "
                        << (pair.table ? std::to_string(pair.table->testCount()) + " tests" : "never collides")
                        << std::endl;
-            for (const std::string& note : report.notes) OSG_NOTICE << "osgTSS:   " << note << std::endl;
+            for (const std::string& note : report.notes)
+                if (told.insert(note).second) OSG_NOTICE << "osgTSS:   " << note << std::endl;
             warnOf(model, pair);
         }
     } catch (const tss::InputError& error) {
@@ -196,12 +198,16 @@ osg::ref_ptr<Scene> bake(osg::Node& root, const BakeOptions& options, const Bake
     constexpr auto saveEvery = std::chrono::seconds(10);
     Time::time_point saved = Time::now();
     const double count = static_cast<double>(model->pairs.size());
+    std::set<std::string> told;
     for (std::size_t k = 0; k < model->pairs.size(); ++k) {
         const tss::Pair& pair = model->pairs[k];
         const std::string path = pair.path;
         if (progress && !progress(path, static_cast<double>(k) / count)) break;
-        if (pair.table || pair.proof) continue;
-        bakeOne(*model, k, options, [&](std::string_view step, double done) {
+        if (pair.table || pair.proof) { // from the cache
+            warnOf(*model, pair);
+            continue;
+        }
+        bakeOne(*model, k, options, told, [&](std::string_view step, double done) {
             return !progress ||
                    progress(path + ": " + std::string(step), (static_cast<double>(k) + done) / count);
         });
