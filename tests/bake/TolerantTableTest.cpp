@@ -62,7 +62,7 @@ TEST_CASE("with a tolerance, bodies that overlap at rest are free there and noth
         CAPTURE(seed);
         SceneModel scene = lumpyPair(seed);
         scene.bodies[1].mesh =
-            transformed(scene.bodies[1].mesh, Eigen::Affine3d(Eigen::Translation3d(-0.7, 0, 0)));
+            transformed(scene.bodies[1].mesh, Eigen::Affine3d(Eigen::Translation3d(-1, 0, 0)));
         const Motion motion = swing();
         BakeOptions options;
         options.tolerance = options.epsilon = 0.05;
