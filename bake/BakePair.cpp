@@ -245,8 +245,8 @@ Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& c
 /// What the meshes may expect of a certified table, but for the region that overlaps at rest (METHOD 3.5).
 void setBounds(Table& table, const SphereFit& a, const SphereFit& b, const RuleAtRest& ruled) {
     if (!table.certified) return;
-    table.boundEarly = known(a.protrusion + b.protrusion + table.epsilon);
-    if (a.mayEnclose || b.mayEnclose) table.boundEarly = -1;
+    table.boundEarly =
+        known(std::max({a.protrusion + b.protrusion + table.epsilon, a.enclosed, b.enclosed}));
     if (!ruled.spheres) table.boundMiss = known(a.coverage + b.coverage);
     if (!(table.epsilon > 0)) return;
     // Where spheres touch, some test's gap is at most epsilon: counted as contact from there on it misses
@@ -292,8 +292,8 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
                                  progress);
         spheres.a = wholeBody(a, options, tolerance, nesting.outer.a, progress);
         spheres.b = wholeBody(b, options, tolerance, nesting.outer.b, progress);
-        spheres.a.mayEnclose = nesting.undecided.a;
-        spheres.b.mayEnclose = nesting.undecided.b;
+        spheres.a.enclosed = nesting.apart(nesting.undecided.a);
+        spheres.b.enclosed = nesting.apart(nesting.undecided.b);
         spheres.clearanceAtRest = clearanceAtRest(meshOf(a), meshOf(b), motion);
     }
     roundToFloat(spheres.a);
@@ -364,7 +364,7 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
     for (const auto& [body, fit] : fits) {
         const std::string& path = scene.bodies[static_cast<std::size_t>(body)].path;
         if (!fit->note.empty()) report.notes.push_back(path + ": " + fit->note);
-        if (fit->mayEnclose)
+        if (!std::isfinite(fit->enclosed))
             report.notes.push_back(
                 path + ": whether the other body ever stands inside without touching could not be "
                        "decided for all poses: how early contact may be reported is not known");

@@ -240,7 +240,7 @@ Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double 
                     for (const OpenPart& part : cell.parts) undecided[part.question] = true;
         }
     }
-    return {{found[0], found[1]}, {undecided[0] && !found[0], undecided[1] && !found[1]}};
+    return {{found[0], found[1]}, {undecided[0] && !found[0], undecided[1] && !found[1]}, settled * reach};
 }
 
 } // namespace tss

@@ -1,12 +1,20 @@
 #pragma once
 #include "bake/HollowBodies.h"
 
+#include <limits>
+
 namespace tss {
 
 /// What is known of two bodies of which one may stand wholly inside the other.
 struct Nesting {
     HollowBodies outer;     ///< something stands inside of it at some pose, surfaces apart
     HollowBodies undecided; ///< neither that nor the contrary was shown within the effort
+    double settled = 0;     ///< of the others nothing stands inside with surfaces farther apart than this
+
+    /// How far apart the surfaces may be while something stands inside; infinity: not shown.
+    double apart(bool isUndecided) const {
+        return isUndecided ? std::numeric_limits<double>::infinity() : settled;
+    }
 };
 
 /// Whether a connected part of one body's surface ever stands inside the other body's solid while the

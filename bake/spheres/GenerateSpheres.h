@@ -14,7 +14,8 @@ struct SphereFit {
     double coverage = 0; ///< no point of the surface is farther from the union; infinity: not bounded here
     bool hollow = false; ///< the body was taken for its surface alone
     std::vector<char> region{}; ///< a sphere: whether it stands for what overlaps at rest; empty: none does
-    bool mayEnclose = false; ///< not shown that the other body never stands inside, surfaces apart
+    double enclosed = 0; ///< the other body never stands inside with the surfaces farther apart than this;
+                         ///< infinity: not shown
     std::string note{};  ///< what was assumed of the mesh and what could not be reached; empty: nothing
 };
 
