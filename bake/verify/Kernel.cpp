@@ -1,6 +1,7 @@
 #include "bake/verify/Kernel.h"
 
 #include "bake/verify/KernelCells.h"
+#include "bake/verify/VerdictProof.h"
 #include "bake/verify/PoseBox.h"
 
 #include <algorithm>
@@ -473,6 +474,7 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
         verdict.reason = fmt::format("its gap was off by {:.3g} at a pose, more than {:.3g}", verdict.seen,
                                      verdict.gapOff);
     if (verdict.reason.empty()) verdict.reason = verify::refuteCells(table, prepared);
+    if (verdict.reason.empty()) verdict.reason = verify::refuteVerdicts(table, prepared);
     verdict.proven = verdict.reason.empty();
     return verdict;
 }
