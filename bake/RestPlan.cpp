@@ -65,7 +65,7 @@ public:
             plan.contact.clearance = apartBy(touching);
         else
             plan.contact = findRestContact({a_, surfaceA_}, {b_, surfaceB_}, motion_, touching,
-                                           {reach(), 1000}, progress_);
+                                           {reach(), 1.5 * options_.epsilon, 1000}, progress_);
         if (plan.contact.clearance > 0) {
             plan.entered = {enters(surfaceB_, b_.mesh(), a_, bToA_, touching),
                             enters(surfaceA_, a_.mesh(), b_, aToB_, touching)};

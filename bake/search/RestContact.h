@@ -17,6 +17,7 @@ struct RestContact {
 
 struct RestContactOptions {
     double reach = 0; ///< surfaces this near to each other count as touching where contact goes on, > 0
+    double near = 0;  ///< where surfaces touch at all, others this near at rest count as touching too, >= 0
     int poses = 1000; ///< of Q that are looked at, about
 };
 

@@ -112,9 +112,10 @@ std::string describeEarlyContact(const Json& pair, double metersPerUnit) {
     const double atRest = pair["clearanceAtRest"].get<double>();
     const Json& early = pair["earlyContact"];
     std::string text = fmt::format(
-        "  meshes       {} at rest; contact reported at {:.0f} % of {} poses where they do not touch\n",
+        "  meshes       {} at rest; contact reported at {:.0f} % of {} poses where {}\n",
         atRest > 0 ? lengthText(atRest, metersPerUnit) + " apart" : "touch or overlap",
-        100 * early["share"].get<double>(), early["freePoses"].dump());
+        100 * early["share"].get<double>(), early["freePoses"].dump(),
+        pair.value("restRegion", Json()).is_null() ? "they do not touch" : "nothing else touches");
     // No advice that was followed.
     const bool ignored = pair.value("ignoresRest", false);
     const char* excepted =

@@ -21,7 +21,7 @@ struct Both {
 
     RestContact find(const Motion& motion, double reach) const {
         return findRestContact(sideA, sideB, motion, touchingDistance(a.mesh(), b.mesh(), motion),
-                               {reach, 400});
+                               {reach, 0, 400});
     }
 };
 
