@@ -14,7 +14,7 @@ struct SphereFit {
     double coverage = 0; ///< no point of the surface is farther from the union; infinity: not bounded here
     bool hollow = false; ///< the body was taken for its surface alone
     std::vector<char> region{}; ///< a sphere: whether it stands for what overlaps at rest; empty: none does
-    std::string note{};  ///< what was assumed of the mesh and what could not be reached; empty: nothing
+    std::string note{}; ///< what was assumed of the mesh and what could not be reached; empty: nothing
 };
 
 /// Fills a body with spheres by the method of the options. The mesh may be open, inside out, non-manifold or
