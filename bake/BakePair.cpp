@@ -277,14 +277,15 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
         if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
             spheres = spheresApart(a, b, motion, tolerance, {fit.a.fit.hollow, fit.b.fit.hollow}, fit, progress);
         else
-            spheres = {std::move(fit.a.fit),
-                       std::move(fit.b.fit),
-                       std::move(fit.a.zone),
-                       std::move(fit.b.zone),
-                       {},
-                       {},
-                       fit.rest.clearance,
-                       {partsOf(a.mesh, meshA, fit.rest.region.a), partsOf(b.mesh, meshB, fit.rest.region.b)}};
+            spheres = {
+                std::move(fit.a.fit),
+                std::move(fit.b.fit),
+                std::move(fit.a.zone),
+                std::move(fit.b.zone),
+                {},
+                {},
+                fit.rest.clearance,
+                {partsOf(a.mesh, meshA, fit.rest.region.a), partsOf(b.mesh, meshB, fit.rest.region.b)}};
     } else {
         Nesting nesting;
         if (options.spheres != SphereMethod::Surface) // those stand on the surface anyway
@@ -307,7 +308,8 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
                        PairReport& report, const Progress& progress) {
     const SphereFit &fitA = spheres.a, &fitB = spheres.b;
     const RuleAtRest ruled = ruleAtRest(spheres, motion, options);
-    const CandidatePairs candidates = search(fitA.spheres, fitB.spheres, motion, options, ruled.rule, progress);
+    const CandidatePairs candidates =
+        search(fitA.spheres, fitB.spheres, motion, options, ruled.rule, progress);
     BakeRecord record;
     record.spheresA = fitA.spheres.size();
     record.spheresB = fitB.spheres.size();
@@ -320,7 +322,8 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
     if (candidates.certified && candidates.pairs.empty())
         selection.proof = NeverCollides{candidates.clearance, candidates.explored, {}, {}, {}};
     else
-        selection = select(fitA.spheres, fitB.spheres, candidates, motion, options, ruled.rule, report, progress);
+        selection =
+            select(fitA.spheres, fitB.spheres, candidates, motion, options, ruled.rule, report, progress);
     if (selection.proof) {
         // The meshes stay as far apart as the spheres do, less what these lack of the surfaces. Where that is
         // nothing, or the meshes meet at rest, it is a table without tests.

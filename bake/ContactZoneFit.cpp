@@ -132,9 +132,9 @@ public:
 private:
     /// Looks at the pose at rest. False: a body is hollow after all.
     bool begin(double tolerance) {
-        RestPlan plan = planRest(a_.solid, a_.surface, b_.solid, b_.surface, motion_,
-                                 {tolerance, options_.epsilon, options_.atRest, clearAtRest_, options_.medial},
-                                 progress_);
+        RestPlan plan = planRest(
+            a_.solid, a_.surface, b_.solid, b_.surface, motion_,
+            {tolerance, options_.epsilon, options_.atRest, clearAtRest_, options_.medial}, progress_);
         if ((entered_ = plan.entered)) return false;
         a_.begin(std::move(plan.a));
         b_.begin(std::move(plan.b));
@@ -145,8 +145,8 @@ private:
     HollowBodies entered(double reach) const {
         if (!a_.solid.open() && !b_.solid.open()) return {};
         const SphereSet a = a_.spheres(), b = b_.spheres();
-        return findHollow({a_.solid, a_.surface, a, a_.protrusion},
-                          {b_.solid, b_.surface, b, b_.protrusion}, motion_, reach, progress_);
+        return findHollow({a_.solid, a_.surface, a, a_.protrusion}, {b_.solid, b_.surface, b, b_.protrusion},
+                          motion_, reach, progress_);
     }
 
     /// The zones within reach over what is left of Q. False: there are none.
@@ -265,11 +265,9 @@ private:
         }
         const auto limit = static_cast<std::size_t>(options_.maxSpheres);
         for (const Body* body : bodies)
-            if (limit > 0 && !result_.levels.empty() &&
-                body->count() + body->coarse.size() > limit)
+            if (limit > 0 && !result_.levels.empty() && body->count() + body->coarse.size() > limit)
                 return backToLast();
-        result_.levels.push_back(
-            {tolerance, a_.count(), b_.count(), area(a_.zone), area(b_.zone), 0});
+        result_.levels.push_back({tolerance, a_.count(), b_.count(), area(a_.zone), area(b_.zone), 0});
         return true;
     }
 

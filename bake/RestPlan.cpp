@@ -47,7 +47,8 @@ std::vector<Patch> patchesWith(const TriangleMesh& mesh, const std::vector<Surfa
     };
     std::size_t next = 0; // triangles without an area have no patch
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-        if (next < whole.size() && corners(mesh, {t, 1}) == whole[next].corners) add(add, whole[next++], {t, 1});
+        if (next < whole.size() && corners(mesh, {t, 1}) == whole[next].corners)
+            add(add, whole[next++], {t, 1});
     return patches;
 }
 

@@ -46,19 +46,19 @@ void checkRest(const PairSpheres& spheres, const Motion& motion, const BakeOptio
             spheres.clearanceAtRest, least));
 }
 
-void noteRest(const PairSpheres& spheres, const RuleAtRest& ruled, const Motion& motion, const BakeOptions& options,
-              std::vector<std::string>& notes) {
+void noteRest(const PairSpheres& spheres, const RuleAtRest& ruled, const Motion& motion,
+              const BakeOptions& options, std::vector<std::string>& notes) {
     if (ruled.spheres)
         notes.push_back("spheres overlap where the meshes do at rest, and these spheres stand for no known "
-                               "part of the surface: what contact is missed by leaving them out is not known");
+                        "part of the surface: what contact is missed by leaving them out is not known");
     if (options.spheres == SphereMethod::Medial || !(spheres.clearanceAtRest > 0)) return;
     const std::vector<double> rest = restValues(motion);
     const SphereTree a(spheres.a.spheres), b(spheres.b.spheres);
     if (smallestGap(a, b, pose(motion, rest), 1) > options.epsilon) return;
     notes.push_back(fmt::format("the meshes are {:.4g} scene units apart at rest, these spheres are not: "
-                                       "contact there; --spheres medial makes them apart, others may with a "
-                                       "--tolerance below {:.2g}",
-                                       spheres.clearanceAtRest, spheres.clearanceAtRest / 2));
+                                "contact there; --spheres medial makes them apart, others may with a "
+                                "--tolerance below {:.2g}",
+                                spheres.clearanceAtRest, spheres.clearanceAtRest / 2));
 }
 
 } // namespace tss

@@ -54,7 +54,8 @@ void PartSet::insert(SurfacePart part) {
     for (std::uint32_t cuts = part.cuts; cuts > 0; cuts >>= 1)
         if (!above_.insert(key(part.triangle, cuts)).second) break;
     // Where both halves are in, the whole is, and is found at once.
-    if (part.cuts > 1 && in_.count(key(part.triangle, part.cuts ^ 1u))) insert({part.triangle, part.cuts >> 1});
+    if (part.cuts > 1 && in_.count(key(part.triangle, part.cuts ^ 1u)))
+        insert({part.triangle, part.cuts >> 1});
 }
 
 bool PartSet::contains(SurfacePart part) const {

@@ -29,8 +29,8 @@ private:
 /// The two halves of a part, in the order of halves(). Its cuts must be fewer than mostCuts.
 std::array<SurfacePart, 2> halves(SurfacePart part);
 
-/// The same parts of another mesh that has the triangles of this one among its own, at the same places: of all
-/// that are there, should one be there more than once. Sorted.
+/// The same parts of another mesh that has the triangles of this one among its own, at the same places: of
+/// all that are there, should one be there more than once. Sorted.
 std::vector<SurfacePart> partsOf(const TriangleMesh& other, const TriangleMesh& mesh,
                                  const std::vector<SurfacePart>& parts);
 

@@ -91,8 +91,8 @@ std::vector<SurfacePart> readParts(const PrimReader& prim, const Attribute& tria
         const SurfacePart part{whole[i], which[i]};
         if (part.triangle >= mesh.triangles.size())
             prim.problem(triangles, "expected indices below " + number(mesh.triangles.size()) +
-                                        ", the number of the body's triangles, found " + number(part.triangle) +
-                                        " at index " + number(i));
+                                        ", the number of the body's triangles, found " +
+                                        number(part.triangle) + " at index " + number(i));
         else if (part.cuts < 1)
             prim.problem(cuts, "expected 1 or more, found 0 at index " + number(i));
         else if (i > 0 && !(parts.back() < part))

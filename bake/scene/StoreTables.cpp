@@ -44,8 +44,8 @@ PrimWriter tablePrim(Layer& layer, const std::string& path, const std::string& t
     }
     for (const Attribute& optional :
          {schema::restGaps, schema::restTriangles0, schema::restCuts0, schema::restTriangles1,
-          schema::restCuts1, schema::restDepth, schema::dofs, schema::lower, schema::upper, schema::generatedSpheres,
-          schema::candidatePairs, schema::lowerBound, schema::cells})
+          schema::restCuts1, schema::restDepth, schema::dofs, schema::lower, schema::upper,
+          schema::generatedSpheres, schema::candidatePairs, schema::lowerBound, schema::cells})
         prim.properties.erase(optional.name);
     for (const auto& [attribute, figure] : schema::fitFigures) prim.properties.erase(attribute.name);
     return PrimWriter(prim);

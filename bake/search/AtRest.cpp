@@ -45,8 +45,7 @@ double depthAtRest(const SphereSet& a, const SphereSet& b, const Motion& motion,
                    const std::vector<char>& regionA, const std::vector<char>& regionB) {
     double deepest = 0;
     visitOverlaps(a, b, motion, [&](std::uint32_t i, std::uint32_t j, double gap) {
-        if (regionA[i] && regionB[j])
-            deepest = std::max(deepest, -gap + 1e-6 * (a[i].radius + b[j].radius));
+        if (regionA[i] && regionB[j]) deepest = std::max(deepest, -gap + 1e-6 * (a[i].radius + b[j].radius));
     });
     return deepest;
 }
@@ -54,7 +53,8 @@ double depthAtRest(const SphereSet& a, const SphereSet& b, const Motion& motion,
 ContactRule ruleOfSpheres(const SphereSet& a, const SphereSet& b, const Motion& motion, AtRest mode) {
     if (mode == AtRest::Collide) return {};
     std::vector<char> regionA(a.size(), 0), regionB(b.size(), 0);
-    visitOverlaps(a, b, motion, [&](std::uint32_t i, std::uint32_t j, double) { regionA[i] = regionB[j] = 1; });
+    visitOverlaps(a, b, motion,
+                  [&](std::uint32_t i, std::uint32_t j, double) { regionA[i] = regionB[j] = 1; });
     const double depth = mode == AtRest::Offset ? depthAtRest(a, b, motion, regionA, regionB) : -1;
     return {std::move(regionA), std::move(regionB), depth};
 }

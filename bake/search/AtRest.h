@@ -12,8 +12,8 @@ enum class AtRest {
     Collide, ///< no exception
 };
 
-/// When a sphere pair counts as in contact: where its gap is 0. Excepted are pairs of which both spheres stand
-/// for the region that overlaps at rest.
+/// When a sphere pair counts as in contact: where its gap is 0. Excepted are pairs of which both spheres
+/// stand for the region that overlaps at rest.
 class ContactRule {
 public:
     /// No exception.

@@ -8,8 +8,8 @@ struct CertifiedSearchOptions {
     double margin = 0;     ///< pairs whose gap gets this small are wanted, scene units, >= 0
     double tolerance = -1; ///< tau: no pair is listed whose gap stays above margin + tau; < 0: a hundredth of
                            ///< the mean radius
-    ContactRule rule;              ///< of these spheres
-    bool sampleFirst = true;       ///< pairs that touch at sampled poses need no search
+    ContactRule rule;      ///< of these spheres
+    bool sampleFirst = true;      ///< pairs that touch at sampled poses need no search
     bool measureClearance = true; ///< when nothing collides, find out how far apart the bodies stay
     /// Gives up, not certified, after about so many looks at a pair of tree nodes (a million or so a second
     /// and thread); 0: never. The same result every time.

@@ -24,8 +24,8 @@ ContactSurface::ContactSurface(const Solid& solid, const MeshQuery& surface)
     tree_ = buildBvh(boxes, 2);
 }
 
-std::vector<SurfacePart> ContactSurface::meeting(const ContactSurface& other, const Pose& toOther, double reach,
-                                                 double size, const PartSet& known) const {
+std::vector<SurfacePart> ContactSurface::meeting(const ContactSurface& other, const Pose& toOther,
+                                                 double reach, double size, const PartSet& known) const {
     std::vector<SurfacePart> found;
     if (!tree_.empty()) visit(Look{other, toOther, reach, size, known}, 0, found);
     std::sort(found.begin(), found.end());
@@ -71,7 +71,8 @@ void ContactSurface::visit(const Look& look, SurfacePart part, const Corners& co
     for (int k = 0; k < 2; ++k) visit(look, parts[k], both[k], found);
 }
 
-std::vector<std::vector<SurfacePart>> connected(const TriangleMesh& mesh, const std::vector<SurfacePart>& parts) {
+std::vector<std::vector<SurfacePart>> connected(const TriangleMesh& mesh,
+                                                const std::vector<SurfacePart>& parts) {
     std::vector<std::size_t> parent(parts.size());
     std::iota(parent.begin(), parent.end(), std::size_t{0});
     const auto root = [&](std::size_t i) {

@@ -18,8 +18,8 @@ public:
     /// The parts of this surface that are inside the other body or within `reach` of its boundary, some a few
     /// `size` farther; what is left out is outside and at least `reach` away. Parts of `known` are left out
     /// too. size: radius below which parts are not cut further, > 0. toOther: from this body's frame.
-    std::vector<SurfacePart> meeting(const ContactSurface& other, const Pose& toOther, double reach, double size,
-                                     const PartSet& known) const;
+    std::vector<SurfacePart> meeting(const ContactSurface& other, const Pose& toOther, double reach,
+                                     double size, const PartSet& known) const;
 
 private:
     struct Look;
@@ -35,6 +35,7 @@ private:
 };
 
 /// Parts sorted into sets that hang together: parts that share a corner do.
-std::vector<std::vector<SurfacePart>> connected(const TriangleMesh& mesh, const std::vector<SurfacePart>& parts);
+std::vector<std::vector<SurfacePart>> connected(const TriangleMesh& mesh,
+                                                const std::vector<SurfacePart>& parts);
 
 } // namespace tss

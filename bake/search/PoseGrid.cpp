@@ -10,16 +10,15 @@ namespace tss {
 namespace {
 
 /// How far DOF k moves points of B from limit to limit, the others at rest.
-double travel(const Motion& motion, const MotionRates& rates, std::size_t k, const Vec3& centre, double radius) {
+double travel(const Motion& motion, const MotionRates& rates, std::size_t k, const Vec3& centre,
+              double radius) {
     Cell cell;
-    for (std::size_t l = 0; l < motion.dofCount(); ++l)
-        cell.lower[l] = cell.upper[l] = motion.dofs[l].rest;
+    for (std::size_t l = 0; l < motion.dofCount(); ++l) cell.lower[l] = cell.upper[l] = motion.dofs[l].rest;
     cell.lower[k] = motion.dofs[k].lower;
     cell.upper[k] = motion.dofs[k].upper;
     // Of a chord, at most twice the radius: a turn by more has more steps, by its angle.
-    const double turns = motion.dofs[k].kind == DofKind::Rotation
-                             ? std::max(1.0, (cell.upper[k] - cell.lower[k]) / 2)
-                             : 1;
+    const double turns =
+        motion.dofs[k].kind == DofKind::Rotation ? std::max(1.0, (cell.upper[k] - cell.lower[k]) / 2) : 1;
     const CellMotion moves(rates, cell);
     return 2 * turns * (moves.reach(moves.centrePose() * centre).move + moves.relativeMove() * radius);
 }
@@ -40,7 +39,8 @@ std::vector<double> spread(const Dof& dof, int steps) {
 
 } // namespace
 
-PoseGrid::PoseGrid(const Motion& motion, const TriangleMesh& meshB, double step, int most) : motion_(&motion) {
+PoseGrid::PoseGrid(const Motion& motion, const TriangleMesh& meshB, double step, int most)
+    : motion_(&motion) {
     const MotionRates rates(motion);
     const Eigen::AlignedBox3d box = bounds(meshB);
     std::vector<double> steps;
@@ -61,8 +61,9 @@ PoseGrid::PoseGrid(const Motion& motion, const TriangleMesh& meshB, double step,
     std::size_t size = 1;
     for (std::size_t k = 0; k < steps.size(); ++k) {
         values_.push_back(spread(motion.dofs[k], static_cast<int>(steps[k])));
-        const auto rest = std::find(values_[k].begin(), values_[k].end(),
-                                    std::clamp(motion.dofs[k].rest, motion.dofs[k].lower, motion.dofs[k].upper));
+        const auto rest =
+            std::find(values_[k].begin(), values_[k].end(),
+                      std::clamp(motion.dofs[k].rest, motion.dofs[k].lower, motion.dofs[k].upper));
         rest_ += size * static_cast<std::size_t>(rest - values_[k].begin());
         size *= values_[k].size();
     }
@@ -104,8 +105,9 @@ bool PoseGrid::freeAround(const std::vector<double>& q) const {
 }
 
 double PoseGrid::share() const {
-    return free_.empty() ? 1
-                         : double(std::count(free_.begin(), free_.end(), 1)) / static_cast<double>(free_.size());
+    return free_.empty()
+               ? 1
+               : double(std::count(free_.begin(), free_.end(), 1)) / static_cast<double>(free_.size());
 }
 
 } // namespace tss

@@ -86,9 +86,9 @@ private:
         Parts rest;
         for (const Parts& set : connected(side.own.mesh(), met)) {
             const MeshQuery query = side.queryOf(set);
-            const bool touches =
-                other.own.solid().boundary().apart(query, toOther, std::max({touching_, options_.near, 1e-300})) == false ||
-                other.own.solid().inside(toOther * corners(side.own.mesh(), set[0])[0]);
+            const bool touches = other.own.solid().boundary().apart(
+                                     query, toOther, std::max({touching_, options_.near, 1e-300})) == false ||
+                                 other.own.solid().inside(toOther * corners(side.own.mesh(), set[0])[0]);
             if (touches)
                 side.join(set);
             else

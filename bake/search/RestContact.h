@@ -28,7 +28,8 @@ struct RestContactOptions {
 /// stopped and goes no farther. The same for any number of threads; stopped, the region is smaller.
 /// touching: surfaces no farther apart than this touch, for coordinates are rounded.
 RestContact findRestContact(const ContactSurface& a, const ContactSurface& b, const Motion& motion,
-                            double touching, const RestContactOptions& options, const Progress& progress = {});
+                            double touching, const RestContactOptions& options,
+                            const Progress& progress = {});
 
 /// Up to which distance rounding lets surfaces be apart that are meant to touch.
 double touchingDistance(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion);

@@ -31,8 +31,8 @@ struct MedialBall {
 /// ball inside the solid grown by `protrusion`. It contains every point within protrusion - slack of p and
 /// its proven protrusion is `protrusion`. Where no centre inside is found (a feature thinner than the slack,
 /// an open sheet) it is the ball about p itself. slackFactor: the slack over the protrusion, > 0, much
-/// less than 1. hint: a radius expected, or 0. known: read, and replaced by the ball found. neighbour: null, or
-/// what the sphere must stay clear of; it then sticks out by as much less as that takes.
+/// less than 1. hint: a radius expected, or 0. known: read, and replaced by the ball found. neighbour: null,
+/// or what the sphere must stay clear of; it then sticks out by as much less as that takes.
 MedialBall medialBall(const Solid& solid, const Vec3& p, const Vec3& n, double protrusion, double slackFactor,
                       double hint, KnownInside& known, const RestNeighbour* neighbour = nullptr);
 

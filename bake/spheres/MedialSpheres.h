@@ -10,8 +10,8 @@ struct MedialSet {
     std::vector<double> inner; ///< one a sphere
 };
 
-/// Spheres of proven protrusion `protrusion`, or less where a neighbour is near, whose union contains every patch: a greedy choice among the
-/// balls of all patches, redundant ones removed (METHOD 1.3).
+/// Spheres of proven protrusion `protrusion`, or less where a neighbour is near, whose union contains every
+/// patch: a greedy choice among the balls of all patches, redundant ones removed (METHOD 1.3).
 MedialSet medialSpheres(const Solid& solid, std::span<const Patch> patches, double protrusion,
                         const MedialOptions& options, const Progress& progress = {});
 
@@ -21,8 +21,8 @@ MedialSet medialSpheres(const Solid& solid, std::span<const Patch> patches, doub
 MedialSet shrinkingSpheres(const Solid& solid, std::span<const Patch> patches, double protrusion,
                            const MedialOptions& options, const Progress& progress = {});
 
-/// The balls inside (METHOD 1.4). Those with nothing left (features thinner than the slack) are points, so that
-/// the union still comes as near to every point that was covered as the spheres stick out.
+/// The balls inside (METHOD 1.4). Those with nothing left (features thinner than the slack) are points, so
+/// that the union still comes as near to every point that was covered as the spheres stick out.
 SphereSet inscribed(const MedialSet& set);
 
 } // namespace tss

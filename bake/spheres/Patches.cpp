@@ -77,9 +77,9 @@ public:
         // Not worth a ball of its own while far larger than the balls about it allow.
         if (radiusExpected > 0 && radius > 1.5 * largest(radiusExpected, options_.protrusion))
             return split(patch, radiusExpected);
-        const MedialBall ball = medialBall(
-            solid_, patch.centre(), patch.normal, options_.protrusion, options_.slackFactor,
-            radiusExpected > 0 ? 1.1 * radiusExpected : 4 * radius, known_, options_.neighbour);
+        const MedialBall ball =
+            medialBall(solid_, patch.centre(), patch.normal, options_.protrusion, options_.slackFactor,
+                       radiusExpected > 0 ? 1.1 * radiusExpected : 4 * radius, known_, options_.neighbour);
         finest_ = std::min(finest_, ball.protrusion());
         if (radius <= largest(ball.sphere.radius, ball.protrusion()) && covers(ball.sphere, patch)) {
             result.patches.push_back(patch);
@@ -110,13 +110,15 @@ private:
 
     [[noreturn]] void refuse() const {
         if (options_.neighbour && finest_ < 0.5 * options_.protrusion)
-            throw RestTooClose(fmt::format("the meshes are {:.4g} apart at rest: spheres that are apart there too may stick "
-                               "out by no more than {:.4g} and take more than {} patches: expected a rest pose "
-                               "with more clearance, or meshes that overlap where they are meant to",
-                               options_.neighbour->clearance, std::max(finest_, 0.0), options_.mostPatches));
-        throw TooFine(fmt::format("a tolerance of about {:.4g} takes more than {} patches of a mesh {:.4g} in size: "
-                           "expected a coarser one",
-                           options_.protrusion, options_.mostPatches, solid_.diagonal()));
+            throw RestTooClose(
+                fmt::format("the meshes are {:.4g} apart at rest: spheres that are apart there too may stick "
+                            "out by no more than {:.4g} and take more than {} patches: expected a rest pose "
+                            "with more clearance, or meshes that overlap where they are meant to",
+                            options_.neighbour->clearance, std::max(finest_, 0.0), options_.mostPatches));
+        throw TooFine(
+            fmt::format("a tolerance of about {:.4g} takes more than {} patches of a mesh {:.4g} in size: "
+                        "expected a coarser one",
+                        options_.protrusion, options_.mostPatches, solid_.diagonal()));
     }
 
     const Solid& solid_;

@@ -61,8 +61,9 @@ struct FittedPatches {
 };
 
 /// Splits the patches until the sphere of each covers it and the patch is small beside the sphere.
-/// Ends for every input: a patch smaller than (1 - tau/P) P is covered by its sphere whatever that is (P being
-/// what it may stick out there, where a neighbour is near). Throws TooFine, and InputError when it is stopped through progress: a part of the patches is of no use.
+/// Ends for every input: a patch smaller than (1 - tau/P) P is covered by its sphere whatever that is (P
+/// being what it may stick out there, where a neighbour is near). Throws TooFine, and InputError when it is
+/// stopped through progress: a part of the patches is of no use.
 FittedPatches fitPatches(const Solid& solid, std::span<const Patch> patches, const PatchOptions& options,
                          const Progress& progress = {});
 

@@ -63,12 +63,13 @@ double RestNeighbour::shrunk(const Vec3& p, const Vec3& n, double longest, doubl
     }
     if (spheres) {
         const double gap = spheres->nearest(at).gap - spare;
-        r = shrink(at, along, r, spare + std::min(share * gap, protrusion), [&](const Vec3& x, double within) {
-            const SphereQuery::Nearest near = spheres->nearest(x);
-            if (near.sphere < 0 || near.gap >= within) return Found{false, x, 0};
-            const Sphere& sphere = (*spheres)[near.sphere];
-            return Found{true, sphere.centre, sphere.radius};
-        });
+        r = shrink(at, along, r, spare + std::min(share * gap, protrusion),
+                   [&](const Vec3& x, double within) {
+                       const SphereQuery::Nearest near = spheres->nearest(x);
+                       if (near.sphere < 0 || near.gap >= within) return Found{false, x, 0};
+                       const Sphere& sphere = (*spheres)[near.sphere];
+                       return Found{true, sphere.centre, sphere.radius};
+                   });
     }
     return r;
 }

@@ -16,8 +16,8 @@ namespace tss {
 /// Immutable; points are in the body's own frame.
 struct RestNeighbour {
     Eigen::Isometry3d toOther = Eigen::Isometry3d::Identity(); ///< from this body's frame to the other's
-    std::shared_ptr<const MeshQuery> body;     ///< the other's boundary, its openings closed; outside of it
-    std::shared_ptr<const MeshQuery> parts;    ///< parts of its surface
+    std::shared_ptr<const MeshQuery> body;  ///< the other's boundary, its openings closed; outside of it
+    std::shared_ptr<const MeshQuery> parts; ///< parts of its surface
     std::shared_ptr<const SphereQuery> spheres;
     double spare = 0, beside = 0; ///< scene units, >= 0
     double clearance = 0;         ///< of what must stay apart at rest, for messages

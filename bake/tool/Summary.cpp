@@ -118,17 +118,19 @@ std::string describeEarlyContact(const Json& pair, double metersPerUnit) {
         pair.value("restRegion", Json()).is_null() ? "they do not touch" : "nothing else touches");
     // No advice that was followed.
     const bool ignored = pair.value("ignoresRest", false);
-    const char* excepted =
-        ignored ? "" : "; where the bodies overlap on purpose, as in\n               a socket, bake with --at-rest ignore";
+    const char* excepted = ignored ? ""
+                                   : "; where the bodies overlap on purpose, as in\n               a socket, "
+                                     "bake with --at-rest ignore";
     if (early["stuck"].get<bool>() && !ignored)
-        text += fmt::format("  stuck        the meshes touch or overlap at {} of {} poses. Where B does not lie "
-                            "right, move it (tss\n               make --b-offset){}\n",
-                            early["poses"].get<int>() - early["freePoses"].get<int>(),
-                            early["poses"].get<int>(), excepted);
+        text += fmt::format(
+            "  stuck        the meshes touch or overlap at {} of {} poses. Where B does not lie "
+            "right, move it (tss\n               make --b-offset){}\n",
+            early["poses"].get<int>() - early["freePoses"].get<int>(), early["poses"].get<int>(), excepted);
     else if (early["held"].get<bool>())
-        text += fmt::format("  held         at rest: every small step from there is contact, whichever way. Let "
-                            "it rest where nothing\n               touches (tss make --rest, --b-offset){}\n",
-                            excepted);
+        text +=
+            fmt::format("  held         at rest: every small step from there is contact, whichever way. Let "
+                        "it rest where nothing\n               touches (tss make --rest, --b-offset){}\n",
+                        excepted);
     if (const int poses = early["poses"].get<int>(), free = early["freePoses"].get<int>();
         !early["stuck"].get<bool>() && 2 * free < poses)
         text +=
@@ -244,9 +246,10 @@ std::string describe(const Json& scene) {
                 text += "  stale        " + stale + ": bake it again\n";
             text += fmt::format("  spheres      {} + {}\n", item["spheresA"].dump(), item["spheresB"].dump());
             if (item.value("neverCollides", false)) {
-                text += fmt::format(
-                    "  never collide: the surfaces stay {} apart over the whole motion{}; no table, no callback\n",
-                    length(item["clearance"], metersPerUnit), butForRegion(item, metersPerUnit));
+                text +=
+                    fmt::format("  never collide: the surfaces stay {} apart over the whole motion{}; no "
+                                "table, no callback\n",
+                                length(item["clearance"], metersPerUnit), butForRegion(item, metersPerUnit));
             } else {
                 text += fmt::format("  used         {} + {}\n  tests a step {} ({} products)\n",
                                     item["usedA"].dump(), item["usedB"].dump(), item["tests"].dump(),

@@ -11,8 +11,8 @@ struct Models {
     BallTree treeA, treeB;
     std::vector<char> regionA, regionB; ///< as in VerifyOptions
     double depth;
-    double size = 0;                       ///< a bound for every coordinate in A's frame
-    double extent = 0;                     ///< of both bodies
+    double size = 0;   ///< a bound for every coordinate in A's frame
+    double extent = 0; ///< of both bodies
 
     Models(const SphereSet& a, const SphereSet& b, const Motion& motion, const VerifyOptions& options);
 

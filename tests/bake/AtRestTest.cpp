@@ -101,7 +101,8 @@ bool freeAtRest(const SceneModel& scene) {
 
 } // namespace
 
-TEST_CASE("bodies a little apart at rest are free there, and no contact is missed however coarse the tolerance") {
+TEST_CASE(
+    "bodies a little apart at rest are free there, and no contact is missed however coarse the tolerance") {
     int contacts = 0;
     for (std::uint64_t seed = 1; seed <= 6; ++seed)
         for (const char* atRest : {"offset", "ignore"}) {
@@ -159,7 +160,8 @@ TEST_CASE("bodies that overlap wherever they are never 'never collide'") {
     still.dofs = {joints::turn({0, 0, 0}, {0, 0, 1}, 0, 0)};
     for (const char* atRest : {"offset", "ignore", "collide"}) {
         CAPTURE(atRest);
-        SceneModel scene = sceneOf(boxMesh({0, 0, 0}, {1, 1, 1}), boxMesh({0.9, 0.1, 0.1}, {2, 0.8, 0.8}), still);
+        SceneModel scene =
+            sceneOf(boxMesh({0, 0, 0}, {1, 1, 1}), boxMesh({0.9, 0.1, 0.1}, {2, 0.8, 0.8}), still);
         const Pair& pair = bakedPair(scene, {{"tolerance", "0.02"}, {"at-rest", atRest}});
         CHECK_FALSE(pair.proof);
         REQUIRE(pair.table);

@@ -202,7 +202,8 @@ TEST_CASE("searches of many spheres stop while their trees are built") {
     UndecidedOptions options;
     options.resolution = 0.1;
     const CellTree all = wholeQ(scene.motion);
-    const Undecided undecided = undecidedCells(levelOf(scene.a), levelOf(scene.b), scene.motion, all, options, no);
+    const Undecided undecided =
+        undecidedCells(levelOf(scene.a), levelOf(scene.b), scene.motion, all, options, no);
     REQUIRE(undecided.cells);
     CHECK(undecided.cells->leaves() == all.leaves());
 }

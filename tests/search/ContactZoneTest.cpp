@@ -36,8 +36,7 @@ double gapAt(const LevelSpheres& a, const LevelSpheres& b, const Motion& motion,
     for (std::size_t i = 0; i < a.spheres.size(); ++i)
         for (std::size_t j = 0; j < b.spheres.size(); ++j) {
             if (!a.region.empty() && !b.region.empty() && a.region[i] && b.region[j]) continue;
-            const double sum =
-                inner ? a.inner[i] + b.inner[j] : a.spheres[i].radius + b.spheres[j].radius;
+            const double sum = inner ? a.inner[i] + b.inner[j] : a.spheres[i].radius + b.spheres[j].radius;
             best = std::min(best, (at * b.spheres[j].centre - a.spheres[i].centre).norm() - sum);
         }
     return best;

@@ -79,9 +79,9 @@ TEST_CASE("the region grows along the motion as far as the contact that was ther
     const RestContact rest = both.find(motion, 0.1);
     CHECK(rest.clearance == 0);
     const Eigen::AlignedBox3d a = boundsOf(both.a.mesh(), rest.region.a);
-    CHECK(a.min().x() < -2.5);     // the block's end at the lower limit
-    CHECK(a.min().x() > -3);       // and little more
-    CHECK(a.max().x() > 1.9);      // until it meets the wall
+    CHECK(a.min().x() < -2.5); // the block's end at the lower limit
+    CHECK(a.min().x() > -3);   // and little more
+    CHECK(a.max().x() > 1.9);  // until it meets the wall
     CHECK(a.max().x() < 2.5);
     CHECK(a.max().z() < 0.01); // the wall itself is not excepted
     const RestContact still = both.find(Motion{}, 0.1);

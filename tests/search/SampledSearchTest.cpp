@@ -81,7 +81,8 @@ TEST_CASE("empty sphere sets have no candidates") {
     CHECK(searchSampled(scene.a, {}, scene.motion).pairs.empty());
 }
 
-TEST_CASE("a pair of the region that overlaps at rest counts from its depth there, or not at all, or as any other") {
+TEST_CASE("a pair of the region that overlaps at rest counts from its depth there, or not at all, or as any "
+          "other") {
     SphereSet a{{{0, 0, 0}, 1}}, b{{{1.5, 0, 0}, 1}};
     Motion slide;
     slide.dofs.push_back(joints::slide({-1, 0, 0}, -3, 1));
