@@ -75,16 +75,18 @@ bool MeshBox::weighTests(const OpenPairs& open) {
         near.test = k;
         near.gap = distance - t.reach;
         near.normal = distance > 0 ? Vec3(arm / distance) : Vec3::UnitX();
-        double tilt = 0;
+        double tilt = 0, across = b.bend;
         for (std::size_t l = 0; l < box_->dofs(); ++l) {
             near.slope[l] = near.normal.dot(b.velocity[l]);
             tilt += std::abs(near.slope[l]) * box_->half(l);
+            across += (b.velocity[l] - near.slope[l] * near.normal).norm() * box_->half(l);
         }
         tilt *= 1 + 1e-14;
+        across = std::min(across, b.move) + 1e-15 * b.move;
         if (near.gap - std::min(b.move, tilt + b.bend) > limit) continue;
-        // |y + m| <= |y| + n . m + |m|^2 / 2|y|
-        const double curve = distance > 0 ? b.move * b.move / (2 * distance) : infinity;
-        near.rest = b.bend + curve;
+        // |y + m| <= |y| + n . m + |m across n|^2 / 2 (|y| + n . m)
+        const double least = distance - std::min(tilt + b.bend, b.move);
+        near.rest = least > 0 ? b.bend + across * across / (2 * least) : infinity;
         if (near.gap + std::min(b.move, tilt + near.rest) <= limit) return true;
         if (!(near.rest <= 2 * b.move)) { // no better than the plain bound: without slopes
             near.rest = b.move;
@@ -231,8 +233,9 @@ MeshBox::Verdict MeshBox::weigh(const PiecePair& pair) {
     if (apart(a, b, at)) return Verdict::Done;
     scale_ = a.slab.reach + b.slab.reach;
     const bool divides = divisible(a_, pair.a) || divisible(b_, pair.b);
-    // Far larger than what the box moves: smaller pieces first.
-    if (divides && scale_ > 8 * at.move && scale_ > smallest_) return Verdict::SplitPair;
+    // Far larger than what the box moves: smaller pieces first. Whole triangles may be answered as they are.
+    const bool triangles = a.corners && b.corners && pair.a.cuts == 1 && pair.b.cuts == 1;
+    if (divides && !triangles && scale_ > 8 * at.move && scale_ > smallest_) return Verdict::SplitPair;
     Verdict blur = scale_ > 2 * at.move ? Verdict::SplitPair : Verdict::SplitBox;
     if (scale_ < 2 * largestReach_ && answered(a, b, at, blur)) return Verdict::Done;
     if (scale_ > 2 * at.move) blur = Verdict::SplitPair;

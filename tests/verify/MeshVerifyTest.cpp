@@ -94,7 +94,7 @@ TEST_CASE("what a second DOF brings about is seen: a test that is enough for one
     c.motion.dofs.push_back(joints::slide(Vec3::UnitY(), -0.8, 0.8));
     c.table.motion = c.motion;
     refusedWithPose(c);
-    c = boxes(std::sqrt(0.25 + 0.16));
+    c = boxes(0.65); // sqrt(0.25 + 0.16) is 0.6403
     c.motion.dofs.push_back(joints::slide(Vec3::UnitY(), -0.8, 0.8));
     c.table.motion = c.motion;
     CHECK(c.verdict().holds());
@@ -145,16 +145,15 @@ TEST_CASE("parts that are exempt from each other need no test, and everything el
     CHECK(whole.holds());
     CHECK(whole.exempt.shareA == Approx(1));
     CHECK(whole.exempt.areaB == Approx(6));
-    // Half of one triangle of A counts again: it is met by B.
+    // Half of one triangle of A's right side counts again: B's sides cross it all round.
     for (std::uint32_t t = 0; t < 12; ++t) {
-        Case half = c;
-        half.table.restRegion.a[t].cuts = 2;
-        const bool met = !half.verdict().holds();
-        half.table.restRegion.a[t].cuts = 3;
-        const bool other = !half.verdict().holds();
         const Corners corner = corners(c.a, {t, 1});
-        const bool onRight = corner[0].x() > 0.2 && corner[1].x() > 0.2 && corner[2].x() > 0.2;
-        if (onRight) CHECK((met && other)); // that side is inside of B, whose sides cross it all round
+        if (corner[0].x() < 0.2 || corner[1].x() < 0.2 || corner[2].x() < 0.2) continue;
+        for (const std::uint32_t exempt : {2u, 3u}) {
+            Case half = c;
+            half.table.restRegion.a[t].cuts = exempt;
+            CHECK_FALSE(half.verdict().holds());
+        }
     }
 }
 
@@ -198,11 +197,8 @@ TEST_CASE(
     CHECK_FALSE(inside.holds());
     CHECK(inside.reason.find("inside") != std::string::npos);
     REQUIRE(inside.pose.size() == 1);
-    // A spike that reaches through the wall all along.
-    append(c.b, boxMesh({-0.1, -0.1, -0.6}, {0.1, 0.1, 4}));
-    CHECK_FALSE(c.verdict().reason.find("stick") != std::string::npos);
-    TriangleMesh cross = boxMesh({-0.5, -0.5, -3}, {0.5, 0.5, 3});
-    c.b = cross;
+    // Longer than A is wide, it crosses A's walls wherever it goes.
+    c.b = boxMesh({-0.5, -0.5, -3}, {0.5, 0.5, 3});
     const MeshVerdict through = c.verdict();
     INFO(through.reason);
     CHECK(through.holds());
