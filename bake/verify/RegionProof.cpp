@@ -84,8 +84,12 @@ std::string refuteRegion(const VerifiedBody& a, const VerifiedBody& b, const Mot
                          const RestRegion& region, double slack) {
     if (region.empty()) return {};
     const Pose rest = pose(motion, restValues(motion));
-    const double size = bounds(a.mesh).diagonal().norm() + bounds(b.mesh).diagonal().norm();
-    const double rounding = 1e-9 * size;
+    // Files hold points as floats, and placing them rounds in double.
+    const double smaller = std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm());
+    const double far = rest.translation().norm() + bounds(a.mesh).max().cwiseAbs().norm() +
+                       bounds(a.mesh).min().cwiseAbs().norm() + bounds(b.mesh).max().cwiseAbs().norm() +
+                       bounds(b.mesh).min().cwiseAbs().norm();
+    const double rounding = 0x1p-22 * smaller + 1e-12 * far;
     if (a.surface.apart(b.surface, rest, rounding))
         return "it excepts parts of the surfaces though the meshes do not meet at rest";
     slack = std::max(slack, rounding);
