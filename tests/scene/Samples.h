@@ -122,6 +122,7 @@ inline tss::SceneModel everything() {
     scene.pairs[1].proof = std::make_shared<tss::NeverCollides>();
     tss::SkinTable skin;
     skin.table = smallTable({});
+    skin.table.restRegion = {};
     skin.skinVertices = {0, 3};
     skin.muscleOf = {0};
     scene.skins[0].table = std::make_shared<tss::SkinTable>(skin);
