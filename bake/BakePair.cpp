@@ -174,12 +174,23 @@ double defaultTolerance(const Body& a, const Body& b) {
     return std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm()) / 500;
 }
 
+/// How near spheres must come to be asked for, so that a table's own gap is no larger wherever the meshes
+/// meet: what the spheres lack of the surfaces (METHOD 3.5). 0 where that is nothing, or not known of all of
+/// them.
+double askedWithin(const SphereFit& a, const SphereFit& b, const BakeOptions& options) {
+    const double lacking = a.coverage + b.coverage;
+    const bool fitted = options.spheres == SphereMethod::Medial && options.search == SearchMethod::Certified;
+    return fitted && std::isfinite(lacking) ? lacking : 0;
+}
+
 CandidatePairs search(const SphereSet& a, const SphereSet& b, const Motion& motion,
-                      const BakeOptions& options, const ContactRule& rule, const Progress& progress) {
+                      const BakeOptions& options, double margin, const ContactRule& rule,
+                      const Progress& progress) {
     if (options.search == SearchMethod::Sampled)
         return searchSampled(a, b, motion, sampled(options, rule), progress);
     CertifiedSearchOptions certified;
     certified.rule = rule;
+    certified.margin = margin;
     // The cover does without the list, which wide limits can make longer than anybody needs; only the others
     // wait.
     if (options.reduce == ReduceMethod::Cover) certified.effort = 50'000'000;
@@ -200,7 +211,7 @@ struct Selection {
 };
 
 Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& candidates,
-                 const Motion& motion, const BakeOptions& options, const ContactRule& rule,
+                 const Motion& motion, const BakeOptions& options, double margin, const ContactRule& rule,
                  PairReport& report, const Progress& progress) {
     Selection selection;
     switch (options.reduce) {
@@ -219,6 +230,7 @@ Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& c
         CoverOptions cover;
         cover.epsilon = options.epsilon;
         cover.gapDepth = options.depth;
+        cover.gapMargin = margin;
         cover.rule = rule;
         cover.seconds = options.budget;
         const bool sampled = options.search == SearchMethod::Sampled;
@@ -243,11 +255,11 @@ Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& c
 }
 
 /// What the meshes may expect of a certified table, but for the region that overlaps at rest (METHOD 3.5).
-void setBounds(Table& table, const SphereFit& a, const SphereFit& b, const RuleAtRest& ruled) {
+void setBounds(Table& table, const SphereFit& a, const SphereFit& b, double margin, const RuleAtRest& ruled) {
     if (!table.certified) return;
-    table.boundEarly =
-        known(std::max({a.protrusion + b.protrusion + table.epsilon, a.enclosed, b.enclosed}));
-    if (!ruled.spheres) table.boundMiss = known(a.coverage + b.coverage);
+    table.boundEarly = known(std::max({a.protrusion + b.protrusion + table.epsilon, a.enclosed, b.enclosed}));
+    // Tests were chosen among the pairs that come within the margin: where the surfaces meet one does.
+    if (!ruled.spheres && margin >= a.coverage + b.coverage) table.boundMiss = margin;
     if (!(table.epsilon > 0)) return;
     // Where spheres touch, some test's gap is at most epsilon: counted as contact from there on it misses
     // nothing. At rest all are farther apart than that.
@@ -275,7 +287,8 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
         const TriangleMesh meshA = cleaned(meshOf(a)), meshB = cleaned(meshOf(b));
         ContactZoneFit fit = fitContactZone(meshA, meshB, motion, zone, progress);
         if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
-            spheres = spheresApart(a, b, motion, tolerance, {fit.a.fit.hollow, fit.b.fit.hollow}, fit, progress);
+            spheres =
+                spheresApart(a, b, motion, tolerance, {fit.a.fit.hollow, fit.b.fit.hollow}, fit, progress);
         else
             spheres = {
                 std::move(fit.a.fit),
@@ -308,8 +321,9 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
                        PairReport& report, const Progress& progress) {
     const SphereFit &fitA = spheres.a, &fitB = spheres.b;
     const RuleAtRest ruled = ruleAtRest(spheres, motion, options);
+    const double margin = askedWithin(fitA, fitB, options);
     const CandidatePairs candidates =
-        search(fitA.spheres, fitB.spheres, motion, options, ruled.rule, progress);
+        search(fitA.spheres, fitB.spheres, motion, options, margin, ruled.rule, progress);
     BakeRecord record;
     record.spheresA = fitA.spheres.size();
     record.spheresB = fitB.spheres.size();
@@ -322,8 +336,8 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
     if (candidates.certified && candidates.pairs.empty())
         selection.proof = NeverCollides{candidates.clearance, candidates.explored, {}, {}, {}};
     else
-        selection =
-            select(fitA.spheres, fitB.spheres, candidates, motion, options, ruled.rule, report, progress);
+        selection = select(fitA.spheres, fitB.spheres, candidates, motion, options, margin, ruled.rule,
+                           report, progress);
     if (selection.proof) {
         // The meshes stay as far apart as the spheres do, less what these lack of the surfaces. Where that is
         // nothing, or the meshes meet at rest, it is a table without tests.
@@ -350,7 +364,7 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
     table->record = record;
     table->record.lowerBound = static_cast<std::uint64_t>(std::ceil(selection.reduced.lowerBound));
     table->restRegion = ruled.region;
-    setBounds(*table, fitA, fitB, ruled);
+    setBounds(*table, fitA, fitB, margin, ruled);
     report.epsilon = table->epsilon;
     return {table, nullptr};
 }

@@ -267,16 +267,14 @@ void MeshBox::chooseCut(const OpenPairs& left, std::size_t& cut) const {
         if (box_->half(l) > box_->half(cut)) cut = l;
 }
 
-bool MeshBox::breaksAt(const std::vector<double>& q, const std::vector<PiecePair>& pairs,
-                       MeshProofResult& broken) {
+bool MeshBox::unanswered(const std::vector<double>& q, const std::vector<PiecePair>& pairs, double near,
+                         MeshProofResult& broken) {
     if (!withinLimits(motion_, q)) return false;
     const Pose at = tss::pose(motion_, q);
     double least = infinity;
     for (const MeshTest& t : claim_.tests)
         least = std::min(least, (at * t.centreB - t.centreA).norm() - t.reach);
     if (least <= claim_.miss + claim_.band) return false;
-    const double near = claim_.tests.empty() ? claim_.near - claim_.band : claim_.near;
-    if (near < 0) return false;
     std::vector<PiecePair> stack(pairs);
     while (!stack.empty()) {
         const PiecePair pair = stack.back();
@@ -329,6 +327,8 @@ MeshBox::Outcome MeshBox::judge(const Box& dofs, const OpenPairs& open, OpenPair
     }
     if (left.pairs.empty()) return Outcome::Shown;
     if (breaksAt(box.middle(), left.pairs, broken)) return Outcome::Broken;
+    // What rounding hides at the middle no smaller box would show.
+    if (unanswered(box.middle(), left.pairs, claim_.near + claim_.band, broken)) return Outcome::Undecided;
     double widest = 0;
     for (const PiecePair& pair : left.pairs) widest = std::max(widest, moved(pair.b.node).move);
     if (widest <= box.error() + smallest_) {

@@ -1,6 +1,8 @@
 #pragma once
 #include "bake/verify/MeshProof.h"
 
+#include <algorithm>
+
 namespace tss::verify {
 
 /// A node of a tree, or a part of the triangle of one without children: its longest edge halved again and
@@ -36,9 +38,17 @@ public:
 
     /// The claim is broken at a pose: the surfaces, exempt pairs excepted, come as near as that and no test
     /// answers.
-    bool breaksAt(const std::vector<double>& q, const std::vector<PiecePair>& pairs, MeshProofResult& broken);
+    bool breaksAt(const std::vector<double>& q, const std::vector<PiecePair>& pairs,
+                  MeshProofResult& broken) {
+        const double near = claim_.tests.empty() ? std::max(0.0, claim_.near - claim_.band) : claim_.near;
+        return unanswered(q, pairs, near, broken);
+    }
 
 private:
+    /// At a pose no test answers, and the surfaces are no farther apart than `near`.
+    bool unanswered(const std::vector<double>& q, const std::vector<PiecePair>& pairs, double near,
+                    MeshProofResult& broken);
+
     struct Moved : MovingPoint {
         std::uint64_t stamp = 0;
     };

@@ -121,9 +121,8 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
     BoxPool pool([&] { return std::make_unique<MeshBox>(a, b, motion, size, claim); });
     auto open = std::make_shared<OpenPairs>();
     open->pairs.push_back({{a.root(), 1}, {b.root(), 1}});
-    const std::string broken = claim.tests.empty()
-                                   ? "at a pose the meshes are nearer than the clearance"
-                                   : "at a pose the meshes meet and the table does not answer";
+    const std::string broken = claim.near > 0 ? "at a pose the meshes are nearer than the clearance"
+                                              : "at a pose the meshes meet and the table does not answer";
     {
         std::unique_ptr<MeshBox> box = pool.take();
         for (const std::vector<double>& q : firstPoses(motion)) {

@@ -1,5 +1,6 @@
 #include "bake/verify/MeshVerify.h"
 
+#include "bake/base/Error.h"
 #include "bake/verify/EarlyProof.h"
 #include "bake/verify/Models.h"
 
@@ -71,7 +72,11 @@ bool somePose(const Motion& motion) {
 
 /// What must be so before anything is proven.
 std::string unfit(const Motion& motion) {
-    checkMotion(motion);
+    try {
+        checkMotion(motion);
+    } catch (const InputError& error) {
+        return error.message;
+    }
     if (motion.dofCount() > maxDofs) return fmt::format("its motion has more than {} DOFs", maxDofs);
     if (!somePose(motion)) return "its limits leave no pose at all: nothing is proven by that";
     return {};

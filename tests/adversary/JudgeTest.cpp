@@ -1,4 +1,5 @@
 // The judge must see what is wrong: it is asked about claims that are known to be false, and known to be so.
+#include "bake/base/Error.h"
 #include "tests/Shapes.h"
 #include "tests/adversary/judge/Attack.h"
 #include "tests/adversary/judge/Surfaces.h"
@@ -130,7 +131,14 @@ TEST_CASE("seeds give the same scene every time, and each kind what its name say
     for (std::uint64_t seed = 0; seed < kinds().size(); ++seed) {
         const NamedDraft first = drawScene(seed), second = drawScene(seed);
         CAPTURE(first.name);
-        CHECK(extreme::textOf(sceneOf(first.draft, "x")) == extreme::textOf(sceneOf(second.draft, "x")));
+        const auto text = [](const NamedDraft& drawn) -> std::string {
+            try {
+                return extreme::textOf(sceneOf(drawn.draft, "x"));
+            } catch (const tss::InputError& refused) { // limits that leave no pose
+                return refused.what();
+            }
+        };
+        CHECK(text(first) == text(second));
         CHECK(first.kind == kinds()[seed].name);
     }
 }
