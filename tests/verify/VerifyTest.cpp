@@ -138,6 +138,7 @@ TEST_CASE("widened limits and a moved axis are caught") {
               CHECK_FALSE(verifyTable(scene.a, scene.b, table, wider, colliding()).proven);
               Motion narrower = scene.motion;
               narrower.dofs[k].upper -= 0.01 * (narrower.dofs[k].upper - narrower.dofs[k].lower);
+              narrower.dofs[k].rest = std::min(narrower.dofs[k].rest, narrower.dofs[k].upper);
               CHECK(verifyTable(scene.a, scene.b, table, narrower, colliding()).proven);
               Motion moved = scene.motion;
               if (moved.dofs[k].kind == DofKind::Path)
