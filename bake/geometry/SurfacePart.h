@@ -14,12 +14,14 @@ using Corners = std::array<Vec3, 3>;
 /// runs from a to b and c is the corner opposite.
 std::array<Corners, 2> halves(const Corners& corners);
 
-/// A part of a triangle of a mesh: its longest edge cut in half again and again. Plain data, as files hold it.
+/// A part of a triangle of a mesh: its longest edge cut in half again and again. Plain data, as files hold
+/// it.
 struct SurfacePart {
     std::uint32_t triangle = 0; ///< index into TriangleMesh::triangles, as loaded and before any cleaning
     std::uint32_t cuts = 1;     ///< a leading 1, then a bit a cut, first cut first: which half is meant
 
-    friend auto operator<=>(const SurfacePart&, const SurfacePart&) = default; // NOLINT(modernize-use-nullptr)
+    friend auto operator<=>(const SurfacePart&,
+                            const SurfacePart&) = default; // NOLINT(modernize-use-nullptr)
 };
 
 /// How often a part may be cut: what fits into SurfacePart::cuts.

@@ -266,11 +266,13 @@ std::string describe(const Json& scene) {
                     text += "  no contact   at any sampled pose: no proof that the bodies never meet\n";
                 const double travel = item.value("travel", 0.0);
                 if (travel > 0)
-                    text += fmt::format("  good         while skin strays no farther than {} from where muscles and bones carry it\n",
+                    text += fmt::format("  good         while skin strays no farther than {} from where "
+                                        "muscles and bones carry it\n",
                                         lengthText(travel, metersPerUnit));
                 if (item.contains("travel") && !item["certified"].get<bool>())
-                    text += "  explored     each muscle and each joint value by itself: where several move at "
-                            "once nothing is proven\n";
+                    text +=
+                        "  explored     each muscle and each joint value by itself: where several move at "
+                        "once nothing is proven\n";
                 if (!item.contains("travel")) // a skin's table has no bound of depth
                     text += fmt::format(
                         "  bounds       miss {}, early {}, epsilon {}, {}{}\n",

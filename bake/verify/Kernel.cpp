@@ -1,8 +1,8 @@
 #include "bake/verify/Kernel.h"
 
 #include "bake/verify/KernelCells.h"
-#include "bake/verify/VerdictProof.h"
 #include "bake/verify/PoseBox.h"
+#include "bake/verify/VerdictProof.h"
 
 #include <algorithm>
 #include <cmath>

@@ -13,8 +13,8 @@ namespace tss::verify {
 
 namespace {
 
-/// How often a cell or a piece is halved where bounds over the whole of it do not suffice, next to where contact
-/// begins down to what doubles tell apart; and how many parts of one are looked at.
+/// How often a cell or a piece is halved where bounds over the whole of it do not suffice, next to where
+/// contact begins down to what doubles tell apart; and how many parts of one are looked at.
 constexpr int mostHalvings = 60;
 constexpr int mostLooks = 20000;
 /// A cell is taken so much wider than it is: for what rounding does when it is looked up.

@@ -19,7 +19,7 @@ TEST_CASE("spheres that lack a part of the surface prove nothing by staying apar
     CHECK(never("--tolerance 0.02"));
     CHECK(never("--tolerance 0.02 --no-conservative"));
     CHECK(never("--tolerance 0.2 --no-conservative")); // finer than asked for, so that they are apart at rest
-    CHECK_FALSE(never("--spheres growth")); // none at all
+    CHECK_FALSE(never("--spheres growth"));            // none at all
 }
 
 TEST_CASE("never to collide takes a distance of the meshes, and touching is none") {
