@@ -16,19 +16,27 @@ for argument in "$@"; do
     esac
 done
 
-install_packages
-build_release
+install_packages build pictures report tests
+say "Building the preset release into build/"
+build_release -DOSGTSS_TESTS=ON -DOSGTSS_REPORT=ON
 [ -d ../shared/meshes ] || say "../shared/meshes is absent: tests on real meshes say 'skipped, no meshes'"
 
-say "Tests"
-ctest --preset release
-if [ -n "$long" ]; then
-    say "Long tests"
-    ctest --test-dir build -L long --output-on-failure
-fi
+passed=() failed=()
+# part <name> <command>...: runs it, and goes on to the next part whatever comes of it.
+part() {
+    local name=$1
+    shift
+    say "$name"
+    if "$@"; then passed+=("$name"); else failed+=("$name"); fi
+}
 
-say "The API reference, every warning an error"
-cmake --build --preset release --target api
+part "Tests" ctest --preset release
+[ -z "$long" ] || part "Long tests" ctest --test-dir build -L long --output-on-failure
+part "API reference, every warning an error" cmake --build --preset release --target api
+part "Fuzzing the scene reader" tests/fuzz/run.sh "$([ -n "$long" ] && echo 1800 || echo 30)"
 
-say "Fuzzing the scene reader"
-tests/fuzz/run.sh "$([ -n "$long" ] && echo 1800 || echo 30)"
+say "Verdict"
+for name in "${passed[@]}"; do echo "passed: $name"; done
+for name in "${failed[@]}"; do echo "FAILED: $name"; done
+echo "${#passed[@]} passed, ${#failed[@]} failed"
+[ ${#failed[@]} -eq 0 ]
