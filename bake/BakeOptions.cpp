@@ -105,9 +105,9 @@ std::string lengthText(double length, double metersPerUnit) {
 
 namespace {
 
-/// Sets the option if there is one of this name, and says whether there is.
+/// Sets the option if there is one of this name, and says whether there is. names: gets them all, if given.
 bool set(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit,
-         bool onlyLook) {
+         bool onlyLook, std::vector<std::string>* names = nullptr) {
     using Setter = std::function<void()>;
     const std::pair<const char*, Setter> setters[] = {
         {"spheres",
@@ -152,11 +152,13 @@ bool set(BakeOptions& options, const std::string& key, const std::string& text, 
                  throw InputError("--budget: expected seconds >= 0, found \"" + text + "\"");
          }},
     };
-    for (const auto& [name, set] : setters)
+    for (const auto& [name, set] : setters) {
+        if (names) names->push_back(name);
         if (key == name) {
             if (!onlyLook) set();
             return true;
         }
+    }
     return false;
 }
 
@@ -165,6 +167,13 @@ bool set(BakeOptions& options, const std::string& key, const std::string& text, 
 bool isOption(const std::string& key) {
     BakeOptions none;
     return set(none, key, "", 1, true);
+}
+
+std::vector<std::string> optionNames() {
+    BakeOptions none;
+    std::vector<std::string> names;
+    set(none, "", "", 1, true, &names);
+    return names;
 }
 
 void setOption(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit) {

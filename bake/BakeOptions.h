@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tss {
 
@@ -35,6 +36,9 @@ void setOption(BakeOptions& options, const std::string& key, const std::string& 
 
 /// Whether setOption() knows this name.
 bool isOption(const std::string& key);
+
+/// All names that setOption() knows.
+std::vector<std::string> optionNames();
 
 /// The options of one pair: the defaults, then the scene's own settings, then those given now.
 BakeOptions optionsFor(const BakeSettings& ofScene, const BakeSettings& given, double metersPerUnit);

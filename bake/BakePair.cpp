@@ -2,6 +2,8 @@
 
 #include "bake/ContactZoneFit.h"
 #include "bake/HollowBodies.h"
+#include "bake/NestedBodies.h"
+#include "bake/RestRule.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/Solid.h"
@@ -56,9 +58,10 @@ const TriangleMesh& meshOf(const Body& body) {
     return body.mesh;
 }
 
-SphereFit wholeBody(const Body& body, const BakeOptions& options, double tolerance,
+SphereFit wholeBody(const Body& body, const BakeOptions& options, double tolerance, bool hollow,
                     const Progress& progress) {
     SphereOptions how;
+    how.hollow = hollow;
     how.method = options.spheres;
     how.tolerance = tolerance;
     how.maxSpheres = options.maxSpheres;
@@ -85,21 +88,25 @@ HollowBodies hollowBodies(const Body& a, const Body& b, const PairSpheres& spher
 /// Spheres of two bodies whose surfaces are known never to come near each other, as coarse as shows it: what
 /// can be proven again from the file alone.
 PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, double tolerance,
-                         const Progress& progress) {
+                         HollowBodies hollow, const ContactZoneFit& fit, const Progress& progress) {
     SphereOptions how;
     CertifiedSearchOptions apart;
-    apart.atRest = AtRest::Collide;
     apart.measureClearance = false;
     apart.effort = 5'000'000;
     const double smaller = std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm());
-    HollowBodies hollow;
     for (how.tolerance = std::max(tolerance, smaller / 30);;) {
         SphereOptions howA = how, howB = how;
         howA.hollow = hollow.a;
         howB.hollow = hollow.b;
+        howA.medial.neighbour = fit.a.neighbour;
+        howB.medial.neighbour = fit.b.neighbour;
         PairSpheres spheres{fitSpheres(cleaned(meshOf(a)), howA, progress),
                             fitSpheres(cleaned(meshOf(b)), howB, progress),
                             {},
+                            {},
+                            {},
+                            {},
+                            fit.rest.clearance,
                             {}};
         const CandidatePairs meeting =
             searchCertified(spheres.a.spheres, spheres.b.spheres, motion, apart, progress);
@@ -150,23 +157,40 @@ FitRecord recorded(FitRecord figures, const SphereFit& fit) {
     return figures;
 }
 
-SampledSearchOptions sampled(const BakeOptions& options) {
+SampledSearchOptions sampled(const BakeOptions& options, const ContactRule& rule) {
     SampledSearchOptions search;
     search.samples = static_cast<std::size_t>(options.samples);
-    search.atRest = options.atRest;
+    search.rule = rule;
     return search;
+}
+
+double clearanceAtRest(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion) {
+    const std::vector<double> rest = restValues(motion);
+    const double distance = MeshQuery(a).distanceTo(MeshQuery(b), pose(motion, rest));
+    return distance > touchingDistance(a, b, motion) ? distance : 0;
 }
 
 double defaultTolerance(const Body& a, const Body& b) {
     return std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm()) / 500;
 }
 
+/// How near spheres must come to be asked for, so that a table's own gap is no larger wherever the meshes
+/// meet: what the spheres lack of the surfaces (METHOD 3.5). 0 where that is nothing, or not known of all of
+/// them.
+double askedWithin(const SphereFit& a, const SphereFit& b, const BakeOptions& options) {
+    const double lacking = a.coverage + b.coverage;
+    const bool fitted = options.spheres == SphereMethod::Medial && options.search == SearchMethod::Certified;
+    return fitted && std::isfinite(lacking) ? lacking : 0;
+}
+
 CandidatePairs search(const SphereSet& a, const SphereSet& b, const Motion& motion,
-                      const BakeOptions& options, const Progress& progress) {
+                      const BakeOptions& options, double margin, const ContactRule& rule,
+                      const Progress& progress) {
     if (options.search == SearchMethod::Sampled)
-        return searchSampled(a, b, motion, sampled(options), progress);
+        return searchSampled(a, b, motion, sampled(options, rule), progress);
     CertifiedSearchOptions certified;
-    certified.atRest = options.atRest;
+    certified.rule = rule;
+    certified.margin = margin;
     // The cover does without the list, which wide limits can make longer than anybody needs; only the others
     // wait.
     if (options.reduce == ReduceMethod::Cover) certified.effort = 50'000'000;
@@ -178,17 +202,6 @@ std::string methodName(const BakeOptions& options) {
            (options.search == SearchMethod::Sampled ? "/sampled/" : "/certified/") + name(options.reduce);
 }
 
-void noteOverlap(const CandidatePairs& candidates, const BakeOptions& options, PairReport& report) {
-    if (candidates.atRest.empty() || options.atRest == AtRest::Collide) return;
-    double deepest = 0;
-    for (const RestPair& pair : candidates.atRest) deepest = std::min(deepest, pair.gap);
-    report.notes.push_back(fmt::format(
-        "{} sphere {} at rest, at most {:.4g} scene units deep; {} (--at-rest collide makes no exception)",
-        candidates.atRest.size(), candidates.atRest.size() == 1 ? "pair overlaps" : "pairs overlap", -deepest,
-        options.atRest == AtRest::Offset ? "contact of those begins where they go deeper"
-                                         : "those are left out"));
-}
-
 /// The table's tests by the method asked for. Only the cover proves something about every pose.
 struct Selection {
     Reduced reduced;
@@ -198,15 +211,15 @@ struct Selection {
 };
 
 Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& candidates,
-                 const Motion& motion, const BakeOptions& options, PairReport& report,
-                 const Progress& progress) {
+                 const Motion& motion, const BakeOptions& options, double margin, const ContactRule& rule,
+                 PairReport& report, const Progress& progress) {
     Selection selection;
     switch (options.reduce) {
     case ReduceMethod::Cooccurrence:
         selection.reduced = reduceCooccurrence(candidates);
         break;
     case ReduceMethod::Minimal:
-        selection.reduced = reduceMinimal(a, b, motion, sampled(options), progress);
+        selection.reduced = reduceMinimal(a, b, motion, sampled(options, rule), progress);
         break;
     case ReduceMethod::None:
         selection.reduced.pairs = candidates.pairs;
@@ -217,7 +230,8 @@ Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& c
         CoverOptions cover;
         cover.epsilon = options.epsilon;
         cover.gapDepth = options.depth;
-        cover.atRest = options.atRest;
+        cover.gapMargin = margin;
+        cover.rule = rule;
         cover.seconds = options.budget;
         const bool sampled = options.search == SearchMethod::Sampled;
         const bool listed = sampled || candidates.certified;
@@ -230,7 +244,7 @@ Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& c
         selection.epsilon = result.epsilon;
         selection.certified = !sampled;
         if (selection.certified && result.complete && result.pairs.empty())
-            selection.proof = NeverCollides{result.clearance, result.cells, {}, {}};
+            selection.proof = NeverCollides{result.clearance, result.cells, {}, {}, {}};
         if (!result.complete)
             report.notes.push_back(fmt::format("the budget ended first: epsilon {} was reached, not {}",
                                                result.epsilon, options.epsilon));
@@ -240,31 +254,15 @@ Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& c
     return selection;
 }
 
-/// What the meshes may expect of a certified table (METHOD 3.5). Pairs that overlap at rest count from their
-/// gap there.
-void setBounds(Table& table, const SphereFit& a, const SphereFit& b, bool overlapAtRest, PairReport& report) {
+/// What the meshes may expect of a certified table, but for the region that overlaps at rest (METHOD 3.5).
+void setBounds(Table& table, const SphereFit& a, const SphereFit& b, double margin, const RuleAtRest& ruled) {
     if (!table.certified) return;
-    table.boundEarly = known(a.protrusion + b.protrusion + table.epsilon);
-    const double lacking = a.coverage + b.coverage;
-    if (table.epsilon > 0 && overlapAtRest) {
-        // A test may stay epsilon short of its own contact while it answers for others that touch. Counted
-        // from epsilon on, it would miss nothing, but one that overlaps at rest would then touch at rest.
-        // Where the gap is right to epsilon down to a depth of epsilon, it has answered when the others are
-        // that deep; a yes/no table does not say how deep they are.
-        if (table.gapDepth >= table.epsilon)
-            table.boundMiss = known(lacking + table.epsilon);
-        else
-            report.notes.push_back(
-                fmt::format("how late contact may be reported is not known: spheres overlap at rest, and a "
-                            "yes/no table does not tell how deep within epsilon; --epsilon 0 or --depth "
-                            "{:.4g} gives a bound",
-                            table.epsilon));
-        return;
-    }
-    table.boundMiss = known(lacking);
+    table.boundEarly = known(std::max({a.protrusion + b.protrusion + table.epsilon, a.enclosed, b.enclosed}));
+    // Tests were chosen among the pairs that come within the margin: where the surfaces meet one does.
+    if (!ruled.spheres && margin >= a.coverage + b.coverage) table.boundMiss = margin;
     if (!(table.epsilon > 0)) return;
     // Where spheres touch, some test's gap is at most epsilon: counted as contact from there on it misses
-    // nothing.
+    // nothing. At rest all are farther apart than that.
     table.restGaps.resize(table.testCount(), 0);
     for (double& gap : table.restGaps) gap += table.epsilon;
 }
@@ -282,28 +280,50 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
         ContactZoneOptions zone;
         zone.tolerance = tolerance;
         zone.depth = options.depth;
+        zone.epsilon = options.epsilon;
         zone.atRest = options.atRest;
         zone.maxSpheres = options.maxSpheres;
         zone.conservative = options.conservative;
-        ContactZoneFit fit = fitContactZone(cleaned(meshOf(a)), cleaned(meshOf(b)), motion, zone, progress);
+        const TriangleMesh meshA = cleaned(meshOf(a)), meshB = cleaned(meshOf(b));
+        ContactZoneFit fit = fitContactZone(meshA, meshB, motion, zone, progress);
         if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
-            spheres = spheresApart(a, b, motion, tolerance, progress);
+            spheres =
+                spheresApart(a, b, motion, tolerance, {fit.a.fit.hollow, fit.b.fit.hollow}, fit, progress);
         else
-            spheres = {std::move(fit.a.fit), std::move(fit.b.fit), std::move(fit.a.zone),
-                       std::move(fit.b.zone)};
+            spheres = {
+                std::move(fit.a.fit),
+                std::move(fit.b.fit),
+                std::move(fit.a.zone),
+                std::move(fit.b.zone),
+                {},
+                {},
+                fit.rest.clearance,
+                {partsOf(a.mesh, meshA, fit.rest.region.a), partsOf(b.mesh, meshB, fit.rest.region.b)}};
     } else {
-        spheres = {
-            wholeBody(a, options, tolerance, progress), wholeBody(b, options, tolerance, progress), {}, {}};
+        Nesting nesting;
+        if (options.spheres != SphereMethod::Surface) // those stand on the surface anyway
+            nesting = findNested(Solid(cleaned(meshOf(a))), Solid(cleaned(meshOf(b))), motion, 2 * tolerance,
+                                 progress);
+        spheres.a = wholeBody(a, options, tolerance, nesting.outer.a, progress);
+        spheres.b = wholeBody(b, options, tolerance, nesting.outer.b, progress);
+        spheres.a.enclosed = nesting.apart(nesting.undecided.a);
+        spheres.b.enclosed = nesting.apart(nesting.undecided.b);
+        spheres.clearanceAtRest = clearanceAtRest(meshOf(a), meshOf(b), motion);
     }
     roundToFloat(spheres.a);
     roundToFloat(spheres.b);
+    spheres.stickOut = spheres.a.protrusion + spheres.b.protrusion;
+    checkRest(spheres, motion, options);
     return spheres;
 }
 
 PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const BakeOptions& options,
                        PairReport& report, const Progress& progress) {
     const SphereFit &fitA = spheres.a, &fitB = spheres.b;
-    const CandidatePairs candidates = search(fitA.spheres, fitB.spheres, motion, options, progress);
+    const RuleAtRest ruled = ruleAtRest(spheres, motion, options);
+    const double margin = askedWithin(fitA, fitB, options);
+    const CandidatePairs candidates =
+        search(fitA.spheres, fitB.spheres, motion, options, margin, ruled.rule, progress);
     BakeRecord record;
     record.spheresA = fitA.spheres.size();
     record.spheresB = fitB.spheres.size();
@@ -311,24 +331,26 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
     record.candidatePairs = listed ? candidates.pairs.size() : 0;
     record.fitA = recorded(spheres.figuresA, fitA);
     record.fitB = recorded(spheres.figuresB, fitB);
-    noteOverlap(candidates, options, report);
+    noteRest(spheres, ruled, motion, options, report.notes);
     Selection selection;
     if (candidates.certified && candidates.pairs.empty())
-        selection.proof = NeverCollides{candidates.clearance, candidates.explored, {}, {}};
+        selection.proof = NeverCollides{candidates.clearance, candidates.explored, {}, {}, {}};
     else
-        selection = select(fitA.spheres, fitB.spheres, candidates, motion, options, report, progress);
-    // Spheres that stay apart say that the bodies do where the spheres lack less of the surfaces than that.
-    const double lacking = fitA.coverage + fitB.coverage;
-    if (selection.proof && !(std::isfinite(lacking) && lacking <= selection.proof->clearance)) {
-        selection.proof.reset();
-        selection.certified = true;
+        selection = select(fitA.spheres, fitB.spheres, candidates, motion, options, margin, ruled.rule,
+                           report, progress);
+    if (selection.proof) {
+        // The meshes stay as far apart as the spheres do, less what these lack of the surfaces. Where that is
+        // nothing, or the meshes meet at rest, it is a table without tests.
+        double& clearance = selection.proof->clearance;
+        clearance -= fitA.coverage + fitB.coverage;
+        if (!(std::isfinite(clearance) && clearance > 0) || !ruled.rule.empty() || !ruled.region.empty()) {
+            selection.proof.reset();
+            selection.certified = true;
+        }
     }
     const std::string method = methodName(options);
     if (selection.proof) {
         selection.proof->method = method;
-        // No sphere in reach: nothing more is known than that the two do not meet, and a file holds no
-        // infinity.
-        if (!std::isfinite(selection.proof->clearance)) selection.proof->clearance = 0;
         selection.proof->record = record;
         return {nullptr, std::make_shared<NeverCollides>(*selection.proof)};
     }
@@ -341,9 +363,8 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
     table->certified = selection.certified;
     table->record = record;
     table->record.lowerBound = static_cast<std::uint64_t>(std::ceil(selection.reduced.lowerBound));
-    setBounds(*table, fitA, fitB,
-              options.atRest != AtRest::Collide && !restOverlaps(fitA.spheres, fitB.spheres, motion).empty(),
-              report);
+    table->restRegion = ruled.region;
+    setBounds(*table, fitA, fitB, margin, ruled);
     report.epsilon = table->epsilon;
     return {table, nullptr};
 }
@@ -357,9 +378,14 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
     spheres.figuresA = measured(scene.bodies[pair.bodyA], spheres.a, spheres.zoneA);
     spheres.figuresB = measured(scene.bodies[pair.bodyB], spheres.b, spheres.zoneB);
     const std::pair<int, const SphereFit*> fits[] = {{pair.bodyA, &spheres.a}, {pair.bodyB, &spheres.b}};
-    for (const auto& [body, fit] : fits)
-        if (!fit->note.empty())
-            report.notes.push_back(scene.bodies[static_cast<std::size_t>(body)].path + ": " + fit->note);
+    for (const auto& [body, fit] : fits) {
+        const std::string& path = scene.bodies[static_cast<std::size_t>(body)].path;
+        if (!fit->note.empty()) report.notes.push_back(path + ": " + fit->note);
+        if (!std::isfinite(fit->enclosed))
+            report.notes.push_back(
+                path + ": whether the other body ever stands inside without touching could not be "
+                       "decided for all poses: how early contact may be reported is not known");
+    }
     PairTable made = tabulatePair(spheres, motion, options, report, progress);
     pair.table = std::move(made.table);
     pair.proof = std::move(made.proof);

@@ -14,6 +14,9 @@ struct PairSpheres {
     /// The surface that they stand for, where that is not all of it: the contact zone.
     std::optional<std::vector<Patch>> zoneA{}, zoneB{};
     FitRecord figuresA{}, figuresB{}; ///< as far as they were measured
+    double clearanceAtRest = 0;       ///< of the surfaces; 0: they touch or overlap
+    RestRegion region{};              ///< of the meshes as loaded, where spheres are fitted to surfaces
+    double stickOut = 0;              ///< of the spheres of both together, by which they tell no depths apart
 };
 
 /// Fills the two bodies of a pair as the options say (METHOD 1). The same spheres at every call.

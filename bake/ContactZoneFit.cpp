@@ -1,6 +1,7 @@
 #include "bake/ContactZoneFit.h"
 
 #include "bake/HollowBodies.h"
+#include "bake/NestedBodies.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/search/Reach.h"
@@ -30,30 +31,56 @@ struct Body {
     Solid solid;
     MeshQuery surface; ///< without closing fans: contact is of the mesh itself
     double magnitude;
-    std::vector<Patch> zone;
-    LevelSpheres level;
-    SphereSet coarse; ///< inscribed spheres of the levels before
+    std::vector<Patch> zone; ///< of all but the region that overlaps at rest
+    RestSide rest;
+    MedialSet fitted;      ///< to the zone, on this level
+    double protrusion = 0; ///< of all spheres of the level
+    SphereSet coarse;      ///< inscribed spheres of the levels before
 
-    void fit(double tolerance, const MedialOptions& medial, const Progress& progress) {
-        level.protrusion = protrusionFor(tolerance, magnitude);
-        level.spheres = medialSpheres(solid, zone, level.protrusion, medial, progress);
+    void begin(RestSide side) {
+        rest = std::move(side);
+        protrusion = rest.protrusion;
+        for (const Patch& patch : rest.patches)
+            if (!patch.region) zone.push_back(patch);
+    }
+    void fit(double tolerance, MedialOptions medial, const Progress& progress) {
+        const double own = protrusionFor(tolerance, magnitude);
+        medial.neighbour = rest.neighbour;
+        fitted = medialSpheres(solid, zone, own, medial, progress);
+        protrusion = std::max(own, rest.protrusion);
+    }
+    std::size_t count() const { return fitted.spheres.size() + rest.region.spheres.size(); }
+    LevelSpheres level() const {
+        LevelSpheres level{fitted.spheres, fitted.inner, std::vector<char>(fitted.spheres.size(), 0)};
+        const MedialSet& region = rest.region;
+        level.spheres.insert(level.spheres.end(), region.spheres.begin(), region.spheres.end());
+        level.inner.insert(level.inner.end(), region.inner.begin(), region.inner.end());
+        level.region.resize(level.spheres.size(), 1);
+        return level;
     }
     /// All spheres so far.
     SphereSet spheres() const {
-        SphereSet all = level.spheres;
+        SphereSet all = level().spheres;
         all.insert(all.end(), coarse.begin(), coarse.end());
         return all;
     }
     ContactZoneBody result(const ContactZoneOptions& options) const {
         ContactZoneBody body;
-        body.fit.spheres = options.conservative ? level.spheres : inscribed(level.spheres, level.protrusion);
-        body.fit.protrusion = options.conservative ? level.protrusion : 0;
-        body.fit.coverage = options.conservative ? 0 : level.protrusion;
+        const LevelSpheres finest = level();
+        body.fit.spheres = options.conservative ? finest.spheres : inscribed({finest.spheres, finest.inner});
+        body.fit.protrusion = options.conservative ? protrusion : 0;
+        body.fit.coverage = options.conservative ? 0 : protrusion;
         body.fit.note = solid.assumptions();
         body.fit.hollow = solid.hollow();
         body.fine = body.fit.spheres.size();
+        body.neighbour = rest.neighbour;
         body.zone = zone;
+        for (const Patch& patch : rest.patches)
+            if (patch.region) body.zone.push_back(patch);
         if (options.keepCoarse) body.fit.spheres.insert(body.fit.spheres.end(), coarse.begin(), coarse.end());
+        if (rest.region.spheres.empty()) return body;
+        body.fit.region = finest.region;
+        body.fit.region.resize(body.fit.spheres.size(), 0);
         return body;
     }
 };
@@ -69,17 +96,16 @@ std::vector<double> levelTolerances(double finest, double diagonal) {
 class Refiner {
 public:
     Refiner(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
-            const ContactZoneOptions& options, const HollowBodies& hollow, const Progress& progress)
+            const ContactZoneOptions& options, const HollowBodies& hollow, bool clearAtRest,
+            const Progress& progress)
         : a_(a, hollow.a), b_(b, hollow.b), motion_(motion), options_(options), progress_(progress),
-          cells_(wholeQ(motion)) {
-        a_.zone = patchesOf(a_.solid.mesh());
-        b_.zone = patchesOf(b_.solid.mesh());
-    }
+          cells_(wholeQ(motion)), clearAtRest_(clearAtRest) {}
 
     /// Of no use where entered() says that a body is hollow after all.
     ContactZoneFit run() {
         const double smaller = std::min(a_.solid.diagonal(), b_.solid.diagonal());
         const double finest = options_.tolerance > 0 ? options_.tolerance : smaller / 500;
+        if (!begin(finest)) return {};
         std::vector<double> levels = levelTolerances(finest, smaller);
         for (std::size_t i = 0; i < levels.size(); ++i) {
             if (!narrow(levels[i])) break;
@@ -104,11 +130,23 @@ public:
     const HollowBodies& entered() const { return entered_; }
 
 private:
+    /// Looks at the pose at rest. False: a body is hollow after all.
+    bool begin(double tolerance) {
+        RestPlan plan = planRest(
+            a_.solid, a_.surface, b_.solid, b_.surface, motion_,
+            {tolerance, options_.epsilon, options_.atRest, clearAtRest_, options_.medial}, progress_);
+        if ((entered_ = plan.entered)) return false;
+        a_.begin(std::move(plan.a));
+        b_.begin(std::move(plan.b));
+        result_.rest = std::move(plan.contact);
+        return true;
+    }
+
     HollowBodies entered(double reach) const {
         if (!a_.solid.open() && !b_.solid.open()) return {};
         const SphereSet a = a_.spheres(), b = b_.spheres();
-        return findHollow({a_.solid, a_.surface, a, a_.level.protrusion},
-                          {b_.solid, b_.surface, b, b_.level.protrusion}, motion_, reach, progress_);
+        return findHollow({a_.solid, a_.surface, a, a_.protrusion}, {b_.solid, b_.surface, b, b_.protrusion},
+                          motion_, reach, progress_);
     }
 
     /// The zones within reach over what is left of Q. False: there are none.
@@ -117,7 +155,8 @@ private:
             findReach(a_.zone, Side::A, b_.surface, motion_, cells_, tolerance, options_.margin, progress_);
         std::vector<Patch> zoneB =
             findReach(b_.zone, Side::B, a_.surface, motion_, cells_, tolerance, options_.margin, progress_);
-        if (zoneA.empty() || zoneB.empty()) {
+        const bool region = !result_.rest.region.empty(); // of which either zone may meet the other's
+        if (region ? zoneA.empty() && zoneB.empty() : zoneA.empty() || zoneB.empty()) {
             // The poses left are free; what was decided before stays with the inscribed spheres.
             result_.neverMeet = !hits_;
             // Spheres of the last level may touch there yet: finer ones of the last zone show that nothing
@@ -134,14 +173,14 @@ private:
 
     void finish(std::vector<Patch> zoneA, std::vector<Patch> zoneB) {
         keepInner();
-        a_.level = b_.level = {};
+        a_.fitted = b_.fitted = {};
         a_.zone = std::move(zoneA);
         b_.zone = std::move(zoneB);
     }
 
     void keepInner() {
         for (Body* body : {&a_, &b_}) {
-            const SphereSet inner = inscribed(body->level.spheres, body->level.protrusion);
+            const SphereSet inner = inscribed(body->fitted);
             body->coarse.insert(body->coarse.end(), inner.begin(), inner.end());
         }
     }
@@ -155,7 +194,7 @@ private:
         } catch (const TooFine&) {
             return false;
         }
-        return std::max(a_.level.spheres.size(), b_.level.spheres.size()) <= limit;
+        return std::max(a_.count(), b_.count()) <= limit;
     }
 
     /// The levels from the finest tolerance on with which no body takes too many spheres.
@@ -175,12 +214,13 @@ private:
 
     /// After a level that took too many spheres: the finest one between it and the one before that does not.
     void fitBetween(double good, double bad) {
-        const std::array<LevelSpheres, 2> before{a_.level, b_.level};
+        const std::array<MedialSet, 2> before{a_.fitted, b_.fitted};
         const std::array<SphereSet, 2> coarse{a_.coarse, b_.coarse};
+        const std::array<double, 2> protrusion{a_.protrusion, b_.protrusion};
         const std::vector<ContactZoneLevel> levels = result_.levels;
         const auto refit = [&](double tolerance) {
-            a_.level = before[0], a_.coarse = coarse[0];
-            b_.level = before[1], b_.coarse = coarse[1];
+            a_.fitted = before[0], a_.coarse = coarse[0], a_.protrusion = protrusion[0];
+            b_.fitted = before[1], b_.coarse = coarse[1], b_.protrusion = protrusion[1];
             result_.levels = levels;
             return fit(tolerance);
         };
@@ -194,12 +234,13 @@ private:
     /// False: it took too many spheres and the level before stands.
     bool fit(double tolerance) {
         const Body* bodies[] = {&a_, &b_};
-        std::array<LevelSpheres, 2> before{a_.level, b_.level};
+        std::array<MedialSet, 2> before{a_.fitted, b_.fitted};
+        const std::array<double, 2> protrusion{a_.protrusion, b_.protrusion};
         std::array<SphereSet, 2> coarse{a_.coarse, b_.coarse};
         if (!result_.levels.empty()) keepInner();
         const auto backToLast = [&] {
-            a_.level = before[0], a_.coarse = coarse[0];
-            b_.level = before[1], b_.coarse = coarse[1];
+            a_.fitted = before[0], a_.coarse = coarse[0], a_.protrusion = protrusion[0];
+            b_.fitted = before[1], b_.coarse = coarse[1], b_.protrusion = protrusion[1];
             return false;
         };
         const auto fitBoth = [&](const MedialOptions& medial, const Progress& progress) {
@@ -208,6 +249,8 @@ private:
         };
         try {
             fitBoth(options_.medial, progress_);
+        } catch (const RestTooClose&) { // which does not depend on the level
+            throw;
         } catch (const InputError& error) { // too fine, or stopped
             if (!result_.levels.empty()) {
                 note_ = fmt::format("tolerance {:.4g} instead of {:.4g}: {}", result_.levels.back().tolerance,
@@ -222,11 +265,9 @@ private:
         }
         const auto limit = static_cast<std::size_t>(options_.maxSpheres);
         for (const Body* body : bodies)
-            if (limit > 0 && !result_.levels.empty() &&
-                body->level.spheres.size() + body->coarse.size() > limit)
+            if (limit > 0 && !result_.levels.empty() && body->count() + body->coarse.size() > limit)
                 return backToLast();
-        result_.levels.push_back(
-            {tolerance, a_.level.spheres.size(), b_.level.spheres.size(), area(a_.zone), area(b_.zone), 0});
+        result_.levels.push_back({tolerance, a_.count(), b_.count(), area(a_.zone), area(b_.zone), 0});
         return true;
     }
 
@@ -253,9 +294,9 @@ private:
         UndecidedOptions how;
         how.margin = options_.margin;
         how.depth = options_.depth;
-        how.atRest = options_.atRest;
+        const LevelSpheres a = a_.level(), b = b_.level();
         for (how.resolution = 8 * tolerance;; how.resolution /= 2) {
-            Undecided left = undecidedCells(a_.level, b_.level, motion_, cells_, how, progress_);
+            Undecided left = undecidedCells(a, b, motion_, cells_, how, progress_);
             hits_ |= left.hits;
             if (!left.cells) return false;
             cells_ = std::move(*left.cells);
@@ -271,6 +312,7 @@ private:
     CellTree cells_;
     ContactZoneFit result_;
     HollowBodies entered_;
+    const bool clearAtRest_;
     bool hits_ = false;
     bool decided_ = false; ///< no pose is left whose verdict the spheres do not know
     std::string note_;
@@ -285,15 +327,28 @@ ContactZoneFit fitContactZone(const TriangleMesh& a, const TriangleMesh& b, cons
     };
     need(std::isfinite(options.tolerance) && options.tolerance >= 0, "the tolerance must be a number >= 0");
     need(std::isfinite(options.margin) && options.margin >= 0, "the margin must be a number >= 0");
+    need(std::isfinite(options.epsilon) && options.epsilon >= 0, "epsilon must be a number >= 0");
     need(std::isfinite(options.depth) && options.depth >= 0, "the depth must be a number >= 0");
     checkMotion(motion);
-    HollowBodies hollow;
+    const Solid solidA(cleaned(a)), solidB(cleaned(b));
+    const double finest =
+        options.tolerance > 0 ? options.tolerance : std::min(solidA.diagonal(), solidB.diagonal()) / 500;
+    const Nesting nesting = findNested(solidA, solidB, motion, 2 * finest, progress);
+    HollowBodies hollow = nesting.outer;
+    bool clearAtRest = true;
     for (;;) {
-        Refiner refiner(a, b, motion, options, hollow, progress);
-        ContactZoneFit fit = refiner.run();
-        const HollowBodies& more = refiner.entered();
-        if (!more) return fit;
-        hollow = {hollow.a || more.a, hollow.b || more.b};
+        Refiner refiner(a, b, motion, options, hollow, clearAtRest, progress);
+        try {
+            ContactZoneFit fit = refiner.run();
+            fit.a.fit.enclosed = nesting.apart(nesting.undecided.a);
+            fit.b.fit.enclosed = nesting.apart(nesting.undecided.b);
+            const HollowBodies& more = refiner.entered();
+            if (!more) return fit;
+            hollow = {hollow.a || more.a, hollow.b || more.b};
+        } catch (const RestTooClose&) {
+            if (options.atRest != AtRest::Collide) throw;
+            clearAtRest = false; // contact at rest is then what the spheres say
+        }
     }
 }
 

@@ -1,8 +1,10 @@
 #include "bake/JointPlan.h"
 
 #include "bake/base/Error.h"
+#include "bake/table/Query.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace tss {
 
@@ -53,6 +55,27 @@ void warn(std::vector<std::string>* warnings, const Pair& pair, const std::strin
     if (warnings) warnings->push_back("pair " + pair.path + " is not kept apart: " + why);
 }
 
+/// What a table does to its joint that a person would not expect of it.
+void remark(std::vector<std::string>* warnings, const Pair& pair) {
+    if (!warnings) return;
+    const Table& table = *pair.table;
+    if (table.testCount() == 0) return;
+    const double gap = query(table, restValues(table.motion)).gap, kept = 1.5 * table.epsilon;
+    // What overlaps at rest counts from there, and is at 0 but for rounding.
+    double size = 0;
+    for (const Sphere& sphere : table.a) size = std::max(size, sphere.radius);
+    const double rounding = 1e-6 * size;
+    std::ostringstream text;
+    if (gap < -rounding)
+        text << "its table says contact where the joint rests, which is held there or pushed out";
+    else if (gap > rounding && gap < kept)
+        text << "its table is too coarse: it keeps the bodies " << kept
+             << " apart (1.5 epsilon), and they are " << gap << " apart where the joint rests";
+    else
+        return;
+    warnings->push_back("pair " + pair.path + ": " + text.str());
+}
+
 } // namespace
 
 std::shared_ptr<const JointPlan> makeJointPlan(const SceneModel& scene,
@@ -64,9 +87,10 @@ std::shared_ptr<const JointPlan> makeJointPlan(const SceneModel& scene,
         const int index = findPair(scene, path);
         if (index < 0 || !scene.pairs[index].table) continue;
         const Placed table = place(scene, index, *plan);
-        if (table.slots.size() == scene.pairs[index].table->motion.dofCount())
+        if (table.slots.size() == scene.pairs[index].table->motion.dofCount()) {
             tables.push_back(table);
-        else
+            remark(warnings, scene.pairs[index]);
+        } else
             warn(warnings, scene.pairs[index], "its joints have other degrees of freedom than its table");
     }
     if (tables.empty()) return plan;

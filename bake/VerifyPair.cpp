@@ -1,9 +1,7 @@
 #include "bake/VerifyPair.h"
 
-#include "bake/BakePair.h"
+#include "bake/RestRule.h"
 #include "bake/base/Error.h"
-#include "bake/geometry/MeshAudit.h"
-#include "bake/geometry/Solid.h"
 #include "bake/scene/SourceHash.h"
 #include "bake/verify/Verify.h"
 
@@ -14,43 +12,45 @@ namespace tss {
 
 namespace {
 
-RestOverlaps restOverlaps(AtRest mode) {
-    switch (mode) {
-    case AtRest::Ignore:
-        return RestOverlaps::Ignore;
-    case AtRest::Collide:
-        return RestOverlaps::Collide;
-    case AtRest::Offset:
-        break;
+/// The gap that the table states, against all spheres.
+void verifyGap(PairVerdict& verdict, const SceneModel& scene, const Pair& pair, const Motion& motion,
+               const Progress& progress) {
+    const BakeOptions options = optionsFor(pair.settings, {}, scene.metersPerUnit);
+    const PairSpheres spheres = fillPair(scene, pair, motion, options, progress);
+    if (!report(progress, "spheres", 1)) {
+        verdict.reason = "stopped before its spheres were made again";
+        return;
     }
-    return RestOverlaps::Offset;
+    const RuleAtRest ruled = ruleAtRest(spheres, motion, options);
+    VerifyOptions how;
+    how.regionA = ruled.rule.regionA();
+    how.regionB = ruled.rule.regionB();
+    how.depth = options.atRest == AtRest::Offset ? -ruled.rule.threshold() : -1;
+    const VerifyResult result =
+        verifyTable(spheres.a.spheres, spheres.b.spheres, *pair.table, motion, how, progress);
+    verdict.cells += result.cells;
+    verdict.band = std::max(verdict.band, result.band);
+    verdict.reason = result.reason;
+    verdict.pose = result.pose;
+    verdict.notes.push_back(
+        "the gap it states is proven against spheres that the baker's own code makes again");
 }
 
-/// The spheres that the table answers for: those stored with --keep-spheres, or made again from the meshes.
-std::pair<SphereSet, SphereSet> wholeSpheres(const SceneModel& scene, const Pair& pair, const Motion& motion,
-                                             const BakeOptions& options, const Progress& progress) {
-    const BakeRecord& record = pair.table ? pair.table->record : pair.proof->record;
-    if (pair.table && pair.table->a.size() == record.spheresA && pair.table->b.size() == record.spheresB)
-        return {pair.table->a, pair.table->b};
-    PairSpheres spheres = fillPair(scene, pair, motion, options, progress);
-    if (!report(progress, "spheres", 1))
-        throw InputError(Where{"", "", pair.path}, "stopped before its spheres were made again");
-    if (spheres.a.spheres.size() != record.spheresA || spheres.b.spheres.size() != record.spheresB)
-        throw InputError(
-            Where{"", "", pair.path},
-            fmt::format("was made from {} + {} spheres, but its meshes and settings give {} + {}",
-                        record.spheresA, record.spheresB, spheres.a.spheres.size(),
-                        spheres.b.spheres.size()));
-    return {std::move(spheres.a.spheres), std::move(spheres.b.spheres)};
-}
-
-/// The farthest that a sphere sticks out of its body.
-double protrusion(const TriangleMesh& mesh, const SphereSet& spheres) {
-    const Solid solid(cleaned(mesh));
-    double worst = 0;
-    for (const Sphere& sphere : spheres)
-        worst = std::max(worst, solid.protrusion(sphere.centre, sphere.radius));
-    return worst;
+/// What a person should know about what was proven of the meshes.
+void addNotes(PairVerdict& verdict, const Pair& pair) {
+    const MeshVerdict& meshes = verdict.meshes;
+    if (pair.table && pair.table->boundMiss < 0)
+        verdict.notes.push_back("how late it reports contact is not stated, and nothing is proven of it");
+    if (pair.table && pair.table->boundEarly < 0)
+        verdict.notes.push_back("how early it reports contact is not stated, and nothing is proven of it");
+    if (meshes.fillings)
+        verdict.notes.push_back(
+            "what is behind openings of a mesh counts as body in the bound on early reports");
+    if (meshes.exempt.areaA + meshes.exempt.areaB > 0)
+        verdict.notes.push_back(fmt::format("nothing is proven of contact between the parts of the surfaces "
+                                            "that overlap at rest: {:.3g} % of A "
+                                            "with {:.3g} % of B",
+                                            100 * meshes.exempt.shareA, 100 * meshes.exempt.shareB));
 }
 
 } // namespace
@@ -65,26 +65,25 @@ PairVerdict verifyPair(const SceneModel& scene, const Pair& pair, const Progress
     if (pair.table && !pair.table->certified)
         return fails("is not certified: it was made from samples, and states no bound");
     if (std::string stale = staleness(scene, pair); !stale.empty()) return fails(stale);
-    const BakeOptions options = optionsFor(pair.settings, {}, scene.metersPerUnit);
     const Motion motion = pairMotion(scene, pair);
-    const auto [a, b] = wholeSpheres(scene, pair, motion, options, progress);
-    VerifyOptions how;
-    how.atRest = restOverlaps(options.atRest);
-    const VerifyResult result =
-        pair.proof ? verifyNeverCollides(a, b, pair.proof->clearance * (1 - 1e-9), motion, how, progress)
-                   : verifyTable(a, b, *pair.table, motion, how, progress);
-    verdict.spheresA = a.size();
-    verdict.spheresB = b.size();
-    verdict.cells = result.cells;
-    verdict.band = result.band;
-    verdict.pose = result.pose;
-    if (!result.proven) return fails(result.reason);
-    if (!pair.table || pair.table->boundEarly < 0) return verdict;
-    verdict.early = protrusion(scene.bodies[pair.bodyA].mesh, pair.table->a) +
-                    protrusion(scene.bodies[pair.bodyB].mesh, pair.table->b) + pair.table->epsilon;
-    if (verdict.early <= pair.table->boundEarly * (1 + 1e-6)) return verdict;
-    return fails(fmt::format("its spheres stick out by {:.6g} together, more than the stored bound of {:.6g}",
-                             verdict.early, pair.table->boundEarly));
+    const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;
+    for (const int body : {pair.bodyA, pair.bodyB})
+        if (scene.bodies[body].mesh.empty())
+            throw InputError(Where{"", "", scene.bodies[body].path}, "expected a mesh, the body has none");
+    verdict.meshes = pair.table ? verifyOnMeshes(a, b, *pair.table, motion, 0, progress)
+                                : verifyOnMeshes(a, b, *pair.proof, motion, 0, progress);
+    const BakeRecord& record = pair.table ? pair.table->record : pair.proof->record;
+    verdict.spheresA = record.spheresA;
+    verdict.spheresB = record.spheresB;
+    verdict.cells = verdict.meshes.cells;
+    verdict.band = verdict.meshes.band;
+    verdict.early = verdict.meshes.earlyBound;
+    verdict.pose = verdict.meshes.pose;
+    verdict.reason = verdict.meshes.reason;
+    addNotes(verdict, pair);
+    if (verdict.holds() && pair.table && (pair.table->gapDepth > 0 || pair.table->gapMargin > 0))
+        verifyGap(verdict, scene, pair, motion, progress);
+    return verdict;
 }
 
 } // namespace tss

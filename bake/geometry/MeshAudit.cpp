@@ -1,12 +1,15 @@
 #include "bake/geometry/MeshAudit.h"
 
 #include "bake/base/Error.h"
+#include "bake/geometry/Bvh.h"
+#include "bake/geometry/TrianglePoint.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -163,21 +166,97 @@ void checkIndices(const TriangleMesh& mesh) {
                              std::to_string(static_cast<long>(mesh.vertices.size()) - 1));
 }
 
+namespace {
+
+bool isFlat(const TriangleMesh& mesh, std::size_t t) {
+    return hasZeroArea(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+}
+
+/// The triangles with an area, to ask what lies on them.
+class Areas {
+public:
+    Areas(const TriangleMesh& mesh, const std::vector<char>& flat) : mesh_(mesh) {
+        std::vector<Eigen::AlignedBox3d> boxes;
+        double size = 0;
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            if (flat[t]) continue;
+            triangles_.push_back(t);
+            Eigen::AlignedBox3d box(mesh.corner(t, 0));
+            boxes.push_back(box.extend(mesh.corner(t, 1)).extend(mesh.corner(t, 2)));
+            size = std::max({size, box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()});
+        }
+        rounding_ = 4 * std::numeric_limits<double>::epsilon() * size;
+        tree_ = buildBvh(boxes);
+    }
+
+    /// The zero-area triangle adds nothing to the surface: its longest edge lies on one of the others, or
+    /// each part of it that its third corner makes does.
+    bool holds(std::size_t t) const {
+        int k = 0;
+        double longest = -1;
+        for (int i = 0; i < 3; ++i)
+            if (const double length = (mesh_.corner(t, (i + 1) % 3) - mesh_.corner(t, i)).norm();
+                length > longest) {
+                longest = length;
+                k = i;
+            }
+        const Vec3 &a = mesh_.corner(t, k), &b = mesh_.corner(t, (k + 1) % 3),
+                   &c = mesh_.corner(t, (k + 2) % 3);
+        const double near = rounding_ + 2e-14 * longest;
+        return holds(a, b, near) || (holds(a, c, near) && holds(c, b, near));
+    }
+
+private:
+    /// Some triangle has both ends on it, so that it has all between them.
+    bool holds(const Vec3& a, const Vec3& b, double near) const {
+        bool held = false;
+        visitBall(tree_, a, near, [&](std::uint32_t i) {
+            const auto on = [&](const Vec3& p) {
+                const std::size_t t = triangles_[i];
+                const Vec3 q =
+                    closestOnTriangle(p, mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2));
+                return (q - p).norm() <= near;
+            };
+            held = held || (on(a) && on(b));
+        });
+        return held;
+    }
+
+    const TriangleMesh& mesh_;
+    std::vector<std::size_t> triangles_;
+    Bvh tree_;
+    double rounding_ = 0;
+};
+
+/// For every triangle, whether the cleaned mesh does without it.
+std::vector<char> needless(const TriangleMesh& mesh) {
+    std::vector<char> without = duplicates(mesh), flat(mesh.triangles.size(), 0);
+    for (std::size_t t = 0; t < flat.size(); ++t) flat[t] = isFlat(mesh, t);
+    const auto count = std::count(flat.begin(), flat.end(), 1);
+    if (count == static_cast<std::ptrdiff_t>(flat.size()))
+        throw InputError("the mesh has no triangle with an area (" + std::to_string(mesh.vertices.size()) +
+                         " vertices, " + std::to_string(mesh.triangles.size()) + " triangles)");
+    if (count == 0) return without;
+    const Areas areas(mesh, flat);
+    for (std::size_t t = 0; t < flat.size(); ++t)
+        if (flat[t] && !without[t]) without[t] = areas.holds(t);
+    return without;
+}
+
+} // namespace
+
 TriangleMesh cleaned(const TriangleMesh& mesh, std::vector<std::uint32_t>* loaded) {
     checkIndices(mesh);
     if (loaded) loaded->clear();
-    const std::vector<char> repeated = duplicates(mesh);
+    const std::vector<char> without = needless(mesh);
     TriangleMesh result;
     std::vector<int> place(mesh.vertices.size(), -1);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        if (!repeated[t] && !hasZeroArea(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2))) {
-            result.triangles.push_back(mesh.triangles[t]);
-            if (loaded) loaded->push_back(static_cast<std::uint32_t>(t));
-            for (int k = 0; k < 3; ++k) place[mesh.triangles[t][k]] = 0;
-        }
-    if (result.triangles.empty())
-        throw InputError("the mesh has no triangle with an area (" + std::to_string(mesh.vertices.size()) +
-                         " vertices, " + std::to_string(mesh.triangles.size()) + " triangles)");
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (without[t]) continue;
+        result.triangles.push_back(mesh.triangles[t]);
+        if (loaded) loaded->push_back(static_cast<std::uint32_t>(t));
+        for (int k = 0; k < 3; ++k) place[mesh.triangles[t][k]] = 0;
+    }
     for (std::size_t v = 0; v < place.size(); ++v)
         if (place[v] == 0) {
             place[v] = static_cast<int>(result.vertices.size());

@@ -41,9 +41,11 @@ bool hasZeroArea(const Vec3& a, const Vec3& b, const Vec3& c);
 /// Throws InputError for vertices that are not finite and for indices out of range; an empty mesh passes.
 void checkIndices(const TriangleMesh& mesh);
 
-/// The mesh without zero-area and duplicate triangles and without unused vertices; all else, order included,
-/// stays. Throws InputError for what cannot be used: vertices that are not finite, indices out of range, no
-/// triangle with an area. loaded, where given, says of each triangle kept its index in the mesh handed over.
+/// The mesh without duplicate triangles and without unused vertices, and without those zero-area triangles
+/// that lie on its other triangles: each of their edges, but for rounding, on one of those. All else stays,
+/// order included; a zero-area triangle that stays is a segment or a point of surface. Throws InputError for
+/// what cannot be used: vertices that are not finite, indices out of range, no triangle with an area. loaded,
+/// where given, says of each triangle kept its index in the mesh handed over.
 TriangleMesh cleaned(const TriangleMesh& mesh, std::vector<std::uint32_t>* loaded = nullptr);
 
 } // namespace tss

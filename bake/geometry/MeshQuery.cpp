@@ -25,6 +25,9 @@ MeshQuery::MeshQuery(const TriangleMesh& mesh) {
             {mesh.corner(t, 0) - origin_, mesh.corner(t, 1) - origin_, mesh.corner(t, 2) - origin_});
         Eigen::AlignedBox3d box(corners_.back().a);
         boxes.push_back(box.extend(corners_.back().b).extend(corners_.back().c));
+        if (!hasZeroArea(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2))) continue;
+        flat_.resize(mesh.triangles.size(), 0);
+        flat_[t] = 1;
     }
     bvh_ = buildBvh(boxes);
     buildDipoles();
@@ -217,6 +220,7 @@ void MeshQuery::buildDipoles() {
         Vec3 weighted = Vec3::Zero();
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
             const Corners& k = corners_[bvh_.items[i]];
+            if (!flat_.empty() && flat_[bvh_.items[i]]) continue;
             const Vec3 normal = 0.5 * (k.b - k.a).cross(k.c - k.a);
             dipole.areaNormal += normal;
             areas[n] += normal.norm();
@@ -248,10 +252,8 @@ double MeshQuery::approximateWinding(const Vec3& local, double beta) const {
             continue;
         }
         const Bvh::Node& node = bvh_.nodes[index];
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            const Corners& k = corners_[bvh_.items[i]];
-            sum += solidAngle(local, k.a, k.b, k.c);
-        }
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+            sum += solidAngleOf(bvh_.items[i], local);
         if (node.count == 0) {
             stack[top++] = node.first;
             stack[top++] = node.first + 1;
@@ -260,9 +262,15 @@ double MeshQuery::approximateWinding(const Vec3& local, double beta) const {
     return sum / (4 * std::numbers::pi);
 }
 
+double MeshQuery::solidAngleOf(std::uint32_t triangle, const Vec3& local) const {
+    if (!flat_.empty() && flat_[triangle]) return 0;
+    const Corners& k = corners_[triangle];
+    return solidAngle(local, k.a, k.b, k.c);
+}
+
 double MeshQuery::exactWinding(const Vec3& local) const {
     double sum = 0;
-    for (const Corners& k : corners_) sum += solidAngle(local, k.a, k.b, k.c);
+    for (std::uint32_t t = 0; t < corners_.size(); ++t) sum += solidAngleOf(t, local);
     return sum / (4 * std::numbers::pi);
 }
 

@@ -29,6 +29,14 @@ public:
 
     std::size_t triangleCount() const { return corners_.size(); }
 
+    /// No point of the mesh is farther from the origin of its frame.
+    double extent() const {
+        return bvh_.empty()
+                   ? 0
+                   : origin_.norm() +
+                         bvh_.nodes[0].lower.cwiseAbs().cwiseMax(bvh_.nodes[0].upper.cwiseAbs()).norm();
+    }
+
     /// The nearest point of the mesh to p, if it is nearer than `within`.
     ClosestPoint closest(const Vec3& p, double within = std::numeric_limits<double>::infinity()) const;
 
@@ -79,6 +87,8 @@ private:
     double searchOther(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double best2,
                        bool anyWill) const;
     void buildDipoles();
+    /// Of one triangle; 0 for those without an area, of which rounding could make anything.
+    double solidAngleOf(std::uint32_t triangle, const Vec3& local) const;
     double exactWinding(const Vec3& local) const;
     /// A node's dipole stands for its triangles when it is farther than beta of its radii.
     double approximateWinding(const Vec3& local, double beta) const;
@@ -87,6 +97,7 @@ private:
     std::vector<Corners> corners_;
     Bvh bvh_;
     std::vector<Dipole> dipoles_; ///< one a node
+    std::vector<char> flat_;      ///< one a triangle: it has no area; empty where all have one
 };
 
 } // namespace tss

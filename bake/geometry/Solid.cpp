@@ -101,8 +101,11 @@ double seam(const TriangleMesh& mesh, const std::vector<OpenEdge>& open) {
 
 std::vector<OpenEdge> openEdges(const TriangleMesh& mesh) {
     std::vector<EdgeUse> edges;
-    for (const Tri& t : mesh.triangles)
+    for (const Tri& t : mesh.triangles) {
+        // A segment or a point of surface bounds nothing, so that it has no opening either.
+        if (hasZeroArea(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]])) continue;
         for (int k = 0; k < 3; ++k) edges.push_back(edgeUse(t[k], t[(k + 1) % 3], 1));
+    }
     std::vector<OpenEdge> open = unbalanced(std::move(edges));
     if (open.empty()) return open;
     const double near = seam(mesh, open);
@@ -130,7 +133,11 @@ TriangleMesh joined(TriangleMesh mesh, const TriangleMesh& fans) {
 std::string describe(const TriangleMesh& mesh, std::size_t open, bool hollow) {
     const MeshAudit audit = auditMesh(mesh);
     std::string s;
-    if (hollow)
+    if (hollow && open == 0)
+        s = "the other body stands inside without touching: it counts as hollow, spheres cover its surface "
+            "from "
+            "both sides";
+    else if (hollow)
         s = fmt::format("{} open or misoriented edges, and the other body stands inside without touching: it "
                         "counts as hollow, spheres cover its surface from both sides",
                         open);

@@ -1,5 +1,6 @@
 #include "bake/base/Error.h"
-#include "bake/motion/Motion.h"
+#include "bake/motion/LimitConflict.h"
+#include "bake/motion/MotionBound.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +37,47 @@ void checkDof(const Dof& dof) {
         throw InputError("DOF '" + dof.name + "': expected a finite origin and an axis that is not zero");
     if (dof.kind == DofKind::Rotation && std::abs(dof.axis.norm() - 1) > 1e-9)
         throw InputError("DOF '" + dof.name + "': expected an axis of unit length");
+}
+
+/// "limit plane 2", "limit planes 1, 3": as they stand in the motion, counted from 1.
+std::string named(const std::vector<std::size_t>& planes) {
+    std::string s = planes.size() == 1 ? "limit plane" : "limit planes";
+    for (std::size_t i = 0; i < planes.size(); ++i)
+        s += (i == 0 ? " " : ", ") + std::to_string(planes[i] + 1);
+    return s;
+}
+
+std::string names(const Motion& motion) {
+    std::string s;
+    for (const Dof& dof : motion.dofs) s += (s.empty() ? "'" : ", '") + dof.name + "'";
+    return s;
+}
+
+/// Q holds some pose, and the rest is one of them. A proof about no pose would prove anything.
+void checkNotEmpty(const Motion& motion) {
+    const std::vector<double> rest = restValues(motion);
+    for (const Dof& dof : motion.dofs) {
+        const double hair =
+            1e-9 * (dof.upper - dof.lower) + 1e-12 * std::max(std::abs(dof.lower), std::abs(dof.upper));
+        if (!(dof.rest >= dof.lower - hair && dof.rest <= dof.upper + hair))
+            throw InputError("DOF '" + dof.name +
+                             "': expected a rest value within its limits, found one outside");
+    }
+    for (std::size_t p = 0; p < motion.planes.size(); ++p) {
+        const LimitPlane& plane = motion.planes[p];
+        double hair = 1e-12 * std::abs(plane.bound);
+        for (std::size_t k = 0; k < rest.size(); ++k)
+            hair += std::abs(plane.coefficients[k]) *
+                    (1e-9 * (motion.dofs[k].upper - motion.dofs[k].lower) + 1e-12 * std::abs(rest[k]));
+        if (excess(plane, rest) <= hair) continue;
+        const std::vector<std::size_t> conflict =
+            motion.dofCount() <= maxDofs ? conflictingPlanes(motion) : std::vector<std::size_t>();
+        if (!conflict.empty())
+            throw InputError(named(conflict) + " of the DOFs " + names(motion) +
+                             ": expected planes that leave some pose within the limits, found none left");
+        throw InputError(named({p}) + " of the DOFs " + names(motion) +
+                         ": expected planes that the rest values meet, found the rest beyond it");
+    }
 }
 
 } // namespace
@@ -82,6 +124,7 @@ void checkMotion(const Motion& motion) {
             throw InputError(
                 "limit plane: expected one finite coefficient a DOF, not all 0, and a finite bound");
     }
+    checkNotEmpty(motion);
 }
 
 } // namespace tss

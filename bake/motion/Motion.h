@@ -71,7 +71,7 @@ bool withinLimits(const Motion& motion, std::span<const double> q, double slack 
 std::vector<double> clampToLimits(const Motion& motion, std::span<const double> q);
 
 /// Throws InputError for a motion that cannot be served: no finite limits, reversed limits, zero axis, bad
-/// path.
+/// path, limits and planes that leave no pose or not the rest.
 void checkMotion(const Motion& motion);
 
 } // namespace tss

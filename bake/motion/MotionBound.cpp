@@ -20,6 +20,24 @@ Cell wholeBox(const Motion& motion) {
     return cell;
 }
 
+double coordinateRounding(const Motion& motion, double inA, double inB) {
+    // No coordinate met on the way from B's frame to A's exceeds this by much.
+    double size = inA + inB + motion.base.translation().norm(), offAxis = 0, maps = 1;
+    for (const Dof& dof : motion.dofs) {
+        size += dof.origin.norm() + dof.frame.translation().norm();
+        maps += dof.kind == DofKind::Path ? 3 : 1; // frame, row, frame back
+        if (dof.kind == DofKind::Rotation) offAxis += std::abs(dof.axis.norm() - 1);
+        if (dof.kind == DofKind::Translation)
+            size += dof.axis.norm() * std::max(std::abs(dof.lower), std::abs(dof.upper));
+        double farthest = 0;
+        for (const PathRow& row : dof.path) farthest = std::max(farthest, row.translation.norm());
+        size += farthest;
+    }
+    // A map and its product with the others round a coordinate by some ten times 2^-53 of the size. An axis
+    // that is not quite of unit length stretches what it turns.
+    return (0x1p-49 * maps + 8 * offAxis) * size;
+}
+
 MotionRates::MotionRates(const Motion& motion) : motion_(&motion), segments_(motion.dofCount()) {
     for (std::size_t k = 0; k < motion.dofCount(); ++k) {
         const auto& rows = motion.dofs[k].path;

@@ -39,8 +39,14 @@ private:
     std::vector<std::vector<Segment>> segments_; ///< per DOF; empty unless it is a path
 };
 
+/// By how much rounding may move T(q)y, or what CellMotion says of its moves, for points y within inB of B's
+/// origin and points of A within inA of A's: a bound on the error of their distance, and of move and
+/// remainder where these are no more than that distance. Whatever is dropped as too far apart has to be
+/// farther than it need be by this. Scene units.
+double coordinateRounding(const Motion& motion, double inA, double inB);
+
 /// How points of B move while q stays in one cell (METHOD 2.2 and 3.3). Exact mathematics in double: rounding
-/// is not included and is left to the caller's slack.
+/// is not included, coordinateRounding() bounds it.
 class CellMotion {
 public:
     CellMotion(const MotionRates& rates, const Cell& cell);

@@ -32,8 +32,20 @@ Vec3 turnBetween(const PathRow& r0, const PathRow& r1) {
     return sine > 0 ? Vec3(turn.vec() * (2 * std::atan2(sine, turn.w()) / sine)) : Vec3::Zero();
 }
 
-/// `where` is the DOF's own frame in A: the poses of all DOFs before it.
-DofTwist twist(const Dof& dof, double q, double way, const Pose& where, const Pose& own) {
+/// How a path moves on the segment that begins with a row. `where` is the DOF's own frame in A: the poses of
+/// all DOFs before it; `own` its pose.
+DofTwist pathTwist(const Dof& dof, const PathRow* rows, const Pose& where, const Pose& own) {
+    DofTwist t;
+    const double span = rows[1].value - rows[0].value;
+    const Pose frame = where * dof.frame;
+    t.turn = frame.linear() * (rows[0].rotation * turnBetween(rows[0], rows[1])) / span;
+    // The point of B that is at the path's origin moves with the rows' translation.
+    const Vec3 moving = where * (own * (dof.frame * Vec3::Zero()));
+    t.slide = frame.linear() * (rows[1].translation - rows[0].translation) / span - t.turn.cross(moving);
+    return t;
+}
+
+DofTwist twist(const Dof& dof, const PathRow* rows, const Pose& where, const Pose& own) {
     DofTwist t;
     switch (dof.kind) {
     case DofKind::Rotation:
@@ -43,16 +55,8 @@ DofTwist twist(const Dof& dof, double q, double way, const Pose& where, const Po
     case DofKind::Translation:
         t.slide = where.linear() * dof.axis;
         break;
-    case DofKind::Path: {
-        const PathRow* rows = segment(dof.path, nudged(dof.path, q, way), way);
-        const double span = rows[1].value - rows[0].value;
-        const Pose frame = where * dof.frame;
-        t.turn = frame.linear() * (rows[0].rotation * turnBetween(rows[0], rows[1])) / span;
-        // The point of B that is at the path's origin moves with the rows' translation.
-        const Vec3 moving = where * (own * (dof.frame * Vec3::Zero()));
-        t.slide = frame.linear() * (rows[1].translation - rows[0].translation) / span - t.turn.cross(moving);
-        break;
-    }
+    case DofKind::Path:
+        return pathTwist(dof, rows, where, own);
     }
     return t;
 }
@@ -73,9 +77,22 @@ void pathRates(const Dof& dof, double& slide, double& turn) {
 
 void evaluateFrame(const Motion& motion, const double* q, const double* direction, MotionFrame& frame) {
     Pose before = Pose::Identity();
+    frame.rowAhead = false;
     for (std::size_t k = 0; k < motion.dofs.size(); ++k) {
-        const Pose own = dofPose(motion.dofs[k], q[k]);
-        frame.twists[k] = twist(motion.dofs[k], q[k], direction[k], before, own);
+        const Dof& dof = motion.dofs[k];
+        const Pose own = dofPose(dof, q[k]);
+        const PathRow *rows = nullptr, *still = nullptr;
+        if (dof.kind == DofKind::Path) {
+            rows = segment(dof.path, nudged(dof.path, q[k], direction[k]), direction[k]);
+            still = segment(dof.path, q[k], direction[k]);
+        }
+        frame.twists[k] = twist(dof, rows, before, own);
+        if (still != rows && !frame.rowAhead) {
+            frame.rowAhead = true;
+            std::copy_n(frame.twists.begin(), k, frame.before.begin());
+        }
+        if (frame.rowAhead)
+            frame.before[k] = still != rows ? pathTwist(dof, still, before, own) : frame.twists[k];
         before = before * own;
     }
     frame.pose = before * motion.base;

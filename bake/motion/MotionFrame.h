@@ -17,10 +17,15 @@ struct DofTwist {
 struct MotionFrame {
     Pose pose = Pose::Identity();
     std::array<DofTwist, maxDofs> twists;
+    /// Some path stands a hair before a row: it moves by `before` until there and by `twists` from there on.
+    /// Of the others the two are the same. Set only where rowAhead.
+    std::array<DofTwist, maxDofs> before;
+    bool rowAhead = false;
 };
 
 /// T(q), the same bits as pose(motion, q), and the twists there. q, direction: one value a DOF of the motion;
-/// at a row of a path the segment that lies in `direction` is meant.
+/// at a row of a path, and up to 1e-9 of its values before it, the segment that lies beyond it in `direction`
+/// is meant.
 void evaluateFrame(const Motion& motion, const double* q, const double* direction, MotionFrame& frame);
 
 /// How fast a point of B can move anywhere in the limits: speed per unit of each DOF's value (the lever of a

@@ -159,10 +159,9 @@ void check(const CoverOptions& options) {
 CoverResult certifiedCover(const SphereSet& a, const SphereSet& b, const CandidatePairs* candidates,
                            const Motion& motion, const CoverOptions& options, const Progress& progress) {
     check(options);
-    const ContactRule rule(a, b, motion, options.atRest);
-    const CoverProblem problem(a, b, motion, rule, candidates ? &candidates->pairs : nullptr);
+    const CoverProblem problem(a, b, motion, options.rule, candidates ? &candidates->pairs : nullptr);
     CoverResult result = CoverSearch(problem, options, progress).run();
-    if (result.complete && result.pairs.empty() && !candidates)
+    if (result.complete && result.pairs.empty() && !candidates && options.rule.empty())
         result.clearance = std::max(options.gapMargin,
                                     provenClearance(a, b, motion, &result.cells, progress, clearanceEffort));
     return result;

@@ -6,10 +6,10 @@
 namespace tss {
 
 struct CoverOptions {
-    double epsilon = 0;   ///< how far the table's answer may lag, scene units; 0: lossless
-    double gapDepth = 0;  ///< gap-true down to this depth (METHOD 3.4) ...
-    double gapMargin = 0; ///< ... and up to this clearance; both 0: a yes/no table
-    AtRest atRest = AtRest::Offset;
+    double epsilon = 0;      ///< how far the table's answer may lag, scene units; 0: lossless
+    double gapDepth = 0;     ///< gap-true down to this depth (METHOD 3.4) ...
+    double gapMargin = 0;    ///< ... and up to this clearance; both 0: a yes/no table
+    ContactRule rule;        ///< of these spheres
     double seconds = 0;      ///< time budget, 0: none. A search cut short by time may differ from run to run
     std::uint64_t cells = 0; ///< the same in cells of Q: the same result every time
     int rounds = 24; ///< at most so many further proofs to make a proven table smaller; it ends when the

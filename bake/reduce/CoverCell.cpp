@@ -100,8 +100,8 @@ bool CellExaminer::weighMembers(const CellMotion& motion, const CellLists& lists
         PairHere here(motion, b.x, b.reach, p_.a[pair.pair.a].centre, pair);
         here.member = k;
         bestMember_ = std::min(bestMember_, here.gap);
-        if (here.staysBelow(pair.reach - owed_.depth + owed_.epsilon - p_.band)) return true;
-        if (!here.staysAbove(pair.reach + owed_.margin + owed_.epsilon + p_.band)) near_.push_back(here);
+        if (here.staysBelow(pair.reach - owed_.depth + owed_.epsilon, p_.band)) return true;
+        if (!here.staysAbove(pair.reach + owed_.margin + owed_.epsilon, p_.band)) near_.push_back(here);
         return false;
     };
     for (std::uint32_t k : lists.members)
@@ -127,7 +127,7 @@ void CellExaminer::weigh(const CellMotion& motion, const ReachPair& pair) {
     const Moved& b = moved(motion, p_.treeB.leafOf(pair.pair.b));
     if ((b.x - p_.a[pair.pair.a].centre).norm() - b.reach.move > pair.reach + owed_.margin + p_.band) return;
     const PairHere here(motion, b.x, b.reach, p_.a[pair.pair.a].centre, pair);
-    if (!here.staysAbove(pair.reach + owed_.margin + p_.band)) here_.push_back(here);
+    if (!here.staysAbove(pair.reach + owed_.margin, p_.band)) here_.push_back(here);
 }
 
 /// Goes down the trees as far as the size of the cell gives smaller balls a meaning.
@@ -348,6 +348,7 @@ double CellExaminer::epsilonOver(const OpenCell& whole) {
         const Vec3 x = motion.centrePose() * nb.centre;
         models = std::min(models, (x - na.centre).norm() - na.radius - nb.radius - motion.reach(x).move);
     }
+    models -= p_.band;
     if (models > owed_.margin) return owed_.epsilon;
     return std::max(owed_.epsilon, table - std::max(models, -owed_.depth) + p_.band);
 }

@@ -30,21 +30,6 @@ std::vector<std::int32_t> holders(const SphereSet& set, const SphereTree& tree) 
     return holder;
 }
 
-/// A length that no coordinate met on the way from B's frame to A's exceeds by much.
-double coordinateSize(const SphereSet& a, const SphereSet& b, const Motion& motion) {
-    double inA = 0, inB = 0;
-    for (const Sphere& s : a) inA = std::max(inA, s.centre.norm() + s.radius);
-    for (const Sphere& s : b) inB = std::max(inB, s.centre.norm() + s.radius);
-    double size = inA + inB + motion.base.translation().norm();
-    for (const Dof& dof : motion.dofs) {
-        size += dof.origin.norm() + dof.frame.translation().norm();
-        if (dof.kind == DofKind::Translation)
-            size += dof.axis.norm() * std::max(std::abs(dof.lower), std::abs(dof.upper));
-        for (const PathRow& row : dof.path) size = std::max(size, row.translation.norm());
-    }
-    return size;
-}
-
 } // namespace
 
 CoverProblem::CoverProblem(const SphereSet& a, const SphereSet& b, const Motion& motion,
@@ -53,7 +38,7 @@ CoverProblem::CoverProblem(const SphereSet& a, const SphereSet& b, const Motion&
     wholeBox(motion); // refuses chains that are too long
     if (a.empty() || b.empty()) return;
     size = treeA[0].radius + treeB[0].radius;
-    band = 0x1p-48 * coordinateSize(a, b, motion);
+    band = coordinateRounding(motion, treeA.extent(), treeB.extent());
     floor = std::max(1e-8 * size, 100 * band);
     holderA_ = holders(a, treeA);
     holderB_ = holders(b, treeB);

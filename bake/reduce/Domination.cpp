@@ -60,7 +60,7 @@ bool staysNearer(const CellMotion& cell, const PairHere& k, const PairHere& p, d
 
 bool dominates(const CellMotion& cell, const PairHere& k, const PairHere& p, const Obligation& owed,
                double band) {
-    const double slack = 4 * (k.distance + p.distance + band) * band;
+    const double slack = 16 * (k.distance + p.distance + k.move + p.move + band) * band;
     if (owed.yesNo()) return firesWith(cell, k, p, k.reachPair.reach + owed.epsilon, slack);
     return staysNearer(cell, k, p, k.reachPair.reach - p.reachPair.reach + owed.epsilon, slack);
 }

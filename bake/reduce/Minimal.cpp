@@ -69,7 +69,7 @@ private:
 
 Reduced reduceMinimal(const SphereSet& a, const SphereSet& b, const Motion& motion,
                       const SampledSearchOptions& options, const Progress& progress) {
-    const ContactRule rule(a, b, motion, options.atRest);
+    const ContactRule& rule = options.rule;
     const auto conditions = Conditions(a, b, motion, rule)
                                 .collect(exploredPoses(motion, options.samples, options.seed), progress);
 

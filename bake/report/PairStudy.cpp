@@ -228,8 +228,9 @@ std::vector<Entrant> otherRecipes(const SceneModel& scene, const Pair& pair, con
              {}});
     }
     const Recipe offset = with("at rest: offset", [](BakeOptions& o) { o.atRest = AtRest::Offset; });
-    if (!restOverlaps(base.problem.a, base.problem.b, base.problem.motion).empty())
-        fill(offset, "what `tss bake` stores: pairs that overlap at rest touch only where they go deeper");
+    if (!ruleOfSpheres(base.problem.a, base.problem.b, base.problem.motion, AtRest::Ignore).empty())
+        fill(offset,
+             "what `tss bake` stores: the region that overlaps at rest touches only where it goes deeper");
     return entrants;
 }
 

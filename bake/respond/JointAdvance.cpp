@@ -7,6 +7,17 @@ namespace tss {
 
 namespace {
 
+/// A rate of the gap that holds until the row just ahead of some paths and beyond it: of each DOF what closes
+/// it more.
+double slowestRate(const JointModel::Group& group, const MotionFrame& frame, const JointValues& way,
+                   const Vec3& normal, const Vec3& centre) {
+    double rate = 0;
+    for (std::size_t k = 0; k < group.dofs.size(); ++k)
+        rate += std::min(way[group.dofs[k]] * normal.dot(frame.before[k].velocity(centre)),
+                         way[group.dofs[k]] * normal.dot(frame.twists[k].velocity(centre)));
+    return rate;
+}
+
 /// Gap and rate of every active pair at q; thresholds rise as pairs free themselves.
 void observe(const JointModel& model, const JointValues& q, const JointValues& way, std::size_t activeCount,
              JointWorkspace& ws) {
@@ -29,6 +40,7 @@ void observe(const JointModel& model, const JointValues& q, const JointValues& w
         Vec3 centre, normal;
         near.gap = pairGap(pair, frame.pose, centre, normal);
         near.rate = normal.dot(whole.velocity(centre));
+        if (frame.rowAhead) near.rate = slowestRate(model.groups[at], frame, way, normal, centre);
         if (!ws.common) near.threshold = std::max(near.threshold, std::min(pair.off, near.gap));
     }
 }

@@ -1,11 +1,13 @@
 #include "bake/respond/JointModel.h"
 
 #include "bake/base/Error.h"
+#include "bake/motion/WholeTurn.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace tss {
 
@@ -41,6 +43,20 @@ void addPairs(const Table& table, std::uint32_t group, JointModel& model) {
     }
 }
 
+/// off = 1.5 epsilon (METHOD 5.3), of each table its own: a coarse one keeps its own bodies apart by more,
+/// and no others. For a lossless table a distance far above the rounding of a gap and far below anything
+/// seen.
+double keptGap(const JointModel& model, const JointModel::Group& group, double epsilon) {
+    double size = 0, coordinate = group.motion.base.translation().norm();
+    for (std::uint32_t i = group.firstPair; i < group.lastPair; ++i) {
+        const JointModel::Pair& p = model.pairs[i];
+        size = std::max(size, p.radiusA + p.radiusB);
+        coordinate = std::max({coordinate, p.a.norm(), p.b.norm()});
+    }
+    for (const Dof& dof : group.motion.dofs) coordinate = std::max(coordinate, dof.origin.norm());
+    return std::max({1.5 * epsilon, 1e-6 * size, 1e-13 * coordinate, std::numeric_limits<double>::min()});
+}
+
 void addTable(const TableOnJoint& entry, int index, JointModel& model) {
     const Motion& motion = entry.table->motion;
     JointModel::Group group;
@@ -69,18 +85,27 @@ void addTable(const TableOnJoint& entry, int index, JointModel& model) {
     for (std::uint32_t p = added.firstPair; p < added.lastPair; ++p) model.pairs[p].off = added.off;
 }
 
-/// off = 1.5 epsilon (METHOD 5.3), of each table its own: a coarse one keeps its own bodies apart by more,
-/// and no others. For a lossless table a distance far above the rounding of a gap and far below anything
-/// seen.
-double keptGap(const JointModel& model, const JointModel::Group& group, double epsilon) {
-    double size = 0, coordinate = group.motion.base.translation().norm();
-    for (std::uint32_t i = group.firstPair; i < group.lastPair; ++i) {
-        const JointModel::Pair& p = model.pairs[i];
-        size = std::max(size, p.radiusA + p.radiusB);
-        coordinate = std::max({coordinate, p.a.norm(), p.b.norm()});
+/// Values whose tables all know the whole turn, and that nothing else limits.
+void findTurns(JointModel& model) {
+    constexpr double turn = 2 * std::numbers::pi;
+    for (int l = 0; l < model.dofCount; ++l) {
+        bool known = false, round = true;
+        for (const JointModel::Group& group : model.groups)
+            for (std::size_t k = 0; k < group.dofs.size(); ++k)
+                if (group.dofs[k] == l) {
+                    known = true;
+                    round = round && wholeTurn(group.motion.dofs[k]);
+                }
+        round = round && known;
+        for (const LimitPlane& plane : model.planes) round = round && plane.coefficients[l] == 0;
+        model.round[l] = round;
+        model.first[l] = model.lower[l];
+        model.range[l] = round ? turn : model.upper[l] - model.lower[l];
+        if (!round) continue;
+        // A way of half a turn from anywhere, and what slides beyond it.
+        model.lower[l] = model.first[l] - turn;
+        model.upper[l] = model.first[l] + 2 * turn;
     }
-    for (const Dof& dof : group.motion.dofs) coordinate = std::max(coordinate, dof.origin.norm());
-    return std::max({1.5 * epsilon, 1e-6 * size, 1e-13 * coordinate, std::numeric_limits<double>::min()});
 }
 
 } // namespace
@@ -104,6 +129,7 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
     for (int l = 0; l < dofCount; ++l)
         if (!(model.lower[l] <= model.upper[l]))
             throw InputError("joint: expected limits of its tables that overlap");
+    findTurns(model);
     // A DOF that moves no sphere still needs a weight: the metric must be one.
     const double largest = *std::max_element(model.weights.begin(), model.weights.end());
     for (int l = 0; l < dofCount; ++l)
@@ -117,7 +143,7 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
         }
         model.pairs[p].lever = std::sqrt(squared);
     }
-    model.scale = weightedDistance(model, model.upper, model.lower);
+    model.scale = weightedDistance(model, model.range, JointValues{});
     return model;
 }
 
@@ -166,6 +192,8 @@ std::uint32_t findUnder(const JointModel& model, const JointModel::Group& group,
     double margin = 2 * group.off;
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
         own[k] = q[group.dofs[k]];
+        if (model.round[group.dofs[k]]) // the table's cells end at its limits
+            own[k] = nearestTurn(own[k], group.motion.dofs[k].lower + std::numbers::pi);
         margin += model.weights[group.dofs[k]] * reach[group.dofs[k]];
     }
     return group.prepared->under(own.data(), margin, ws.found.data());
@@ -233,7 +261,7 @@ void addLimits(const JointModel& model, const JointValues& q, double trust, cons
                QpRows& rows) {
     const int n = model.dofCount;
     for (int l = 0; l < n; ++l) {
-        const double reach = trust * (model.upper[l] - model.lower[l]);
+        const double reach = trust * model.range[l];
         for (double sign : {1.0, -1.0}) {
             const double end =
                 sign > 0 ? std::max(model.lower[l], q[l] - reach) : std::min(model.upper[l], q[l] + reach);
@@ -274,6 +302,12 @@ JointValues clampToLimits(const JointModel& model, const double* asked, JointWor
     for (int l = 0; l < n; ++l)
         q[l] = std::clamp(q[l] + y[l] / model.weights[l], model.lower[l], model.upper[l]);
     return q;
+}
+
+void wrapTurns(const JointModel& model, JointValues& q) {
+    for (int l = 0; l < model.dofCount; ++l)
+        if (model.round[l] && (q[l] < model.first[l] || q[l] > model.first[l] + model.range[l]))
+            q[l] = nearestTurn(q[l], model.first[l] + 0.5 * model.range[l]);
 }
 
 double weightedDistance(const JointModel& model, const JointValues& x, const JointValues& y) {

@@ -1,6 +1,6 @@
 #pragma once
+#include "bake/motion/JointQp.h"
 #include "bake/motion/MotionFrame.h"
-#include "bake/respond/JointQp.h"
 #include "bake/table/PreparedTable.h"
 
 #include <memory>
@@ -41,7 +41,9 @@ struct JointModel {
     };
 
     int dofCount = 0;
-    JointValues lower{}, upper{};
+    JointValues lower{}, upper{};      ///< of a DOF of a whole turn a turn beyond the tables' on both sides
+    JointValues first{}, range{};      ///< lower limit and extent of the tables'
+    std::array<bool, maxDofs> round{}; ///< a whole turn, which goes on where its limits meet
     JointValues weights{}; ///< largest lever of each DOF, scene units a unit of the DOF: z = w q (METHOD 5.4)
     JointValues perWeight{}; ///< 1 / weights
     std::vector<LimitPlane> planes;
@@ -85,8 +87,9 @@ struct PlacedGroup {
 
 /// Bits of JointWorkspace::held.
 enum : std::uint8_t {
-    stoppedWay = 1,    ///< a way ended at this table's contact, and the joint stayed there
-    touchedAtStart = 2 ///< the joint stood in its contact before
+    stoppedWay = 1,     ///< a way ended at this table's contact, and the joint stayed there
+    touchedAtStart = 2, ///< the joint stood in its contact before
+    passedBy = 4 ///< its contact ended the straight way, and the joint came to what was asked around it
 };
 
 /// Room for one response, made once per thread by JointResponder::workspace.
@@ -150,6 +153,9 @@ void addLimits(const JointModel& model, const JointValues& q, double trust, cons
 /// Clamps into the box of limits, then, where a plane is broken, to the nearest point inside in the weighted
 /// metric (planes hold to 1e-12 of the range).
 JointValues clampToLimits(const JointModel& model, const double* asked, JointWorkspace& ws);
+
+/// Takes the values of whole turns into the tables' limits; others stay.
+void wrapTurns(const JointModel& model, JointValues& q);
 
 /// |w (x - y)|.
 double weightedDistance(const JointModel& model, const JointValues& x, const JointValues& y);

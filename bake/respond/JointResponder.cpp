@@ -1,5 +1,6 @@
 #include "bake/respond/JointResponder.h"
 
+#include "bake/motion/WholeTurn.h"
 #include "bake/respond/JointSlide.h"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ TableOnJoint wholeJoint(const Table& table) {
 int legsOf(const JointModel& model, const JointValues& start, const JointValues& goal) {
     double legs = 1;
     for (int l = 0; l < model.dofCount; ++l) {
-        const double most = farMove * (model.upper[l] - model.lower[l]);
+        const double most = farMove * model.range[l];
         if (most > 0) legs = std::max(legs, std::ceil(std::abs(goal[l] - start[l]) / most));
     }
     return static_cast<int>(legs);
@@ -103,8 +104,7 @@ void JointResponder::findFreePose(const JointValues& rest) {
         JointValues q{};
         long rest_ = i;
         for (int l = 0; l < n; ++l, rest_ /= side)
-            q[l] = model_.lower[l] +
-                   (model_.upper[l] - model_.lower[l]) * double(rest_ % side) / std::max(1, side - 1);
+            q[l] = model_.first[l] + model_.range[l] * double(rest_ % side) / std::max(1, side - 1);
         q = clampToLimits(model_, q.data(), ws);
         const double gap = smallestLevel(model_, q, ws);
         if (gap > best) {
@@ -148,7 +148,11 @@ JointAnswer JointResponder::fromFree(const JointValues& start, const JointValues
         q = start;
     }
     const double before = weightedDistance(model_, q, goal);
+    for (std::uint8_t& held : ws.held)
+        if (held & stoppedWay) held |= passedBy;
     slide(model_, goal, q, ws);
+    if (std::any_of(ws.held.begin(), ws.held.end(), [](std::uint8_t held) { return held & stoppedWay; }))
+        for (std::uint8_t& held : ws.held) held &= static_cast<std::uint8_t>(~passedBy);
     const double after = weightedDistance(model_, q, goal);
     const bool slid = after < before - 1e-6 * model_.scale;
     JointAnswer answer = judged(q, slid ? JointStatus::Slid : JointStatus::Blocked, ws);
@@ -175,15 +179,16 @@ JointAnswer JointResponder::fromCollision(const JointValues& start, const JointV
         pushed > depth + 1e-3 * model_.leastOff ? JointStatus::Separated : JointStatus::Stuck;
     if (hasFreePose_) {
         // From the start, not from where pushes ended: the next response would be pushed back there.
-        const double far = weightedDistance(model_, start, freePose_);
+        JointValues free = freePose_;
+        for (int l = 0; l < model_.dofCount; ++l)
+            if (model_.round[l]) free[l] = nearestTurn(free[l], start[l]);
+        const double far = weightedDistance(model_, start, free);
         const double t = far > 0 ? std::min(1.0, returnShare * model_.scale / far) : 1;
         for (int l = 0; l < model_.dofCount; ++l)
-            q[l] = t == 1 ? freePose_[l] : start[l] + t * (freePose_[l] - start[l]);
+            q[l] = t == 1 ? free[l] : start[l] + t * (free[l] - start[l]);
         status = JointStatus::Returning;
     }
-    JointValues everything{};
-    for (int l = 0; l < model_.dofCount; ++l) everything[l] = model_.upper[l] - model_.lower[l];
-    cull(model_, q, everything, ws);
+    cull(model_, q, model_.range, ws);
     JointAnswer answer = judged(q, status, ws);
     if (answer.gap > 0) answer.status = JointStatus::Separated;
     return answer;
@@ -192,8 +197,20 @@ JointAnswer JointResponder::fromCollision(const JointValues& start, const JointV
 JointAnswer JointResponder::respond(const double* last, const double* asked, JointWorkspace& ws) const {
     for (PlacedGroup& group : ws.groups) group.known = false; // it may have served another joint
     std::fill(ws.held.begin(), ws.held.end(), std::uint8_t(0));
-    const JointValues start = clampToLimits(model_, last, ws);
-    const JointValues goal = clampToLimits(model_, asked, ws);
+    JointValues from{}, to{};
+    std::copy_n(last, model_.dofCount, from.begin());
+    std::copy_n(asked, model_.dofCount, to.begin());
+    wrapTurns(model_, from);
+    for (int l = 0; l < model_.dofCount; ++l)
+        if (model_.round[l]) to[l] = nearestTurn(to[l], from[l]);
+    JointAnswer answer =
+        within(clampToLimits(model_, from.data(), ws), clampToLimits(model_, to.data(), ws), ws);
+    wrapTurns(model_, answer.q);
+    return answer;
+}
+
+JointAnswer JointResponder::within(const JointValues& start, const JointValues& goal,
+                                   JointWorkspace& ws) const {
     const int legs = legsOf(model_, start, goal);
     ws.common = false;
     cullLeg(model_, start, goal, legs, ws);

@@ -19,7 +19,8 @@ struct JointAnswer {
 ///
 /// Of a free start it promises: the result is free by the exact query of each table (gap > 0), so is every
 /// pose on the way there, and it is no farther from the asked pose (as the limits clamp it) than the start,
-/// in the metric |w (q - asked)|, w = weights(). The same input gives the same bits.
+/// in the metric |w (q - asked)|, w = weights(). The same input gives the same bits. A DOF whose limits are a
+/// whole turn has no end: it goes the shorter way round, over where its limits meet too.
 class JointResponder {
 public:
     /// Fully: with vector kernels and a free pose to return to, some milliseconds of preparation. Once: for
@@ -48,6 +49,7 @@ public:
 
 private:
     void findFreePose(const JointValues& rest);
+    JointAnswer within(const JointValues& start, const JointValues& goal, JointWorkspace& ws) const;
     JointAnswer fromFree(const JointValues& start, const JointValues& goal, int legs,
                          JointWorkspace& ws) const;
     JointAnswer fromCollision(const JointValues& start, const JointValues& goal, double depth,

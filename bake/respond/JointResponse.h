@@ -1,18 +1,8 @@
 #pragma once
+#include "bake/respond/JointStatus.h"
 #include "bake/table/Table.h"
 
 namespace tss {
-
-enum class JointStatus {
-    Free,      ///< the asked pose is free and so is the way to it
-    Blocked,   ///< stopped at contact on the way
-    Slid,      ///< stopped, then slid along the contact
-    Separated, ///< started in collision and was led out, or less deep
-    Stuck,     ///< started in collision and stayed there
-    Returning, ///< started deeper than the table knows: one bounded step towards a pose known to be free
-};
-
-const char* name(JointStatus status);
 
 struct JointRequest {
     std::span<const double> last;  ///< where the joint is, one value a DOF

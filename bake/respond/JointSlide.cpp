@@ -101,8 +101,7 @@ double weightedLength(const JointModel& model, const JointValues& way) {
 double shareOfRange(const JointModel& model, const JointValues& way) {
     double share = 0;
     for (int l = 0; l < model.dofCount; ++l)
-        if (model.upper[l] > model.lower[l])
-            share = std::max(share, std::abs(way[l]) / (model.upper[l] - model.lower[l]));
+        if (model.range[l] > 0) share = std::max(share, std::abs(way[l]) / model.range[l]);
     return share;
 }
 
@@ -161,7 +160,7 @@ bool cullRound(const JointModel& model, const JointValues& q, double distance, d
     bool all = true;
     JointValues reach{};
     for (int l = 0; l < model.dofCount; ++l) {
-        const double most = trust * (model.upper[l] - model.lower[l]);
+        const double most = trust * model.range[l];
         reach[l] = 2 * distance * model.perWeight[l];
         if (reach[l] > most && most > 0) {
             reach[l] = most;
@@ -218,7 +217,7 @@ void slide(const JointModel& model, const JointValues& goal, JointValues& q, Joi
 double pushOut(const JointModel& model, JointValues& q, JointWorkspace& ws) {
     constexpr double trust = 0.25;
     JointValues reach{};
-    for (int l = 0; l < model.dofCount; ++l) reach[l] = trust * (model.upper[l] - model.lower[l]);
+    for (int l = 0; l < model.dofCount; ++l) reach[l] = trust * model.range[l];
     double depth = smallestLevel(model, q, ws);
     const auto gapAt = [&](const NearPair& near, double level) {
         return gapOf(model, model.pairs[near.pair].off, level);

@@ -216,6 +216,15 @@ std::vector<double> readScales(const PrimReader& prim, const std::vector<std::st
     return scales;
 }
 
+/// Where no rest is given it is the value nearest to 0 that the limits leave. One that is given is moved to a
+/// limit only where it is beyond by the rounding of the file's floats.
+double restWithin(const Dof& dof, double rest, bool given) {
+    if (!(dof.lower <= dof.upper)) return rest;
+    const double within = std::clamp(rest, dof.lower, dof.upper);
+    const double rounding = std::ldexp(std::abs(within), -22);
+    return !given || std::abs(rest - within) <= rounding ? within : rest;
+}
+
 } // namespace
 
 void readDofs(const PrimReader& prim, Joint& joint) {
@@ -237,7 +246,8 @@ void readDofs(const PrimReader& prim, Joint& joint) {
         else
             readLimits(prim, slots, scales[k], dof);
         dof.name = names[k];
-        dof.rest = dof.kind == DofKind::Rotation ? toRadians(rests[k]) : rests[k];
+        dof.rest = restWithin(dof, dof.kind == DofKind::Rotation ? toRadians(rests[k]) : rests[k],
+                              prim.has(schema::rest));
         joint.drives.push_back(readDrive(prim, slots, scales[k], dof));
         if (dof.kind == DofKind::Translation) dof.axis *= scales[k];
         joint.dofs.push_back(std::move(dof));

@@ -60,6 +60,12 @@ bool checkPairMotion(const SceneReading& reading, const PrimReader& prim, const 
                              dof.name + " of " + joint.path);
                 return false;
             }
+        try { // told with the joint whose limits they are, before they are one chain
+            checkMotion(Motion{joint.dofs, Pose::Identity(), joint.planes});
+        } catch (const InputError& error) {
+            reading.reader(reading.index.find(joint.path)).problem(error.message);
+            return false;
+        }
     }
     try {
         checkMotion(pairMotion(reading.scene, pair));

@@ -1,3 +1,4 @@
+#include "bake/geometry/PartSet.h"
 #include "bake/scene/Degrees.h"
 #include "bake/scene/SceneReading.h"
 
@@ -75,6 +76,50 @@ BakeRecord readRecord(const PrimReader& prim) {
     return record;
 }
 
+std::vector<SurfacePart> readParts(const PrimReader& prim, const Attribute& triangles, const Attribute& cuts,
+                                   const TriangleMesh& mesh) {
+    const auto whole = prim.indices(triangles), which = prim.indices(cuts);
+    const auto number = [](std::size_t n) { return std::to_string(n); };
+    if (which.size() != whole.size()) {
+        prim.problem(cuts, "expected " + number(whole.size()) + " numbers, one a part of " + triangles.name +
+                               ", found " + number(which.size()));
+        return {};
+    }
+    std::vector<SurfacePart> parts;
+    PartSet before;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        const SurfacePart part{whole[i], which[i]};
+        if (part.triangle >= mesh.triangles.size())
+            prim.problem(triangles, "expected indices below " + number(mesh.triangles.size()) +
+                                        ", the number of the body's triangles, found " +
+                                        number(part.triangle) + " at index " + number(i));
+        else if (part.cuts < 1)
+            prim.problem(cuts, "expected 1 or more, found 0 at index " + number(i));
+        else if (i > 0 && !(parts.back() < part))
+            prim.problem(triangles, "expected parts in rising order, found none at index " + number(i));
+        else if (before.contains(part))
+            prim.problem(cuts, "expected parts of which none is in another, found one at index " + number(i));
+        else {
+            parts.push_back(part);
+            before.insert(part);
+            continue;
+        }
+        return {};
+    }
+    return parts;
+}
+
+RestRegion readRegion(const SceneReading& reading, const PrimReader& prim, const Pair& pair) {
+    const auto mesh = [&](int body) -> const TriangleMesh& {
+        return reading.scene.bodies[static_cast<std::size_t>(body)].mesh;
+    };
+    RestRegion region;
+    region.a = readParts(prim, schema::restTriangles0, schema::restCuts0, mesh(pair.bodyA));
+    region.b = readParts(prim, schema::restTriangles1, schema::restCuts1, mesh(pair.bodyB));
+    region.depth = prim.real(schema::restDepth, -1);
+    return region;
+}
+
 Table readTable(const SceneReading& reading, const PrimReader& prim) {
     Table table;
     table.a = readSpheres(reading, prim, schema::spheres0);
@@ -120,12 +165,12 @@ void readMotion(const PrimReader& prim, Motion motion, Table& table) {
     table.motion = std::move(motion);
 }
 
-std::shared_ptr<const NeverCollides> readProof(const PrimReader& prim) {
-    auto proof = std::make_shared<NeverCollides>();
-    proof->clearance = prim.real(schema::clearance, 0, Range{0});
-    proof->cells = prim.count(schema::cells);
-    proof->method = prim.text(schema::method, "");
-    proof->record = readRecord(prim);
+NeverCollides readProof(const PrimReader& prim) {
+    NeverCollides proof;
+    proof.clearance = prim.real(schema::clearance, 0, Range{0});
+    proof.cells = prim.count(schema::cells);
+    proof.method = prim.text(schema::method, "");
+    proof.record = readRecord(prim);
     return proof;
 }
 
@@ -177,10 +222,13 @@ void readTables(SceneReading& reading) {
         if (!tablePrim(reading, owner, pair.tablePath, true, prim)) continue;
         pair.sourceHash = prim->text(schema::sourceHash, "");
         if (prim->prim().typeName == "TssNeverCollides") {
-            pair.proof = readProof(*prim);
+            auto proof = std::make_shared<NeverCollides>(readProof(*prim));
+            proof->restRegion = readRegion(reading, *prim, pair);
+            pair.proof = std::move(proof);
             continue;
         }
         auto table = std::make_shared<Table>(readTable(reading, *prim));
+        table->restRegion = readRegion(reading, *prim, pair);
         readMotion(*prim, pairMotion(reading.scene, pair), *table);
         pair.table = std::move(table);
     }

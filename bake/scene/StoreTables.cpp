@@ -43,8 +43,9 @@ PrimWriter tablePrim(Layer& layer, const std::string& path, const std::string& t
         prim = std::move(empty);
     }
     for (const Attribute& optional :
-         {schema::restGaps, schema::dofs, schema::lower, schema::upper, schema::generatedSpheres,
-          schema::candidatePairs, schema::lowerBound, schema::cells})
+         {schema::restGaps, schema::restTriangles0, schema::restCuts0, schema::restTriangles1,
+          schema::restCuts1, schema::restDepth, schema::dofs, schema::lower, schema::upper,
+          schema::generatedSpheres, schema::candidatePairs, schema::lowerBound, schema::cells})
         prim.properties.erase(optional.name);
     for (const auto& [attribute, figure] : schema::fitFigures) prim.properties.erase(attribute.name);
     return PrimWriter(prim);
@@ -87,6 +88,23 @@ void writeRecord(PrimWriter& prim, const BakeRecord& record) {
             prim.set(attribute, std::vector<double>{record.fitA.*figure, record.fitB.*figure});
 }
 
+void writeRegion(PrimWriter& prim, const RestRegion& region) {
+    if (region.empty()) return;
+    const auto write = [&](const std::vector<SurfacePart>& parts, const Attribute& triangles,
+                           const Attribute& cuts) {
+        std::vector<std::uint32_t> whole, which;
+        for (const SurfacePart& part : parts) {
+            whole.push_back(part.triangle);
+            which.push_back(part.cuts);
+        }
+        prim.set(triangles, whole);
+        prim.set(cuts, which);
+    };
+    write(region.a, schema::restTriangles0, schema::restCuts0);
+    write(region.b, schema::restTriangles1, schema::restCuts1);
+    prim.setUnless(schema::restDepth, region.depth, -1.0);
+}
+
 void writeTable(Layer& layer, const std::string& path, const Table& table, const std::string& hash) {
     PrimWriter prim = tablePrim(layer, path, "TssTable");
     const std::string spheres0 = spheresPath(prim, schema::spheres0, path + "/Spheres0");
@@ -94,6 +112,7 @@ void writeTable(Layer& layer, const std::string& path, const Table& table, const
     prim.set(schema::rowOffsets, table.rowOffsets);
     prim.set(schema::columns, table.columns);
     if (!table.restGaps.empty()) prim.set(schema::restGaps, table.restGaps);
+    writeRegion(prim, table.restRegion);
     writeLimits(prim, table.motion);
     prim.setUnless(schema::epsilon, table.epsilon, 0.0);
     prim.setUnless(schema::gapDepth, table.gapDepth, 0.0);
@@ -111,6 +130,7 @@ void writeTable(Layer& layer, const std::string& path, const Table& table, const
 void writeProof(Layer& layer, const std::string& path, const NeverCollides& proof, const std::string& hash) {
     PrimWriter prim = tablePrim(layer, path, "TssNeverCollides");
     prim.setUnless(schema::clearance, proof.clearance, 0.0);
+    writeRegion(prim, proof.restRegion);
     if (proof.cells) prim.set(schema::cells, Value(proof.cells));
     prim.setUnless(schema::method, proof.method, "");
     prim.setUnless(schema::sourceHash, hash, "");

@@ -5,46 +5,52 @@
 
 namespace tss {
 
-/// What to do with sphere pairs that overlap at rest, as jointed parts often do (METHOD 2.4).
+/// What to do with the region in which the meshes of jointed parts overlap at rest (METHOD 2.4).
 enum class AtRest {
-    Offset,  ///< contact begins when they go deeper than they are at rest
-    Ignore,  ///< they are left out
+    Offset,  ///< it may go no deeper than it is at rest
+    Ignore,  ///< it is left out
     Collide, ///< no exception
 };
 
-/// A sphere pair that overlaps in the rest pose and the threshold that replaces a gap of 0 for it.
-struct RestPair {
-    SpherePair pair;
-    double gap = 0; ///< < 0, scene units: its gap at rest less a slack of 1e-6 of the radii, so that rounding
-                    ///< does not make it touch at rest
-};
-
-/// The sphere pairs that overlap with the DOFs at their rest values, sorted by pair. Touching without
-/// overlap is no overlap.
-std::vector<RestPair> restOverlaps(const SphereSet& a, const SphereSet& b, const Motion& motion);
-
-/// The entry of a pair in a list that restOverlaps() made, or null.
-const RestPair* findRestPair(const std::vector<RestPair>& sorted, SpherePair pair);
-
-/// When a sphere pair counts as in contact.
+/// When a sphere pair counts as in contact: where its gap is 0. Excepted are pairs of which both spheres
+/// stand for the region that overlaps at rest.
 class ContactRule {
 public:
-    ContactRule(const SphereSet& a, const SphereSet& b, const Motion& motion, AtRest mode)
-        : mode_(mode), atRest_(restOverlaps(a, b, motion)) {}
+    /// No exception.
+    ContactRule() = default;
 
-    const std::vector<RestPair>& atRest() const { return atRest_; }
-    AtRest mode() const { return mode_; }
+    /// regionA, regionB: for each sphere whether it stands for the region. depth: contact of such a pair
+    /// begins when its spheres are deeper in each other than this, scene units; < 0: never.
+    ContactRule(std::vector<char> regionA, std::vector<char> regionB, double depth);
 
-    /// The gap at which contact begins: 0, or the negative gap at rest. Ignored pairs: -infinity.
-    double threshold(SpherePair pair) const;
-    bool touches(SpherePair pair, double gap) const { return gap <= 0 && gap <= threshold(pair); }
+    /// No pair is excepted.
+    bool empty() const { return regionA_.empty(); }
+    const std::vector<char>& regionA() const { return regionA_; }
+    const std::vector<char>& regionB() const { return regionB_; }
+    bool excepts(SpherePair pair) const { return !empty() && regionA_[pair.a] && regionB_[pair.b]; }
+
+    /// The gap at which contact begins: 0; of excepted pairs -depth, or -infinity.
+    double threshold(SpherePair pair) const { return excepts(pair) ? threshold_ : 0; }
+    bool touches(SpherePair pair, double gap) const { return gap <= threshold(pair); }
+
+    /// Of excepted pairs.
+    double threshold() const { return threshold_; }
 
     /// Thresholds of a list of pairs; empty when all are 0.
     std::vector<double> thresholds(const std::vector<SpherePair>& pairs) const;
 
 private:
-    AtRest mode_;
-    std::vector<RestPair> atRest_;
+    std::vector<char> regionA_, regionB_;
+    double threshold_ = 0;
 };
+
+/// How deep the spheres of the regions are in each other with the DOFs at their rest values: the deepest pair
+/// with a slack of 1e-6 of its radii, so that rounding does not make it touch there; 0 when none overlaps.
+double depthAtRest(const SphereSet& a, const SphereSet& b, const Motion& motion,
+                   const std::vector<char>& regionA, const std::vector<char>& regionB);
+
+/// The rule where only spheres are known and no surfaces: each that overlaps one of the other body at rest
+/// counts as of the region. Touching without overlap is no overlap.
+ContactRule ruleOfSpheres(const SphereSet& a, const SphereSet& b, const Motion& motion, AtRest mode);
 
 } // namespace tss

@@ -10,7 +10,6 @@ struct CandidatePairs {
     std::vector<double> restGaps;  ///< one a pair (METHOD 2.4), or empty: all 0
     std::size_t spheresA = 0;      ///< spheres of A in some pair (the paper's Msc of A)
     std::size_t spheresB = 0;      ///< spheres of B in some pair (Msc of B)
-    std::vector<RestPair> atRest;  ///< every pair that overlaps at rest, whatever was done with it
 
     bool certified = false;      ///< complete over all of Q, not over samples
     double clearance = 0;        ///< certified and no pairs: the sphere models stay farther apart than this

@@ -32,6 +32,7 @@ struct Problem {
     const PairBits& known; ///< pairs found before, by sampling
     bool firstOnly;        ///< one pair is enough
     std::uint64_t effort;  ///< looks that each part has; 0: no limit
+    double rounding = coordinateRounding(rates.motion(), treeA.extent(), treeB.extent());
 };
 
 /// Parts that Q is cut into before the search.
@@ -95,7 +96,7 @@ private:
         const CellMotion::Reach reach = motion.reach(x);
         const double sum = na.radius + nb.radius;
         if (na.leaf() && nb.leaf()) return judgeSpheres(motion, pair, x, reach, left);
-        if ((x - na.centre).norm() - reach.move > sum + p_.margin) return;
+        if ((x - na.centre).norm() - reach.move > sum + p_.margin + p_.rounding) return;
         // Smaller balls do not help where the motion is what blurs the answer.
         if (sum < reach.move && reach.move > p_.tolerance && !finest_) {
             left.push_back(pair);
@@ -113,9 +114,9 @@ private:
         const SpherePair pair{p_.treeA[nodes.a].sphere, p_.treeB[nodes.b].sphere};
         const Sphere &sa = p_.a[pair.a], &sb = p_.b[pair.b];
         const double limit = sa.radius + sb.radius + p_.rule.threshold(pair) + p_.margin;
-        if (limit < 0 || found_.contains(pair) || p_.known.contains(pair)) return;
+        if (limit < -p_.rounding || found_.contains(pair) || p_.known.contains(pair)) return;
         const PairAt at(motion, x, reach, sa.centre);
-        if (at.staysAbove(limit)) return;
+        if (at.staysAbove(std::max(limit, 0.0), p_.rounding)) return;
         if (reach.move <= p_.tolerance || finest_ ||
             (at.distance <= limit && withinLimits(p_.rates.motion(), motion.centre()))) {
             found_.insert(pair);
@@ -212,7 +213,7 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
         result.clearance = std::numeric_limits<double>::infinity();
         return result;
     }
-    const ContactRule rule(a, b, motion, options.atRest);
+    const ContactRule& rule = options.rule;
     Poll poll(progress, "certified search");
     const auto stop = [&] { return poll.stopped(); };
     const SphereTree treeA(a, stop), treeB(b, stop);
@@ -221,10 +222,10 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
         return result;
     }
     PairBits known(a.size(), b.size());
-    if (rule.mode() != AtRest::Ignore) {
+    if (options.sampleFirst) {
         SampledSearchOptions sampling;
         sampling.samples = 1024;
-        sampling.atRest = options.atRest;
+        sampling.rule = rule;
         const Progress asked = [&](std::string_view, double) {
             return report(progress, "certified search", 0);
         };
@@ -235,14 +236,13 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
     const std::uint64_t effort = effortOfPart(options.effort);
     const Problem problem{a, b, treeA, treeB, rates, rule, options.margin, tolerance, known, false, effort};
     Found found = search(problem, progress);
-    result.atRest = rule.atRest();
     result.certified = found.complete;
     result.explored = found.cells;
     result.pairs = std::move(found.pairs);
     result.restGaps = rule.thresholds(result.pairs);
     if (result.pairs.empty() && result.certified) {
         result.clearance = options.margin;
-        if (options.measureClearance)
+        if (options.measureClearance && rule.empty())
             result.clearance = std::max(
                 result.clearance, provenClearance(a, b, motion, &result.explored, progress, options.effort));
     }
@@ -254,7 +254,7 @@ double provenClearance(const SphereSet& a, const SphereSet& b, const Motion& mot
                        const Progress& progress, std::uint64_t effort) {
     if (a.empty() || b.empty()) return std::numeric_limits<double>::infinity();
     const MotionRates rates(motion);
-    const ContactRule rule(a, b, motion, AtRest::Collide);
+    const ContactRule rule;
     Poll poll(progress, "proven clearance");
     const auto stop = [&] { return poll.stopped(); };
     const SphereTree treeA(a, stop), treeB(b, stop);

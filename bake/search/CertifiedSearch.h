@@ -8,7 +8,8 @@ struct CertifiedSearchOptions {
     double margin = 0;     ///< pairs whose gap gets this small are wanted, scene units, >= 0
     double tolerance = -1; ///< tau: no pair is listed whose gap stays above margin + tau; < 0: a hundredth of
                            ///< the mean radius
-    AtRest atRest = AtRest::Offset;
+    ContactRule rule;      ///< of these spheres
+    bool sampleFirst = true;      ///< pairs that touch at sampled poses need no search
     bool measureClearance = true; ///< when nothing collides, find out how far apart the bodies stay
     /// Gives up, not certified, after about so many looks at a pair of tree nodes (a million or so a second
     /// and thread); 0: never. The same result every time.
@@ -16,8 +17,8 @@ struct CertifiedSearchOptions {
 };
 
 /// Tc without holes (METHOD 2.2): branch and bound over Q and the two sphere trees. Every pair whose gap gets
-/// <= margin (its gap at rest plus margin, for pairs that overlap there) somewhere in Q is listed, and none
-/// whose gap stays > margin + tau. An empty list is a proof that the bodies never collide (2.3). Stopped
+/// <= margin (its threshold plus margin, where the rule has one) somewhere in Q is listed, and none whose gap
+/// stays > margin + tau. An empty list is a proof that the bodies never collide (2.3). Stopped
 /// early by progress it is not certified. The same result for any number of threads.
 CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Motion& motion,
                                const CertifiedSearchOptions& options = {}, const Progress& progress = {});

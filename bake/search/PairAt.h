@@ -23,14 +23,26 @@ struct PairAt {
         for (std::size_t k = 0; k < cell.dofs(); ++k) tilt += std::abs(slope[k]) * cell.half(k);
     }
 
-    /// The pair's distance is larger than this all over the cell. limit >= 0.
-    bool staysAbove(double limit) const {
-        return distance - move > limit || squared - 2 * tilt - 2 * distance * remainder > limit * limit;
+    /// The pair's distance is larger than this all over the cell, whatever rounding did. limit >= 0.
+    /// rounding: coordinateRounding() of the motion.
+    bool staysAbove(double limit, double rounding) const {
+        return distance - move > limit + rounding ||
+               squared - 2 * tilt - 2 * distance * remainder - roundingOfSquares(limit, rounding) >
+                   limit * limit;
     }
-    /// The pair's distance is smaller than this all over the cell.
-    bool staysBelow(double limit) const {
-        return limit > 0 && (distance + move < limit ||
-                             squared + 2 * tilt + 2 * distance * remainder + move * move < limit * limit);
+    /// The pair's distance is smaller than this all over the cell, whatever rounding did.
+    bool staysBelow(double limit, double rounding) const {
+        return limit > 0 && (distance + move + rounding < limit ||
+                             squared + 2 * tilt + 2 * distance * remainder + move * move +
+                                     roundingOfSquares(limit, rounding) <
+                                 limit * limit);
+    }
+
+private:
+    /// Of each of the lengths that the squares are made of an error of `rounding`; half turns of levers among
+    /// them.
+    double roundingOfSquares(double limit, double rounding) const {
+        return 16 * rounding * (distance + move + limit + rounding);
     }
 };
 

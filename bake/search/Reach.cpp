@@ -32,6 +32,7 @@ struct Problem {
     std::unique_ptr<std::atomic<char>[]> reached; ///< one a node: all below it is
     std::vector<std::uint32_t> parents;
     Poll& poll;
+    double rounding;                     ///< of distances between the two bodies
     std::atomic<std::uint64_t> tests{0}; ///< balls looked at
 };
 
@@ -105,7 +106,7 @@ public:
             ++tests_;
             const Ball& ball = p_.balls[n];
             const Look at = look(p_, motion, inverse, ball);
-            const double within = (ball.radius + at.move + p_.margin) * (1 + 1e-9) + 1e-13 * at.centre.norm();
+            const double within = (ball.radius + at.move + p_.margin) * (1 + 1e-9) + p_.rounding;
             if (std::isfinite(within) && !p_.other.comesWithin(at.centre, within)) continue;
             const Bvh::Node& node = p_.tree.nodes[n];
             const bool settled = at.move <= p_.resolution;
@@ -186,7 +187,21 @@ struct Kept {
 Kept reached(std::span<const Patch> patches, Side side, const MeshQuery& other, const MotionRates& rates,
              const CellTree& cells, double resolution, double margin, Poll& poll) {
     if (patches.empty()) return {};
-    Problem p{side, other, rates, {}, {}, resolution, margin, {}, {}, poll};
+    double own = 0;
+    for (const Patch& patch : patches)
+        for (const Vec3& c : patch.corners) own = std::max(own, c.norm());
+    const double inA = side == Side::A ? own : other.extent(), inB = side == Side::A ? other.extent() : own;
+    Problem p{side,
+              other,
+              rates,
+              {},
+              {},
+              resolution,
+              margin,
+              {},
+              {},
+              poll,
+              coordinateRounding(rates.motion(), inA, inB)};
     buildTree(p, patches);
     const std::vector<std::uint32_t> nodes = topNodes(p.tree, 64);
     parallelFor(nodes.size(), [&](std::size_t i) { Marker(p).run(cells, {nodes[i]}); });

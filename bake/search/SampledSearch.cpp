@@ -13,8 +13,7 @@ namespace tss {
 CandidatePairs searchSampled(const SphereSet& a, const SphereSet& b, const Motion& motion,
                              const SampledSearchOptions& options, const Progress& progress) {
     CandidatePairs result;
-    const ContactRule rule(a, b, motion, options.atRest);
-    result.atRest = rule.atRest();
+    const ContactRule& rule = options.rule;
 
     Poll poll(progress, "sampled search"); // of millions of spheres the trees alone, or the pairs that touch
                                            // at one pose, may take long

@@ -7,7 +7,7 @@ namespace tss {
 struct SampledSearchOptions {
     std::size_t samples = 4096; ///< poses to look at, over all DOFs; see exploredPoses()
     std::uint64_t seed = 1;
-    AtRest atRest = AtRest::Offset;
+    ContactRule rule; ///< of these spheres
 };
 
 /// Tc as the paper finds it: every sphere pair that collides at one of the explored poses (METHOD 2.1). What

@@ -22,6 +22,8 @@ public:
     explicit SphereTree(const SphereSet& spheres, const std::function<bool()>& stop = {});
 
     bool empty() const { return nodes_.empty(); }
+    /// No point of a sphere is farther from the origin; 0 of an empty tree.
+    double extent() const { return empty() ? 0 : nodes_[0].centre.norm() + nodes_[0].radius; }
     const Node& operator[](std::uint32_t i) const { return nodes_[i]; }
     std::size_t size() const { return nodes_.size(); } ///< 2 #spheres - 1; the root is node 0
     std::uint32_t leafOf(std::uint32_t sphere) const { return leaves_[sphere]; }

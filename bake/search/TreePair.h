@@ -8,8 +8,9 @@
 
 namespace tss {
 
-/// Calls visit(i, j, gap) for every sphere i of A and j of B whose gap at the pose is <= reach, in an order
-/// that depends on the trees alone. A visit that returns false is the last one; it may return nothing.
+/// Calls visit(i, j, gap) for every sphere i of A and j of B whose gap at the pose is <= reach (the gap as it
+/// is calculated: none is lost to the rounding of the balls about it), in an order that depends on the trees
+/// alone. A visit that returns false is the last one; it may return nothing.
 template <typename Visit>
 void visitPairsWithin(const SphereTree& a, const SphereTree& b, const Pose& pose, double reach,
                       Visit&& visit) {
@@ -18,16 +19,17 @@ void visitPairsWithin(const SphereTree& a, const SphereTree& b, const Pose& pose
         std::uint32_t a, b;
         Vec3 centreB; ///< of node b, in A's frame
     };
+    const double rounding = 0x1p-48 * (a.extent() + b.extent() + pose.translation().norm());
     std::vector<Item> stack{{0, 0, pose * b[0].centre}};
     while (!stack.empty()) {
         const Item item = stack.back();
         stack.pop_back();
         const SphereTree::Node &na = a[item.a], &nb = b[item.b];
         const double sum = na.radius + nb.radius;
-        const double limit = sum + reach;
+        const double limit = sum + reach + rounding;
         if (limit < 0) continue;
         const double squared = (item.centreB - na.centre).squaredNorm();
-        if (squared > limit * limit * (1 + 1e-14)) continue;
+        if (squared > limit * limit) continue;
         if (na.leaf() && nb.leaf()) {
             const double gap = std::sqrt(squared) - sum;
             if (gap > reach) continue;

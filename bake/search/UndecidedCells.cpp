@@ -22,27 +22,22 @@ struct Problem {
     const LevelSpheres &a, &b;
     SphereTree treeA, treeB;
     MotionRates rates;
-    Pose rest;
     UndecidedOptions options;
+    double rounding = coordinateRounding(rates.motion(), treeA.extent(), treeB.extent());
 
     const Motion& motion() const { return rates.motion(); }
 
-    /// Where the contact of the inscribed pair begins: 0, or its gap at rest where it overlaps there.
-    double threshold(std::uint32_t i, std::uint32_t j, double sum) const {
-        if (options.atRest == AtRest::Collide) return 0;
-        const double gap = (rest * b.spheres[j].centre - a.spheres[i].centre).norm() - sum;
-        if (gap >= 0) return 0; // the slack is no less than that of restOverlaps()
-        return options.atRest == AtRest::Offset ? gap - 2e-6 * (a.spheres[i].radius + b.spheres[j].radius)
-                                                : -std::numeric_limits<double>::infinity();
+    bool excepted(std::uint32_t i, std::uint32_t j) const {
+        return !a.region.empty() && !b.region.empty() && a.region[i] && b.region[j];
     }
 };
 
-/// Whether a pair of inscribed spheres with the same overlap as these fires for certain all over the cell.
+/// Whether the pair of inscribed spheres fires for certain all over the cell.
 bool firesEverywhere(const Problem& p, std::uint32_t i, std::uint32_t j, double distance, double move) {
-    const double inA = p.a.spheres[i].radius - p.a.protrusion, inB = p.b.spheres[j].radius - p.b.protrusion;
+    move += p.rounding;
+    const double inA = p.a.inner[i], inB = p.b.inner[j];
     // One of them may be a point of a surface, which the other body then has inside; two points say nothing.
-    if (inA < 0 || inB < 0 || inA + inB <= 0 || distance + move > inA + inB - p.options.depth) return false;
-    return distance + move <= inA + inB + p.threshold(i, j, inA + inB) - p.options.depth;
+    return inA + inB > 0 && distance + move <= inA + inB - p.options.depth;
 }
 
 /// Sorts out the pairs that can touch in the cell from those inherited.
@@ -56,9 +51,9 @@ Verdict judge(const Problem& p, const CellMotion& motion, const std::vector<Node
         const Vec3 x = motion.centrePose() * nb.centre;
         const double move = motion.reach(x).move, sum = na.radius + nb.radius;
         const double distance = (x - na.centre).norm();
-        // The hair covers rounding: what is dropped here is taken for proven.
-        if (distance * (1 + 1e-12) - move > sum + p.options.margin + 1e-12 * x.norm()) continue;
+        if (distance - move > sum + p.options.margin + p.rounding) continue;
         if (na.leaf() && nb.leaf()) {
+            if (p.excepted(na.sphere, nb.sphere)) continue;
             if (firesEverywhere(p, na.sphere, nb.sphere, distance, move)) return Verdict::Hit;
             open.push_back(pair);
             largestMove = std::max(largestMove, move);
@@ -156,13 +151,8 @@ Undecided undecidedCells(const LevelSpheres& a, const LevelSpheres& b, const Mot
     if (a.spheres.empty() || b.spheres.empty()) return {};
     Poll poll(progress, "undecided cells");
     const auto asked = [&] { return poll.stopped(); };
-    const Problem problem{a,
-                          b,
-                          SphereTree(a.spheres, asked),
-                          SphereTree(b.spheres, asked),
-                          MotionRates(motion),
-                          pose(motion, restValues(motion)),
-                          options};
+    const Problem problem{
+        a, b, SphereTree(a.spheres, asked), SphereTree(b.spheres, asked), MotionRates(motion), options};
     if (poll.stopped()) return {from, false};
     const std::vector<CellTree> parts = pieces(problem, from, 64);
     std::vector<std::optional<CellTree>> kept(parts.size());

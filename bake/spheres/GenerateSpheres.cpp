@@ -40,10 +40,10 @@ SphereFit medialFit(const Solid& solid, const SphereOptions& options, double tol
     const double protrusion = protrusionFor(tolerance, magnitude(solid.mesh()));
     const auto make = options.method == SphereMethod::Medial ? medialSpheres : shrinkingSpheres;
     SphereFit fit;
-    fit.spheres = make(solid, patchesOf(solid.mesh()), protrusion, options.medial, progress);
+    const MedialSet set = make(solid, patchesOf(solid.mesh()), protrusion, options.medial, progress);
+    fit.spheres = options.conservative ? set.spheres : inscribed(set);
     fit.protrusion = options.conservative ? protrusion : 0;
     fit.coverage = options.conservative ? 0 : protrusion;
-    if (!options.conservative) fit.spheres = inscribed(std::move(fit.spheres), protrusion);
     return fit;
 }
 

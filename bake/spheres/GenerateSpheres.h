@@ -13,7 +13,10 @@ struct SphereFit {
         0; ///< no point of a sphere is farther from the body (METHOD 1.5); infinity: not bounded here
     double coverage = 0; ///< no point of the surface is farther from the union; infinity: not bounded here
     bool hollow = false; ///< the body was taken for its surface alone
-    std::string note;    ///< what was assumed of the mesh and what could not be reached; empty: nothing
+    std::vector<char> region{}; ///< a sphere: whether it stands for what overlaps at rest; empty: none does
+    double enclosed = 0; ///< the other body never stands inside with the surfaces farther apart than this;
+                         ///< infinity: not shown
+    std::string note{};  ///< what was assumed of the mesh and what could not be reached; empty: nothing
 };
 
 /// Fills a body with spheres by the method of the options. The mesh may be open, inside out, non-manifold or

@@ -1,6 +1,7 @@
 #include "bake/spheres/Growth.h"
 
 #include "bake/geometry/Bvh.h"
+#include "bake/geometry/MeshAudit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -116,6 +117,7 @@ std::vector<GrowthTrace> growSpheres(const TriangleMesh& mesh, const GrowthOptio
             !report(progress, "growth", static_cast<double>(t) / static_cast<double>(mesh.triangles.size())))
             break;
         if (met[t] && !options.seedEveryTriangle) continue;
+        if (hasZeroArea(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2))) continue; // no way in
         GrowthTrace trace = grower.grow(static_cast<int>(t));
         if (!(trace.sphere.radius > 0) || !(trace.bounded || options.keepUnbounded)) continue;
         for (const int m : trace.met) met[m] = 1;

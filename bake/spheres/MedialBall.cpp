@@ -37,26 +37,40 @@ bool inside(const Solid& solid, const Vec3& p, const KnownInside& known) {
 
 } // namespace
 
-Sphere medialBall(const Solid& solid, const Vec3& p, const Vec3& n, double protrusion, double slack,
-                  double hint, KnownInside& known) {
-    if (solid.hollow()) return {p, protrusion};
+MedialBall medialBall(const Solid& solid, const Vec3& p, const Vec3& n, double protrusion, double slackFactor,
+                      double hint, KnownInside& known, const RestNeighbour* neighbour) {
+    // What a sphere about a centre with a ball of this radius inside may stick out.
+    const auto allowed = [&](const Vec3& centre, double inner) {
+        return neighbour ? std::min(protrusion, neighbour->largest(centre, inner) - inner) : protrusion;
+    };
+    const MedialBall onSurface{{p, allowed(p, 0)}, 0, 0};
+    if (solid.hollow()) return onSurface;
     const double longest = solid.diagonal() / 2;
-    for (int attempt = 0; attempt < 3; ++attempt, slack /= 32) {
+    double slack = slackFactor * protrusion;
+    for (int attempt = 0, finer = 0; attempt < 3; ++attempt, slack /= 32) {
         // A misoriented triangle has its inside on the other side.
         for (const Vec3& direction : {n, Vec3(-n)}) {
-            const double r =
+            const double free =
                 largestBall(solid.boundary(), p, direction, slack, longest, attempt == 0 ? hint : 0);
+            const double r = neighbour ? neighbour->shrunk(p, direction, free, protrusion) : free;
             if (!(r > 0)) continue;
             const Vec3 centre = p - r * direction;
             const double distance = solid.boundary().distance(centre, 2 * r);
             // On the surface itself the side is a matter of rounding, and the ball about p does as well.
             if (distance <= 1e-6 * protrusion || r - distance > 2 * slack) continue;
             if (!inside(solid, centre, known)) continue;
+            const double beyond = allowed(centre, distance);
+            if (!(beyond > 0)) continue;
+            if (slack > 5 * slackFactor * beyond && finer < 4) { // too coarse for the little it may stick out
+                slack = 32 * slackFactor * beyond;
+                --attempt, ++finer;
+                break;
+            }
             known = {centre, distance};
-            return {centre, distance + protrusion};
+            return {{centre, distance + beyond}, distance, free};
         }
     }
-    return {p, protrusion};
+    return onSurface;
 }
 
 } // namespace tss

@@ -1,5 +1,6 @@
 #pragma once
 #include "bake/geometry/Solid.h"
+#include "bake/spheres/RestNeighbour.h"
 #include "bake/spheres/SphereSet.h"
 
 namespace tss {
@@ -18,12 +19,21 @@ struct KnownInside {
     double radius = 0;
 };
 
+/// A sphere and the ball about its centre that is inside the solid.
+struct MedialBall {
+    Sphere sphere;
+    double inner = 0; ///< radius of that ball
+    double free = 0;  ///< the radius it would have without a neighbour
+    double protrusion() const { return sphere.radius - inner; }
+};
+
 /// The sphere that stands for the surface about p, which lies on the boundary, seen along -n (METHOD 1.3): a
 /// ball inside the solid grown by `protrusion`. It contains every point within protrusion - slack of p and
 /// its proven protrusion is `protrusion`. Where no centre inside is found (a feature thinner than the slack,
-/// an open sheet) it is the ball about p itself. slack: > 0, much less than the protrusion. hint: a radius
-/// expected, or 0. known: read, and replaced by the ball found.
-Sphere medialBall(const Solid& solid, const Vec3& p, const Vec3& n, double protrusion, double slack,
-                  double hint, KnownInside& known);
+/// an open sheet) it is the ball about p itself. slackFactor: the slack over the protrusion, > 0, much
+/// less than 1. hint: a radius expected, or 0. known: read, and replaced by the ball found. neighbour: null,
+/// or what the sphere must stay clear of; it then sticks out by as much less as that takes.
+MedialBall medialBall(const Solid& solid, const Vec3& p, const Vec3& n, double protrusion, double slackFactor,
+                      double hint, KnownInside& known, const RestNeighbour* neighbour = nullptr);
 
 } // namespace tss

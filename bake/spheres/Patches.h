@@ -3,6 +3,7 @@
 #include "bake/base/Progress.h"
 #include "bake/geometry/Solid.h"
 #include "bake/geometry/SurfacePart.h"
+#include "bake/spheres/RestNeighbour.h"
 #include "bake/spheres/SphereSet.h"
 
 #include <array>
@@ -14,7 +15,8 @@ namespace tss {
 /// contains all of it.
 struct Patch {
     Corners corners;
-    Vec3 normal; ///< unit length, that of its triangle
+    Vec3 normal;         ///< unit length, that of its triangle; some one where that has no area
+    bool region = false; ///< of what overlaps at rest (METHOD 2.4)
 
     Vec3 centre() const { return (corners[0] + corners[1] + corners[2]) / 3; }
     double radius() const; ///< largest distance of a corner from the centre
@@ -24,7 +26,7 @@ struct Patch {
 /// Cuts the longest edge in half.
 std::array<Patch, 2> halves(const Patch& patch);
 
-/// The triangles of a mesh as patches, those without an area left out.
+/// The triangles of a mesh as patches, those without an area too: segments and points of surface.
 std::vector<Patch> patchesOf(const TriangleMesh& mesh);
 
 /// Contains all three corners, with a little to spare for rounding.
@@ -36,6 +38,7 @@ struct PatchOptions {
     double slackFactor = 0.02;            ///< tau / P, in (0, 0.5]
     double sizeFactor = 0.4;              ///< k: a patch is split until its radius is at most k sqrt(2 R P)
     std::size_t mostPatches = 10'000'000; ///< more are refused: they would take gigabytes
+    const RestNeighbour* neighbour = nullptr; ///< what the spheres must stay clear of, or null
 };
 
 /// The protrusion asks for more patches than can be had, or is too small beside the coordinates for doubles.
@@ -44,15 +47,23 @@ public:
     using InputError::InputError;
 };
 
+/// It is the other body at rest that asks for so many.
+class RestTooClose : public TooFine {
+public:
+    using TooFine::TooFine;
+};
+
 /// Patches fine enough, each with the sphere found from its own centre, which covers it.
 struct FittedPatches {
     std::vector<Patch> patches;
-    SphereSet candidates; ///< one a patch
+    SphereSet candidates;      ///< one a patch
+    std::vector<double> inner; ///< for each the radius of the ball about its centre that is inside
 };
 
 /// Splits the patches until the sphere of each covers it and the patch is small beside the sphere.
-/// Ends for every input: a patch smaller than (1 - tau/P) P is covered by its sphere whatever that is. Throws
-/// TooFine, and InputError when it is stopped through progress: a part of the patches is of no use.
+/// Ends for every input: a patch smaller than (1 - tau/P) P is covered by its sphere whatever that is (P
+/// being what it may stick out there, where a neighbour is near). Throws TooFine, and InputError when it is
+/// stopped through progress: a part of the patches is of no use.
 FittedPatches fitPatches(const Solid& solid, std::span<const Patch> patches, const PatchOptions& options,
                          const Progress& progress = {});
 

@@ -1,9 +1,12 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <string>
 
 namespace tss {
+
+struct RestNeighbour;
 
 /// The generators of METHOD 1.
 enum class SphereMethod {
@@ -18,6 +21,7 @@ struct MedialOptions {
     double slackFactor = 0.02;            ///< tau / P, in (0, 0.5]; above 0.1 it takes many more spheres
     double sizeFactor = 0.4;              ///< k: a patch has at most the radius k sqrt(2 R P); in (0, 1]
     std::size_t mostPatches = 10'000'000; ///< a finer tolerance is refused: it would take gigabytes
+    std::shared_ptr<const RestNeighbour> neighbour; ///< what the spheres must stay clear of at rest, or null
 };
 
 /// For trials of whether `limit` spheres suffice: a tolerance that takes far more patches needs no look.

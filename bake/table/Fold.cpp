@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace tss {
@@ -29,13 +30,53 @@ Interval factorRange(const DofFactor& factor, double half, int which) {
     return {0, 2 * s * s};
 }
 
+/// T(q) y in extended precision where the machine has it: far axes leave none of their roundoffs in the
+/// weights.
+using Real = long double;
+using RealPoint = Eigen::Matrix<Real, 3, 1>;
+
+RealPoint moved(const Motion& motion, const std::vector<Real>& q, const Vec3& y) {
+    RealPoint x = motion.base.linear().cast<Real>() * y.cast<Real>() + motion.base.translation().cast<Real>();
+    for (std::size_t k = motion.dofCount(); k-- > 0;) {
+        const Dof& dof = motion.dofs[k];
+        const RealPoint axis = dof.axis.cast<Real>();
+        if (dof.kind == DofKind::Translation) {
+            x += q[k] * axis;
+            continue;
+        }
+        const RealPoint arm = x - dof.origin.cast<Real>(), across = axis.cross(arm);
+        const Real half = std::sin(q[k] / 2);
+        x += std::sin(q[k]) * across + 2 * half * half * axis.cross(across);
+    }
+    return x;
+}
+
 /// All products of factors, their weights in every pair, found from 3 poses a DOF: d^2 is linear in each
 /// DOF's (1, first, second) with the others held.
 struct Products {
     std::vector<Fold::Feature> features;
     std::vector<Interval> ranges;
     Eigen::MatrixXd weights; ///< #pairs by #features, the first of them the constant
+    Eigen::VectorXd off;     ///< #pairs: by how much all of them together may be off
 };
+
+/// How far the squared distances at the poses are off, and what that makes of the sum of all products
+/// anywhere in the limits: a DOF's three weights, 1, (v+ - v-) / 2 first and (v+ + v- - 2 v) / 2 second, gain
+/// no more than 7 times as much together, their factors being no more than 1.003 and 2.15 times those of the
+/// poses.
+Eigen::VectorXd makingErrors(const Motion& motion, std::span<const TablePair> pairs,
+                             const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>& squares) {
+    double reach = 0;
+    for (const TablePair& p : pairs) reach = std::max({reach, p.a.norm(), p.b.norm()});
+    const double u = double(std::numeric_limits<Real>::epsilon()), off = poseError(motion, u, reach);
+    Eigen::VectorXd errors(static_cast<Eigen::Index>(pairs.size()));
+    for (Eigen::Index p = 0; p < errors.size(); ++p) {
+        const double most = double(squares.row(p).maxCoeff());
+        errors[p] = std::pow(7.0, double(motion.dofCount())) *
+                    ((2 * std::sqrt(most) + off) * off + 8 * double(motion.dofCount() + 1) * u * most);
+    }
+    return errors;
+}
 
 Products allProducts(const Motion& motion, std::span<const TablePair> pairs,
                      const std::vector<DofFactor>& factors) {
@@ -48,32 +89,34 @@ Products allProducts(const Motion& motion, std::span<const TablePair> pairs,
         node.push_back(factors[k].turn ? std::min(half[k], 1.5) : half[k]);
     }
     Products all;
-    all.weights.resize(static_cast<Eigen::Index>(pairs.size()), count);
+    Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> weights(static_cast<Eigen::Index>(pairs.size()),
+                                                                count);
     for (int i = 0; i < count; ++i) {
-        std::vector<double> q;
+        std::vector<Real> q;
         Fold::Feature feature;
         Interval range;
         for (int k = 0, rest = i; k < d; ++k, rest /= 3) {
             const int which = rest % 3;
-            q.push_back(factors[k].middle + (which == 0 ? 0 : which == 1 ? node[k] : -node[k]));
+            q.push_back(Real(factors[k].middle) + (which == 0 ? 0 : which == 1 ? node[k] : -node[k]));
             feature.factor[k] = static_cast<std::uint8_t>(which);
             range = range.times(factorRange(factors[k], half[k], which));
         }
         all.features.push_back(feature);
         all.ranges.push_back(range);
-        const Pose at = pose(motion, q);
         for (std::size_t p = 0; p < pairs.size(); ++p)
-            all.weights(Eigen::Index(p), i) = (at * pairs[p].b - pairs[p].a).squaredNorm();
+            weights(Eigen::Index(p), i) =
+                (moved(motion, q, pairs[p].b) - pairs[p].a.cast<Real>()).squaredNorm();
     }
+    all.off = makingErrors(motion, pairs, weights);
     // Values at (0, +, -) become weights of (1, first, second), one DOF after the other.
     for (int k = 0, stride = 1; k < d; ++k, stride *= 3) {
-        double first = 0, second = 0;
-        factors[k].evaluate(factors[k].middle + node[k], first, second);
+        const Real step = node[k], halfSine = std::sin(step / 2);
+        const Real first = factors[k].turn ? std::sin(step) : step;
+        const Real second = factors[k].turn ? 2 * halfSine * halfSine : step * step;
         for (int i = 0; i < count; ++i) {
             if (i / stride % 3 != 0) continue;
-            auto v0 = all.weights.col(i), v1 = all.weights.col(i + stride),
-                 v2 = all.weights.col(i + 2 * stride);
-            const Eigen::VectorXd odd = v1 - v2, even = v1 + v2 - 2 * v0;
+            auto v0 = weights.col(i), v1 = weights.col(i + stride), v2 = weights.col(i + 2 * stride);
+            const Eigen::Matrix<Real, Eigen::Dynamic, 1> odd = v1 - v2, even = v1 + v2 - 2 * v0;
             if (node[k] > 0) {
                 v1 = odd / (2 * first);
                 v2 = even / (2 * second);
@@ -83,6 +126,7 @@ Products allProducts(const Motion& motion, std::span<const TablePair> pairs,
             }
         }
     }
+    all.weights = weights.cast<double>();
     return all;
 }
 
@@ -122,6 +166,19 @@ void centre(Fold& fold, const std::vector<Interval>& ranges, const std::vector<I
     for (std::size_t k = 0; k < fold.sharedFeatures.size(); ++k) {
         settle(fold.sharedFeatures[k], sharedRanges[k]);
         fold.constants.array() += fold.sharedWeights[k] * fold.sharedFeatures[k].centre;
+    }
+}
+
+/// The constants are sums in double, and lose the squared reach.
+void addConstantErrors(Fold& fold, std::span<const TablePair> pairs) {
+    for (Eigen::Index p = 0; p < fold.constants.size(); ++p) {
+        double sum = std::abs(fold.constants[p]) + pairs[std::size_t(p)].reach * pairs[std::size_t(p)].reach;
+        for (std::size_t k = 0; k < fold.features.size(); ++k)
+            sum += 2 * std::abs(fold.weights(p, Eigen::Index(k)) * fold.features[k].centre);
+        for (std::size_t k = 0; k < fold.sharedFeatures.size(); ++k)
+            sum += 2 * std::abs(fold.sharedWeights[k] * fold.sharedFeatures[k].centre);
+        const double terms = double(fold.features.size() + fold.sharedFeatures.size() + 4);
+        fold.dropped[p] += doubleRoundoff * terms * sum;
     }
 }
 
@@ -190,7 +247,7 @@ std::optional<Fold> makeFold(const Motion& motion, std::span<const TablePair> pa
     for (const Dof& dof : motion.dofs) fold.factors.push_back(dofFactor(dof));
     const Products all = allProducts(motion, pairs, fold.factors);
     fold.constants = all.weights.col(0);
-    fold.dropped = Eigen::VectorXd::Zero(fold.constants.size());
+    fold.dropped = all.off;
     if (pairs.empty()) return fold;
 
     // Columns by what they can contribute; those at the level of rounding are left out.
@@ -230,6 +287,7 @@ std::optional<Fold> makeFold(const Motion& motion, std::span<const TablePair> pa
     for (std::size_t k = 0; k < columns.size(); ++k)
         fold.weights.col(Eigen::Index(k)) = all.weights.col(columns[k]);
     centre(fold, ranges, sharedRanges, contacts);
+    addConstantErrors(fold, pairs);
     return fold;
 }
 

@@ -26,7 +26,8 @@ struct Fold {
     std::vector<double> sharedWeights;
     Eigen::MatrixXd weights;   ///< #pairs by #features
     Eigen::VectorXd constants; ///< #pairs: d^2 where all features are 0
-    Eigen::VectorXd dropped;   ///< #pairs: bound of what columns too small to keep leave out
+    Eigen::VectorXd dropped; ///< #pairs: bound of what columns too small to keep leave out, and of how far
+                             ///< weights and constants are off for having been worked out with roundoffs
 
     double sharedRange() const;
 

@@ -82,6 +82,9 @@ PreparedTable::PreparedTable(const Table& table, const PrepareOptions& options)
     for (std::size_t k = 0; k < motion_.dofCount(); ++k)
         farthestT_ += 0.5 * speeds[k] * (motion_.dofs[k].upper - motion_.dofs[k].lower);
     recipe_ = PoseRecipe(motion_, originA_, originB_);
+    double reach = std::max(originA_.norm(), originB_.norm());
+    for (const TablePair& p : pairs_) reach = std::max({reach, p.a.norm(), p.b.norm()});
+    poseError_ = poseError(motion_, doubleRoundoff, reach);
 
     if (options.form != KernelForm::Direct) {
         fold_ = makeFold(motion_, pairs_, contacts);
@@ -138,10 +141,16 @@ PreparedTable::Bands PreparedTable::directBands(double u) const {
     Bands bands;
     for (const TablePair& p : pairs_) {
         const double a = (p.a - originA_).norm(), b = (p.b - originB_).norm();
-        const double sign = directError(u, a, b, farthestT_, std::abs(p.reach), p.reach);
+        // The pose is worked out in double, whatever reads it.
+        const auto posed = [&](double distance) {
+            return (2 * (distance + poseError_) + poseError_) * poseError_;
+        };
+        const double sign =
+            directError(u, a, b, farthestT_, std::abs(p.reach), p.reach) + posed(std::abs(p.reach));
         bands.widen(u, sign, p.reach);
         for (double gap : {-depth_, 0.0, margin_}) {
-            const double error = directError(u, a, b, farthestT_, std::max(0.0, p.reach + gap), p.reach);
+            const double distance = std::max(0.0, p.reach + gap);
+            const double error = directError(u, a, b, farthestT_, distance, p.reach) + posed(distance);
             bands.gap = std::max(bands.gap, tss::gapBand(u, error, p.reach, gap));
         }
     }

@@ -185,6 +185,7 @@ private:
     Vec3 originA_ = Vec3::Zero(), originB_ = Vec3::Zero();
     std::vector<double> widening_;
     double farthestT_ = 0; ///< bound of |T(q) originB - originA|
+    double poseError_ = 0; ///< what rounding may do to T(q) y on its way to the direct kernel
     std::optional<Fold> fold_;
     PoseRecipe recipe_;
     PosePlan plan_; ///< of the form that was chosen; empty for the direct one of a path or of no DOF

@@ -38,6 +38,31 @@ double directError(double u, double a, double b, double t, double distance, doub
     return room * (2 * distance * vector + vector * vector + squares);
 }
 
+double poseError(const Motion& motion, double u, double reach) {
+    double size = 2 * reach + motion.base.translation().norm(), off = 0;
+    for (const Dof& dof : motion.dofs) {
+        double far = 0;
+        for (const PathRow& row : dof.path) {
+            far = std::max(far, row.translation.norm());
+            off += std::abs(row.rotation.norm() - 1);
+        }
+        switch (dof.kind) {
+        case DofKind::Rotation:
+            size += 2 * dof.origin.norm();
+            off += std::abs(dof.axis.norm() - 1);
+            break;
+        case DofKind::Translation:
+            size += dof.axis.norm() * std::max(std::abs(dof.lower), std::abs(dof.upper));
+            break;
+        case DofKind::Path:
+            size += 2 * dof.frame.translation().norm() + far;
+            break;
+        }
+    }
+    // Per DOF a rotation from sines and cosines and some dozens of products and sums of numbers up to `size`.
+    return (128 * double(motion.dofCount() + 2) * u + 8 * off) * size * room;
+}
+
 double gapBand(double u, double error, double reach, double gap) {
     const double distance = std::max(reach + gap, 0.0);
     const double squared = distance * distance;

@@ -1,4 +1,6 @@
 #pragma once
+#include "bake/motion/Motion.h"
+
 #include <span>
 
 namespace tss {
@@ -15,6 +17,11 @@ double sumError(double u, double constant, std::span<const double> products, dou
 /// The same for a sum of 12 + 3 products as the direct kernel takes it: |R b + t - a|^2 - reach^2, with
 /// lengths of a, b and t as given, for squared distances up to distance^2.
 double directError(double u, double a, double b, double t, double distance, double reach);
+
+/// How far T(q) y may come out from where it is when it is worked out with roundoff u, whichever way the
+/// DOFs' matrices are multiplied: axes far away leave their roundoffs behind. reach: no point y of B is
+/// farther from B's origin, and no origin that coordinates are taken from is farther from its body's.
+double poseError(const Motion& motion, double u, double reach);
 
 /// By how much a gap found from a squared distance d^2 with error E is off: sqrt(d^2) - reach, with gaps up
 /// to |gap|.

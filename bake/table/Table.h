@@ -38,8 +38,9 @@ struct Table {
     std::vector<std::uint32_t> rowOffsets{0}; ///< #a + 1, starts at 0, never falls, ends at columns.size()
     std::vector<std::uint32_t> columns;       ///< < #b
 
-    /// Per test: the gap below which it counts as contact; 0, or the negative gap at rest of a pair that
-    /// overlaps there (METHOD 2.4), or epsilon, so that no contact is missed by it (3.5). Empty: all 0.
+    /// Per test: the gap below which it counts as contact; 0, or of spheres of the region that overlaps at
+    /// rest -restRegion.depth (METHOD 2.4), each plus epsilon, so that no contact is missed by it (3.5).
+    /// Empty: all 0.
     std::vector<double> restGaps;
 
     Motion motion; ///< the motion and limits it was made for
@@ -59,7 +60,7 @@ struct Table {
 
 /// A proof that the two bodies cannot meet anywhere in Q: no table, no callback.
 struct NeverCollides {
-    double clearance = 0;    ///< the sphere models stay farther apart than this at every pose
+    double clearance = 0;    ///< the surfaces stay farther apart than this at every pose, > 0
     std::uint64_t cells = 0; ///< cells of Q that the proof took
     std::string method;
     BakeRecord record;

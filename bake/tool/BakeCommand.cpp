@@ -37,7 +37,7 @@ std::string tally(const Json& pairs) {
         if (!pair["baked"].get<bool>()) continue;
         if (pair["neverCollides"].get<bool>())
             ++never;
-        else if (pair["overlapAtRest"].get<int>() > 0)
+        else if (!pair["restRegion"].is_null() || pair["overlapAtRest"].get<int>() > 0)
             ++atRest;
         else
             ++others;
@@ -124,7 +124,7 @@ void addBake(CLI::App& app, Console& console) {
         {"reduce", "cover (default), cooccurrence, minimal or none"},
         {"search", "certified (default) or sampled"},
         {"samples", "poses explored by --search sampled"},
-        {"at-rest", "spheres that overlap at rest: offset (default), ignore or collide"},
+        {"at-rest", "the region in which the meshes overlap at rest: offset (default), ignore or collide"},
         {"budget", "seconds to find the few tests of each pair; making its spheres does not count"}};
     for (const auto& [name, description] : settings)
         command->add_option_function<std::string>(

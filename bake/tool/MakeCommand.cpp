@@ -191,10 +191,9 @@ void addMake(CLI::App& app, Console& console) {
         ->required()
         ->expected(1, -1);
     command->add_option("--b-offset", arguments->offset, "x,y,z added to the points of B first");
-    command->add_option(
-        "--rest", arguments->rest,
-        "DOF values at which the joint rests: where a motion starts, and spheres that overlap "
-        "are free (default 0, or the limit next to it). The meshes lie as they do at 0");
+    command->add_option("--rest", arguments->rest,
+                        "DOF values at which the joint rests: where a motion starts, and meshes that overlap "
+                        "are free (default 0, or the limit next to it). The meshes lie as they do at 0");
     command->footer("Example, a hinge of 30 degrees about the Y axis through 0.3,0,0.7:\n"
                     "  tss make -o jaw.tss --a skull.obj --b mandible.obj --dof rot:0.3,0,0.7:0,1,0:-24:6\n"
                     "The limits are degrees; for meshes in millimetres add --meters-per-unit 0.001.");

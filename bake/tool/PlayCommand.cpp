@@ -9,6 +9,7 @@
 #include "bake/tool/DofSpec.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 
@@ -57,15 +58,26 @@ std::vector<std::vector<double>> askedSteps(const SceneModel& scene, const PlayA
     return steps;
 }
 
-/// How many steps ask for a pose outside of a joint's limits.
+/// How many steps ask for a pose outside of a joint's limits or planes.
 std::size_t countOutside(const SceneModel& scene, const std::vector<std::vector<double>>& steps) {
     return static_cast<std::size_t>(std::count_if(steps.begin(), steps.end(), [&](const auto& row) {
-        std::size_t column = 0;
-        for (const Joint& joint : scene.joints)
+        std::size_t first = 0;
+        for (const Joint& joint : scene.joints) {
+            std::vector<double> slack;
             for (const Dof& dof : joint.dofs) {
-                const double slack = 1e-6 * (dof.upper - dof.lower), value = row[column++];
-                if (value < dof.lower - slack || value > dof.upper + slack) return true;
+                const double value = row[first + slack.size()];
+                slack.push_back(1e-6 * (dof.upper - dof.lower));
+                if (value < dof.lower - slack.back() || value > dof.upper + slack.back()) return true;
             }
+            for (const LimitPlane& plane : joint.planes) {
+                double excess = -plane.bound - 1e-12 * std::abs(plane.bound);
+                for (std::size_t k = 0; k < slack.size(); ++k)
+                    excess +=
+                        plane.coefficients[k] * row[first + k] - std::abs(plane.coefficients[k]) * slack[k];
+                if (excess > 0) return true;
+            }
+            first += joint.dofs.size();
+        }
         return false;
     }));
 }

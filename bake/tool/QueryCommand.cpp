@@ -9,13 +9,39 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace tss::tool {
 
 namespace {
 
+/// Rows outside the limits that are listed; all are counted.
+constexpr std::size_t mostRowsNamed = 1000;
+
 struct QueryArguments {
     std::string scene, pair, poses, output;
 };
+
+/// The values lie outside the limits or planes that the table was made for, by more than files round.
+bool beyond(const Motion& motion, const std::vector<double>& q) {
+    constexpr double share = 1e-6; // of a range
+    for (std::size_t k = 0; k < q.size(); ++k) {
+        const Dof& dof = motion.dofs[k];
+        const double hair = share * (dof.upper - dof.lower) + 1e-12 * std::abs(q[k]);
+        if (!(q[k] >= dof.lower - hair && q[k] <= dof.upper + hair)) return true;
+    }
+    return std::any_of(motion.planes.begin(), motion.planes.end(), [&](const LimitPlane& plane) {
+        double excess = -plane.bound, hair = 1e-12 * std::abs(plane.bound);
+        for (std::size_t k = 0; k < q.size(); ++k) {
+            const Dof& dof = motion.dofs[k];
+            excess += plane.coefficients[k] * q[k];
+            hair +=
+                std::abs(plane.coefficients[k]) * (share * (dof.upper - dof.lower) + 1e-12 * std::abs(q[k]));
+        }
+        return !(excess <= hair);
+    });
+}
 
 void runQuery(const QueryArguments& arguments, const Console& console) {
     refuseOverwriting(arguments.output, {arguments.scene, arguments.poses});
@@ -32,26 +58,32 @@ void runQuery(const QueryArguments& arguments, const Console& console) {
 
     std::string text = "gap,hit,pair,px,py,pz,nx,ny,nz\n";
     std::size_t hits = 0, outside = 0;
-    for (std::vector<double> q : poses.rows) {
+    Json outsideRows = Json::array();
+    for (std::size_t row = 0; row < poses.rows.size(); ++row) {
+        std::vector<double> q = poses.rows[row];
         for (std::size_t k = 0; k < q.size(); ++k) q[k] = fromUser(motion.dofs[k], q[k]);
-        outside += withinLimits(motion, q, 1e-6) ? 0 : 1;
-        if (pair.proof) { // they never meet: no test is made
-            text += fmt::format("{},0,-1,,,,,,\n", pair.proof->clearance);
+        const bool out = beyond(motion, q);
+        if (out && ++outside <= mostRowsNamed) outsideRows.push_back(row);
+        if (pair.proof) { // within the limits they never meet: no test is made; beyond nothing is known
+            text += out ? "nan,0,-1,,,,,,\n" : fmt::format("{},0,-1,,,,,,\n", pair.proof->clearance);
             continue;
         }
         const QueryResult r = query(*pair.table, pose(motion, q));
-        hits += r.hit();
+        hits += r.hit() && !out;
         text += fmt::format("{},{},{},{},{},{},{},{},{}\n", r.gap, r.hit() ? 1 : 0, r.test, r.point.x(),
                             r.point.y(), r.point.z(), r.normal.x(), r.normal.y(), r.normal.z());
     }
     writeFileAtomically(arguments.output, text);
     console.say(fmt::format("{} poses, {} hits, wrote {}", poses.rows.size(), hits, arguments.output));
     if (outside > 0)
-        console.say(fmt::format(
-            "{} poses lie outside the limits that the table was made for: no bound holds there", outside));
+        console.say(
+            fmt::format("{} poses, the first in row {}, lie outside the limits that the {} was made for: no "
+                        "bound holds there, and they are not among the hits",
+                        outside, outsideRows[0].get<std::size_t>() + 1, pair.proof ? "proof" : "table"));
     console.print({{"poses", poses.rows.size()},
                    {"hits", hits},
                    {"outsideLimits", outside},
+                   {"outsideRows", outsideRows},
                    {"output", arguments.output}});
 }
 
@@ -69,7 +101,9 @@ void addQuery(CLI::App& app, Console& console) {
             "-o,--output", arguments->output,
             "CSV: gap,hit,pair,px,py,pz,nx,ny,nz; lengths in scene units, point and normal in body A's "
             "frame. The gap is that of the table's spheres: where it is above 0 it is no distance of the "
-            "meshes")
+            "meshes. Beyond the limits no bound holds: --json lists such rows, and of a pair that never "
+            "collides "
+            "their gap is nan")
         ->required();
     command->callback([arguments, &console] { runQuery(*arguments, console); });
 }

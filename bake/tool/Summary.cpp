@@ -2,6 +2,7 @@
 
 #include "bake/BakeOptions.h"
 #include "bake/EarlyContact.h"
+#include "bake/geometry/PartSet.h"
 #include "bake/scene/SourceHash.h"
 #include "bake/table/PreparedTable.h"
 #include "bake/tool/DofSpec.h"
@@ -61,6 +62,18 @@ void addTable(Json& json, const Table& table) {
     json["bytes"] = bytes(table);
 }
 
+/// Where the meshes overlap at rest, in scene units; shares are of the whole surface.
+Json regionOf(const RestRegion& region, const SceneModel& scene, const Pair& pair) {
+    if (region.empty()) return nullptr;
+    const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;
+    const double areaA = area(a, region.a), areaB = area(b, region.b);
+    return {{"areaA", areaA},
+            {"areaB", areaB},
+            {"shareA", areaA / area(a)},
+            {"shareB", areaB / area(b)},
+            {"depth", knownOrNull(region.depth)}};
+}
+
 /// How the run time asks the table, how ill-conditioned that is, and the gaps where rounding may turn the
 /// verdict.
 void addKernel(Json& json, const Table& table) {
@@ -99,23 +112,25 @@ std::string describeEarlyContact(const Json& pair, double metersPerUnit) {
     const double atRest = pair["clearanceAtRest"].get<double>();
     const Json& early = pair["earlyContact"];
     std::string text = fmt::format(
-        "  meshes       {} at rest; contact reported at {:.0f} % of {} poses where they do not touch\n",
+        "  meshes       {} at rest; contact reported at {:.0f} % of {} poses where {}\n",
         atRest > 0 ? lengthText(atRest, metersPerUnit) + " apart" : "touch or overlap",
-        100 * early["share"].get<double>(), early["freePoses"].dump());
-    if (early["stuck"].get<bool>())
+        100 * early["share"].get<double>(), early["freePoses"].dump(),
+        pair.value("restRegion", Json()).is_null() ? "they do not touch" : "nothing else touches");
+    // No advice that was followed.
+    const bool ignored = pair.value("ignoresRest", false);
+    const char* excepted = ignored ? ""
+                                   : "; where the bodies overlap on purpose, as in\n               a socket, "
+                                     "bake with --at-rest ignore";
+    if (early["stuck"].get<bool>() && !ignored)
         text += fmt::format(
             "  stuck        the meshes touch or overlap at {} of {} poses. Where B does not lie "
-            "right, move it (tss make\n"
-            "               --b-offset); where they overlap on purpose, as in a socket, bake with "
-            "--at-rest ignore\n",
-            early["poses"].get<int>() - early["freePoses"].get<int>(), early["poses"].get<int>());
+            "right, move it (tss\n               make --b-offset){}\n",
+            early["poses"].get<int>() - early["freePoses"].get<int>(), early["poses"].get<int>(), excepted);
     else if (early["held"].get<bool>())
-        text += "  held         at rest: every small step from there is contact, whichever way. Let it rest "
-                "where "
-                "nothing touches (tss\n"
-                "               make --rest, --b-offset); where the bodies overlap on purpose, as in a "
-                "socket, bake "
-                "with --at-rest ignore\n";
+        text +=
+            fmt::format("  held         at rest: every small step from there is contact, whichever way. Let "
+                        "it rest where nothing\n               touches (tss make --rest, --b-offset){}\n",
+                        excepted);
     if (const int poses = early["poses"].get<int>(), free = early["freePoses"].get<int>();
         !early["stuck"].get<bool>() && 2 * free < poses)
         text +=
@@ -137,11 +152,24 @@ std::string length(const Json& value, double metersPerUnit) {
     return value.is_null() ? "not known" : lengthText(value.get<double>(), metersPerUnit);
 }
 
-/// The bound of late contact. What overlaps at rest is not counted as missed.
-std::string missed(const Json& item, double metersPerUnit) {
-    const bool excepted = item["overlapAtRest"].get<int>() > 0 || item.value("ignoresRest", false);
-    return length(item["boundMiss"], metersPerUnit) +
-           (excepted && !item["boundMiss"].is_null() ? " (but for what overlaps at rest)" : "");
+std::string squareText(double area, double metersPerUnit) {
+    return fmt::format("{:.3g} mm2", area * metersPerUnit * metersPerUnit * 1e6);
+}
+
+/// What the bounds say nothing about, in the same line as they.
+std::string butForRegion(const Json& item, double metersPerUnit) {
+    const Json region = item.value("restRegion", Json());
+    if (region.is_null()) return "";
+    const auto part = [&](const char* area, const char* share) {
+        return fmt::format("{} ({:.2g} %)", squareText(region[area].get<double>(), metersPerUnit),
+                           100 * region[share].get<double>());
+    };
+    const bool ignored = region["depth"].is_null();
+    return fmt::format(", but for {} of A and {} of B that overlap at rest{}", part("areaA", "shareA"),
+                       part("areaB", "shareB"),
+                       ignored ? " and are left out"
+                               : ": contact where they go deeper, spheres by " +
+                                     lengthText(region["depth"].get<double>(), metersPerUnit));
 }
 
 } // namespace
@@ -162,6 +190,7 @@ Json summary(const SceneModel& scene, const Pair& pair) {
         addEarlyContact(json, scene, pair);
         const auto atRest = pair.settings.find("at-rest");
         json["ignoresRest"] = atRest != pair.settings.end() && atRest->second == "ignore";
+        json["restRegion"] = regionOf(pair.table->restRegion, scene, pair);
     }
     if (pair.proof) {
         addRecord(json, pair.proof->record);
@@ -174,6 +203,7 @@ Json summary(const SceneModel& scene, const Pair& pair) {
                      {"certified", true},
                      {"bytes", 0},
                      {"clearance", pair.proof->clearance},
+                     {"restRegion", regionOf(pair.proof->restRegion, scene, pair)},
                      {"method", pair.proof->method}});
     }
     return json;
@@ -216,10 +246,10 @@ std::string describe(const Json& scene) {
                 text += "  stale        " + stale + ": bake it again\n";
             text += fmt::format("  spheres      {} + {}\n", item["spheresA"].dump(), item["spheresB"].dump());
             if (item.value("neverCollides", false)) {
-                text += fmt::format(
-                    "  never collide: the spheres stay {} apart over the whole motion; no table, no "
-                    "callback\n",
-                    length(item["clearance"], metersPerUnit));
+                text +=
+                    fmt::format("  never collide: the surfaces stay {} apart over the whole motion{}; no "
+                                "table, no callback\n",
+                                length(item["clearance"], metersPerUnit), butForRegion(item, metersPerUnit));
             } else {
                 text += fmt::format("  used         {} + {}\n  tests a step {} ({} products)\n",
                                     item["usedA"].dump(), item["usedB"].dump(), item["tests"].dump(),
@@ -243,15 +273,12 @@ std::string describe(const Json& scene) {
                             "once nothing is proven\n";
                 if (!item.contains("travel")) // a skin's table has no bound of depth
                     text += fmt::format(
-                        "  bounds       miss {}, early {}, epsilon {}, {}\n", missed(item, metersPerUnit),
-                        length(item["boundEarly"], metersPerUnit), length(item["epsilon"], metersPerUnit),
-                        item["certified"].get<bool>() ? "certified for every pose" : "sampled poses only");
+                        "  bounds       miss {}, early {}, epsilon {}, {}{}\n",
+                        length(item["boundMiss"], metersPerUnit), length(item["boundEarly"], metersPerUnit),
+                        length(item["epsilon"], metersPerUnit),
+                        item["certified"].get<bool>() ? "certified for every pose" : "sampled poses only",
+                        butForRegion(item, metersPerUnit));
                 if (item.contains("earlyContact")) text += describeEarlyContact(item, metersPerUnit);
-                if (const int resting = item["overlapAtRest"].get<int>(); resting > 0)
-                    text += fmt::format(
-                        "  at rest      {} and {} from there; the bounds are about all others\n",
-                        resting == 1 ? "1 test overlaps" : fmt::format("{} tests overlap", resting),
-                        resting == 1 ? "counts" : "count");
             }
             if (item.contains("kernel"))
                 text += fmt::format(

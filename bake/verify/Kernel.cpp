@@ -1,10 +1,13 @@
 #include "bake/verify/Kernel.h"
 
 #include "bake/verify/KernelCells.h"
+#include "bake/verify/VerdictProof.h"
+#include "bake/verify/PoseBox.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numbers>
 
 namespace tss {
@@ -12,6 +15,7 @@ namespace tss {
 namespace {
 
 using Real = long double;
+constexpr Real realRoundoff = std::numeric_limits<Real>::epsilon();
 using Vector = Eigen::Matrix<Real, 3, 1>;
 using Matrix = Eigen::Matrix<Real, 3, 3>;
 
@@ -51,6 +55,21 @@ ExactPose exactPose(const Motion& motion, const std::vector<Real>& q) {
     return pose.times({motion.base.linear().cast<Real>(), motion.base.translation().cast<Real>()});
 }
 
+/// How far a point may come out of T(q) from where it is, when that is worked out with roundoff u: `size`
+/// bounds every coordinate on the way.
+double poseRounding(const Motion& motion, double size, double u) {
+    double off = 0;
+    for (const Dof& dof : motion.dofs) {
+        if (dof.kind == DofKind::Rotation) off += 4 * std::abs(dof.axis.norm() - 1);
+        for (const PathRow& row : dof.path) off += std::abs(row.rotation.norm() - 1);
+    }
+    return (64 * double(motion.dofCount() + 2) * u + off) * size;
+}
+
+/// Whatever a DOF's polynomial in its factors 1, first, second is off by at three values, it is off anywhere
+/// in the limits by no more than this times as much.
+constexpr double betweenNodes = 7;
+
 /// One test as it stands in the table.
 struct Exact {
     Vec3 a, b;
@@ -66,6 +85,16 @@ std::vector<Exact> exactTests(const Table& table) {
             all.push_back({a.centre, b.centre, a.radius + b.radius + rest});
         }
     return all;
+}
+
+/// A bound for every coordinate that a test's centre meets on its way into A's frame.
+double pathSize(const Motion& motion, const std::vector<Exact>& tests) {
+    double a = 0, b = 0;
+    for (const Exact& t : tests) {
+        a = std::max(a, t.a.norm());
+        b = std::max(b, t.b.norm());
+    }
+    return a + verify::coordinateBound(motion, b);
 }
 
 /// A row of numbers as a kernel reads it, float or double.
@@ -133,7 +162,9 @@ std::size_t productOf(const Fold::Feature& feature, std::size_t dofs) {
 
 /// Squared distances of all tests as polynomials of the products of factors, by their values at three poses a
 /// DOF. #tests by 3^#DOFs.
-std::vector<std::vector<Real>> exactProducts(const Motion& motion, const std::vector<Exact>& tests) {
+/// farthest: the largest of the values, one a test.
+std::vector<std::vector<Real>> exactProducts(const Motion& motion, const std::vector<Exact>& tests,
+                                             std::vector<Real>& farthest) {
     const std::size_t dofs = motion.dofCount();
     std::size_t count = 1;
     for (std::size_t k = 0; k < dofs; ++k) count *= 3;
@@ -152,6 +183,7 @@ std::vector<std::vector<Real>> exactProducts(const Motion& motion, const std::ve
         for (std::size_t p = 0; p < tests.size(); ++p)
             weights[p][i] = (pose.at(tests[p].b) - tests[p].a.cast<Real>()).squaredNorm();
     }
+    for (const std::vector<Real>& w : weights) farthest.push_back(*std::max_element(w.begin(), w.end()));
     for (std::size_t k = 0, stride = 1; k < dofs; ++k, stride *= 3) {
         const bool turn = motion.dofs[k].kind == DofKind::Rotation;
         const Real first = turn ? std::sin(node[k]) : node[k];
@@ -176,8 +208,9 @@ public:
     FoldErrors(const Table& table, const PreparedTable& prepared, const std::vector<Exact>& tests)
         : prepared_(prepared), fold_(*prepared.fold()),
           u_(prepared.precision() == KernelPrecision::Float ? 0x1p-24 : 0x1p-53),
-          exact_(exactProducts(table.motion, tests)) {
+          exact_(exactProducts(table.motion, tests, farthest_)) {
         const std::size_t dofs = table.motion.dofCount();
+        rounding_ = poseRounding(table.motion, pathSize(table.motion, tests), double(realRoundoff));
         const std::size_t count = exact_.empty() ? 0 : exact_[0].size();
         for (std::size_t i = 0; i < count; ++i) {
             std::pair<Real, Real> range{1, 1};
@@ -219,7 +252,12 @@ public:
         for (std::size_t i = 1; i < left.size(); ++i)
             away += std::abs(left[i]) * std::max(std::abs(ranges_[i].first), std::abs(ranges_[i].second));
         // Rounding of the extended precision itself.
-        for (std::size_t i = 0; i < exact_[pair].size(); ++i) away += 0x1p-56L * std::abs(exact_[pair][i]);
+        for (std::size_t i = 0; i < exact_[pair].size(); ++i)
+            away += 0x1p-60L * std::abs(exact_[pair][i]) *
+                    std::max(std::abs(ranges_[i].first), std::abs(ranges_[i].second));
+        const double distance = std::sqrt(double(farthest_[pair]));
+        away += Real(std::pow(betweenNodes, double(prepared_.dofCount()))) * (2 * distance + rounding_) *
+                rounding_;
 
         const Real reach2 = Real(test.reach) * std::abs(Real(test.reach));
         const double off = double(Real(row[0]) - (constant - reach2)); // the widening, less than 0
@@ -255,15 +293,19 @@ private:
     const PreparedTable& prepared_;
     const Fold& fold_;
     double u_;
+    std::vector<Real> farthest_; ///< of the squared distances that `exact_` was made from, one a test
     std::vector<std::vector<Real>> exact_;
+    double rounding_ = 0;                       ///< of the poses that they come from
     std::vector<std::pair<Real, Real>> ranges_; ///< of the products of factors
     std::vector<std::size_t> columns_, sharedColumns_;
 };
 
 /// Errors of the direct kernel: x = R b + t - a by axes, |x|^2 - reach^2.
-PairErrors directErrors(const PreparedTable& prepared, std::size_t pair, const Exact& test, double farthest) {
+/// posed: how far a point may come out of the pose that the kernel is given.
+PairErrors directErrors(const PreparedTable& prepared, std::size_t pair, const Exact& test, double farthest,
+                        double posed) {
     const bool single = prepared.precision() == KernelPrecision::Float;
-    const double u = single ? 0x1p-24 : 0x1p-53, pose = 16 * 0x1p-53;
+    const double u = single ? 0x1p-24 : 0x1p-53;
     const StoredRow row(prepared, pair);
     const Vec3 b = test.b - prepared.originB(), a = test.a - prepared.originA();
     const double storedA =
@@ -273,9 +315,8 @@ PairErrors directErrors(const PreparedTable& prepared, std::size_t pair, const E
     const auto squareError = [&](double distance) {
         const double t = std::min(farthest, a.norm() + b.norm() + distance);
         // The numbers of R and t, each rounded; t - a; three products and their sums, each rounded.
-        const double vector = storedA + storedB +
-                              std::sqrt(3.0) * (pose * (b.norm() + 4 * (farthest + a.norm())) +
-                                                u * (4 * (t + a.norm()) + 6 * b.norm()));
+        const double vector =
+            storedA + storedB + posed + std::sqrt(3.0) * u * (4 * (t + a.norm()) + 6 * b.norm());
         const double far = distance + vector;
         return 2 * distance * vector + vector * vector + 4 * u * far * far;
     };
@@ -285,24 +326,79 @@ PairErrors directErrors(const PreparedTable& prepared, std::size_t pair, const E
     return {{off - error, off + error}, squareError(std::max(0.0, test.reach + prepared.margin()))};
 }
 
-/// The twelve numbers that the direct kernel reads are those of the pose between the two origins.
-bool posesAgree(const PreparedTable& prepared, const ExactPose& at, const TableFeatures& f) {
+/// How far the twelve numbers that the direct kernel reads at some values are from those of the pose between
+/// the two origins: points of B no farther than `reach` from its origin come out no farther off.
+double poseOff(const PreparedTable& prepared, const ExactPose& at, const TableFeatures& f, double reach) {
     const bool single = prepared.precision() == KernelPrecision::Float;
-    const double u = single ? 0x1p-24 : 0x1p-53;
     const Vector shift = at.at(prepared.originB()) - prepared.originA().cast<Real>();
+    Real turned = 0, shifted = 0;
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 4; ++column) {
             const int k = 1 + 4 * row + column;
-            const double stored = single ? double(f.floats[k]) : f.doubles[k];
-            const double exact = double(column < 3 ? at.turn(row, column) : shift[row]);
-            const double size = column < 3 ? 1 : prepared.farthestT() + 1e-300;
-            if (std::abs(stored - exact) > u * std::abs(exact) + 1e-12 * size) return false;
+            const Real stored = single ? Real(f.floats[k]) : Real(f.doubles[k]);
+            const Real off = stored - (column < 3 ? at.turn(row, column) : shift[row]);
+            (column < 3 ? turned : shifted) += off * off;
         }
-    return true;
+    return double(std::sqrt(turned)) * reach + double(std::sqrt(shifted));
 }
 
+/// The direct kernel's pose at values where every DOF's polynomial is known by them: in double, because
+/// rounding to float is counted where the kernel reads. Of more DOFs, and of paths, nothing follows between
+/// the values, and what was tried has to do.
+class DirectPose {
+public:
+    DirectPose(const Table& table, const PreparedTable& prepared, const std::vector<Exact>& tests)
+        : motion_(table.motion) {
+        PrepareOptions options;
+        options.target = prepared.target();
+        options.form = KernelForm::Direct;
+        options.precision = KernelPrecision::Double;
+        options.cells = CellUse::Never;
+        const PreparedTable plain(table, options);
+        for (const Exact& t : tests) reach_ = std::max(reach_, (t.b - plain.originB()).norm());
+        const double size = pathSize(motion_, tests) + plain.originA().norm() + 2 * plain.originB().norm();
+        rounding_ = poseRounding(motion_, size, 0x1p-53);
+        const bool paths = std::any_of(motion_.dofs.begin(), motion_.dofs.end(),
+                                       [](const Dof& dof) { return dof.kind == DofKind::Path; });
+        std::size_t count = 1;
+        if (!paths && motion_.dofCount() <= 4)
+            for (std::size_t k = 0; k < motion_.dofCount(); ++k) count *= 3;
+        for (std::size_t i = 0; i < count; ++i) {
+            std::vector<double> q;
+            for (std::size_t k = 0, rest = i; k < motion_.dofCount(); ++k, rest /= 3) {
+                const Dof& dof = motion_.dofs[k];
+                const double middle = dof.lower + 0.5 * (dof.upper - dof.lower);
+                const double half = 0.5 * (dof.upper - dof.lower);
+                const double node = dof.kind == DofKind::Rotation ? std::min(half, 1.25) : half;
+                q.push_back(std::clamp(middle + (rest % 3 == 0   ? 0
+                                                 : rest % 3 == 1 ? node
+                                                                 : -node),
+                                       dof.lower, dof.upper));
+            }
+            TableFeatures f;
+            plain.features(q.data(), f);
+            worst_ = std::max(worst_, poseOff(plain, exactPose(motion_, {q.begin(), q.end()}), f, reach_));
+        }
+    }
+
+    /// What rounding may do to a point on its way, at any values.
+    double rounding() const { return rounding_; }
+    /// What the kernel does is no more than rounding.
+    bool agrees() const { return worst_ <= rounding_; }
+    /// The same of what it is given at some values, rounded once more to float.
+    bool agreesAt(const PreparedTable& prepared, const ExactPose& at, const TableFeatures& f) const {
+        const double u = prepared.precision() == KernelPrecision::Float ? 0x1p-24 : 0;
+        return poseOff(prepared, at, f, reach_) <=
+               rounding_ + 2 * u * (reach_ + prepared.farthestT()) * (1 + 1e-6) + 1e-300;
+    }
+
+private:
+    const Motion& motion_;
+    double reach_ = 0, rounding_ = 0, worst_ = 0;
+};
+
 double tried(const Table& table, const PreparedTable& prepared, const std::vector<Exact>& tests,
-             std::string& reason) {
+             const std::optional<DirectPose>& direct, std::string& reason) {
     constexpr int poses = 500;
     double worst = 0;
     std::vector<double> share(table.motion.dofCount(), 0.5);
@@ -319,7 +415,7 @@ double tried(const Table& table, const PreparedTable& prepared, const std::vecto
             gap = std::min(gap, (at.at(t.b) - t.a.cast<Real>()).norm() - Real(t.reach));
         TableFeatures f;
         prepared.features(q.data(), f);
-        if (prepared.form() == KernelForm::Direct && !posesAgree(prepared, at, f))
+        if (direct && !direct->agreesAt(prepared, at, f))
             reason = "at a pose the kernel's rotation or translation is another than the motion's";
         const double own = double(gap), answer = prepared.gap(f).gap;
         if ((own <= 0 && !prepared.hit(f)) || (own > prepared.signBand() && prepared.hit(f)))
@@ -346,23 +442,26 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
     const bool fold = prepared.form() == KernelForm::Fold;
     const double u = prepared.precision() == KernelPrecision::Float ? 0x1p-24 : 0x1p-53;
     std::optional<FoldErrors> foldErrors;
-    if (fold) foldErrors.emplace(table, prepared, tests);
+    std::optional<DirectPose> direct;
+    if (fold)
+        foldErrors.emplace(table, prepared, tests);
+    else
+        direct.emplace(table, prepared, tests);
+    if (direct && !direct->agrees())
+        verdict.reason = "the kernel's rotation or translation is another than the motion's";
     for (std::size_t p = 0; p < tests.size() && verdict.reason.empty(); ++p) {
         const Exact& test = tests[p];
         const PairErrors errors =
-            fold ? foldErrors->of(p, test) : directErrors(prepared, p, test, prepared.farthestT());
-        // What T(q) in double is itself known to, as verifyTable() grants it to tables.
-        const double size = prepared.farthestT() + prepared.originA().norm() + prepared.originB().norm() +
-                            test.a.norm() + test.b.norm() + std::abs(test.reach);
-        const double hair = 1e-12 * size * size;
-        if (errors.sign.high > hair && test.reach >= 0)
+            fold ? foldErrors->of(p, test)
+                 : directErrors(prepared, p, test, prepared.farthestT(), direct->rounding());
+        if (errors.sign.high > 0 && test.reach >= 0)
             verdict.reason =
                 fmt::format("test {} may miss a touch: its squared distance may be {:.3g} too large", p,
                             errors.sign.high);
         // d^2 - reach^2 <= -low means d <= sqrt(reach^2 - low).
         const double reach = std::max(0.0, test.reach);
         verdict.early =
-            std::max(verdict.early, std::sqrt(reach * reach - std::min(0.0, errors.sign.low + hair)) - reach);
+            std::max(verdict.early, std::sqrt(reach * reach - std::min(0.0, errors.sign.low)) - reach);
         for (double gap : {-prepared.depth(), 0.0, prepared.margin()})
             verdict.gapOff = std::max(verdict.gapOff, gapError(u, errors.square, test.reach, gap));
     }
@@ -370,11 +469,12 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
         verdict.reason =
             fmt::format("it may report contact {:.3g} before the table does, more than its band of {:.3g}",
                         verdict.early, prepared.signBand());
-    if (verdict.reason.empty()) verdict.seen = tried(table, prepared, tests, verdict.reason);
+    if (verdict.reason.empty()) verdict.seen = tried(table, prepared, tests, direct, verdict.reason);
     if (verdict.reason.empty() && verdict.seen > verdict.gapOff)
         verdict.reason = fmt::format("its gap was off by {:.3g} at a pose, more than {:.3g}", verdict.seen,
                                      verdict.gapOff);
     if (verdict.reason.empty()) verdict.reason = verify::refuteCells(table, prepared);
+    if (verdict.reason.empty()) verdict.reason = verify::refuteVerdicts(table, prepared);
     verdict.proven = verdict.reason.empty();
     return verdict;
 }

@@ -1,12 +1,11 @@
 #include "bake/verify/KernelCells.h"
 
-#include "bake/verify/PoseBox.h"
+#include "bake/verify/GapBox.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
-#include <limits>
+#include <numeric>
 
 namespace tss::verify {
 
@@ -18,14 +17,11 @@ constexpr int mostHalvings = 12;
 class Checker {
 public:
     Checker(const Table& table, const PreparedTable& prepared)
-        : table_(table), cells_(prepared.cells()), tests_(tests(table)), lanes_(prepared.lanes()),
-          block_(tests_.size()), moving_(table.b.size()), low_(tests_.size()) {
-        for (std::size_t i = 0; i < tests_.size(); ++i)
-            block_[cells_.order()[i]] = static_cast<std::uint32_t>(i / lanes_);
-        double reach = 0;
-        for (const Sphere& s : table.a) size_ = std::max(size_, s.centre.norm() + s.radius);
-        for (const Sphere& s : table.b) reach = std::max(reach, s.centre.norm() + s.radius);
-        size_ = std::max(size_, coordinateBound(table.motion, reach));
+        : table_(table), cells_(prepared.cells()), gaps_(table), block_(gaps_.testCount()),
+          all_(gaps_.testCount()) {
+        std::iota(all_.begin(), all_.end(), 0u);
+        for (std::size_t i = 0; i < block_.size(); ++i)
+            block_[cells_.order()[i]] = static_cast<std::uint32_t>(i / prepared.lanes());
     }
 
     std::string refute() {
@@ -43,32 +39,6 @@ public:
     }
 
 private:
-    /// Bounds of every test's gap over the box: low_, and the smallest upper bound as the result.
-    double bound(const Box& box) {
-        const PoseBox pose(table_.motion, box, size_);
-        for (std::size_t i = 0; i < table_.b.size(); ++i) moving_[i] = pose.carry(table_.b[i].centre, true);
-        double high = std::numeric_limits<double>::infinity();
-        for (std::size_t p = 0; p < tests_.size(); ++p) {
-            const Sphere &a = table_.a[tests_[p].a], &b = table_.b[tests_[p].b];
-            const double reach = a.radius + b.radius + (table_.restGaps.empty() ? 0 : table_.restGaps[p]);
-            const MovingPoint& point = moving_[tests_[p].b];
-            const Vec3 apart = point.at - a.centre;
-            const double distance = apart.norm();
-            double along = 0, across = 0;
-            for (std::size_t k = 0; k < point.velocity.size(); ++k) {
-                along += std::abs(apart.dot(point.velocity[k])) * pose.half(k);
-                across += point.velocity[k].norm() * pose.half(k);
-            }
-            along = distance > 0 ? along / distance : across;
-            const double hair = 1e-15 * size_;
-            low_[p] = distance - std::min(point.move, along + point.bend) - reach - hair;
-            high = std::min(
-                high, std::min(distance + point.move, std::hypot(distance + along, across) + point.bend) -
-                          reach + hair);
-        }
-        return high;
-    }
-
     /// What the codes of the row claim and the bounds over the box do not give; empty: nothing.
     std::string unproven(std::uint32_t row, double high) const {
         const std::uint8_t reached = cells_.reachedCode(row);
@@ -77,12 +47,12 @@ private:
         if (reached < TableCells::farCode && cells_.code(high) > reached)
             return fmt::format("cell {} says that the smallest gap is smaller than it may be", row);
         std::uint8_t least = TableCells::farCode;
-        for (std::size_t p = 0; p < low_.size(); ++p) {
+        for (std::size_t p = 0; p < block_.size(); ++p) {
             const std::uint8_t claimed = cells_.blockCode(row, block_[p]);
             least = std::min(least, claimed);
-            if (cells_.code(low_[p]) < std::min(claimed, TableCells::nearCode))
+            if (cells_.code(gaps_.low(p)) < std::min(claimed, TableCells::nearCode))
                 return fmt::format("cell {} leaves out test {}, which may come nearer", row, p);
-            if (claimed > reached && !(low_[p] >= high))
+            if (claimed > reached && !(gaps_.low(p) >= high))
                 return fmt::format("cell {} leaves out test {}, which may be the nearest", row, p);
         }
         if (cells_.noneTouches(row) && least <= TableCells::contactCode)
@@ -91,7 +61,7 @@ private:
     }
 
     std::string refute(std::uint32_t row, const Box& box, int halvings) {
-        const std::string reason = unproven(row, bound(box));
+        const std::string reason = unproven(row, gaps_.bound(box, all_));
         if (reason.empty() || halvings == mostHalvings) return reason;
         // Across each DOF in turn: cells are about as wide in all of them.
         const std::size_t dofs = box.lower.size(), k = std::size_t(halvings) % dofs;
@@ -103,12 +73,9 @@ private:
 
     const Table& table_;
     const TableCells& cells_;
-    std::vector<SpherePair> tests_;
-    std::uint32_t lanes_;
+    GapBox gaps_;
     std::vector<std::uint32_t> block_; ///< of each test
-    double size_ = 0;
-    std::vector<MovingPoint> moving_; ///< one a sphere of B
-    std::vector<double> low_;         ///< one a test
+    std::vector<std::uint32_t> all_;   ///< the tests
 };
 
 /// The blocks hold every row once, to the bit.

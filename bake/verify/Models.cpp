@@ -10,30 +10,6 @@ namespace tss::verify {
 
 namespace {
 
-/// Calls visit(i, j, gap) for the pairs that overlap at a pose.
-template <typename Visit>
-void overlaps(const Models& m, const Pose& pose, Visit&& visit) {
-    if (m.a.empty() || m.b.empty()) return;
-    std::vector<std::pair<std::int32_t, std::int32_t>> stack{{m.treeA.root(), m.treeB.root()}};
-    while (!stack.empty()) {
-        const auto [ia, ib] = stack.back();
-        stack.pop_back();
-        const auto &x = m.treeA.balls[static_cast<std::size_t>(ia)],
-                   &y = m.treeB.balls[static_cast<std::size_t>(ib)];
-        const double gap = (pose * y.centre - x.centre).norm() - x.radius - y.radius;
-        if (gap > 1e-12 * m.size) continue;
-        if (x.first < 0 && y.first < 0) {
-            visit(SpherePair{x.sphere, y.sphere}, gap);
-        } else if (y.first < 0 || (x.first >= 0 && x.radius > y.radius)) {
-            stack.push_back({x.first, ib});
-            stack.push_back({x.second, ib});
-        } else {
-            stack.push_back({ia, y.first});
-            stack.push_back({ia, y.second});
-        }
-    }
-}
-
 /// The sphere of the set that is this one to the bit, or the one that it sticks out of least, and by how
 /// much.
 struct Match {
@@ -66,27 +42,20 @@ bool sameDof(const Dof& x, const Dof& y) {
 
 } // namespace
 
-Models::Models(const SphereSet& a, const SphereSet& b, const Motion& motion, RestOverlaps atRest)
-    : a(a), b(b), motion(motion), treeA(a), treeB(b), atRest(atRest) {
+Models::Models(const SphereSet& a, const SphereSet& b, const Motion& motion, const VerifyOptions& options)
+    : a(a), b(b), motion(motion), treeA(a), treeB(b), regionA(options.regionA), regionB(options.regionB),
+      depth(options.depth) {
     double reachA = 0, reachB = 0;
     for (const Sphere& s : a) reachA = std::max(reachA, s.centre.norm() + s.radius);
     for (const Sphere& s : b) reachB = std::max(reachB, s.centre.norm() + s.radius);
     size = reachA + coordinateBound(motion, reachB);
     if (!a.empty() && !b.empty()) extent = treeA.balls.back().radius + treeB.balls.back().radius;
-    if (atRest == RestOverlaps::Collide) return;
-    const std::vector<double> rest = restValues(motion);
-    overlaps(*this, tss::pose(motion, rest), [&](SpherePair pair, double gap) {
-        if (gap < 0) restGaps[pair] = gap;
-    });
 }
 
 double Models::reach(SpherePair pair) const {
     const double sum = a[pair.a].radius + b[pair.b].radius;
-    const auto at = restGaps.find(pair);
-    if (at == restGaps.end()) return sum;
-    if (atRest == RestOverlaps::Ignore) return -1;
-    // What the baker may leave out: a slack of 1e-6 of the radii below the gap at rest.
-    return sum + at->second - 1e-6 * sum;
+    if (regionA.empty() || regionB.empty() || !regionA[pair.a] || !regionB[pair.b]) return sum;
+    return depth < 0 ? -1 : sum - depth;
 }
 
 std::vector<Test> matchTests(const Models& models, const Table& table, double band, std::string& reason) {
@@ -110,11 +79,7 @@ std::vector<Test> matchTests(const Models& models, const Table& table, double ba
             Test test{table.a[i].centre, table.b[j].centre, table.a[i].radius + table.b[j].radius + rest, {}};
             const SpherePair pair{matchA[i].index, matchB[j].index};
             if (matchA[i].same && matchB[j].same) test.same = pair;
-            // A pair with an offset may report as late as its slack allows, but no earlier than its own gap
-            // at rest.
-            const double sum = models.a[pair.a].radius + models.b[pair.b].radius;
-            const double latest = models.reach(pair) + (models.restGaps.count(pair) ? 2e-6 * sum : 0);
-            if (reason.empty() && test.reach > latest + 2 * table.epsilon + band)
+            if (reason.empty() && test.reach > models.reach(pair) + 2 * table.epsilon + band)
                 reason = "test " + std::to_string(k) + " of the table reports contact before its pair does";
             tests.push_back(test);
         }

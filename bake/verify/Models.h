@@ -2,8 +2,6 @@
 #include "bake/verify/BallTree.h"
 #include "bake/verify/Verify.h"
 
-#include <map>
-
 namespace tss::verify {
 
 /// The two whole sphere sets and when a pair of theirs is in contact.
@@ -11,12 +9,12 @@ struct Models {
     const SphereSet &a, &b;
     const Motion& motion;
     BallTree treeA, treeB;
-    RestOverlaps atRest;
-    std::map<SpherePair, double> restGaps; ///< of pairs that overlap at rest: their gap there
-    double size = 0;                       ///< a bound for every coordinate in A's frame
-    double extent = 0;                     ///< of both bodies
+    std::vector<char> regionA, regionB; ///< as in VerifyOptions
+    double depth;
+    double size = 0;   ///< a bound for every coordinate in A's frame
+    double extent = 0; ///< of both bodies
 
-    Models(const SphereSet& a, const SphereSet& b, const Motion& motion, RestOverlaps atRest);
+    Models(const SphereSet& a, const SphereSet& b, const Motion& motion, const VerifyOptions& options);
 
     /// The distance of centres at which the pair's contact begins; < 0: never.
     double reach(SpherePair pair) const;

@@ -70,6 +70,7 @@ PoseBox::PoseBox(const Motion& motion, const Box& box, double size) : base_(moti
         error_ += 8 * off * size;
     }
     double outer = 0;
+    pose_ = Pose::Identity();
     for (std::size_t k = 0; k < motion.dofCount(); ++k) {
         middle_.push_back(box.middle(k));
         links_.push_back(makeLink(motion.dofs[k], box.lower[k], box.upper[k], middle_[k]));
@@ -79,7 +80,10 @@ PoseBox::PoseBox(const Motion& motion, const Box& box, double size) : base_(moti
         turnBend_ += 0.5 * angle * angle + angle * outer;
         if (link.bent) turnBend_ = std::numeric_limits<double>::infinity();
         outer += angle;
+        spins_[k] = pose_.linear() * link.spin;
+        pose_ = pose_ * link.pose;
     }
+    pose_ = pose_ * base_;
     turn_ = std::min(turn_, 2.0) + 1e-14;
     turnBend_ = turnBend_ * outward + 1e-14;
 }
@@ -139,7 +143,6 @@ MovingPoint PoseBox::carry(const Vec3& y, bool velocities) const {
     MovingPoint point;
     point.at = base_ * y;
     double bend = 0;
-    if (velocities) point.velocity.assign(links_.size(), Vec3::Zero());
     for (std::size_t k = links_.size(); k-- > 0;) {
         const Link& link = links_[k];
         const double angle = link.spinRate * link.half;

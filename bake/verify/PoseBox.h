@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/motion/Motion.h"
+#include "bake/motion/MotionBound.h"
 
 namespace tss::verify {
 
@@ -21,7 +21,7 @@ struct MovingPoint {
     Vec3 at = Vec3::Zero();
     double move = 0; ///< never farther than this from `at`
     double bend = 0; ///< never farther than this from at + velocity . (q - middle); infinite across knots
-    std::vector<Vec3> velocity; ///< one a DOF, at the middle
+    std::array<Vec3, maxDofs> velocity; ///< one a DOF, at the middle; of those asked for
 };
 
 /// The rigid motion over one box, worked out by carrying points through the chain DOF by DOF.
@@ -41,6 +41,14 @@ public:
     /// no more than `turnBend`.
     double turn() const { return turn_; }
     double turnBend() const { return turnBend_; }
+
+    /// T(q) at the middle, to within error().
+    const Pose& pose() const { return pose_; }
+    /// How fast a DOF turns B at the middle, in A's frame: a point at x, fixed in B, has the velocity of
+    /// another at y and spin x (x - y) more.
+    const Vec3& spin(std::size_t k) const { return spins_[k]; }
+    /// What rounding may do to a point that is carried, scene units; in every bound already.
+    double error() const { return error_; }
 
     /// Where to cut the box along a DOF: at the knot of a path nearest to the middle, if one is inside.
     double cut(std::size_t k) const { return links_[k].cut; }
@@ -63,6 +71,8 @@ private:
     std::vector<double> middle_;
     double error_;
     double turn_ = 0, turnBend_ = 0;
+    Pose pose_;
+    std::array<Vec3, maxDofs> spins_;
 };
 
 /// A bound for every coordinate that a point of B with |y| <= reach meets on its way into A's frame.

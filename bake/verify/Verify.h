@@ -6,11 +6,11 @@
 
 namespace tss {
 
-/// What the baker was told to do with sphere pairs that overlap at rest (METHOD 2.4).
-enum class RestOverlaps { Offset, Ignore, Collide };
-
 struct VerifyOptions {
-    RestOverlaps atRest = RestOverlaps::Offset;
+    /// For each sphere whether it stands for what overlaps at rest (METHOD 2.4); empty: none does. Pairs of
+    /// those touch when they are deeper in each other than `depth`, scene units; < 0: never.
+    std::vector<char> regionA, regionB;
+    double depth = -1;
     double band = -1; ///< rounding band granted on top of the table's epsilon, scene units; < 0: 1e-9 of the
                       ///< coordinates' size
     std::uint64_t cells = 0; ///< give up after about so many cells of Q; 0: never

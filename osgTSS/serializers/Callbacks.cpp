@@ -9,6 +9,7 @@
 #include <osgDB/Serializer>
 #include <osgTSS/DriveCallback>
 #include <osgTSS/JointCallback>
+#include <osgTSS/LimitsCallback>
 #include <osgTSS/MuscleCallback>
 #include <osgTSS/SkinCallback>
 #include <osgTSS/ViewerCallback>
@@ -20,6 +21,13 @@ REGISTER_OBJECT_WRAPPER(osgTSS_DriveCallback, new osgTSS::DriveCallback, osgTSS:
     ADD_OBJECT_SERIALIZER(Scene, osgTSS::Scene, nullptr);
 }
 } // namespace driveCallback
+
+namespace limitsCallback {
+REGISTER_OBJECT_WRAPPER(osgTSS_LimitsCallback, new osgTSS::LimitsCallback, osgTSS::LimitsCallback,
+                        "osg::Object osg::Callback osgTSS::LimitsCallback") {
+    ADD_OBJECT_SERIALIZER(Scene, osgTSS::Scene, nullptr);
+}
+} // namespace limitsCallback
 
 namespace viewerCallback {
 REGISTER_OBJECT_WRAPPER(osgTSS_ViewerCallback, new osgTSS::ViewerCallback, osgTSS::ViewerCallback,

@@ -15,6 +15,11 @@ struct Collector {
     bool mirrored = false;
     tss::TriangleMesh* mesh = nullptr;
     std::map<osg::Vec3, int> vertexAt;
+    std::size_t dropped = 0;
+
+    bool finite(const osg::Vec3& point) const {
+        return point.valid() && toCore(osg::Vec3d(point) * *matrix).allFinite();
+    }
 
     int vertex(const osg::Vec3& point) {
         const auto [entry, fresh] = vertexAt.emplace(point, static_cast<int>(mesh->vertices.size()));
@@ -23,6 +28,10 @@ struct Collector {
     }
 
     void operator()(const osg::Vec3& a, const osg::Vec3& b, const osg::Vec3& c) {
+        if (!finite(a) || !finite(b) || !finite(c)) {
+            ++dropped;
+            return;
+        }
         const int i = vertex(a), j = vertex(b), k = vertex(c);
         if (i == j || j == k || k == i) return; // strips are stitched together with such
         mesh->triangles.push_back(mirrored ? tss::Tri(i, k, j) : tss::Tri(i, j, k));
@@ -38,14 +47,15 @@ double determinant(const osg::Matrixd& m) {
 
 } // namespace
 
-void collectTriangles(const osg::Drawable& drawable, const osg::Matrixd& matrix, double scale,
-                      tss::TriangleMesh& mesh) {
+std::size_t collectTriangles(const osg::Drawable& drawable, const osg::Matrixd& matrix, double scale,
+                             tss::TriangleMesh& mesh) {
     osg::TriangleFunctor<Collector> functor;
     functor.matrix = &matrix;
     functor.scale = scale;
     functor.mirrored = (determinant(matrix) < 0) != (scale < 0);
     functor.mesh = &mesh;
     drawable.accept(functor);
+    return functor.dropped;
 }
 
 } // namespace osgTSS

@@ -9,7 +9,8 @@ namespace osgTSS {
 /// Adds the triangles of a drawable to a mesh, every point times the matrix and then the scale. Equal points
 /// of one drawable become one vertex; a matrix that mirrors turns the triangles round, so that outside stays
 /// outside.
-void collectTriangles(const osg::Drawable& drawable, const osg::Matrixd& matrix, double scale,
-                      tss::TriangleMesh& mesh);
+/// Returns how many were left out since a corner is no finite point.
+std::size_t collectTriangles(const osg::Drawable& drawable, const osg::Matrixd& matrix, double scale,
+                             tss::TriangleMesh& mesh);
 
 } // namespace osgTSS

@@ -20,6 +20,7 @@
 #include <osgTSS/Overlay>
 
 #include <algorithm>
+#include <sstream>
 
 namespace osgTSS {
 
@@ -90,19 +91,21 @@ void ConstraintVisitor::apply(osg::Transform& node) {
     begin(node);
     if (dynamic_cast<osg::AutoTransform*>(&node)) return; // turns to the eye, which is no motion of a body
     std::string why;
+    bool still = false, moved = false;
+    node.getUserValue("osgTSS:static", still);
+    node.getUserValue("osgTSS:moved", moved);
     try {
-        if (auto found = jointsOf(node, *_channels, _model.timeCodesPerSecond, why))
-            return enterJoint(node, std::move(*found));
+        if (!still)
+            if (auto found = jointsOf(node, *_channels, _model.timeCodesPerSecond, why))
+                return enterJoint(node, std::move(*found));
     } catch (const tss::InputError& error) {
-        refuse(error.message);
+        why = error.message;
     }
-    if (!why.empty())
-        OSG_NOTICE << "osgTSS: " << pathText() << " moves, but is no joint: " << why << std::endl;
+    if (!why.empty() && _seen.insert(&node).second) warn("it moves, but is no joint: " + why);
     osg::Matrix matrix =
         node.getReferenceFrame() == osg::Transform::RELATIVE_RF ? _place.toBody : osg::Matrixd();
     node.computeLocalToWorldMatrix(matrix, this);
-    if (node.getUpdateCallback() || node.getDataVariance() == osg::Object::DYNAMIC)
-        return enterMoved(node, matrix);
+    if (!still && (node.getUpdateCallback() || moved || !why.empty())) return enterMoved(node, matrix);
     Place place = _place;
     place.toBody = matrix;
     enter(node, place);
@@ -138,7 +141,7 @@ void ConstraintVisitor::apply(osg::Drawable& drawable) {
     enter(drawable, place);
     tss::Body& body = _model.bodies[_place.body];
     const bool first = body.mesh.empty();
-    collectTriangles(drawable, place.toBody, place.scale, body.mesh);
+    _dropped[_place.body] += collectTriangles(drawable, place.toBody, place.scale, body.mesh);
     if (body.mesh.empty()) return;
     const bool visible = place.visible && drawable.getNodeMask() != 0;
     body.visible = first ? visible : body.visible || visible;
@@ -153,15 +156,26 @@ void ConstraintVisitor::apply(osg::Drawable& drawable) {
 
 void ConstraintVisitor::enterJoint(osg::Transform& node, FoundJoints found) {
     if (!_seen.insert(&node).second) {
-        OSG_NOTICE << "osgTSS: joint " << pathText()
-                   << " is reached over several parents; it was extracted at the first, the others follow it"
-                   << std::endl;
+        if (!_quiet)
+            OSG_NOTICE
+                << "osgTSS: joint " << pathText()
+                << " is reached over several parents; it was extracted at the first, the others follow it"
+                << std::endl;
         return;
     }
     if (node.getReferenceFrame() != osg::Transform::RELATIVE_RF)
-        refuse("expected a transform relative to its parent");
+        return warn("what hangs below is left out: expected a transform relative to its parent");
     const auto parent = toSimilarity(_place.toBody);
-    if (!parent) refuse("the transforms above it shear, or scale axes differently: expected equal scales");
+    if (!parent)
+        return warn("what hangs below is left out: the transforms above it shear, or scale axes differently");
+    const double off = std::max(found.off, parent->off);
+    if (off > 1e-6) {
+        std::ostringstream text;
+        text << "its matrices are rotations and equal scales to " << off << " only; the nearest are taken";
+        warn(text.str());
+    }
+    if (!found.unlimited.empty())
+        _unlimited += (_unlimited.empty() ? "" : ", ") + pathText() + " (" + found.unlimited + ")";
 
     const double scale = _place.scale * parent->scale;
     tss::Pose toBody0 = parent->pose;
@@ -204,7 +218,7 @@ int ConstraintVisitor::addJoint(tss::Joint joint, int body0, osg::Node& node, do
 void ConstraintVisitor::enterMoved(osg::Transform& node, const osg::Matrixd& matrix) {
     const auto similarity = toSimilarity(matrix);
     if (!similarity)
-        refuse("a transform that moves shears, or scales axes differently: expected equal scales");
+        return warn("what hangs below is left out: it moves, and shears or scales axes differently");
     Place place = _place;
     place.scale = _place.scale * similarity->scale;
     place.toBody = osg::Matrixd();
@@ -224,6 +238,7 @@ int ConstraintVisitor::addBody(osg::Node& node, const char* fallback, double sca
     _model.bodies.push_back(body);
     _bodyNodes.push_back({&node, scale});
     _groups.emplace_back();
+    _dropped.push_back(0);
     _jointAbove.push_back(-1);
     return static_cast<int>(_model.bodies.size()) - 1;
 }
@@ -263,6 +278,14 @@ void ConstraintVisitor::addPair(int a, int b) {
         ++_tooManyDofs;
         return;
     }
+    try {
+        tss::checkMotion(tss::pairMotion(_model, pair));
+    } catch (const tss::InputError& error) {
+        if (!_quiet)
+            OSG_WARN << "osgTSS: the pair of " << _model.bodies[a].path << " and " << _model.bodies[b].path
+                     << " is left out: " << error.message << std::endl;
+        return;
+    }
     if (pair.joints.size() == 1) {
         pair.path = _model.joints[pair.joints[0]].path;
     } else {
@@ -299,12 +322,17 @@ void ConstraintVisitor::addPairs() {
         return body;
     };
     const int count = static_cast<int>(_model.bodies.size());
+    for (int body = 0; body < count; ++body)
+        if (_dropped[body] > 0 && !_quiet)
+            OSG_WARN << "osgTSS: the pairs of " << _model.bodies[body].path
+                     << " are left out: " << _dropped[body]
+                     << " of its triangles have corners that are no numbers" << std::endl;
     for (int b = 0; b < count; ++b)
         for (int a = 0; a < b; ++a)
-            if (!_model.bodies[a].mesh.empty() && !_model.bodies[b].mesh.empty() && top(a) == top(b) &&
-                wanted(a, b))
+            if (_dropped[a] == 0 && _dropped[b] == 0 && !_model.bodies[a].mesh.empty() &&
+                !_model.bodies[b].mesh.empty() && top(a) == top(b) && wanted(a, b))
                 addPair(a, b);
-    if (_tooManyDofs > 0)
+    if (_tooManyDofs > 0 && !_quiet)
         OSG_NOTICE << "osgTSS: " << _tooManyDofs
                    << " pairs of bodies are left out: the joints between them have more "
                    << "than " << tss::maxDofs << " degrees of freedom" << std::endl;
@@ -313,6 +341,10 @@ void ConstraintVisitor::addPairs() {
 const tss::SceneModel& ConstraintVisitor::getModel() {
     if (_finished) return _model;
     _finished = true;
+    if (!_unlimited.empty() && !_quiet)
+        OSG_WARN << "osgTSS: these slide without limits and are taken to stay where they are: " << _unlimited
+                 << "; limits are given by the user value osgTSS:limits (\"transX:0:5\"), or by the option "
+                 << "limits=NAME:transX:0:5 on loading" << std::endl;
     addPairs();
     for (const tss::Joint& joint : _model.joints)
         for (const tss::TimeSamples& drive : joint.drives)
@@ -327,8 +359,8 @@ std::string ConstraintVisitor::pathText() const {
     return text;
 }
 
-void ConstraintVisitor::refuse(const std::string& why) const {
-    throw tss::InputError({"", "", pathText()}, why);
+void ConstraintVisitor::warn(const std::string& why) const {
+    if (!_quiet) OSG_WARN << "osgTSS: " << pathText() << ": " << why << std::endl;
 }
 
 } // namespace osgTSS

@@ -28,14 +28,18 @@ std::vector<double> valuesOf(const tss::SceneModel& model, const tss::JointPlan&
 void ContactReport::watch(const Scene& scene, const tss::JointPlan& plan, osg::NodeVisitor& visitor) {
     const tss::SceneModel& model = scene.getModel();
     const osg::NodePath& path = visitor.getNodePath();
-    // Bodies may stand above the node of the callback: up to the root that the scene was installed on.
-    osg::Node* root = path.empty() ? nullptr : path.front();
-    for (osg::Node* node : path)
-        if (Scene::on(*node) == &scene) root = node;
-    const BodyNodes nodes = root ? findBodyNodes(*root) : BodyNodes{};
+    // Bodies may stand above the node of the callback, up to the root that the scene was installed on; of
+    // several machines of one kind the nearest is meant.
+    std::vector<BodyNodes> nodes;
+    for (std::size_t k = path.size(); k-- > 0;) {
+        nodes.push_back(findBodyNodes(*path[k]));
+        if (Scene::on(*path[k]) == &scene) break;
+    }
     const auto side = [&](int body) {
-        const auto found = nodes.frames.find(model.bodies[body].path);
-        return found == nodes.frames.end() ? Side{} : Side{found->second.node, found->second.scale};
+        for (const BodyNodes& below : nodes)
+            if (const auto found = below.frames.find(model.bodies[body].path); found != below.frames.end())
+                return Side{found->second.node, found->second.scale};
+        return Side{};
     };
     for (const tss::JointPlan::Group& group : plan.groups) {
         std::vector<Watched> watched;

@@ -1,6 +1,7 @@
 #include <Eigen/SVD>
 #include <osgTSS/Convert>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -22,15 +23,15 @@ osg::Matrixd toOsg(const tss::Pose& pose) {
 }
 
 std::optional<Similarity> toSimilarity(const osg::Matrixd& matrix) {
-    constexpr double tolerance = 1e-6;
     Eigen::Matrix3d linear;
     tss::Vec3 translation;
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 3; ++column) linear(row, column) = matrix(column, row);
         translation[row] = matrix(3, row);
-        if (matrix(row, 3) != 0) return std::nullopt;
+        if (!(std::abs(matrix(row, 3)) <= 1e-9)) return std::nullopt;
     }
-    if (matrix(3, 3) != 1 || !linear.allFinite() || !translation.allFinite()) return std::nullopt;
+    if (!(std::abs(matrix(3, 3) - 1) <= 1e-9) || !linear.allFinite() || !translation.allFinite())
+        return std::nullopt;
     Similarity result;
     result.pose.translation() = translation;
     const Eigen::Matrix3d square = linear.transpose() * linear;
@@ -41,12 +42,13 @@ std::optional<Similarity> toSimilarity(const osg::Matrixd& matrix) {
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
     // A reference gcc 12 takes for uninitialised. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
     const tss::Vec3 scales = svd.singularValues();
-    if (!(scales[2] > 0) || scales[0] - scales[2] > tolerance * scales[0]) return std::nullopt;
+    if (!(scales[2] > 0) || scales[0] - scales[2] > fewDigits * scales[0]) return std::nullopt;
     const Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
     const double hand = rotation.determinant() < 0 ? -1 : 1;
     result.pose.linear() = hand * rotation;
     const double scale = scales.mean();
-    result.scale = hand * (std::abs(scale - 1) < tolerance ? 1 : scale);
+    result.off = (scales[0] - scales[2]) / scales[0];
+    result.scale = hand * (std::abs(scale - 1) < std::max(1e-6, result.off) ? 1 : scale);
     return result;
 }
 

@@ -1,9 +1,13 @@
 #include "DofTransformJoint.h"
 
+#include "DofWords.h"
+
 #include "bake/base/Error.h"
 
+#include <osg/ValueObject>
 #include <osg/observer_ptr>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -71,45 +75,65 @@ std::array<Axis, 6> axesInOrder(const osgSim::DOFTransform& node) {
             turn(node, hpr[0]),   turn(node, hpr[1]),   turn(node, hpr[2])};
 }
 
-tss::Dof dofOf(const Axis& axis) {
+const char* const limitsTag = "osgTSS:limits";
+const char* const writtenWord = "written"; ///< at its begin: the node's limits hold whatever its flags say
+
+std::string nameOf(const Axis& axis) {
+    return (axis.kind == tss::DofKind::Rotation ? "rot" : "trans") +
+           std::string(1, char('X' + axis.direction));
+}
+
+/// What an application says of the axis, over what the node does.
+const tss::Dof* given(const Axis& axis, const std::vector<tss::Dof>& limits) {
+    for (const tss::Dof& dof : limits)
+        if (dof.name == nameOf(axis)) return &dof;
+    return nullptr;
+}
+
+/// The DOF that an axis is. One that the node does not limit turns without end: a whole turn. If it slides,
+/// the limits that it has all the same are what tables are made for; without any it is taken to stay (lower =
+/// upper) and named in `unlimited`.
+tss::Dof dofOf(const Axis& axis, const std::vector<tss::Dof>& limits, std::string& unlimited) {
     tss::Dof dof;
     dof.kind = axis.kind;
-    dof.name =
-        (axis.kind == tss::DofKind::Rotation ? "rot" : "trans") + std::string(1, char('X' + axis.direction));
+    dof.name = nameOf(axis);
     dof.axis = tss::Vec3::Unit(axis.direction);
     dof.lower = axis.lower;
     dof.upper = axis.upper;
-    const bool animated = axis.increment != 0;
-    if (!(axis.lower < axis.upper)) {
-        if (!axis.limited && animated) {
-            if (axis.kind == tss::DofKind::Translation)
-                throw tss::InputError("DOF " + dof.name +
-                                      " slides without limits: expected minimum < maximum");
-            dof.lower = -osg::PI;
-            dof.upper = osg::PI;
-        } else {
-            dof.lower = dof.upper = axis.current;
-        }
+    double current = axis.current;
+    if (const tss::Dof* said = given(axis, limits)) {
+        dof.lower = said->lower;
+        dof.upper = said->upper;
+    } else if (!axis.limited && axis.kind == tss::DofKind::Rotation) {
+        dof.lower = -osg::PI;
+        dof.upper = osg::PI;
+    } else if (!(axis.lower < axis.upper)) {
+        dof.lower = dof.upper = axis.current;
+        if (!axis.limited) unlimited += (unlimited.empty() ? "" : " ") + dof.name;
     }
-    dof.rest = std::min(std::max<double>(axis.current, dof.lower), dof.upper);
+    if (tss::wholeTurn(dof)) current = tss::nearestTurn(current, (dof.lower + dof.upper) / 2);
+    dof.rest = std::min(std::max(current, dof.lower), dof.upper);
     return dof;
 }
 
-/// To and fro between the limits, upwards first, for one period.
-tss::TimeSamples drive(const tss::Dof& dof, double increment, double rate) {
+/// As the node moves: to and fro between its limits, upwards first, for one period; round and round without
+/// limits.
+tss::TimeSamples drive(const tss::Dof& dof, const Axis& axis, double rate) {
     tss::TimeSamples samples;
-    if (!(increment > 0) || !(dof.lower < dof.upper)) return samples;
-    const double codesPerUnit = rate / increment, range = dof.upper - dof.lower;
+    if (!(axis.increment > 0) || !(dof.lower < dof.upper)) return samples;
+    const double codesPerUnit = rate / axis.increment, range = dof.upper - dof.lower;
     const double top = (dof.upper - dof.rest) * codesPerUnit;
     const auto add = [&](double time, double value) {
         if (!samples.times.empty() && !(time > samples.times.back())) return;
         samples.times.push_back(time);
         samples.values.push_back(value);
     };
+    const bool endless = !axis.limited && tss::wholeTurn(dof);
+    const double back = endless ? 1e-6 * range * codesPerUnit : range * codesPerUnit;
     add(0, dof.rest);
     add(top, dof.upper);
-    add(top + range * codesPerUnit, dof.lower);
-    add(2 * range * codesPerUnit, dof.rest);
+    add(top + back, dof.lower);
+    add(endless ? range * codesPerUnit : 2 * range * codesPerUnit, dof.rest);
     return samples;
 }
 
@@ -118,13 +142,18 @@ struct DofSlot {
     bool rotation;
     int component; ///< of HPR or of translate
     bool fullTurn; ///< limits of a whole turn or more: angles are told apart up to whole turns only
-    double middle; ///< of the limits
+    tss::Dof dof;
 };
+
+/// The nearest of the angles that a slot does not tell apart.
+double nearest(const DofSlot& slot, double value, double to) {
+    return slot.fullTurn ? tss::nearestTurn(value, to) : value;
+}
 
 class DofTransformNode : public JointNode {
 public:
     DofTransformNode(osgSim::DOFTransform& node, std::vector<DofSlot> slots)
-        : _node(&node), _slots(std::move(slots)) {}
+        : _node(&node), _slots(std::move(slots)), _scale(node.getCurrentScale()) {}
 
     bool valid() const override { return _node.valid(); }
     std::size_t dofCount() const override { return _slots.size(); }
@@ -142,18 +171,44 @@ public:
         for (const DofSlot& slot : _slots) {
             const double value =
                 (slot.rotation ? _node->getCurrentHPR() : _node->getCurrentTranslate())[slot.component];
-            values.push_back(value - turns(slot, value));
+            values.push_back(nearest(slot, value, (slot.dof.lower + slot.dof.upper) / 2));
         }
         return values;
     }
     std::vector<double> shown() const override { return asked(); }
+
+    std::optional<Stray> stray() const override {
+        const std::vector<double> values = asked();
+        for (int turn = 0; turn < 2; ++turn)
+            for (int i = 0; i < 3; ++i) {
+                const bool known = std::any_of(_slots.begin(), _slots.end(), [&](const DofSlot& slot) {
+                    return slot.rotation == (turn == 1) && slot.component == i;
+                });
+                const float value = (turn ? _node->getCurrentHPR() : _node->getCurrentTranslate())[i];
+                if (!known && value != 0)
+                    return Stray{std::string("its ") + (turn ? "turn" : "slide") + " " +
+                                     (turn ? "HPR" : "XYZ")[i] + " is " + std::to_string(value) +
+                                     ", and was taken to stay 0",
+                                 true};
+            }
+        if (_node->getCurrentScale() != _scale) return Stray{"its scale has changed", true};
+        for (std::size_t k = 0; k < _slots.size(); ++k) {
+            auto beyond = beyondLimits(_slots[k].dof, values[k]);
+            if (!beyond) continue;
+            beyond->unserved = _slots[k].dof.lower == _slots[k].dof.upper;
+            return beyond;
+        }
+        return std::nullopt;
+    }
 
     void show(const std::vector<double>& values) override {
         _askedHPR = _shownHPR = _node->getCurrentHPR();
         _askedTranslate = _shownTranslate = _node->getCurrentTranslate();
         for (std::size_t k = 0; k < _slots.size(); ++k) {
             float& value = (_slots[k].rotation ? _shownHPR : _shownTranslate)[_slots[k].component];
-            value = static_cast<float>(values[k] + turns(_slots[k], value));
+            // What was not changed keeps its bits.
+            if (values[k] != nearest(_slots[k], value, (_slots[k].dof.lower + _slots[k].dof.upper) / 2))
+                value = static_cast<float>(nearest(_slots[k], values[k], value));
         }
         _stopped = _shownHPR != _askedHPR || _shownTranslate != _askedTranslate;
         if (!_stopped) return;
@@ -162,12 +217,9 @@ public:
     }
 
 private:
-    static double turns(const DofSlot& slot, double value) {
-        return slot.fullTurn ? wholeTurns(value, slot.middle) : 0;
-    }
-
     osg::observer_ptr<osgSim::DOFTransform> _node;
     std::vector<DofSlot> _slots;
+    osg::Vec3 _scale;
     bool _stopped = false;
     osg::Vec3 _askedHPR, _askedTranslate, _shownHPR, _shownTranslate;
 };
@@ -183,20 +235,29 @@ FoundJoints dofTransformJoint(const osgSim::DOFTransform& node, double timeCodes
         (node.getAnimationOn() && node.getIncrementScale() != osg::Vec3()))
         throw tss::InputError("expected a scale that is the same in all directions and at all times; tables "
                               "are for rigid bodies");
+    FoundJoints found;
+    found.scale = scale.x();
     tss::Joint joint;
-    joint.frame0 = rigid(node.getInversePutMatrix(), "inverse put matrix");
+    joint.frame0 = rigid(node.getInversePutMatrix(), "inverse put matrix", &found.off);
     // Scaled after the put matrix: x -> s (put x) = (put with its translation scaled) (s x).
-    tss::Pose put = rigid(node.getPutMatrix(), "put matrix");
+    tss::Pose put = rigid(node.getPutMatrix(), "put matrix", &found.off);
     put.translation() *= scale.x();
     joint.frame1 = put.inverse(Eigen::Isometry);
-    for (const Axis& axis : axesInOrder(node)) {
-        const tss::Dof dof = dofOf(axis);
+    std::string words;
+    node.getUserValue(limitsTag, words);
+    const bool written = words.rfind(writtenWord, 0) == 0;
+    if (written) words.erase(0, std::string(writtenWord).size());
+    const std::vector<tss::Dof> limits = parseDofWords(words, limitsTag);
+    for (Axis axis : axesInOrder(node)) {
+        axis.limited = axis.limited || written;
+        const tss::Dof dof = dofOf(axis, limits, found.unlimited);
         if (dof.lower == 0 && dof.upper == 0) continue; // locked where it does nothing
-        joint.drives.push_back(node.getAnimationOn() ? drive(dof, axis.increment, timeCodesPerSecond)
+        joint.drives.push_back(node.getAnimationOn() ? drive(dof, axis, timeCodesPerSecond)
                                                      : tss::TimeSamples{});
         joint.dofs.push_back(dof);
     }
-    return {{joint}, scale.x()};
+    found.joints = {joint};
+    return found;
 }
 
 /// Heading turns about Z, pitch about X, roll about Y.
@@ -210,8 +271,7 @@ std::unique_ptr<JointNode> makeDofTransformNode(osgSim::DOFTransform& node, cons
             return nullptr;
         const bool rotation = dof.kind == tss::DofKind::Rotation;
         const bool fullTurn = rotation && dof.upper - dof.lower >= 2 * osg::PI * (1 - 1e-6);
-        slots.push_back({rotation, rotation ? componentOfAxis[axis] : static_cast<int>(axis), fullTurn,
-                         (dof.lower + dof.upper) / 2});
+        slots.push_back({rotation, rotation ? componentOfAxis[axis] : static_cast<int>(axis), fullTurn, dof});
     }
     return std::make_unique<DofTransformNode>(node, std::move(slots));
 }

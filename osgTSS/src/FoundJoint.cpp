@@ -4,6 +4,9 @@
 
 #include <osgTSS/Convert>
 
+#include <algorithm>
+#include <cmath>
+
 namespace osgTSS {
 
 void scaleLengths(tss::Joint& joint, double factor) {
@@ -18,9 +21,11 @@ void scaleLengths(tss::Joint& joint, double factor) {
     }
 }
 
-tss::Pose rigid(const osg::Matrixd& matrix, const char* what) {
+tss::Pose rigid(const osg::Matrixd& matrix, const char* what, double* off) {
     const auto similarity = toSimilarity(matrix);
-    if (!similarity || similarity->scale != 1)
+    const double grown = similarity ? std::abs(similarity->scale - 1) : 0;
+    if (off && similarity) *off = std::max({*off, similarity->off, grown});
+    if (!similarity || grown > fewDigits)
         throw tss::InputError(std::string(what) +
                               ": expected a rigid matrix, without scale, shear or mirror");
     return similarity->pose;

@@ -3,6 +3,7 @@
 
 #include <osg/Matrixd>
 
+#include <string>
 #include <vector>
 
 namespace osgTSS {
@@ -12,12 +13,15 @@ namespace osgTSS {
 struct FoundJoints {
     std::vector<tss::Joint> joints; ///< without bodies and paths
     double scale = 1;               ///< of what hangs below, the same at all times; negative: mirrored too
+    std::string unlimited{}; ///< axes that slide without limits, taken to stay where they are; empty: none
+    double off = 0;          ///< how far a matrix in it is from the rotation that is taken for it
 };
 
 /// The lengths of a joint in other units; a negative factor is a mirror, which turns pass unchanged.
 void scaleLengths(tss::Joint& joint, double factor);
 
-/// The matrix as a rigid motion. Throws tss::InputError that begins with `what` for another.
-tss::Pose rigid(const osg::Matrixd& matrix, const char* what);
+/// The matrix as a rigid motion, the nearest one where it is written with few digits (`off`: raised to how
+/// far that is). Throws tss::InputError that begins with `what` for another.
+tss::Pose rigid(const osg::Matrixd& matrix, const char* what, double* off = nullptr);
 
 } // namespace osgTSS

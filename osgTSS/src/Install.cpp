@@ -1,43 +1,41 @@
-#include "BodyNodes.h"
+#include "AnimationPathJoint.h"
 #include "JointNodes.h"
+#include "Machines.h"
 
 #include <osg/NodeVisitor>
 #include <osg/Notify>
-#include <osgTSS/ConstraintVisitor>
 #include <osgTSS/Install>
 #include <osgTSS/JointCallback>
+#include <osgTSS/JointTransform>
+#include <osgTSS/LimitsCallback>
 #include <osgTSS/SkinCallback>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace osgTSS {
 
 namespace {
 
-/// Pairs with a table, grouped so that pairs that share a joint are together; groups and pairs in the scene's
-/// order.
-std::vector<std::vector<int>> groupPairs(const tss::SceneModel& model) {
-    std::vector<int> group(model.pairs.size());
-    std::iota(group.begin(), group.end(), 0);
-    std::vector<int> firstOfJoint(model.joints.size(), -1);
-    const auto root = [&](int i) {
+/// Places of pairs with a table, grouped so that those that share a joint's node are together; groups and
+/// places in the scene's order.
+std::vector<std::vector<PairPlace>> grouped(const std::vector<PairPlace>& places) {
+    std::vector<std::size_t> group(places.size());
+    std::iota(group.begin(), group.end(), std::size_t(0));
+    std::map<const osg::Node*, std::size_t> firstOfNode;
+    const auto root = [&](std::size_t i) {
         while (group[i] != i) i = group[i];
         return i;
     };
-    for (std::size_t p = 0; p < model.pairs.size(); ++p) {
-        if (!model.pairs[p].table) continue;
-        for (int joint : model.pairs[p].joints) {
-            int& first = firstOfJoint[joint];
-            if (first < 0) first = static_cast<int>(p);
-            const int a = root(first), b = root(static_cast<int>(p));
+    for (std::size_t p = 0; p < places.size(); ++p)
+        for (const osg::Node* node : places[p].joints) {
+            const std::size_t a = root(firstOfNode.emplace(node, p).first->second), b = root(p);
             group[std::max(a, b)] = std::min(a, b);
         }
-    }
-    std::vector<std::vector<int>> groups(model.pairs.size());
-    for (std::size_t p = 0; p < model.pairs.size(); ++p)
-        if (model.pairs[p].table) groups[root(static_cast<int>(p))].push_back(static_cast<int>(p));
-    std::erase_if(groups, [](const auto& pairs) { return pairs.empty(); });
+    std::vector<std::vector<PairPlace>> groups(places.size());
+    for (std::size_t p = 0; p < places.size(); ++p) groups[root(p)].push_back(places[p]);
+    std::erase_if(groups, [](const auto& members) { return members.empty(); });
     return groups;
 }
 
@@ -62,25 +60,6 @@ void addOutermost(osg::Node& node, osg::Callback& callback) {
     node.setUpdateCallback(&callback);
 }
 
-/// Joints and bodies of a graph that knows nothing of us: extracted again, and tagged where the scene has one
-/// of that path.
-void tagPlainNodes(osg::Node& root, const tss::SceneModel& model) {
-    ConstraintVisitor visitor;
-    root.accept(visitor);
-    const tss::SceneModel& found = visitor.getModel();
-    const auto known = [](const auto& items, const std::string& path) {
-        return std::any_of(items.begin(), items.end(), [&](const auto& item) { return item.path == path; });
-    };
-    for (std::size_t j = 0; j < found.joints.size(); ++j)
-        if (known(model.joints, found.joints[j].path))
-            tagJoint(*visitor.getJointNodes()[j], found.joints[j].path);
-    for (std::size_t b = 0; b < found.bodies.size(); ++b) {
-        const ConstraintVisitor::BodyNode& at = visitor.getBodyNodes()[b];
-        if (at.node && known(model.bodies, found.bodies[b].path))
-            tagBody(*at.node, found.bodies[b].path, at.scale);
-    }
-}
-
 class RemoveCallbacks : public osg::NodeVisitor {
 public:
     RemoveCallbacks() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
@@ -89,8 +68,9 @@ public:
         osg::ref_ptr<osg::Callback> callback = node.getUpdateCallback();
         while (callback) {
             osg::ref_ptr<osg::Callback> next = callback->getNestedCallback();
-            const bool ours =
-                dynamic_cast<JointCallback*>(callback.get()) || dynamic_cast<SkinCallback*>(callback.get());
+            const bool ours = dynamic_cast<JointCallback*>(callback.get()) ||
+                              dynamic_cast<LimitsCallback*>(callback.get()) ||
+                              dynamic_cast<SkinCallback*>(callback.get());
             if (ours) node.removeUpdateCallback(callback);
             callback = next;
         }
@@ -98,39 +78,42 @@ public:
     }
 };
 
-bool allFound(const tss::SceneModel& model, const std::vector<std::vector<int>>& groups,
-              const std::map<std::string, osg::Node*>& nodes) {
-    for (const auto& pairs : groups)
-        for (int pair : pairs)
-            for (int joint : model.pairs[pair].joints)
-                if (!nodes.contains(model.joints[joint].path)) return false;
-    return true;
-}
-
-void installGroup(osg::Node& root, Scene& scene, const std::vector<int>& pairs,
-                  const std::map<std::string, osg::Node*>& nodes, Installed& installed) {
+void installGroup(osg::Node& root, Scene& scene, const std::vector<PairPlace>& group, Installed& installed) {
     const tss::SceneModel& model = scene.getModel();
     std::vector<osg::Node*> joints;
     std::vector<std::string> paths;
-    for (int index : pairs) {
-        const tss::Pair& pair = model.pairs[index];
-        const auto missing = std::find_if(pair.joints.begin(), pair.joints.end(), [&](int joint) {
-            return !nodes.contains(model.joints[joint].path);
-        });
-        if (missing != pair.joints.end()) {
-            OSG_WARN << "osgTSS: pair " << pair.path << ": no node of the graph carries joint "
-                     << model.joints[*missing].path << std::endl;
+    for (const PairPlace& place : group) {
+        const std::string& path = model.pairs[place.pair].path;
+        if (std::find(paths.begin(), paths.end(), path) != paths.end()) {
+            OSG_WARN << "osgTSS: pair " << path
+                     << ": several machines of one name share joints; one is served" << std::endl;
             continue;
         }
-        for (int joint : pair.joints) joints.push_back(nodes.at(model.joints[joint].path));
-        paths.push_back(pair.path);
+        joints.insert(joints.end(), place.joints.begin(), place.joints.end());
+        paths.push_back(path);
     }
-    if (paths.empty()) return;
     installed.joints += static_cast<unsigned int>(paths.size());
     osg::Node& node = *lowestAbove(root, joints);
+    // The callback looks for its joints by name, below where it stands.
+    const auto below = findJointNodes(node);
+    for (const PairPlace& place : group)
+        for (std::size_t k = 0; k < place.joints.size(); ++k) {
+            const std::string& path = model.joints[model.pairs[place.pair].joints[k]].path;
+            if (below.at(path) != place.joints[k])
+                OSG_WARN << "osgTSS: joint " << path << " is there several times below node \""
+                         << node.getName() << "\", and is served once; give each machine a node of its own"
+                         << std::endl;
+        }
     osg::ref_ptr<JointCallback> callback = new JointCallback(&scene, paths);
     addOutermost(node, *callback);
     callback->start(node);
+}
+
+/// Whether some joint of a place can be set beyond its limits.
+bool canStray(const PairPlace& place) {
+    return std::any_of(place.joints.begin(), place.joints.end(), [](osg::Node* node) {
+        return !dynamic_cast<JointTransform*>(node) && !animationPathOf(*node);
+    });
 }
 
 /// On the root: a skin is deformed after everything else of the scene has found its place.
@@ -153,17 +136,31 @@ Installed install(osg::Node& root, Scene& scene) {
     scene.attachTo(root);
     const tss::SceneModel& model = scene.getModel();
     Installed installed;
-    for (const tss::Pair& pair : model.pairs) {
+    Machines machines(root, model);
+    std::vector<PairPlace> kept;
+    bool watched = false;
+    for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+        const tss::Pair& pair = model.pairs[p];
+        if (!pair.proof && !pair.table) {
+            ++installed.unbaked;
+            continue;
+        }
+        std::string why;
+        const std::vector<PairPlace> places = machines.placesOf(static_cast<int>(p), why);
+        if (places.empty()) {
+            ++installed.stale;
+            OSG_WARN << "osgTSS: pair " << pair.path << " is not kept apart: " << why << std::endl;
+            continue;
+        }
+        for (const PairPlace& place : places) {
+            machines.tag(place);
+            watched = watched || (pair.proof && canStray(place));
+            if (pair.table) kept.push_back(place);
+        }
         if (pair.proof) ++installed.proven;
-        if (!pair.proof && !pair.table) ++installed.unbaked;
     }
-    const auto groups = groupPairs(model);
-    auto nodes = findJointNodes(root);
-    if (!allFound(model, groups, nodes)) {
-        tagPlainNodes(root, model);
-        nodes = findJointNodes(root);
-    }
-    for (const auto& pairs : groups) installGroup(root, scene, pairs, nodes, installed);
+    for (const auto& group : grouped(kept)) installGroup(root, scene, group, installed);
+    if (watched) addOutermost(root, *osg::ref_ptr<LimitsCallback>(new LimitsCallback(&scene)));
     installSkins(root, scene, installed);
     if (installed.unbaked > 0)
         OSG_NOTICE << "osgTSS: " << installed.unbaked << " of " << model.pairs.size() + model.skins.size()

@@ -3,74 +3,248 @@
 #include "PerNode.h"
 #include "SceneCache.h"
 
+#include <osg/Geometry>
 #include <osg/Node>
 #include <osg/NodeVisitor>
 #include <osg/Notify>
+#include <osg/PagedLOD>
 #include <osg/observer_ptr>
 #include <osgTSS/JointCallback>
+#include <osgTSS/Overlay>
 
 #include <algorithm>
+#include <map>
 
 namespace osgTSS {
+
+namespace {
+
+/// A joint of the pairs, its node, and how that is reached from the node that the callback stands on.
+struct BoundJoint {
+    std::unique_ptr<JointNode> access;        ///< null: its pairs are not kept apart
+    osg::NodePath path;                       ///< from the callback's node to the joint's
+    std::vector<const osg::Node*> transforms; ///< of these
+    bool served = true;                       ///< false while it stands where no table of its knows it
+    bool told = false;                        ///< that it went beyond its limits
+
+    /// Whether the node hangs where it did. The nodes above are there as long as those below are.
+    bool inPlace() const {
+        for (std::size_t k = path.size(); k-- > 1;) {
+            const osg::Node::ParentList& parents = path[k]->getParents();
+            if (std::find(parents.begin(), parents.end(), path[k - 1]) == parents.end()) return false;
+        }
+        return true;
+    }
+};
+
+/// What is drawn below a node, as a number that changes with it; what osgTSS itself shows does not count, nor
+/// what is paged.
+class DrawnBelow : public osg::NodeVisitor {
+public:
+    explicit DrawnBelow(osg::Node& node) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {
+        setNodeMaskOverride(~0u);
+        node.accept(*this);
+    }
+    void apply(osg::Node& node) override {
+        if (!dynamic_cast<Overlay*>(&node)) traverse(node);
+    }
+    void apply(osg::PagedLOD&) override {}
+    void apply(osg::Drawable& drawable) override {
+        const osg::Geometry* geometry = drawable.asGeometry();
+        const osg::Array* vertices = geometry ? geometry->getVertexArray() : nullptr;
+        number = number * 31 + reinterpret_cast<std::size_t>(&drawable);
+        number = number * 31 + (vertices ? vertices->getNumElements() : 0);
+    }
+    std::size_t number = 0;
+};
+
+/// The nodes of a path that move what is below, to be compared only: they may be gone later.
+std::vector<const osg::Node*> transformsOf(const osg::NodePath& path) {
+    std::vector<const osg::Node*> found;
+    for (const osg::Node* node : path)
+        if (const_cast<osg::Node*>(node)->asTransform()) found.push_back(node);
+    return found;
+}
+
+} // namespace
 
 /// What belongs to one node that the callback stands on.
 struct JointCallback::Binding {
     std::shared_ptr<const tss::SceneModel> model; ///< that the rest was made from
-    std::shared_ptr<SharedPlan> plan;
-    std::vector<std::unique_ptr<JointNode>> joints; ///< of the plan's; empty when one is missing
-    std::vector<double> q;                          ///< where the joints are
-    std::vector<double> asked;                      ///< room for what is asked
+    std::map<int, BoundJoint> bound;              ///< by the model's joint
+    std::vector<std::string> served;              ///< pairs that are kept apart now
+    std::shared_ptr<SharedPlan> plan;             ///< of these
+    std::vector<JointNode*> joints;               ///< of the plan's
+    std::vector<double> q;                        ///< where the joints are
+    std::vector<double> asked;                    ///< room for what is asked
     std::vector<tss::GroupAnswer> found;
     ContactReport contacts;
+    std::size_t drawn = 0;                 ///< DrawnBelow when the callback came to work here
+    unsigned int updates = 0;              ///< so far
     unsigned int traversal = 0, frame = 0; ///< of the last update
     bool updated = false;                  ///< there was one
+    bool toldBeyond = false;               ///< that more is asked than the limits allow
 
-    Binding(osg::Node& node, const Scene& scene, const std::vector<std::string>& pairPaths);
+    Binding(osg::Node& node, const Scene& scene, const std::vector<std::string>& pairPaths,
+            const Binding* before);
 
     bool stillGood(const Scene& scene) const {
-        return model == scene.shareModel() &&
-               std::all_of(joints.begin(), joints.end(), [](const auto& joint) { return joint->valid(); });
+        return model == scene.shareModel() && std::all_of(bound.begin(), bound.end(), [](const auto& entry) {
+                   const BoundJoint& joint = entry.second;
+                   return !joint.access || (joint.access->valid() && joint.inPlace());
+               });
     }
+    void choose(const Scene& scene, const std::vector<std::string>& pairPaths);
+    void watch(const Scene& scene, const std::vector<std::string>& pairPaths);
+    void watchGeometry(osg::Node& owner);
+    void restoreAsked() const;
     void resolve();
+    void tellBeyond();
     void show() const;
     void tell(const Scene& scene, osg::NodeVisitor& visitor);
 };
 
+/// before: what stood here, of the same graph; null at the start.
 JointCallback::Binding::Binding(osg::Node& owner, const Scene& scene,
-                                const std::vector<std::string>& pairPaths)
-    : model(scene.shareModel()), plan(scene.getCache().plan(pairPaths)) {
+                                const std::vector<std::string>& pairPaths, const Binding* before)
+    : model(scene.shareModel()) {
     const auto nodes = findJointNodes(owner);
-    for (int index : (*plan)->joints) {
-        const tss::Joint& joint = model->joints[index];
-        const auto found = nodes.find(joint.path);
-        auto access = found == nodes.end() ? nullptr : makeJointNode(*found->second, joint);
-        if (!access) {
-            OSG_WARN << "osgTSS: nothing below node \"" << owner.getName() << "\" carries joint "
-                     << joint.path << "; its pairs are not kept apart" << std::endl;
-            joints.clear();
-            q.clear();
-            return;
+    for (const std::string& path : pairPaths) {
+        const int pair = tss::findPair(*model, path);
+        if (pair < 0 || !model->pairs[pair].table) continue;
+        for (int index : model->pairs[pair].joints) {
+            if (bound.contains(index)) continue;
+            BoundJoint& joint = bound[index];
+            const tss::Joint& what = model->joints[index];
+            const auto node = nodes.find(what.path);
+            if (node != nodes.end()) {
+                joint.access = makeJointNode(*node->second, what);
+                const osg::NodePathList paths = node->second->getParentalNodePaths(&owner);
+                if (!paths.empty()) joint.path = paths.front();
+                joint.transforms = transformsOf(joint.path);
+            }
+            const BoundJoint* old = nullptr;
+            if (before && before->updated && before->model == model)
+                if (const auto entry = before->bound.find(index); entry != before->bound.end())
+                    old = &entry->second;
+            if (!joint.access) {
+                if (old) joint.transforms = old->transforms;
+                if (!old || old->access)
+                    OSG_WARN << "osgTSS: nothing below node \"" << owner.getName() << "\" carries joint "
+                             << what.path << (old ? " any more" : "") << "; its pairs are not kept apart"
+                             << std::endl;
+            } else if (old && !old->transforms.empty() && old->transforms != joint.transforms) {
+                OSG_WARN << "osgTSS: joint " << what.path
+                         << " hangs elsewhere than its tables were made for; "
+                         << "its pairs are not kept apart until install() is called again" << std::endl;
+                joint.access = nullptr;
+                joint.transforms = old->transforms;
+            }
         }
-        const std::vector<double> values = access->shown();
-        q.insert(q.end(), values.begin(), values.end());
-        joints.push_back(std::move(access));
     }
+    if (before && before->model == model) {
+        // Where the joints that are left are, so that none goes through anything meanwhile.
+        plan = before->plan;
+        q = before->q;
+    }
+    choose(scene, pairPaths);
+}
+
+/// The pairs whose joints are all there, and their plan; joints stay where they are.
+void JointCallback::Binding::choose(const Scene& scene, const std::vector<std::string>& pairPaths) {
+    std::map<int, std::vector<double>> at;
+    for (std::size_t j = 0; plan && j < (*plan)->joints.size() && !q.empty(); ++j) {
+        const auto first = q.begin() + static_cast<std::ptrdiff_t>((*plan)->firstValue[j]);
+        const auto count = model->joints[(*plan)->joints[j]].dofs.size();
+        at[(*plan)->joints[j]] = std::vector<double>(first, first + static_cast<std::ptrdiff_t>(count));
+    }
+    served.clear();
+    for (const std::string& path : pairPaths) {
+        const int pair = tss::findPair(*model, path);
+        if (pair < 0 || !model->pairs[pair].table) continue;
+        const std::vector<int>& of = model->pairs[pair].joints;
+        if (std::all_of(of.begin(), of.end(), [&](int j) { return bound[j].access && bound[j].served; }))
+            served.push_back(path);
+    }
+    plan = scene.getCache().plan(served);
+    joints.clear();
+    q.clear();
+    found.clear();
+    contacts = {};
+    for (int index : (*plan)->joints) {
+        joints.push_back(bound[index].access.get());
+        const auto known = at.find(index);
+        const std::vector<double> values = known != at.end() ? known->second : joints.back()->shown();
+        q.insert(q.end(), values.begin(), values.end());
+    }
+}
+
+/// Says once of each joint that it goes beyond what its tables are for; pairs of a joint that stands where
+/// they know nothing are let go while it does.
+void JointCallback::Binding::watch(const Scene& scene, const std::vector<std::string>& pairPaths) {
+    bool changed = false;
+    for (auto& [index, joint] : bound) {
+        if (!joint.access) continue;
+        const auto stray = joint.access->stray();
+        const bool servedNow = !stray || !stray->unserved;
+        changed = changed || servedNow != joint.served;
+        joint.served = servedNow;
+        if (!stray || joint.told) continue;
+        joint.told = true;
+        OSG_WARN << "osgTSS: joint " << model->joints[index].path << ": " << stray->what << "; "
+                 << (stray->unserved ? "its tables know nothing there, and its pairs are not kept apart"
+                                     : "it is held at them")
+                 << std::endl;
+    }
+    if (changed) choose(scene, pairPaths);
+}
+
+/// Says once that what is drawn is not what the tables were made from any more. Looked at now and then.
+void JointCallback::Binding::watchGeometry(osg::Node& owner) {
+    constexpr unsigned int everyUpdates = 64;
+    if (updates++ % everyUpdates != 0) return;
+    const std::size_t now = DrawnBelow(owner).number;
+    if (updates > 1 && drawn != 0 && now != drawn)
+        OSG_WARN << "osgTSS: the geometry below node \"" << owner.getName()
+                 << "\" is other than when its tables were installed; they know what was there then"
+                 << std::endl;
+    drawn = updates == 1 || now == drawn ? now : 0;
+}
+
+void JointCallback::Binding::restoreAsked() const {
+    for (const auto& [index, joint] : bound)
+        if (joint.access) joint.access->restoreAsked();
 }
 
 void JointCallback::Binding::resolve() {
     if (joints.empty()) return;
     asked.clear();
-    for (const auto& joint : joints) {
+    for (const JointNode* joint : joints) {
         const std::vector<double> values = joint->asked();
         asked.insert(asked.end(), values.begin(), values.end());
     }
+    if (!toldBeyond) tellBeyond();
     found = plan->resolve(q, asked);
     q = asked;
 }
 
+/// Once: the graph asks for values that no table was made for, at whose limits the joint stops.
+void JointCallback::Binding::tellBeyond() {
+    std::size_t next = 0;
+    for (int index : (*plan)->joints)
+        for (const tss::Dof& dof : model->joints[index].dofs) {
+            const double value = asked[next++], hair = 1e-6 * (dof.upper - dof.lower);
+            if (toldBeyond || (value >= dof.lower - hair && value <= dof.upper + hair)) continue;
+            toldBeyond = true;
+            OSG_WARN << "osgTSS: joint " << model->joints[index].path << ": \"" << dof.name
+                     << "\" is asked to go beyond the limits that its tables were made for; it stops there"
+                     << std::endl;
+        }
+}
+
 void JointCallback::Binding::show() const {
     auto next = q.begin();
-    for (const auto& joint : joints) {
+    for (JointNode* joint : joints) {
         const auto end = next + static_cast<std::ptrdiff_t>(joint->dofCount());
         joint->show(std::vector<double>(next, end));
         next = end;
@@ -130,11 +304,7 @@ void JointCallback::start(osg::Node& node) {
 JointCallback::Binding& JointCallback::bindingOf(osg::Node& node) {
     return _bindings->of(
         node,
-        [&](const Binding* before) {
-            auto made = std::make_unique<Binding>(node, *_scene, _pairPaths);
-            if (before && made->q.size() == before->q.size()) made->q = before->q;
-            return made;
-        },
+        [&](const Binding* before) { return std::make_unique<Binding>(node, *_scene, _pairPaths, before); },
         // Started, but not updated yet: the graph may have been optimized since.
         [&](const Binding& binding) { return binding.updated && binding.stillGood(*_scene); });
 }
@@ -153,12 +323,15 @@ bool JointCallback::run(osg::Object* object, osg::Object* data) {
     binding.traversal = traversal;
     binding.frame = frame;
 
-    if (!again)
-        for (const auto& joint : binding.joints) joint->restoreAsked();
+    if (!again) binding.restoreAsked();
     const bool result = traverse(object, data);
     const MeasureUpdate measure(_scene->getCache().updateTime);
     if (!binding.stillGood(*_scene)) return result; // the animation took a joint away
-    if (!again) binding.resolve();
+    if (!again) {
+        binding.watchGeometry(*node);
+        binding.watch(*_scene, _pairPaths);
+        binding.resolve();
+    }
     binding.show();
     if (!again) binding.tell(*_scene, *visitor);
     return result;

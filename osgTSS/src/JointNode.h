@@ -1,11 +1,34 @@
 #pragma once
+#include "bake/motion/WholeTurn.h"
+
 #include <osg/Math>
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <sstream>
+#include <string>
 #include <vector>
 
 namespace osgTSS {
+
+/// How a node stands where the joint that was found in it does not.
+struct Stray {
+    std::string what;
+    bool unserved = false; ///< nothing can be said of its pairs there; else it is held at its limits
+};
+
+/// Of a value beyond the limits of a DOF; a whole turn has none.
+inline std::optional<Stray> beyondLimits(const tss::Dof& dof, double value) {
+    const double slack = 1e-5 * (1 + std::abs(dof.lower) + std::abs(dof.upper));
+    if (tss::wholeTurn(dof) || (value >= dof.lower - slack && value <= dof.upper + slack))
+        return std::nullopt;
+    const double unit = dof.kind == tss::DofKind::Rotation ? osg::RadiansToDegrees(1.0) : 1;
+    std::ostringstream text;
+    text << "it is asked for " << dof.name << " " << value * unit << ", beyond the limits "
+         << dof.lower * unit << " to " << dof.upper * unit;
+    return Stray{text.str(), false};
+}
 
 /// Reads and writes the values of a joint on the node that carries them.
 class JointNode {
@@ -22,6 +45,8 @@ public:
     virtual std::vector<double> asked() const = 0;
     /// What the node shows.
     virtual std::vector<double> shown() const = 0;
+    /// Whether what is asked for is within what the joint was made for.
+    virtual std::optional<Stray> stray() const { return std::nullopt; }
     /// Shows these values.
     virtual void show(const std::vector<double>& values) = 0;
 };

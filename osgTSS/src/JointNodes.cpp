@@ -13,6 +13,7 @@
 #include <osg/observer_ptr>
 #include <osgTSS/JointTransform>
 
+#include <algorithm>
 #include <sstream>
 
 namespace osgTSS {
@@ -43,17 +44,23 @@ public:
 
     void apply(osg::Node& node) override {
         if (const auto* joint = dynamic_cast<JointTransform*>(&node)) {
-            if (!joint->getJoint().path.empty()) found.emplace(joint->getJoint().path, &node);
+            if (!joint->getJoint().path.empty()) add(joint->getJoint().path, node);
         } else {
             std::string paths;
             node.getUserValue(tagName, paths);
             std::istringstream words(paths);
-            for (std::string path; words >> path;) found.emplace(path, &node);
+            for (std::string path; words >> path;) add(path, node);
         }
         traverse(node);
     }
 
-    std::map<std::string, osg::Node*> found;
+    std::map<std::string, std::vector<osg::Node*>> found;
+
+private:
+    void add(const std::string& path, osg::Node& node) {
+        std::vector<osg::Node*>& nodes = found[path];
+        if (std::find(nodes.begin(), nodes.end(), &node) == nodes.end()) nodes.push_back(&node);
+    }
 };
 
 /// Joints of a node that moves by itself: what cannot be served is not the application's wish.
@@ -108,10 +115,16 @@ void tagJoint(osg::Node& node, const std::string& jointPath) {
     node.setUserValue(tagName, paths.empty() ? jointPath : paths + " " + jointPath);
 }
 
-std::map<std::string, osg::Node*> findJointNodes(osg::Node& root) {
+std::map<std::string, std::vector<osg::Node*>> findAllJointNodes(osg::Node& root) {
     FindJointNodes visitor;
     root.accept(visitor);
     return visitor.found;
+}
+
+std::map<std::string, osg::Node*> findJointNodes(osg::Node& root) {
+    std::map<std::string, osg::Node*> first;
+    for (const auto& [path, nodes] : findAllJointNodes(root)) first.emplace(path, nodes.front());
+    return first;
 }
 
 } // namespace osgTSS

@@ -32,4 +32,7 @@ void tagJoint(osg::Node& node, const std::string& jointPath);
 /// with one path the first.
 std::map<std::string, osg::Node*> findJointNodes(osg::Node& root);
 
+/// All of them, in the order of the graph.
+std::map<std::string, std::vector<osg::Node*>> findAllJointNodes(osg::Node& root);
+
 } // namespace osgTSS

@@ -1,4 +1,5 @@
 #include "bake/base/Error.h"
+#include "bake/motion/WholeTurn.h"
 #include "bake/scene/Kinematics.h"
 
 #include <osgTSS/Convert>
@@ -83,6 +84,9 @@ void JointTransform::setValues(const std::vector<double>& asked) {
     std::vector<double> wish = _asked;
     for (std::size_t k = 0; k < wish.size() && k < asked.size(); ++k)
         if (std::isfinite(asked[k])) wish[k] = asked[k];
+    for (std::size_t k = 0; k < wish.size(); ++k)
+        if (tss::wholeTurn(_joint.dofs[k]) && _joint.planes.empty())
+            wish[k] = tss::nearestTurn(wish[k], (_joint.dofs[k].lower + _joint.dofs[k].upper) / 2);
     _asked = tss::clampToLimits(_limits, wish);
     setResolvedValues(_asked);
 }

@@ -10,6 +10,8 @@
 #include <osgTSS/Convert>
 #include <osgTSS/Overlay>
 
+#include "bake/geometry/PartSet.h"
+
 #include <cmath>
 #include <limits>
 
@@ -19,6 +21,7 @@ namespace {
 
 const osg::Vec4 colorA(0.25f, 0.55f, 0.95f, 0.35f), colorB(0.95f, 0.6f, 0.15f, 0.35f);
 const osg::Vec4 pairColor(1, 1, 1, 0.25f), nearestColor(1, 0.15f, 0.15f, 1);
+const osg::Vec4 regionColor(0.3f, 0.9f, 0.4f, 0.6f);
 
 /// Lines of one colour, and points at their ends where wanted.
 class Lines : public osg::Geometry {
@@ -134,8 +137,31 @@ private:
     }
 };
 
+/// The outlines of the parts of both surfaces that overlap at rest.
+struct DrawnRegion {
+    tss::TriangleMesh a, b;
+    osg::ref_ptr<Lines> lines = new Lines(regionColor, 1, false);
+
+    void draw(const Similarity& placeA, const Similarity& placeB) {
+        if (a.empty() && b.empty()) return;
+        lines->clear();
+        add(a, placeA);
+        add(b, placeB);
+        lines->finish();
+    }
+
+private:
+    void add(const tss::TriangleMesh& mesh, const Similarity& to) {
+        const auto moved = [&](const tss::Vec3& x) -> tss::Vec3 { return to.pose * (to.scale * x); };
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+            for (int k = 0; k < 3; ++k)
+                lines->add(moved(mesh.corner(t, k)), moved(mesh.corner(t, (k + 1) % 3)));
+    }
+};
+
 struct DrawnPair {
     DrawnTable table;
+    DrawnRegion region;
     const tss::Table* source;
     Carrier bodyA, bodyB;
 
@@ -145,6 +171,7 @@ struct DrawnPair {
         for (std::size_t i = 0; i < table.a.size(); ++i) table.a[i] = moved(source->a[i], *nowA);
         for (std::size_t i = 0; i < table.b.size(); ++i) table.b[i] = moved(source->b[i], *nowB);
         table.draw();
+        region.draw(*nowA, *nowB);
     }
 };
 
@@ -209,8 +236,12 @@ struct Overlay::Drawing {
         };
         for (const tss::Pair& pair : model->pairs)
             if (pair.table)
-                pairs.push_back(
-                    {DrawnTable(*pair.table), pair.table.get(), carrier(pair.bodyA), carrier(pair.bodyB)});
+                pairs.push_back({DrawnTable(*pair.table),
+                                 {tss::meshOf(model->bodies[pair.bodyA].mesh, pair.table->restRegion.a),
+                                  tss::meshOf(model->bodies[pair.bodyB].mesh, pair.table->restRegion.b)},
+                                 pair.table.get(),
+                                 carrier(pair.bodyA),
+                                 carrier(pair.bodyB)});
         for (const tss::SkinModel& skin : model->skins) {
             const auto shape = nodes.shapes.find(model->bodies[skin.body].path);
             if (!skin.table || shape == nodes.shapes.end()) continue;
@@ -296,6 +327,7 @@ void Overlay::traverse(osg::NodeVisitor& visitor) {
     if (!_drawing || _drawing->model != _scene->shareModel()) {
         removeChildren(0, getNumChildren());
         _drawing = std::make_unique<Drawing>(root, *_scene);
+        for (DrawnPair& pair : _drawing->pairs) addChild(pair.region.lines);
         _drawing->each([&](DrawnTable& table) {
             addChild(table.shapeA);
             addChild(table.shapeB);

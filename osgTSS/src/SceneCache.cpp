@@ -28,7 +28,8 @@ std::shared_ptr<SharedPlan> Scene::Cache::plan(const std::vector<std::string>& p
     if (plan) return plan;
     std::vector<std::string> warnings;
     plan = std::make_shared<SharedPlan>(tss::makeJointPlan(*model, pairPaths, &warnings));
-    for (const std::string& warning : warnings) OSG_WARN << "osgTSS: " << warning << std::endl;
+    for (const std::string& warning : warnings)
+        if (told.insert(warning).second) OSG_WARN << "osgTSS: " << warning << std::endl;
     return plan;
 }
 

@@ -9,6 +9,7 @@
 
 #include <map>
 #include <mutex>
+#include <set>
 
 namespace osgTSS {
 
@@ -48,6 +49,7 @@ private:
     std::shared_ptr<const tss::SceneModel> model;
     std::mutex mutex;
     std::map<std::vector<std::string>, std::shared_ptr<SharedPlan>> plans;
+    std::set<std::string> told; ///< warnings, once each whatever pairs are planned together
     std::map<int, std::shared_ptr<const tss::MuscleDeformer>> muscles;
     std::map<int, std::shared_ptr<const tss::SkinRig>> rigs;
 };

@@ -3,7 +3,8 @@
 #include <osgTSS/Convert>
 #include <osgTSS/SkinGeometry>
 
-#include <cassert>
+#include <stdexcept>
+#include <string>
 
 namespace osgTSS {
 
@@ -82,7 +83,14 @@ void SkinGeometry::setRestGeometry(osg::Geometry* geometry) {
 
 void SkinGeometry::deform(std::span<const std::uint32_t> vertices, std::span<const tss::Vec3> positions,
                           std::span<const tss::Vec3> normals) {
-    assert(vertices.size() == positions.size() && vertices.size() == normals.size());
+    if (vertices.size() != positions.size() || vertices.size() != normals.size())
+        throw std::invalid_argument(
+            "SkinGeometry::deform: expected as many positions and normals as vertices");
+    const std::size_t count = _vertices ? _vertices->size() : 0;
+    for (std::uint32_t vertex : vertices) // before any is moved
+        if (vertex >= count)
+            throw std::out_of_range("SkinGeometry::deform: vertex " + std::to_string(vertex) + " of " +
+                                    std::to_string(count));
     osg::BoundingBox box;
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         osg::Vec3& vertex = (*_vertices)[vertices[k]];
@@ -94,6 +102,8 @@ void SkinGeometry::deform(std::span<const std::uint32_t> vertices, std::span<con
 }
 
 void SkinGeometry::deform(std::span<const tss::Vec3> positions, std::span<const tss::Vec3> normals) {
+    if (!_vertices || positions.size() != _vertices->size() || normals.size() != positions.size())
+        throw std::invalid_argument("SkinGeometry::deform: expected a position and a normal a vertex");
     copyTo(*_vertices, positions);
     copyTo(*_normals, normals);
     osg::BoundingBox box;

@@ -1,9 +1,9 @@
 #include "TaggedJoint.h"
 
+#include "DofWords.h"
 #include "Turns.h"
 
 #include "bake/base/Error.h"
-#include "bake/scene/DofToken.h"
 
 #include <osg/MatrixTransform>
 #include <osg/PositionAttitudeTransform>
@@ -37,24 +37,9 @@ osg::Matrixd matrixOf(const osg::Transform& node) {
 
 /// "rotZ:-24:18"
 tss::Dof parse(const std::string& word) {
-    std::istringstream text(word);
-    std::string token, rest;
-    double lower = 0, upper = 0;
-    char colon = 0;
-    tss::Dof dof;
-    std::size_t path = 0;
-    std::getline(text, token, ':');
-    text >> lower >> colon >> upper;
-    if (text.fail() || colon != ':' || text.peek() != EOF || !tss::dofFromToken(token, dof, path) ||
-        dof.kind == tss::DofKind::Path || !(lower <= 0 && 0 <= upper))
-        throw tss::InputError(
-            std::string(dofsTag) +
-            ": expected words such as rotZ:-24:18 or transX:0:5 with limits that hold 0, found \"" + word +
-            "\"");
-    const double unit = dof.kind == tss::DofKind::Rotation ? osg::DegreesToRadians(1.0) : 1;
-    dof.name = token;
-    dof.lower = lower * unit;
-    dof.upper = upper * unit;
+    const tss::Dof dof = parseDofWord(word, dofsTag);
+    if (!(dof.lower <= 0 && 0 <= dof.upper))
+        throw tss::InputError(std::string(dofsTag) + ": expected limits that hold 0, found \"" + word + "\"");
     return dof;
 }
 
@@ -88,8 +73,7 @@ public:
             dof.axis.cwiseAbs().maxCoeff(&axis);
             const bool turn = dof.kind == tss::DofKind::Rotation;
             if (turn) order.push_back(static_cast<int>(axis));
-            _slots.push_back({turn, turn ? order.size() - 1 : static_cast<std::size_t>(axis),
-                              (dof.lower + dof.upper) / 2});
+            _slots.push_back({turn, turn ? order.size() - 1 : static_cast<std::size_t>(axis), dof});
         }
         for (int axis = 0; axis < 3; ++axis)
             if (std::find(order.begin(), order.end(), axis) == order.end()) order.push_back(axis);
@@ -112,7 +96,8 @@ public:
         const auto turns = turnsOf(rigid->pose.linear(), _order);
         for (std::size_t k = 0; k < _slots.size(); ++k) {
             const Slot& slot = _slots[k];
-            values[k] = slot.turn ? turns[slot.index] - wholeTurns(turns[slot.index], slot.middle)
+            values[k] = slot.turn ? turns[slot.index] -
+                                        wholeTurns(turns[slot.index], (slot.dof.lower + slot.dof.upper) / 2)
                                   : rigid->pose.translation()[static_cast<Eigen::Index>(slot.index)];
         }
         return values;
@@ -123,6 +108,30 @@ public:
         _stopped = values != asked();
         if (!_stopped) return;
         _asked = matrixOf(*_node);
+        write(matrixAt(values));
+        _shown = matrixOf(*_node);
+    }
+
+    std::optional<Stray> stray() const override {
+        const std::vector<double> values = asked();
+        const osg::Matrixd now = matrixOf(*_node), known = matrixAt(values);
+        const double size = 1 + osg::Vec3d(now.getTrans() - _toRest.getTrans()).length();
+        for (int i = 0; i < 16; ++i)
+            if (!(std::abs(now.ptr()[i] - known.ptr()[i]) <= 1e-4 * size))
+                return Stray{"it stands as none of its degrees of freedom can place it", true};
+        for (std::size_t k = 0; k < _slots.size(); ++k)
+            if (auto beyond = beyondLimits(_slots[k].dof, values[k])) return beyond;
+        return std::nullopt;
+    }
+
+private:
+    struct Slot {
+        bool turn;
+        std::size_t index; ///< of a turn its place in the order, of a slide its axis
+        tss::Dof dof;
+    };
+
+    osg::Matrixd matrixAt(const std::vector<double>& values) const {
         tss::Pose moved = tss::Pose::Identity();
         for (std::size_t k = 0; k < _slots.size(); ++k) {
             const Slot& slot = _slots[k];
@@ -131,16 +140,8 @@ public:
             else
                 moved.translate(values[k] * tss::Vec3::Unit(static_cast<Eigen::Index>(slot.index)));
         }
-        write(_fromPivot * toOsg(moved) * _toRest);
-        _shown = matrixOf(*_node);
+        return _fromPivot * toOsg(moved) * _toRest;
     }
-
-private:
-    struct Slot {
-        bool turn;
-        std::size_t index; ///< of a turn its place in the order, of a slide its axis
-        double middle;     ///< of the limits
-    };
 
     void write(const osg::Matrixd& matrix) {
         if (auto* transform = dynamic_cast<osg::MatrixTransform*>(_node.get()))

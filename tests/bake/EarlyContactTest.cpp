@@ -81,8 +81,11 @@ TEST_CASE("a tolerance that a joint's clearance cannot bear is told, and one tha
     CHECK(fine.tolerance == 0);
 }
 
-TEST_CASE("bodies that overlap wherever the joint goes are told to be stuck") {
-    CHECK(baked(0.02, -0.1).stuck());
+TEST_CASE("bodies that overlap wherever the joint goes are stuck where no exception is made of that") {
+    SceneModel sunk = slidingBlock(0.02, -0.1);
+    sunk.pairs[0].settings["at-rest"] = "collide";
+    CHECK(baked(sunk).stuck());
+    CHECK_FALSE(baked(0.02, -0.1).stuck());
     CHECK_FALSE(baked(0.02).stuck());
 }
 

@@ -28,7 +28,6 @@ CoverOptions optionsOf(const Instance& instance) {
     CoverOptions options;
     options.epsilon = instance.epsilon;
     options.gapDepth = instance.depth;
-    options.atRest = AtRest::Collide;
     return options;
 }
 
@@ -48,7 +47,6 @@ double peakMegabytes() {
 void search(benchmark::State& state, const Instance& instance) {
     const scenes::Scene scene = scenes::jawLike(instance.spheresA, instance.spheresB);
     CertifiedSearchOptions options;
-    options.atRest = AtRest::Collide;
     for (auto _ : state) {
         const CandidatePairs found = searchCertified(scene.a, scene.b, scene.motion, options);
         state.counters["pairs"] = static_cast<double>(found.pairs.size());

@@ -71,6 +71,6 @@ TEST_CASE("a scene that needs double gets double by itself, and one that does no
     for (const tss::TablePair& pair : tss::tablePairs(tableOf("long_slide")))
         smallest = std::min(smallest, pair.radiusA + pair.radiusB);
     CHECK(needs.floatBand > 1e-4 * smallest);
-    CHECK(needs.band < 1e-6 * smallest);
+    CHECK(needs.band < 1e-5 * smallest); // what rounds on the long way of T(q) is in it
     CHECK(served("to_and_fro").pairs[0].kernel->precision == tss::KernelPrecision::Float);
 }

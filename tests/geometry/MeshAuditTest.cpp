@@ -103,6 +103,31 @@ TEST_CASE("cleaning drops what has no area, what repeats and what nothing uses")
     CHECK(clean.triangles == box.triangles);
 }
 
+TEST_CASE("cleaning keeps segments and points of surface that no other triangle has") {
+    TriangleMesh mesh = boxMesh({0, 0, 0}, {1, 1, 1});
+    const std::size_t proper = mesh.triangles.size();
+    const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+        const int first = static_cast<int>(mesh.vertices.size());
+        for (const Vec3& v : {a, b, c}) mesh.vertices.push_back(v);
+        mesh.triangles.emplace_back(first, first + 1, first + 2);
+        return cleaned(mesh).triangles.size() - proper;
+    };
+    CHECK(add({0, 0, 0}, {1, 0, 0}, {1, 0, 0}) == 0);            // an edge
+    CHECK(add({1, 0.25, 0}, {1, 0.75, 0}, {1, 0.5, 0}) == 0);    // on one
+    CHECK(add({1, 1, 0.5}, {1, 1, 0.5}, {1, 1, 0.5}) == 0);      // a point of one
+    CHECK(add({0, 0, 1}, {3, 0, 1}, {1, 0, 1}) == 1);            // goes on beyond the edge
+    CHECK(add({2, 2, 2}, {2, 2, 2}, {2, 2, 2}) == 2);            // a point off the box
+    CHECK(add({0, 0, 0}, {1, 1, 1}, {0.5, 0.5, 0.5}) == 3);      // both ends on the box, within it in between
+    CHECK(add({0, 0, 0}, {0, -5e-324, 0}, {0, 0, -1e-20}) == 3); // rounding of a corner
+    // Two edges in a line that the third corner parts.
+    append(mesh, boxMesh({1, 0, 0}, {2, 1, 1}));
+    const std::size_t before = cleaned(mesh).triangles.size();
+    const int first = static_cast<int>(mesh.vertices.size());
+    for (const double x : {0.0, 2.0, 1.0}) mesh.vertices.emplace_back(x, 0, 0);
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+    CHECK(cleaned(mesh).triangles.size() == before);
+}
+
 TEST_CASE("a cleaned mesh says which loaded triangle each of its own was") {
     TriangleMesh mesh = boxMesh({0, 0, 0}, {1, 1, 1});
     mesh.triangles.insert(mesh.triangles.begin() + 3, {Tri(1, 1, 2), mesh.triangles[0]});

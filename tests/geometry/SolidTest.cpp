@@ -114,3 +114,32 @@ TEST_CASE("a ball inside does not protrude, one outside does with all of it") {
     CHECK(solid.protrusion({0.5, 0.5, 2}, 0.25) == Approx(1.25));
     CHECK(solid.protrusion({0.5, 0.5, 1}, 0.25) == Approx(0.25));
 }
+
+TEST_CASE("a wire on a box is surface: near, and neither an opening nor an inside") {
+    TriangleMesh mesh = boxMesh({0, 0, 0}, {1, 1, 1});
+    const auto wire = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+        const int first = static_cast<int>(mesh.vertices.size());
+        for (const Vec3& v : {a, b, c}) mesh.vertices.push_back(v);
+        mesh.triangles.emplace_back(first, first + 1, first + 2);
+    };
+    wire({1, 0.5, 0.5}, {5, 0.5, 0.5}, {5, 0.5, 0.5});
+    wire({0.5, 0.5, 1}, {0.7, 0.8, 3.1}, {0.6, 0.65, 2.05}); // three places, in a line but for rounding
+    wire({-3, -3, -3}, {-3, -3, -3}, {-3, -3, -3});
+    REQUIRE(auditMesh(mesh).zeroAreaTriangles == 3);
+    const TriangleMesh clean = cleaned(mesh);
+    REQUIRE(clean.triangles.size() == mesh.triangles.size());
+    const Solid solid(clean);
+    CHECK_FALSE(solid.open());
+    CHECK(solid.assumptions().empty());
+    CHECK(solid.boundary().distance({4, 0.5, 2.5}) == Approx(2));
+    CHECK(solid.boundary().distance({-3, -3, -5}) == Approx(2));
+    CHECK(solid.inside({0.5, 0.5, 0.5}));
+    CHECK_FALSE(solid.inside({1.5, 0.5, 0.5})); // on the wire
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 2000; ++i) {
+        const double t = uniform(random, 0.01, 1);
+        const Vec3 on = Vec3(0.5, 0.5, 1) + t * Vec3(0.2, 0.3, 2.1),
+                   near = on + 1e-16 * uniformPoint(random, 1);
+        CHECK(std::abs(solid.boundary().windingNumber(near)) < 0.01);
+    }
+}

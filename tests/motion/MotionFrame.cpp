@@ -65,3 +65,44 @@ TEST_CASE("a path's next row lies ahead of a value, also at a row") {
     CHECK(nextRow(dof, 0.0, -1) == -HUGE_VAL);
     CHECK(nextRow(dof, 1.0, 1) == HUGE_VAL);
 }
+
+TEST_CASE("just before a path's row both segments' twists are told, on it and away from it the one ahead") {
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        Random random(seed);
+        CAPTURE(seed);
+        Motion m = random_table::motion(random, 2, 10);
+        m.dofs[1] = random_table::path(random, 1);
+        m.dofs[1].lower = m.dofs[1].path.front().value;
+        m.dofs[1].upper = m.dofs[1].path.back().value;
+        const double row = m.dofs[1].path[1].value,
+                     hair = 1e-10 * (m.dofs[1].path.back().value - m.dofs[1].path.front().value);
+        const Vec3 y = random_table::inBall(random, 10);
+        const double outer = 0.5 * (m.dofs[0].lower + m.dofs[0].upper);
+        const auto velocityAt = [&](double value, double way, double from) {
+            const double h = 1e-6 * way;
+            return Vec3((pose(m, std::vector<double>{outer, value + from + h}) * y -
+                         pose(m, std::vector<double>{outer, value + from}) * y) /
+                        h);
+        };
+        for (const double way : {1.0, -1.0}) {
+            const DofValues direction{way, way};
+            MotionFrame frame;
+            const auto at = [&](double value) {
+                const DofValues q{outer, value};
+                evaluateFrame(m, q.data(), direction.data(), frame);
+                return frame.pose * y;
+            };
+            Vec3 x = at(row - way * hair);
+            const Vec3 behind = velocityAt(row, way, -2e-6 * way), ahead = velocityAt(row, way, 0);
+            REQUIRE(frame.rowAhead);
+            CHECK((frame.before[1].velocity(x) - behind).norm() < 1e-3 * (1 + behind.norm()));
+            CHECK((frame.twists[1].velocity(x) - ahead).norm() < 1e-3 * (1 + ahead.norm()));
+            CHECK(frame.before[0].velocity(x) == frame.twists[0].velocity(x));
+            x = at(row);
+            CHECK_FALSE(frame.rowAhead);
+            CHECK((frame.twists[1].velocity(x) - ahead).norm() < 1e-3 * (1 + ahead.norm()));
+            at(row - way * 100 * hair);
+            CHECK_FALSE(frame.rowAhead);
+        }
+    }
+}

@@ -111,5 +111,5 @@ TEST_CASE("a motion that cannot be served is refused") {
                           {1, Vec3::Zero(), Eigen::Quaterniond::Identity()}};
     }));
     // Limits of zero width are a joint that is held, not an error.
-    CHECK_FALSE(refused([](Motion& m) { m.dofs[0].upper = m.dofs[0].lower; }));
+    CHECK_FALSE(refused([](Motion& m) { m.dofs[0].rest = m.dofs[0].upper = m.dofs[0].lower; }));
 }

@@ -157,16 +157,6 @@ TEST_CASE("bodies are what hangs together, also below masks and switches, and of
     CHECK(pairMotion(all, all.pairs[1]).dofCount() == 2);
 }
 
-TEST_CASE("a joint below unequal scales is refused with its path") {
-    osg::ref_ptr<osg::MatrixTransform> scaled = new osg::MatrixTransform(osg::Matrixd::scale(1, 2, 1));
-    scaled->setName("Left");
-    scaled->addChild(dof("Arm"));
-    osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->setName("Robot");
-    root->addChild(scaled);
-    CHECK_THROWS_WITH(extract(*root), Catch::Contains("/Robot/Left/Arm"));
-}
-
 TEST_CASE("mirrored geometry is taken with its outside outside") {
     osg::ref_ptr<osg::MatrixTransform> mirror = new osg::MatrixTransform(osg::Matrixd::scale(-1, 1, 1));
     mirror->addChild(box(osg::Vec3(1, 0, 0), 0.5f));
@@ -182,7 +172,7 @@ TEST_CASE("a transform that something else moves starts a body that no pair reac
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(box(osg::Vec3(0, 0, -1)));
     osg::ref_ptr<osg::MatrixTransform> vehicle = new osg::MatrixTransform(osg::Matrixd::translate(3, 0, 0));
-    vehicle->setDataVariance(osg::Object::DYNAMIC);
+    vehicle->setUpdateCallback(new osg::NodeCallback);
     vehicle->addChild(box(osg::Vec3(0, 0, 0)));
     const auto turret = dof("Turret");
     turret->setMaxHPR(osg::Vec3(1, 0, 0));

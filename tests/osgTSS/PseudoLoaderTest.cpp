@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <osgSim/DOFTransform>
+#include <osgTSS/Bake>
 #include <osgTSS/JointCallback>
 
 #include <set>
@@ -30,6 +31,7 @@ std::filesystem::path saveTank() {
     usePlugins();
     const auto file = scratch() / "tank.osgt";
     REQUIRE(osgDB::writeNodeFile(*makeTank(), file.string()));
+    std::filesystem::remove(file.string() + ".cache.tss");
     return file;
 }
 
@@ -86,6 +88,48 @@ TEST_CASE("any OSG file with joints is extracted, baked and kept apart by asking
         REQUIRE(again);
         CHECK(lowestOverStowage(*again, frames) > radius - 1e-3);
     }
+}
+
+TEST_CASE("a file is baked once, and again when it has changed") {
+    const auto file = saveTank(), cache = std::filesystem::path(file.string() + ".cache.tss");
+    const std::string words = "pairs=all tolerance=10cm";
+    const auto testsOf = [](osg::Node& root) {
+        std::vector<std::size_t> counts;
+        for (const tss::Pair& pair : osgTSS::Scene::on(root)->getModel().pairs)
+            counts.push_back(pair.table ? pair.table->testCount() : 0);
+        return counts;
+    };
+    const osg::ref_ptr<osg::Node> first = load(file.string() + ".tss", words);
+    REQUIRE(first);
+    REQUIRE(std::filesystem::exists(cache));
+    const auto written = std::filesystem::last_write_time(cache);
+    const osg::ref_ptr<osg::Node> second = load(file.string() + ".tss", words);
+    REQUIRE(second);
+    CHECK(testsOf(*second) == testsOf(*first));
+    CHECK(std::filesystem::last_write_time(cache) == written);
+    CountPairs before, after;
+    first->accept(before);
+    second->accept(after);
+    CHECK(before.pairs.size() > 0);
+    CHECK(after.pairs == before.pairs);
+
+    osg::ref_ptr<osg::Group> changed = makeTank();
+    find<osgSim::DOFTransform>(*changed, "Gun")->setMaxHPR(osg::Vec3(0, 0.2f, 0));
+    REQUIRE(osgDB::writeNodeFile(*changed, file.string()));
+    REQUIRE(load(file.string() + ".tss", words));
+    CHECK(std::filesystem::last_write_time(cache) != written);
+
+    std::filesystem::remove(cache);
+    REQUIRE(load(file.string() + ".tss", words + " cache=off"));
+    CHECK_FALSE(std::filesystem::exists(cache));
+}
+
+TEST_CASE("a misspelt option is told with the name that was meant") {
+    CHECK(osgTSS::nearestOption("tolerence") == "tolerance");
+    CHECK(osgTSS::nearestOption("pair") == "pairs");
+    CHECK(osgTSS::nearestOption("limit") == "limits");
+    CHECK(osgTSS::nearestOption("epsilom") == "epsilon");
+    CHECK(osgTSS::nearestOption("noTriStripPolygons").empty());
 }
 
 TEST_CASE("a pseudo-loader's wrong option, or file that is not there, is refused with a reason") {

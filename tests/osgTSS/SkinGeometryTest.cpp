@@ -54,6 +54,18 @@ void lift(SkinGeometry& skin, std::uint32_t index, double height) {
 
 } // namespace
 
+TEST_CASE("a vertex that a skin does not have is refused, and nothing is moved") {
+    const auto skin = triangle();
+    const std::vector<std::uint32_t> indices{0, 3};
+    const std::vector<tss::Vec3> two(2, tss::Vec3(0, 0, 1)), one(1, tss::Vec3(0, 0, 1));
+    CHECK_THROWS_AS(skin->deform(indices, two, two), std::out_of_range);
+    CHECK_THROWS_AS(skin->deform(indices, one, two), std::invalid_argument);
+    CHECK_THROWS_AS(skin->deform(two, two), std::invalid_argument);
+    CHECK(vertex(*drawnBy(*skin), 0) == osg::Vec3());
+    osg::ref_ptr<SkinGeometry> empty = new SkinGeometry;
+    CHECK_THROWS_AS(lift(*empty, 0, 1), std::out_of_range);
+}
+
 TEST_CASE("what is drawn in one frame is not written in the next") {
     const auto skin = triangle();
     lift(*skin, 0, 1);

@@ -57,7 +57,6 @@ CoverOptions colliding(double epsilon = 0, double depth = 0, double margin = 0) 
     o.epsilon = epsilon;
     o.gapDepth = depth;
     o.gapMargin = margin;
-    o.atRest = AtRest::Collide;
     return o;
 }
 
@@ -181,7 +180,6 @@ TEST_CASE("chains of 1 to 6 DOFs with paths and coupled limits get a proof, or t
             auto o = colliding();
             o.cells = 20000;
             CertifiedSearchOptions search;
-            search.atRest = AtRest::Collide;
             search.effort = 300000;
             const CandidatePairs candidates = searchCertified(scene.a, scene.b, scene.motion, search);
             CHECK((candidates.certified || dofs > 2));
@@ -268,9 +266,10 @@ TEST_CASE("pairs that overlap at rest are answered from their gap at rest on") {
         auto scene = scenes::randomScene(seed, 2, 25);
         scene.motion.base.translation() *= 0.75; // they overlap at rest
         CoverOptions options;
+        const ContactRule rule = ruleOfSpheres(scene.a, scene.b, scene.motion, AtRest::Offset);
+        options.rule = rule;
         const auto cover = certifiedCover(scene.a, scene.b, nullptr, scene.motion, options);
         REQUIRE(cover.complete);
-        const ContactRule rule(scene.a, scene.b, scene.motion, AtRest::Offset);
         const Table table = makeTable(scene.a, scene.b, cover.pairs, cover.restGaps, scene.motion);
         CHECK_FALSE(query(table, restValues(scene.motion)).hit());
         scenes::Random random(seed);

@@ -91,7 +91,6 @@ TEST_CASE("the minimal subset answers as all spheres do at every explored pose")
         const auto scene = scenes::randomScene(seed, 1 + int(seed % 3), 80);
         SampledSearchOptions options;
         options.samples = 400;
-        options.atRest = AtRest::Collide;
         const auto reduced = reduceMinimal(scene.a, scene.b, scene.motion, options);
         const auto table = makeTable(scene.a, scene.b, reduced.pairs, reduced.restGaps, scene.motion);
         std::size_t hits = 0;

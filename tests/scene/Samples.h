@@ -88,6 +88,7 @@ inline tss::Table smallTable(const tss::Motion& motion) {
     table.rowOffsets = {0, 1, 2};
     table.columns = {0, 0};
     table.restGaps = {0, -0.1};
+    table.restRegion = {{{0, 2}, {2, 1}}, {{1, 5}}, 0.1};
     table.motion = motion;
     table.record.spheresA = table.record.spheresB = 9;
     return table;
@@ -121,6 +122,7 @@ inline tss::SceneModel everything() {
     scene.pairs[1].proof = std::make_shared<tss::NeverCollides>();
     tss::SkinTable skin;
     skin.table = smallTable({});
+    skin.table.restRegion = {};
     skin.skinVertices = {0, 3};
     skin.muscleOf = {0};
     scene.skins[0].table = std::make_shared<tss::SkinTable>(skin);

@@ -55,6 +55,7 @@ TEST_CASE("a table comes back number by number") {
     table.rowOffsets = {0, 1, 2};
     table.columns = {0, 0};
     table.restGaps = {0, -0.1};
+    table.restRegion = {{{0, 2}, {2, 1}}, {{1, 5}}, 0.1};
     table.motion = pairMotion(scene, scene.pairs[0]);
     table.epsilon = 1e-9;
     table.boundMiss = 0;
@@ -75,6 +76,9 @@ TEST_CASE("a table comes back number by number") {
     CHECK(read.rowOffsets == table.rowOffsets);
     CHECK(read.columns == table.columns);
     CHECK(read.restGaps == table.restGaps);
+    CHECK(read.restRegion.a == table.restRegion.a);
+    CHECK(read.restRegion.b == table.restRegion.b);
+    CHECK(read.restRegion.depth == 0.1);
     CHECK(read.epsilon == table.epsilon);
     CHECK(read.boundMiss == 0);
     CHECK(read.boundEarly == -1);
@@ -187,4 +191,25 @@ TEST_CASE("the smallest scene of the documentation is a scene with a pair") {
     CHECK(scene.bodies.size() == 2);
     REQUIRE(scene.pairs.size() == 1);
     CHECK(pairMotion(scene, scene.pairs[0]).dofs[0].upper == Approx(1.7453).epsilon(1e-4));
+}
+
+TEST_CASE("limits that leave no pose are told with the joint, and a rest not given lies within the limits") {
+    SceneModel scene = samples::jaw();
+    scene.joints[0].planes = {{{1, 0}, 3}, {{0, 1}, -1.5}}; // lateral is at least -1
+    try {
+        samples::fromFile(scene);
+        FAIL("read all the same");
+    } catch (const InputError& error) {
+        CHECK(error.where.path == scene.joints[0].path);
+        CHECK(error.message.find("limit plane 2 of the DOFs 'open', 'lateral'") != std::string::npos);
+    }
+    scene = samples::jaw();
+    scene.joints[0].dofs[0].lower = 0.1;
+    scene.joints[0].dofs[0].rest = 0.05;
+    CHECK_THROWS_AS(samples::fromFile(scene), InputError);
+    Layer layer = toLayer(scene);
+    Prim* joint = findPrim(layer, scene.joints[0].path);
+    REQUIRE(joint);
+    REQUIRE(joint->properties.erase("tss:rest") == 1);
+    CHECK(readScene(layer, "test.tss").joints[0].dofs[0].rest == Approx(0.1));
 }

@@ -19,9 +19,15 @@ namespace {
 
 CertifiedSearchOptions colliding(double tolerance = -1) {
     CertifiedSearchOptions options;
-    options.atRest = AtRest::Collide;
     options.tolerance = tolerance;
     return options;
+}
+
+/// Spheres that stick out of their body by nothing.
+LevelSpheres levelOf(const SphereSet& spheres) {
+    LevelSpheres level{spheres, {}, {}};
+    for (const Sphere& sphere : spheres) level.inner.push_back(sphere.radius);
+    return level;
 }
 
 } // namespace
@@ -34,7 +40,6 @@ TEST_CASE("the certified search finds every pair that any sampled pose shows") {
         SampledSearchOptions options;
         options.samples = 4000;
         options.seed = seed + 100;
-        options.atRest = AtRest::Collide;
         const auto sampled = searchSampled(scene.a, scene.b, scene.motion, options);
         CHECK(certified.certified);
         CHECK(std::includes(certified.pairs.begin(), certified.pairs.end(), sampled.pairs.begin(),
@@ -60,7 +65,6 @@ TEST_CASE("a hinge is cut also where a point of the other body comes to lie on i
         const auto certified = searchCertified(a, b, motion, colliding(0.0005));
         SampledSearchOptions options;
         options.samples = 1000;
-        options.atRest = AtRest::Collide;
         const auto sampled = searchSampled(a, b, motion, options);
         CHECK(certified.certified);
         CHECK(std::includes(certified.pairs.begin(), certified.pairs.end(), sampled.pairs.begin(),
@@ -70,19 +74,19 @@ TEST_CASE("a hinge is cut also where a point of the other body comes to lie on i
 
 TEST_CASE("a search ends where no number is left between the limits of a cell") {
     // At a lever of 1e9 two neighbouring angles are 4e-7 apart, a hundred times the tolerance. B comes from
-    // the side and all but touches A at the last of them.
+    // the side and all but touches A at the last of them, by less than rounding could make of it and by more.
     const SphereSet a{{Vec3::Zero(), 1}}, b{{Vec3::Zero(), 1}};
     std::size_t touching = 0, clear = 0;
     double last = 3 + 1e-8;
     for (int k = -20; k <= 20; ++k) {
-        INFO("gap " << k * 4e-8);
+        INFO("gap " << k * 8e-7);
         last = std::nextafter(last, 4); // even and odd in turn: one rounds to the last, one before it
         const Dof turn = joints::turn({0, -1e9, 0}, {0, 0, 1}, 3, last);
         Motion motion;
         motion.dofs = {turn};
-        motion.base = dofPose(turn, last).inverse() * Eigen::Translation3d(2 + k * 4e-8, 0, 0);
+        motion.base = dofPose(turn, last).inverse() * Eigen::Translation3d(2 + k * 8e-7, 0, 0);
         CertifiedSearchOptions options;
-        options.atRest = AtRest::Ignore; // with another, samples would find the last angle first
+        options.sampleFirst = false; // samples would find the last angle first
         options.tolerance = 0;
         const auto found = searchCertified(a, b, motion, options);
         CHECK(found.certified);
@@ -198,7 +202,8 @@ TEST_CASE("searches of many spheres stop while their trees are built") {
     UndecidedOptions options;
     options.resolution = 0.1;
     const CellTree all = wholeQ(scene.motion);
-    const Undecided undecided = undecidedCells({scene.a, 0}, {scene.b, 0}, scene.motion, all, options, no);
+    const Undecided undecided =
+        undecidedCells(levelOf(scene.a), levelOf(scene.b), scene.motion, all, options, no);
     REQUIRE(undecided.cells);
     CHECK(undecided.cells->leaves() == all.leaves());
 }
@@ -224,4 +229,38 @@ TEST_CASE("degenerate input: no spheres, no freedom, limits of zero width, too m
     Motion endless;
     for (int k = 0; k < 13; ++k) endless.dofs.push_back(joints::slide({1, 0, 0}, 0, 1));
     CHECK_THROWS_AS(searchCertified(scene.a, scene.b, endless), InputError);
+}
+
+TEST_CASE("what touches at a limit by less than rounding makes of it is found, about axes far away too") {
+    // B's sphere comes straight at A's and is 1e-12 deep in it at the upper limit; its place there rounds by
+    // more. The truth is calculated with 64 bits.
+    using Long = Eigen::Matrix<long double, 3, 1>;
+    int shown = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        INFO("seed " << seed);
+        scenes::Random random(seed);
+        const double far = std::pow(10.0, random.in(3, 6)), way = random.in(0, 2 * std::numbers::pi);
+        const double upper = random.in(0.001, 1) / far;
+        const Vec3 origin(far * std::cos(way), far * std::sin(way), random.in(-1, 1));
+        const SphereSet b{{random.inBox(1), random.in(0.1, 1)}};
+        const Long from = b[0].centre.cast<long double>() - origin.cast<long double>();
+        const long double c = std::cos((long double)upper), s = std::sin((long double)upper);
+        const Long turned(c * from.x() - s * from.y(), s * from.x() + c * from.y(), from.z());
+        const Long x = turned + origin.cast<long double>();
+        const Long ahead = Long(-turned.y(), turned.x(), 0).normalized();
+        const double radius = random.in(0.1, 1);
+        const Long touching = x + ahead * ((long double)radius + b[0].radius - 1e-12L);
+        const SphereSet a{{touching.cast<double>(), radius}};
+        const long double depth =
+            (long double)radius + b[0].radius - (a[0].centre.cast<long double>() - x).norm();
+        REQUIRE(depth > 0);
+        Motion motion;
+        motion.dofs = {joints::turn(origin, Vec3::UnitZ(), 0, upper)};
+        const double seen = (pose(motion, std::vector<double>{upper}) * b[0].centre - a[0].centre).norm() -
+                            radius - b[0].radius;
+        shown += seen > 0;
+        const auto certified = searchCertified(a, b, motion, colliding());
+        CHECK(certified.pairs.size() == 1);
+    }
+    CHECK(shown > 20); // calculated in double, these do not touch
 }

@@ -28,27 +28,27 @@ bool contains(const CellTree& tree, const std::vector<double>& q) {
     return false;
 }
 
-/// The smallest gap at a pose over pairs that do not overlap at rest, radii less by the protrusions.
+/// The smallest gap at a pose of the spheres, or of the balls inside, without the pairs of the region.
 double gapAt(const LevelSpheres& a, const LevelSpheres& b, const Motion& motion, const std::vector<double>& q,
-             bool inner, bool skipRest = false) {
-    const Pose at = pose(motion, q), rest = pose(motion, restValues(motion));
-    const double less = inner ? a.protrusion + b.protrusion : 0;
+             bool inner) {
+    const Pose at = pose(motion, q);
     double best = std::numeric_limits<double>::infinity();
-    for (const Sphere& s : a.spheres)
-        for (const Sphere& t : b.spheres) {
-            const double sum = s.radius + t.radius - less;
-            if (inner && (s.radius <= a.protrusion || t.radius <= b.protrusion)) continue;
-            if (skipRest && (rest * t.centre - s.centre).norm() < sum) continue;
-            best = std::min(best, (at * t.centre - s.centre).norm() - sum);
+    for (std::size_t i = 0; i < a.spheres.size(); ++i)
+        for (std::size_t j = 0; j < b.spheres.size(); ++j) {
+            if (!a.region.empty() && !b.region.empty() && a.region[i] && b.region[j]) continue;
+            const double sum = inner ? a.inner[i] + b.inner[j] : a.spheres[i].radius + b.spheres[j].radius;
+            best = std::min(best, (at * b.spheres[j].centre - a.spheres[i].centre).norm() - sum);
         }
     return best;
 }
 
-LevelSpheres cloud(Random& random, int count, const Vec3& about, double size) {
+LevelSpheres cloud(Random& random, int count, const Vec3& about, double size, bool region = false) {
     LevelSpheres level;
-    level.protrusion = 0.03;
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < count; ++i) {
         level.spheres.push_back({about + random.inBox(size), random.in(0.04, 0.3)});
+        level.inner.push_back(level.spheres.back().radius - random.in(0.01, 0.03));
+        if (region) level.region.push_back(random.below(2) != 0);
+    }
     return level;
 }
 
@@ -61,10 +61,9 @@ Motion randomMotion(Random& random) {
     return motion;
 }
 
-UndecidedOptions within(double resolution, AtRest atRest) {
+UndecidedOptions within(double resolution) {
     UndecidedOptions options;
     options.resolution = resolution;
-    options.atRest = atRest;
     return options;
 }
 
@@ -75,9 +74,10 @@ TEST_CASE("a pose that is no longer open is a true hit or truly free") {
     CAPTURE(seed);
     Random random(seed);
     const Motion motion = randomMotion(random);
-    const LevelSpheres a = cloud(random, 30, {0, 0, 0}, 0.5), b = cloud(random, 30, {0.9, 0.3, 0}, 0.5);
-    const AtRest atRest = seed % 2 ? AtRest::Collide : AtRest::Ignore;
-    const Undecided left = undecidedCells(a, b, motion, wholeQ(motion), within(0.02, atRest));
+    const bool region = seed % 2 == 0;
+    const LevelSpheres a = cloud(random, 30, {0, 0, 0}, 0.5, region),
+                       b = cloud(random, 30, {0.9, 0.3, 0}, 0.5, region);
+    const Undecided left = undecidedCells(a, b, motion, wholeQ(motion), within(0.02));
     int open = 0, hits = 0, free = 0;
     for (int i = 0; i < 2000; ++i) {
         const std::vector<double> q = poseIn(random, motion);
@@ -86,7 +86,7 @@ TEST_CASE("a pose that is no longer open is a true hit or truly free") {
             continue;
         }
         const bool isFree = gapAt(a, b, motion, q, false) > 0;
-        const bool isHit = gapAt(a, b, motion, q, true, atRest == AtRest::Ignore) <= 0;
+        const bool isHit = gapAt(a, b, motion, q, true) <= 0;
         CHECK((isFree || isHit));
         hits += isHit;
         free += isFree;
@@ -100,7 +100,7 @@ TEST_CASE("poses within the margin and contacts less deep than asked stay open")
     Random random(7);
     const Motion motion = randomMotion(random);
     const LevelSpheres a = cloud(random, 20, {0, 0, 0}, 0.4), b = cloud(random, 20, {0.8, 0.3, 0}, 0.4);
-    UndecidedOptions options = within(0.02, AtRest::Collide);
+    UndecidedOptions options = within(0.02);
     options.margin = 0.1;
     options.depth = 0.05;
     const Undecided left = undecidedCells(a, b, motion, wholeQ(motion), options);
@@ -116,10 +116,10 @@ TEST_CASE("going on from the cells left finds what the search from the beginning
     Random random(8);
     const Motion motion = randomMotion(random);
     const LevelSpheres a = cloud(random, 20, {0, 0, 0}, 0.4), b = cloud(random, 20, {0.8, 0.3, 0}, 0.4);
-    const Undecided coarse = undecidedCells(a, b, motion, wholeQ(motion), within(0.1, AtRest::Collide));
+    const Undecided coarse = undecidedCells(a, b, motion, wholeQ(motion), within(0.1));
     REQUIRE(coarse.cells);
-    const Undecided fine = undecidedCells(a, b, motion, *coarse.cells, within(0.01, AtRest::Collide));
-    const Undecided direct = undecidedCells(a, b, motion, wholeQ(motion), within(0.01, AtRest::Collide));
+    const Undecided fine = undecidedCells(a, b, motion, *coarse.cells, within(0.01));
+    const Undecided direct = undecidedCells(a, b, motion, wholeQ(motion), within(0.01));
     REQUIRE((fine.cells && direct.cells));
     CHECK(fine.cells->leaves() >= coarse.cells->leaves());
     int differ = 0;
@@ -134,7 +134,7 @@ TEST_CASE("spheres far apart leave nothing to decide and no hit") {
     Random random(9);
     const Motion motion = randomMotion(random);
     const LevelSpheres a = cloud(random, 5, {0, 0, 0}, 0.1), b = cloud(random, 5, {40, 0, 0}, 0.1);
-    const Undecided left = undecidedCells(a, b, motion, wholeQ(motion), within(0.01, AtRest::Collide));
+    const Undecided left = undecidedCells(a, b, motion, wholeQ(motion), within(0.01));
     CHECK_FALSE(left.cells);
     CHECK_FALSE(left.hits);
 }

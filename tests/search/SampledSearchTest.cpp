@@ -34,7 +34,6 @@ TEST_CASE("the sampled search records every pair that collides at an explored po
         INFO("seed " << seed);
         SampledSearchOptions options;
         options.samples = 300;
-        options.atRest = AtRest::Collide;
         const auto found = searchSampled(scene.a, scene.b, scene.motion, options);
         const auto expected = everyCollidingPair(scene, exploredPoses(scene.motion, 300, options.seed));
         CHECK(std::vector<SpherePair>(expected.begin(), expected.end()) == found.pairs);
@@ -82,20 +81,21 @@ TEST_CASE("empty sphere sets have no candidates") {
     CHECK(searchSampled(scene.a, {}, scene.motion).pairs.empty());
 }
 
-TEST_CASE("a pair that overlaps at rest counts from its gap at rest, or not at all, or as any other") {
+TEST_CASE("a pair of the region that overlaps at rest counts from its depth there, or not at all, or as any "
+          "other") {
     SphereSet a{{{0, 0, 0}, 1}}, b{{{1.5, 0, 0}, 1}};
     Motion slide;
     slide.dofs.push_back(joints::slide({-1, 0, 0}, -3, 1));
     SampledSearchOptions options;
+    options.rule = ruleOfSpheres(a, b, slide, AtRest::Offset);
     const auto offset = searchSampled(a, b, slide, options);
     REQUIRE(offset.pairs.size() == 1);
     CHECK(offset.restGaps[0] == Approx(-0.5).margin(1e-5));
     CHECK(offset.restGaps[0] < -0.5);
-    options.atRest = AtRest::Ignore;
+    options.rule = ruleOfSpheres(a, b, slide, AtRest::Ignore);
     const auto ignored = searchSampled(a, b, slide, options);
     CHECK(ignored.pairs.empty());
-    CHECK(ignored.atRest.size() == 1);
-    options.atRest = AtRest::Collide;
+    options.rule = ruleOfSpheres(a, b, slide, AtRest::Collide);
     const auto collide = searchSampled(a, b, slide, options);
     CHECK(collide.pairs.size() == 1);
     CHECK(collide.restGaps.empty());

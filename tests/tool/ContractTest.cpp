@@ -169,7 +169,7 @@ TEST_CASE("pairs baked apart and merged give the bytes of the plain bake") {
     CHECK(readText(folder.path() / "whole.tss") == readText(folder.path() / "merged.tss"));
 }
 
-TEST_CASE("a baked table is verified, and one with a test taken out is not") {
+TEST_CASE("a baked table is verified, and one with its tests taken out is not") {
     const Folder folder;
     writeSwing(folder);
     REQUIRE(runTss("bake swing.tss -o baked.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
@@ -181,8 +181,8 @@ TEST_CASE("a baked table is verified, and one with a test taken out is not") {
     tss::SceneModel scene = tss::loadScene(folder / "baked.tss");
     tss::Table damaged = *scene.pairs[0].table;
     REQUIRE(damaged.testCount() > 1);
-    damaged.columns.pop_back();
-    --damaged.rowOffsets.back();
+    damaged.columns.clear();
+    damaged.rowOffsets.assign(damaged.rowOffsets.size(), 0);
     scene.pairs[0].table = std::make_shared<tss::Table>(damaged);
     tss::saveScene(scene, folder / "damaged.tss");
     const Ran bad = runTss("verify damaged.tss", folder.path());

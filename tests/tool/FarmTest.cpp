@@ -132,7 +132,7 @@ TEST_CASE("the bake of all pairs sorts neighbours, chains and what never collide
         if (pair["neverCollides"] == true)
             ++never;
         else
-            ++(pair["overlapAtRest"].get<int>() > 0 ? atRest : others);
+            ++(pair["restRegion"].is_null() ? others : atRest);
         if (pair["path"] == "/Arm/Link0_Link3") CHECK(pair["dofs"] == 3);
     }
     CHECK(atRest == 3);         // the neighbours

@@ -18,8 +18,33 @@ TEST_CASE("spheres that lack a part of the surface prove nothing by staying apar
     };
     CHECK(never("--tolerance 0.02"));
     CHECK(never("--tolerance 0.02 --no-conservative"));
-    CHECK_FALSE(never("--tolerance 0.2 --no-conservative"));
+    CHECK(never("--tolerance 0.2 --no-conservative")); // finer than asked for, so that they are apart at rest
     CHECK_FALSE(never("--spheres growth")); // none at all
+}
+
+TEST_CASE("never to collide takes a distance of the meshes, and touching is none") {
+    const Folder folder;
+    writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
+    writeObj(boxMesh({1.1, -1, -1}, {2, 1, 1}), folder / "near.obj");
+    writeObj(boxMesh({1, -1, -1}, {2, 1, 1}), folder / "at.obj");
+    const auto baked = [&](const std::string& b, const std::string& settings) {
+        REQUIRE(runTss("make -o in.tss --a a.obj --b " + b + " --dof trans:1,0,0:0:3", folder.path()).exit ==
+                0);
+        const Ran ran = runTss("bake in.tss -o baked.tss --json --tolerance 0.02 " + settings, folder.path());
+        INFO(ran.err);
+        REQUIRE(ran.exit == 0);
+        return Json::parse(ran.out)["pairs"][0];
+    };
+    for (const std::string settings : {"", "--no-conservative", "--no-conservative --spheres shrinking"}) {
+        INFO(settings);
+        const Json pair = baked("near.obj", settings);
+        CHECK(pair["neverCollides"].get<bool>());
+        CHECK(pair["clearance"].get<double>() > 0);
+        CHECK(pair["clearance"].get<double>() <= 0.1); // inscribed spheres are farther apart than that
+    }
+    // Inscribed spheres of boxes that touch are apart.
+    CHECK_FALSE(baked("at.obj", "--no-conservative")["neverCollides"].get<bool>());
+    CHECK_FALSE(baked("at.obj", "--at-rest collide")["neverCollides"].get<bool>());
 }
 
 TEST_CASE("bad input is exit 1 with a message that says where, and leaves no file") {
@@ -218,4 +243,29 @@ TEST_CASE("an axis that is in another unit than the meshes is remarked upon") {
     };
     CHECK(said("1200,0,300").find("same unit") != std::string::npos);
     CHECK(said("1.2,5000,0.3").find("same unit") == std::string::npos); // anywhere along the axis
+}
+
+TEST_CASE("a query beyond the limits says so, and claims nothing there") {
+    const Folder folder;
+    writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
+    writeObj(boxMesh({1.1, -1, -1}, {2, 1, 1}), folder / "b.obj");
+    writeText(folder / "q.csv", "0\n-0.5\n1\n3.0000001\n4\n");
+    const auto asked = [&](const std::string& limits) {
+        REQUIRE(
+            runTss("make -o in.tss --a a.obj --b b.obj --dof trans:1,0,0:" + limits, folder.path()).exit ==
+            0);
+        REQUIRE(runTss("bake in.tss -o baked.tss --tolerance 0.02", folder.path()).exit == 0);
+        const Ran said = runTss("query baked.tss --poses q.csv -o r.csv", folder.path());
+        CHECK(said.out.find("outside the limits") != std::string::npos);
+        return Json::parse(runTss("query baked.tss --poses q.csv -o r.csv --json", folder.path()).out);
+    };
+    const Json apart = asked("0:3"); // they never meet there; at -0.5 they do
+    CHECK(apart["hits"] == 0);
+    CHECK(apart["outsideLimits"] == 2);
+    CHECK(apart["outsideRows"] == Json::array({1, 4}));
+    const std::string rows = readText(folder / "r.csv");
+    CHECK(rows.find("nan,0,-1,,,,,,\n") != std::string::npos);
+    const Json table = asked("-0.3:3");
+    CHECK(table["outsideRows"] == Json::array({1, 4}));
+    CHECK(table["hits"] == 0); // the one beyond the limits is none of the table's
 }

@@ -9,8 +9,16 @@
 /// Tables of the scenes made by code, for the tests of the verifier. Pairs that overlap at rest are no
 /// exception unless said otherwise.
 inline tss::VerifyOptions colliding() {
+    return {};
+}
+
+/// What overlaps at rest touches where it goes deeper.
+inline tss::VerifyOptions offset(const scenes::Scene& scene) {
+    const tss::ContactRule rule = ruleOfSpheres(scene.a, scene.b, scene.motion, tss::AtRest::Offset);
     tss::VerifyOptions o;
-    o.atRest = tss::RestOverlaps::Collide;
+    o.regionA = rule.regionA();
+    o.regionB = rule.regionB();
+    o.depth = -rule.threshold();
     return o;
 }
 
@@ -30,7 +38,7 @@ inline tss::Table baked(const scenes::Scene& scene, double epsilon = 0, double d
     options.epsilon = epsilon;
     options.gapDepth = depth;
     options.gapMargin = margin;
-    options.atRest = atRest;
+    options.rule = ruleOfSpheres(scene.a, scene.b, scene.motion, atRest);
     return tableOf(scene, tss::certifiedCover(scene.a, scene.b, nullptr, scene.motion, options), options);
 }
 

@@ -1,6 +1,7 @@
 #include "bake/verify/Kernel.h"
 #include "bake/base/Error.h"
 #include "bake/verify/KernelCells.h"
+#include "bake/verify/VerdictProof.h"
 #include "tests/table/RandomTable.h"
 #include "tests/verify/Baked.h"
 
@@ -68,6 +69,29 @@ TEST_CASE("a kernel made from other spheres or another axis is refused") {
         }
     }
     CHECK(tried >= 4 * 20);
+}
+
+TEST_CASE("verdicts made for other spheres are refused, and for the right ones proven") {
+    int tried = 0, pieces = 0;
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+        CAPTURE(seed);
+        const Table table = baked(scenes::randomScene(seed, 1 + int(seed % 3), 30, false));
+        if (table.testCount() < 2) continue;
+        const PreparedTable prepared(table);
+        if (prepared.verdicts().empty()) continue;
+        REQUIRE(verify::refuteVerdicts(table, prepared) == "");
+        pieces += !prepared.verdicts().pieces().empty();
+        double radius = 0;
+        for (const Sphere& s : table.a) radius = std::max(radius, s.radius);
+        Table larger = table, smaller = table;
+        for (Sphere& s : larger.a) s.radius += 0.2 * radius;
+        for (Sphere& s : smaller.a) s.radius -= 0.2 * radius;
+        CHECK(verify::refuteVerdicts(larger, prepared) != "");
+        CHECK(verify::refuteVerdicts(smaller, prepared) != "");
+        ++tried;
+    }
+    CHECK(tried >= 15);
+    CHECK(pieces >= 5);
 }
 
 TEST_CASE("cells made for other spheres are refused, and for the right ones proven") {

@@ -231,7 +231,7 @@ void changeRestGaps(Counts& counts, scenes::Scene scene, std::uint64_t seed) {
     if (table.restGaps.empty()) return;
     const Exhibit good{scene.a, scene.b, table, scene.motion};
     const auto refused = [&](const Exhibit& x) {
-        return !verifyTable(x.a, x.b, x.table, x.motion, VerifyOptions{}).proven;
+        return !verifyTable(x.a, x.b, x.table, x.motion, offset(scene)).proven;
     };
     INFO("rest gaps, seed " << seed);
     CHECK_FALSE(refused(good));

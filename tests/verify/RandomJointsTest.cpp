@@ -95,7 +95,6 @@ TEST_CASE("a pair over six joints gets the epsilon that its budget reached, and 
         CAPTURE(seed);
         const scenes::Scene scene = scenes::randomScene(seed, 6, 12, true);
         CoverOptions options;
-        options.atRest = AtRest::Collide;
         options.cells = 30000;
         const CoverResult cover = certifiedCover(scene.a, scene.b, nullptr, scene.motion, options);
         cutShort += !cover.complete;

@@ -206,7 +206,7 @@ TEST_CASE("rest gaps are checked both ways") {
     scene.motion.base.translation() *= 0.7;
     const Table table = baked(scene, 0, 0, 0, AtRest::Offset);
     REQUIRE(!table.restGaps.empty());
-    const VerifyOptions offset;
+    const VerifyOptions offset = ::offset(scene);
     const auto result = verifyTable(scene.a, scene.b, table, scene.motion, offset);
     INFO(result.reason);
     CHECK(result.proven);

@@ -67,7 +67,7 @@ std::vector<ExtremeScene> contactScenes() {
          "equal meshes on each other at rest: out of the overlap and never back into it", Fate::Table, "",
          concentric(10, "collide")},
         {"touch_faces", "exact touch",
-         "free at rest; then blocked, as all that is nearer than the bound `early`", Fate::Table, "",
+         "free at rest, and slides on: it goes no deeper than there", Fate::Table, "",
          faces("offset")},
         {"touch_faces_collide", "exact touch", "faces exactly on each other are in contact all the way",
          Fate::Table, "", faces("collide")},

@@ -39,14 +39,15 @@ TriangleMesh slivers() {
     return mesh;
 }
 
-/// Corners twice, corners in a line, faces twice and thrice.
+/// A corner twice, thrice, and at the place of another: on an edge that other triangles have.
 TriangleMesh zeroAreas() {
     TriangleMesh mesh = still();
-    mesh.vertices.push_back(0.5 * (mesh.vertices[0] + mesh.vertices[1]));
-    const int middle = static_cast<int>(mesh.vertices.size()) - 1;
-    mesh.triangles.emplace_back(0, 0, 1);
+    const int end = mesh.triangles[0][1];
+    mesh.vertices.push_back(Vec3(mesh.vertices[std::size_t(end)]));
+    const int again = static_cast<int>(mesh.vertices.size()) - 1;
+    mesh.triangles.emplace_back(0, 0, end);
     mesh.triangles.emplace_back(3, 3, 3);
-    mesh.triangles.emplace_back(0, middle, 1);
+    mesh.triangles.emplace_back(0, again, end);
     return mesh;
 }
 

@@ -1,4 +1,4 @@
-#include "bake/respond/JointQp.h"
+#include "bake/motion/JointQp.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,144 @@
+#include "bake/geometry/PartSet.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace tss {
+
+namespace {
+
+std::uint64_t key(std::uint32_t triangle, std::uint32_t cuts) {
+    return std::uint64_t{triangle} << 32 | cuts;
+}
+
+double area(const Corners& c) {
+    return 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
+}
+
+using Place = std::array<double, 9>;
+
+/// The corners, turned so that the least comes first.
+Place placeOf(const Corners& c) {
+    Place least{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 &x = c[k], &y = c[(k + 1) % 3], &z = c[(k + 2) % 3];
+        const Place turned{x.x(), x.y(), x.z(), y.x(), y.y(), y.z(), z.x(), z.y(), z.z()};
+        if (k == 0 || turned < least) least = turned;
+    }
+    return least;
+}
+
+Vec3 middle(const Corners& c) {
+    return (c[0] + c[1] + c[2]) / 3;
+}
+
+/// The part of a triangle with these corners, cut as often as `cuts`; 0 where it is cut otherwise.
+std::uint32_t cutsOf(Corners whole, const Corners& wanted, std::uint32_t cuts) {
+    std::uint32_t found = 1;
+    for (; cuts > 1; cuts >>= 1) {
+        const std::array<Corners, 2> both = halves(whole);
+        const Vec3 at = middle(wanted);
+        const bool second = (middle(both[1]) - at).squaredNorm() < (middle(both[0]) - at).squaredNorm();
+        whole = both[second];
+        found = found * 2 + second;
+    }
+    return placeOf(whole) == placeOf(wanted) ? found : 0;
+}
+
+} // namespace
+
+void PartSet::insert(SurfacePart part) {
+    if (contains(part)) return;
+    in_.insert(key(part.triangle, part.cuts));
+    for (std::uint32_t cuts = part.cuts; cuts > 0; cuts >>= 1)
+        if (!above_.insert(key(part.triangle, cuts)).second) break;
+    // Where both halves are in, the whole is, and is found at once.
+    if (part.cuts > 1 && in_.count(key(part.triangle, part.cuts ^ 1u)))
+        insert({part.triangle, part.cuts >> 1});
+}
+
+bool PartSet::contains(SurfacePart part) const {
+    if (!above_.count(key(part.triangle, 1))) return false;
+    for (std::uint32_t cuts = part.cuts; cuts > 0; cuts >>= 1)
+        if (in_.count(key(part.triangle, cuts))) return true;
+    return false;
+}
+
+bool PartSet::reaches(SurfacePart part) const {
+    return above_.count(key(part.triangle, part.cuts)) > 0;
+}
+
+std::vector<SurfacePart> PartSet::merged() const {
+    std::map<std::uint32_t, std::set<std::uint32_t, std::greater<>>> open;
+    for (const std::uint64_t part : in_)
+        open[static_cast<std::uint32_t>(part >> 32)].insert(static_cast<std::uint32_t>(part));
+    std::vector<SurfacePart> parts;
+    for (auto& [triangle, cuts] : open) {
+        // A part has more digits than what it is a part of: the last cut come first.
+        while (!cuts.empty()) {
+            const std::uint32_t last = *cuts.begin();
+            cuts.erase(cuts.begin());
+            bool inside = false;
+            for (std::uint32_t whole = last >> 1; whole > 0; whole >>= 1) inside |= cuts.count(whole) > 0;
+            if (inside) continue;
+            if (last > 1 && cuts.erase(last ^ 1u) > 0)
+                cuts.insert(last >> 1);
+            else
+                parts.push_back({triangle, last});
+        }
+    }
+    std::sort(parts.begin(), parts.end());
+    return parts;
+}
+
+std::array<SurfacePart, 2> halves(SurfacePart part) {
+    return {SurfacePart{part.triangle, part.cuts * 2}, SurfacePart{part.triangle, part.cuts * 2 + 1}};
+}
+
+std::vector<SurfacePart> partsOf(const TriangleMesh& other, const TriangleMesh& mesh,
+                                 const std::vector<SurfacePart>& parts) {
+    std::map<Place, std::vector<std::uint32_t>> at;
+    for (const SurfacePart& part : parts) at[placeOf(corners(mesh, {part.triangle, 1}))];
+    for (std::uint32_t t = 0; t < other.triangles.size() && !at.empty(); ++t)
+        if (const auto found = at.find(placeOf(corners(other, {t, 1}))); found != at.end())
+            found->second.push_back(t);
+    std::vector<SurfacePart> result;
+    for (const SurfacePart& part : parts) {
+        const Corners whole = corners(mesh, {part.triangle, 1});
+        for (const std::uint32_t t : at[placeOf(whole)]) {
+            const Corners there = corners(other, {t, 1});
+            const std::uint32_t cuts =
+                there == whole ? part.cuts : cutsOf(there, corners(mesh, part), part.cuts);
+            if (cuts > 0) result.push_back({t, cuts});
+        }
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+}
+
+TriangleMesh meshOf(const TriangleMesh& mesh, const std::vector<SurfacePart>& parts) {
+    TriangleMesh result;
+    for (const SurfacePart& part : parts) {
+        const int first = static_cast<int>(result.vertices.size());
+        for (const Vec3& corner : corners(mesh, part)) result.vertices.push_back(corner);
+        result.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    return result;
+}
+
+double area(const TriangleMesh& mesh, const std::vector<SurfacePart>& parts) {
+    double sum = 0;
+    for (const SurfacePart& part : parts) sum += area(corners(mesh, part));
+    return sum;
+}
+
+double area(const TriangleMesh& mesh) {
+    double sum = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        sum += area(Corners{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+    return sum;
+}
+
+} // namespace tss

@@ -1,0 +1,87 @@
+#include "bake/motion/LimitConflict.h"
+
+#include "bake/motion/JointQp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tss {
+
+namespace {
+
+/// Q in units of the ranges about a value within the limits: box and planes as demands on what is added to
+/// it.
+class ScaledLimits {
+public:
+    explicit ScaledLimits(const Motion& motion) : motion_(motion) {
+        for (const Dof& dof : motion.dofs) {
+            centre_.push_back(std::clamp(dof.rest, dof.lower, dof.upper));
+            range_.push_back(dof.upper - dof.lower);
+        }
+    }
+
+    /// Some value within the limits meets these planes.
+    bool leave(const std::vector<std::size_t>& planes) const {
+        constexpr double hair = 1e-9;
+        const std::size_t n = range_.size();
+        QpRows rows(2 * n + planes.size());
+        rows.clear(static_cast<int>(n));
+        for (std::size_t k = 0; k < n; ++k) addBox(rows, k);
+        for (const std::size_t p : planes)
+            if (!addPlane(rows, motion_.planes[p], hair)) return false;
+        DofValues y{};
+        return nearestToOrigin(rows, hair, y);
+    }
+
+private:
+    void addBox(QpRows& rows, std::size_t k) const {
+        const Dof& dof = motion_.dofs[k];
+        const double unit = range_[k] > 0 ? range_[k] : 1;
+        for (const double side : {1.0, -1.0}) {
+            double* row = rows.add();
+            std::fill_n(row, range_.size(), 0.0);
+            row[k] = side;
+            row[range_.size()] = side * ((side > 0 ? dof.lower : dof.upper) - centre_[k]) / unit;
+        }
+    }
+
+    /// False: the DOFs that it is about cannot move, and it does not hold.
+    bool addPlane(QpRows& rows, const LimitPlane& plane, double hair) const {
+        const std::size_t n = range_.size();
+        double squared = 0, excess = -plane.bound, size = std::abs(plane.bound);
+        for (std::size_t k = 0; k < n; ++k) {
+            const double c = plane.coefficients[k];
+            squared += c * range_[k] * c * range_[k];
+            excess += c * centre_[k];
+            size += std::abs(c * centre_[k]);
+        }
+        const double rounding = 1e-12 * size, length = std::sqrt(squared);
+        if (!(length > 0)) return excess <= hair * size;
+        double* row = rows.add();
+        for (std::size_t k = 0; k < n; ++k) row[k] = -plane.coefficients[k] * range_[k] / length;
+        row[n] = (excess - rounding) / length;
+        return true;
+    }
+
+    const Motion& motion_;
+    std::vector<double> centre_, range_;
+};
+
+} // namespace
+
+std::vector<std::size_t> conflictingPlanes(const Motion& motion) {
+    const ScaledLimits limits(motion);
+    std::vector<std::size_t> planes(motion.planes.size());
+    std::iota(planes.begin(), planes.end(), 0);
+    if (planes.empty() || limits.leave(planes)) return {};
+    // Each plane that the conflict does without is none of it.
+    for (std::size_t i = planes.size(); i-- > 0;) {
+        std::vector<std::size_t> others = planes;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+        if (!limits.leave(others)) planes = std::move(others);
+    }
+    return planes;
+}
+
+} // namespace tss

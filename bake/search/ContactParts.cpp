@@ -1,0 +1,102 @@
+#include "bake/search/ContactParts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace tss {
+
+struct ContactSurface::Look {
+    const ContactSurface& other;
+    const Pose& toOther;
+    double reach, size;
+    const PartSet& known;
+};
+
+ContactSurface::ContactSurface(const Solid& solid, const MeshQuery& surface)
+    : solid_(solid), surface_(surface), bounds_(bounds(solid.mesh())) {
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (std::size_t t = 0; t < mesh().triangles.size(); ++t) {
+        Eigen::AlignedBox3d box(mesh().corner(t, 0));
+        boxes.push_back(box.extend(mesh().corner(t, 1)).extend(mesh().corner(t, 2)));
+    }
+    tree_ = buildBvh(boxes, 2);
+}
+
+std::vector<SurfacePart> ContactSurface::meeting(const ContactSurface& other, const Pose& toOther,
+                                                 double reach, double size, const PartSet& known) const {
+    std::vector<SurfacePart> found;
+    if (!tree_.empty()) visit(Look{other, toOther, reach, size, known}, 0, found);
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+void ContactSurface::visit(const Look& look, std::uint32_t node, std::vector<SurfacePart>& found) const {
+    const Bvh::Node& at = tree_.nodes[node];
+    const Vec3 centre = look.toOther * Vec3(0.5 * (at.lower + at.upper));
+    const double radius = 0.5 * (at.upper - at.lower).norm() * (1 + 1e-12);
+    // Where the boundary is farther away, all of it is on one side.
+    const bool near = look.other.solid_.boundary().comesWithin(centre, radius + look.reach);
+    if (!near && !look.other.inside(centre)) return;
+    if (at.count == 0) {
+        visit(look, at.first, found);
+        visit(look, at.first + 1, found);
+        return;
+    }
+    for (std::uint32_t i = 0; i < at.count; ++i) {
+        const SurfacePart whole{tree_.items[at.first + i], 1};
+        visit(look, whole, corners(mesh(), whole), found);
+    }
+}
+
+void ContactSurface::visit(const Look& look, SurfacePart part, const Corners& corners,
+                           std::vector<SurfacePart>& found) const {
+    if (look.known.contains(part)) return;
+    const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3, centre = look.toOther * middle;
+    double radius = 0;
+    for (const Vec3& corner : corners) radius = std::max(radius, (corner - middle).norm() * (1 + 1e-12));
+    const double distance = look.other.solid_.boundary().distance(centre, radius + look.reach);
+    if (!std::isfinite(distance)) {
+        if (look.other.inside(centre)) found.push_back(part);
+        return;
+    }
+    const bool whole = distance + radius <= look.reach && !look.known.reaches(part);
+    if (whole || radius <= look.size || part.cuts >> (mostCuts - 1)) {
+        found.push_back(part);
+        return;
+    }
+    const std::array<SurfacePart, 2> parts = halves(part);
+    const std::array<Corners, 2> both = halves(corners);
+    for (int k = 0; k < 2; ++k) visit(look, parts[k], both[k], found);
+}
+
+std::vector<std::vector<SurfacePart>> connected(const TriangleMesh& mesh,
+                                                const std::vector<SurfacePart>& parts) {
+    std::vector<std::size_t> parent(parts.size());
+    std::iota(parent.begin(), parent.end(), std::size_t{0});
+    const auto root = [&](std::size_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    std::map<std::array<double, 3>, std::size_t> first; // the first part at each corner
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        for (const Vec3& corner : corners(mesh, parts[i])) {
+            const auto [at, fresh] = first.try_emplace({corner.x(), corner.y(), corner.z()}, i);
+            const std::size_t x = root(at->second), y = root(i);
+            parent[std::max(x, y)] = std::min(x, y);
+        }
+    std::vector<std::vector<SurfacePart>> sets;
+    std::vector<std::size_t> place(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::size_t r = root(i);
+        if (r == i) {
+            place[i] = sets.size();
+            sets.emplace_back();
+        }
+        sets[place[r]].push_back(parts[i]);
+    }
+    return sets;
+}
+
+} // namespace tss

@@ -1,0 +1,345 @@
+#include "bake/verify/MeshBox.h"
+
+#include "bake/geometry/TriangleDistance.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace tss::verify {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Pairs that a box keeps open at most before it is halved with the rest as it is.
+constexpr std::size_t mostOpen = 3000;
+/// Tests that are tried on a pair, the deepest in the middle of the box first and those that answered for
+/// others before it. In small boxes, where few are left, all of them.
+constexpr std::size_t mostTried = 8;
+constexpr double smallBox = 1e-3; ///< of the largest reach
+
+Piece half(const SurfaceTree& tree, Piece piece, std::uint32_t side) {
+    const SurfaceTree::Node& node = tree.nodes[static_cast<std::size_t>(piece.node)];
+    if (node.first >= 0) return {side ? node.second : node.first, 1};
+    return {piece.node, piece.cuts << 1 | side};
+}
+
+bool divisible(const SurfaceTree& tree, Piece piece) {
+    return tree.nodes[static_cast<std::size_t>(piece.node)].first >= 0 ||
+           std::bit_width(piece.cuts) < mostCuts;
+}
+
+} // namespace
+
+MeshBox::MeshBox(const SurfaceTree& a, const SurfaceTree& b, const Motion& motion, double size,
+                 const MeshClaim& claim)
+    : a_(a), b_(b), motion_(motion), claim_(claim), size_(size), moved_(b.nodes.size()) {
+    // Smaller boxes than this cannot be told from rounding.
+    smallest_ = 1e-3 * claim.band;
+    for (const MeshTest& test : claim.tests) largestReach_ = std::max(largestReach_, test.reach);
+}
+
+const MeshBox::Moved& MeshBox::moved(std::int32_t node) {
+    Moved& at = moved_[static_cast<std::size_t>(node)];
+    if (at.stamp != stamp_) {
+        static_cast<MovingPoint&>(at) =
+            box_->carry(b_.nodes[static_cast<std::size_t>(node)].slab.centre, true);
+        at.stamp = stamp_;
+    }
+    return at;
+}
+
+Corners MeshBox::cornersOf(const SurfaceTree& tree, Piece piece) const {
+    Corners now = tree.patches[tree.nodes[static_cast<std::size_t>(piece.node)].patch].corners;
+    for (int bit = std::bit_width(piece.cuts) - 2; bit >= 0; --bit) now = halves(now)[piece.cuts >> bit & 1];
+    return now;
+}
+
+Slab MeshBox::slabOfPiece(const SurfaceTree& tree, Piece piece) const {
+    if (piece.cuts == 1) return tree.nodes[static_cast<std::size_t>(piece.node)].slab;
+    return slabOf(cornersOf(tree, piece));
+}
+
+// What of the tests can fire in the box. True: one of them does, all over it.
+bool MeshBox::weighTests(const OpenPairs& open) {
+    near_.clear();
+    const double limit = claim_.miss + 0.5 * claim_.band;
+    for (std::uint32_t k : open.tests) {
+        const MeshTest& t = claim_.tests[k];
+        const MovingPoint b = box_->carry(t.centreB, true);
+        const Vec3 arm = b.at - t.centreA;
+        const double distance = arm.norm();
+        Near near;
+        near.test = k;
+        near.gap = distance - t.reach;
+        near.normal = distance > 0 ? Vec3(arm / distance) : Vec3::UnitX();
+        double tilt = 0, across = b.bend;
+        for (std::size_t l = 0; l < box_->dofs(); ++l) {
+            near.slope[l] = near.normal.dot(b.velocity[l]);
+            tilt += std::abs(near.slope[l]) * box_->half(l);
+            across += (b.velocity[l] - near.slope[l] * near.normal).norm() * box_->half(l);
+        }
+        tilt *= 1 + 1e-14;
+        across = std::min(across, b.move) + 1e-15 * b.move;
+        if (near.gap - std::min(b.move, tilt + b.bend) > limit) continue;
+        // |y + m| <= |y| + n . m + |m across n|^2 / 2 (|y| + n . m)
+        const double least = distance - std::min(tilt + b.bend, b.move);
+        near.rest = least > 0 ? b.bend + across * across / (2 * least) : infinity;
+        if (near.gap + std::min(b.move, tilt + near.rest) <= limit) return true;
+        if (!(near.rest <= 2 * b.move)) { // no better than the plain bound: without slopes
+            near.rest = b.move;
+            near.slope.fill(0);
+        }
+        near_.push_back(near);
+    }
+    return false;
+}
+
+Shape MeshBox::shapeOf(const SurfaceTree& tree, Piece piece) const {
+    const SurfaceTree::Node& node = tree.nodes[static_cast<std::size_t>(piece.node)];
+    if (node.first >= 0) return {node.slab, {}};
+    Shape shape;
+    shape.corners = cornersOf(tree, piece);
+    shape.slab = piece.cuts == 1 ? node.slab : slabOf(*shape.corners);
+    return shape;
+}
+
+bool MeshBox::apart(const Shape& shapeA, const Shape& shapeB, const MovingPoint& at) const {
+    const Slab &a = shapeA.slab, &b = shapeB.slab;
+    const Vec3 between = at.at - a.centre;
+    const double distance = between.norm();
+    if (distance * (1 - 1e-15) - at.move > a.reach + b.reach + claim_.near) return true;
+    const Eigen::Matrix3d turned = box_->pose().linear();
+    const auto separates = [&](Vec3 normal) { // of length 1
+        double along = normal.dot(between), tilt = at.bend;
+        if (along < 0) {
+            along = -along;
+            normal = -normal;
+        }
+        for (std::size_t l = 0; l < box_->dofs(); ++l)
+            tilt += std::abs(normal.dot(at.velocity[l])) * box_->half(l);
+        tilt = std::min(tilt, at.move);
+        const Vec3 inB = turned.transpose() * normal;
+        const double wide =
+            shapeA.support(normal) + std::min(b.reach, shapeB.support(-inB) + box_->turn() * b.reach);
+        const double rounding = 1e-14 * (tilt + a.reach + b.reach + claim_.near) + 0.1 * claim_.band;
+        return along * (1 - 1e-14) > tilt + wide + claim_.near + rounding;
+    };
+    if ((distance > 0 && separates(between / distance)) || separates(a.axis) || separates(turned * b.axis))
+        return true;
+    if (!shapeA.corners || !shapeB.corners) return false;
+    // Two triangles in nearly one plane: past each other's edges.
+    const auto pastEdges = [&](const Corners& corners, const Vec3& axis, const auto& seen) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 normal = axis.cross(corners[(k + 1) % 3] - corners[k]);
+            const double length = normal.norm();
+            if (length > 0 && separates(seen(normal / length))) return true;
+        }
+        return false;
+    };
+    return pastEdges(*shapeA.corners, a.axis, [](const Vec3& n) { return n; }) ||
+           pastEdges(*shapeB.corners, b.axis, [&](const Vec3& n) { return Vec3(turned * n); });
+}
+
+// The test's gap at every pose of the box where the two pieces come as near as the claim says, T(q) y = x +
+// e: gap + lambda . (T(q) y - x - e), for any lambda.
+double MeshBox::bound(const Near& test, const Vec3& lambda, const Shape& a, const Shape& b,
+                      const MovingPoint& at, double& patches) const {
+    const double length = lambda.norm(), reachB = b.slab.reach;
+    const Vec3 inB = box_->pose().linear().transpose() * lambda;
+    patches = a.support(-lambda) +
+              std::min(length * reachB, b.support(inB) + length * box_->turn() * reachB) +
+              length * claim_.near;
+    double motion = test.rest + length * at.bend;
+    for (std::size_t l = 0; l < box_->dofs(); ++l)
+        motion += std::abs(test.slope[l] + lambda.dot(at.velocity[l])) * box_->half(l);
+    const double rounding = 1e-13 * (motion + length * (a.slab.reach + reachB + claim_.near));
+    return test.gap + lambda.dot(at.at - a.slab.centre) + patches + motion + rounding;
+}
+
+bool MeshBox::answered(const Shape& a, const Shape& b, const MovingPoint& at, Verdict& blur) {
+    const double limit = claim_.miss + 0.5 * claim_.band;
+    const bool bent = !std::isfinite(at.bend);
+    Eigen::Matrix3d inverse;
+    bool inverted = false;
+    double best = infinity;
+    const auto tries = [&](const Near& test, const Vec3& lambda) {
+        double patches = 0;
+        const double gap = bound(test, lambda, a, b, at, patches);
+        if (gap < best) {
+            best = gap;
+            blur = patches > 0.5 * (gap - test.gap - lambda.dot(at.at - a.slab.centre)) ? Verdict::SplitPair
+                                                                                        : Verdict::SplitBox;
+        }
+        return gap <= limit;
+    };
+    const std::size_t count =
+        at.move < smallBox * largestReach_ ? near_.size() : std::min(mostTried, near_.size());
+    for (std::size_t n = 0; n < count; ++n) {
+        const Near& test = near_[n];
+        const MeshTest& t = claim_.tests[test.test];
+        bool yes = a.slab.farthest(t.centreA) + b.slab.farthest(t.centreB) + claim_.near <= t.reach + limit;
+        if (!yes && !bent) {
+            yes = tries(test, -test.normal);
+            if (!yes) {
+                if (!inverted) {
+                    Eigen::Matrix3d m =
+                        Eigen::Matrix3d::Identity() * (at.bend * at.bend + 1e-4 * scale_ * scale_ + 1e-300);
+                    for (std::size_t l = 0; l < box_->dofs(); ++l) {
+                        const Vec3 v = at.velocity[l] * box_->half(l);
+                        m += v * v.transpose();
+                    }
+                    const auto add = [&](const Slab& s, const Vec3& axis) {
+                        m += s.radius * s.radius * Eigen::Matrix3d::Identity() +
+                             (s.half * s.half - s.radius * s.radius) * axis * axis.transpose();
+                    };
+                    add(a.slab, a.slab.axis);
+                    add(b.slab, box_->pose().linear() * b.slab.axis);
+                    inverse = m.inverse();
+                    inverted = true;
+                }
+                Vec3 right = Vec3::Zero();
+                for (std::size_t l = 0; l < box_->dofs(); ++l)
+                    right -= at.velocity[l] * (test.slope[l] * box_->half(l) * box_->half(l));
+                yes = tries(test, inverse * right);
+            }
+        }
+        if (!yes) continue;
+        // Neighbours are answered by the same test more often than not.
+        std::rotate(near_.begin(), near_.begin() + static_cast<std::ptrdiff_t>(n),
+                    near_.begin() + static_cast<std::ptrdiff_t>(n) + 1);
+        return true;
+    }
+    return false;
+}
+
+MeshBox::Verdict MeshBox::weigh(const PiecePair& pair) {
+    ++work_;
+    const SurfaceTree::Node &nodeA = a_.nodes[static_cast<std::size_t>(pair.a.node)],
+                            &nodeB = b_.nodes[static_cast<std::size_t>(pair.b.node)];
+    if (nodeA.exempt && nodeB.exempt) return Verdict::Done;
+    const Shape a = shapeOf(a_, pair.a), b = shapeOf(b_, pair.b);
+    MovingPoint at = moved(pair.b.node);
+    if (pair.b.cuts != 1) {
+        const Vec3 arm = box_->pose().linear() * (b.slab.centre - nodeB.slab.centre);
+        const double length = arm.norm() * (1 + 1e-14);
+        at.at += arm;
+        at.move += box_->turn() * length;
+        if (length > 0) at.bend += box_->turnBend() * length; // may be infinite
+        for (std::size_t l = 0; l < box_->dofs(); ++l) at.velocity[l] += box_->spin(l).cross(arm);
+    }
+    if (apart(a, b, at)) return Verdict::Done;
+    scale_ = a.slab.reach + b.slab.reach;
+    const bool divides = divisible(a_, pair.a) || divisible(b_, pair.b);
+    // Far larger than what the box moves: smaller pieces first. Whole triangles may be answered as they are.
+    const bool triangles = a.corners && b.corners && pair.a.cuts == 1 && pair.b.cuts == 1;
+    if (divides && !triangles && scale_ > 8 * at.move && scale_ > smallest_) return Verdict::SplitPair;
+    Verdict blur = scale_ > 2 * at.move ? Verdict::SplitPair : Verdict::SplitBox;
+    if (scale_ < 2 * largestReach_ && answered(a, b, at, blur)) return Verdict::Done;
+    if (scale_ > 2 * at.move) blur = Verdict::SplitPair;
+    if (!divides || scale_ < smallest_) blur = Verdict::SplitBox;
+    return blur;
+}
+
+void MeshBox::halve(const PiecePair& pair, std::vector<PiecePair>& stack) const {
+    const double sizeA = slabOfPiece(a_, pair.a).reach, sizeB = slabOfPiece(b_, pair.b).reach;
+    const bool cutA = divisible(a_, pair.a) && (sizeA >= sizeB || !divisible(b_, pair.b));
+    for (std::uint32_t side = 0; side < 2; ++side)
+        stack.push_back(cutA ? PiecePair{half(a_, pair.a, side), pair.b}
+                             : PiecePair{pair.a, half(b_, pair.b, side)});
+}
+
+// The DOF that moves the pieces left the most.
+void MeshBox::chooseCut(const OpenPairs& left, std::size_t& cut) const {
+    std::array<double, maxDofs> moves{};
+    const std::size_t step = 1 + left.pairs.size() / 16;
+    for (std::size_t k = 0; k < left.pairs.size(); k += step) {
+        const MovingPoint at = box_->carry(slabOfPiece(b_, left.pairs[k].b).centre, true);
+        for (std::size_t l = 0; l < box_->dofs(); ++l) moves[l] += at.velocity[l].norm() * box_->half(l);
+    }
+    cut = 0;
+    for (std::size_t l = 1; l < box_->dofs(); ++l)
+        if (moves[l] > moves[cut]) cut = l;
+    if (moves[cut] > 0) return;
+    for (std::size_t l = 1; l < box_->dofs(); ++l)
+        if (box_->half(l) > box_->half(cut)) cut = l;
+}
+
+bool MeshBox::unanswered(const std::vector<double>& q, const std::vector<PiecePair>& pairs, double near,
+                         MeshProofResult& broken) {
+    if (!withinLimits(motion_, q)) return false;
+    const Pose at = tss::pose(motion_, q);
+    double least = infinity;
+    for (const MeshTest& t : claim_.tests)
+        least = std::min(least, (at * t.centreB - t.centreA).norm() - t.reach);
+    if (least <= claim_.miss + claim_.band) return false;
+    std::vector<PiecePair> stack(pairs);
+    while (!stack.empty()) {
+        const PiecePair pair = stack.back();
+        stack.pop_back();
+        ++work_;
+        const SurfaceTree::Node &nodeA = a_.nodes[static_cast<std::size_t>(pair.a.node)],
+                                &nodeB = b_.nodes[static_cast<std::size_t>(pair.b.node)];
+        if (nodeA.exempt && nodeB.exempt) continue;
+        const Slab a = slabOfPiece(a_, pair.a), b = slabOfPiece(b_, pair.b);
+        if ((at * b.centre - a.centre).norm() > a.reach + b.reach + near) continue;
+        const bool leafA = nodeA.first < 0, leafB = nodeB.first < 0;
+        if (!leafA || !leafB) {
+            const bool cutA = !leafA && (leafB || a.reach >= b.reach);
+            for (std::uint32_t side = 0; side < 2; ++side)
+                stack.push_back(cutA ? PiecePair{half(a_, pair.a, side), pair.b}
+                                     : PiecePair{pair.a, half(b_, pair.b, side)});
+            continue;
+        }
+        Corners moved = cornersOf(b_, pair.b);
+        for (Vec3& corner : moved) corner = at * corner;
+        if (squaredDistanceOfTriangles(cornersOf(a_, pair.a), moved) > near * near) continue;
+        broken.pose = q;
+        broken.lag = least;
+        return true;
+    }
+    return false;
+}
+
+MeshBox::Outcome MeshBox::judge(const Box& dofs, const OpenPairs& open, OpenPairs& left, std::size_t& cut,
+                                double& at, MeshProofResult& broken) {
+    if (!meetsPlanes(motion_, dofs)) return Outcome::Shown;
+    const PoseBox box(motion_, dofs, size_);
+    box_ = &box;
+    ++stamp_;
+    work_ += 1 + open.tests.size() / 4;
+    if (weighTests(open)) return Outcome::Shown;
+    std::stable_sort(near_.begin(), near_.end(), [](const Near& x, const Near& y) { return x.gap < y.gap; });
+    left.pairs.clear();
+    stack_ = open.pairs;
+    while (!stack_.empty()) {
+        if (left.pairs.size() >= mostOpen) {
+            left.pairs.insert(left.pairs.end(), stack_.begin(), stack_.end());
+            break;
+        }
+        const PiecePair pair = stack_.back();
+        stack_.pop_back();
+        const Verdict verdict = weigh(pair);
+        if (verdict == Verdict::SplitBox) left.pairs.push_back(pair);
+        if (verdict == Verdict::SplitPair) halve(pair, stack_);
+    }
+    if (left.pairs.empty()) return Outcome::Shown;
+    if (breaksAt(box.middle(), left.pairs, broken)) return Outcome::Broken;
+    // What rounding hides at the middle no smaller box would show.
+    if (unanswered(box.middle(), left.pairs, claim_.near + claim_.band, broken)) return Outcome::Undecided;
+    double widest = 0;
+    for (const PiecePair& pair : left.pairs) widest = std::max(widest, moved(pair.b.node).move);
+    if (widest <= box.error() + smallest_) {
+        broken.pose = box.middle();
+        return Outcome::Undecided;
+    }
+    left.tests.clear();
+    for (const Near& near : near_) left.tests.push_back(near.test);
+    chooseCut(left, cut);
+    at = box.cut(cut);
+    return Outcome::Split;
+}
+
+} // namespace tss::verify

@@ -1,0 +1,90 @@
+#pragma once
+#include "bake/verify/MeshProof.h"
+
+#include <algorithm>
+
+namespace tss::verify {
+
+/// A node of a tree, or a part of the triangle of one without children: its longest edge halved again and
+/// again (SurfacePart::cuts).
+struct Piece {
+    std::int32_t node = 0;
+    std::uint32_t cuts = 1;
+};
+struct PiecePair {
+    Piece a, b;
+};
+
+/// What is still to be shown in a box, and the tests that can fire in it, the most useful first.
+struct OpenPairs {
+    std::vector<PiecePair> pairs;
+    std::vector<std::uint32_t> tests;
+};
+
+/// Weighs boxes of Q one at a time. Holds what can be used again between them, so one a thread; what it says
+/// of a box depends on that box alone.
+class MeshBox {
+public:
+    MeshBox(const SurfaceTree& a, const SurfaceTree& b, const Motion& motion, double size,
+            const MeshClaim& claim);
+
+    enum class Outcome { Shown, Split, Broken, Undecided };
+    /// Split: `left` is what is still open in the box and `cut` the DOF to halve it along, at `at`. Broken,
+    /// Undecided: the pose goes into `broken`.
+    Outcome judge(const Box& box, const OpenPairs& open, OpenPairs& left, std::size_t& cut, double& at,
+                  MeshProofResult& broken);
+
+    std::uint64_t work() const { return work_; }
+
+    /// The claim is broken at a pose: the surfaces, exempt pairs excepted, come as near as that and no test
+    /// answers.
+    bool breaksAt(const std::vector<double>& q, const std::vector<PiecePair>& pairs,
+                  MeshProofResult& broken) {
+        const double near = claim_.tests.empty() ? std::max(0.0, claim_.near - claim_.band) : claim_.near;
+        return unanswered(q, pairs, near, broken);
+    }
+
+private:
+    /// At a pose no test answers, and the surfaces are no farther apart than `near`.
+    bool unanswered(const std::vector<double>& q, const std::vector<PiecePair>& pairs, double near,
+                    MeshProofResult& broken);
+
+    struct Moved : MovingPoint {
+        std::uint64_t stamp = 0;
+    };
+    /// A test over the box: gap = gap + sum_l slope_l (q_l - middle_l), never more than `rest` above it.
+    struct Near {
+        std::uint32_t test = 0;
+        double gap = 0, rest = 0;
+        Vec3 normal;
+        std::array<double, maxDofs> slope;
+    };
+    enum class Verdict { Done, SplitPair, SplitBox };
+
+    const Moved& moved(std::int32_t node);
+    Slab slabOfPiece(const SurfaceTree& tree, Piece piece) const;
+    Shape shapeOf(const SurfaceTree& tree, Piece piece) const;
+    Corners cornersOf(const SurfaceTree& tree, Piece piece) const;
+    bool weighTests(const OpenPairs& open);
+    Verdict weigh(const PiecePair& pair);
+    bool apart(const Shape& a, const Shape& b, const MovingPoint& at) const;
+    bool answered(const Shape& a, const Shape& b, const MovingPoint& at, Verdict& blur);
+    double bound(const Near& test, const Vec3& lambda, const Shape& a, const Shape& b, const MovingPoint& at,
+                 double& patches) const;
+    void halve(const PiecePair& pair, std::vector<PiecePair>& stack) const;
+    void chooseCut(const OpenPairs& left, std::size_t& cut) const;
+
+    const SurfaceTree &a_, &b_;
+    const Motion& motion_;
+    const MeshClaim& claim_;
+    double size_, smallest_, largestReach_ = 0;
+
+    const PoseBox* box_ = nullptr;
+    std::uint64_t stamp_ = 0, work_ = 0;
+    std::vector<Moved> moved_; ///< one a node of B
+    std::vector<Near> near_;
+    double scale_ = 0; ///< reach of the pair that was weighed last
+    std::vector<PiecePair> stack_;
+};
+
+} // namespace tss::verify

@@ -1,0 +1,183 @@
+#include "bake/verify/MeshProof.h"
+
+#include "bake/base/Parallel.h"
+#include "bake/verify/MeshBox.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <mutex>
+
+namespace tss::verify {
+
+namespace {
+
+struct Job {
+    Box box;
+    std::shared_ptr<const OpenPairs> open;
+    double share = 1; ///< of Q
+};
+
+struct PartOutcome {
+    MeshBox::Outcome outcome = MeshBox::Outcome::Shown;
+    MeshProofResult broken;
+    std::uint64_t cells = 0, work = 0;
+    double shown = 0; ///< share of Q
+    std::vector<Job> left;
+};
+
+/// What threads use in turn: large, and good for any part.
+class BoxPool {
+public:
+    explicit BoxPool(std::function<std::unique_ptr<MeshBox>()> make) : make_(std::move(make)) {}
+
+    std::unique_ptr<MeshBox> take() {
+        const std::lock_guard lock(mutex_);
+        if (free_.empty()) return make_();
+        std::unique_ptr<MeshBox> box = std::move(free_.back());
+        free_.pop_back();
+        return box;
+    }
+    void give(std::unique_ptr<MeshBox> box) {
+        const std::lock_guard lock(mutex_);
+        free_.push_back(std::move(box));
+    }
+
+private:
+    std::function<std::unique_ptr<MeshBox>()> make_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<MeshBox>> free_;
+};
+
+PartOutcome runPart(MeshBox& prover, Job job, std::uint64_t work) {
+    PartOutcome part;
+    part.left.push_back(std::move(job));
+    const std::uint64_t from = prover.work();
+    while (!part.left.empty() && prover.work() - from < work) {
+        const Job next = std::move(part.left.back());
+        part.left.pop_back();
+        auto left = std::make_shared<OpenPairs>();
+        std::size_t cut = 0;
+        double at = 0;
+        const MeshBox::Outcome outcome = prover.judge(next.box, *next.open, *left, cut, at, part.broken);
+        ++part.cells;
+        if (outcome == MeshBox::Outcome::Shown) {
+            part.shown += next.share;
+        } else if (outcome == MeshBox::Outcome::Split) {
+            left->pairs.shrink_to_fit();
+            Job lower{next.box, left, next.share / 2}, upper{next.box, left, next.share / 2};
+            lower.box.upper[cut] = upper.box.lower[cut] = at;
+            part.left.push_back(std::move(lower));
+            part.left.push_back(std::move(upper));
+        } else {
+            part.outcome = outcome;
+            break;
+        }
+    }
+    part.work = prover.work() - from;
+    return part;
+}
+
+/// Poses spread over Q, to find what is plainly wrong before anything is proven: rest, the ends of every DOF,
+/// and a low-discrepancy sequence.
+std::vector<std::vector<double>> firstPoses(const Motion& motion) {
+    constexpr int count = 400;
+    std::vector<std::vector<double>> poses{clampToLimits(motion, restValues(motion))};
+    std::vector<double> share(motion.dofCount(), 0.5);
+    for (int n = 0; n < count; ++n) {
+        std::vector<double> q;
+        for (std::size_t k = 0; k < share.size(); ++k) {
+            share[k] = std::fmod(share[k] + 1 / std::sqrt(double(k) + 2.3), 1.0);
+            const double wide = std::clamp(1.1 * share[k] - 0.05, 0.0, 1.0); // some on the limits
+            const Dof& dof = motion.dofs[k];
+            q.push_back(std::clamp(dof.lower + wide * (dof.upper - dof.lower), dof.lower, dof.upper));
+        }
+        poses.push_back(std::move(q));
+    }
+    return poses;
+}
+
+} // namespace
+
+std::vector<MeshTest> meshTests(const Table& table) {
+    std::vector<MeshTest> all;
+    for (std::uint32_t i = 0; i + 1 < table.rowOffsets.size(); ++i)
+        for (std::uint32_t k = table.rowOffsets[i]; k < table.rowOffsets[i + 1]; ++k) {
+            const std::uint32_t j = table.columns[k];
+            const Sphere &a = table.a[i], &b = table.b[j];
+            const double threshold = table.restGaps.empty() ? 0 : table.restGaps[k];
+            all.push_back({a.centre, b.centre, a.radius + b.radius + threshold, threshold, i, j});
+        }
+    return all;
+}
+
+MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const Motion& motion, double size,
+                               const MeshClaim& claim, const Progress& progress) {
+    MeshProofResult result;
+    if (a.nodes.empty() || b.nodes.empty()) {
+        result.proven = true;
+        return result;
+    }
+    BoxPool pool([&] { return std::make_unique<MeshBox>(a, b, motion, size, claim); });
+    auto open = std::make_shared<OpenPairs>();
+    open->pairs.push_back({{a.root(), 1}, {b.root(), 1}});
+    const std::string broken = claim.near > 0 ? "at a pose the meshes are nearer than the clearance"
+                                              : "at a pose the meshes meet and the table does not answer";
+    {
+        std::unique_ptr<MeshBox> box = pool.take();
+        for (const std::vector<double>& q : firstPoses(motion)) {
+            if (!report(progress, "verify", 0)) break;
+            if (!box->breaksAt(q, open->pairs, result)) continue;
+            result.reason = broken;
+            return result;
+        }
+        result.work = box->work();
+        pool.give(std::move(box));
+    }
+    for (std::uint32_t k = 0; k < claim.tests.size(); ++k) open->tests.push_back(k);
+    std::vector<Job> jobs{{limitsOf(motion), std::move(open)}};
+    double shown = 0, most = 0;
+    constexpr std::size_t width = 64;
+    while (!jobs.empty()) {
+        if ((claim.work > 0 && result.work >= claim.work) || !report(progress, "verify", shown)) {
+            result.reason = claim.work > 0 && result.work >= claim.work
+                                ? "not proven within the effort granted"
+                                : "stopped before everything was shown";
+            return result;
+        }
+        const std::size_t count = std::min(width, jobs.size());
+        std::vector<PartOutcome> parts(count);
+        parallelFor(count, [&](std::size_t k) {
+            std::unique_ptr<MeshBox> box = pool.take();
+            parts[k] = runPart(*box, std::move(jobs[jobs.size() - 1 - k]), count < width ? 20'000 : 200'000);
+            pool.give(std::move(box));
+        });
+        jobs.resize(jobs.size() - count);
+        for (std::size_t k = count; k-- > 0;) {
+            result.cells += parts[k].cells;
+            result.work += parts[k].work;
+            shown += parts[k].shown;
+            for (Job& job : parts[k].left) jobs.push_back(std::move(job));
+        }
+        double bytes = 0;
+        for (const Job& job : jobs)
+            bytes += double(job.open->pairs.size() * sizeof(PiecePair) +
+                            job.open->tests.size() * sizeof(std::uint32_t)) /
+                     2;
+        most = std::max(most, bytes);
+        result.bytes = most;
+        for (const PartOutcome& part : parts) {
+            if (part.outcome == MeshBox::Outcome::Shown) continue;
+            result.pose = part.broken.pose;
+            result.lag = part.broken.lag;
+            result.reason = part.outcome == MeshBox::Outcome::Broken
+                                ? broken
+                                : "near a pose it cannot be told from rounding whether the claim holds";
+            return result;
+        }
+    }
+    result.proven = true;
+    return result;
+}
+
+} // namespace tss::verify

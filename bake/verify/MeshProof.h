@@ -1,0 +1,47 @@
+#pragma once
+#include "bake/base/Progress.h"
+#include "bake/table/Table.h"
+#include "bake/verify/PoseBox.h"
+#include "bake/verify/SurfaceTree.h"
+
+#include <cstdint>
+#include <string>
+
+namespace tss::verify {
+
+/// A test of a table: where its spheres stand in their bodies, and the distance of centres at which it
+/// reports contact, its threshold counted.
+struct MeshTest {
+    Vec3 centreA = Vec3::Zero(), centreB = Vec3::Zero();
+    double reach = 0;
+    double threshold = 0; ///< what the reach is more than the sum of radii
+    std::uint32_t sphereA = 0, sphereB = 0;
+};
+std::vector<MeshTest> meshTests(const Table& table);
+
+/// Wherever the two surfaces come as near as `near`, pairs of exempt patches excepted, the gap of some test
+/// is at most `miss`.
+struct MeshClaim {
+    std::vector<MeshTest> tests;
+    double miss = 0, near = 0;
+    double band = 0;        ///< granted to `miss` (to `near`, where there are no tests) for rounding
+    std::uint64_t work = 0; ///< give up after about so many comparisons of patches; 0: never
+};
+
+struct MeshProofResult {
+    bool proven = false;
+    std::string reason;       ///< why not; empty when proven
+    std::vector<double> pose; ///< that breaks the claim, or where it could not be told; may be empty
+    double lag = 0;           ///< at a pose that breaks it: the least gap of a test there
+    std::uint64_t cells = 0;  ///< boxes of Q looked at
+    std::uint64_t work = 0;   ///< comparisons of patches
+    double bytes = 0;         ///< of the trees and of what was open at the same time, about
+};
+
+/// Proves the claim for every pose of the motion's limits from the surfaces themselves, by branch and bound
+/// over boxes of Q and pairs of patches, or finds a pose that breaks it. `size`: no coordinate on the way
+/// from B to A is larger. Rounding is bounded and counts against the claim. Deterministic.
+MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const Motion& motion, double size,
+                               const MeshClaim& claim, const Progress& progress);
+
+} // namespace tss::verify

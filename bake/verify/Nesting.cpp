@@ -1,0 +1,267 @@
+#include "bake/verify/Nesting.h"
+
+#include "bake/base/Parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <numeric>
+
+namespace tss::verify {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Points of a connected piece of a surface that lie farthest out, in some directions.
+using Extremes = std::vector<Vec3>;
+
+std::array<double, 3> placeOf(const Vec3& p) {
+    return {p.x(), p.y(), p.z()};
+}
+
+/// The connected pieces of a surface: joined where triangles share the place of a corner.
+class Components {
+public:
+    explicit Components(const TriangleMesh& mesh) : of_(mesh.vertices.size()) {
+        std::map<std::array<double, 3>, int> places;
+        std::vector<int> parent(mesh.vertices.size());
+        for (int v = 0; v < int(parent.size()); ++v)
+            parent[std::size_t(v)] =
+                places.try_emplace(placeOf(mesh.vertices[std::size_t(v)]), v).first->second;
+        const auto root = [&](int v) {
+            while (parent[std::size_t(v)] != v)
+                v = parent[std::size_t(v)] = parent[std::size_t(parent[std::size_t(v)])];
+            return v;
+        };
+        for (const Tri& t : mesh.triangles)
+            for (int k = 1; k < 3; ++k) {
+                const int x = root(t[0]), y = root(t[k]);
+                parent[std::size_t(std::max(x, y))] = std::min(x, y);
+            }
+        std::map<int, std::uint32_t> number;
+        std::vector<std::vector<Vec3>> points;
+        for (const Tri& t : mesh.triangles)
+            for (int k = 0; k < 3; ++k) {
+                const auto found = number.try_emplace(root(t[k]), std::uint32_t(number.size()));
+                if (found.second) points.emplace_back();
+                of_[std::size_t(t[k])] = found.first->second;
+                points[found.first->second].push_back(mesh.vertices[std::size_t(t[k])]);
+            }
+        for (const std::vector<Vec3>& piece : points) extremes_.push_back(extremesOf(piece));
+    }
+
+    std::uint32_t of(int vertex) const { return of_[std::size_t(vertex)]; }
+    const std::vector<Extremes>& extremes() const { return extremes_; }
+
+private:
+    static Extremes extremesOf(const std::vector<Vec3>& points) {
+        Extremes extremes;
+        for (int x = -1; x <= 1; ++x)
+            for (int y = -1; y <= 1; ++y)
+                for (int z = -1; z <= 1; ++z) {
+                    const Vec3 way(x, y, z);
+                    if (way.isZero()) continue;
+                    extremes.push_back(
+                        *std::max_element(points.begin(), points.end(), [&](const Vec3& p, const Vec3& q) {
+                            return way.dot(p) < way.dot(q);
+                        }));
+                }
+        return extremes;
+    }
+
+    std::vector<std::uint32_t> of_;  ///< each vertex
+    std::vector<Extremes> extremes_; ///< of each piece
+};
+
+/// How far a point is outside the body, < 0: inside.
+double outside(const VerifiedBody& body, const Vec3& p) {
+    const double surface = body.surface.distance(p);
+    if (!body.solid || body.solid->hollow() || !body.solid->inside(p)) return surface;
+    return -std::min(surface, body.solid->boundary().distance(p));
+}
+
+class NestingBox {
+public:
+    NestingBox(const VerifiedBody& a, const VerifiedBody& b, const Components& ofA, const Components& ofB,
+               const Motion& motion, const std::vector<MeshTest>& tests, double early)
+        : a_(a), b_(b), ofA_(ofA), ofB_(ofB), motion_(motion), tests_(tests), early_(early),
+          lastA_(ofA.extremes().size()), lastB_(ofB.extremes().size()) {}
+
+    /// No test fires in the box, or nothing is nested.
+    bool shown(const PoseBox& box) {
+        double least = infinity;
+        const MeshTest* deepest = nullptr;
+        for (const MeshTest& t : tests_) {
+            const MovingPoint at = box.carry(t.centreB, false);
+            const double gap = (at.at - t.centreA).norm() * (1 - 1e-15) - t.reach;
+            if (gap - at.move > 0 || gap >= least) continue;
+            least = gap;
+            deepest = &t;
+        }
+        return !deepest || cross(box, *deepest) || allOutside(box) || near(box);
+    }
+
+    /// At the pose a test fires and the surfaces are farther apart than they may be.
+    bool brokenAt(const std::vector<double>& q) const {
+        if (!withinLimits(motion_, q)) return false;
+        const Pose at = tss::pose(motion_, q);
+        const bool fires = std::any_of(tests_.begin(), tests_.end(), [&](const MeshTest& t) {
+            return (at * t.centreB - t.centreA).norm() <= t.reach;
+        });
+        return fires && a_.surface.apart(b_.surface, at, early_ * (1 + 1e-6));
+    }
+
+private:
+    /// How far a point is outside the other body in the middle of the box, and how far it may move over it.
+    struct Side {
+        double outside, move;
+    };
+    Side ofB(const PoseBox& box, const Vec3& p) const {
+        const MovingPoint at = box.carry(p, false);
+        return {verify::outside(a_, at.at), at.move};
+    }
+    // A point of A moves against B's surface as far as the point of B that is where it is.
+    Side ofA(const PoseBox& box, const Vec3& p) const {
+        const Vec3 inB = box.pose().inverse(Eigen::Isometry) * p;
+        return {verify::outside(b_, inB), box.carry(inB, false).move};
+    }
+
+    template <typename Look>
+    bool someOutside(const Extremes& extremes, std::size_t& last, Look&& look) const {
+        for (std::size_t k = 0; k < extremes.size(); ++k) {
+            const std::size_t n = (last + k) % extremes.size();
+            const Side side = look(extremes[n]);
+            if (side.outside - side.move < -early_) continue;
+            last = n;
+            return true;
+        }
+        return false;
+    }
+
+    bool allOutside(const PoseBox& box) {
+        const auto pointOfA = [&](const Vec3& p) { return ofA(box, p); };
+        const auto pointOfB = [&](const Vec3& p) { return ofB(box, p); };
+        for (std::size_t c = 0; c < lastB_.size(); ++c)
+            if (!someOutside(ofB_.extremes()[c], lastB_[c], pointOfB)) return false;
+        for (std::size_t c = 0; c < lastA_.size(); ++c)
+            if (!someOutside(ofA_.extremes()[c], lastA_[c], pointOfA)) return false;
+        return true;
+    }
+
+    /// About the test that is deepest: a component with a point on each side of the other surface all over
+    /// the box, or a point that stays as near to it as `early`.
+    bool cross(const PoseBox& box, const MeshTest& deepest) const {
+        const auto crosses = [&](const VerifiedBody& body, const Components& components, const Vec3& place,
+                                 auto&& look) {
+            const int triangle = body.surface.closest(place).triangle;
+            for (int k = 0; k < 3 && triangle >= 0; ++k) {
+                const int vertex = body.mesh.triangles[std::size_t(triangle)][k];
+                const Side in = look(body.mesh.vertices[std::size_t(vertex)]);
+                if (std::abs(in.outside) + in.move <= early_) return true;
+                if (in.outside + in.move >= 0) continue;
+                for (const Vec3& p : components.extremes()[components.of(vertex)])
+                    if (const Side out = look(p); out.outside - out.move > 0) return true;
+            }
+            return false;
+        };
+        return crosses(b_, ofB_, box.pose().inverse(Eigen::Isometry) * deepest.centreA,
+                       [&](const Vec3& p) { return ofB(box, p); }) ||
+               crosses(a_, ofA_, box.carry(deepest.centreB, false).at,
+                       [&](const Vec3& p) { return ofA(box, p); });
+    }
+
+    /// The surfaces are so near in the middle that they stay as near as `early`.
+    bool near(const PoseBox& box) const {
+        double move = 0;
+        Eigen::AlignedBox3d bounds = tss::bounds(b_.mesh);
+        const double reach = 0.5 * bounds.diagonal().norm();
+        move = box.carry(bounds.center(), false).move + box.turn() * reach;
+        return move < early_ && a_.surface.distanceTo(b_.surface, box.pose(), early_) + move <= early_;
+    }
+
+    const VerifiedBody &a_, &b_;
+    const Components &ofA_, &ofB_;
+    const Motion& motion_;
+    const std::vector<MeshTest>& tests_;
+    double early_;
+    std::vector<std::size_t> lastA_, lastB_; ///< which extreme point answered last
+};
+
+/// The DOF that moves B the most.
+std::size_t widest(const PoseBox& box, const Extremes& points) {
+    std::array<double, maxDofs> moves{};
+    for (const Vec3& p : points) {
+        const MovingPoint at = box.carry(p, true);
+        for (std::size_t k = 0; k < box.dofs(); ++k) moves[k] += at.velocity[k].norm() * box.half(k);
+    }
+    return std::size_t(std::max_element(moves.begin(), moves.begin() + std::ptrdiff_t(box.dofs())) -
+                       moves.begin());
+}
+
+} // namespace
+
+NestingResult proveNoNesting(const VerifiedBody& a, const VerifiedBody& b, const Motion& motion, double size,
+                             const std::vector<MeshTest>& tests, double early, const Progress& progress) {
+    constexpr std::size_t width = 64;
+    constexpr std::uint64_t mostCells = 1'000'000;
+    NestingResult result;
+    const Components ofA(a.mesh), ofB(b.mesh);
+    std::vector<NestingBox> provers(width, NestingBox(a, b, ofA, ofB, motion, tests, early));
+    enum class Outcome { Shown, Split, Broken, Undecided };
+    struct Part {
+        Outcome outcome = Outcome::Shown;
+        std::size_t cut = 0;
+        double at = 0;
+        std::vector<double> pose;
+    };
+    std::vector<Box> boxes{limitsOf(motion)};
+    while (!boxes.empty()) {
+        if (!report(progress, "verify", 1) || result.cells > mostCells) {
+            result.reason = result.cells > mostCells ? "not proven within the effort granted: nothing nested"
+                                                     : "stopped before everything was shown";
+            return result;
+        }
+        const std::size_t count = std::min(width, boxes.size()), first = boxes.size() - count;
+        std::vector<Part> parts(count);
+        parallelFor(count, [&](std::size_t k) {
+            const Box& here = boxes[first + k];
+            if (!meetsPlanes(motion, here)) return;
+            const PoseBox box(motion, here, size);
+            if (provers[k].shown(box)) return;
+            Part& part = parts[k];
+            part.pose = box.middle();
+            part.cut = widest(box, ofB.extremes().front());
+            part.at = box.cut(part.cut);
+            const double move = box.carry(ofB.extremes().front().front(), false).move;
+            part.outcome = provers[k].brokenAt(box.middle())            ? Outcome::Broken
+                           : move <= 2 * box.error() || box.dofs() == 0 ? Outcome::Undecided
+                                                                        : Outcome::Split;
+        });
+        std::vector<Box> halves;
+        for (std::size_t k = 0; k < count; ++k) {
+            ++result.cells;
+            const Part& part = parts[k];
+            if (part.outcome == Outcome::Shown) continue;
+            if (part.outcome != Outcome::Split) {
+                result.pose = part.pose;
+                result.reason =
+                    part.outcome == Outcome::Broken
+                        ? "at a pose it reports contact though one body is inside the other and the "
+                          "surfaces are farther apart than the stored bound"
+                        : "near a pose it cannot be told whether one body is inside the other";
+                return result;
+            }
+            for (const bool upper : {false, true}) {
+                halves.push_back(boxes[first + k]);
+                (upper ? halves.back().lower : halves.back().upper)[part.cut] = part.at;
+            }
+        }
+        boxes.resize(first);
+        boxes.insert(boxes.end(), halves.begin(), halves.end());
+    }
+    return result;
+}
+
+} // namespace tss::verify

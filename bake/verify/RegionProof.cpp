@@ -1,0 +1,112 @@
+#include "bake/verify/RegionProof.h"
+
+#include "bake/geometry/TriangleDistance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace tss::verify {
+
+namespace {
+
+double area(const Corners& c) {
+    return 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
+}
+
+/// The parts, in pieces that hang together.
+std::vector<std::vector<Corners>> pieces(const TriangleMesh& mesh, const std::vector<SurfacePart>& parts) {
+    std::vector<Corners> all;
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (const SurfacePart& part : parts) {
+        all.push_back(corners(mesh, part));
+        boxes.emplace_back(all.back()[0]);
+        for (const Vec3& c : all.back()) boxes.back().extend(c);
+    }
+    // What is this near touches: shared corners are equal, halves of edges to rounding.
+    const double touching = 1e-12 * bounds(mesh).diagonal().norm();
+    std::vector<std::size_t> parent(parts.size());
+    std::iota(parent.begin(), parent.end(), std::size_t(0));
+    const auto root = [&](std::size_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    const Bvh tree = buildBvh(boxes);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        visitBall(tree, boxes[i].center(), 0.5 * boxes[i].diagonal().norm() + touching, [&](std::uint32_t j) {
+            if (j >= i || root(i) == root(j)) return;
+            if (squaredDistanceOfTriangles(all[i], all[j]) <= touching * touching)
+                parent[std::max(root(i), root(j))] = std::min(root(i), root(j));
+        });
+    std::vector<std::vector<Corners>> found(parts.size());
+    for (std::size_t i = 0; i < all.size(); ++i) found[root(i)].push_back(all[i]);
+    std::erase_if(found, [](const auto& piece) { return piece.empty(); });
+    return found;
+}
+
+TriangleMesh meshOf(const std::vector<Corners>& piece) {
+    TriangleMesh mesh;
+    for (const Corners& c : piece) {
+        const int first = int(mesh.vertices.size());
+        mesh.vertices.insert(mesh.vertices.end(), c.begin(), c.end());
+        mesh.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    return mesh;
+}
+
+/// Some point of the piece, moved, is in the body or no farther than `slack` from its surface.
+bool touches(const std::vector<Corners>& piece, const Pose& toBody, const VerifiedBody& body, double slack) {
+    for (const Corners& c : piece)
+        for (const Vec3& corner : c)
+            if (body.solid && body.solid->inside(toBody * corner)) return true;
+    const MeshQuery surface(meshOf(piece));
+    return !body.surface.apart(surface, toBody, slack);
+}
+
+} // namespace
+
+ExemptShare exemptShare(const TriangleMesh& a, const TriangleMesh& b, const RestRegion& region) {
+    const auto measure = [](const TriangleMesh& mesh, const std::vector<SurfacePart>& parts, double& exempt,
+                            double& share) {
+        double whole = 0;
+        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) whole += area(corners(mesh, {t, 1}));
+        for (const SurfacePart& part : parts) exempt += area(corners(mesh, part));
+        share = whole > 0 ? exempt / whole : 0;
+    };
+    ExemptShare out;
+    measure(a, region.a, out.areaA, out.shareA);
+    measure(b, region.b, out.areaB, out.shareB);
+    return out;
+}
+
+std::string refuteRegion(const VerifiedBody& a, const VerifiedBody& b, const Motion& motion,
+                         const RestRegion& region, double slack) {
+    if (region.empty()) return {};
+    const Pose rest = pose(motion, restValues(motion));
+    // Files hold points as floats, and placing them rounds in double.
+    const double smaller = std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm());
+    const double far = rest.translation().norm() + bounds(a.mesh).max().cwiseAbs().norm() +
+                       bounds(a.mesh).min().cwiseAbs().norm() + bounds(b.mesh).max().cwiseAbs().norm() +
+                       bounds(b.mesh).min().cwiseAbs().norm();
+    const double rounding = 0x1p-22 * smaller + 1e-12 * far;
+    if (a.surface.apart(b.surface, rest, rounding))
+        return "it excepts parts of the surfaces though the meshes do not meet at rest";
+    slack = std::max(slack, rounding);
+    const auto stray = [&](const VerifiedBody& body, const std::vector<SurfacePart>& parts,
+                           const VerifiedBody& other, const Pose& toOther) {
+        const auto all = pieces(body.mesh, parts);
+        return std::count_if(all.begin(), all.end(),
+                             [&](const auto& piece) { return !touches(piece, toOther, other, slack); });
+    };
+    const auto straysA = stray(a, region.a, b, rest.inverse(Eigen::Isometry));
+    const auto straysB = stray(b, region.b, a, rest);
+    if (straysA + straysB > 0)
+        return fmt::format(
+            "{} connected pieces of the surfaces that it excepts are nowhere near the other body "
+            "at rest",
+            straysA + straysB);
+    return {};
+}
+
+} // namespace tss::verify

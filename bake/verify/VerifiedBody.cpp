@@ -1,0 +1,11 @@
+#include "bake/verify/VerifiedBody.h"
+
+#include "bake/geometry/MeshAudit.h"
+
+namespace tss::verify {
+
+VerifiedBody::VerifiedBody(const TriangleMesh& mesh) : mesh(mesh), surface(mesh) {
+    if (auditMesh(mesh).usable()) solid.emplace(cleaned(mesh));
+}
+
+} // namespace tss::verify

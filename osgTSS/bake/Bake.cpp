@@ -1,0 +1,223 @@
+#include "bake/Bake.h"
+
+#include "bake/EarlyContact.h"
+#include "bake/base/Error.h"
+#include "bake/scene/ReadScene.h"
+#include "bake/scene/SceneFile.h"
+#include "bake/scene/SourceHash.h"
+#include "bake/scene/ToLayer.h"
+
+#include <osg/NodeVisitor>
+#include <osg/Notify>
+#include <osg/ValueObject>
+#include <osgSim/DOFTransform>
+#include <osgTSS/Bake>
+#include <osgTSS/ConstraintVisitor>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+namespace osgTSS {
+
+namespace {
+
+/// Writes what options say of nodes onto them, and remembers which names there were.
+class TagNodes : public osg::NodeVisitor {
+public:
+    explicit TagNodes(const BakeOptions& options)
+        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _options(options) {
+        setNodeMaskOverride(~0u);
+    }
+
+    void apply(osg::Transform& node) override {
+        std::string words =
+            _options.writtenLimits && dynamic_cast<osgSim::DOFTransform*>(&node) ? "written" : "";
+        for (const auto& [name, word] : _options.limits)
+            if (name == node.getName() || name == "*") {
+                words += (words.empty() ? "" : " ") + word;
+                used.insert(name);
+            }
+        if (!words.empty()) node.setUserValue("osgTSS:limits", words);
+        if (std::find(_options.still.begin(), _options.still.end(), node.getName()) != _options.still.end()) {
+            node.setUserValue("osgTSS:static", true);
+            used.insert(node.getName());
+        }
+        traverse(node);
+    }
+
+    std::set<std::string> used;
+
+private:
+    const BakeOptions& _options;
+};
+
+void tagNodes(osg::Node& root, const BakeOptions& options) {
+    if (options.limits.empty() && options.still.empty() && !options.writtenLimits) return;
+    TagNodes visitor(options);
+    root.accept(visitor);
+    std::set<std::string> names(options.still.begin(), options.still.end());
+    for (const auto& [name, word] : options.limits) names.insert(name);
+    for (const std::string& name : names)
+        if (!visitor.used.contains(name))
+            OSG_WARN << "osgTSS: options limits and static: no transform is named \"" << name << "\""
+                     << std::endl;
+}
+
+ConstraintVisitor::Pairs pairsOf(const BakeOptions& options) {
+    if (options.pairs == "siblings") return ConstraintVisitor::SIBLINGS;
+    if (options.pairs == "all") return ConstraintVisitor::ALL;
+    if (options.pairs == "tagged") return ConstraintVisitor::TAGGED;
+    return ConstraintVisitor::NEIGHBOURS;
+}
+
+/// Numbers rounded to what a file stores, so that tables fit the file that the graph is saved as.
+std::shared_ptr<tss::SceneModel> extract(osg::Node& root, const BakeOptions& options) {
+    ConstraintVisitor visitor(pairsOf(options));
+    visitor.setActiveOnly(options.activeOnly);
+    root.accept(visitor);
+    const tss::SceneModel& found = visitor.getModel();
+    auto model = std::make_shared<tss::SceneModel>(tss::readScene(tss::toLayer(found), "the graph"));
+    if (found.joints.empty()) {
+        OSG_NOTICE << "osgTSS: the graph has no joints; nothing was baked" << std::endl;
+    } else if (found.pairs.empty()) {
+        OSG_NOTICE << "osgTSS: the graph has joints, but no pairs of bodies between them"
+                   << (options.pairs == "tagged" ? ": pairs=tagged takes nodes with the user value "
+                                                   "\"osgTSS:collides\", and none has it"
+                                                 : "")
+                   << "; nothing was baked" << std::endl;
+    }
+    return model;
+}
+
+/// Tables and proofs of an earlier bake that still fit. Returns how many.
+std::size_t takeFromCache(tss::SceneModel& model, const std::string& file) {
+    std::error_code failed;
+    if (file.empty() || !std::filesystem::exists(file, failed)) return 0;
+    std::size_t taken = 0;
+    try {
+        const tss::SceneModel cached = tss::loadScene(file);
+        for (tss::Pair& pair : model.pairs)
+            for (const tss::Pair& old : cached.pairs) {
+                if (old.path != pair.path || (!old.table && !old.proof) || old.settings != pair.settings ||
+                    old.sourceHash != tss::sourceHash(model, pair))
+                    continue;
+                pair.table = old.table;
+                pair.proof = old.proof;
+                pair.sourceHash = old.sourceHash;
+                ++taken;
+            }
+    } catch (const std::exception& error) {
+        OSG_WARN << "osgTSS: " << file << " is baked anew: " << error.what() << std::endl;
+    }
+    return taken;
+}
+
+void keep(const tss::SceneModel& model, const std::string& cache) {
+    if (cache.empty()) return;
+    try {
+        tss::saveScene(model, cache);
+    } catch (const std::exception& error) {
+        OSG_NOTICE << "osgTSS: the tables are not kept for the next time: " << error.what() << std::endl;
+    }
+}
+
+/// What a person should know before trusting the joint to its table: what `tss info` warns of.
+void warnOf(const tss::SceneModel& model, const tss::Pair& pair) {
+    const auto early = tss::measureEarlyContact(model, pair);
+    if (!early) return;
+    std::ostringstream text;
+    if (early->stuck())
+        text << "the meshes touch or overlap wherever the joint goes";
+    else if (early->held)
+        text << "it is held at rest: every small step from there is contact";
+    else if (early->restReported)
+        text << "its tolerance is too coarse: contact is reported at rest, where the meshes are "
+             << early->atRest << " apart";
+    else if (early->coarse())
+        text << "its tolerance is too coarse: contact is reported at " << int(100 * early->share)
+             << " % of the poses where nothing touches";
+    else if (2 * early->freePoses < early->poses)
+        text << "the meshes touch at " << early->poses - early->freePoses << " of " << early->poses
+             << " poses";
+    else
+        return;
+    if (early->tolerance > 0) text << "; tolerance=" << early->tolerance << " would serve";
+    OSG_WARN << "osgTSS: " << pair.path << ": " << text.str() << std::endl;
+}
+
+/// A pair that cannot be baked is shown as it moves, and the others are kept apart all the same.
+/// told: notes so far, of which many are about a body and come with each of its pairs.
+void bakeOne(tss::SceneModel& model, std::size_t index, const BakeOptions& options,
+             std::set<std::string>& told, const tss::Progress& progress) {
+    tss::BakeRequest request;
+    request.given = options.settings;
+    const std::string path = model.pairs[index].path;
+    request.pairs = {path};
+    try {
+        for (const tss::PairReport& report : tss::bake(model, request, progress)) {
+            const tss::Pair& pair = model.pairs[index];
+            OSG_NOTICE << "osgTSS: baked " << path << " in " << report.seconds << " s: "
+                       << (pair.table ? std::to_string(pair.table->testCount()) + " tests" : "never collides")
+                       << std::endl;
+            for (const std::string& note : report.notes)
+                if (told.insert(note).second) OSG_NOTICE << "osgTSS:   " << note << std::endl;
+            warnOf(model, pair);
+        }
+    } catch (const tss::InputError& error) {
+        OSG_WARN << "osgTSS: " << path << " is not kept apart: " << error.what() << std::endl;
+    }
+}
+
+} // namespace
+
+osg::ref_ptr<Scene> bake(osg::Node& root, const BakeOptions& options, const BakeProgress& progress) {
+    for (const std::string& key : options.unknown) {
+        const std::string meant = nearestOption(key);
+        if (meant.empty()) { // other plugins have words of their own in the same string
+            OSG_NOTICE << "osgTSS: option \"" << key << "\" is none of osgTSS's" << std::endl;
+        } else {
+            OSG_WARN << "osgTSS: option \"" << key << "\" is not known; was " << meant << " meant?"
+                     << std::endl;
+        }
+    }
+    tss::optionsFor({}, options.settings, 1); // a wrong word is no pair's fault
+    tagNodes(root, options);
+    std::shared_ptr<tss::SceneModel> model = extract(root, options);
+    for (tss::Pair& pair : model->pairs)
+        for (const auto& [key, value] : options.settings) pair.settings[key] = value;
+    const std::string cache = options.cache == "off" ? "" : options.cache;
+    std::size_t taken = takeFromCache(*model, cache), made = 0;
+    if (taken > 0)
+        OSG_NOTICE << "osgTSS: " << taken << " of " << model->pairs.size() << " pairs are as baked in "
+                   << cache << std::endl;
+    // Now and then, so that what a long bake has done by when it is ended is not lost.
+    using Time = std::chrono::steady_clock;
+    constexpr auto saveEvery = std::chrono::seconds(10);
+    Time::time_point saved = Time::now();
+    const double count = static_cast<double>(model->pairs.size());
+    std::set<std::string> told;
+    for (std::size_t k = 0; k < model->pairs.size(); ++k) {
+        const tss::Pair& pair = model->pairs[k];
+        const std::string path = pair.path;
+        if (progress && !progress(path, static_cast<double>(k) / count)) break;
+        if (pair.table || pair.proof) { // from the cache
+            warnOf(*model, pair);
+            continue;
+        }
+        bakeOne(*model, k, options, told, [&](std::string_view step, double done) {
+            return !progress ||
+                   progress(path + ": " + std::string(step), (static_cast<double>(k) + done) / count);
+        });
+        ++made;
+        if (Time::now() - saved < saveEvery) continue;
+        keep(*model, cache);
+        saved = Time::now();
+    }
+    if (made > 0) keep(*model, cache);
+    return new Scene(model);
+}
+
+} // namespace osgTSS

@@ -1,0 +1,103 @@
+#include "bake/BakeOptions.h"
+
+#include "bake/base/Error.h"
+
+#include <osgTSS/Bake>
+#include <osgTSS/LoadOptions>
+
+#include <algorithm>
+#include <sstream>
+
+namespace osgTSS {
+
+namespace {
+
+const char* const ownWords[] = {"pairs", "switches", "limits", "static", "cache"};
+const char* const loadWords[] = {"clock", "light", "noRotation", "overlay"};
+
+std::string oneOf(const std::string& key, const std::string& value, const std::vector<std::string>& choices) {
+    if (std::find(choices.begin(), choices.end(), value) != choices.end()) return value;
+    std::string text;
+    for (const std::string& choice : choices) text += (text.empty() ? "" : ", ") + choice;
+    throw tss::InputError("option " + key + ": expected one of " + text + "; found \"" + value + "\"");
+}
+
+std::vector<std::string> parts(const std::string& value) {
+    std::istringstream text(value);
+    std::vector<std::string> found;
+    for (std::string part; std::getline(text, part, ',');)
+        if (!part.empty()) found.push_back(part);
+    return found;
+}
+
+/// "Gun:rotX:-5:20": the word is what stands behind the third colon from the end.
+std::pair<std::string, std::string> limitOf(const std::string& part) {
+    std::size_t at = part.size();
+    for (int colons = 0; colons < 3 && at != std::string::npos && at > 0; ++colons)
+        at = part.rfind(':', at - 1);
+    if (at == std::string::npos || at == 0)
+        throw tss::InputError("option limits: expected NAME:rotZ:-24:18 or NAME:transX:0:5, found \"" + part +
+                              "\"");
+    return {part.substr(0, at), part.substr(at + 1)};
+}
+
+/// Letters to put in, take out or change between two words (Levenshtein).
+std::size_t distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t above = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
+            diagonal = above;
+        }
+    }
+    return row.back();
+}
+
+} // namespace
+
+BakeOptions::BakeOptions(const std::string& words) : BakeOptions(LoadOptions(words).others) {}
+
+BakeOptions::BakeOptions(const std::map<std::string, std::string>& words) {
+    for (const auto& [key, value] : words) {
+        if (key == "pairs")
+            pairs = oneOf(key, value, {"neighbours", "siblings", "all", "tagged"});
+        else if (key == "switches")
+            activeOnly = oneOf(key, value, {"all", "active"}) == "active";
+        else if (key == "limits")
+            for (const std::string& part : parts(value)) {
+                if (part == "written")
+                    writtenLimits = true;
+                else
+                    limits.push_back(limitOf(part));
+            }
+        else if (key == "static")
+            still = parts(value);
+        else if (key == "cache")
+            cache = value;
+        else if (tss::isOption(key))
+            settings[key] = value;
+        else
+            unknown.push_back(key);
+    }
+}
+
+std::string nearestOption(const std::string& word) {
+    std::vector<std::string> names = tss::optionNames();
+    names.insert(names.end(), std::begin(ownWords), std::end(ownWords));
+    names.insert(names.end(), std::begin(loadWords), std::end(loadWords));
+    std::string best;
+    std::size_t least = 1 + word.size() / 3;
+    for (const std::string& name : names)
+        if (const std::size_t d = distance(word, name); d <= least && d < name.size()) {
+            if (d == least && !best.empty()) continue;
+            least = d;
+            best = name;
+        }
+    return best;
+}
+
+} // namespace osgTSS

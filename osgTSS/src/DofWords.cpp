@@ -1,0 +1,40 @@
+#include "DofWords.h"
+
+#include "bake/base/Error.h"
+#include "bake/scene/DofToken.h"
+
+#include <osg/Math>
+
+#include <cmath>
+#include <sstream>
+
+namespace osgTSS {
+
+tss::Dof parseDofWord(const std::string& word, const std::string& tag) {
+    std::istringstream text(word);
+    std::string token;
+    double lower = 0, upper = 0;
+    char colon = 0;
+    tss::Dof dof;
+    std::size_t path = 0;
+    std::getline(text, token, ':');
+    text >> lower >> colon >> upper;
+    if (text.fail() || colon != ':' || text.peek() != EOF || !tss::dofFromToken(token, dof, path) ||
+        dof.kind == tss::DofKind::Path || !(lower <= upper) || !std::isfinite(lower) || !std::isfinite(upper))
+        throw tss::InputError(tag + ": expected words such as rotZ:-24:18 or transX:0:5, found \"" + word +
+                              "\"");
+    const double unit = dof.kind == tss::DofKind::Rotation ? osg::DegreesToRadians(1.0) : 1;
+    dof.name = token;
+    dof.lower = lower * unit;
+    dof.upper = upper * unit;
+    return dof;
+}
+
+std::vector<tss::Dof> parseDofWords(const std::string& words, const std::string& tag) {
+    std::istringstream text(words);
+    std::vector<tss::Dof> dofs;
+    for (std::string word; text >> word;) dofs.push_back(parseDofWord(word, tag));
+    return dofs;
+}
+
+} // namespace osgTSS

@@ -1,0 +1,169 @@
+#include "Machines.h"
+
+#include "BodyNodes.h"
+#include "JointNodes.h"
+#include "TableFit.h"
+
+#include <osgTSS/JointTransform>
+
+#include <algorithm>
+
+namespace osgTSS {
+
+namespace {
+
+std::string tail(const std::string& path) {
+    return path.substr(path.rfind('/') + 1);
+}
+
+/// "Gun2" is a further "Gun".
+bool furtherOne(const std::string& name, const std::string& first) {
+    return name.size() > first.size() && name.compare(0, first.size(), first) == 0 &&
+           name.find_first_not_of("0123456789", first.size()) == std::string::npos;
+}
+
+/// Which of the joints of its node a found joint is.
+int ordinal(const std::vector<osg::Node*>& nodes, int joint) {
+    return static_cast<int>(std::count(nodes.begin(), nodes.begin() + joint, nodes[joint]));
+}
+
+} // namespace
+
+Machines::Machines(osg::Node& root, const tss::SceneModel& model)
+    : _root(root), _model(model), _tagged(findAllJointNodes(root)) {
+    for (std::size_t j = 0; j < model.joints.size(); ++j)
+        _modelJoints.emplace(model.joints[j].path, static_cast<int>(j));
+}
+
+const Machines::Extraction& Machines::extraction(bool activeOnly) {
+    std::unique_ptr<Extraction>& made = activeOnly ? _active : _all;
+    if (!made) {
+        made = std::make_unique<Extraction>();
+        made->visitor.setQuiet(true);
+        made->visitor.setActiveOnly(activeOnly);
+        _root.accept(made->visitor);
+        made->found = &made->visitor.getModel();
+    }
+    return *made;
+}
+
+/// Found joints that may be the model's: of the nodes that carry its path, or else of its name.
+std::vector<int> Machines::candidates(const Extraction& in, int joint) const {
+    const std::vector<osg::Node*>& nodes = in.visitor.getJointNodes();
+    const std::string& path = _model.joints[joint].path;
+    std::vector<int> found;
+    if (const auto tagged = _tagged.find(path); tagged != _tagged.end()) {
+        // A chain of joints of one node keeps its order.
+        int place = 0;
+        for (int before = joint - 1; before >= 0; --before) {
+            const auto other = _tagged.find(_model.joints[before].path);
+            if (other == _tagged.end() || other->second.front() != tagged->second.front()) break;
+            ++place;
+        }
+        for (std::size_t j = 0; j < nodes.size(); ++j)
+            if (ordinal(nodes, static_cast<int>(j)) == place &&
+                std::find(tagged->second.begin(), tagged->second.end(), nodes[j]) != tagged->second.end())
+                found.push_back(static_cast<int>(j));
+    }
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+        const std::string& name = in.found->joints[j].path;
+        const bool same = name == path || (!_modelJoints.contains(name) &&
+                                           (tail(name) == tail(path) || furtherOne(tail(name), tail(path))));
+        if (same && std::find(found.begin(), found.end(), static_cast<int>(j)) == found.end())
+            found.push_back(static_cast<int>(j));
+    }
+    return found;
+}
+
+/// All chains of candidates of the pair's joints that hang on each other.
+void Machines::extend(const Extraction& in, const tss::Pair& pair, std::vector<int>& chain,
+                      std::vector<std::vector<int>>& chains) const {
+    constexpr std::size_t most = 10000;
+    if (chain.size() == pair.joints.size()) return chains.push_back(chain);
+    for (int next : candidates(in, pair.joints[chain.size()])) {
+        if (chains.size() >= most) return;
+        if (!chain.empty()) {
+            const tss::Joint &a = in.found->joints[chain.back()], &b = in.found->joints[next];
+            const bool touch = a.body0 == b.body0 || a.body0 == b.body1 || a.body1 == b.body0;
+            if (!touch || std::find(chain.begin(), chain.end(), next) != chain.end()) continue;
+        }
+        chain.push_back(next);
+        extend(in, pair, chain, chains);
+        chain.pop_back();
+    }
+}
+
+std::string Machines::unfit(const Extraction& in, const tss::Pair& pair,
+                            const std::vector<int>& chain) const {
+    // A graph that createGraph() made has the model's bodies as nodes of their own, which a visitor, that
+    // knows joints alone, takes together.
+    const std::vector<osg::Node*>& nodes = in.visitor.getJointNodes();
+    bool made = true;
+    for (std::size_t k = 0; k < chain.size() && made; ++k) {
+        const auto* node = dynamic_cast<const JointTransform*>(nodes[chain[k]]);
+        made = node && node->getJoint().path == _model.joints[pair.joints[k]].path;
+    }
+    const tss::Joint &first = in.found->joints[chain.front()], &model = _model.joints[pair.joints.front()];
+    if (made && model.body0 >= 0 && in.found->bodies[first.body0].path != _model.bodies[model.body0].path) {
+        for (std::size_t k = 0; k < chain.size(); ++k) {
+            const auto& node = static_cast<const JointTransform&>(*nodes[chain[k]]);
+            const std::string why = whyWider(node.getJoint(), _model.joints[pair.joints[k]]);
+            if (!why.empty()) return why;
+        }
+        return "";
+    }
+    return whyUnfit(*in.found, chain, _model, pair);
+}
+
+std::vector<PairPlace> Machines::placesOf(int index, std::string& why) {
+    const tss::Pair& pair = _model.pairs[index];
+    std::vector<PairPlace> places;
+    why = "no nodes of the graph carry its joints";
+    if (pair.joints.empty()) return places;
+    // What is shown now is looked at where all that can be shown does not fit.
+    for (bool activeOnly : {false, true}) {
+        const Extraction& in = extraction(activeOnly);
+        std::vector<int> chain;
+        std::vector<std::vector<int>> chains;
+        extend(in, pair, chain, chains);
+        for (const std::vector<int>& found : chains) {
+            const std::string not_ = unfit(in, pair, found);
+            if (!not_.empty()) {
+                if (!activeOnly) why = not_;
+                continue;
+            }
+            PairPlace place{index, {}};
+            for (int joint : found) place.joints.push_back(in.visitor.getJointNodes()[joint]);
+            places.push_back(std::move(place));
+        }
+        if (!places.empty() || chains.empty()) break;
+    }
+    return places;
+}
+
+void Machines::tag(const PairPlace& place) const {
+    const tss::Pair& pair = _model.pairs[place.pair];
+    const Extraction& in = *_all;
+    const std::vector<osg::Node*>& nodes = in.visitor.getJointNodes();
+    const auto tagOf = [&](int found, int model) {
+        const ConstraintVisitor::BodyNode& at = in.visitor.getBodyNodes()[found];
+        if (at.node && model >= 0) tagBody(*at.node, _model.bodies[model].path, at.scale);
+    };
+    for (std::size_t k = 0; k < place.joints.size(); ++k) {
+        const tss::Joint& joint = _model.joints[pair.joints[k]];
+        const bool carries = [&] {
+            const auto tagged = _tagged.find(joint.path);
+            return tagged != _tagged.end() && std::find(tagged->second.begin(), tagged->second.end(),
+                                                        place.joints[k]) != tagged->second.end();
+        }();
+        if (carries) continue; // it and its bodies are named already
+        tagJoint(*place.joints[k], joint.path);
+        for (std::size_t j = 0; j < nodes.size(); ++j)
+            if (nodes[j] == place.joints[k]) {
+                tagOf(in.found->joints[j].body0, joint.body0);
+                tagOf(in.found->joints[j].body1, joint.body1);
+            }
+    }
+}
+
+} // namespace osgTSS

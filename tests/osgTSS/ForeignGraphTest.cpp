@@ -1,0 +1,125 @@
+#include "Nodes.h"
+
+#include <osg/AnimationPath>
+#include <osg/ValueObject>
+
+using namespace osgTSS;
+using namespace nodes;
+
+namespace {
+
+/// Turns by a quarter about Z.
+osg::ref_ptr<osgSim::DOFTransform> hinge(const std::string& name) {
+    const auto node = dof(name);
+    node->setMaxHPR(osg::Vec3(1.5f, 0, 0));
+    node->addChild(box(osg::Vec3(2, 0, 0)));
+    return node;
+}
+
+osg::ref_ptr<osg::Geometry> triangles(const std::vector<osg::Vec3>& points) {
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(new osg::Vec3Array(points.begin(), points.end()));
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<int>(points.size())));
+    return geometry;
+}
+
+} // namespace
+
+TEST_CASE("a DYNAMIC transform moves nothing by itself: joints on both sides of it make one chain") {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(box(osg::Vec3(0, 0, -1)));
+    const auto turret = hinge("Turret"), gun = hinge("Gun");
+    osg::ref_ptr<osg::MatrixTransform> between = new osg::MatrixTransform(osg::Matrixd::translate(0, 0, 1));
+    between->setDataVariance(osg::Object::DYNAMIC);
+    root->addChild(turret);
+    turret->addChild(between);
+    between->addChild(gun);
+    const tss::SceneModel model = extract(*root, ConstraintVisitor::ALL);
+    CHECK(model.bodies.size() == 3);
+    CHECK(model.joints.size() == 2);
+    CHECK(model.pairs.size() == 3);
+    CHECK(model.joints[1].frame0.translation().z() == 1);
+
+    SECTION("unless it is said to move") {
+        between->setUserValue("osgTSS:moved", true);
+        CHECK(extract(*root, ConstraintVisitor::ALL).bodies.size() == 4);
+    }
+    SECTION("a joint that is said to stand still is none") {
+        gun->setUserValue("osgTSS:static", true);
+        CHECK(extract(*root, ConstraintVisitor::ALL).joints.size() == 1);
+    }
+}
+
+TEST_CASE("a rotation written with five digits is a rotation") {
+    osg::Matrixd put = osg::Matrixd::rotate(0.7, osg::Vec3d(1, 2, 3)) * osg::Matrixd::translate(1, 2, 3);
+    osg::Matrixd rounded = put;
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            rounded(row, column) = std::round(put(row, column) * 1e5) / 1e5;
+    const auto node = hinge("Arm");
+    node->setPutMatrix(rounded);
+    node->setInversePutMatrix(osg::Matrixd::inverse(put));
+    osg::ref_ptr<osg::MatrixTransform> above = new osg::MatrixTransform(rounded);
+    above->addChild(node);
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(box(osg::Vec3()));
+    root->addChild(above);
+    const tss::SceneModel model = extract(*root);
+    REQUIRE(model.joints.size() == 1);
+    CHECK(model.pairs.size() == 1);
+    const Eigen::Matrix3d turn = model.joints[0].frame0.linear();
+    CHECK((turn * turn.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-12);
+}
+
+TEST_CASE("a shear, a corner that is no number and a path to be crossed backwards cost themselves alone") {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->setName("Yard");
+    root->addChild(box(osg::Vec3()));
+    root->addChild(hinge("Good"));
+
+    osg::ref_ptr<osg::MatrixTransform> shear = new osg::MatrixTransform(osg::Matrixd::scale(1, 2, 1));
+    shear->addChild(hinge("Sheared"));
+    root->addChild(shear);
+
+    const auto broken = hinge("Broken");
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    broken->addChild(triangles({{0, 0, 0}, {1, 0, 0}, {0, none, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    root->addChild(broken);
+
+    osg::ref_ptr<osg::MatrixTransform> along = new osg::MatrixTransform;
+    along->setName("Along");
+    osg::ref_ptr<osg::AnimationPath> path = new osg::AnimationPath;
+    path->insert(0, osg::AnimationPath::ControlPoint(osg::Vec3d(0, 0, 0)));
+    path->insert(1, osg::AnimationPath::ControlPoint(osg::Vec3d(5, 0, 0)));
+    along->setUpdateCallback(new osg::AnimationPathCallback(path));
+    along->addChild(box(osg::Vec3(0, 0, 1)));
+    root->addChild(along);
+    root->addChild(hinge("Last"));
+
+    const tss::SceneModel model = extract(*root, ConstraintVisitor::ALL);
+    std::vector<std::string> joints;
+    for (const tss::Joint& joint : model.joints) joints.push_back(joint.path);
+    CHECK(joints == std::vector<std::string>{"/Yard/Good", "/Yard/Broken", "/Yard/Along", "/Yard/Last"});
+    std::vector<std::string> pairs;
+    for (const tss::Pair& pair : model.pairs)
+        pairs.push_back(model.bodies[pair.bodyA].path + " " + model.bodies[pair.bodyB].path);
+    // Against the yard and each other, but nothing of Broken, and from Along to Last only backwards: none.
+    const std::vector<std::string> expected{"/Yard/YardBody /Yard/GoodBody", "/Yard/YardBody /Yard/AlongBody",
+                                            "/Yard/GoodBody /Yard/AlongBody", "/Yard/YardBody /Yard/LastBody",
+                                            "/Yard/GoodBody /Yard/LastBody"};
+    CHECK(pairs == expected);
+    for (const tss::Body& body : model.bodies)
+        for (const tss::Vec3& vertex : body.mesh.vertices) CHECK(vertex.allFinite());
+}
+
+TEST_CASE("a DOFTransform with a scale of 0 costs itself alone") {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(box(osg::Vec3()));
+    const auto flat = hinge("Flat");
+    flat->setCurrentScale(osg::Vec3());
+    root->addChild(flat);
+    root->addChild(hinge("Good"));
+    const tss::SceneModel model = extract(*root);
+    CHECK(model.joints.size() == 1);
+    CHECK(model.pairs.size() == 1);
+}

@@ -1,0 +1,196 @@
+#include "Heard.h"
+#include "Nodes.h"
+
+#include <osgTSS/JointCallback>
+
+using namespace osgTSS;
+using namespace nodes;
+
+namespace {
+
+/// Two arms on a yard, each stopped at 4 by a block at 5 of its own.
+struct Yard {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    std::vector<osg::ref_ptr<osgSim::DOFTransform>> arms;
+    Playback playback;
+    unsigned int frame = 0;
+
+    explicit Yard(float size = 0.5f) {
+        root->setName("Yard");
+        root->addChild(box(osg::Vec3(5, 0, 0), 0.5f));
+        root->addChild(box(osg::Vec3(5, 9, 0), 0.5f));
+        for (int k = 0; k < 2; ++k) {
+            arms.push_back(dof(k ? "Right" : "Left"));
+            arms[k]->setMaxTranslate(osg::Vec3(10, 0, 0));
+            arms[k]->addChild(box(osg::Vec3(0, k ? 9.f : 0.f, 0), k ? 0.5f : size));
+            root->addChild(arms[k]);
+        }
+    }
+    tss::SceneModel baked() {
+        tss::SceneModel model = extract(*root);
+        REQUIRE(model.pairs.size() == 2);
+        giveTable(model, 0, osg::Vec3(5, 0, 0), osg::Vec3(), 0.5);
+        giveTable(model, 1, osg::Vec3(5, 9, 0), osg::Vec3(0, 9, 0), 0.5);
+        return model;
+    }
+    float reach(int k, float asked = 9) {
+        arms[k]->setCurrentTranslate(osg::Vec3(asked, 0, 0));
+        playback.frame(*root, ++frame);
+        return arms[k]->getCurrentTranslate()[0];
+    }
+};
+
+} // namespace
+
+TEST_CASE("a table is installed where the graph holds what it was made from") {
+    Yard baked;
+    const tss::SceneModel model = baked.baked();
+    SECTION("the same graph again") {
+        Yard same;
+        same.arms[0]->setCurrentTranslate(osg::Vec3(1, 0, 0)); // has moved since
+        const Installed installed = install(*same.root, model);
+        CHECK(installed.joints == 2);
+        CHECK(installed.stale == 0);
+        CHECK(same.reach(0) == Approx(4).margin(1e-3));
+    }
+    SECTION("other geometry") {
+        Yard other(0.4f);
+        const Installed installed = install(*other.root, model);
+        CHECK(installed.joints == 1);
+        CHECK(installed.stale == 1);
+        CHECK(other.reach(0) == 9);
+        CHECK(other.reach(1) == Approx(4).margin(1e-3));
+    }
+    SECTION("wider limits") {
+        Yard wide;
+        wide.arms[1]->setMaxTranslate(osg::Vec3(20, 0, 0));
+        CHECK(install(*wide.root, model).stale == 1);
+    }
+    SECTION("narrower ones are within what the table knows") {
+        Yard narrow;
+        narrow.arms[1]->setMaxTranslate(osg::Vec3(8, 0, 0));
+        CHECK(install(*narrow.root, model).stale == 0);
+    }
+    SECTION("names that were swapped") {
+        Yard swapped;
+        swapped.arms[0]->setName("Right");
+        swapped.arms[1]->setName("Left");
+        const Installed installed = install(*swapped.root, model);
+        CHECK(installed.joints == 0);
+        CHECK(installed.stale == 2);
+    }
+}
+
+TEST_CASE("two machines of one kind are both served") {
+    Yard one, other;
+    tss::SceneModel model = one.baked();
+    osg::ref_ptr<osg::Group> both = new osg::Group;
+    osg::ref_ptr<osg::MatrixTransform> aside = new osg::MatrixTransform(osg::Matrixd::translate(0, 50, 0));
+    both->addChild(one.root);
+    both->addChild(aside);
+    aside->addChild(other.root);
+    // What hangs together without a joint is one body, so that each yard is asked for alone.
+    CHECK(install(*one.root, model).joints == 2);
+    CHECK(install(*other.root, model).joints == 2);
+    Playback playback;
+    for (Yard* yard : {&one, &other}) yard->arms[0]->setCurrentTranslate(osg::Vec3(9, 0, 0));
+    playback.frame(*both, 1);
+    CHECK(one.arms[0]->getCurrentTranslate()[0] == Approx(4).margin(1e-3));
+    CHECK(other.arms[0]->getCurrentTranslate()[0] == Approx(4).margin(1e-3));
+}
+
+TEST_CASE("machines that a joint each carries are served in one install") {
+    // The pair is of the two parts of each machine, the hull and the arm, both moved by joints.
+    const auto machine = [](const std::string& name) {
+        const auto hull = dof(name), arm = dof("Arm");
+        hull->setMaxHPR(osg::Vec3(1, 0, 0));
+        hull->addChild(box(osg::Vec3(5, 0, 0), 0.5f));
+        arm->setMaxTranslate(osg::Vec3(10, 0, 0));
+        arm->addChild(box(osg::Vec3(), 0.5f));
+        hull->addChild(arm);
+        return hull;
+    };
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->setName("Scene");
+    const auto first = machine("Hull"), second = machine("Hull");
+    root->addChild(first);
+    tss::SceneModel model = extract(*root);
+    REQUIRE(model.pairs.size() == 1);
+    giveTable(model, 0, osg::Vec3(5, 0, 0), osg::Vec3(), 0.5);
+    root->addChild(second);
+    CHECK(install(*root, model).joints == 2);
+    Playback playback;
+    for (const auto& hull : {first, second})
+        find<osgSim::DOFTransform>(*hull, "Arm")->setCurrentTranslate({9, 0, 0});
+    playback.frame(*root, 1);
+    for (const auto& hull : {first, second})
+        CHECK(find<osgSim::DOFTransform>(*hull, "Arm")->getCurrentTranslate()[0] == Approx(4).margin(1e-3));
+}
+
+TEST_CASE("a node that is taken out takes its own pairs along and no others") {
+    Yard yard;
+    const tss::SceneModel model = yard.baked();
+    osg::ref_ptr<Scene> scene = new Scene(std::make_shared<tss::SceneModel>(model));
+    install(*yard.root, *scene);
+    // One callback over both, as where they share a joint.
+    uninstall(*yard.root);
+    osg::ref_ptr<JointCallback> both = new JointCallback(scene, {model.pairs[0].path, model.pairs[1].path});
+    yard.root->setUpdateCallback(both);
+    both->start(*yard.root);
+    CHECK(yard.reach(0) == Approx(4).margin(1e-3));
+    CHECK(yard.reach(1) == Approx(4).margin(1e-3));
+    yard.root->removeChild(yard.arms[0]);
+    CHECK(yard.reach(1, 1) == 1);
+    CHECK(yard.reach(1) == Approx(4).margin(1e-3));
+
+    SECTION("and back where it was it is kept apart again") {
+        yard.root->addChild(yard.arms[0]);
+        scene->setModel(std::make_shared<tss::SceneModel>(model));
+        yard.reach(0, 0);
+        CHECK(yard.reach(0) == Approx(4).margin(1e-3));
+    }
+}
+
+TEST_CASE("a joint that is hung elsewhere is let go, and the others are kept") {
+    Yard yard;
+    const tss::SceneModel model = yard.baked();
+    osg::ref_ptr<Scene> scene = new Scene(std::make_shared<tss::SceneModel>(model));
+    install(*yard.root, *scene);
+    uninstall(*yard.root);
+    osg::ref_ptr<JointCallback> both = new JointCallback(scene, {model.pairs[0].path, model.pairs[1].path});
+    yard.root->setUpdateCallback(both);
+    both->start(*yard.root);
+    CHECK(yard.reach(0) == Approx(4).margin(1e-3));
+    yard.reach(0, 0);
+    osg::ref_ptr<osg::MatrixTransform> aside = new osg::MatrixTransform(osg::Matrixd::translate(0, 3, 0));
+    yard.root->addChild(aside);
+    aside->addChild(yard.arms[0]);
+    yard.root->removeChild(yard.arms[0]);
+    CHECK(yard.reach(0) == 9);
+    CHECK(yard.reach(1) == Approx(4).margin(1e-3));
+}
+
+TEST_CASE("geometry that is hung below a joint after install is told of once") {
+    Yard yard;
+    const tss::SceneModel model = yard.baked();
+    install(*yard.root, model);
+    Heard heard;
+    for (int frame = 0; frame < 70; ++frame) yard.reach(0, 1);
+    CHECK(heard.times("is other than") == 0);
+    yard.arms[0]->addChild(box(osg::Vec3(1, 0, 0)));
+    for (int frame = 0; frame < 200; ++frame) yard.reach(0, 1);
+    CHECK(heard.times("is other than") == 1);
+}
+
+TEST_CASE("what a table does to its joint is said when it is installed, once") {
+    Yard yard;
+    tss::SceneModel model = yard.baked();
+    auto coarse = std::make_shared<tss::Table>(*model.pairs[0].table);
+    coarse->epsilon = 4; // 4 units apart at rest
+    model.pairs[0].table = coarse;
+    Heard heard;
+    install(*yard.root, model);
+    yard.reach(0, 1);
+    yard.reach(1, 1);
+    CHECK(heard.times("too coarse") == 1);
+}
