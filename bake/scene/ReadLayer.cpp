@@ -2,9 +2,8 @@
 
 #include "bake/base/AtomicFile.h"
 #include "bake/scene/Buffers.h"
-#include "bake/scene/ParseCbor.h"
-#include "bake/scene/ParseJson.h"
 #include "bake/scene/ReadProperty.h"
+#include "bake/scene/ReadTree.h"
 
 #include <charconv>
 #include <set>

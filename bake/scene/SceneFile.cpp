@@ -1,8 +1,6 @@
 #include "bake/scene/SceneFile.h"
 
 #include "bake/base/AtomicFile.h"
-#include "bake/scene/LocateJson.h"
-#include "bake/scene/ParseCbor.h"
 #include "bake/scene/PrimIndex.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadScene.h"

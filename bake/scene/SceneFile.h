@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/scene/Layer.h"
-#include "bake/scene/LocatedError.h"
+#include "bake/scene/ReadTree.h"
 #include "bake/scene/SceneModel.h"
 
 namespace tss {

@@ -8,6 +8,14 @@ namespace {
 
 constexpr std::size_t widestTuple = 16;
 
+/// What a tree may take besides its blocks of numbers, in bytes: an array of empty arrays takes a byte each
+/// in a binary file, and 56 in memory. Files of words are well within.
+constexpr std::size_t freeMemory = std::size_t(64) << 20, memoryPerByte = 3;
+constexpr std::size_t blockSize(std::size_t numbers) {
+    return numbers * sizeof(double) + 2 * sizeof(void*);
+}
+constexpr std::size_t memberSize = sizeof(Value::Object::value_type) + 4 * sizeof(void*);
+
 } // namespace
 
 /// An object or array that is not closed yet. An array holds numbers, tuples of numbers, or as soon as it
@@ -63,11 +71,23 @@ struct TreeBuilder::Frame {
     }
 };
 
-TreeBuilder::TreeBuilder(std::string fileName) : file_(std::move(fileName)), frames_(new Frame[deepest]) {}
+TreeBuilder::TreeBuilder(std::string fileName, std::size_t fileSize)
+    : file_(std::move(fileName)), memory_(freeMemory + memoryPerByte * fileSize),
+      frames_(new Frame[deepest]) {}
 TreeBuilder::~TreeBuilder() = default;
 
 TreeBuilder::Frame& TreeBuilder::top() {
     return frames_[depth_ - 1];
+}
+
+bool TreeBuilder::inObject() const {
+    return depth_ > 0 && frames_[depth_ - 1].object;
+}
+
+void TreeBuilder::spend(std::size_t bytes) {
+    if (bytes > memory_)
+        refuse("expected fewer values: all but blocks of numbers would take too much memory");
+    memory_ -= bytes;
 }
 
 void TreeBuilder::refuse(const std::string& message) const {
@@ -91,11 +111,18 @@ void TreeBuilder::add(Value value) {
         return;
     }
     Frame& frame = top();
+    const Numbers* block = value.as<Numbers>();
+    spend((frame.object ? memberSize : sizeof(Value)) +
+          (block && block->values.size() <= widestTuple ? blockSize(block->values.size()) : 0));
     if (frame.object) {
         frame.members[frame.key] = std::move(value);
         return;
     }
-    frame.toValues();
+    if (frame.holds != Frame::Holds::Values) {
+        const std::size_t each = frame.holds == Frame::Holds::Tuples ? blockSize(frame.width) : 0;
+        spend(frame.count() * (sizeof(Value) + each));
+        frame.toValues();
+    }
     frame.values.push_back(std::move(value));
 }
 

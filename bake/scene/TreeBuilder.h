@@ -7,13 +7,14 @@
 namespace tss {
 
 /// Makes a Value from the events of a parser, JSON or CBOR alike, and refuses on the way what neither library
-/// looks at: a key twice in one object, more than 64 levels. Every refusal is an InputError with the JSON
-/// pointer of the place.
+/// looks at: a key twice in one object, more than 64 levels, more values on their own than a file of that
+/// size can mean. Every refusal is an InputError with the JSON pointer of the place.
 class TreeBuilder {
 public:
     static constexpr std::size_t deepest = 64;
 
-    explicit TreeBuilder(std::string fileName);
+    /// fileSize: in bytes, which bounds the memory.
+    TreeBuilder(std::string fileName, std::size_t fileSize);
     ~TreeBuilder();
 
     void add(Value value);
@@ -26,6 +27,9 @@ public:
     void startArray();
     void endArray();
 
+    /// What is open is an object.
+    bool inObject() const;
+
     [[noreturn]] void refuse(const std::string& message) const;
 
     /// The finished tree.
@@ -35,8 +39,10 @@ private:
     struct Frame;
     void open(bool object);
     Frame& top();
+    void spend(std::size_t bytes);
 
     std::string file_;
+    std::size_t memory_;              ///< bytes that values which are not in blocks of numbers may still take
     std::unique_ptr<Frame[]> frames_; ///< kept and reused, so that a million triples do not allocate
     std::size_t depth_ = 0;
     Value root_;

@@ -1,6 +1,7 @@
 #include "bake/scene/UsdaValue.h"
 
-#include "bake/scene/JsonText.h"
+#include "bake/scene/Utf8.h"
+#include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteNumber.h"
 
 #include <cmath>

@@ -10,6 +10,9 @@ std::string writeJson(const Layer& layer);
 /// The same tree as CBOR, the binary twin: half as large, and read faster.
 std::string writeCbor(const Layer& layer);
 
+/// A value as JSON on one line.
+std::string jsonText(const Value& value);
+
 enum class Encoding { Json, Cbor };
 
 /// Saves a layer: the file is then whole and new, or still what it was. Throws InputError when it cannot be

@@ -1,7 +1,7 @@
 #include "bake/scene/WriteUsda.h"
 
-#include "bake/scene/JsonText.h"
 #include "bake/scene/UsdaValue.h"
+#include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteNumber.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #include "bake/base/Error.h"
-#include "bake/scene/LocateJson.h"
-#include "bake/scene/ParseCbor.h"
 #include "bake/scene/ReadLayer.h"
+#include "bake/scene/ReadTree.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SourceHash.h"
 #include "bake/scene/StoreTables.h"

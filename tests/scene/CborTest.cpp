@@ -1,6 +1,6 @@
 #include "bake/base/Error.h"
-#include "bake/scene/ParseCbor.h"
 #include "bake/scene/ReadLayer.h"
+#include "bake/scene/ReadTree.h"
 #include "bake/scene/WriteLayer.h"
 #include "tests/scene/RandomLayer.h"
 #include "tests/scene/Samples.h"

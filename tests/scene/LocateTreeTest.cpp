@@ -1,6 +1,5 @@
-#include "bake/scene/LocateJson.h"
 #include "bake/base/AtomicFile.h"
-#include "bake/scene/ParseJson.h"
+#include "bake/scene/ReadTree.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/WriteLayer.h"
 #include "tests/scene/RandomLayer.h"
