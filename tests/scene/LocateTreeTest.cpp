@@ -106,6 +106,65 @@ TEST_CASE("the parser and another one take the same texts") {
     CHECK(good > 1000);
 }
 
+TEST_CASE("arrays of numbers are taken as another parser takes them, number by number") {
+    std::mt19937_64 random(9);
+    const std::string tokens[] = {"0",
+                                  "-0",
+                                  "-0.0",
+                                  "1",
+                                  "-12",
+                                  "9007199254740993",
+                                  "1.5",
+                                  "1e5",
+                                  "1E-7",
+                                  "-2.e1",
+                                  "3.",
+                                  ".5",
+                                  "01",
+                                  "-",
+                                  "1e400",
+                                  "1e-9",
+                                  "5e-324",
+                                  "1e",
+                                  "+1",
+                                  "18446744073709551615",
+                                  "0x1",
+                                  "inf",
+                                  "0.1",
+                                  "123456789012345",
+                                  "1234567890123456",
+                                  "[1, 2]",
+                                  "1e-400"};
+    const std::string gaps[] = {",", ",", ",", ",", ", ", " ,", ",\n", " ", ",,"};
+    std::size_t good = 0;
+    for (int round = 0; round < 60000; ++round) {
+        std::string text = random() % 2 ? "[" : "[ ";
+        for (std::size_t n = random() % 5; n > 0; --n) {
+            text += tokens[random() % std::size(tokens)];
+            if (n > 1) text += gaps[random() % std::size(gaps)];
+        }
+        text += random() % 8 ? "]" : ",]";
+        INFO(text);
+        std::string mine, other = "refused";
+        try {
+            mine = jsonText(parseJson(text, ""));
+            ++good;
+        } catch (const InputError&) {
+            mine = "refused";
+        }
+        if (const auto json = nlohmann::json::parse(text, nullptr, false); !json.is_discarded()) {
+            Value::Array all; // each by itself, which no block of numbers is read in
+            for (const auto& element : json) {
+                const std::string one = element.dump();
+                all.push_back(parseJson(one, ""));
+            }
+            other = jsonText(parseJson(jsonText(Value(std::move(all))), ""));
+        }
+        REQUIRE(mine == other);
+    }
+    CHECK(good > 1000);
+}
+
 TEST_CASE("validation says line and column of what is wrong, in text files") {
     const std::string name = std::string(OSGTSS_BINARY_DIR) + "/located.tss";
     const auto errorsOf = [&](const std::string& content) {
