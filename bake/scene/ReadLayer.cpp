@@ -53,6 +53,12 @@ void takeMetadata(Value::Object& keys, Value::Object& metadata, const Place& pla
     keys.erase(it);
     if (const auto schemas = metadata.find("apiSchemas"); schemas != metadata.end())
         checkList(schemas->second, at / std::string("apiSchemas"), "names of API schemas", problems);
+    for (const char* key :
+         {"subLayers", "payload", "variantSets", "variantSelection", "inheritPaths", "specializes"})
+        if (metadata.contains(key))
+            problems.warn(at / std::string(key),
+                          std::string(key) + " is kept, but what it would bring into the scene does not "
+                                             "count: references alone are composed");
     if (const auto references = metadata.find("references"); references != metadata.end()) {
         checkList(references->second, at / std::string("references"), "paths", problems);
         checkPaths(references->second, at / std::string("references"), problems);

@@ -81,17 +81,28 @@ void readAttribute(Value::Object& keys, Property& property, const Place& place, 
     }
 }
 
+/// /Name/Name, perhaps with .property behind it.
+bool isPath(std::string_view path) {
+    const auto dot = path.find('.');
+    if (dot != std::string_view::npos && !isPropertyName(path.substr(dot + 1))) return false;
+    path = path.substr(0, dot);
+    if (!path.starts_with('/')) return false;
+    while (!path.empty()) {
+        const auto end = std::min(path.find('/', 1), path.size());
+        if (!isPrimName(path.substr(1, end - 1))) return false;
+        path.remove_prefix(end);
+    }
+    return true;
+}
+
 } // namespace
 
 bool isPropertyName(std::string_view name) {
-    bool first = true;
     while (true) {
         const auto colon = name.find(':');
-        const std::string word(name.substr(0, colon));
-        if (word.empty() || !isPrimName(first ? word : "_" + word)) return false;
+        if (!isPrimName(name.substr(0, colon))) return false;
         if (colon == std::string_view::npos) return true;
         name.remove_prefix(colon + 1);
-        first = false;
     }
 }
 
@@ -126,7 +137,7 @@ void checkPaths(const Value& value, const Place& place, Problems& problems) {
     }
     const auto* array = value.as<Value::Array>();
     for (std::size_t i = 0; array && i < array->size(); ++i)
-        if (const auto* path = (*array)[i].as<std::string>(); path && !path->starts_with('/'))
+        if (const auto* path = (*array)[i].as<std::string>(); path && !isPath(*path))
             problems.add(place / i, "expected an absolute path such as /Scene/Body, found \"" + *path + "\"");
 }
 

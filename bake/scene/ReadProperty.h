@@ -11,10 +11,10 @@ Property readProperty(Value object, const Place& place, Problems& problems);
 /// "explicit": ...}. wanted: what the strings are, for the message.
 void checkList(const Value& value, const Place& place, const std::string& wanted, Problems& problems);
 
-/// Checks that the strings of such a list are absolute paths.
+/// Checks that the strings of such a list are absolute paths of prims or properties.
 void checkPaths(const Value& value, const Place& place, Problems& problems);
 
-/// Words [A-Za-z_][A-Za-z0-9_]* with colons between, the later ones may begin with a digit.
+/// Words [A-Za-z_][A-Za-z0-9_]* with colons between.
 bool isPropertyName(std::string_view name);
 
 } // namespace tss

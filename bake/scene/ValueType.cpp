@@ -2,6 +2,7 @@
 
 #include "bake/base/NearestFloat.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -23,8 +24,9 @@ std::map<std::string, ValueType, std::less<>> makeTypes() {
     types["uchar"] = integer(0, 255);
     types["int"] = integer(-two31, two31 - 1);
     types["uint"] = integer(0, 2 * two31 - 1);
-    types["int64"] = integer(-two63, two63);
-    types["uint64"] = integer(0, 2 * two63);
+    // The largest double below 2^63 and 2^64; integers that no double holds are told apart before.
+    types["int64"] = integer(-two63, std::nextafter(two63, 0));
+    types["uint64"] = integer(0, std::nextafter(2 * two63, 0));
     types["timecode"] = {Base::Double};
     for (const char* text : {"string", "token", "asset"}) types[text] = {Base::Text};
     const std::pair<char, Base> precisions[] = {{'h', Base::Half}, {'f', Base::Float}, {'d', Base::Double}};
@@ -175,6 +177,17 @@ void conformEach(Value& value, bool array, const char* wanted, std::string_view 
     }
 }
 
+/// The path of a file, which .usda writes between @.
+void checkAssets(const Value& value, const Place& place, Problems& problems) {
+    if (const auto* array = value.as<Value::Array>())
+        for (std::size_t i = 0; i < array->size(); ++i) checkAssets((*array)[i], place / i, problems);
+    const auto* path = value.as<std::string>();
+    const auto bad = [](char c) { return c == '@' || static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+    if (path && std::any_of(path->begin(), path->end(), bad))
+        problems.add(place, "expected the path of a file without @ and control characters, found " +
+                                describe(value));
+}
+
 /// Integers of 64 bits that no double holds stay as they are, in a plain array.
 bool isBigInteger(const Value& value, const ValueType& type) {
     if (type.base != Base::Integer || type.highest < 4294967296.0) return false;
@@ -206,8 +219,11 @@ void conform(Value& value, const ValueType& type, std::string_view typeName, con
     if (value.isNull()) return;
     if (type.base == Base::Bool)
         return conformEach<bool>(value, type.array, "true or false", typeName, place, problems);
-    if (type.base == Base::Text)
-        return conformEach<std::string>(value, type.array, "a string", typeName, place, problems);
+    if (type.base == Base::Text) {
+        conformEach<std::string>(value, type.array, "a string", typeName, place, problems);
+        if (typeName.starts_with("asset")) checkAssets(value, place, problems);
+        return;
+    }
     if (hasBigInteger(value, type)) return;
 
     const NumberCheck check(type, typeName, problems);

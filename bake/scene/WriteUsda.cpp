@@ -52,6 +52,10 @@ public:
 
     void write(const Layer& layer) {
         Value::Object all = layer.metadata;
+        // Said even where they are what they are when absent: stages of other programs fall back to others.
+        all.try_emplace("metersPerUnit", 0.01);
+        all.try_emplace("upAxis", "Y");
+        if (!layer.children.empty()) all.try_emplace("defaultPrim", layer.children.front().name);
         if (!layer.other.empty()) keepUnknown(all, "customLayerData", layer.other);
         metadata(all, layerMetadata, "customLayerData");
         for (const Prim& prim : layer.children) {
@@ -90,10 +94,10 @@ private:
 
     /// A list of names or, for references, of paths of this layer.
     void listOp(const std::string& word, const Value& value, bool paths) {
-        const auto items = [&](const std::string& op, const Value& list) {
+        const auto items = [&](const std::string& op, const std::vector<std::string>& list) {
             line(op + word + " = [");
             bool first = true;
-            for (const std::string& item : listItems(list)) {
+            for (const std::string& item : list) {
                 if (!first) out += ", ";
                 first = false;
                 if (paths)
@@ -103,9 +107,24 @@ private:
             }
             out += "]\n";
         };
+        for (const auto& [op, list] : listOps(value)) items(op, list);
+    }
+
+    /// The operations of a list op with the words before them, as OpenUSD reads them: items once in each,
+    /// only an explicit list may be empty, and beside it there are no others.
+    static std::vector<std::pair<std::string, std::vector<std::string>>> listOps(const Value& value) {
+        const auto once = [](const Value& list) {
+            std::vector<std::string> items;
+            for (const std::string& item : listItems(list))
+                if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(item);
+            return items;
+        };
         const auto* ops = value.as<Value::Object>();
-        if (!ops) return items("", value);
-        for (const auto& [op, list] : *ops) items(op == "explicit" ? "" : op + " ", list);
+        if (!ops || ops->contains("explicit")) return {{"", once(value)}};
+        std::vector<std::pair<std::string, std::vector<std::string>>> all;
+        for (const auto& [op, list] : *ops)
+            if (auto items = once(list); !items.empty()) all.emplace_back(op + " ", std::move(items));
+        return all;
     }
 
     template <class Table>
@@ -132,6 +151,12 @@ private:
 
     void entry(const Known& known, const Value& value) {
         const std::string word = known.word ? known.word : known.key, type = known.type;
+        if (word == "comment") { // which has no word: a string on its own
+            line("");
+            appendUsdaString(out, *value.as<std::string>());
+            out += '\n';
+            return;
+        }
         if (type == "list" || type == "references") return listOp(word, value, type == "references");
         line(word + " = ");
         if (type == "dictionary")
@@ -171,7 +196,7 @@ private:
         };
         take("custom", Value(true), "custom ");
         take("custom", Value(false), "");
-        take("variability", Value("uniform"), "uniform ");
+        take("variability", Value("uniform"), property.isRelationship() ? "" : "uniform "); // as they all are
         take("variability", Value("varying"), "");
         if (property.isRelationship()) {
             relationship(prefix, name, *property.targetPaths, all);
@@ -198,21 +223,19 @@ private:
 
     void relationship(const std::string& prefix, const std::string& name, const Value& paths,
                       const Value::Object& rest) {
-        const auto write = [&](const std::string& op, const Value& list, bool withMetadata) {
-            const auto targets = listItems(list);
+        const auto ops = listOps(paths);
+        const bool plain = ops.size() == 1 && ops.front().first.empty();
+        if (!plain && (ops.empty() || !rest.empty())) { // metadata stands behind the name alone
+            line(prefix + "rel " + name + "\n");
+            metadata(rest, propertyMetadata, "customData");
+        }
+        for (const auto& [op, targets] : ops) {
             line(op + prefix + "rel " + name + " = ");
             if (targets.size() != 1) out += '[';
             for (std::size_t i = 0; i < targets.size(); ++i) out += (i > 0 ? ", <" : "<") + targets[i] + ">";
             if (targets.size() != 1) out += ']';
             out += '\n';
-            if (withMetadata) metadata(rest, propertyMetadata, "customData");
-        };
-        const auto* ops = paths.as<Value::Object>();
-        if (!ops) return write("", paths, true);
-        bool first = true;
-        for (const auto& [op, list] : *ops) {
-            write(op == "explicit" ? "" : op + " ", list, first);
-            first = false;
+            if (plain) metadata(rest, propertyMetadata, "customData");
         }
     }
 

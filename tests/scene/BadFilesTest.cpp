@@ -114,7 +114,20 @@ const std::vector<Broken> brokenFiles = {
      "an absolute path"},
     {mesh, "/properties/a", "{\"targetPaths\": {\"append\": [3]}}", "/properties/a/targetPaths/append/0",
      "a string"},
+    {mesh, "/properties/a:0", "{\"typeName\": \"int\"}", "=", "expected a property name"},
+    {mesh, "/properties/a", "{\"targetPaths\": [\"/Scene/\"]}", "/properties/a/targetPaths/0",
+     "an absolute path"},
+    {mesh, "/properties/a", "{\"targetPaths\": [\"/Scene/A>\"]}", "/properties/a/targetPaths/0",
+     "an absolute path"},
+    {mesh, "/properties/a", "{\"targetPaths\": [\"/Scene.\"]}", "/properties/a/targetPaths/0",
+     "an absolute path"},
     // values and their types
+    {mesh, "/properties/a", "{\"typeName\": \"uint64\", \"default\": 18446744073709551616}",
+     "/properties/a/default", "expected an integer from 0"},
+    {mesh, "/properties/a", "{\"typeName\": \"int64\", \"default\": 9223372036854775808.0}",
+     "/properties/a/default", "expected an integer"},
+    {mesh, "/properties/a", "{\"typeName\": \"asset[]\", \"default\": [\"a\", \"b@c\"]}",
+     "/properties/a/default/1", "without @"},
     {mesh, "/properties/a", "{\"typeName\": \"int\", \"default\": 1.7}", "/properties/a/default",
      "expected an integer"},
     {mesh, "/properties/a", "{\"typeName\": \"int\", \"default\": 2147483648}", "/properties/a/default",
@@ -432,6 +445,20 @@ TEST_CASE("validation finds everything that is wrong, not only the first thing")
     std::filesystem::remove(name);
     CHECK(errors.size() == 4);
     for (const InputError& error : errors) CHECK(error.where.file == name);
+}
+
+TEST_CASE("composition that is not done is remarked upon") {
+    Json file = Json::parse(writeJson(toLayer(samples::jaw())));
+    file["metadata"]["subLayers"] = Json::array({"a.usda"});
+    file["primChildren"][0]["metadata"]["specializes"] = Json::array({"/Scene/A"});
+    const std::string name = std::string(OSGTSS_BINARY_DIR) + "/composed.tss";
+    writeFileAtomically(name, file.dump());
+    std::vector<LocatedError> warnings;
+    CHECK(validateScene(name, &warnings).empty());
+    std::filesystem::remove(name);
+    REQUIRE(warnings.size() == 2);
+    CHECK_THAT(warnings[0].message, Catch::StartsWith("subLayers is kept"));
+    CHECK(warnings[1].where.pointer == "/primChildren/0/metadata/specializes");
 }
 
 TEST_CASE("a newer minor version is read with a warning, and kept") {

@@ -80,6 +80,46 @@ def Xform "Jaw" (
 )usda");
 }
 
+TEST_CASE("what OpenUSD's parser refuses is written in the form that it takes") {
+    const std::string json =
+        R"({"format": "osgtss", "formatVersion": "1.0", "metadata": {"comment": "of \"all\""},
+    "primChildren": [{"typeName": "Xform", "name": "A", "metadata": {"comment": "of A",
+        "apiSchemas": {"prepend": [], "append": ["X", "X"]}},
+      "properties": {
+        "p": {"typeName": "int", "default": 1, "comment": "of p"},
+        "none": {"targetPaths": {"prepend": []}},
+        "ops": {"targetPaths": {"append": ["/A.p", "/A.p"], "delete": ["/A/B"]}, "displayName": "N",
+                "variability": "uniform"},
+        "set": {"targetPaths": {"explicit": ["/A"], "prepend": ["/A/B"]}, "hidden": true}}}]})";
+    CHECK(writeUsda(parseLayer(json, "")) == R"usda(#usda 1.0
+(
+    "of \"all\""
+    defaultPrim = "A"
+    metersPerUnit = 0.01
+    upAxis = "Y"
+)
+
+def Xform "A" (
+    append apiSchemas = ["X"]
+    "of A"
+)
+{
+    rel none
+    rel ops (
+        displayName = "N"
+    )
+    append rel ops = </A.p>
+    delete rel ops = </A/B>
+    int p = 1 (
+        "of p"
+    )
+    rel set = [</A>, </A/B>] (
+        hidden = true
+    )
+}
+)usda");
+}
+
 TEST_CASE("a whole scene is written as the golden file has it") {
     const std::string golden = std::string(OSGTSS_SOURCE_DIR) + "/tests/scene/everything.usda";
     const std::string usda = writeUsda(toLayer(samples::everything()));
