@@ -10,7 +10,7 @@
 #include "bake/reduce/CertifiedCover.h"
 #include "bake/reduce/Cooccurrence.h"
 #include "bake/reduce/Minimal.h"
-#include "bake/scene/SourceHash.h"
+#include "bake/model/SourceHash.h"
 #include "bake/search/CertifiedSearch.h"
 #include "bake/search/SampledSearch.h"
 #include "bake/spheres/FitMetrics.h"

@@ -2,7 +2,7 @@
 #include "bake/SkinSetup.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
-#include "bake/scene/SourceHash.h"
+#include "bake/model/SourceHash.h"
 #include "bake/search/SkinSearch.h"
 #include "bake/spheres/GenerateSpheres.h"
 #include "bake/spheres/RoundToFloat.h"

@@ -2,7 +2,7 @@
 
 #include "bake/SkinSetup.h"
 #include "bake/geometry/Solid.h"
-#include "bake/scene/Kinematics.h"
+#include "bake/model/Kinematics.h"
 #include "bake/table/Query.h"
 
 #include <algorithm>

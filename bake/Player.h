@@ -1,7 +1,7 @@
 #pragma once
 #include "bake/JointPlan.h"
 #include "bake/respond/SkinResponse.h"
-#include "bake/scene/SceneModel.h"
+#include "bake/model/SceneModel.h"
 
 namespace tss {
 

@@ -1,7 +1,7 @@
 #include "bake/SkinSetup.h"
 
 #include "bake/base/Error.h"
-#include "bake/scene/Kinematics.h"
+#include "bake/model/Kinematics.h"
 
 #include <cmath>
 

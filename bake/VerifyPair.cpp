@@ -2,7 +2,7 @@
 
 #include "bake/RestRule.h"
 #include "bake/base/Error.h"
-#include "bake/scene/SourceHash.h"
+#include "bake/model/SourceHash.h"
 #include "bake/verify/Verify.h"
 
 #include <algorithm>

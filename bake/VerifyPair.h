@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/base/Progress.h"
-#include "bake/scene/SceneModel.h"
+#include "bake/model/SceneModel.h"
 #include "bake/verify/MeshVerify.h"
 
 #include <cstdint>

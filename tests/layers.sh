@@ -14,10 +14,11 @@ declare -A may=(
     [reduce]="base motion search spheres table"
     [verify]="base geometry motion spheres table"
     [respond]="base geometry motion spheres table"
-    [scene]="base geometry motion spheres table"
+    [model]="base geometry motion spheres table"
+    [scene]="base geometry model motion spheres table"
     [compare]="base geometry motion spheres table"
-    [report]="base compare geometry motion reduce respond scene search spheres table top verify"
-    [tool]="base geometry motion report respond scene spheres table top verify"
+    [report]="base compare geometry model motion reduce respond scene search spheres table top verify"
+    [tool]="base geometry model motion report respond scene spheres table top verify"
 )
 wrong=0
 for folder in bake/*/; do

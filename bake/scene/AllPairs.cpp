@@ -2,7 +2,7 @@
 
 #include "bake/base/Error.h"
 #include "bake/motion/MotionBound.h"
-#include "bake/scene/JointGraph.h"
+#include "bake/model/JointGraph.h"
 #include "bake/scene/Layer.h"
 #include "bake/scene/SceneWriting.h"
 

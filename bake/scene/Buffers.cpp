@@ -1,7 +1,7 @@
 #include "bake/scene/Buffers.h"
 
 #include "bake/base/AtomicFile.h"
-#include "bake/scene/Sha256.h"
+#include "bake/base/Sha256.h"
 #include "bake/scene/ValueType.h"
 
 #include <bit>

@@ -3,7 +3,7 @@
 #include "bake/scene/Layer.h"
 #include "bake/scene/Problems.h"
 #include "bake/scene/Schema.h"
-#include "bake/scene/TimeSamples.h"
+#include "bake/model/TimeSamples.h"
 
 #include <initializer_list>
 #include <limits>

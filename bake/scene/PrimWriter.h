@@ -2,7 +2,7 @@
 #include "bake/geometry/TriangleMesh.h"
 #include "bake/scene/Layer.h"
 #include "bake/scene/Schema.h"
-#include "bake/scene/TimeSamples.h"
+#include "bake/model/TimeSamples.h"
 
 #include <cstdint>
 

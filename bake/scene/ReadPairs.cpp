@@ -1,4 +1,4 @@
-#include "bake/scene/JointGraph.h"
+#include "bake/model/JointGraph.h"
 #include "bake/scene/SceneReading.h"
 
 #include <algorithm>

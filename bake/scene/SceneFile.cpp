@@ -4,7 +4,7 @@
 #include "bake/scene/PrimIndex.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadScene.h"
-#include "bake/scene/SourceHash.h"
+#include "bake/model/SourceHash.h"
 #include "bake/scene/StoreTables.h"
 #include "bake/scene/ToLayer.h"
 #include "bake/scene/WriteLayer.h"

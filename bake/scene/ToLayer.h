@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/scene/Layer.h"
-#include "bake/scene/SceneModel.h"
+#include "bake/model/SceneModel.h"
 
 namespace tss {
 

@@ -1,7 +1,7 @@
 #include "bake/tool/ChoosePair.h"
 
 #include "bake/base/Error.h"
-#include "bake/scene/SourceHash.h"
+#include "bake/model/SourceHash.h"
 
 namespace tss::tool {
 

@@ -1,7 +1,7 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/Import.h"
-#include "bake/scene/AddPair.h"
+#include "bake/model/AddPair.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/WriteLayer.h"

@@ -2,7 +2,7 @@
 #include "bake/base/Error.h"
 #include "bake/geometry/Import.h"
 #include "bake/geometry/MeshAudit.h"
-#include "bake/scene/AddPair.h"
+#include "bake/model/AddPair.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"

@@ -3,7 +3,7 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/scene/SceneFile.h"
-#include "bake/scene/SourceHash.h"
+#include "bake/model/SourceHash.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/Csv.h"
 #include "bake/tool/DofSpec.h"

@@ -3,7 +3,7 @@
 #include "bake/BakeOptions.h"
 #include "bake/EarlyContact.h"
 #include "bake/geometry/PartSet.h"
-#include "bake/scene/SourceHash.h"
+#include "bake/model/SourceHash.h"
 #include "bake/table/PreparedTable.h"
 #include "bake/tool/DofSpec.h"
 

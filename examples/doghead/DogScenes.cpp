@@ -1,6 +1,6 @@
 #include "examples/doghead/DogScenes.h"
 
-#include "bake/scene/AddPair.h"
+#include "bake/model/AddPair.h"
 #include "examples/doghead/DogMeshes.h"
 #include "examples/doghead/anatomy/FaceMuscles.h"
 #include "examples/doghead/anatomy/Frontalis.h"

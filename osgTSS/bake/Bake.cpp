@@ -4,7 +4,7 @@
 #include "bake/base/Error.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
-#include "bake/scene/SourceHash.h"
+#include "bake/model/SourceHash.h"
 #include "bake/scene/ToLayer.h"
 
 #include <osg/NodeVisitor>

@@ -4,8 +4,8 @@
 
 #include "bake/base/Error.h"
 #include "bake/motion/MotionBound.h"
-#include "bake/scene/AddPair.h"
-#include "bake/scene/Kinematics.h"
+#include "bake/model/AddPair.h"
+#include "bake/model/Kinematics.h"
 
 #include <osg/AutoTransform>
 #include <osg/Billboard>

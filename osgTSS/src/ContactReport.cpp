@@ -1,6 +1,6 @@
 #include "ContactReport.h"
 
-#include "bake/scene/Kinematics.h"
+#include "bake/model/Kinematics.h"
 #include "bake/table/Query.h"
 
 #include <osgTSS/Convert>

@@ -1,6 +1,6 @@
 #include "bake/base/Error.h"
 #include "bake/motion/WholeTurn.h"
-#include "bake/scene/Kinematics.h"
+#include "bake/model/Kinematics.h"
 
 #include <osgTSS/Convert>
 #include <osgTSS/JointTransform>

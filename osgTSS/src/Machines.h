@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/scene/SceneModel.h"
+#include "bake/model/SceneModel.h"
 
 #include <osg/Node>
 #include <osgTSS/ConstraintVisitor>

@@ -1,7 +1,7 @@
 #include "bake/scene/SceneFile.h"
 
 #include "bake/base/Error.h"
-#include "bake/scene/SourceHash.h"
+#include "bake/model/SourceHash.h"
 
 #include <osg/NodeVisitor>
 #include <osgTSS/ConstraintVisitor>

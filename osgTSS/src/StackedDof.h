@@ -1,7 +1,7 @@
 #pragma once
 #include "AnimationChannels.h"
 
-#include "bake/scene/SceneModel.h"
+#include "bake/model/SceneModel.h"
 
 #include <osg/observer_ptr>
 #include <osgAnimation/UpdateMatrixTransform>

@@ -6,7 +6,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
 #include "bake/scene/SceneFile.h"
-#include "bake/scene/SourceHash.h"
+#include "bake/model/SourceHash.h"
 #include "bake/scene/WriteLayer.h"
 #include "tests/adversary/judge/Attack.h"
 #include "tests/adversary/judge/Trial.h"

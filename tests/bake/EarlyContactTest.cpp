@@ -1,7 +1,7 @@
 #include "bake/EarlyContact.h"
 
 #include "bake/Bake.h"
-#include "bake/scene/AddPair.h"
+#include "bake/model/AddPair.h"
 #include "tests/geometry/TestMeshes.h"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // Triangles without area that no other triangle has: a needle on a body, told by tables and proofs.
 #include "bake/Bake.h"
 #include "bake/geometry/MeshQuery.h"
-#include "bake/scene/AddPair.h"
+#include "bake/model/AddPair.h"
 #include "bake/table/Query.h"
 #include "tests/geometry/TestMeshes.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/scene/AddPair.h"
+#include "bake/model/AddPair.h"
 #include "tests/Joints.h"
 #include "tests/geometry/TestMeshes.h"
 

@@ -2,7 +2,7 @@
 
 #include "bake/Bake.h"
 #include "bake/geometry/MeshQuery.h"
-#include "bake/scene/AddPair.h"
+#include "bake/model/AddPair.h"
 #include "bake/table/Query.h"
 #include "tests/Joints.h"
 #include "tests/geometry/TestMeshes.h"

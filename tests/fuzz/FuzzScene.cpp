@@ -2,7 +2,7 @@
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadTree.h"
 #include "bake/scene/ReadScene.h"
-#include "bake/scene/SourceHash.h"
+#include "bake/model/SourceHash.h"
 #include "bake/scene/StoreTables.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteUsda.h"

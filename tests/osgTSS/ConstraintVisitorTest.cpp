@@ -2,7 +2,7 @@
 #include "Playback.h"
 
 #include "bake/base/Error.h"
-#include "bake/scene/Kinematics.h"
+#include "bake/model/Kinematics.h"
 
 #include <catch2/catch.hpp>
 #include <osg/Geometry>

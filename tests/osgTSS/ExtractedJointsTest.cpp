@@ -1,7 +1,7 @@
 #include "Heard.h"
 #include "Playback.h"
 
-#include "bake/scene/Kinematics.h"
+#include "bake/model/Kinematics.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/ToLayer.h"
 

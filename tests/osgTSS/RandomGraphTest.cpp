@@ -1,6 +1,6 @@
 #include "Nodes.h"
 
-#include "bake/scene/Kinematics.h"
+#include "bake/model/Kinematics.h"
 
 #include <osg/LOD>
 #include <osg/Notify>

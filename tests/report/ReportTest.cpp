@@ -1,7 +1,7 @@
 #include "bake/report/Report.h"
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
-#include "bake/scene/AddPair.h"
+#include "bake/model/AddPair.h"
 #include "bake/scene/SceneFile.h"
 #include "tests/Shapes.h"
 

@@ -2,7 +2,7 @@
 #include "bake/base/Error.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/SceneFile.h"
-#include "bake/scene/Sha256.h"
+#include "bake/base/Sha256.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteUsda.h"
 

@@ -1,6 +1,6 @@
-#include "bake/scene/SourceHash.h"
+#include "bake/model/SourceHash.h"
 #include "bake/base/Error.h"
-#include "bake/scene/Sha256.h"
+#include "bake/base/Sha256.h"
 #include "tests/scene/Samples.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "bake/scene/AddPair.h"
+#include "bake/model/AddPair.h"
 #include "bake/scene/SceneFile.h"
 #include "tests/Shapes.h"
 #include "tests/tool/Shell.h"

@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/scene/SceneModel.h"
+#include "bake/model/SceneModel.h"
 
 #include <cstdint>
 #include <string>

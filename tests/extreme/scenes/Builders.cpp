@@ -1,7 +1,7 @@
 #include "tests/extreme/scenes/Builders.h"
 
 #include "bake/base/NearestFloat.h"
-#include "bake/scene/AddPair.h"
+#include "bake/model/AddPair.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"

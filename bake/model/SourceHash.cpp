@@ -1,7 +1,7 @@
-#include "bake/scene/SourceHash.h"
+#include "bake/model/SourceHash.h"
 
 #include "bake/base/Error.h"
-#include "bake/scene/Sha256.h"
+#include "bake/base/Sha256.h"
 
 #include <bit>
 

@@ -1,4 +1,4 @@
-#include "bake/scene/JointGraph.h"
+#include "bake/model/JointGraph.h"
 
 #include <algorithm>
 #include <map>

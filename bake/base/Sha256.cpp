@@ -1,4 +1,4 @@
-#include "bake/scene/Sha256.h"
+#include "bake/base/Sha256.h"
 
 #include <algorithm>
 #include <bit>

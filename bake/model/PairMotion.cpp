@@ -1,5 +1,5 @@
 #include "bake/base/Error.h"
-#include "bake/scene/SceneModel.h"
+#include "bake/model/SceneModel.h"
 
 namespace tss {
 

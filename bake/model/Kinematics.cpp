@@ -1,4 +1,4 @@
-#include "bake/scene/Kinematics.h"
+#include "bake/model/Kinematics.h"
 
 namespace tss {
 
