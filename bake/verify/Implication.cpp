@@ -296,7 +296,7 @@ private:
         open->tests = numbers_;
         std::size_t widest = 0;
         double most = -1;
-        // The DOF that moves the fastest of what is left farthest.
+        // The DOF that may move farthest what moves farthest of what is left.
         Vec3 y =
             balls_.empty() ? Vec3::Zero() : m_.treeB.balls[static_cast<std::size_t>(balls_.front().b)].centre;
         if (balls_.empty()) {
@@ -305,10 +305,10 @@ private:
                                  [](const Apart& p, const Apart& q) { return p.b->move < q.b->move; });
             y = m_.b[fastest->pair.b].centre;
         }
-        const MovingPoint point = box.carry(y, true);
+        const MovingPoint point = box.carry(y, false);
         for (std::size_t k = 0; k < box.dofs(); ++k)
-            if (const double moves = point.velocity[k].norm() * box.half(k); moves > most) {
-                most = moves;
+            if (point.sweep[k] > most) {
+                most = point.sweep[k];
                 widest = k;
             }
         if (most <= 0)

@@ -251,13 +251,14 @@ void MeshBox::halve(const PiecePair& pair, std::vector<PiecePair>& stack) const 
                              : PiecePair{pair.a, half(b_, pair.b, side)});
 }
 
-// The DOF that moves the pieces left the most.
+// The DOF that may move the pieces left the most: by its bound, for across a knot of a path the rate at the
+// middle says little about the steepest part.
 void MeshBox::chooseCut(const OpenPairs& left, std::size_t& cut) const {
     std::array<double, maxDofs> moves{};
     const std::size_t step = 1 + left.pairs.size() / 16;
     for (std::size_t k = 0; k < left.pairs.size(); k += step) {
-        const MovingPoint at = box_->carry(slabOfPiece(b_, left.pairs[k].b).centre, true);
-        for (std::size_t l = 0; l < box_->dofs(); ++l) moves[l] += at.velocity[l].norm() * box_->half(l);
+        const MovingPoint at = box_->carry(slabOfPiece(b_, left.pairs[k].b).centre, false);
+        for (std::size_t l = 0; l < box_->dofs(); ++l) moves[l] += at.sweep[l];
     }
     cut = 0;
     for (std::size_t l = 1; l < box_->dofs(); ++l)

@@ -189,12 +189,12 @@ private:
     std::vector<std::size_t> lastA_, lastB_; ///< which extreme point answered last
 };
 
-/// The DOF that moves B the most.
+/// The DOF that may move B the most.
 std::size_t widest(const PoseBox& box, const Extremes& points) {
     std::array<double, maxDofs> moves{};
     for (const Vec3& p : points) {
-        const MovingPoint at = box.carry(p, true);
-        for (std::size_t k = 0; k < box.dofs(); ++k) moves[k] += at.velocity[k].norm() * box.half(k);
+        const MovingPoint at = box.carry(p, false);
+        for (std::size_t k = 0; k < box.dofs(); ++k) moves[k] += at.sweep[k];
     }
     return std::size_t(std::max_element(moves.begin(), moves.begin() + std::ptrdiff_t(box.dofs())) -
                        moves.begin());

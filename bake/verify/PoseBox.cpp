@@ -168,7 +168,8 @@ MovingPoint PoseBox::carry(const Vec3& y, bool velocities) const {
         }
         const double chord =
             2 * std::sin(std::min(angle, std::numbers::pi) / 2) * lever + link.slideRate * link.half;
-        point.move = (point.move + std::min(chord, speed * link.half)) * outward;
+        point.sweep[k] = std::min(chord, speed * link.half);
+        point.move = (point.move + point.sweep[k]) * outward;
     }
     point.move += error_;
     point.bend = velocities ? bend + 4 * error_ : std::numeric_limits<double>::infinity();
