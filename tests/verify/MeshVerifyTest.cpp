@@ -263,6 +263,24 @@ TEST_CASE("a path with corners is proven from corner to corner") {
     }
 }
 
+TEST_CASE("a path that is steep for a millionth of its values is cut there, and not along the other DOF") {
+    const Case c = boxes(0.5);
+    Dof path;
+    path.kind = DofKind::Path;
+    path.upper = 3;
+    path.path = {PathRow{0, {0, 0, 0}, Eigen::Quaterniond::Identity()},
+                 PathRow{1e-6, {1, 0, 0}, Eigen::Quaterniond::Identity()},
+                 PathRow{3, {1.01, 0, 0}, Eigen::Quaterniond::Identity()}};
+    Motion motion;
+    motion.dofs = {path, joints::turn({0, 0, 0}, Vec3::UnitZ(), -1, 1)};
+    NeverCollides proof;
+    proof.clearance = 0.5;
+    const MeshVerdict verdict = verifyOnMeshes(c.a, c.b, proof, motion);
+    INFO(verdict.reason);
+    CHECK(verdict.holds());
+    CHECK(verdict.cells < 200);
+}
+
 TEST_CASE("what is said does not depend on the number of threads, nor on how often it is asked") {
     std::mt19937_64 random(7);
     Case c = boxes(1.2);
