@@ -1,6 +1,6 @@
 #pragma once
-#include "bake/respond/JointResponder.h"
 #include "bake/model/SceneModel.h"
+#include "bake/respond/JointResponder.h"
 
 #include <memory>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 #include "bake/JointPlan.h"
-#include "bake/respond/SkinResponse.h"
 #include "bake/model/SceneModel.h"
+#include "bake/respond/SkinResponse.h"
 
 namespace tss {
 

@@ -1,7 +1,7 @@
 #pragma once
+#include "bake/model/TimeSamples.h"
 #include "bake/motion/Motion.h"
 #include "bake/motion/Muscle.h"
-#include "bake/model/TimeSamples.h"
 #include "bake/table/SkinTable.h"
 #include "bake/table/Table.h"
 

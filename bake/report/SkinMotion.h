@@ -1,6 +1,6 @@
 #pragma once
-#include "bake/respond/SkinRig.h"
 #include "bake/model/SceneModel.h"
+#include "bake/respond/SkinRig.h"
 
 #include <memory>
 #include <vector>

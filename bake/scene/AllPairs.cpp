@@ -1,8 +1,8 @@
 #include "bake/scene/AllPairs.h"
 
 #include "bake/base/Error.h"
-#include "bake/motion/MotionBound.h"
 #include "bake/model/JointGraph.h"
+#include "bake/motion/MotionBound.h"
 #include "bake/scene/Layer.h"
 #include "bake/scene/SceneWriting.h"
 

@@ -1,9 +1,9 @@
 #pragma once
 #include "bake/geometry/TriangleMesh.h"
+#include "bake/model/TimeSamples.h"
 #include "bake/scene/Layer.h"
 #include "bake/scene/Problems.h"
 #include "bake/scene/Schema.h"
-#include "bake/model/TimeSamples.h"
 
 #include <initializer_list>
 #include <limits>

@@ -1,8 +1,8 @@
 #pragma once
 #include "bake/geometry/TriangleMesh.h"
+#include "bake/model/TimeSamples.h"
 #include "bake/scene/Layer.h"
 #include "bake/scene/Schema.h"
-#include "bake/model/TimeSamples.h"
 
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 #pragma once
-#include "bake/scene/Problems.h"
 #include "bake/model/SceneModel.h"
+#include "bake/scene/Problems.h"
 
 namespace tss {
 

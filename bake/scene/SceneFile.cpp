@@ -1,10 +1,10 @@
 #include "bake/scene/SceneFile.h"
 
 #include "bake/base/AtomicFile.h"
+#include "bake/model/SourceHash.h"
 #include "bake/scene/PrimIndex.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadScene.h"
-#include "bake/model/SourceHash.h"
 #include "bake/scene/StoreTables.h"
 #include "bake/scene/ToLayer.h"
 #include "bake/scene/WriteLayer.h"

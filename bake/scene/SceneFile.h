@@ -1,7 +1,7 @@
 #pragma once
+#include "bake/model/SceneModel.h"
 #include "bake/scene/Layer.h"
 #include "bake/scene/ReadTree.h"
-#include "bake/model/SceneModel.h"
 
 namespace tss {
 

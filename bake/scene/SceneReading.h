@@ -1,7 +1,7 @@
 #pragma once
+#include "bake/model/SceneModel.h"
 #include "bake/scene/PrimIndex.h"
 #include "bake/scene/PrimReader.h"
-#include "bake/model/SceneModel.h"
 #include "bake/scene/Xform.h"
 
 namespace tss {

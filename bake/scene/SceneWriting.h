@@ -1,6 +1,6 @@
 #pragma once
-#include "bake/scene/PrimWriter.h"
 #include "bake/model/SceneModel.h"
+#include "bake/scene/PrimWriter.h"
 
 namespace tss {
 

@@ -1,6 +1,6 @@
 #pragma once
-#include "bake/scene/Layer.h"
 #include "bake/model/SceneModel.h"
+#include "bake/scene/Layer.h"
 
 namespace tss {
 

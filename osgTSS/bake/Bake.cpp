@@ -2,9 +2,9 @@
 
 #include "bake/EarlyContact.h"
 #include "bake/base/Error.h"
+#include "bake/model/SourceHash.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
-#include "bake/model/SourceHash.h"
 #include "bake/scene/ToLayer.h"
 
 #include <osg/NodeVisitor>

@@ -3,9 +3,9 @@
 #include "JointNodes.h"
 
 #include "bake/base/Error.h"
-#include "bake/motion/MotionBound.h"
 #include "bake/model/AddPair.h"
 #include "bake/model/Kinematics.h"
+#include "bake/motion/MotionBound.h"
 
 #include <osg/AutoTransform>
 #include <osg/Billboard>

@@ -1,6 +1,6 @@
 #include "bake/base/Error.h"
-#include "bake/motion/WholeTurn.h"
 #include "bake/model/Kinematics.h"
+#include "bake/motion/WholeTurn.h"
 
 #include <osgTSS/Convert>
 #include <osgTSS/JointTransform>

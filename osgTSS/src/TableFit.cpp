@@ -1,7 +1,7 @@
 #include "TableFit.h"
 
-#include "bake/motion/WholeTurn.h"
 #include "bake/model/SourceHash.h"
+#include "bake/motion/WholeTurn.h"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
-#include "bake/scene/ReadScene.h"
 #include "bake/model/SourceHash.h"
+#include "bake/scene/ReadScene.h"
 #include "bake/scene/ToLayer.h"
 
 #include <cmath>

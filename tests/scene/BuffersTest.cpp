@@ -1,8 +1,8 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/base/Sha256.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/SceneFile.h"
-#include "bake/base/Sha256.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteUsda.h"
 
