@@ -36,7 +36,7 @@ void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, Pa
     search.thickness = floatAbove(2 * (skin.thickness > 0 ? skin.thickness : skinThickness(mesh))) / 2.0;
     search.travel = skin.travel;
     const SkinParameters parameters = skinParameters(scene, skin);
-    SkinMoves moves = skinMoves(mesh, filled.deformers, parameters, search.thickness);
+    SkinMoves moves = skinMoves(mesh, filled.deformers, parameters);
     search.stray = std::move(moves.stray);
     search.shares = std::move(moves.shares);
     search.swings = parameters.swings;

@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/model/Kinematics.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tss {
@@ -50,6 +51,18 @@ std::vector<BoneSwing> swingsOf(const SceneModel& scene, const SkinModel& skin) 
     return swings;
 }
 
+/// What each body under a skin moves with: one frame a bone.
+std::vector<int> framesOf(const SceneModel& scene, const SkinModel& skin) {
+    std::vector<int> bones, frames;
+    for (const int index : skin.muscles) {
+        const int bone = scene.muscles.at(static_cast<std::size_t>(index)).bone;
+        const auto known = std::find(bones.begin(), bones.end(), bone);
+        frames.push_back(bone < 0 ? -1 : static_cast<int>(known - bones.begin()));
+        if (bone >= 0 && known == bones.end()) bones.push_back(bone);
+    }
+    return frames;
+}
+
 } // namespace
 
 std::vector<std::shared_ptr<const MuscleDeformer>> skinMuscles(const SceneModel& scene,
@@ -80,6 +93,7 @@ SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin) {
     parameters.stretchCompliance = skin.stretchCompliance;
     parameters.bendCompliance = skin.bendCompliance;
     parameters.selfContact = skin.selfContact;
+    parameters.frames = framesOf(scene, skin);
     parameters.swings = swingsOf(scene, skin);
     parameters.tether = skin.tether;
     parameters.attach = skin.attach;

@@ -101,13 +101,12 @@ std::vector<Vec3> placesOf(const SkinResponse& response, const TriangleMesh& mes
 std::vector<std::vector<Vec3>> convergedSteps(const SceneModel& scene, const SkinModel& skin,
                                               const Muscles& muscles, const std::vector<Activations>& asked) {
     SkinParameters parameters = skinParameters(scene, skin);
-    parameters.iterations = 400; // an update goes on where the one before has stopped
+    parameters.iterations = 2000;
     SkinResponse response(makeSkinRig(scene.bodies[static_cast<std::size_t>(skin.body)].mesh, muscles,
                                       *skin.table, parameters));
     std::vector<std::vector<Vec3>> steps;
     for (const Activations& activations : asked) {
-        for (int round = 0; round < 25; ++round)
-            if (!response.update(activations).moved) break;
+        response.update(activations);
         steps.emplace_back(response.positions().begin(), response.positions().end());
     }
     return steps;

