@@ -1,6 +1,7 @@
 #include "bake/respond/SkinCarry.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/geometry/MeshQuery.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double lengthsPerSize = 80;
 /// In those lengths: how fast a muscle's hold falls off with the distance, and beyond which it has none.
 constexpr double holdFall = 0.5, holdReach = 4;
+/// Skin that is inside a muscle at rest cannot slide along it: how much firmer than other skin it is held.
+constexpr double insideFirmness = 300;
 /// A share below this counts as none, so that what hardly moves is left alone; the others are lowered by it.
 constexpr double leastShare = 1e-3;
 /// In sizes of the bone: skin that far from every bone that moves stays where it is, when no bone that holds
@@ -83,8 +86,18 @@ SkinGround::SkinGround(const TriangleMesh& mesh,
     : skin(mesh), bodies(under), graph(skinGraph(mesh)), normals(skinNormals(mesh)) {
     locators.reserve(bodies.size());
     for (const auto& body : bodies) {
-        locators.emplace_back(body->muscle().surface);
-        surfaceNormals.push_back(vertexNormals(body->muscle().surface));
+        const TriangleMesh& surface = body->muscle().surface;
+        locators.emplace_back(surface);
+        surfaceNormals.push_back(vertexNormals(surface));
+        inside.emplace_back();
+        if (body->rigid()) continue;
+        const MeshQuery solid(surface);
+        const Eigen::AlignedBox3d box = bounds(surface);
+        std::vector<char> within(mesh.vertices.size(), 0);
+        parallelFor(within.size(), [&](std::size_t v) {
+            within[v] = box.contains(mesh.vertices[v]) && solid.inside(mesh.vertices[v]);
+        });
+        inside.back().assign(within.begin(), within.end());
     }
     size = skin.vertices.empty() ? 0 : bounds(skin).diagonal().norm();
     if (!(size > 0)) size = 1;
@@ -109,18 +122,16 @@ SkinCarriage carrySkin(const SkinGround& ground, const SkinParameters& p) {
 
     std::vector<std::vector<double>> holds;
     std::vector<double> sum(count, 0);
+    carriage.firmness.assign(count, 1);
     for (std::size_t m = 0; m < ground.bodies.size(); ++m) {
         if (ground.bodies[m]->rigid()) continue;
         std::vector<double> hold(count, 0);
-        const std::vector<Tri>& triangles = ground.bodies[m]->muscle().surface.triangles;
         parallelFor(count, [&](std::size_t v) {
             const Vec3& x = ground.skin.vertices[v];
             const NearestPoint near = ground.locators[m].nearest(x, holdReach * ground.length);
             if (near.triangle < 0) return;
-            Vec3 normal = Vec3::Zero();
-            for (int k = 0; k < 3; ++k)
-                normal += near.weights[k] * ground.surfaceNormals[m][triangles[near.triangle][k]];
-            const double above = normal.dot(x - near.point) > 0 ? near.distance : 0;
+            const double above = ground.inside[m][v] ? 0 : near.distance;
+            if (ground.inside[m][v]) carriage.firmness[v] = insideFirmness;
             hold[v] = std::exp(-above / (holdFall * ground.length)) * (p.attach.empty() ? 1 : p.attach[v]);
         });
         for (std::size_t v = 0; v < count; ++v) sum[v] += hold[v];
@@ -128,7 +139,7 @@ SkinCarriage carrySkin(const SkinGround& ground, const SkinParameters& p) {
     }
     for (auto& hold : holds)
         for (std::size_t v = 0; v < count; ++v) hold[v] /= std::max(1.0, sum[v]);
-    spreadOver(ground.skin, ground.graph, ground.length, holds);
+    spreadOver(ground.skin, ground.graph, ground.length, carriage.firmness, holds);
 
     carriage.muscles.resize(ground.bodies.size());
     carriage.bound.resize(ground.bodies.size());

@@ -28,11 +28,10 @@ float trustOf(float facing) {
     return smoothStep((facing - leastFacing) / (fullFacing - leastFacing));
 }
 
-/// The direction in which a surface pushes: its smooth normal; from beside a rim more and more straight away
-/// from it, without a jump.
-Vec3f pushDirection(const Vec3f& smooth, const Vec3f& away, float radius) {
-    if (away.dot(smooth) <= 0) return smooth;
-    const Vec3f blend = radius * smooth + away;
+/// The direction in which a surface pushes: its smooth normal; from beside a rim, or from within a thin edge,
+/// more and more straight to or from its nearest point, without a jump. side: -1 inside, 1 outside.
+Vec3f pushDirection(const Vec3f& smooth, const Vec3f& away, float side, float radius) {
+    const Vec3f blend = radius * smooth + side * away;
     const float length = blend.norm();
     return length > 0 ? Vec3f(blend / length) : smooth;
 }
@@ -51,10 +50,19 @@ Vec3f placeOf(const SkinScene& scene, const SkinPlane& plane) {
     return sum;
 }
 
+/// Which side of a surface what lies `away` from its nearest point is on: amid a triangle that of the
+/// triangle, since smooth normals may lie beside sharp edges; at its edges and corners that of the smooth
+/// normal.
+float sideOf(const SurfacePoint& at, const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& smooth,
+             const Vec3f& away) {
+    const Vec3f normal = at.weights.minCoeff() > 0 ? Vec3f((b - a).cross(c - a)) : smooth;
+    return normal.dot(away) < 0 ? -1.0f : 1.0f;
+}
+
 /// Fills gap, level and normal of a plane whose vertices stand: away is what lies between.
-void finish(const SkinRig& rig, const SkinScene& scene, const Vec3f& smooth, const Vec3f& away, float trust,
-            float offset, SkinPlane& plane) {
-    plane.normal = pushDirection(smooth, away, rig.radius);
+void finish(const SkinRig& rig, const SkinScene& scene, const Vec3f& smooth, const Vec3f& away, float side,
+            float trust, float offset, SkinPlane& plane) {
+    plane.normal = pushDirection(smooth, away, side, rig.radius);
     const float distance = plane.normal.dot(away);
     const float beside = (away - distance * plane.normal).norm() / rig.radius;
     trust *= 1 - smoothStep(beside - 1);
@@ -89,8 +97,7 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     }
     if (hit.triangle < 0) return plane;
     const Move* normals = scene.normals.data() + body.first;
-    const Vec3f smooth =
-        smoothAt(hit, body.triangles[hit.triangle], [&](int v) { return normals[v].head<3>(); });
+    Vec3f smooth = smoothAt(hit, body.triangles[hit.triangle], [&](int v) { return normals[v].head<3>(); });
     // Skin inside a muscle may be nearest to a side that faces away from it.
     const float trust = trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
     if (!(trust > 0)) return plane;
@@ -98,8 +105,15 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     plane.weight[0] = 1;
     plane.vertices = 1;
     const Vec3f away = x - hit.point.cast<float>();
+    const Tri& t = body.triangles[hit.triangle];
+    const Move* at = scene.surface.data() + body.first;
+    float side = sideOf(hit, at[t[0]].head<3>(), at[t[1]].head<3>(), at[t[2]].head<3>(), smooth, away);
+    if (row.turned) {
+        smooth = -smooth;
+        side = -side;
+    }
     finish(rig, scene, placed.moved ? placed.turn * smooth : smooth, placed.moved ? placed.turn * away : away,
-           trust, offset, plane);
+           side, trust, offset, plane);
     return plane;
 }
 
@@ -132,14 +146,22 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const SurfacePoint hit = walkSkin(rig, scene, row, x);
     const Tri& corners = rig.triangles[hit.triangle];
     const Vec3f smooth = smoothAt(hit, corners, [&](int v) { return scene.normalOf(rig, v); });
-    const float trust = trustOf(smooth.dot(own));
+    float facing = smooth.dot(own);
+    if (row.within) {
+        Vec3f before = Vec3f::Zero();
+        for (int k = 0; k < 3; ++k)
+            before += row.weights[k] * scene.normalOf(rig, static_cast<std::size_t>(row.corners[k]));
+        facing = std::max(facing, smooth.dot(before.normalized()));
+    }
+    const float trust = trustOf(facing);
     if (!(trust > 0)) return plane;
     plane.vertices = 3;
     for (int k = 0; k < 3; ++k) {
         plane.vertex[k] = static_cast<std::uint32_t>(corners[k]);
         plane.weight[k] = static_cast<float>(hit.weights[k]);
     }
-    finish(rig, scene, (smooth + own).normalized(), hit.point.cast<float>() - x, trust, offset, plane);
+    const Vec3f away = hit.point.cast<float>() - x, both = row.within ? smooth : (smooth + own).normalized();
+    finish(rig, scene, both, away, both.dot(away) < 0 ? -1.0f : 1.0f, trust, offset, plane);
     return plane;
 }
 
@@ -161,7 +183,8 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
         plane.vertex[k + 1] = static_cast<std::uint32_t>(corners[k]);
         plane.weight[k + 1] = -static_cast<float>(hit.weights[k]);
     }
-    finish(rig, scene, (smooth - own).normalized(), x - hit.point.cast<float>(), trust, offset, plane);
+    const Vec3f away = x - hit.point.cast<float>(), both = (smooth - own).normalized();
+    finish(rig, scene, both, away, both.dot(away) < 0 ? -1.0f : 1.0f, trust, offset, plane);
     return plane;
 }
 

@@ -13,8 +13,10 @@ namespace {
 
 /// Distance of the nodes, in lengths l: closer ones would resolve what the sheet smooths away.
 constexpr double nodeSpacing = 0.8;
-/// In spacings: how far a node bears on vertices; every vertex is nearer than 1 to some node.
-constexpr double nodeReach = 1.7;
+/// In spacings: how far a node bears on vertices. Every vertex is nearer than 1 to some node; and where every
+/// vertex is a node, six neighbours weigh less than the node itself, or nodes could move against each other
+/// without anything that shows.
+constexpr double nodeReach = 1.25;
 /// A column is cut where it is below this share of its peak, and fades to nothing before.
 constexpr double columnCut = 3e-3;
 /// In lengths l: beyond, a column is below its cut (it falls as exp(-0.87 r / l)).
@@ -84,7 +86,8 @@ Weights chooseNodes(const SkinGraph& graph, const std::vector<bool>& near, doubl
 }
 
 SparseMatrix sheetOn(const TriangleMesh& skin, const SkinGraph& graph, const Weights& weights,
-                     std::size_t nodes, double length, double stretch, double bend) {
+                     const std::vector<double>& firmness, std::size_t nodes, double length, double stretch,
+                     double bend) {
     const auto rows = static_cast<Eigen::Index>(graph.vertices());
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t v = 0; v < weights.size(); ++v)
@@ -100,6 +103,7 @@ SparseMatrix sheetOn(const TriangleMesh& skin, const SkinGraph& graph, const Wei
     SparseMatrix sheet = stretch * (turned * bent);
     sheet +=
         bend * length * length * SparseMatrix(bent.transpose() * mass.cwiseInverse().asDiagonal() * bent);
+    for (Eigen::Index v = 0; v < rows; ++v) mass[v] *= firmness[v];
     sheet += SparseMatrix(turned * mass.asDiagonal() * spread) / (length * length);
     return sheet;
 }
@@ -149,6 +153,25 @@ Columns solveColumns(const SparseMatrix& sheet, const std::vector<Vec3>& places,
             }
         }
     });
+    // What is cut off one of two columns is cut off the other, or the problem of the pushes is not symmetric.
+    for (const std::uint32_t n : wanted)
+        for (auto& [other, value] : columns.of[n]) {
+            if (!needed[other] || other <= n) continue;
+            auto& back = columns.of[other];
+            const auto found =
+                std::find_if(back.begin(), back.end(), [&](const auto& e) { return e.first == n; });
+            if (found == back.end())
+                value = 0;
+            else
+                value = found->second = std::min(value, found->second);
+        }
+    for (const std::uint32_t n : wanted)
+        std::erase_if(columns.of[n], [&](const auto& entry) {
+            if (entry.second == 0 || !needed[entry.first] || entry.first >= n) return entry.second == 0;
+            const auto& back = columns.of[entry.first];
+            return std::find_if(back.begin(), back.end(), [&](const auto& e) { return e.first == n; }) ==
+                   back.end();
+        });
     return columns;
 }
 
@@ -160,8 +183,8 @@ std::size_t SkinFoundation::bytes() const {
 }
 
 SkinFoundation skinFoundation(const TriangleMesh& skin, const SkinGraph& graph,
-                              const std::vector<bool>& pushed, double length, double stretchCompliance,
-                              double bendCompliance) {
+                              const std::vector<bool>& pushed, const std::vector<double>& firmness,
+                              double length, double stretchCompliance, double bendCompliance) {
     SkinFoundation foundation;
     std::vector<std::uint32_t> sources;
     for (std::uint32_t v = 0; v < pushed.size(); ++v)
@@ -178,8 +201,8 @@ SkinFoundation skinFoundation(const TriangleMesh& skin, const SkinGraph& graph,
         for (const auto& entry : weights[v]) needed[entry.first] = true;
     std::vector<Vec3> places;
     for (const std::uint32_t v : at) places.push_back(skin.vertices[v]);
-    const SparseMatrix sheet = sheetOn(skin, graph, weights, at.size(), length, 1 / (1 + stretchCompliance),
-                                       1 / (1 + bendCompliance));
+    const SparseMatrix sheet = sheetOn(skin, graph, weights, firmness, at.size(), length,
+                                       1 / (1 + stretchCompliance), 1 / (1 + bendCompliance));
     const Columns columns = solveColumns(sheet, places, needed, columnReach * length);
 
     float peak = 0;

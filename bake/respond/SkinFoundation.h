@@ -21,10 +21,11 @@ struct SkinFoundation {
     std::size_t bytes() const;
 };
 
-/// pushed: #V, whether a contact may push the vertex. length: l, scene units. stretchCompliance,
-/// bendCompliance: >= 0; at 1 the term is half as stiff. Vertices out of reach of all pushes get no nodes.
+/// pushed: #V, whether a contact may push the vertex. firmness: #V, >= 1, factors on the foundation. length:
+/// l, scene units. stretchCompliance, bendCompliance: >= 0; at 1 the term is half as stiff. Vertices out of
+/// reach of all pushes get no nodes.
 SkinFoundation skinFoundation(const TriangleMesh& skin, const SkinGraph& graph,
-                              const std::vector<bool>& pushed, double length, double stretchCompliance,
-                              double bendCompliance);
+                              const std::vector<bool>& pushed, const std::vector<double>& firmness,
+                              double length, double stretchCompliance, double bendCompliance);
 
 } // namespace tss

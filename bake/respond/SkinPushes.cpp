@@ -8,10 +8,15 @@ namespace {
 
 /// Rows that ask for opposite things give way by this share of their push, so that pushes stay bounded.
 constexpr float giveWay = 0.003f;
-/// Each push goes beyond what it alone would need, since its neighbours push the same way: fewer sweeps.
-constexpr float beyond = 1.5f;
+/// Sweeps that find out what pushes, and steps of conjugate gradients that then find out how much, in turn.
+constexpr int sweepsBetween = 2, stepsBetween = 16;
 /// In sizes of the skin: the sweeps end when no place changes by more.
-constexpr float settled = 1e-7f;
+constexpr float settled = 1e-6f;
+/// Of what is lacking at the planes around: how far a push may move its own place. Planes that ask for
+/// opposite things would push without bounds.
+constexpr float mostPush = 15;
+/// A step against the limits of the pushes is halved until it helps, down to this share of it.
+constexpr float leastShare = 0.1f;
 
 } // namespace
 
@@ -43,7 +48,9 @@ void SkinPushes::gather(std::span<const SkinPlane> planes) {
     for (const SkinPlane& plane : planes.subspan(self_.size())) {
         for (int k = 0; k < plane.vertices; ++k)
             for (std::uint32_t e = f.start[plane.vertex[k]]; e < f.start[plane.vertex[k] + 1]; ++e)
-                add(f.node[e], plane.weight[k] * f.weight[e]);
+                // What has no column cannot be pushed; seen without it the problem stays symmetric.
+                if (f.columnStart[f.node[e]] != f.columnStart[f.node[e] + 1])
+                    add(f.node[e], plane.weight[k] * f.weight[e]);
         const std::size_t first = own_.size();
         collect(own_);
         for (std::size_t i = first; i < own_.size(); ++i)
@@ -86,44 +93,139 @@ void SkinPushes::clear() {
     self_.clear();
 }
 
+/// What each plane still lacks, and how much of it a push of each other one gives: the matrix of the problem.
+void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base) {
+    const std::size_t count = planes.size();
+    lack_.resize(count);
+    asked_.resize(count);
+    matrix_.resize(coupling_.size());
+    for (std::size_t r = 0; r < count; ++r) {
+        Eigen::Vector3f now = Eigen::Vector3f::Zero();
+        for (int k = 0; k < planes[r].vertices; ++k)
+            now += planes[r].weight[k] * base[planes[r].vertex[k]].head<3>();
+        asked_[r] = lack_[r] = planes[r].level - planes[r].normal.dot(now);
+        for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
+            matrix_[e] = coupling_[e].value * planes[r].normal.dot(planes[coupling_[e].index].normal);
+    }
+    // No push moves its own place by more than a few times what is lacking around it.
+    most_.resize(count);
+    for (std::size_t r = 0; r < count; ++r) {
+        float asked = std::max(asked_[r], 0.0f);
+        for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
+            asked = std::max(asked, asked_[coupling_[e].index]);
+        most_[r] = self_[r] > 0 ? mostPush * asked / self_[r] : 0;
+        planes[r].push = std::min(planes[r].push, most_[r]);
+        if (planes[r].push > 0) spread(r, planes[r].push);
+    }
+}
+
+/// Takes from what the planes lack what a change of one push gives them.
+void SkinPushes::spread(std::size_t r, float change) {
+    lack_[r] -= (1 + giveWay) * self_[r] * change;
+    for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
+        lack_[coupling_[e].index] -= matrix_[e] * change;
+}
+
+/// One push after the other, to what its plane lacks. Returns the largest change of a place.
+float SkinPushes::sweep(std::span<SkinPlane> planes, bool backwards) {
+    float largest = 0;
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+        const std::size_t r = backwards ? planes.size() - 1 - k : k; // no end is always the last
+        if (!(self_[r] > 0)) continue;                               // nothing there can give way
+        const float next = std::clamp(planes[r].push + lack_[r] / ((1 + giveWay) * self_[r]), 0.0f, most_[r]);
+        const float change = next - planes[r].push;
+        if (change == 0) continue;
+        planes[r].push = next;
+        spread(r, change);
+        largest = std::max(largest, std::abs(change) * self_[r]);
+    }
+    return largest;
+}
+
+/// Conjugate gradients over those that push: what lies between opposite pushes is settled in a few steps,
+/// for which sweeps would take thousands. Returns how many steps it took.
+int SkinPushes::settle(std::span<SkinPlane> planes, int steps) {
+    const std::size_t count = planes.size();
+    step_.assign(count, 0);
+    way_.assign(count, 0);
+    left_.assign(count, 0);
+    float size = 0;
+    for (std::size_t r = 0; r < count; ++r) {
+        if (!inside(planes, r)) continue;
+        left_[r] = lack_[r];
+        way_[r] = left_[r] / self_[r];
+        size += left_[r] * way_[r];
+    }
+    const float enough = 1e-8f * size;
+    int taken = 0;
+    for (; taken < steps && size > enough; ++taken) {
+        answer_.assign(count, 0);
+        for (std::size_t r = 0; r < count; ++r) {
+            if (way_[r] == 0) continue;
+            answer_[r] += (1 + giveWay) * self_[r] * way_[r];
+            for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
+                answer_[coupling_[e].index] += matrix_[e] * way_[r];
+        }
+        float curve = 0;
+        float least = 0; // of the curvature, were nothing cut off the columns
+        for (std::size_t r = 0; r < count; ++r) {
+            curve += way_[r] * answer_[r];
+            least += giveWay * self_[r] * way_[r] * way_[r];
+        }
+        if (!(curve > least)) break;
+        const float reach = size / curve;
+        float next = 0;
+        for (std::size_t r = 0; r < count; ++r) {
+            if (!inside(planes, r)) continue;
+            step_[r] += reach * way_[r];
+            left_[r] -= reach * answer_[r];
+            next += left_[r] * left_[r] / self_[r];
+        }
+        for (std::size_t r = 0; r < count; ++r)
+            if (inside(planes, r)) way_[r] = left_[r] / self_[r] + next / size * way_[r];
+        size = next;
+    }
+    const float before = energy(planes);
+    way_.resize(count);
+    for (std::size_t r = 0; r < count; ++r) way_[r] = planes[r].push; // from where the way goes
+    for (float share = 1; taken > 0 && share > leastShare; share /= 2) {
+        for (std::size_t r = 0; r < count; ++r) {
+            const float next =
+                step_[r] == 0 ? way_[r] : std::clamp(way_[r] + share * step_[r], 0.0f, most_[r]);
+            const float change = next - planes[r].push;
+            if (change == 0) continue;
+            planes[r].push = next;
+            spread(r, change);
+        }
+        if (!(energy(planes) > before)) return taken;
+    }
+    for (std::size_t r = 0; r < count; ++r)
+        if (planes[r].push != way_[r]) {
+            spread(r, way_[r] - planes[r].push);
+            planes[r].push = way_[r];
+        }
+    return taken;
+}
+
+/// What the pushes make as small as they can, up to a factor.
+float SkinPushes::energy(std::span<const SkinPlane> planes) const {
+    float sum = 0;
+    for (std::size_t r = 0; r < planes.size(); ++r) sum -= planes[r].push * (asked_[r] + lack_[r]);
+    return sum;
+}
+
 float SkinPushes::solve(std::span<SkinPlane> planes, std::span<const Move> base, int sweeps) {
     if (planes.size() > self_.size()) {
         gather(planes);
         couple();
     }
-    short_.resize(planes.size());
-    for (std::size_t r = 0; r < planes.size(); ++r) {
-        Eigen::Vector3f now = Eigen::Vector3f::Zero();
-        for (int k = 0; k < planes[r].vertices; ++k)
-            now += planes[r].weight[k] * base[planes[r].vertex[k]].head<3>();
-        short_[r] = planes[r].level - planes[r].normal.dot(now);
-    }
-    const auto spread = [&](std::size_t r, float change) {
-        short_[r] -= self_[r] * change;
-        for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e) {
-            const Entry& other = coupling_[e];
-            short_[other.index] -= other.value * planes[r].normal.dot(planes[other.index].normal) * change;
-        }
-    };
-    for (std::size_t r = 0; r < planes.size(); ++r)
-        if (planes[r].push > 0) spread(r, planes[r].push);
+    prepare(planes, base);
     float largest = 0;
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (int done = 0; done < sweeps;) {
         largest = 0;
-        for (std::size_t k = 0; k < planes.size(); ++k) {
-            const std::size_t r = sweep % 2 == 0 ? k : planes.size() - 1 - k; // no end is always the last
-            if (!(self_[r] > 0)) continue;                                    // nothing there can give way
-            float& push = planes[r].push;
-            const float stiff = self_[r] * (1 + giveWay);
-            const float next =
-                std::max(0.0f, push + beyond * (short_[r] - giveWay * self_[r] * push) / stiff);
-            const float change = next - push;
-            if (change == 0) continue;
-            push = next;
-            spread(r, change);
-            largest = std::max(largest, std::abs(change) * self_[r]);
-        }
+        for (int k = 0; k < sweepsBetween && done < sweeps; ++k, ++done) largest = sweep(planes, k % 2 != 0);
         if (largest <= settled) break;
+        done += settle(planes, std::min(stepsBetween, sweeps - done));
     }
     return largest;
 }

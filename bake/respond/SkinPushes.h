@@ -26,15 +26,25 @@ private:
         std::uint32_t index;
         float value;
     };
+    /// Free to push more or less.
+    bool inside(std::span<const SkinPlane> planes, std::size_t r) const {
+        return planes[r].push > 0 && planes[r].push < most_[r];
+    }
     void gather(std::span<const SkinPlane> planes);
     void couple();
+    void prepare(std::span<SkinPlane> planes, std::span<const Move> base);
+    void spread(std::size_t r, float change);
+    float sweep(std::span<SkinPlane> planes, bool backwards);
+    float energy(std::span<const SkinPlane> planes) const;
+    int settle(std::span<SkinPlane> planes, int steps);
 
     const SkinFoundation& foundation_;
     std::vector<std::uint32_t> ownStart_, columnStart_, coupleStart_; ///< one a plane and an end
     std::vector<Entry> own_;                                          ///< what each plane has of the nodes
     std::vector<Entry> column_;                                       ///< how the nodes move when it pushes
     std::vector<Entry> coupling_; ///< how much nearer to their goal the other planes come by it
-    std::vector<float> dense_, short_, self_;
+    std::vector<float> dense_, self_, asked_, lack_, most_, matrix_; ///< matrix_: one a coupling
+    std::vector<float> step_, way_, left_, answer_;                  ///< of conjugate gradients
     std::vector<std::uint32_t> seen_, stamp_;
     std::vector<Move> nodes_;
     std::uint32_t round_ = 0;

@@ -6,9 +6,11 @@
 namespace tss {
 namespace {
 
-/// Times that contacts are looked up, the last times where those before have moved the skin to: new ones are
-/// met there, and planes of curved surfaces have turned.
-constexpr int lookUps = 3;
+/// Times that contacts are looked up, at most, after the first time where those before have moved the skin
+/// to: new ones are met there, and planes of curved surfaces have turned.
+constexpr int lookUps = 6;
+/// In sizes of the skin: what is not deeper than this needs no further look-up.
+constexpr float settled = 1e-5f;
 
 double activationOf(std::span<const double> activations, const SkinBody& body, std::size_t m) {
     const double a = m < activations.size() ? activations[m] : 0;
@@ -88,7 +90,7 @@ void SkinResponse::resist() {
             if (planeOf_[r] > 0) {
                 SkinPlane& plane = planes_[planeOf_[r] - 1];
                 lookAgain(*rig_, scene_, rig_->rows[r], plane);
-                open = open || plane.gap < 0;
+                open = open || plane.gap < -settled;
                 continue;
             }
             if (!mayMeet(*rig_, scene_, rig_->rows[r])) continue;

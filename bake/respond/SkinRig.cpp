@@ -310,7 +310,9 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     const std::vector<bool> mayBePushed = addRows(rig, before, indexOf);
     TriangleMesh local{{}, rig.triangles};
     for (const Move& x : rig.places) local.vertices.push_back(x.head<3>().cast<double>());
-    rig.foundation = skinFoundation(local, skinGraph(local), mayBePushed, ground.length / rig.size,
+    std::vector<double> firmness;
+    for (const std::uint32_t v : rig.vertices) firmness.push_back(carriage.firmness[v]);
+    rig.foundation = skinFoundation(local, skinGraph(local), mayBePushed, firmness, ground.length / rig.size,
                                     parameters.stretchCompliance, parameters.bendCompliance);
     measureRows(rig);
     return result;

@@ -23,8 +23,8 @@ struct SkinParameters {
     std::vector<double> tether;    ///< #V in [0,1], how firmly a vertex keeps its rest place; empty: 0
     std::vector<double> attach;    ///< #V in [0,1], how firmly the muscle below carries it; empty: 1
     bool selfContact = false;      ///< the skin also keeps out of itself: lip against lip, lid against lid
-    int iterations = 30;           ///< most sweeps an update over the contacts that push, >= 1
-    bool faithful = false;         ///< [paper] spheres push spheres out, no elastic sheet
+    int iterations = 60; ///< most sweeps over the contacts that push, for each time they are looked up, >= 1
+    bool faithful = false; ///< [paper] spheres push spheres out, no elastic sheet
 };
 
 /// Run-time lengths are floats in sizes of the skin, from its middle.
@@ -71,10 +71,12 @@ struct SkinRow {
     std::uint32_t vertex = 0; ///< of the skin; BodyOnSkin: among those of all bodies
     std::uint32_t body = 0;
     std::uint32_t first = 0, last = 0; ///< triangles to start from: range in SkinRig::starts
+    bool within = false;               ///< at rest it is already on the wrong side, and is to get no deeper
+    bool turned = false;               ///< within a body that overlaps itself: the surface beside it faces it
     Tri corners{0, 0, 0};              ///< of the place at rest that it is before, and its weights
     Eigen::Vector3f weights = Eigen::Vector3f::Zero();
     Eigen::Vector3f relative = Eigen::Vector3f::Zero(); ///< from there, at rest
-    Eigen::Vector3f facing = Eigen::Vector3f::Zero();   ///< of a muscle's surface there, unit
+    Eigen::Vector3f facing = Eigen::Vector3f::Zero();   ///< SkinOnBody: of a muscle's surface there, unit
     float gap = 0;    ///< at rest; while nothing has moved by as much, nothing meets
     float offset = 0; ///< signed distance that is kept, at most 0: the overlap at rest
 };

@@ -51,17 +51,22 @@ Vec3 triangleNormal(const TriangleMesh& mesh, int t) {
     return (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).normalized();
 }
 
-/// Triangles of the skin that something was before, by what it is.
-using Met = std::vector<std::vector<int>>;
+/// Triangles of the skin that something was before, by what it is; through: and was behind it at rest.
+struct Met {
+    std::vector<std::vector<int>> triangles;
+    std::vector<char> through;
+
+    explicit Met(std::size_t count) : triangles(count), through(count, 0) {}
+};
 
 void meet(Met& met, std::size_t what, int triangle) {
-    auto& list = met[what];
+    auto& list = met.triangles[what];
     if (std::find(list.begin(), list.end(), triangle) == list.end()) list.push_back(triangle);
 }
 
 /// Body vertices that the skin comes to lie on.
 void meetBodies(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& skin,
-                const MuscleLocator& locator, Met& met) {
+                const MuscleLocator& locator, bool atRest, Met& met) {
     const double reach = seenReach * static_cast<double>(rig.radius);
     Eigen::AlignedBox3d box = bounds(skin);
     for (std::size_t m = 0; m < rig.bodies.size(); ++m) {
@@ -72,6 +77,15 @@ void meetBodies(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& 
             const Vec3 x = placed.toSkin(scene.surface[v].head<3>()).cast<double>();
             if (box.squaredExteriorDistance(x) > reach * reach) return;
             const Vec3 own = (placed.turn * scene.normals[v].head<3>()).cast<double>();
+            if (met.through[v]) return;
+            if (atRest) {
+                const NearestPoint any = locator.nearest(x, reach);
+                if (any.triangle >= 0 && triangleNormal(skin, any.triangle).dot(x - any.point) > 0) {
+                    met.through[v] = 1;
+                    meet(met, v, any.triangle);
+                    return;
+                }
+            }
             const NearestPoint near = locator.nearestFacing(x, reach, own);
             if (near.triangle < 0) return;
             const double above = triangleNormal(skin, near.triangle).dot(near.point - x);
@@ -100,21 +114,23 @@ void meetFolds(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& s
 
 void addMet(SkinRig& rig, const Met& met, SkinMeeting meeting, std::vector<bool>& pushed) {
     std::size_t body = 0;
-    for (std::uint32_t v = 0; v < met.size(); ++v) {
+    for (std::uint32_t v = 0; v < met.triangles.size(); ++v) {
+        const std::vector<int>& triangles = met.triangles[v];
         if (meeting == SkinMeeting::BodyOnSkin)
             while (v >= rig.bodies[body].first + rig.bodies[body].count) ++body;
-        if (met[v].empty()) continue;
+        if (triangles.empty()) continue;
         SkinRow row;
         row.meeting = meeting;
         row.vertex = v;
         row.body = static_cast<std::uint32_t>(body);
         row.first = static_cast<std::uint32_t>(rig.starts.size());
-        rig.starts.insert(rig.starts.end(), met[v].begin(), met[v].end());
+        rig.starts.insert(rig.starts.end(), triangles.begin(), triangles.end());
         row.last = static_cast<std::uint32_t>(rig.starts.size());
-        row.corners = rig.triangles[met[v].front()];
+        row.within = met.through[v] != 0;
+        row.corners = rig.triangles[triangles.front()];
         row.weights.setConstant(1 / 3.0f);
         rig.rows.push_back(row);
-        for (const int t : met[v])
+        for (const int t : triangles)
             for (const int corner : rig.triangles[t]) pushed[corner] = true;
         if (meeting == SkinMeeting::SkinOnSkin) pushed[v] = true;
     }
@@ -131,12 +147,13 @@ std::vector<SkinBefore> skinBefore(const SkinGround& ground, const SkinTable& ta
         for (std::uint32_t k = t.rowOffsets[i]; k < t.rowOffsets[i + 1]; ++k)
             meets[table.muscleOf[t.columns[k]]] = true;
         for (std::uint32_t m = 0; m < meets.size(); ++m)
-            if (meets[m]) result.push_back({table.skinVertices[i], m, {}});
+            if (meets[m]) result.push_back({table.skinVertices[i], m, false, {}});
     }
     parallelFor(result.size(), [&](std::size_t k) {
         SkinBefore& before = result[k];
         const Vec3 &x = ground.skin.vertices[before.vertex], &own = ground.normals[before.vertex];
         const MuscleLocator& locator = ground.locators[before.body];
+        before.inside = !ground.inside[before.body].empty() && ground.inside[before.body][before.vertex];
         const MuscleDeformer& body = *ground.bodies[before.body];
         before.near =
             body.rigid() ? locator.nearestFacing(x, ground.size, own) : locator.nearest(x, ground.size);
@@ -147,7 +164,7 @@ std::vector<SkinBefore> skinBefore(const SkinGround& ground, const SkinTable& ta
                 before.near.weights[c] *
                 ground.surfaceNormals[before.body][body.muscle().surface.triangles[before.near.triangle][c]];
         // Outside of the muscle's other side the skin is no cover of it.
-        if (smooth.dot(own) <= 0 && smooth.dot(x - before.near.point) > 0) before.near.triangle = -1;
+        if (smooth.dot(own) <= 0 && !before.inside) before.near.triangle = -1;
     });
     std::erase_if(result, [](const SkinBefore& before) { return before.near.triangle < 0; });
     return result;
@@ -160,6 +177,7 @@ std::vector<bool> addRows(SkinRig& rig, const std::vector<SkinBefore>& before,
         SkinRow row;
         row.vertex = indexOf[b.vertex];
         row.body = b.body;
+        row.within = b.inside;
         row.first = static_cast<std::uint32_t>(rig.starts.size());
         rig.starts.push_back(b.near.triangle);
         row.last = row.first + 1;
@@ -173,11 +191,13 @@ std::vector<bool> addRows(SkinRig& rig, const std::vector<SkinBefore>& before,
     });
     Met bodies(rig.bodyVertices), folds(rig.parameters.selfContact ? rig.places.size() : 0);
     SkinScene scene;
+    bool atRest = true;
     for (const Station& station : stationsOf(rig)) {
         placeBodies(rig, station.activations, station.poses, scene);
         const TriangleMesh skin = skinAt(rig, scene);
         const MuscleLocator locator(skin);
-        meetBodies(rig, scene, skin, locator, bodies);
+        meetBodies(rig, scene, skin, locator, atRest, bodies);
+        atRest = false;
         if (rig.parameters.selfContact) meetFolds(rig, scene, skin, locator, folds);
     }
     addMet(rig, bodies, SkinMeeting::BodyOnSkin, pushed);
@@ -205,7 +225,11 @@ void measureRows(SkinRig& rig) {
         }
         const bool below = row.meeting == SkinMeeting::BodyOnSkin;
         row.relative = (below ? scene.surface[row.vertex] : scene.skin[row.vertex]).head<3>() - at;
-        const SkinPlane plane = lookUp(rig, scene, row, 0);
+        SkinPlane plane = lookUp(rig, scene, row, 0);
+        if (body && row.within && plane.found() && plane.distance > 0) {
+            row.turned = true;
+            plane = lookUp(rig, scene, row, 0);
+        }
         row.gap = row.relative.norm();
         if (plane.found()) {
             row.offset = std::min(plane.distance, 0.0f);

@@ -8,6 +8,7 @@ namespace tss {
 struct SkinBefore {
     std::uint32_t vertex = 0; ///< of the skin mesh
     std::uint32_t body = 0;
+    bool inside = false; ///< the body, a muscle
     NearestPoint near;
 };
 

@@ -17,9 +17,9 @@ constexpr double seedShare = 0.8;
 /// before its hold gets weaker.
 constexpr double closeShare = 0.01;
 /// How much a claim weighs against the change of shares along the skin.
-constexpr double claimWeight = 5;
+constexpr double claimWeight = 4;
 /// How fast the certainty of a claim grows with the distance from where two claims meet.
-constexpr int certaintyPower = 3;
+constexpr int certaintyPower = 4;
 /// A share that changes by this much along a length of one size of the holder counts twice; so skin does not
 /// fold where two holders meet at a point, as at the corner of a mouth. Without a unit.
 constexpr double steepShare = 3;
@@ -149,12 +149,13 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
 }
 
 void spreadOver(const TriangleMesh& skin, const SkinGraph& graph, double reach,
-                std::vector<std::vector<double>>& values) {
+                std::span<const double> firmness, std::vector<std::vector<double>>& values) {
     const auto rows = static_cast<Eigen::Index>(graph.vertices());
     if (rows == 0 || values.empty() || !(reach > 0)) return;
     SparseMatrix mass(rows, rows);
     mass.setIdentity();
-    for (Eigen::Index v = 0; v < rows; ++v) mass.coeffRef(v, v) = graph.area[v] / (reach * reach);
+    for (Eigen::Index v = 0; v < rows; ++v)
+        mass.coeffRef(v, v) = firmness[v] * graph.area[v] / (reach * reach);
     const SparseMatrix system = skinLaplacian(skin) + mass;
     const Eigen::SimplicialLDLT<SparseMatrix> solver(system);
     for (std::vector<double>& list : values) {

@@ -17,9 +17,9 @@ struct SkinHolder {
 std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const SkinGraph& graph,
                                                const std::vector<SkinHolder>& holders);
 
-/// Spreads values over the skin so that they change over lengths of `reach`: within their bounds, their sum
-/// kept. values: lists of #V.
+/// Spreads values over the skin so that they change over lengths of `reach`, within their bounds. firmness:
+/// #V, >= 1, how much more than usual a vertex keeps of its own value. values: lists of #V.
 void spreadOver(const TriangleMesh& skin, const SkinGraph& graph, double reach,
-                std::vector<std::vector<double>>& values);
+                std::span<const double> firmness, std::vector<std::vector<double>>& values);
 
 } // namespace tss
