@@ -29,7 +29,8 @@ float trustOf(float facing) {
 }
 
 /// The direction in which a surface pushes: its smooth normal; from beside a rim, or from within a thin edge,
-/// more and more straight to or from its nearest point, without a jump. side: -1 inside, 1 outside.
+/// more and more straight to or from its nearest point, without a jump. side: -1 inside, 1 outside, 0: along
+/// the smooth normal.
 Vec3f pushDirection(const Vec3f& smooth, const Vec3f& away, float side, float radius) {
     const Vec3f blend = radius * smooth + side * away;
     const float length = blend.norm();
@@ -108,6 +109,8 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const Tri& t = body.triangles[hit.triangle];
     const Move* at = scene.surface.data() + body.first;
     float side = sideOf(hit, at[t[0]].head<3>(), at[t[1]].head<3>(), at[t[2]].head<3>(), smooth, away);
+    // Of a bone only what faces the skin is looked at: beside that, skin is not pushed along it.
+    if (body.bone()) side = smooth.dot(away) < 0 ? 0.0f : 1.0f;
     if (row.turned) {
         smooth = -smooth;
         side = -side;
@@ -161,7 +164,11 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
         plane.weight[k] = static_cast<float>(hit.weights[k]);
     }
     const Vec3f away = hit.point.cast<float>() - x, both = row.within ? smooth : (smooth + own).normalized();
-    finish(rig, scene, both, away, both.dot(away) < 0 ? -1.0f : 1.0f, trust, offset, plane);
+    finish(rig, scene, both, away,
+           both.dot(away) >= 0 ? 1.0f
+           : row.within        ? -1.0f
+                               : 0.0f,
+           trust, offset, plane);
     return plane;
 }
 
@@ -184,7 +191,7 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
         plane.weight[k + 1] = -static_cast<float>(hit.weights[k]);
     }
     const Vec3f away = x - hit.point.cast<float>(), both = (smooth - own).normalized();
-    finish(rig, scene, both, away, both.dot(away) < 0 ? -1.0f : 1.0f, trust, offset, plane);
+    finish(rig, scene, both, away, both.dot(away) < 0 ? 0.0f : 1.0f, trust, offset, plane);
     return plane;
 }
 

@@ -78,7 +78,7 @@ void meetBodies(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& 
             if (box.squaredExteriorDistance(x) > reach * reach) return;
             const Vec3 own = (placed.turn * scene.normals[v].head<3>()).cast<double>();
             if (met.through[v]) return;
-            if (atRest) {
+            if (atRest && !body.bone()) { // bones stick out where they should: teeth do
                 const NearestPoint any = locator.nearest(x, reach);
                 if (any.triangle >= 0 && triangleNormal(skin, any.triangle).dot(x - any.point) > 0) {
                     met.through[v] = 1;
