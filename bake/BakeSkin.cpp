@@ -15,6 +15,10 @@ FilledMuscles fillMuscles(const SceneModel& scene, const SkinModel& skin, const 
     filled.deformers = skinMuscles(scene, skin);
     for (const auto& deformer : filled.deformers) {
         const TriangleMesh& surface = deformer->muscle().surface;
+        if (surface.empty()) {
+            filled.searched.push_back({deformer.get(), {}});
+            continue;
+        }
         SphereOptions how;
         how.method = options.spheres;
         how.tolerance = options.tolerance.value_or(bounds(surface).diagonal().norm() / 100);

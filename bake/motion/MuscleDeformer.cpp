@@ -22,9 +22,9 @@ double det(const Vec3& a, const Vec3& b, const Vec3& c) {
 /// The muscle again when its surface is one that a volume and queries can be had of.
 Muscle checked(Muscle muscle) {
     const TriangleMesh& mesh = muscle.surface;
-    if (mesh.empty()) throw InputError("the surface of a muscle has no triangles");
     const int count = static_cast<int>(mesh.vertices.size());
     const bool rigid = isRigid(muscle);
+    if (mesh.empty() && !rigid) throw InputError("the surface of a muscle has no triangles");
     if (rigid) { // one shape, whatever is asked
         muscle.activationLower = muscle.activationUpper = muscle.maxContraction = 0;
         muscle.fibre = {Vec3::Zero(), Vec3::UnitX()};

@@ -63,9 +63,11 @@ struct Truth {
 
 Truth truthAt(const Muscles& muscles, const Activations& activations) {
     Truth truth;
-    for (std::size_t m = 0; m < muscles.size(); ++m)
+    for (std::size_t m = 0; m < muscles.size(); ++m) {
+        if (muscles[m]->muscle().surface.empty()) continue; // moves skin and has no shape
         truth.solids.emplace_back(
             TriangleMesh{muscles[m]->vertices(activations[m]), muscles[m]->muscle().surface.triangles});
+    }
     return truth;
 }
 
@@ -144,6 +146,7 @@ SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, 
         for (std::size_t v = 0; v < study.touched; ++v)
             study.farthestMove = std::max(study.farthestMove, (converged[s][v] - rig->rest[v]).norm());
         for (std::size_t m = 0; m < muscles.size(); ++m) {
+            if (muscles[m]->rigid()) continue;
             const auto& triangles = muscles[m]->muscle().surface.triangles;
             const double volume = enclosedVolume(muscles[m]->vertices(asked[s][m]), triangles);
             study.muscleVolume =
