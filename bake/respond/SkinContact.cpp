@@ -79,6 +79,20 @@ SurfacePoint toPoint(const NearestPoint& near) {
     return {near.triangle, near.weights, near.point, near.distance * near.distance};
 }
 
+/// Where a place of the skin was at rest, seen from what it is before on a body.
+Vec3f restOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    const Move* surface = scene.surface.data() + rig.bodies[row.body].first;
+    Vec3f rest = row.relative;
+    for (int k = 0; k < 3; ++k) rest += row.weights[k] * surface[row.corners[k]].head<3>();
+    return rest;
+}
+
+/// Whether skin that seems this deep in a bone can have come there: by its way since rest, and the overlap
+/// there. What seems deeper is another side of the bone, seen past it.
+float comeThrough(float depth, float most) {
+    return most > 0 ? 1 - smoothStep((depth - most) / most) : 0;
+}
+
 SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
     SkinPlane plane;
     const SkinBody& body = rig.bodies[row.body];
@@ -100,12 +114,17 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const Move* normals = scene.normals.data() + body.first;
     Vec3f smooth = smoothAt(hit, body.triangles[hit.triangle], [&](int v) { return normals[v].head<3>(); });
     // Skin inside a muscle may be nearest to a side that faces away from it.
-    const float trust = trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
+    float trust = trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
+    const Vec3f away = x - hit.point.cast<float>();
+    if (body.bone() && smooth.dot(away) < 0) {
+        const Vec3f rest = restOf(rig, scene, row);
+        if (row.offset == 0 && !body.locator->entered(rest.cast<double>(), x.cast<double>())) return plane;
+        trust *= comeThrough(away.norm(), (x - rest).norm() - row.offset);
+    }
     if (!(trust > 0)) return plane;
     plane.vertex[0] = row.vertex;
     plane.weight[0] = 1;
     plane.vertices = 1;
-    const Vec3f away = x - hit.point.cast<float>();
     const Tri& t = body.triangles[hit.triangle];
     const Move* at = scene.surface.data() + body.first;
     float side = sideOf(hit, at[t[0]].head<3>(), at[t[1]].head<3>(), at[t[2]].head<3>(), smooth, away);

@@ -136,6 +136,23 @@ void addMet(SkinRig& rig, const Met& met, SkinMeeting meeting, std::vector<bool>
     }
 }
 
+/// Whether a place is outside a bone, by the nearest of its surface: what faces the skin may be its other
+/// side.
+bool isOutside(const SkinBody& body, const Move& place) {
+    if (!body.bone()) return false;
+    const Vec3 x = place.head<3>().cast<double>();
+    const NearestPoint near = body.locator->nearest(x, std::numeric_limits<double>::infinity());
+    if (near.triangle < 0) return true;
+    Vec3 normal = triangleNormal(*body.mesh, near.triangle);
+    if (!(near.weights.minCoeff() > 0)) {
+        normal.setZero();
+        for (int k = 0; k < 3; ++k)
+            normal +=
+                near.weights[k] * body.normals[body.triangles[near.triangle][k]].head<3>().cast<double>();
+    }
+    return normal.dot(x - near.point) >= 0;
+}
+
 } // namespace
 
 std::vector<SkinBefore> skinBefore(const SkinGround& ground, const SkinTable& table) {
@@ -225,7 +242,12 @@ void measureRows(SkinRig& rig) {
         }
         const bool below = row.meeting == SkinMeeting::BodyOnSkin;
         row.relative = (below ? scene.surface[row.vertex] : scene.skin[row.vertex]).head<3>() - at;
+        row.offset = -1; // whatever the overlap at rest is, it is believed
         SkinPlane plane = lookUp(rig, scene, row, 0);
+        row.offset = 0;
+        if (body && plane.found() && plane.distance < 0 &&
+            isOutside(rig.bodies[row.body], scene.skin[row.vertex]))
+            plane.vertices = 0;
         if (body && row.within && plane.found() && plane.distance > 0) {
             row.turned = true;
             plane = lookUp(rig, scene, row, 0);

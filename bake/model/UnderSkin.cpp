@@ -1,4 +1,4 @@
-#include "bake/scene/SceneModel.h"
+#include "bake/model/SceneModel.h"
 
 #include <algorithm>
 
