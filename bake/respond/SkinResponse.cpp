@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace tss {
 namespace {
@@ -103,6 +104,30 @@ bool SkinResponse::mayPush(std::uint32_t r) const {
     return (placeOf(scene_, seen.plane) - seen.place).squaredNorm() > seen.free * seen.free;
 }
 
+/// Where a plane is found for the choice of the deepest: the node that bears most on it, and what meets.
+std::uint64_t SkinResponse::placeOfChoice(const SkinRow& row, const SkinPlane& plane) const {
+    const SkinFoundation& f = rig_->foundation;
+    const std::uint32_t first = f.start[plane.vertex[0]], last = f.start[plane.vertex[0] + 1];
+    const auto most = std::max_element(f.weight.begin() + first, f.weight.begin() + last);
+    const std::uint64_t node = first == last ? f.nodes : f.node[most - f.weight.begin()];
+    return (node * 3 + static_cast<std::uint64_t>(row.meeting)) * rig_->bodies.size() + row.body;
+}
+
+/// Of the planes that were found, the deepest at each node and body: pushes act through nodes, so that most
+/// of the others are met by it, and what is not is found again at the next look-up.
+void SkinResponse::addDeepest() {
+    std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+        return std::tie(a.place, a.plane.gap, a.row) < std::tie(b.place, b.plane.gap, b.row);
+    });
+    for (std::size_t k = 0; k < found_.size(); ++k) {
+        if (k > 0 && found_[k].place == found_[k - 1].place) continue;
+        rows_.push_back(found_[k].row);
+        planes_.push_back(found_[k].plane);
+        planeOf_[found_[k].row] = static_cast<std::uint32_t>(planes_.size());
+    }
+    found_.clear();
+}
+
 /// The skin leaves what it is carried into.
 void SkinResponse::resist() {
     for (const std::uint32_t r : rows_) planeOf_[r] = 0;
@@ -135,11 +160,10 @@ void SkinResponse::resist() {
                 seen_[seenOf_[r] - 1] = seen(row, plane);
                 continue;
             }
-            rows_.push_back(r);
-            planes_.push_back(plane);
-            planeOf_[r] = static_cast<std::uint32_t>(planes_.size());
+            found_.push_back({placeOfChoice(row, plane), r, plane});
             open = true;
         }
+        addDeepest();
         if (!open) break;
         residual_ =
             rig_->size * static_cast<double>(pushes_.solve(planes_, start_, rig_->parameters.iterations));
