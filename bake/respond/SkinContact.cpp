@@ -6,9 +6,16 @@
 #include <cmath>
 
 namespace tss {
-namespace {
 
 using Vec3f = Eigen::Vector3f;
+
+Vec3f placeOf(const SkinScene& scene, const SkinPlane& plane) {
+    Vec3f sum = Vec3f::Zero();
+    for (int k = 0; k < plane.vertices; ++k) sum += plane.weight[k] * scene.skin[plane.vertex[k]].head<3>();
+    return sum;
+}
+
+namespace {
 
 /// Cosine between two surfaces at which a contact is not believed, and from which on it is: what faces the
 /// skin's way at less than 84 degrees may be its other side.
@@ -39,16 +46,9 @@ Vec3f pushDirection(const Vec3f& smooth, const Vec3f& away, float side, float ra
 
 Vec3f smoothAt(const SurfacePoint& at, const Tri& corners, const auto& normal) {
     Vec3f sum = Vec3f::Zero();
-    for (int k = 0; k < 3; ++k) sum += static_cast<float>(at.weights[k]) * normal(corners[k]);
+    for (int k = 0; k < 3; ++k) sum += at.weights[k] * normal(corners[k]);
     const float length = sum.norm();
     return length > 0 ? Vec3f(sum / length) : sum;
-}
-
-/// Of what a plane holds, in the skin as it is.
-Vec3f placeOf(const SkinScene& scene, const SkinPlane& plane) {
-    Vec3f sum = Vec3f::Zero();
-    for (int k = 0; k < plane.vertices; ++k) sum += plane.weight[k] * scene.skin[plane.vertex[k]].head<3>();
-    return sum;
 }
 
 /// Which side of a surface what lies `away` from its nearest point is on: amid a triangle that of the
@@ -76,7 +76,8 @@ void finish(const SkinRig& rig, const SkinScene& scene, const Vec3f& smooth, con
 }
 
 SurfacePoint toPoint(const NearestPoint& near) {
-    return {near.triangle, near.weights, near.point, near.distance * near.distance};
+    return {near.triangle, near.weights.cast<float>(), near.point.cast<float>(),
+            static_cast<float>(near.distance * near.distance)};
 }
 
 /// Where a place of the skin was at rest, seen from what it is before on a body.
@@ -106,16 +107,15 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
             x.cast<double>(), static_cast<double>(boneReach * rig.radius), own.cast<double>()));
     } else {
         const Move* surface = scene.surface.data() + body.first;
-        const auto at = [&](int v) -> Vec3 { return surface[v].head<3>().cast<double>(); };
-        hit =
-            walkDownhill(x.cast<double>(), rig.starts[row.first], body.triangles, body.across, at, walkSteps);
+        const auto at = [&](int v) -> Vec3f { return surface[v].head<3>(); };
+        hit = walkDownhill(x, rig.starts[row.first], body.triangles, body.across, at, walkSteps);
     }
     if (hit.triangle < 0) return plane;
     const Move* normals = scene.normals.data() + body.first;
     Vec3f smooth = smoothAt(hit, body.triangles[hit.triangle], [&](int v) { return normals[v].head<3>(); });
     // Skin inside a muscle may be nearest to a side that faces away from it.
     float trust = trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
-    const Vec3f away = x - hit.point.cast<float>();
+    const Vec3f away = x - hit.point;
     if (body.bone() && smooth.dot(away) < 0) {
         const Vec3f rest = restOf(rig, scene, row);
         if (row.offset == 0 && !body.locator->entered(rest.cast<double>(), x.cast<double>())) return plane;
@@ -154,9 +154,8 @@ int startOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, cons
 }
 
 SurfacePoint walkSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Vec3f& x) {
-    const auto at = [&](int v) -> Vec3 { return scene.skin[v].head<3>().cast<double>(); };
-    return walkDownhill(x.cast<double>(), startOf(rig, scene, row, x), rig.triangles, rig.across, at,
-                        walkSteps);
+    const auto at = [&](int v) -> Vec3f { return scene.skin[v].head<3>(); };
+    return walkDownhill(x, startOf(rig, scene, row, x), rig.triangles, rig.across, at, walkSteps);
 }
 
 SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
@@ -180,9 +179,9 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     plane.vertices = 3;
     for (int k = 0; k < 3; ++k) {
         plane.vertex[k] = static_cast<std::uint32_t>(corners[k]);
-        plane.weight[k] = static_cast<float>(hit.weights[k]);
+        plane.weight[k] = hit.weights[k];
     }
-    const Vec3f away = hit.point.cast<float>() - x, both = row.within ? smooth : (smooth + own).normalized();
+    const Vec3f away = hit.point - x, both = row.within ? smooth : (smooth + own).normalized();
     finish(rig, scene, both, away,
            both.dot(away) >= 0 ? 1.0f
            : row.within        ? -1.0f
@@ -207,9 +206,9 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     plane.weight[0] = 1;
     for (int k = 0; k < 3; ++k) {
         plane.vertex[k + 1] = static_cast<std::uint32_t>(corners[k]);
-        plane.weight[k + 1] = -static_cast<float>(hit.weights[k]);
+        plane.weight[k + 1] = -hit.weights[k];
     }
-    const Vec3f away = x - hit.point.cast<float>(), both = (smooth - own).normalized();
+    const Vec3f away = x - hit.point, both = (smooth - own).normalized();
     finish(rig, scene, both, away, both.dot(away) < 0 ? 0.0f : 1.0f, trust, offset, plane);
     return plane;
 }
