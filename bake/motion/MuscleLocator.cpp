@@ -1,5 +1,6 @@
 #include "bake/motion/MuscleLocator.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tss {
@@ -84,6 +85,45 @@ NearestPoint MuscleLocator::nearestFacing(const Vec3& x, double range, const Vec
         const Vec3& a = mesh_.corner(t, 0);
         return (mesh_.corner(t, 1) - a).cross(mesh_.corner(t, 2) - a).dot(facing) > 0;
     });
+}
+
+bool MuscleLocator::entered(const Vec3& from, const Vec3& to) const {
+    if (bvh_.empty()) return false;
+    const Vec3 way = to - from;
+    const Vec3 inverse = way.cwiseInverse();
+    std::vector<std::uint32_t> stack{0};
+    while (!stack.empty()) {
+        const Bvh::Node& node = bvh_.nodes[stack.back()];
+        stack.pop_back();
+        double first = 0, last = 1;
+        for (int k = 0; k < 3; ++k) {
+            if (way[k] == 0) {
+                if (from[k] < node.lower[k] || from[k] > node.upper[k]) last = -1;
+                continue;
+            }
+            const double s = (node.lower[k] - from[k]) * inverse[k],
+                         t = (node.upper[k] - from[k]) * inverse[k];
+            first = std::max(first, std::min(s, t));
+            last = std::min(last, std::max(s, t));
+        }
+        if (first > last) continue;
+        for (std::uint32_t i = 0; i < node.count; ++i) {
+            const std::uint32_t t = bvh_.items[node.first + i];
+            const Vec3 &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
+            const Vec3 normal = (b - a).cross(c - a);
+            const double along = normal.dot(way), ahead = normal.dot(a - from);
+            if (!(along < 0) || ahead > 0 || ahead < along) continue; // the front faces where it comes from
+            const Vec3 p = from + ahead / along * way;
+            if (normal.dot((b - a).cross(p - a)) >= 0 && normal.dot((c - b).cross(p - b)) >= 0 &&
+                normal.dot((a - c).cross(p - c)) >= 0)
+                return true;
+        }
+        if (node.count == 0) {
+            stack.push_back(node.first);
+            stack.push_back(node.first + 1);
+        }
+    }
+    return false;
 }
 
 } // namespace tss

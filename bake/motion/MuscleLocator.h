@@ -30,6 +30,9 @@ public:
     /// Nearest among the triangles whose normal n has n . facing > 0.
     NearestPoint nearestFacing(const Vec3& x, double range, const Vec3& facing) const;
 
+    /// Whether the straight way from one place to another goes in through a triangle's front.
+    bool entered(const Vec3& from, const Vec3& to) const;
+
 private:
     template <class Accept>
     NearestPoint search(const Vec3& x, double range, const Accept& accept) const;

@@ -123,7 +123,7 @@ std::string header(const SceneModel& scene) {
                     fmt::format(",{}{}:{}", prefix, joint.path.substr(joint.path.rfind('/') + 1), dof.name);
     text += ",gap,status";
     for (const SkinModel& skin : scene.skins)
-        if (skin.table) text += fmt::format(",residual_{}", skin.path.substr(skin.path.rfind('/') + 1));
+        text += fmt::format(",residual_{}", skin.path.substr(skin.path.rfind('/') + 1));
     return text + "\n";
 }
 
@@ -151,6 +151,11 @@ void play(const PlayArguments& arguments, const Console& console) {
         if (!pair.table && !pair.proof)
             warnings.push_back("pair " + pair.path +
                                " is not kept apart: it has no table, tss bake makes one");
+    for (const SkinModel& skin : scene.skins)
+        if (!skin.table)
+            warnings.push_back("skin " + skin.path +
+                               " is carried, but not kept out of what is below it: it has no table, tss "
+                               "bake makes one");
     Player player = inFile(arguments.scene, [&] { return Player(scene, warnings); });
     const std::size_t outside = countOutside(scene, steps);
     if (outside > 0)
