@@ -152,7 +152,7 @@ nlohmann::json sayFollowing(const SceneModel& scene, const SkinModel& skin, cons
     for (std::size_t m = 0; m < worst.bones.size(); ++m) {
         const SkinFollowing::OnBone& bone = worst.bones[m];
         if (bone.vertices == 0) continue;
-        const std::string& path = scene.bodies[under[m].bone].path;
+        const std::string& path = scene.bodies[under[m].body].path;
         console.say(
             fmt::format("    on {} alone, {} vertices: off its motion by {:.2g} on average, 95 % within "
                         "{:.2g} (thousandths of the bones' size)",
