@@ -114,8 +114,10 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
         way = relativeOf(rig, scene, row) - row.relative;
         if (row.offset == 0 && !body.locator->entered((x - way).cast<double>(), x.cast<double>()))
             return plane;
-        hit = toPoint(body.locator->nearestFacing(
-            x.cast<double>(), static_cast<double>(boneReach * rig.radius), own.cast<double>()));
+        // Deeper than twice its way it is not believed, see comeThrough().
+        const float range = std::min(boneReach * rig.radius, 2 * (way.norm() - row.offset));
+        hit = toPoint(
+            body.locator->nearestFacing(x.cast<double>(), static_cast<double>(range), own.cast<double>()));
     } else {
         const Move* surface = scene.surface.data() + body.first;
         const auto at = [&](int v) -> Vec3f { return surface[v].head<3>(); };
