@@ -18,6 +18,7 @@ strip() { # SCENE EVERY FRAME... : of the frames that are multiples of EVERY, th
 strip dog_face 10 0 10 30 50 70 90 110 130 # at rest, then where each muscle is at its most
 strip dog_ears 8 $(seq 0 8 56)
 strip dog_lips 8 $(seq 0 8 56)
+strip dog_head 2 0 24 46 58 82 96 112 126 # calm, alert, a growl, a bite, the ears laid back
 strip dog_frontalis 8 $(seq 0 8 56)
 # A captured brow beside ours: needs the real meshes, and the shapes that the test writes.
 if [ -d "$root/../shared/meshes" ]; then

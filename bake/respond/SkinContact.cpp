@@ -109,9 +109,15 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     Vec3f own = scene.normalOf(rig, row.vertex);
     if (placed.moved) own = placed.turn.transpose() * own;
     SurfacePoint hit;
+    Vec3f way = Vec3f::Zero(); // since rest, past the bone
     if (body.bone()) {
-        hit = toPoint(body.locator->nearestFacing(
-            x.cast<double>(), static_cast<double>(boneReach * rig.radius), own.cast<double>()));
+        way = relativeOf(rig, scene, row) - row.relative;
+        if (row.offset == 0 && !body.locator->entered((x - way).cast<double>(), x.cast<double>()))
+            return plane;
+        // Deeper than twice its way it is not believed, see comeThrough().
+        const float range = std::min(boneReach * rig.radius, 2 * (way.norm() - row.offset));
+        hit = toPoint(
+            body.locator->nearestFacing(x.cast<double>(), static_cast<double>(range), own.cast<double>()));
     } else {
         const Move* surface = scene.surface.data() + body.first;
         const auto at = [&](int v) -> Vec3f { return surface[v].head<3>(); };
@@ -123,12 +129,7 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     // Skin inside a muscle may be nearest to a side that faces away from it.
     float trust = trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
     const Vec3f away = x - hit.point;
-    if (body.bone() && smooth.dot(away) < 0) {
-        const Vec3f way = relativeOf(rig, scene, row) - row.relative;
-        const Vec3f rest = x - way;
-        if (row.offset == 0 && !body.locator->entered(rest.cast<double>(), x.cast<double>())) return plane;
-        trust *= comeThrough(away.norm(), way.norm() - row.offset);
-    }
+    if (body.bone() && smooth.dot(away) < 0) trust *= comeThrough(away.norm(), way.norm() - row.offset);
     if (!(trust > 0)) return plane;
     plane.vertex[0] = row.vertex;
     plane.weight[0] = 1;

@@ -9,7 +9,7 @@ namespace {
 
 /// Times that contacts are looked up, at most, after the first time where those before have moved the skin
 /// to: new ones are met there, and planes of curved surfaces have turned.
-constexpr int lookUps = 6;
+constexpr int lookUps = 10;
 /// In sizes of the skin: what is not deeper than this needs no further look-up.
 constexpr float settled = 1e-5f;
 

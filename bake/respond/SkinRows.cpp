@@ -136,13 +136,12 @@ void addMet(SkinRig& rig, const Met& met, SkinMeeting meeting, std::vector<bool>
     }
 }
 
-/// Whether a place is outside a bone, by the nearest of its surface: what faces the skin may be its other
-/// side.
-bool isOutside(const SkinBody& body, const Move& place) {
-    if (!body.bone()) return false;
+/// How far outside a bone a place is, by the nearest of its surface: what faces the skin may be its other
+/// side. Negative inside.
+float outside(const SkinBody& body, const Move& place) {
     const Vec3 x = place.head<3>().cast<double>();
     const NearestPoint near = body.locator->nearest(x, std::numeric_limits<double>::infinity());
-    if (near.triangle < 0) return true;
+    if (near.triangle < 0) return 0;
     Vec3 normal = triangleNormal(*body.mesh, near.triangle);
     if (!(near.weights.minCoeff() > 0)) {
         normal.setZero();
@@ -150,7 +149,8 @@ bool isOutside(const SkinBody& body, const Move& place) {
             normal +=
                 near.weights[k] * body.normals[body.triangles[near.triangle][k]].head<3>().cast<double>();
     }
-    return normal.dot(x - near.point) >= 0;
+    const auto distance = static_cast<float>(near.distance);
+    return normal.dot(x - near.point) >= 0 ? distance : -distance;
 }
 
 } // namespace
@@ -245,18 +245,19 @@ void measureRows(SkinRig& rig) {
         row.offset = -1; // whatever the overlap at rest is, it is believed
         SkinPlane plane = lookUp(rig, scene, row, 0);
         row.offset = 0;
-        if (body && plane.found() && plane.distance < 0 &&
-            isOutside(rig.bodies[row.body], scene.skin[row.vertex]))
-            plane.vertices = 0;
         if (body && row.within && plane.found() && plane.distance > 0) {
             row.turned = true;
             plane = lookUp(rig, scene, row, 0);
         }
         row.gap = row.relative.norm();
-        if (plane.found()) {
+        if (body && rig.bodies[row.body].bone()) {
+            // Nothing comes in before it has come as far as the bone is away.
+            row.gap = std::max(outside(rig.bodies[row.body], scene.skin[row.vertex]), 0.0f);
+            if (plane.found() && row.gap == 0) row.offset = std::min(plane.distance, 0.0f);
+        } else if (plane.found()) {
             row.offset = std::min(plane.distance, 0.0f);
             row.gap = std::clamp(plane.distance, 0.0f, row.gap);
-        } else if (!body || rig.bodies[row.body].bone()) {
+        } else if (!body) {
             row.gap = 0; // it faces another way now; whatever it comes to is looked at
         }
     });

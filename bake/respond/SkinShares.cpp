@@ -8,8 +8,12 @@
 namespace tss {
 namespace {
 
-/// A seed is nearer to its holder than to all others by this share of the most that any vertex is. Less, and
-/// skin that only passes another bone counts as its own; more, and a bone with little skin has none.
+/// A seed lies near its holder and far from all others, in sizes of the holder, and this many times nearer: a
+/// closed upper lip lies on the lower teeth, but so far from the upper jaw it never is.
+constexpr double seedNear = 0.08, seedFar = 0.12, seedNearer = 2.5;
+/// Where there is none, as on thin limbs and between teeth, what is nearer to its holder than to all others
+/// by this share of the most that any vertex is. Less, and skin that only passes another bone counts as its
+/// own; more, and a bone with little skin has none.
 constexpr double seedContrast = 0.2;
 /// Of those the nearest ones count: the rest lies far off, beyond the ends of the holder.
 constexpr double seedShare = 0.8;
@@ -31,29 +35,58 @@ struct Claims {
     std::vector<double> size;          ///< #V, of the smaller one of the two that meet here
 };
 
-std::vector<std::uint32_t> seedsOf(const std::vector<SkinHolder>& holders, std::size_t index) {
+/// For each vertex how much farther than a holder the nearest other one is; infinite for the only one.
+std::vector<double> contrastOf(const std::vector<SkinHolder>& holders, std::size_t index) {
     const std::vector<double>& own = holders[index].distance;
     std::vector<double> contrast(own.size(), std::numeric_limits<double>::infinity());
-    double most = 0;
-    for (std::size_t v = 0; v < own.size(); ++v) {
-        for (std::size_t h = 0; h < holders.size(); ++h)
-            if (h != index) contrast[v] = std::min(contrast[v], holders[h].distance[v] - own[v]);
-        most = std::max(most, contrast[v]);
+    for (std::size_t h = 0; h < holders.size(); ++h)
+        for (std::size_t v = 0; v < own.size() && h != index; ++v)
+            contrast[v] = std::min(contrast[v], holders[h].distance[v] - own[v]);
+    return contrast;
+}
+
+std::vector<std::uint32_t> undisputed(const SkinHolder& holder, const std::vector<double>& contrast) {
+    std::vector<std::uint32_t> seeds;
+    for (std::uint32_t v = 0; v < contrast.size(); ++v) {
+        const double own = holder.distance[v];
+        if (own < seedNear * holder.size &&
+            contrast[v] + own > std::max(seedFar * holder.size, seedNearer * own))
+            seeds.push_back(v);
     }
+    return seeds;
+}
+
+std::vector<std::uint32_t> mostContrasting(const SkinHolder& holder, const std::vector<double>& contrast) {
+    const double most = *std::max_element(contrast.begin(), contrast.end());
     std::vector<std::uint32_t> seeds;
     std::vector<double> distances;
-    for (std::uint32_t v = 0; v < own.size(); ++v)
-        if (contrast[v] > seedContrast * most) {
+    for (std::uint32_t v = 0; v < contrast.size(); ++v)
+        if (contrast[v] > seedContrast * std::max(most, 0.0)) {
             seeds.push_back(v);
-            distances.push_back(own[v]);
+            distances.push_back(holder.distance[v]);
         }
     if (seeds.empty()) return seeds;
     const auto last =
         std::min(static_cast<std::size_t>(seedShare * static_cast<double>(seeds.size())), seeds.size() - 1);
     std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(last),
                      distances.end());
-    std::erase_if(seeds, [&](std::uint32_t v) { return own[v] > distances[last]; });
+    std::erase_if(seeds, [&](std::uint32_t v) { return holder.distance[v] > distances[last]; });
     return seeds;
+}
+
+/// The seeds of each holder, all by the one rule or all by the other, or one would reach farther than the
+/// next.
+std::vector<std::vector<std::uint32_t>> seedsOf(const std::vector<SkinHolder>& holders) {
+    std::vector<std::vector<std::uint32_t>> clear, seeds;
+    bool all = true;
+    for (std::size_t h = 0; h < holders.size(); ++h) {
+        const std::vector<double> contrast = contrastOf(holders, h);
+        seeds.push_back(mostContrasting(holders[h], contrast));
+        const bool sized = std::isfinite(holders[h].size);
+        clear.push_back(sized ? undisputed(holders[h], contrast) : seeds.back());
+        all = all && !clear.back().empty();
+    }
+    return all ? clear : seeds;
 }
 
 Claims claim(const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
@@ -62,9 +95,10 @@ Claims claim(const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
     std::vector<double> nearest(count, infinite), second(count, infinite);
     Claims claims{std::vector<std::uint32_t>(count, 0), {}, {}};
     std::vector<std::uint32_t> rival(count, 0);
+    const std::vector<std::vector<std::uint32_t>> seeds = seedsOf(holders);
     for (std::uint32_t h = 0; h < holders.size(); ++h) {
         std::vector<double> along(count, infinite);
-        lowerDistances(graph, seedsOf(holders, h), infinite, along);
+        lowerDistances(graph, seeds[h], infinite, along);
         for (std::size_t v = 0; v < count; ++v) {
             if (along[v] < nearest[v]) {
                 second[v] = nearest[v];

@@ -80,6 +80,10 @@ TriangleMesh skinMesh(const Detail& detail) {
     return rounded(untrimmedSkin(headSkin(), detail, 2.6, 5.5));
 }
 
+TriangleMesh skinMouthCutMesh(const Detail& detail) {
+    return rounded(untrimmedSkin(headSkinMouthCut(), detail, 2.6, 5.5));
+}
+
 TriangleMesh earCartilageMesh(const Detail& detail) {
     return bodyMesh(earCartilage(), detail);
 }

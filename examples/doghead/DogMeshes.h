@@ -31,6 +31,7 @@ TriangleMesh leftSkinMouthCutMesh(const Detail& detail = {1, 0.25});
 
 /// The skin of the whole head; open at the neck.
 TriangleMesh skinMesh(const Detail& detail);
+TriangleMesh skinMouthCutMesh(const Detail& detail);               ///< with the mouth cut through
 TriangleMesh earCartilageMesh(const Detail& detail = {0.7, 0.25}); ///< the left one
 /// A muscle under the skin, and the like.
 TriangleMesh bodyMesh(const Field& field, const Detail& detail = {0.7, 0.2});

@@ -99,6 +99,46 @@ int addUnder(tss::SceneModel& scene, const std::string& name, int body, int bone
     return static_cast<int>(scene.muscles.size()) - 1;
 }
 
+struct SkullAndJaw {
+    int skull = 0, mandible = 0;
+};
+
+/// The mouth closed, the teeth just clear of each other, on a hinge that lets them bite.
+SkullAndJaw addSkullAndJaw(tss::SceneModel& scene) {
+    const int skull = addBody(scene, "Skull", skullMesh(), ivory);
+    TriangleMesh apart = mandibleMesh();
+    for (Vec3& v : apart.vertices) v = Eigen::AngleAxisd(1.5 * degree, Vec3::UnitY()) * v;
+    const int mandible = addBody(scene, "Mandible", std::move(apart), paleBone);
+    scene.bodies[skull].rigid = scene.bodies[mandible].rigid = true;
+    tss::Dof open;
+    open.name = "open";
+    open.axis = Vec3::UnitY();
+    open.lower = -4 * degree;
+    open.upper = 20 * degree;
+    tss::Motion motion;
+    motion.dofs = {open};
+    const int pair = addPair(scene, skull, mandible, motion, "Jaw");
+    scene.pairs[pair].settings["tolerance"] = "0.1mm";
+    return {skull, mandible};
+}
+
+/// The stiff shell of an ear on its hinge; side: 1 left, -1 right. Returns the body.
+int addEar(tss::SceneModel& scene, int skull, int side) {
+    TriangleMesh shell = earCartilageMesh();
+    tss::Motion motion = earMotion();
+    if (side < 0) {
+        for (Vec3& v : shell.vertices) v.y() = -v.y();
+        for (tss::Tri& t : shell.triangles) std::swap(t[1], t[2]);
+        motion.dofs[0].origin.y() *= -1; // a turn about the left-right axis is its own mirror image
+    }
+    const std::string name = side > 0 ? "EarL" : "EarR";
+    const int ear = addBody(scene, name + "Cartilage", std::move(shell), paleBone);
+    scene.bodies[ear].rigid = true;
+    const int pair = addPair(scene, skull, ear, motion, name);
+    scene.pairs[pair].settings["tolerance"] = "0.4mm";
+    return ear;
+}
+
 void addSkin(tss::SceneModel& scene, TriangleMesh mesh) {
     tss::SkinModel skin;
     skin.body = addBody(scene, "Skin", std::move(mesh), fur);
@@ -112,6 +152,11 @@ void addSkin(tss::SceneModel& scene, TriangleMesh mesh) {
 void tetherBeyond(tss::SceneModel& scene, const Field& body, double from, double to) {
     for (const Vec3& v : scene.bodies[scene.skins[0].body].mesh.vertices)
         scene.skins[0].tether.push_back(std::round(1000 * smoothStep(from, to, body(v))) / 1000);
+}
+
+/// 1 on the upper lip and above it, 0 below the mouth and behind its corner.
+double upperLip(const Vec3& v) {
+    return smoothStep(78, 100, v.x()) * smoothStep(-0.4, 0.8, v.z() - mouthHeight(v.x()));
 }
 
 /// Tightens from `from` to a full activation in the middle, and lets go until `to`.
@@ -202,31 +247,57 @@ tss::SceneModel earsScene() {
 
 tss::SceneModel lipsScene() {
     tss::SceneModel scene = emptyScene("DogLips", 64);
-    const int skull = addBody(scene, "Skull", skullMesh(), ivory);
-    TriangleMesh apart = mandibleMesh(); // its teeth just clear of the skull's
-    for (Vec3& v : apart.vertices) v = Eigen::AngleAxisd(1.5 * degree, Vec3::UnitY()) * v;
-    const int mandible = addBody(scene, "Mandible", std::move(apart), paleBone);
-    scene.bodies[skull].rigid = scene.bodies[mandible].rigid = true;
-    tss::Dof open;
-    open.name = "open";
-    open.axis = Vec3::UnitY();
-    open.lower = -4 * degree;
-    open.upper = 20 * degree;
-    tss::Motion motion;
-    motion.dofs = {open};
-    const int pair = addPair(scene, skull, mandible, motion, "Jaw");
-    scene.pairs[pair].settings["tolerance"] = "0.1mm";
+    const SkullAndJaw bones = addSkullAndJaw(scene);
     scene.joints.front().drives = {
         sampled({{0, 0}, {6, 0}, {22, 16}, {32, 16}, {44, -3}, {52, -3}, {58, 0}, {64, 0}}, 2, degree)};
-    addUnder(scene, "SkullUnder", skull, -1);
-    addUnder(scene, "MandibleUnder", mandible, mandible);
+    addUnder(scene, "SkullUnder", bones.skull, -1);
+    addUnder(scene, "MandibleUnder", bones.mandible, bones.mandible);
     addSkin(scene, leftSkinMouthCutMesh());
     scene.skins[0].selfContact = true; // lip against lip
     // What lies above the mouth is held to the skull; cheeks and throat give way.
     for (const Vec3& v : scene.bodies[scene.skins[0].body].mesh.vertices) {
-        const double lip = smoothStep(78, 100, v.x()) * smoothStep(-0.4, 0.8, v.z() - mouthHeight(v.x()));
-        scene.skins[0].tether.push_back(std::round(970 * std::max(lip, smoothStep(-30, 0, v.z()))) / 1000);
+        const double held = std::max(upperLip(v), smoothStep(-30, 0, v.z()));
+        scene.skins[0].tether.push_back(std::round(970 * held) / 1000);
     }
+    addNoseAndEyes(scene);
+    return scene;
+}
+
+tss::SceneModel headScene() {
+    // Calm, alert from 12, a growl from 36, a bite from 72, the ears laid back from 108, calm again.
+    constexpr double last = 144;
+    using Knots = std::vector<Profile::Knot>;
+    tss::SceneModel scene = emptyScene("DogHead", last);
+    const SkullAndJaw bones = addSkullAndJaw(scene);
+    const int left = addEar(scene, bones.skull, 1), right = addEar(scene, bones.skull, -1);
+    const auto drive = [&](std::size_t joint, const Knots& knots) {
+        scene.joints[joint].drives = {sampled(knots, 2, degree)};
+    };
+    drive(0,
+          {{0, 0}, {36, 0}, {46, 4}, {68, 4}, {78, 17}, {86, 17}, {92, -3}, {100, -3}, {108, 0}, {last, 0}});
+    const Knots back{{0, 0},    {12, 0},   {36, 0},   {48, 35},  {70, 40}, {84, 55},
+                     {102, 55}, {112, 30}, {122, 70}, {132, 70}, {last, 0}};
+    drive(1, back);
+    drive(2, back);
+
+    const Knots brow{{0, 0},   {12, 0},    {20, 1},    {34, 0.9}, {42, 0.1},
+                     {108, 0}, {116, 0.6}, {130, 0.5}, {last, 0}};
+    const Knots snarl{{0, 0}, {36, 0}, {46, 1}, {68, 0.9}, {78, 0.5}, {100, 0.6}, {110, 0}, {last, 0}};
+    const Knots bite{{0, 0}, {36, 0}, {46, 0.3}, {78, 0.1}, {92, 1}, {100, 1}, {110, 0}, {last, 0}};
+    const Knots squint{{0, 0}, {40, 0}, {50, 0.6}, {100, 0.6}, {114, 0.8}, {130, 0.8}, {last, 0}};
+    scene.muscles[addFrontalis(scene, bones.skull)].activation = sampled(brow, 2, 1);
+    for (const Strap& strap : faceStraps()) {
+        const bool chews = strap.name == "Masseter" || strap.name == "Temporalis";
+        const Knots& knots = chews ? bite : strap.name == "RetractorAnguliOculi" ? squint : snarl;
+        for (const auto& [own, side] : {std::pair(strap, "L"), std::pair(mirroredStrap(strap), "R")})
+            scene.muscles[addStrap(scene, own, side, bones.skull)].activation = sampled(knots, 2, 1);
+    }
+    addSkin(scene, skinMouthCutMesh({1, 0.4}));
+    scene.skins[0].bones = {bones.skull, bones.mandible, left, right};
+    scene.skins[0].selfContact = true; // lip against lip
+    // The cut of the mouth ends in a wall that joins the lips: the upper one is held to the skull.
+    for (const Vec3& v : scene.bodies[scene.skins[0].body].mesh.vertices)
+        scene.skins[0].tether.push_back(std::round(970 * upperLip(v)) / 1000);
     addNoseAndEyes(scene);
     return scene;
 }

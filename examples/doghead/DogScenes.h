@@ -22,4 +22,8 @@ tss::SceneModel earsScene();
 /// and slide over the teeth.
 tss::SceneModel lipsScene();
 
+/// The expressive head: skull, jaw, both ears and all muscles of the face under one skin, which names its
+/// bones and nothing else. Calm, alert, a growl, a bite, the ears laid back, and calm again, in six seconds.
+tss::SceneModel headScene();
+
 } // namespace doghead

@@ -24,7 +24,8 @@ constexpr Named all[] = {{"dog_jaw", doghead::jawScene},
                          {"dog_frontalis", doghead::frontalisScene},
                          {"dog_face", [] { return doghead::faceScene(); }},
                          {"dog_ears", doghead::earsScene},
-                         {"dog_lips", doghead::lipsScene}};
+                         {"dog_lips", doghead::lipsScene},
+                         {"dog_head", doghead::headScene}};
 
 } // namespace
 

@@ -153,7 +153,8 @@ TEST_CASE("the committed scenes are what the generator writes", "[.long]") {
                                       {"dog_frontalis.tss", frontalisScene()},
                                       {"dog_face.tss", faceScene()},
                                       {"dog_ears.tss", earsScene()},
-                                      {"dog_lips.tss", lipsScene()}}) {
+                                      {"dog_lips.tss", lipsScene()},
+                                      {"dog_head.tss", headScene()}}) {
         tss::saveScene(scene, (folder / name).string());
         CHECK(bytes(folder / name) == bytes(scenes + name));
     }
