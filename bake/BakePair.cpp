@@ -6,6 +6,7 @@
 #include "bake/RestRule.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
+#include "bake/geometry/PartSet.h"
 #include "bake/geometry/Solid.h"
 #include "bake/model/SourceHash.h"
 #include "bake/reduce/CertifiedCover.h"
@@ -267,6 +268,24 @@ void setBounds(Table& table, const SphereFit& a, const SphereFit& b, double marg
     for (double& gap : table.restGaps) gap += table.epsilon;
 }
 
+/// Bounds that are true of next to nothing are to be known as that.
+void noteExempt(const SceneModel& scene, const Pair& pair, const RestRegion& region,
+                std::vector<std::string>& notes) {
+    constexpr double most = 0.9;
+    const std::pair<int, const std::vector<SurfacePart>*> sides[] = {{pair.bodyA, &region.a},
+                                                                     {pair.bodyB, &region.b}};
+    for (const auto& [index, parts] : sides) {
+        const Body& body = scene.bodies[static_cast<std::size_t>(index)];
+        const double share = parts->empty() ? 0 : area(body.mesh, *parts) / area(body.mesh);
+        if (share > most)
+            notes.push_back(
+                fmt::format("{}: {:.0f} % of its surface is exempt, for it overlaps the other body "
+                            "at rest or hangs together with what does: the bounds are about the rest "
+                            "alone; a finer --tolerance or a rest pose with less overlap leaves more",
+                            body.path, 100 * share));
+    }
+}
+
 } // namespace
 
 // Medial spheres stand in the contact zone only, fine where the verdict needs it; the paper's fill the
@@ -389,6 +408,7 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
     PairTable made = tabulatePair(spheres, motion, options, report, progress);
     pair.table = std::move(made.table);
     pair.proof = std::move(made.proof);
+    if (pair.table) noteExempt(scene, pair, pair.table->restRegion, report.notes);
     pair.sourceHash = sourceHash(scene, pair);
 }
 

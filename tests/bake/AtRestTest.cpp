@@ -169,6 +169,22 @@ TEST_CASE("a foot off the ground is not exempt with the one that stands in it, h
     }
 }
 
+TEST_CASE("a bake says so where nearly all of a body is exempt, and only there") {
+    Motion motion;
+    motion.dofs = {joints::slide({1, 0, 0}, -0.01, 0.01)};
+    for (const double deep : {0.1, 0.99}) { // of the smaller box in the larger
+        SceneModel scene = sceneOf(boxMesh({-2, -2, -2}, {0, 2, 2}),
+                                   boxMesh({-deep, -0.5, -0.5}, {1 - deep, 0.5, 0.5}), motion);
+        const auto reports = bake(scene, {{{"tolerance", "0.02"}}, {}});
+        const auto told = [&](const PairReport& report) {
+            return std::any_of(report.notes.begin(), report.notes.end(), [](const std::string& note) {
+                return note.find("/Scene/B") == 0 && note.find("is exempt") != std::string::npos;
+            });
+        };
+        CHECK(std::any_of(reports.begin(), reports.end(), told) == (deep > 0.5));
+    }
+}
+
 TEST_CASE("a table with a tolerance is free at rest, or refused where the clearance is less") {
     SceneModel scene = bumpyPair(2, 0.02);
     const Pair& pair = bakedPair(scene, {{"tolerance", "0.09"}, {"epsilon", "0.01"}});
