@@ -235,9 +235,10 @@ Selection selectAll(const SphereSet& a, const SphereSet& b, const CandidatePairs
     }
     selection.reduced.restGaps = rule.thresholds(pairs);
     selection.certified = true;
-    report.notes.push_back(fmt::format("{} degrees of freedom are too many to find out which pairs of spheres "
-                                       "imply others: all {} that may meet are asked",
-                                       motion.dofCount(), pairs.size()));
+    report.notes.push_back(
+        fmt::format("{} degrees of freedom are too many to find out which pairs of spheres "
+                    "imply others: all {} that may meet are asked",
+                    motion.dofCount(), pairs.size()));
     return selection;
 }
 

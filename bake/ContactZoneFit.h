@@ -53,9 +53,9 @@ struct ContactZoneFit {
 /// where a pair does, the meshes are at most 2 L apart or one reaches into the other. Surfaces out of reach
 /// have no spheres: what is inside the other body from the beginning, surfaces apart, is not contact. Meshes
 /// that never meet get the spheres that show it, or none when the surfaces alone do. Where the joint rests,
-/// the spheres are apart wherever the meshes are (see RestPlan). Stopped through
-/// progress, the result is that of the level reached and the note says so. Throws InputError for a mesh that
-/// cannot be used.
+/// the spheres are apart wherever the meshes are (see RestPlan). Over more than six DOFs all of both surfaces
+/// is filled, at once to the tolerance. Stopped through progress, the result is that of the level reached and
+/// the note says so. Throws InputError for a mesh that cannot be used.
 ContactZoneFit fitContactZone(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
                               const ContactZoneOptions& options, const Progress& progress = {});
 

@@ -83,8 +83,7 @@ AnimationChannels::AnimationChannels(osg::Node& root) {
     FindManagers managers;
     root.accept(managers);
     for (AnimationManagerBase* manager : managers.found)
-        for (const auto& animation : manager->getAnimationList())
-            addAnimation(*animation);
+        for (const auto& animation : manager->getAnimationList()) addAnimation(*animation);
 }
 
 void AnimationChannels::addAnimation(osgAnimation::Animation& animation) {

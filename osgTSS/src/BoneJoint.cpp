@@ -26,6 +26,7 @@ const char* const standsTag = "osgTSS:stands";
 struct Standing {
     osg::observer_ptr<Bone> bone;
     osg::Matrixd matrix;
+    double still; ///< the turns that it may make all the same
 };
 
 std::vector<Standing> standingAbove(osg::Node& node) {
@@ -35,7 +36,7 @@ std::vector<Standing> standingAbove(osg::Node& node) {
         osg::Matrixd matrix;
         if (dynamic_cast<osgAnimation::Skeleton*>(at) || at->getUserValue(frame0Tag, matrix)) break;
         if (auto* bone = dynamic_cast<Bone*>(at); bone && at->getUserValue(standsTag, matrix))
-            found.push_back({bone, matrix});
+            found.push_back({bone, matrix, boneStill(*bone)});
     }
     return found;
 }
@@ -50,7 +51,8 @@ bool alike(const osg::Matrixd& a, const osg::Matrixd& b, double turn) {
 class BoneNode : public JointNode {
 public:
     BoneNode(Bone& bone, const tss::Joint& joint, const tss::Pose& frame0, const tss::Pose& frame1)
-        : _bone(&bone), _joint(joint), _frame0(frame0), _frame1(frame1), _above(standingAbove(bone)) {
+        : _bone(&bone), _joint(joint), _frame0(frame0), _frame1(frame1), _still(boneStill(bone)),
+          _above(standingAbove(bone)) {
         std::size_t turns = 0;
         for (const tss::Dof& dof : joint.dofs) {
             int axis = 0;
@@ -69,46 +71,28 @@ public:
         if (_stopped && _bone->getMatrix() == _shown) _bone->setMatrix(_asked);
     }
 
-    std::vector<double> asked() const override {
-        std::vector<double> values(_axes.size());
-        const auto rigid = toSimilarity(_bone->getMatrix());
-        if (!rigid) return values; // stray() says so
-        const tss::Pose moved = _frame0.inverse(Eigen::Isometry) * rigid->pose * _frame1;
-        const std::array<double, 3> angles = anglesOf(moved.linear());
-        std::size_t turn = 0;
-        for (std::size_t k = 0; k < _axes.size(); ++k) {
-            const tss::Dof& dof = _joint.dofs[k];
-            if (dof.kind == tss::DofKind::Rotation) {
-                const double angle = angles[turn++];
-                values[k] = angle - wholeTurns(angle, (dof.lower + dof.upper) / 2);
-            } else {
-                values[k] = moved.translation()[_axes[k]];
-            }
-        }
-        return values;
-    }
+    std::vector<double> asked() const override { return look().values; }
     std::vector<double> shown() const override { return asked(); }
 
     void show(const std::vector<double>& values) override {
-        _stopped = values != asked();
+        _stopped = values != look().values;
         if (!_stopped) return;
         _asked = _bone->getMatrix();
-        _bone->setMatrix(matrixAt(values));
+        _bone->setMatrix(matrixAt(values, look().scale));
         _shown = _bone->getMatrix();
     }
 
     std::optional<Stray> stray() const override {
-        const std::vector<double> values = asked();
+        const std::vector<double>& values = look().values;
         for (std::size_t k = 0; k < _axes.size(); ++k)
             if (auto beyond = beyondLimits(_joint.dofs[k], values[k])) {
                 beyond->unserved = true; // other keys than were known: they are played
                 return beyond;
             }
-        // As much as was taken for standing still, and its rounding.
-        if (!alike(_bone->getMatrix(), matrixAt(values), 2 * boneStill))
-            return Stray{"it stands as none of its degrees of freedom can place it", true};
+        if (!look().fits) return Stray{"it stands as none of its degrees of freedom can place it", true};
         for (const Standing& standing : _above)
-            if (standing.bone.valid() && !alike(standing.bone->getMatrix(), standing.matrix, 2 * boneStill))
+            if (standing.bone.valid() &&
+                !alike(standing.bone->getMatrix(), standing.matrix, 2 * standing.still))
                 return Stray{"bone " + standing.bone->getName() + " above it does not stand still", true};
         return std::nullopt;
     }
@@ -121,15 +105,48 @@ private:
         return {2 * std::atan2(q.vec()[_order[0]], q.w()), 0, 0};
     }
 
-    osg::Matrixd matrixAt(const std::vector<double>& values) const {
+    /// What the joint knows of a matrix of the bone.
+    struct Look {
+        osg::Matrixd matrix;
+        std::vector<double> values;
+        double scale = 1;
+        bool fits = false; ///< it is what the values give
+    };
+
+    /// Of the matrix now; asked for several times a frame.
+    const Look& look() const {
+        const osg::Matrixd& matrix = _bone->getMatrix();
+        if (!_look.values.empty() && _look.matrix == matrix) return _look;
+        _look.matrix = matrix;
+        _look.values.assign(_axes.size(), 0);
+        _look.fits = false;
+        const auto rigid = toSimilarity(matrix);
+        if (!rigid) return _look;
+        _look.scale = rigid->scale;
+        const tss::Pose moved = _frame0.inverse(Eigen::Isometry) * rigid->pose * _frame1;
+        const std::array<double, 3> angles = anglesOf(moved.linear());
+        std::size_t turn = 0;
+        for (std::size_t k = 0; k < _axes.size(); ++k) {
+            const tss::Dof& dof = _joint.dofs[k];
+            if (dof.kind == tss::DofKind::Rotation) {
+                const double angle = angles[turn++];
+                _look.values[k] = angle - wholeTurns(angle, (dof.lower + dof.upper) / 2);
+            } else {
+                _look.values[k] = moved.translation()[_axes[k]];
+            }
+        }
+        // As much as was taken for standing still, and its rounding.
+        _look.fits = alike(matrix, matrixAt(_look.values, _look.scale), 2 * _still);
+        return _look;
+    }
+
+    osg::Matrixd matrixAt(const std::vector<double>& values, double scale) const {
         tss::Pose moved = tss::Pose::Identity();
         for (std::size_t k = 0; k < _axes.size(); ++k)
             if (_joint.dofs[k].kind == tss::DofKind::Rotation)
                 moved.rotate(Eigen::AngleAxisd(values[k], tss::Vec3::Unit(_axes[k])));
             else
                 moved.translate(values[k] * tss::Vec3::Unit(_axes[k]));
-        const auto rigid = toSimilarity(_bone->getMatrix());
-        const double scale = rigid ? rigid->scale : 1;
         return osg::Matrixd::scale(scale, scale, scale) *
                toOsg(_frame0 * moved * _frame1.inverse(Eigen::Isometry));
     }
@@ -137,12 +154,14 @@ private:
     osg::observer_ptr<Bone> _bone;
     tss::Joint _joint;
     tss::Pose _frame0, _frame1; ///< in the bone's own lengths, against its parent node
+    double _still;
     std::vector<Standing> _above;
     std::vector<int> _axes; ///< of each DOF
     std::array<int, 3> _order{};
     std::size_t _turns = 0;
     bool _stopped = false;
     osg::Matrixd _asked, _shown;
+    mutable Look _look;
 };
 
 std::optional<tss::Pose> frameOn(const osg::Node& node, const char* tag) {

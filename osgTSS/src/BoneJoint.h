@@ -20,9 +20,9 @@ std::optional<FoundJoints> boneJoint(osg::Node& node, const AnimationChannels& c
 /// nothing for other nodes.
 std::optional<osg::Matrixd> standingBone(const osg::Node& node);
 
-/// Of a bone with such frames; null for another node. It reads and writes the bone's matrix after whatever has
-/// set that; the bones' matrices in the skeleton are SkeletonPose's. A pose that the joint does not know is
-/// left as it is, and stray() says so.
+/// Of a bone with such frames; null for another node. It reads and writes the bone's matrix after whatever
+/// has set that; the bones' matrices in the skeleton are SkeletonPose's. A pose that the joint does not know
+/// is left as it is, and stray() says so.
 std::unique_ptr<JointNode> makeBoneNode(osg::Node& node, const tss::Joint& joint);
 
 } // namespace osgTSS

@@ -8,6 +8,7 @@
 #include "bake/model/Kinematics.h"
 
 #include <Eigen/Eigenvalues>
+#include <osg/ValueObject>
 #include <osgTSS/Convert>
 
 #include <algorithm>
@@ -32,6 +33,7 @@ struct Sample {
 /// Poses of the bone against its parent, and the scale that it has at all of them.
 struct Samples {
     std::vector<Sample> all;
+    double still = 0; ///< turns of less are none
     double scale = 0;
     double off = 0;
     double size = 0;      ///< length that the matrices' digits are of
@@ -51,6 +53,7 @@ struct Samples {
 
 Samples samplesOf(osgAnimation::Bone& bone, const AnimationChannels& channels) {
     Samples samples;
+    samples.still = boneStill(bone);
     for (const auto& run : boneRuns(bone, channels))
         for (std::size_t k = 0; k < run.size(); ++k) samples.add(run[k], k == 0);
     const std::optional<osg::Matrixd> bound = boneBound(bone);
@@ -64,8 +67,8 @@ Samples samplesOf(osgAnimation::Bone& bone, const AnimationChannels& channels) {
     return samples;
 }
 
-/// All turns as a mean one and small ones about it: R = mean frame E frame^-1, where the frame's axes are those
-/// that E turns about, the most used first.
+/// All turns as a mean one and small ones about it: R = mean frame E frame^-1, where the frame's axes are
+/// those that E turns about, the most used first.
 struct TurnFrame {
     Eigen::Quaterniond mean = Eigen::Quaterniond::Identity();
     Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
@@ -95,7 +98,7 @@ TurnFrame turnFrame(const Samples& samples) {
         spread += turn * turn.transpose();
         found.most = std::max(found.most, turn.norm());
     }
-    if (found.most <= boneStill) return found;
+    if (found.most <= samples.still) return found;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
     found.frame.col(0) = axes.eigenvectors().col(2);
     found.frame.col(1) = axes.eigenvectors().col(1);
@@ -148,8 +151,8 @@ std::vector<Track> hingeTrack(const Samples& samples, const TurnFrame& frame) {
 
 /// As few DOFs as serve, and of these the narrowest box.
 std::vector<Track> turnsOfBone(const Samples& samples, const TurnFrame& frame) {
-    if (frame.most <= boneStill) return {};
-    if (frame.offAxis <= boneStill) return hingeTrack(samples, frame);
+    if (frame.most <= samples.still) return {};
+    if (frame.offAxis <= samples.still) return hingeTrack(samples, frame);
     std::vector<Track> best;
     double bestBox = 0;
     std::array<int, 3> order{0, 1, 2};
@@ -157,7 +160,7 @@ std::vector<Track> turnsOfBone(const Samples& samples, const TurnFrame& frame) {
         std::vector<Track> tracks = turnTracks(samples, frame, order);
         if (tracks.empty()) continue;
         // About the last axis they may not turn at all; the outer two place what is inside of them.
-        if (tracks[2].range() <= boneStill && std::abs(tracks[2].lower()) <= boneStill) tracks.pop_back();
+        if (tracks[2].upper() <= samples.still && tracks[2].lower() >= -samples.still) tracks.pop_back();
         double box = 1;
         for (const Track& track : tracks) box *= track.range() + 0.01;
         if (best.empty() || tracks.size() < best.size() || (tracks.size() == best.size() && box < bestBox)) {
@@ -236,6 +239,13 @@ std::vector<Track> slidesOf(const Samples& samples, const Pivot& pivot, const Ei
 
 } // namespace
 
+double boneStill(const osg::Node& bone) {
+    constexpr double rounded = 1e-3;
+    double degrees = 0;
+    return bone.getUserValue("osgTSS:still", degrees) && degrees > 0 ? std::max(rounded, degrees * tau / 360)
+                                                                     : rounded;
+}
+
 FoundJoints boneMotion(osgAnimation::Bone& bone, const AnimationChannels& channels) {
     const Samples samples = samplesOf(bone, channels);
     const TurnFrame frame = turnFrame(samples);
@@ -251,8 +261,8 @@ FoundJoints boneMotion(osgAnimation::Bone& bone, const AnimationChannels& channe
     joint.frame1.translation() = -pivot.of;
     const std::vector<Track> slides = slidesOf(samples, pivot, joint.frame0.linear());
     for (const Track& slide : slides)
-        joint.dofs.push_back(dofOf(std::string("slide.") + "xyz"[slide.axis], tss::DofKind::Translation, slide,
-                                   samples.rest));
+        joint.dofs.push_back(
+            dofOf(std::string("slide.") + "xyz"[slide.axis], tss::DofKind::Translation, slide, samples.rest));
     for (std::size_t k = 0; k < turns.size(); ++k)
         joint.dofs.push_back(dofOf(turns.size() == 1 ? "turn" : "turn" + std::to_string(k + 1),
                                    tss::DofKind::Rotation, turns[k], samples.rest));
@@ -264,6 +274,8 @@ FoundJoints boneMotion(osgAnimation::Bone& bone, const AnimationChannels& channe
         const Eigen::Matrix3d known = tss::jointPose(joint, values).linear();
         found.off = std::max(found.off, (known - samples.all[k].pose.linear()).cwiseAbs().maxCoeff());
     }
+    // A text file's digits are worth no word for each of so many bones.
+    if (found.off < fewDigits) found.off = 0;
     if (joint.dofs.empty()) { // it stands as its first key has it
         joint.frame0 = samples.all.front().pose;
         joint.frame1 = tss::Pose::Identity();

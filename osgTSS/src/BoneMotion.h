@@ -10,14 +10,15 @@ namespace osgTSS {
 /// end: animations that are blended go a little beyond either.
 inline constexpr double boneSlack = 0.05;
 
-/// Turns of less than this (radians) are what keys are rounded by, and no degree of freedom.
-inline constexpr double boneStill = 1e-3;
+/// Turns of less than this (radians, from the mean of all keys) are no degree of freedom: what keys are
+/// rounded by, or the user value "osgTSS:still" (degrees) of the bone.
+double boneStill(const osg::Node& bone);
 
 /// How a bone moves against its parent node, by the keys of all animations and the pose that it was bound in.
-/// One joint whose DOFs are the axes that the keys use: "slide.x" ... "slide.z", then one "turn", or "turn1" to
-/// "turn3"; its limits are the range of the keys and boneSlack. A joint without DOFs is a bone that stands,
-/// where its frame0 is. Rest is the bound pose. Throws tss::InputError with the reason for keys that are no
-/// rigid motion, or turn too far about several axes.
+/// One joint whose DOFs are the axes that the keys use: "slide.x" ... "slide.z", then one "turn", or "turn1"
+/// to "turn3"; its limits are the range of the keys and boneSlack. A joint without DOFs is a bone that
+/// stands, where its frame0 is. Rest is the bound pose. Throws tss::InputError with the reason for keys that
+/// are no rigid motion, or turn too far about several axes.
 FoundJoints boneMotion(osgAnimation::Bone& bone, const AnimationChannels& channels);
 
 } // namespace osgTSS

@@ -48,6 +48,12 @@ std::optional<osg::Vec4> vertexColor(const osg::Drawable& drawable) {
     return std::nullopt;
 }
 
+/// Drawn, but no part of any body.
+bool leftOut(const osg::Node& node) {
+    bool ignored = false;
+    return node.getUserValue("osgTSS:ignored", ignored) && ignored;
+}
+
 std::vector<double> restOf(const tss::Joint& joint) {
     std::vector<double> rest;
     for (const tss::Dof& dof : joint.dofs) rest.push_back(dof.rest);
@@ -88,11 +94,13 @@ void ConstraintVisitor::enter(osg::Node& node, const Place& place) {
 void ConstraintVisitor::apply(osg::Node& node) {
     if (dynamic_cast<Overlay*>(&node)) return;
     begin(node);
+    if (leftOut(node)) return;
     enter(node, _place);
 }
 
 void ConstraintVisitor::apply(osg::Transform& node) {
     begin(node);
+    if (leftOut(node)) return;
     if (dynamic_cast<osgAnimation::Skeleton*>(&node)) return applySkeleton(node);
     applyTransform(node);
 }
@@ -134,7 +142,7 @@ void ConstraintVisitor::apply(osg::Billboard&) {}
 
 void ConstraintVisitor::apply(osg::LOD& node) {
     begin(node);
-    if (node.getNumChildren() == 0) return;
+    if (node.getNumChildren() == 0 || leftOut(node)) return;
     // The finest level: seen from nearest, or covering the most pixels.
     unsigned int finest = 0;
     const bool pixels = node.getRangeMode() == osg::LOD::PIXEL_SIZE_ON_SCREEN;
@@ -150,9 +158,11 @@ void ConstraintVisitor::apply(osg::LOD& node) {
 
 void ConstraintVisitor::apply(osg::Drawable& drawable) {
     begin(drawable);
+    if (leftOut(drawable)) return;
     const Place place = _place;
     enter(drawable, place);
-    if (auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable); rig && _skeleton) return addRig(*rig);
+    if (auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable); rig && _skeleton)
+        return addRig(*rig);
     tss::Body& body = _model.bodies[_place.body];
     const bool first = body.mesh.empty();
     _dropped[_place.body] += collectTriangles(drawable, place.toBody, place.scale, body.mesh);

@@ -11,7 +11,8 @@ namespace osgTSS {
 bool movesItself(osg::Node& node) {
     for (osg::Callback* callback = node.getUpdateCallback(); callback;
          callback = callback->getNestedCallback()) {
-        const bool others = dynamic_cast<JointCallback*>(callback) || dynamic_cast<LimitsCallback*>(callback) ||
+        const bool others = dynamic_cast<JointCallback*>(callback) ||
+                            dynamic_cast<LimitsCallback*>(callback) ||
                             dynamic_cast<SkinCallback*>(callback) ||
                             dynamic_cast<osgAnimation::AnimationManagerBase*>(callback) ||
                             dynamic_cast<osgAnimation::Skeleton::UpdateSkeleton*>(callback);

@@ -97,7 +97,7 @@ public:
 
 private:
     struct Vertex {
-        osg::Vec3d point;                          ///< in the skeleton
+        osg::Vec3d point;                           ///< in the skeleton
         std::vector<std::pair<int, float>> weights; ///< of holders
     };
     struct Triangle {
@@ -148,7 +148,8 @@ private:
     }
 
     int vertexAt(const osg::Vec3d& point, const std::vector<std::pair<int, float>>& weights) {
-        const std::array<std::int64_t, 3> cell{std::llround(point.x() / _cell), std::llround(point.y() / _cell),
+        const std::array<std::int64_t, 3> cell{std::llround(point.x() / _cell),
+                                               std::llround(point.y() / _cell),
                                                std::llround(point.z() / _cell)};
         const auto [entry, fresh] = _vertexAt.emplace(cell, static_cast<int>(_vertices.size()));
         if (fresh) _vertices.push_back({point, weights});
@@ -178,7 +179,8 @@ private:
 
     osg::Matrixd toBody(int holder) const {
         const Held& held = _holders[static_cast<std::size_t>(holder)];
-        return held.bone ? held.bone->getInvBindMatrixInSkeletonSpace() * held.place.toBody : held.place.toBody;
+        return held.bone ? held.bone->getInvBindMatrixInSkeletonSpace() * held.place.toBody
+                         : held.place.toBody;
     }
 
     void place(std::size_t index) {
@@ -212,8 +214,8 @@ private:
         if (!fresh) return entry->second;
         const int holder = holderOf(vertex, of.body, main);
         const Held& held = _holders[static_cast<std::size_t>(holder)];
-        of.mesh.vertices.push_back(held.place.scale *
-                                   toCore(_vertices[static_cast<std::size_t>(vertex)].point * toBody(holder)));
+        of.mesh.vertices.push_back(
+            held.place.scale * toCore(_vertices[static_cast<std::size_t>(vertex)].point * toBody(holder)));
         return entry->second;
     }
 
@@ -253,7 +255,7 @@ private:
     std::vector<Vertex> _vertices;
     std::map<std::array<std::int64_t, 3>, int> _vertexAt;
     std::vector<Triangle> _triangles;
-    std::map<int, Part> _parts;   ///< by body
+    std::map<int, Part> _parts;  ///< by body
     std::map<Edge, int> _inPart; ///< (body, vertex) -> vertex of the part
 };
 

@@ -22,7 +22,9 @@ struct InBody {
 /// bones weigh most at its corners, in the place that it is bound in.
 class RigParts {
 public:
-    void addBone(const osgAnimation::Bone& bone, const InBody& place) { _bones[bone.getName()] = {&bone, place}; }
+    void addBone(const osgAnimation::Bone& bone, const InBody& place) {
+        _bones[bone.getName()] = {&bone, place};
+    }
 
     /// toSkeleton: of the mesh. place: of the node that it hangs below, for vertices that no bone holds.
     void addRig(osgAnimation::RigGeometry& rig, const osg::Matrixd& toSkeleton, const InBody& place);
@@ -35,8 +37,8 @@ public:
         std::size_t dropped = 0; ///< triangles left out since a corner is no finite point
     };
 
-    /// The parts, by body. Meshes hang together where their vertices are at one place; where a part was cut off
-    /// another its rim is closed by a fan, so that what was a solid is cut into solids.
+    /// The parts, by body. Meshes hang together where their vertices are at one place; where a part was cut
+    /// off another its rim is closed by a fan, so that what was a solid is cut into solids.
     std::vector<Part> parts() const;
 
 private:

@@ -29,7 +29,8 @@ public:
         if (skeleton) {
             _in = static_cast<int>(_found.size());
             _found.emplace_back().skeleton = skeleton;
-        } else if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node); bone && _in >= 0 && updated(*bone)) {
+        } else if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node);
+                   bone && _in >= 0 && updated(*bone)) {
             _found[static_cast<std::size_t>(_in)].bones.emplace_back(bone);
         }
         traverse(node);

@@ -15,8 +15,8 @@
 #include <map>
 #include <vector>
 
-/// A figure that sits: a torso, a thigh to the front, and an arm above it of two parts, one rigged mesh. The keys
-/// swing the arm down through the thigh and up again, and lift the thigh a little.
+/// A figure that sits: a torso, a thigh to the front, and an arm above it of two parts, one rigged mesh. The
+/// keys swing the arm down through the thigh and up again, and lift the thigh a little.
 class Sitter {
 public:
     osg::ref_ptr<osg::Group> root = new osg::Group;
@@ -82,11 +82,11 @@ private:
         const osg::Matrix inSkeleton = osg::Matrix::translate(at);
         bone->setInvBindMatrixInSkeletonSpace(osg::Matrix::inverse(inSkeleton));
         bone->setMatrixInSkeletonSpace(inSkeleton);
-        const osg::Matrix local = parent ? inSkeleton * parent->getInvBindMatrixInSkeletonSpace() : inSkeleton;
+        const osg::Matrix local =
+            parent ? inSkeleton * parent->getInvBindMatrixInSkeletonSpace() : inSkeleton;
         bone->setMatrix(local);
         osg::ref_ptr<osgAnimation::UpdateBone> update = new osgAnimation::UpdateBone(name);
-        update->getStackedTransforms().push_back(
-            new osgAnimation::StackedMatrixElement("bindmatrix", local));
+        update->getStackedTransforms().push_back(new osgAnimation::StackedMatrixElement("bindmatrix", local));
         update->getStackedTransforms().push_back(
             new osgAnimation::StackedQuaternionElement("quaternion", osg::Quat()));
         bone->setUpdateCallback(update);

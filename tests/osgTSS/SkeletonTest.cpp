@@ -5,7 +5,7 @@
 #include "bake/model/Kinematics.h"
 
 #include <catch2/catch.hpp>
-#include <osg/ValueObject>
+#include <osg/ShapeDrawable>
 #include <osgDB/ReaderWriter>
 #include <osgDB/Registry>
 #include <osgTSS/Bake>
@@ -91,8 +91,9 @@ TEST_CASE("A bone is a joint of the axes that its keys turn about, within their 
     }
 }
 
-TEST_CASE("Keys about three axes make three turns, sliding keys slides, and the pose is what osgAnimation sets",
-          "[osgTSS]") {
+TEST_CASE(
+    "Keys about three axes make three turns, sliding keys slides, and the pose is what osgAnimation sets",
+    "[osgTSS]") {
     Sitter sitter;
     osg::ref_ptr<osgAnimation::QuatSphericalLinearChannel> channel =
         new osgAnimation::QuatSphericalLinearChannel;
@@ -100,9 +101,9 @@ TEST_CASE("Keys about three axes make three turns, sliding keys slides, and the 
     channel->setTargetName("Fore");
     auto* keys = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
     for (int k = 0; k < 5; ++k)
-        keys->push_back(osgAnimation::QuatKeyframe(
-            k, osg::Quat(0.3 * k, osg::Vec3(1, 0, 0)) * osg::Quat(0.4 * (k % 2), osg::Vec3(0, 0, 1)) *
-                   osg::Quat(0.2 * (k % 3), osg::Vec3(0, 1, 0))));
+        keys->push_back(osgAnimation::QuatKeyframe(k, osg::Quat(0.3 * k, osg::Vec3(1, 0, 0)) *
+                                                          osg::Quat(0.4 * (k % 2), osg::Vec3(0, 0, 1)) *
+                                                          osg::Quat(0.2 * (k % 3), osg::Vec3(0, 1, 0))));
     osg::ref_ptr<osgAnimation::Animation> other = new osgAnimation::Animation;
     other->setName("other");
     other->addChannel(channel);
@@ -110,7 +111,8 @@ TEST_CASE("Keys about three axes make three turns, sliding keys slides, and the 
     const tss::SceneModel model = extract(*sitter.root);
     const tss::Joint& fore = joint(model, "Fore");
     REQUIRE(fore.dofs.size() == 3);
-    // Values within the limits that give the pose are found at each frame by what the kit reads: nothing is told.
+    // Values within the limits that give the pose are found at each frame by what the kit reads: nothing is
+    // told.
     tss::SceneModel proven = model;
     for (tss::Pair& pair : proven.pairs) pair.proof = std::make_shared<tss::NeverCollides>();
     const Heard heard;
@@ -118,13 +120,13 @@ TEST_CASE("Keys about three axes make three turns, sliding keys slides, and the 
     sitter.manager->playAnimation(other);
     Playback playback;
     playback.frames(*sitter.root, 0, 96);
-    CHECK(heard.times("never collide within its limits") == 0);
+    CHECK(heard.times("never to collide within its limits") == 0);
     // And once it is turned beyond them it is.
     keys->push_back(osgAnimation::QuatKeyframe(5, osg::Quat(2.5, osg::Vec3(0, 0, 1))));
     other->computeDuration();
     sitter.manager->playAnimation(other);
     playback.frames(*sitter.root, 97, 97 + 130);
-    CHECK(heard.times("never collide within its limits") == 1);
+    CHECK(heard.times("never to collide within its limits") == 1);
 }
 
 TEST_CASE("Pairs of bones are those that are not neighbours", "[osgTSS]") {
@@ -132,7 +134,8 @@ TEST_CASE("Pairs of bones are those that are not neighbours", "[osgTSS]") {
     const auto found = pairsOf(extract(*sitter.root));
     CHECK(found.contains({"Thigh", "Fore"}));
     CHECK(found.contains({"Thigh", "Upper"}));
-    for (const auto& [a, b] : found) CHECK(std::set<std::string>{a, b} != std::set<std::string>{"Upper", "Fore"});
+    for (const auto& [a, b] : found)
+        CHECK(std::set<std::string>{a, b} != std::set<std::string>{"Upper", "Fore"});
     CHECK(extract(*sitter.root, ConstraintVisitor::ALL).pairs.size() > found.size());
 }
 
@@ -217,6 +220,20 @@ TEST_CASE("A bone that something else turns beyond its keys is let go, and told 
     playback.frames(*sitter.root, 0, 20);
     CHECK(heard.times("its tables know nothing there") == 1);
     CHECK(sitter.bones["Upper"]->getMatrix() == asked);
+}
+
+TEST_CASE("What is to be ignored is part of no body, and a name that is none is told", "[osgTSS]") {
+    Sitter sitter;
+    osg::ref_ptr<osg::Group> box = new osg::Group;
+    box->setName("BoundingBox");
+    box->addChild(new osg::ShapeDrawable(new osg::Box(osg::Vec3(), 4)));
+    sitter.bones["Torso"]->addChild(box);
+    const Heard heard;
+    const osg::ref_ptr<Scene> scene =
+        osgTSS::bake(*sitter.root, BakeOptions("ignore=BoundingBox,Bonding tolerance=0.05"));
+    CHECK(heard.times("no node is named \"Bonding\"") == 1);
+    for (const tss::Body& found : scene->getModel().bodies)
+        if (!found.mesh.empty()) CHECK(tss::bounds(found.mesh).diagonal().norm() < 2);
 }
 
 TEST_CASE("Keys that change the size of a bone cost that bone, by name, and the rest plays", "[osgTSS]") {
