@@ -25,6 +25,12 @@ namespace tss {
 
 namespace {
 
+/// Over more DOFs than these neither what is within reach nor a cover is found in any time that people have,
+/// or within a budget of seconds.
+bool manyDofs(const Motion& motion, const BakeOptions& options) {
+    return motion.dofCount() > (options.budget > 0 ? 3u : 6u);
+}
+
 const char* name(SphereMethod method) {
     switch (method) {
     case SphereMethod::Medial:
@@ -183,13 +189,11 @@ double askedWithin(const SphereFit& a, const SphereFit& b, const BakeOptions& op
     return fitted && std::isfinite(lacking) ? lacking : 0;
 }
 
-/// Over more DOFs than these a cover ends without a bound in any time that people have: pairs of spheres then
-/// answer for themselves, as long as they are no more than a query can ask.
-constexpr std::size_t mostDofsToCover = 6;
+/// Pairs of spheres that answer for themselves are no more than a query can ask.
 constexpr std::size_t mostPairsToAsk = 200'000;
 
 bool asksAll(const SphereSet& a, const SphereSet& b, const Motion& motion, const BakeOptions& options) {
-    return motion.dofCount() > mostDofsToCover && options.reduce == ReduceMethod::Cover &&
+    return manyDofs(motion, options) && options.reduce == ReduceMethod::Cover &&
            options.search == SearchMethod::Certified && a.size() * b.size() <= mostPairsToAsk;
 }
 
@@ -316,6 +320,7 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
         zone.atRest = options.atRest;
         zone.maxSpheres = options.maxSpheres;
         zone.conservative = options.conservative;
+        zone.whole = manyDofs(motion, options);
         const TriangleMesh meshA = cleaned(meshOf(a)), meshB = cleaned(meshOf(b));
         ContactZoneFit fit = fitContactZone(meshA, meshB, motion, zone, progress);
         if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())

@@ -16,9 +16,6 @@ namespace tss {
 
 namespace {
 
-/// Over more DOFs than these to find out what is within reach takes longer than to fill all of it.
-constexpr std::size_t mostDofsToSearch = 6;
-
 double area(std::span<const Patch> patches) {
     double sum = 0;
     for (const Patch& patch : patches) sum += patch.area();
@@ -102,7 +99,7 @@ public:
             const ContactZoneOptions& options, const HollowBodies& hollow, bool clearAtRest,
             const Progress& progress)
         : a_(a, hollow.a), b_(b, hollow.b), motion_(motion), options_(options), progress_(progress),
-          cells_(wholeQ(motion)), clearAtRest_(clearAtRest), whole_(motion.dofCount() > mostDofsToSearch) {}
+          cells_(wholeQ(motion)), clearAtRest_(clearAtRest), whole_(options.whole) {}
 
     /// Of no use where entered() says that a body is hollow after all.
     ContactZoneFit run() {
