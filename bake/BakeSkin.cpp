@@ -15,6 +15,10 @@ FilledMuscles fillMuscles(const SceneModel& scene, const SkinModel& skin, const 
     filled.deformers = skinMuscles(scene, skin);
     for (const auto& deformer : filled.deformers) {
         const TriangleMesh& surface = deformer->muscle().surface;
+        if (surface.empty()) {
+            filled.searched.push_back({deformer.get(), {}});
+            continue;
+        }
         SphereOptions how;
         how.method = options.spheres;
         how.tolerance = options.tolerance.value_or(bounds(surface).diagonal().norm() / 100);
@@ -36,7 +40,7 @@ void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, Pa
     search.thickness = floatAbove(2 * (skin.thickness > 0 ? skin.thickness : skinThickness(mesh))) / 2.0;
     search.travel = skin.travel;
     const SkinParameters parameters = skinParameters(scene, skin);
-    SkinMoves moves = skinMoves(mesh, filled.deformers, parameters, search.thickness);
+    SkinMoves moves = skinMoves(mesh, filled.deformers, parameters);
     search.stray = std::move(moves.stray);
     search.shares = std::move(moves.shares);
     search.swings = parameters.swings;

@@ -33,10 +33,12 @@ Player::Player(const SceneModel& scene, std::vector<std::string>& warnings) : sc
 
     for (std::size_t k = 0; k < scene.skins.size(); ++k) {
         const SkinModel& skin = scene.skins[k];
-        if (!skin.table) continue;
+        auto muscles = skinMuscles(scene, skin);
+        const auto rig = skinRig(scene, skin);
+        SkinFollowMeasure follow(scene.bodies[skin.body].mesh, muscles, *rig);
         skins_.push_back(
-            {static_cast<int>(k), skinMuscles(scene, skin), SkinResponse(skinRig(scene, skin)), {}, {}, {}});
-        skins_.back().activations.assign(skin.muscles.size(), 0.0);
+            {static_cast<int>(k), std::move(muscles), SkinResponse(rig), {}, {}, {}, std::move(follow)});
+        skins_.back().activations.assign(skins_.back().muscles.size(), 0.0);
         skins_.back().restDepths = depths(skins_.back(), skins_.back().response.rig().rest);
     }
 }
@@ -59,6 +61,7 @@ std::vector<double> Player::depths(const Skin& skin, std::span<const Vec3> posit
     std::vector<double> deepest(positions.size(), 0.0);
     for (std::size_t m = 0; m < skin.muscles.size(); ++m) {
         const MuscleDeformer& deformer = *skin.muscles[m];
+        if (deformer.muscle().surface.empty()) continue;
         std::vector<Vec3> places = deformer.vertices(skin.activations[m]);
         if (!skin.poses.empty())
             for (Vec3& v : places) v = skin.poses[m] * v;
@@ -108,6 +111,12 @@ Player::Step Player::step(const std::vector<double>& asked, double timeCode) {
     return result;
 }
 
+std::vector<SkinFollowing> Player::following() const {
+    std::vector<SkinFollowing> result;
+    for (const Skin& skin : skins_) result.push_back(skin.follow.at(skin.response.positions(), skin.poses));
+    return result;
+}
+
 std::vector<TriangleMesh> Player::worldMeshes() const {
     const std::vector<Pose> placements = posedBodies(scene_, values_);
     std::vector<TriangleMesh> meshes;
@@ -118,6 +127,7 @@ std::vector<TriangleMesh> Player::worldMeshes() const {
         for (std::size_t k = 0; k < positions.size(); ++k)
             meshes[model.body].vertices[skin.response.rig().vertices[k]] = positions[k];
         for (std::size_t m = 0; m < model.muscles.size(); ++m) {
+            if (skin.muscles[m]->rigid()) continue;
             const int body = scene_.muscles[model.muscles[m]].body;
             const Pose toBody =
                 scene_.bodies[body].placement.inverse(Eigen::Isometry) * scene_.bodies[model.body].placement;

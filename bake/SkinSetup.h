@@ -7,23 +7,23 @@ namespace tss {
 /// From the scene's skin to what the run time and the search work with. Shared by baking, `tss play` and the
 /// node kit.
 
-/// The muscles of a skin in the order of skin.muscles, moved into the skin's frame as modelled. Throws
-/// InputError that names the muscle's prim.
+/// What is below a skin, in the order of underSkin(), moved into the skin's frame as modelled; a body that
+/// only the skin's weights name has no surface. Throws InputError that names the prim.
 std::vector<std::shared_ptr<const MuscleDeformer>> skinMuscles(const SceneModel& scene,
                                                                const SkinModel& skin);
 
 /// How the scene says that the skin behaves; the rest at its defaults.
 SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin);
 
-/// All of it: the rig for SkinResponse. Throws InputError when the skin has no table or one that does not
-/// fit.
+/// All of it: the rig for SkinResponse. Without a table the skin is carried by what is below it and not kept
+/// out of it. Throws InputError when the table does not fit.
 std::shared_ptr<const SkinRig> skinRig(const SceneModel& scene, const SkinModel& skin);
 
-/// One activation a muscle of the skin at a time code.
+/// One activation of each of underSkin() at a time code, 0 for a bone.
 std::vector<double> skinActivations(const SceneModel& scene, const SkinModel& skin, double timeCode);
 
-/// What SkinResponse::update wants as poses: the motion of each muscle's bone since rest, in the skin's
-/// frame. placements: body to world now, one a body of the scene. Empty when no muscle rides on a bone.
+/// What SkinResponse::update wants as poses: the motion since rest of the bone of each of underSkin(), in the
+/// skin's frame. placements: body to world now, one a body of the scene. Empty when there is no bone.
 std::vector<Pose> skinPoses(const SceneModel& scene, const SkinModel& skin, std::span<const Pose> placements);
 
 } // namespace tss

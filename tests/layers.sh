@@ -16,9 +16,10 @@ declare -A may=(
     [respond]="base geometry motion spheres table"
     [model]="base geometry motion spheres table"
     [scene]="base geometry model motion spheres table"
+    [robot]="base geometry model motion scene search spheres table"
     [compare]="base geometry motion spheres table"
     [report]="base compare geometry model motion reduce respond scene search spheres table top verify"
-    [tool]="base geometry model motion report respond scene spheres table top verify"
+    [tool]="base geometry model motion report respond robot scene spheres table top verify"
 )
 wrong=0
 for folder in bake/*/; do

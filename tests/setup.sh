@@ -7,6 +7,7 @@ packages=(
     libeigen3-dev libassimp-dev nlohmann-json3-dev catch2
     libtbb-dev libhwy-dev libcli11-dev libfmt-dev
     libfcl-dev zlib1g-dev parallel
+    liburdfdom-dev liburdfdom-headers-dev libtinyxml2-dev
     clang libclang-rt-14-dev
     libbullet-dev libcgal-dev gnuplot-nox
     doxygen help2man

@@ -85,12 +85,14 @@ void append(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& par
 
 } // namespace
 
-TriangleMesh importMesh(const std::string& file) {
+TriangleMesh importMesh(const std::string& file, MeshAxes axes) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) throw InputError(Where{file, "", ""}, "no such file");
     if (!std::filesystem::is_regular_file(file, error))
         throw InputError(Where{file, "", ""}, "not a file, a mesh file was expected");
     Assimp::Importer importer;
+    if (axes == MeshAxes::AsWritten)
+        importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     // STL and the like repeat a vertex for every face: welded() joins them, exactly equal ones only.
     const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
     if (!scene || !scene->mRootNode)
@@ -105,7 +107,7 @@ TriangleMesh importMesh(const std::string& file) {
 
 #else
 
-TriangleMesh importMesh(const std::string& file) {
+TriangleMesh importMesh(const std::string& file, MeshAxes) {
     throw InputError(Where{file, "", ""}, "this build reads no mesh files (OSGTSS_IMPORT is off)");
 }
 

@@ -106,7 +106,7 @@ std::vector<int> addChain(SceneModel& scene, int bodyA, int bodyB, const Motion&
                           const std::string& name) {
     std::vector<int> chain;
     int last = bodyA;
-    Pose link = scene.bodies[bodyA].placement;
+    Pose link = bodyA < 0 ? Pose::Identity() : scene.bodies[bodyA].placement;
     for (std::size_t k = 0; k < motion.dofs.size(); ++k) {
         const Dof& dof = motion.dofs[k];
         std::vector<int> axes{0};
@@ -158,37 +158,41 @@ std::string freePrimName(const SceneModel& scene, const std::string& wanted) {
         if (!taken(name + std::to_string(k))) return name + std::to_string(k);
 }
 
-int addPair(SceneModel& scene, int bodyA, int bodyB, const Motion& motion, const std::string& name) {
+std::vector<int> addJoints(SceneModel& scene, int bodyA, int bodyB, const Motion& motion,
+                           const std::string& name) {
     checkMotion(motion);
-    Body &a = scene.bodies[bodyA], &b = scene.bodies[bodyB];
-    a.rigid = b.rigid = true;
-    b.placement = a.placement * pose(motion, restValues(motion));
+    const Pose placement = bodyA < 0 ? Pose::Identity() : scene.bodies[bodyA].placement;
+    if (bodyA >= 0) scene.bodies[bodyA].rigid = true;
+    scene.bodies[bodyB].rigid = true;
+    scene.bodies[bodyB].placement = placement * pose(motion, restValues(motion));
 
-    Pair pair;
-    pair.bodyA = bodyA;
-    pair.bodyB = bodyB;
     std::vector<int> axes;
     const auto frame = commonFrame(motion, axes);
-    if (frame || motion.dofs.size() == 1) {
-        const Pose frame0 = frame ? *frame : motion.dofs[0].frame;
-        axes.resize(motion.dofs.size(), 0);
-        Joint joint =
-            makeJoint(scene, name, bodyA, bodyB, frame0, motion.base.inverse(Eigen::Isometry) * frame0);
-        for (std::size_t k = 0; k < motion.dofs.size(); ++k)
-            joint.dofs.push_back(inFrame(motion.dofs[k], axes[k]));
-        joint.planes = motion.planes;
-        joint.drives.resize(joint.dofs.size());
-        scene.joints.push_back(joint);
-        pair.joints = {static_cast<int>(scene.joints.size()) - 1};
-        pair.path = joint.path;
-    } else {
+    if (!frame && motion.dofs.size() > 1) {
         if (!motion.planes.empty())
             throw InputError(
                 "limit planes couple DOFs that one joint cannot hold: expected DOFs with one centre, "
                 "along the axes of one frame");
-        pair.joints = addChain(scene, bodyA, bodyB, motion, name);
-        pair.path = parentOf(scene) + freePrimName(scene, name);
+        return addChain(scene, bodyA, bodyB, motion, name);
     }
+    const Pose frame0 = frame ? *frame : motion.dofs[0].frame;
+    axes.resize(motion.dofs.size(), 0);
+    Joint joint = makeJoint(scene, name, bodyA, bodyB, frame0, motion.base.inverse(Eigen::Isometry) * frame0);
+    for (std::size_t k = 0; k < motion.dofs.size(); ++k)
+        joint.dofs.push_back(inFrame(motion.dofs[k], axes[k]));
+    joint.planes = motion.planes;
+    joint.drives.resize(joint.dofs.size());
+    scene.joints.push_back(joint);
+    return {static_cast<int>(scene.joints.size()) - 1};
+}
+
+int addPair(SceneModel& scene, int bodyA, int bodyB, const Motion& motion, const std::string& name) {
+    Pair pair;
+    pair.bodyA = bodyA;
+    pair.bodyB = bodyB;
+    pair.joints = addJoints(scene, bodyA, bodyB, motion, name);
+    pair.path = pair.joints.size() == 1 ? scene.joints[pair.joints[0]].path
+                                        : parentOf(scene) + freePrimName(scene, name);
     scene.pairs.push_back(pair);
     return static_cast<int>(scene.pairs.size()) - 1;
 }

@@ -11,6 +11,11 @@ namespace tss {
 /// refuses.
 int addPair(SceneModel& scene, int bodyA, int bodyB, const Motion& motion, const std::string& name);
 
+/// The joints alone, and no pair of them: indices into scene.joints, the chain from A to B. Body A may be -1,
+/// the world. A motion without DOFs makes a fixed joint.
+std::vector<int> addJoints(SceneModel& scene, int bodyA, int bodyB, const Motion& motion,
+                           const std::string& name);
+
 /// A name that USD accepts ([A-Za-z_][A-Za-z0-9_]*), as near to the wanted one as can be, that no body, joint
 /// or muscle of the scene has yet under the root prim.
 std::string freePrimName(const SceneModel& scene, const std::string& wanted);

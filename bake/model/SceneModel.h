@@ -67,13 +67,24 @@ struct MuscleModel {
     TimeSamples activation;
 };
 
-/// A skin that is pushed by muscles.
+/// Whose motion each vertex of a skin follows, as a person has painted it (UsdSkel's joint indices and
+/// weights).
+struct SkinWeights {
+    std::vector<int> joints;            ///< indices into bodies; none: the skin finds its weights itself
+    std::size_t influences = 1;         ///< a vertex
+    std::vector<std::uint32_t> indices; ///< #V times influences, into joints
+    std::vector<double> weights;        ///< the same number, >= 0, of a vertex 1 together
+};
+
+/// A skin that lies on bones and is pushed by muscles.
 struct SkinModel {
     std::string path; ///< of its mesh prim
     int body = -1;
     std::vector<int> muscles; ///< indices into muscles
-    double thickness = 0;     ///< skin sphere radius, scene units; 0: from the mesh
-    double travel = 0;        ///< how far a vertex may stray from rest; 0: from the muscles' motion
+    std::vector<int> bones;   ///< indices into bodies: what it lies on and moves with, any meshes
+    SkinWeights weights;
+    double thickness = 0; ///< skin sphere radius, scene units; 0: from the mesh
+    double travel = 0;    ///< how far a vertex may stray from rest; 0: from the muscles' motion
     double stretchCompliance = 0;
     double bendCompliance = 0;
     bool selfContact = false;   ///< the skin also keeps out of itself
@@ -103,6 +114,17 @@ struct SceneModel {
 
     std::shared_ptr<const Layer> layer; ///< what it was read from, with everything that it does not know
 };
+
+/// Something below a skin, or something that only moves it.
+struct UnderSkin {
+    int muscle = -1; ///< index into muscles; -1: a bone
+    int body = -1;   ///< whose surface it has; -1: none, a body that the skin's own weights name
+    int bone = -1;   ///< the body that it moves with; -1: with the skin
+};
+
+/// What is below a skin, in the order that its table knows: its muscles, then its bones; then the other
+/// bodies that its own weights name.
+std::vector<UnderSkin> underSkin(const SceneModel& scene, const SkinModel& skin);
 
 /// The motion of a pair: its chain of joints composed, B-local to A-local. The DOFs are the joints' in chain
 /// order; a joint crossed from body1 to body0 is inverted. DOF names are "<joint name>:<dof>" when there are

@@ -75,6 +75,34 @@ std::string limitsHash(const Motion& motion) {
     return hash.text();
 }
 
+/// The joints above the bones of a skin: where these can be. Of a skin without bones of its own nothing is
+/// added, so that tables of older files stay as they are.
+void addBones(const SceneModel& scene, const SkinModel& skin, PartHash& meshes, PartHash& travel) {
+    const Pose toSkin = scene.bodies[skin.body].placement.inverse();
+    for (int bone : skin.bones)
+        meshes.add(Pose(toSkin * scene.bodies[bone].placement)).add(scene.bodies[bone].mesh);
+    if (skin.bones.empty() && skin.weights.joints.empty()) return;
+    std::vector<bool> above(scene.bodies.size(), false), seen(scene.joints.size(), false);
+    for (const UnderSkin& under : underSkin(scene, skin))
+        if (under.bone >= 0) above[under.bone] = true;
+    for (bool again = true; again;) {
+        again = false;
+        for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+            const Joint& joint = scene.joints[j];
+            if (seen[j] || !joint.enabled || joint.body1 < 0 || !above[joint.body1]) continue;
+            seen[j] = again = true;
+            if (joint.body0 >= 0) above[joint.body0] = true;
+        }
+    }
+    for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+        if (!seen[j]) continue;
+        const Motion motion{scene.joints[j].dofs, scene.joints[j].frame0, scene.joints[j].planes};
+        travel.add(framesHash(motion)).add(limitsHash(motion)).add(scene.joints[j].frame1);
+    }
+    for (std::uint32_t index : skin.weights.indices) travel.add(std::uint64_t(index));
+    for (double weight : skin.weights.weights) travel.addFloat(weight);
+}
+
 std::string joined(const std::vector<std::string>& parts) {
     std::string text;
     for (const std::string& part : parts) text += (text.empty() ? "" : "-") + part;
@@ -120,6 +148,7 @@ std::string sourceHash(const SceneModel& scene, const SkinModel& skin) {
         travel.add(muscle.activationLower).add(muscle.activationUpper);
     }
     travel.add(skin.thickness).add(skin.travel);
+    addBones(scene, skin, meshes, travel);
     return joined({PartHash().add(body.mesh).text(), meshes.text(), forms.text(), travel.text(),
                    PartHash().add(skin.settings).text()});
 }
@@ -135,8 +164,12 @@ std::string staleness(const SceneModel& scene, const Pair& pair) {
 std::string staleness(const SceneModel& scene, const SkinModel& skin) {
     if (!skin.table) return "";
     return difference(skin.sourceHash, sourceHash(scene, skin),
-                      {"the skin's mesh", "the muscles' meshes", "the muscles' fibres or forms",
-                       "the activations, thickness or travel", "the settings"});
+                      {"the skin's mesh", "the meshes of the muscles or bones",
+                       "the muscles' fibres or forms",
+                       skin.bones.empty() && skin.weights.joints.empty()
+                           ? "the activations, thickness or travel"
+                           : "the activations, thickness, travel, joints or weights",
+                       "the settings"});
 }
 
 void requireFresh(const SceneModel& scene, const Pair& pair, const std::string& fileName) {

@@ -14,11 +14,21 @@ namespace {
 /// Shortest local length, as a share of that at rest, that a muscle may be given.
 constexpr double leastStretch = 0.05;
 
+/// det of three columns, the six-fold volume of a tetrahedron at the origin.
+double det(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return a.dot(b.cross(c));
+}
+
 /// The muscle again when its surface is one that a volume and queries can be had of.
 Muscle checked(Muscle muscle) {
     const TriangleMesh& mesh = muscle.surface;
-    if (mesh.empty()) throw InputError("the surface of a muscle has no triangles");
     const int count = static_cast<int>(mesh.vertices.size());
+    const bool rigid = isRigid(muscle);
+    if (mesh.empty() && !rigid) throw InputError("the surface of a muscle has no triangles");
+    if (rigid) { // one shape, whatever is asked
+        muscle.activationLower = muscle.activationUpper = muscle.maxContraction = 0;
+        muscle.fibre = {Vec3::Zero(), Vec3::UnitX()};
+    }
     std::map<std::pair<int, int>, int> balance;
     for (const Tri& t : mesh.triangles)
         for (int k = 0; k < 3; ++k) {
@@ -27,15 +37,13 @@ Muscle checked(Muscle muscle) {
             if (a != b) balance[std::minmax(a, b)] += a < b ? 1 : -1;
         }
     for (const auto& [edge, sum] : balance)
-        if (sum != 0) throw InputError("the surface of a muscle must be closed: its volume is to be kept");
+        if (sum != 0 && !rigid)
+            throw InputError("the surface of a muscle must be closed: its volume is to be kept");
     for (const Vec3& v : mesh.vertices)
         if (!v.allFinite()) throw InputError("the surface of a muscle has a vertex that is not finite");
+    if (rigid && enclosedVolume(mesh.vertices, mesh.triangles) < 0)
+        for (Tri& t : muscle.surface.triangles) std::swap(t[1], t[2]); // inside out
     return muscle;
-}
-
-/// det of three columns, the six-fold volume of a tetrahedron at the origin.
-double det(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return a.dot(b.cross(c));
 }
 
 /// Root of c0 + c1 k + c2 k^2 + c3 k^3 next to k = 1.
@@ -67,7 +75,7 @@ MuscleDeformer::MuscleDeformer(Muscle muscle)
     : muscle_(checked(std::move(muscle))), fibre_(muscle_.fibre), locator_(muscle_.surface) {
     const TriangleMesh& mesh = muscle_.surface;
     volume_ = enclosedVolume(mesh.vertices, mesh.triangles);
-    if (!(volume_ > 0))
+    if (!(volume_ > 0) && !rigid())
         throw InputError("the surface of a muscle is inside out or flat: its volume is not positive");
     const double lower = muscle_.activationLower, upper = muscle_.activationUpper;
     if (!(std::isfinite(lower) && std::isfinite(upper) && lower <= upper))
@@ -82,8 +90,9 @@ MuscleDeformer::MuscleDeformer(Muscle muscle)
     anchorIntegral_ = contractionIntegral(muscle_.anchor);
 
     normals_ = vertexNormals(mesh);
-    const std::vector<Vec3> medial =
-        muscle_.form == MuscleForm::Sheet ? medialOffsets(mesh, locator_, normals_) : std::vector<Vec3>();
+    const std::vector<Vec3> medial = muscle_.form == MuscleForm::Sheet && !rigid()
+                                         ? medialOffsets(mesh, locator_, normals_)
+                                         : std::vector<Vec3>();
     points_.reserve(mesh.vertices.size());
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
         const Vec3& x = mesh.vertices[v];

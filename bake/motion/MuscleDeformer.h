@@ -20,6 +20,11 @@ struct MuscleState {
     double thickening = 1; ///< factor on the local thickening that keeps the volume of the mesh; near 1
 };
 
+/// A muscle that never contracts is a bone: its surface may be any mesh, its fibre is not looked at.
+inline bool isRigid(const Muscle& muscle) {
+    return muscle.maxContraction == 0 || (muscle.activationLower == 0 && muscle.activationUpper == 0);
+}
+
 /// The deformation of a muscle by its activation a (METHOD 6.1), exact and without history:
 ///   x(a) = x + C(s') - C(s) + k(a) (g(s, a) - 1) o(x),   s' = s - a c_max (I(s) - I(s_anchor))
 /// C is the fibre, I the integral of a bump with smooth ends, g the factor that makes up for the local
@@ -28,13 +33,15 @@ struct MuscleState {
 /// bit; a < 0 stretches.
 class MuscleDeformer {
 public:
-    /// Throws InputError: an open or inside-out surface, a bad fibre, a contraction that would turn the
-    /// muscle over within its activation range.
+    /// Throws InputError: an open or inside-out surface of what is not rigid, a bad fibre, a contraction that
+    /// would turn the muscle over within its activation range.
     explicit MuscleDeformer(Muscle muscle);
     MuscleDeformer(const MuscleDeformer&) = delete;
     MuscleDeformer& operator=(const MuscleDeformer&) = delete;
 
     const Muscle& muscle() const { return muscle_; }
+    /// Nothing about it moves by itself: a bone.
+    bool rigid() const { return isRigid(muscle_); }
     const MuscleFibre& fibre() const { return fibre_; }
     double restVolume() const { return volume_; }
 

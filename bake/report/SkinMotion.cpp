@@ -63,9 +63,11 @@ struct Truth {
 
 Truth truthAt(const Muscles& muscles, const Activations& activations) {
     Truth truth;
-    for (std::size_t m = 0; m < muscles.size(); ++m)
+    for (std::size_t m = 0; m < muscles.size(); ++m) {
+        if (muscles[m]->muscle().surface.empty()) continue; // moves skin and has no shape
         truth.solids.emplace_back(
             TriangleMesh{muscles[m]->vertices(activations[m]), muscles[m]->muscle().surface.triangles});
+    }
     return truth;
 }
 
@@ -101,13 +103,12 @@ std::vector<Vec3> placesOf(const SkinResponse& response, const TriangleMesh& mes
 std::vector<std::vector<Vec3>> convergedSteps(const SceneModel& scene, const SkinModel& skin,
                                               const Muscles& muscles, const std::vector<Activations>& asked) {
     SkinParameters parameters = skinParameters(scene, skin);
-    parameters.iterations = 400; // an update goes on where the one before has stopped
+    parameters.iterations = 2000;
     SkinResponse response(makeSkinRig(scene.bodies[static_cast<std::size_t>(skin.body)].mesh, muscles,
                                       *skin.table, parameters));
     std::vector<std::vector<Vec3>> steps;
     for (const Activations& activations : asked) {
-        for (int round = 0; round < 25; ++round)
-            if (!response.update(activations).moved) break;
+        response.update(activations);
         steps.emplace_back(response.positions().begin(), response.positions().end());
     }
     return steps;
@@ -145,6 +146,7 @@ SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, 
         for (std::size_t v = 0; v < study.touched; ++v)
             study.farthestMove = std::max(study.farthestMove, (converged[s][v] - rig->rest[v]).norm());
         for (std::size_t m = 0; m < muscles.size(); ++m) {
+            if (muscles[m]->rigid()) continue;
             const auto& triangles = muscles[m]->muscle().surface.triangles;
             const double volume = enclosedVolume(muscles[m]->vertices(asked[s][m]), triangles);
             study.muscleVolume =

@@ -185,6 +185,7 @@ Step makeStep(const Setting& setting, const std::vector<std::shared_ptr<const Mu
     step.distances.assign(setting.skin.size(), std::numeric_limits<double>::infinity());
     for (std::size_t m = 0; m < deformers.size(); ++m) {
         const Muscle& muscle = deformers[m]->muscle();
+        if (muscle.surface.empty()) continue;
         const double activation =
             muscle.activationLower + share * (muscle.activationUpper - muscle.activationLower);
         step.activation += activation / static_cast<double>(deformers.size());

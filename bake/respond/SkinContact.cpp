@@ -3,269 +3,271 @@
 #include "bake/respond/SkinWalk.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 namespace tss {
+
+using Vec3f = Eigen::Vector3f;
+
+Vec3f placeOf(const SkinScene& scene, const SkinPlane& plane) {
+    Vec3f sum = Vec3f::Zero();
+    for (int k = 0; k < plane.vertices; ++k) sum += plane.weight[k] * scene.skin[plane.vertex[k]].head<3>();
+    return sum;
+}
+
 namespace {
 
-constexpr int walkSteps = 8;    ///< triangles that a look-up walks over, at most
-constexpr double lookSlide = 2; ///< in radii: how far skin that has slid along its muscle is looked up from
-                                ///< where the muscle would carry it; farther it may have slid off, or through
-constexpr double leastFacing = 0.1; ///< cosine between muscle and skin at which a contact is not believed ...
-constexpr double fullFacing = 0.5;  ///< ... and from which on it is
+/// Cosine between two surfaces at which a contact is not believed, and from which on it is: what faces the
+/// skin's way at less than 84 degrees may be its other side.
+constexpr float leastFacing = 0.1f, fullFacing = 0.5f;
+/// Triangles that a look-up walks over, at most: enough for a slide over a tenth of a fine surface; more
+/// would only serve what is not near its start.
+constexpr int walkSteps = 40;
+/// In radii of the skin: how far a bone is looked for. What is farther meets nothing.
+constexpr float boneReach = 12;
 
-/// From 0 at 0 to 1 at 1.
-double smoothStep(double t) {
-    t = std::clamp(t, 0.0, 1.0);
+float smoothStep(float t) {
+    t = std::clamp(t, 0.0f, 1.0f);
     return t * t * (3 - 2 * t);
 }
 
-double trust(double facing) {
+float trustOf(float facing) {
     return smoothStep((facing - leastFacing) / (fullFacing - leastFacing));
 }
 
-bool isIdentity(const Pose& pose) {
-    return pose.matrix() == Pose::Identity().matrix();
+/// The direction in which a surface pushes: its smooth normal; from beside a rim, or from within a thin edge,
+/// more and more straight to or from its nearest point, without a jump. side: -1 inside, 1 outside, 0: along
+/// the smooth normal.
+Vec3f pushDirection(const Vec3f& smooth, const Vec3f& away, float side, float radius) {
+    const Vec3f blend = radius * smooth + side * away;
+    const float length = blend.norm();
+    return length > 0 ? Vec3f(blend / length) : smooth;
 }
 
-/// Normals of a closed muscle, weighted by area: smooth enough, and cheap.
-void findNormals(const std::vector<Tri>& triangles, PlacedMuscle& placed) {
-    placed.normals.assign(placed.surface.size(), Vec3::Zero());
-    for (const Tri& t : triangles) {
-        const Vec3& a = placed.surface[t[0]];
-        const Vec3 n = (placed.surface[t[1]] - a).cross(placed.surface[t[2]] - a);
-        for (int k = 0; k < 3; ++k) placed.normals[t[k]] += n;
+Vec3f smoothAt(const SurfacePoint& at, const Tri& corners, const auto& normal) {
+    Vec3f sum = Vec3f::Zero();
+    for (int k = 0; k < 3; ++k) sum += at.weights[k] * normal(corners[k]);
+    const float length = sum.norm();
+    return length > 0 ? Vec3f(sum / length) : sum;
+}
+
+/// Which side of a surface what lies `away` from its nearest point is on: amid a triangle that of the
+/// triangle, since smooth normals may lie beside sharp edges; at its edges and corners that of the smooth
+/// normal.
+float sideOf(const SurfacePoint& at, const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& smooth,
+             const Vec3f& away) {
+    const Vec3f normal = at.weights.minCoeff() > 0 ? Vec3f((b - a).cross(c - a)) : smooth;
+    return normal.dot(away) < 0 ? -1.0f : 1.0f;
+}
+
+/// Fills gap, level and normal of a plane whose vertices stand: away is what lies between.
+void finish(const SkinRig& rig, const SkinScene& scene, const Vec3f& smooth, const Vec3f& away, float side,
+            float trust, float offset, SkinPlane& plane) {
+    plane.normal = pushDirection(smooth, away, side, rig.radius);
+    const float distance = plane.normal.dot(away);
+    const float beside = (away - distance * plane.normal).norm() / rig.radius;
+    trust *= 1 - smoothStep(beside - 1);
+    plane.distance = distance;
+    plane.gap = distance - offset;
+    // What is not quite believed asks for less, so that contacts come and go without a jump.
+    plane.gap += (1 - trust) * (std::max(-plane.gap, 0.0f) + rig.radius);
+    plane.level = plane.normal.dot(placeOf(scene, plane)) - plane.gap;
+    if (!(trust > 0)) plane.vertices = 0;
+}
+
+SurfacePoint toPoint(const NearestPoint& near) {
+    return {near.triangle, near.weights.cast<float>(), near.point.cast<float>(),
+            static_cast<float>(near.distance * near.distance)};
+}
+
+/// From where a row's vertex is before to the vertex, as it stands; in the body's frame.
+Vec3f relativeOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    const SkinScene::Placed& placed = scene.bodies[row.body];
+    Vec3f before = Vec3f::Zero();
+    if (row.meeting == SkinMeeting::SkinOnBody) {
+        const Move* surface = scene.surface.data() + rig.bodies[row.body].first;
+        for (int k = 0; k < 3; ++k) before += row.weights[k] * surface[row.corners[k]].head<3>();
+        return placed.toBody(scene.skin[row.vertex].head<3>()) - before;
     }
-    for (Vec3& n : placed.normals) n.normalize();
+    for (int k = 0; k < 3; ++k) before += row.weights[k] * scene.skin[row.corners[k]].head<3>();
+    if (row.meeting == SkinMeeting::BodyOnSkin)
+        return scene.surface[row.vertex].head<3>() - placed.toBody(before);
+    return scene.skin[row.vertex].head<3>() - before;
 }
 
-void follow(const MuscleTrack& track, double activation, const Pose* pose, std::vector<Vec3>& places) {
-    const TrackPlace place = locate(track.nodes, activation);
-    places.resize(track.points);
-    for (std::size_t i = 0; i < track.points; ++i) {
-        const Vec3 x = trackPosition(track, place, i);
-        places[i] = pose ? Vec3(*pose * x) : x;
+/// Whether what seems this deep in a surface can have come there: by its way since rest, and the overlap
+/// there. What seems deeper is another side of the surface, seen past it.
+float comeThrough(float depth, float most) {
+    return most > 0 ? 1 - smoothStep((depth - most) / most) : 0;
+}
+
+SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
+    SkinPlane plane;
+    const SkinBody& body = rig.bodies[row.body];
+    const SkinScene::Placed& placed = scene.bodies[row.body];
+    const Vec3f x = placed.toBody(scene.skin[row.vertex].head<3>());
+    Vec3f own = scene.normalOf(rig, row.vertex);
+    if (placed.moved) own = placed.turn.transpose() * own;
+    SurfacePoint hit;
+    if (body.bone()) {
+        hit = toPoint(body.locator->nearestFacing(
+            x.cast<double>(), static_cast<double>(boneReach * rig.radius), own.cast<double>()));
+    } else {
+        const Move* surface = scene.surface.data() + body.first;
+        const auto at = [&](int v) -> Vec3f { return surface[v].head<3>(); };
+        hit = walkDownhill(x, rig.starts[row.first], body.triangles, body.across, at, walkSteps);
     }
-}
-
-/// The triangle to walk from: that of the node before, or the one after where it has none.
-int startAt(const int* triangles, const TrackPlace& place) {
-    const int before = triangles[place.node];
-    return before >= 0 || place.t == 0 ? before : triangles[place.node + 1];
-}
-
-void placeSpheres(const SkinMuscle& muscle, double activation, const Pose* pose, PlacedMuscle& placed) {
-    const TrackPlace at = locate(muscle.spheres.nodes, activation);
-    placed.centres.resize(muscle.radii.size(), Vec3::Zero());
-    placed.radii.resize(muscle.radii.size(), 0);
-    double farthest = 0;
-    for (std::size_t i = 0; i < muscle.radii.size(); ++i) {
-        const Vec3 x = trackPosition(muscle.spheres, at, i), centre = pose ? Vec3(*pose * x) : x;
-        const double radius = muscle.radii[i] * trackThickness(muscle.spheres, at, i);
-        farthest =
-            std::max(farthest, (centre - placed.centres[i]).norm() + std::abs(radius - placed.radii[i]));
-        placed.centres[i] = centre;
-        placed.radii[i] = radius;
+    if (hit.triangle < 0) return plane;
+    const Move* normals = scene.normals.data() + body.first;
+    Vec3f smooth = smoothAt(hit, body.triangles[hit.triangle], [&](int v) { return normals[v].head<3>(); });
+    // Skin inside a muscle may be nearest to a side that faces away from it.
+    float trust = trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
+    const Vec3f away = x - hit.point;
+    if (body.bone() && smooth.dot(away) < 0) {
+        const Vec3f way = relativeOf(rig, scene, row) - row.relative;
+        const Vec3f rest = x - way;
+        if (row.offset == 0 && !body.locator->entered(rest.cast<double>(), x.cast<double>())) return plane;
+        trust *= comeThrough(away.norm(), way.norm() - row.offset);
     }
-    placed.path += farthest;
+    if (!(trust > 0)) return plane;
+    plane.vertex[0] = row.vertex;
+    plane.weight[0] = 1;
+    plane.vertices = 1;
+    const Tri& t = body.triangles[hit.triangle];
+    const Move* at = scene.surface.data() + body.first;
+    float side = sideOf(hit, at[t[0]].head<3>(), at[t[1]].head<3>(), at[t[2]].head<3>(), smooth, away);
+    // Of a bone only what faces the skin is looked at: beside that, skin is not pushed along it.
+    if (body.bone()) side = smooth.dot(away) < 0 ? 0.0f : 1.0f;
+    if (row.turned) {
+        smooth = -smooth;
+        side = -side;
+    }
+    finish(rig, scene, placed.moved ? placed.turn * smooth : smooth, placed.moved ? placed.turn * away : away,
+           side, trust, offset, plane);
+    return plane;
 }
 
-void place(const SkinMuscle& muscle, double activation, const Pose& pose, PlacedMuscle& placed) {
-    if (placed.activation == activation && placed.pose.matrix() == pose.matrix()) return;
-    placed.activation = activation;
-    placed.pose = pose;
-    placed.dragPlace = locate(muscle.drag.nodes, activation);
-    const Pose* moved = isIdentity(pose) ? nullptr : &pose;
-    follow(muscle.surface, activation, moved, placed.surface);
-    findNormals(muscle.triangles, placed);
-    placeSpheres(muscle, activation, moved, placed);
+/// The triangle of the skin to walk from: the nearest of those known.
+int startOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Vec3f& x) {
+    int start = rig.starts[row.first];
+    float least = std::numeric_limits<float>::max();
+    for (std::uint32_t k = row.first; k < row.last && row.last > row.first + 1; ++k) {
+        const Tri& t = rig.triangles[rig.starts[k]];
+        const float squared = (x - scene.skin[t[0]].head<3>()).squaredNorm();
+        if (!(squared < least)) continue;
+        least = squared;
+        start = rig.starts[k];
+    }
+    return start;
 }
 
-void addDrag(const SkinDrag& drag, const TrackPlace& place, std::vector<Move>& sum) {
-    const std::size_t count = drag.vertices.size();
-    if (count == 0) return;
-    const Move* from = &drag.moves[place.node * count];
-    const Move* to = place.t == 0 ? from : from + count;
-    const float t = static_cast<float>(place.t);
-    for (std::size_t k = 0; k < count; ++k) sum[drag.vertices[k]] += from[k] + t * (to[k] - from[k]);
+SurfacePoint walkSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Vec3f& x) {
+    const auto at = [&](int v) -> Vec3f { return scene.skin[v].head<3>(); };
+    return walkDownhill(x, startOf(rig, scene, row, x), rig.triangles, rig.across, at, walkSteps);
 }
 
-/// Turns a nearest point into the direction in which the surface pushes: its smooth normal; from beside a rim
-/// more and more straight away from it, without a jump.
-Vec3 pushDirection(const Vec3& smooth, const Vec3& away, double radius) {
-    if (away.dot(smooth) <= 0) return smooth;
-    const Vec3 blend = radius * smooth + away;
-    const double length = blend.norm();
-    return length > 0 ? Vec3(blend / length) : smooth;
+/// How far a bone's vertex stuck out at rest, there where it meets the skin now: teeth do, and may again.
+float outAtRest(const SkinRig& rig, const SkinRow& row, const SurfacePoint& hit) {
+    const SkinBody& body = rig.bodies[row.body];
+    const std::uint32_t v = row.vertex - body.first;
+    const Tri& corners = rig.triangles[hit.triangle];
+    Vec3f away = -body.rest[v].head<3>();
+    for (int k = 0; k < 3; ++k) away += hit.weights[k] * rig.places[corners[k]].head<3>();
+    const Vec3f smooth = smoothAt(hit, corners, [&](int c) { return rig.placeNormals[c].head<3>(); });
+    const float out = -(smooth + body.normals[v].head<3>()).normalized().dot(away);
+    // Straight before that place, and not beside it.
+    return out > 0 ? out * smoothStep(2 * out / away.norm() - 0.5f) : 0;
 }
 
-/// Of the predicted skin.
-Vec3 predictedNormal(const SkinRig& rig, const SkinScene& scene, const SurfacePoint& at) {
-    Vec3 smooth = Vec3::Zero();
+SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
+    SkinPlane plane;
+    const SkinScene::Placed& placed = scene.bodies[row.body];
+    const Vec3f x = placed.toSkin(scene.surface[row.vertex].head<3>());
+    Vec3f own = scene.normals[row.vertex].head<3>();
+    if (placed.moved) own = placed.turn * own;
+    const SurfacePoint hit = walkSkin(rig, scene, row, x);
+    const Tri& corners = rig.triangles[hit.triangle];
+    const Vec3f smooth = smoothAt(hit, corners, [&](int v) { return scene.normalOf(rig, v); });
+    float facing = smooth.dot(own);
+    if (row.within) {
+        Vec3f before = Vec3f::Zero();
+        for (int k = 0; k < 3; ++k)
+            before += row.weights[k] * scene.normalOf(rig, static_cast<std::size_t>(row.corners[k]));
+        facing = std::max(facing, smooth.dot(before.normalized()));
+    }
+    float trust = trustOf(facing);
+    const Vec3f away = hit.point - x, both = row.within ? smooth : (smooth + own).normalized();
+    if (rig.bodies[row.body].bone() && both.dot(away) < 0) {
+        offset = -outAtRest(rig, row, hit);
+        trust *= comeThrough(away.norm(), (relativeOf(rig, scene, row) - row.relative).norm() - offset);
+    }
+    if (!(trust > 0)) return plane;
+    plane.vertices = 3;
     for (int k = 0; k < 3; ++k) {
-        const auto v = static_cast<std::uint32_t>(rig.triangles[at.triangle][k]);
-        smooth += at.weights[k] * scene.turn.turned(v, rig.restNormals[v]);
+        plane.vertex[k] = static_cast<std::uint32_t>(corners[k]);
+        plane.weight[k] = hit.weights[k];
     }
-    return smooth.normalized();
+    finish(rig, scene, both, away,
+           both.dot(away) >= 0 ? 1.0f
+           : row.within        ? -1.0f
+                               : 0.0f,
+           trust, offset, plane);
+    return plane;
+}
+
+SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
+    SkinPlane plane;
+    const Vec3f x = scene.skin[row.vertex].head<3>();
+    const SurfacePoint hit = walkSkin(rig, scene, row, x);
+    const Tri& corners = rig.triangles[hit.triangle];
+    // Around a fold's end the walk comes to the vertex itself.
+    if ((corners.array() == static_cast<int>(row.vertex)).any()) return plane;
+    const Vec3f smooth = smoothAt(hit, corners, [&](int v) { return scene.normalOf(rig, v); });
+    const Vec3f own = scene.normalOf(rig, row.vertex);
+    float trust = trustOf(-smooth.dot(own));
+    const Vec3f away = x - hit.point, both = (smooth - own).normalized();
+    if (both.dot(away) < 0)
+        trust *= comeThrough(away.norm(), (relativeOf(rig, scene, row) - row.relative).norm() - row.offset);
+    if (!(trust > 0)) return plane;
+    plane.vertices = 4;
+    plane.vertex[0] = row.vertex;
+    plane.weight[0] = 1;
+    for (int k = 0; k < 3; ++k) {
+        plane.vertex[k + 1] = static_cast<std::uint32_t>(corners[k]);
+        plane.weight[k + 1] = -hit.weights[k];
+    }
+    finish(rig, scene, both, away, both.dot(away) < 0 ? 0.0f : 1.0f, trust, offset, plane);
+    return plane;
 }
 
 } // namespace
 
-void placeMuscles(const SkinRig& rig, std::span<const double> activations, std::span<const Pose> poses,
-                  SkinScene& scene) {
-    scene.muscles.resize(rig.muscles.size());
-    scene.drag.assign(rig.rest.size(), Move::Zero());
-    scene.turn.clear();
-    for (std::size_t m = 0; m < rig.muscles.size(); ++m) {
-        const SkinMuscle& muscle = rig.muscles[m];
-        place(muscle, activations[m], poses[m], scene.muscles[m]);
-        addDrag(muscle.drag, scene.muscles[m].dragPlace, scene.drag);
-        if (isIdentity(poses[m])) continue;
-        const TrackPlace at = locate(muscle.skin.nodes, activations[m]);
-        const Eigen::Quaterniond rotation(poses[m].linear());
-        for (std::size_t i = 0; i < muscle.carried.size(); ++i) {
-            const Vec3 x = trackPosition(muscle.skin, at, i);
-            const SkinCarry& c = muscle.carried[i];
-            scene.drag[c.vertex].head<3>() += c.pull * (poses[m] * x - x).cast<float>();
-            scene.turn.add(rig.rest.size(), c.vertex, static_cast<double>(c.pull), rotation);
-        }
-    }
-    scene.turn.normalise();
-    scene.predicted.resize(rig.rest.size());
-    for (std::size_t v = 0; v < rig.rest.size(); ++v)
-        scene.predicted[v] = rig.rest[v] + scene.drag[v].head<3>().cast<double>();
+bool mayMeet(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    // Of the skin: half of what edges are let change.
+    const float strain = row.meeting == SkinMeeting::SkinOnBody ? scene.bodies[row.body].strain : 0.25f;
+    // Beside the place that is looked at, a surface has moved by its strain over at most twice the gap.
+    const float free = row.gap * (1 - 2 * strain);
+    return !(free > 0) || (relativeOf(rig, scene, row) - row.relative).squaredNorm() >= free * free;
 }
 
-SkinContact rowContact(const SkinRig& rig, const SkinScene& scene, std::size_t index) {
-    const SkinRow& row = rig.rows[index];
-    const SkinMuscle& muscle = rig.muscles[row.muscle];
-    const PlacedMuscle& placed = scene.muscles[row.muscle];
-    Vec3 x = scene.predicted[row.vertex];
-    if (row.restTriangle >= 0) {
-        const Tri& corners = muscle.triangles[row.restTriangle];
-        Vec3 carried = Vec3::Zero(), normal = Vec3::Zero();
-        for (int k = 0; k < 3; ++k) {
-            carried += row.restWeights[k] * placed.surface[corners[k]];
-            normal += row.restWeights[k] * placed.normals[corners[k]];
-        }
-        carried += row.restHeight * normal.normalized();
-        const Vec3 slid = x - carried;
-        const double far = slid.norm(), most = lookSlide * row.radius;
-        if (far > most) x = carried + most / far * slid;
-    }
-    const double limit = row.radius + std::max(rig.travel, row.radius);
-    SkinContact contact;
-    // The spheres select: whether anything is near, and where to look when the skin was not before it at any
-    // node of the muscle's own motion.
-    double least = std::numeric_limits<double>::infinity();
-    std::uint32_t nearest = 0;
-    for (std::uint32_t k = row.first; k < row.last; ++k) {
-        const std::uint32_t sphere = rig.tests[k].sphere;
-        const double squared = (x - placed.centres[sphere]).squaredNorm(),
-                     within = least + placed.radii[sphere];
-        if (!(squared < within * within)) continue;
-        least = std::sqrt(squared) - placed.radii[sphere];
-        nearest = sphere;
-        if (row.met && least <= limit) break;
-    }
-    if (least > limit) {
-        contact.clear = least - limit;
-        return contact;
-    }
-    const int start =
-        row.met ? startAt(&rig.rowTriangles[row.triangles], placed.dragPlace) : muscle.behind[nearest];
-    if (start < 0) return contact;
-
-    const auto at = [&](int v) -> const Vec3& { return placed.surface[v]; };
-    const SurfacePoint hit = walkDownhill(x, start, muscle.triangles, muscle.across, at, walkSteps);
-    const Tri& corners = muscle.triangles[hit.triangle];
-    Vec3 smooth = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) smooth += hit.weights[k] * placed.normals[corners[k]];
-    smooth.normalize();
-    contact.trust = trust(smooth.dot(placed.pose.linear() * row.facing));
-    if (!(contact.trust > 0)) return contact;
-    contact.triangle = hit.triangle;
-    contact.weights = hit.weights;
-    contact.normal = pushDirection(smooth, x - hit.point, row.radius);
-    for (std::uint32_t& v : contact.vertex) v = row.vertex;
-    contact.weight[0] = 1;
-    contact.vertices = 1;
-    contact.distance = contact.normal.dot(rig.rest[row.vertex] - hit.point);
-    return contact;
+void lookAgain(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinPlane& plane) {
+    const SkinPlane now = lookUp(rig, scene, row);
+    plane.gap = now.found() ? now.gap : std::numeric_limits<float>::max();
+    if (now.found()) plane.normal = now.normal;
+    plane.level =
+        now.found() ? plane.normal.dot(placeOf(scene, plane)) - plane.gap : -1e6f; // asks for nothing
 }
 
-SkinContact pokeContact(const SkinRig& rig, const SkinScene& scene, std::size_t index) {
-    const SkinPoke& poke = rig.pokes[index];
-    const PlacedMuscle& muscle = scene.muscles[poke.muscle];
-    const Vec3& x = muscle.surface[poke.vertex];
-    SkinContact contact;
-    const int start = startAt(&rig.pokeTriangles[poke.triangles], muscle.dragPlace);
-    if (start < 0) return contact;
-
-    const auto at = [&](int v) -> const Vec3& { return scene.predicted[v]; };
-    const SurfacePoint hit = walkDownhill(x, start, rig.triangles, rig.across, at, walkSteps);
-    const Tri& corners = rig.triangles[hit.triangle];
-    const Vec3 smooth = predictedNormal(rig, scene, hit);
-    contact.trust = trust(smooth.dot(muscle.normals[poke.vertex]));
-    if (!(contact.trust > 0)) return contact;
-    contact.triangle = hit.triangle;
-    contact.weights = hit.weights;
-    contact.normal =
-        pushDirection((smooth + muscle.normals[poke.vertex]).normalized(), hit.point - x, poke.radius);
-    Vec3 onSkin = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) {
-        contact.vertex[k] = static_cast<std::uint32_t>(corners[k]);
-        contact.weight[k] = hit.weights[k];
-        onSkin += hit.weights[k] * rig.rest[corners[k]];
+SkinPlane lookUp(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
+    switch (row.meeting) {
+    case SkinMeeting::SkinOnBody:
+        return skinOnBody(rig, scene, row, offset);
+    case SkinMeeting::BodyOnSkin:
+        return bodyOnSkin(rig, scene, row, offset);
+    case SkinMeeting::SkinOnSkin:
+        break;
     }
-    contact.distance = contact.normal.dot(onSkin - x);
-    return contact;
-}
-
-SkinContact foldContact(const SkinRig& rig, const SkinScene& scene, std::size_t index) {
-    const SkinFold& fold = rig.folds[index];
-    const Vec3& x = scene.predicted[fold.vertex];
-    SkinContact contact;
-    double least = rig.foldReach * rig.foldReach;
-    int start = -1;
-    for (std::uint32_t k = fold.first; k < fold.last; ++k) {
-        const auto triangle = static_cast<int>(rig.foldTriangles[k]);
-        const double squared = (x - scene.predicted[rig.triangles[triangle][0]]).squaredNorm();
-        if (squared >= least) continue;
-        least = squared;
-        start = triangle;
-    }
-    if (start < 0) return contact;
-
-    const auto at = [&](int v) -> const Vec3& { return scene.predicted[v]; };
-    const SurfacePoint hit = walkDownhill(x, start, rig.triangles, rig.across, at, walkSteps);
-    const Tri& corners = rig.triangles[hit.triangle];
-    // Around a fold's end the walk comes to the vertex itself.
-    if ((corners.array() == static_cast<int>(fold.vertex)).any()) return contact;
-    const Vec3 smooth = predictedNormal(rig, scene, hit);
-    const Vec3 own = scene.turn.turned(fold.vertex, rig.restNormals[fold.vertex]);
-    contact.trust = trust(-smooth.dot(own));
-    if (!(contact.trust > 0)) return contact;
-    const Vec3 between = (smooth - own).normalized(), away = x - hit.point;
-    const Vec3 normal = pushDirection(between, away, rig.foldRadius);
-    // Beside the other part's rim there is nothing to keep out of.
-    const double depth = normal.dot(away), beside = (away - depth * normal).norm() / rig.foldRadius;
-    contact.trust *= 1 - smoothStep(beside - 1);
-    if (!(contact.trust > 0)) return contact;
-    int nearest = 0;
-    hit.weights.maxCoeff(&nearest);
-    const auto other = static_cast<std::uint32_t>(corners[nearest]);
-    contact.triangle = hit.triangle;
-    contact.weights = hit.weights;
-    contact.normal = normal;
-    contact.vertex[0] = contact.vertex[2] = fold.vertex;
-    contact.vertex[1] = other;
-    contact.weight[0] = 1;
-    contact.weight[1] = -1;
-    contact.vertices = 2;
-    contact.distance =
-        depth - normal.dot((x - rig.rest[fold.vertex]) - (scene.predicted[other] - rig.rest[other]));
-    return contact;
+    return skinOnSkin(rig, scene, row, offset);
 }
 
 } // namespace tss

@@ -1,62 +1,37 @@
 #pragma once
-#include "bake/motion/Motion.h"
-#include "bake/respond/SkinRig.h"
-#include "bake/respond/SkinTurn.h"
-
-#include <limits>
-#include <span>
+#include "bake/respond/SkinScene.h"
 
 namespace tss {
 
-/// One muscle of a rig as it stands.
-struct PlacedMuscle {
-    double activation = std::numeric_limits<double>::quiet_NaN(); ///< NaN: not placed yet
-    Pose pose = Pose::Identity();
-    TrackPlace dragPlace;      ///< between the nodes of its drag
-    std::vector<Vec3> surface; ///< #V, skin's frame
-    std::vector<Vec3> normals; ///< #V, outward, unit
-    std::vector<Vec3> centres; ///< #spheres
-    std::vector<double> radii; ///< #spheres
-    double path = 0;           ///< how far any sphere's surface has moved, all updates together
+/// normal . sum weight_k x_k >= level, x the places of the skin. Run-time lengths.
+struct SkinPlane {
+    std::uint32_t vertex[4] = {0, 0, 0, 0};
+    float weight[4] = {0, 0, 0, 0};
+    int vertices = 0;
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+    float level = 0;
+    float distance = 0;                            ///< signed, as the row's offset is meant
+    float push = 0;                                ///< >= 0, along the normal
+    float gap = std::numeric_limits<float>::max(); ///< of the skin as it is: < 0 asks for a push
+
+    bool found() const { return vertices > 0; }
 };
 
-/// All muscles at given activations, and the skin as they drag it along without contact.
-struct SkinScene {
-    std::vector<PlacedMuscle> muscles;
-    std::vector<Move> drag;      ///< #touched: displacement, the sum over the muscles and their bones
-    std::vector<Vec3> predicted; ///< #touched: rest and drag; where contacts are looked up
-    SkinTurn turn;               ///< #touched: by the bones alone
-};
+/// Whether what the row is about may have come together since rest.
+bool mayMeet(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
 
-/// Moves the muscles and the skin's prediction. activations, poses (motion of each muscle since rest in the
-/// skin's frame): one a muscle, within its range.
-void placeMuscles(const SkinRig& rig, std::span<const double> activations, std::span<const Pose> poses,
-                  SkinScene& scene);
+/// The plane that a row meets as the scene stands. Surfaces that face another way than the skin, and what
+/// lies beside a rim, ask for less and then for nothing, without a jump. offset: as SkinRow::offset.
+SkinPlane lookUp(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset);
+inline SkinPlane lookUp(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    return lookUp(rig, scene, row, row.offset);
+}
 
-/// normal . sum weight_k (rest + u)_k >= level + offset of its row.
-struct SkinContact {
-    std::uint32_t vertex[3] = {0, 0, 0};
-    double weight[3] = {0, 0, 0}; ///< sum 1; across a fold 1 and -1
-    int vertices = 3;             ///< of the three, from the first on; the others weigh 0
-    Vec3 normal = Vec3::Zero();   ///< unit; zero: nothing within reach
-    double distance = 0;          ///< of the rest places from the plane: normal . sum weight_k rest_k - level
-    double trust = 1;             ///< 0..1: 1 where skin and surface face the same way, falling smoothly to 0
+/// Where what a plane holds is, in the skin as it is.
+Eigen::Vector3f placeOf(const SkinScene& scene, const SkinPlane& plane);
 
-    int triangle = -1;           ///< that was met, of the muscle or of the skin
-    Vec3 weights = Vec3::Zero(); ///< of the point in it
-    double clear = 0;            ///< of a row with nothing near: how far from that, scene units
-
-    bool found() const { return normal != Vec3::Zero(); }
-};
-
-/// The plane that row `row` of the table meets, seen from its predicted place: the spheres select, the
-/// surface answers (METHOD 6.2). Triangles that face away from the skin are not seen.
-SkinContact rowContact(const SkinRig& rig, const SkinScene& scene, std::size_t row);
-
-/// The plane that keeps skin above a muscle vertex which could poke through between skin vertices.
-SkinContact pokeContact(const SkinRig& rig, const SkinScene& scene, std::size_t poke);
-
-/// The plane that keeps a vertex out of another part of the skin, which gives way as much as the vertex.
-SkinContact foldContact(const SkinRig& rig, const SkinScene& scene, std::size_t fold);
+/// Turns a plane to what its row meets now. What it pushes stays as it was first found, since it has hardly
+/// slid, and so does its push.
+void lookAgain(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinPlane& plane);
 
 } // namespace tss

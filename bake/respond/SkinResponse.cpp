@@ -2,42 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace tss {
 namespace {
 
-/// Change of a displacement in a sweep, as a share of the skin's size, at which the skin has settled.
-constexpr double settledShare = 2e-9;
-/// What skin may have moved since all around it was last balanced before it is balanced anew, as a share of
-/// the largest move of all, at one sweep an update; the more sweeps, the less. Where nothing changes any more
-/// all of it is.
-constexpr double calmShare = 0.05;
-constexpr int pushRounds = 8; ///< of the faithful mode
+/// Times that contacts are looked up, at most, after the first time where those before have moved the skin
+/// to: new ones are met there, and planes of curved surfaces have turned.
+constexpr int lookUps = 6;
+/// In sizes of the skin: what is not deeper than this needs no further look-up.
+constexpr float settled = 1e-5f;
 
-double activationOf(std::span<const double> activations, const SkinMuscle& muscle, std::size_t m) {
+double activationOf(std::span<const double> activations, const SkinBody& body, std::size_t m) {
     const double a = m < activations.size() ? activations[m] : 0;
-    const std::vector<double>& nodes = muscle.surface.nodes;
-    return std::isnan(a) || nodes.empty() ? 0 : std::clamp(a, nodes.front(), nodes.back());
+    return std::isnan(a) || body.nodes.empty() ? 0 : std::clamp(a, body.nodes.front(), body.nodes.back());
 }
 
 } // namespace
 
 SkinResponse::SkinResponse(std::shared_ptr<const SkinRig> rig)
-    : rig_(std::move(rig)), solver_(rig_->contactPatch.sheet), strain_(rig_->weave), watch_(*rig_),
-      planes_(rig_->rows.size() + rig_->pokes.size() + rig_->folds.size()),
-      still_(rig_->contactPatch.vertices.size(), Move::Zero()), positions_(rig_->rest),
-      normals_(rig_->restNormals), kernels_(skinKernels()), activations_(rig_->muscles.size(), 0),
-      poses_(rig_->muscles.size(), Pose::Identity()) {
-    places_.resize(rig_->rest.size() + rig_->border.size(), SkinPlace::Zero());
-    for (std::size_t b = 0; b < rig_->border.size(); ++b)
-        places_[rig_->rest.size() + b].head<3>() = rig_->border[b];
-    normalSums_.resize(places_.size());
+    : rig_(std::move(rig)), pushes_(rig_->foundation), planeOf_(rig_->rows.size(), 0),
+      seenOf_(rig_->rows.size(), 0), positions_(rig_->rest), normals_(rig_->restNormals),
+      activations_(rig_->bodies.size(), 0), poses_(rig_->bodies.size(), Pose::Identity()) {
+    normalSums_.resize(rig_->rest.size() + rig_->border.size());
 }
 
 SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<const Pose> poses) {
     bool same = true, rest = true;
-    for (std::size_t m = 0; m < rig_->muscles.size(); ++m) {
-        const double a = activationOf(activations, rig_->muscles[m], m);
+    for (std::size_t m = 0; m < rig_->bodies.size(); ++m) {
+        const double a = activationOf(activations, rig_->bodies[m], m);
         same = same && a == activations_[m];
         rest = rest && a == 0;
         activations_[m] = a;
@@ -53,131 +46,151 @@ SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<c
         if (!atRest_) toRest();
         return result;
     }
-    if (!same || !settled_) {
+    if (!same || atRest_) {
         atRest_ = false;
         result.moved = true;
-        placeMuscles(*rig_, activations_, poses_, scene_);
-        if (rig_->parameters.faithful)
-            pushOut();
-        else
-            solve(same);
+        if (rig_->parameters.faithful) {
+            positions_ = rig_->rest;
+            contacts_ = pushOut(rig_->spheres, activations_, poses_, rig_->restNormals, positions_);
+            scene_.skin.resize(positions_.size(), Move::Zero());
+            for (std::size_t v = 0; v < positions_.size(); ++v)
+                scene_.skin[v].head<3>() = ((positions_[v] - rig_->centre) / rig_->size).cast<float>();
+        } else {
+            placeBodies(*rig_, activations_, poses_, scene_);
+            start_ = scene_.skin;
+            resist();
+            for (std::size_t v = 0; v < positions_.size(); ++v)
+                positions_[v] =
+                    rig_->rest[v] + rig_->size * (scene_.skin[v] - rig_->places[v]).head<3>().cast<double>();
+        }
         findNormals();
     }
-    for (const SheetPlane& p : planes_) result.contacts += p.multiplier > 0;
+    result.contacts = contacts_;
     return result;
 }
 
 void SkinResponse::toRest() {
-    solver_.reset();
-    watch_.forget();
-    std::fill(planes_.begin(), planes_.end(), SheetPlane{});
     positions_ = rig_->rest;
     normals_ = rig_->restNormals;
-    residual_ = largest_ = 0;
-    settled_ = atRest_ = true;
-}
-
-/// [paper] Each skin sphere leaves the muscle sphere that it is deepest in, until it is in none.
-void SkinResponse::pushOut() {
-    positions_ = rig_->rest;
-    for (std::size_t r = 0; r < rig_->rows.size(); ++r) {
-        const SkinRow& row = rig_->rows[r];
-        const PlacedMuscle& muscle = scene_.muscles[row.muscle];
-        Vec3 x = positions_[row.vertex];
-        for (int round = 0; round < pushRounds; ++round) {
-            double deepest = 0;
-            Vec3 push = Vec3::Zero();
-            for (std::uint32_t k = row.first; k < row.last; ++k) {
-                const SkinTest& test = rig_->tests[k];
-                const Vec3 away = x - muscle.centres[test.sphere];
-                const double distance = away.norm();
-                const double depth = muscle.radii[test.sphere] + row.radius + test.restGap - distance;
-                if (depth <= deepest) continue;
-                deepest = depth;
-                push = distance > 0 ? Vec3(depth / distance * away)
-                                    : Vec3(depth * rig_->restNormals[row.vertex]);
-            }
-            if (deepest <= 0) break;
-            x += push;
-        }
-        positions_[row.vertex] = x;
-        planes_[r].multiplier = static_cast<float>((x - rig_->rest[row.vertex]).norm());
-    }
-    settled_ = true;
     residual_ = 0;
+    contacts_ = 0;
+    atRest_ = true;
 }
 
-void SkinResponse::solve(bool same) {
-    findContacts(same);
-    const int sweeps = rig_->parameters.iterations;
-    const float tolerance = static_cast<float>(settledShare * rig_->size);
-    const float calm = static_cast<float>(calmShare * largest_ / sweeps);
-    const std::vector<std::uint32_t>& patch = rig_->contactPatch.vertices;
-    residual_ = same ? solver_.solve(still_, planes_, sweeps, tolerance)
-                     : solver_.follow(planes_, sweeps, tolerance, calm);
-    settled_ = same && residual_ <= tolerance;
-    const std::span<const Move> moves = solver_.displacements();
-    positions_ = scene_.predicted;
-    float largest = 0;
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-        largest = std::max(largest, moves[i].head<3>().squaredNorm());
-        positions_[patch[i]] += scene_.turn.turned(patch[i], moves[i].head<3>().cast<double>());
-    }
-    largest_ = std::sqrt(static_cast<double>(largest));
-    strain_.relax(rig_->rest, planes_, patch, scene_.drag, scene_.turn, positions_);
-}
-
-void SkinResponse::findContacts(bool same) {
-    const std::size_t rows = rig_->rows.size(), pokes = rows + rig_->pokes.size();
-    const std::span<const std::uint32_t> patch = rig_->contactPatch.vertices;
-    for (std::size_t i = 0; i < planes_.size(); ++i) {
-        SheetPlane& plane = planes_[i];
-        if (!same && !watch_.due(*rig_, scene_, i, solver_.slack(plane))) continue;
-        const SkinContact contact = i < rows    ? rowContact(*rig_, scene_, i)
-                                    : i < pokes ? pokeContact(*rig_, scene_, i - rows)
-                                                : foldContact(*rig_, scene_, i - pokes);
-        const double offset = i < rows    ? rig_->rowOffsets[i]
-                              : i < pokes ? rig_->pokeOffsets[i - rows]
-                                          : rig_->foldOffsets[i - pokes];
-        const double radius = i < rows    ? rig_->rows[i].radius
-                              : i < pokes ? rig_->pokes[i - rows].radius
-                                          : rig_->foldRadius;
-        watch_.note(*rig_, scene_, i, contact);
-        Vec3 predicted = Vec3::Zero();
-        for (int k = 0; k < contact.vertices; ++k)
-            predicted +=
-                contact.weight[k] * (scene_.predicted[contact.vertex[k]] - rig_->rest[contact.vertex[k]]);
-        const double distance = contact.distance + contact.normal.dot(predicted);
-        // What is not quite believed asks for less, so that contacts come and go without a jump.
-        const double depth = offset - distance;
-        const double excess = (1 - contact.trust) * (std::max(depth, 0.0) + radius);
-        double bound = offset - contact.distance - excess;
+/// What a row that lacks nothing keeps until contacts have moved the skin there. Where nothing faced it, any
+/// move may change that.
+SkinResponse::Seen SkinResponse::seen(const SkinRow& row, const SkinPlane& plane) const {
+    Seen seen{plane, {}, 0};
+    if (plane.found()) {
+        seen.free = std::max(std::min(plane.gap, plane.distance - row.offset), 0.0f) / 2;
+    } else if (row.meeting == SkinMeeting::BodyOnSkin) {
+        seen.plane.vertices = 3;
         for (int k = 0; k < 3; ++k) {
-            const std::uint32_t v = contact.vertex[k];
-            const std::uint32_t inPatch = rig_->contactIndex[v];
-            const bool moves = inPatch != SkinRig::outside;
-            plane.vertex[k] = moves ? inPatch : 0;
-            plane.weight[k] = moves ? static_cast<float>(contact.weight[k]) : 0.0f;
-            bound -= contact.weight[k] * contact.normal.dot(scene_.drag[v].head<3>().cast<double>());
+            seen.plane.vertex[k] = static_cast<std::uint32_t>(row.corners[k]);
+            seen.plane.weight[k] = row.weights[k];
         }
-        plane.vertices = contact.vertices;
-        plane.bound = static_cast<float>(bound);
-        // The sheet is solved as it lies at rest, wherever bones have turned it.
-        Vec3 asAtRest = contact.normal;
-        if (!scene_.turn.none()) asAtRest = scene_.turn.of(cornersOf(plane, patch)).inverse() * asAtRest;
-        Move normal = Move::Zero();
-        normal.head<3>() = asAtRest.cast<float>();
-        // A push carried over to a normal that has turned away would cycle.
-        if (normal.dot(plane.normal) < 0.5f) plane.multiplier = 0;
-        plane.normal = normal;
+    } else {
+        seen.plane.vertices = 1;
+        seen.plane.vertex[0] = row.vertex;
+        seen.plane.weight[0] = 1;
+    }
+    seen.place = placeOf(scene_, seen.plane);
+    return seen;
+}
+
+bool SkinResponse::mayPush(std::uint32_t r) const {
+    if (seenOf_[r] == 0) return mayMeet(*rig_, scene_, rig_->rows[r]);
+    const Seen& seen = seen_[seenOf_[r] - 1];
+    return (placeOf(scene_, seen.plane) - seen.place).squaredNorm() > seen.free * seen.free;
+}
+
+/// Where a plane is found for the choice of the deepest: the node that bears most on it, and what meets.
+std::uint64_t SkinResponse::placeOfChoice(const SkinRow& row, const SkinPlane& plane) const {
+    const SkinFoundation& f = rig_->foundation;
+    const std::uint32_t first = f.start[plane.vertex[0]], last = f.start[plane.vertex[0] + 1];
+    const auto most = std::max_element(f.weight.begin() + first, f.weight.begin() + last);
+    const std::uint64_t node = first == last ? f.nodes : f.node[most - f.weight.begin()];
+    return (node * 3 + static_cast<std::uint64_t>(row.meeting)) * rig_->bodies.size() + row.body;
+}
+
+/// Of the planes that were found, the deepest at each node and body: pushes act through nodes, so that most
+/// of the others are met by it, and what is not is found again at the next look-up.
+void SkinResponse::addDeepest() {
+    std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+        return std::tie(a.place, a.plane.gap, a.row) < std::tie(b.place, b.plane.gap, b.row);
+    });
+    for (std::size_t k = 0; k < found_.size(); ++k) {
+        if (k > 0 && found_[k].place == found_[k - 1].place) continue;
+        rows_.push_back(found_[k].row);
+        planes_.push_back(found_[k].plane);
+        planeOf_[found_[k].row] = static_cast<std::uint32_t>(planes_.size());
+    }
+    found_.clear();
+}
+
+/// The skin leaves what it is carried into.
+void SkinResponse::resist() {
+    for (const std::uint32_t r : rows_) planeOf_[r] = 0;
+    for (const std::uint32_t r : seenRows_) seenOf_[r] = 0;
+    rows_.clear();
+    seenRows_.clear();
+    planes_.clear();
+    seen_.clear();
+    pushes_.clear();
+    residual_ = 0;
+    contacts_ = 0;
+    for (int round = 0; round < lookUps; ++round) {
+        bool open = false;
+        for (std::uint32_t r = 0; r < rig_->rows.size(); ++r) {
+            const SkinRow& row = rig_->rows[r];
+            if (planeOf_[r] > 0) {
+                SkinPlane& plane = planes_[planeOf_[r] - 1];
+                lookAgain(*rig_, scene_, row, plane);
+                open = open || plane.gap < -settled;
+                continue;
+            }
+            if (!mayPush(r)) continue;
+            const SkinPlane plane = lookUp(*rig_, scene_, row);
+            if (!plane.found() || !(plane.gap < 0)) {
+                if (seenOf_[r] == 0) {
+                    seenRows_.push_back(r);
+                    seenOf_[r] = static_cast<std::uint32_t>(seenRows_.size());
+                    seen_.emplace_back();
+                }
+                seen_[seenOf_[r] - 1] = seen(row, plane);
+                continue;
+            }
+            found_.push_back({placeOfChoice(row, plane), r, plane});
+            open = true;
+        }
+        addDeepest();
+        if (!open) break;
+        residual_ =
+            rig_->size * static_cast<double>(pushes_.solve(planes_, start_, rig_->parameters.iterations));
+        scene_.skin = start_;
+        contacts_ = pushes_.apply(planes_, scene_.skin);
     }
 }
 
 void SkinResponse::findNormals() {
-    for (std::size_t v = 0; v < positions_.size(); ++v) places_[v].head<3>() = positions_[v];
-    std::fill(normalSums_.begin(), normalSums_.end(), SkinPlace::Zero());
-    kernels_.normals(rig_->normalTriangles, places_.data(), normalSums_.data());
-    kernels_.normalise(normalSums_.data(), normals_);
+    std::fill(normalSums_.begin(), normalSums_.end(), Move::Zero());
+    const std::size_t inside = positions_.size();
+    const auto add = [&](const Tri& t, const Move& a, const Move& b, const Move& c) {
+        const Move n = (b - a).cross3(c - a);
+        for (int k = 0; k < 3; ++k) normalSums_[t[k]] += n;
+    };
+    const std::vector<Move>& skin = scene_.skin;
+    for (const Tri& t : rig_->triangles) add(t, skin[t[0]], skin[t[1]], skin[t[2]]);
+    const auto at = [&](int v) -> const Move& {
+        const auto u = static_cast<std::size_t>(v);
+        return u < inside ? skin[u] : rig_->borderPlaces[u - inside];
+    };
+    for (const Tri& t : rig_->borderTriangles) add(t, at(t[0]), at(t[1]), at(t[2]));
+    for (std::size_t v = 0; v < inside; ++v) {
+        const float squared = normalSums_[v].head<3>().squaredNorm();
+        normals_[v] = squared > 0 ? Vec3((normalSums_[v].head<3>() / std::sqrt(squared)).cast<double>())
+                                  : rig_->restNormals[v];
+    }
 }
 
 } // namespace tss

@@ -1,9 +1,5 @@
 #pragma once
-#include "bake/motion/Motion.h"
-#include "bake/respond/SkinContact.h"
-#include "bake/respond/SkinRig.h"
-#include "bake/respond/SkinStrain.h"
-#include "bake/respond/SkinWatch.h"
+#include "bake/respond/SkinPushes.h"
 
 #include <span>
 
@@ -16,24 +12,24 @@ struct SkinUpdate {
     std::size_t contacts = 0; ///< planes that push
 };
 
-/// A skin that follows its muscles (METHOD 6.3). One instance a skin on the screen; the rig is shared.
+/// A skin that follows its muscles and bones (METHOD 6.5). One instance a skin on the screen; the rig is
+/// shared.
 ///
-///     auto rig = makeSkinRig(skinMesh, muscles, table, parameters);   // at load
+///     auto rig = makeSkinRig(skinMesh, bodies, table, parameters);    // at load
 ///     SkinResponse response(rig);
-///     response.update(activations);                                   // each update traversal
+///     response.update(activations, poses);                            // each update traversal
 ///     for k: mesh.vertices[rig->vertices[k]] = response.positions()[k], and the same for normals()
 ///
-/// Quasi-static: no time step, no velocity; the state is the multipliers of the last update, which only make
-/// the next one converge sooner, and what of skin and contacts can wait since it has hardly moved. An update
-/// that changes nothing leaves nothing waiting. Same calls, same bits. With all activations 0 and all poses
-/// the identity the skin is exactly at rest, at once, whatever came before. Nothing is allocated any more
-/// once its lists have grown to what the motion asks for. Not thread-safe: one thread an instance.
+/// Quasi-static: no time step, no velocity, and no history: the skin is a function of the activations and
+/// poses alone, the same bits whatever came before. With all activations 0 and all poses the identity it is
+/// exactly at rest. Nothing is allocated any more once its lists have grown to what the motion asks for. Not
+/// thread-safe: one thread an instance.
 class SkinResponse {
 public:
     explicit SkinResponse(std::shared_ptr<const SkinRig> rig);
 
-    /// activations: one a muscle in the rig's order, missing ones count as 0, clamped to each muscle's range.
-    /// poses: motion of each muscle (its bone) since rest, in the skin's frame; empty: none moves.
+    /// activations: one a body in the rig's order, missing ones count as 0, clamped to each one's range.
+    /// poses: motion of each body (its bone) since rest, in the skin's frame; empty: none moves.
     SkinUpdate update(std::span<const double> activations, std::span<const Pose> poses = {});
 
     /// Of the touched vertices, rig().vertices: places in the skin's frame, and unit normals.
@@ -42,35 +38,49 @@ public:
 
     const SkinRig& rig() const { return *rig_; }
 
-    /// Largest change of a displacement in the last sweep of the last update, scene units: how far from
-    /// converged it is.
+    /// Largest change of a place in the last sweep of the last update, scene units: how far from converged it
+    /// is.
     double residual() const { return residual_; }
 
-    /// The muscles as they stood at the last update that moved something.
-    const SkinScene& scene() const { return scene_; }
-
 private:
+    /// A row that was looked up in this update and lacks nothing: not before it has come nearer by this much.
+    struct Seen {
+        SkinPlane plane;
+        Eigen::Vector3f place; ///< of what the plane holds, then
+        float free = 0;
+    };
+    /// A row that lacks something, and where: of each place the deepest is chosen.
+    struct Found {
+        std::uint64_t place = 0;
+        std::uint32_t row = 0;
+        SkinPlane plane;
+    };
+    std::uint64_t placeOfChoice(const SkinRow& row, const SkinPlane& plane) const;
+    Seen seen(const SkinRow& row, const SkinPlane& plane) const;
+    bool mayPush(std::uint32_t r) const;
     void toRest();
-    void pushOut();
-    void solve(bool same);
-    void findContacts(bool same);
+    void addDeepest();
+    void resist();
     void findNormals();
 
     std::shared_ptr<const SkinRig> rig_;
     SkinScene scene_;
-    SkinSolver solver_;
-    SkinStrain strain_;
-    SkinWatch watch_;
-    std::vector<SheetPlane> planes_; ///< rows, then pokes, then folds
-    std::vector<Move> still_;        ///< #vertices of the contact patch: the drags are taken in already
+    SkinPushes pushes_;
+    std::vector<SkinPlane> planes_;
+    std::vector<std::uint32_t> rows_;    ///< of planes_
+    std::vector<std::uint32_t> planeOf_; ///< #rows: 1 + its place in planes_, 0: none
+    std::vector<Found> found_;
+    std::vector<Seen> seen_;
+    std::vector<std::uint32_t> seenRows_; ///< of seen_
+    std::vector<std::uint32_t> seenOf_;   ///< #rows: 1 + its place in seen_, 0: none
+    std::vector<Move> start_;             ///< the skin as it is carried
     std::vector<Vec3> positions_, normals_;
-    const SkinKernels& kernels_;
-    std::vector<SkinPlace> places_;     ///< of the touched vertices, then of the border
-    std::vector<SkinPlace> normalSums_; ///< the same
+    std::vector<Move> normalSums_;
     std::vector<double> activations_;
     std::vector<Pose> poses_;
-    double residual_ = 0, largest_ = 0; ///< the latter of the sheet's displacements
-    bool atRest_ = true, settled_ = false;
+    double residual_ = 0;
+    std::size_t contacts_ = 0;
+    bool atRest_ = true;
 };
 
 } // namespace tss

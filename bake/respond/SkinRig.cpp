@@ -1,52 +1,55 @@
 #include "bake/respond/SkinRig.h"
 
 #include "bake/base/Error.h"
-#include "bake/respond/SkinContact.h"
-#include "bake/respond/SkinRigParts.h"
+#include "bake/base/Parallel.h"
+#include "bake/respond/SkinRows.h"
 #include "bake/respond/SkinWalk.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tss {
 namespace {
 
-using rig::Carried;
-
-constexpr double lookReach = 6;     ///< in thicknesses: how far contacts are looked for
-constexpr double foldReach = 3;     ///< in thicknesses: how far another part of the skin is looked for
-constexpr double sheetReach = 24;   ///< in thicknesses: how far beyond what is held or hit the sheet moves
-constexpr double contactReach = 12; ///< in thicknesses: how far around what may be pushed the sheet gives way
-constexpr int dragSteps = 6;        ///< nodes of a drag, without the first
-constexpr double rimStiffness = 8;  ///< extra hold at the edge of the touched part, falling off inwards
+constexpr std::uint32_t untouched = 0xffffffff;
+constexpr int bodySteps = 16; ///< stretches of a muscle's range that its surface is tabulated over
+/// In lengths of the ground: how far around what may be pushed the skin gives way.
+constexpr double giveReach = 7;
 
 void checkNumber(double value, const char* what) {
     if (!(value >= 0) || !std::isfinite(value))
         throw InputError(std::string(what) + " of a skin must be finite and at least 0");
 }
 
-void check(const TriangleMesh& skin, const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
-           const SkinTable& table, const SkinParameters& p) {
+void check(const TriangleMesh& skin, const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
+           const SkinParameters& p) {
     checkNumber(p.stretchCompliance, "the stretch compliance");
     checkNumber(p.bendCompliance, "the bend compliance");
-    checkNumber(p.fascia, "the fascia stiffness");
-    checkNumber(p.attachment, "the attachment stiffness");
     for (const auto* weights : {&p.tether, &p.attach}) {
         if (!weights->empty() && weights->size() != skin.vertices.size())
             throw InputError("tether and attach of a skin need one value a vertex");
         for (const double w : *weights)
             if (!(w >= 0 && w <= 1)) throw InputError("tether and attach of a skin lie in [0, 1]");
     }
-    if (!p.carry.empty() && p.carry.size() != muscles.size())
-        throw InputError("carry of a skin needs one value a muscle");
-    for (const double w : p.carry)
-        if (!(w >= 0 && w <= 1)) throw InputError("carry of a skin lies in [0, 1]");
+    if (!p.frames.empty() && p.frames.size() != bodies.size())
+        throw InputError("a skin needs one frame a muscle or bone below it");
+    for (const int frame : p.frames)
+        if (frame < -1 || frame >= static_cast<int>(bodies.size()))
+            throw InputError("a frame of a skin is numbered from 0 and fewer than its bodies");
+    for (const std::vector<double>& list : p.shares) {
+        if (list.size() != skin.vertices.size())
+            throw InputError("the shares of a skin need one value a vertex");
+        for (const double w : list)
+            if (!(w >= 0 && w <= 1)) throw InputError("the shares of a skin lie in [0, 1]");
+    }
     for (const BoneSwing& swing : p.swings)
         for (const std::vector<Pose>& station : swing)
-            if (station.size() != muscles.size())
-                throw InputError("the swings of the bones under a skin need one pose a muscle");
+            if (station.size() != bodies.size())
+                throw InputError("the swings of the bones under a skin need one pose a muscle or bone");
     if (p.iterations < 1) throw InputError("a skin needs at least one iteration");
+}
+
+void check(const TriangleMesh& skin, std::size_t bodies, const SkinTable& table) {
     const Table& t = table.table;
     if (table.skinVertices.size() != t.a.size() || table.muscleOf.size() != t.b.size() ||
         t.rowOffsets.size() != t.a.size() + 1)
@@ -55,9 +58,145 @@ void check(const TriangleMesh& skin, const std::vector<std::shared_ptr<const Mus
         if (v >= skin.vertices.size())
             throw InputError("the table of a skin names a vertex that it does not have");
     for (const std::uint32_t m : table.muscleOf)
-        if (m >= muscles.size()) throw InputError("the table of a skin names a muscle that it does not have");
+        if (m >= bodies) throw InputError("the table of a skin names a muscle that it does not have");
     for (const std::uint32_t c : t.columns)
         if (c >= t.b.size()) throw InputError("the table of a skin names a sphere that it does not have");
+}
+
+/// The vertices that anything may move, and the ring around them, whose normals turn. Returns where each
+/// vertex of the mesh is among them.
+std::vector<std::uint32_t> touch(SkinRig& rig, const SkinGround& ground, const SkinCarriage& carriage,
+                                 const std::vector<std::uint32_t>& pushed) {
+    const std::size_t count = ground.skin.vertices.size();
+    std::vector<double> distance(count, std::numeric_limits<double>::infinity());
+    lowerDistances(ground.graph, pushed, rig.parameters.faithful ? 0 : giveReach * ground.length, distance);
+    for (const auto* lists : {&carriage.frames, &carriage.muscles})
+        for (const auto& list : *lists)
+            for (std::size_t v = 0; v < list.size(); ++v)
+                if (list[v] > 0) distance[v] = 0;
+    std::vector<bool> keep(count, false);
+    for (std::uint32_t v = 0; v < count; ++v) {
+        if (!std::isfinite(distance[v])) continue;
+        keep[v] = true;
+        for (std::uint32_t e = ground.graph.start[v]; e < ground.graph.start[v + 1]; ++e)
+            keep[ground.graph.neighbour[e]] = true;
+    }
+    std::vector<std::uint32_t> indexOf(count, untouched);
+    for (const std::uint32_t v : alongCurve(ground.skin.vertices)) {
+        if (!keep[v]) continue;
+        indexOf[v] = static_cast<std::uint32_t>(rig.vertices.size());
+        rig.vertices.push_back(v);
+        rig.rest.push_back(ground.skin.vertices[v]);
+        rig.restNormals.push_back(ground.normals[v]);
+    }
+    return indexOf;
+}
+
+Move toMove(const Vec3& x) {
+    return {static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2]), 0};
+}
+
+Move placeOf(const SkinRig& rig, const Vec3& x) {
+    return toMove((x - rig.centre) / rig.size);
+}
+
+/// Splits the triangles: those of touched vertices only, and those that bear on a normal.
+void addTriangles(SkinRig& rig, const TriangleMesh& skin, const std::vector<std::uint32_t>& indexOf) {
+    std::vector<std::uint32_t> borderOf(skin.vertices.size(), untouched);
+    for (const Tri& t : skin.triangles) {
+        int inside = 0;
+        Tri local;
+        for (int k = 0; k < 3; ++k) inside += indexOf[t[k]] != untouched;
+        if (inside == 0) continue;
+        for (int k = 0; k < 3; ++k) {
+            std::uint32_t index = indexOf[t[k]];
+            if (index == untouched) {
+                std::uint32_t& border = borderOf[t[k]];
+                if (border == untouched) {
+                    border = static_cast<std::uint32_t>(rig.border.size());
+                    rig.border.push_back(skin.vertices[t[k]]);
+                }
+                index = static_cast<std::uint32_t>(rig.vertices.size()) + border;
+            }
+            local[k] = static_cast<int>(index);
+        }
+        (inside == 3 ? rig.triangles : rig.borderTriangles).push_back(local);
+    }
+    const auto byFirstVertex = [](const Tri& a, const Tri& b) { return a.minCoeff() < b.minCoeff(); };
+    std::stable_sort(rig.triangles.begin(), rig.triangles.end(), byFirstVertex);
+    rig.across = trianglesAcross(rig.triangles);
+    for (const Vec3& x : rig.rest) rig.places.push_back(placeOf(rig, x));
+    for (const Vec3& n : rig.restNormals) rig.placeNormals.push_back(toMove(n));
+    for (const Vec3& x : rig.border) rig.borderPlaces.push_back(placeOf(rig, x));
+}
+
+SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, std::uint32_t first) {
+    const Muscle& muscle = deformer.muscle();
+    SkinBody body;
+    body.first = first;
+    body.count = static_cast<std::uint32_t>(muscle.surface.vertices.size());
+    body.triangles = muscle.surface.triangles;
+    body.across = trianglesAcross(body.triangles);
+    body.nodes = activationNodes(muscle.activationLower, muscle.activationUpper, bodySteps);
+    body.frame = frame;
+    for (const Vec3& x : muscle.surface.vertices) body.rest.push_back(placeOf(rig, x));
+    TriangleMesh mesh = muscle.surface;
+    for (const double node : body.nodes) {
+        mesh.vertices = deformer.vertices(node);
+        for (const Vec3& x : mesh.vertices) body.places.push_back(placeOf(rig, x));
+        for (const Vec3& n : vertexNormals(mesh)) body.normals.push_back(toMove(n));
+        const Move* now = body.places.data() + body.places.size() - body.count;
+        float most = 0;
+        for (const Tri& t : body.triangles)
+            for (int k = 0; k < 3; ++k) {
+                const int i = t[k], j = t[(k + 1) % 3];
+                const Move edge = body.rest[i] - body.rest[j], change = now[i] - now[j] - edge;
+                if (edge.norm() > 0) most = std::max(most, change.norm() / edge.norm());
+            }
+        body.strain.push_back(most);
+    }
+    if (deformer.rigid()) {
+        mesh.vertices.clear();
+        for (const Move& x : body.rest) mesh.vertices.push_back(x.head<3>().cast<double>());
+        body.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
+        body.locator = std::make_shared<const MuscleLocator>(*body.mesh);
+    }
+    return body;
+}
+
+void addBodies(SkinRig& rig, const SkinGround& ground, const std::vector<int>& frames) {
+    std::uint32_t first = 0;
+    for (std::size_t m = 0; m < ground.bodies.size(); ++m) {
+        rig.bodies.push_back({});
+        rig.bodies.back().first = first;
+        first += static_cast<std::uint32_t>(ground.bodies[m]->muscle().surface.vertices.size());
+    }
+    parallelFor(rig.bodies.size(), [&](std::size_t m) {
+        rig.bodies[m] = bodyOf(rig, *ground.bodies[m], frames[m], rig.bodies[m].first);
+    });
+    rig.bodyVertices = first;
+}
+
+void addShares(SkinRig& rig, const SkinCarriage& carriage) {
+    rig.frames = carriage.frames.size();
+    rig.pullStart.push_back(0);
+    rig.frameStart.push_back(0);
+    for (const std::uint32_t v : rig.vertices) {
+        for (std::size_t m = 0; m < carriage.muscles.size(); ++m) {
+            if (carriage.muscles[m].empty() || !(carriage.muscles[m][v] > 0)) continue;
+            const NearestPoint& near = carriage.bound[m][v];
+            const Tri& corners = rig.bodies[m].triangles[near.triangle];
+            for (int k = 0; k < 3; ++k)
+                if (near.weights[k] > 0)
+                    rig.pulls.push_back({rig.bodies[m].first + static_cast<std::uint32_t>(corners[k]),
+                                         static_cast<float>(carriage.muscles[m][v] * near.weights[k])});
+        }
+        for (std::uint32_t f = 0; f < rig.frames; ++f)
+            if (carriage.frames[f][v] > 0)
+                rig.frameShares.push_back({f, static_cast<float>(carriage.frames[f][v])});
+        rig.pullStart.push_back(static_cast<std::uint32_t>(rig.pulls.size()));
+        rig.frameStart.push_back(static_cast<std::uint32_t>(rig.frameShares.size()));
+    }
 }
 
 double largestRadius(const Table& table) {
@@ -66,220 +205,25 @@ double largestRadius(const Table& table) {
     return radius;
 }
 
-/// The touched vertices, their rest places, and how they are held.
-struct Touched {
-    std::vector<std::uint32_t> indexOf; ///< of a skin vertex in rig.vertices, or past its end
-    std::vector<double> distance;       ///< along the sheet from what is held or hit
-    double reach = 0;
-};
-
-Touched touch(SkinRig& rig, const TriangleMesh& skin, const rig::Rings& rings, const SkinTable& table,
-              const std::vector<std::vector<Carried>>& close, double thickness,
-              const std::vector<Vec3>& normals) {
-    std::vector<std::uint32_t> sources = table.skinVertices;
-    for (const auto& list : close)
-        for (const Carried& c : list) sources.push_back(c.vertex);
-    std::sort(sources.begin(), sources.end());
-    sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
-
-    Touched touched;
-    touched.reach = rig.parameters.faithful ? 0 : sheetReach * thickness;
-    touched.distance = edgeDistances(skin, rings, sources, touched.reach);
-    // The ring around them does not move, but its normals turn.
-    std::vector<bool> keep(skin.vertices.size(), false);
-    for (std::uint32_t v = 0; v < skin.vertices.size(); ++v) {
-        if (!std::isfinite(touched.distance[v])) continue;
-        keep[v] = true;
-        for (const std::uint32_t w : rings.ring[v]) keep[w] = true;
-    }
-    touched.indexOf.assign(skin.vertices.size(), std::numeric_limits<std::uint32_t>::max());
-    for (const std::uint32_t v : rig::alongCurve(skin.vertices)) {
-        if (!keep[v]) continue;
-        touched.indexOf[v] = static_cast<std::uint32_t>(rig.vertices.size());
-        rig.vertices.push_back(v);
-        rig.rest.push_back(skin.vertices[v]);
-        rig.restNormals.push_back(normals[v]);
-    }
-    return touched;
-}
-
-/// Splits the triangles: those of touched vertices only, and those that bear on a normal.
-void addTriangles(SkinRig& rig, const TriangleMesh& skin, const Touched& touched) {
-    std::vector<std::uint32_t> borderOf(skin.vertices.size(), std::numeric_limits<std::uint32_t>::max());
-    for (const Tri& t : skin.triangles) {
-        int inside = 0;
-        Tri local;
-        for (int k = 0; k < 3; ++k) inside += touched.indexOf[t[k]] < rig.vertices.size();
-        if (inside == 0) continue;
-        for (int k = 0; k < 3; ++k) {
-            std::uint32_t index = touched.indexOf[t[k]];
-            if (index >= rig.vertices.size()) {
-                std::uint32_t& border = borderOf[t[k]];
-                if (border >= rig.border.size()) {
-                    border = static_cast<std::uint32_t>(rig.border.size());
-                    rig.border.push_back(skin.vertices[t[k]]);
-                }
-                index = static_cast<std::uint32_t>(rig.vertices.size()) + border;
-            }
-            local[k] = static_cast<int>(index);
-        }
-        if (inside == 3) rig.triangles.push_back(local);
-        rig.normalTriangles.push_back(local);
-    }
-    const auto byFirstVertex = [](const Tri& a, const Tri& b) { return a.minCoeff() < b.minCoeff(); };
-    std::stable_sort(rig.triangles.begin(), rig.triangles.end(), byFirstVertex);
-    std::stable_sort(rig.normalTriangles.begin(), rig.normalTriangles.end(), byFirstVertex);
-}
-
-/// Mass of a vertex from its area, 1 on average, so that the sheet behaves alike on meshes of uneven density.
-std::vector<double> areaMasses(const SkinRig& rig) {
-    std::vector<double> areas(rig.vertices.size(), 0);
-    for (const Tri& t : rig.triangles) {
-        const double area = (rig.rest[t[1]] - rig.rest[t[0]]).cross(rig.rest[t[2]] - rig.rest[t[0]]).norm();
-        for (int k = 0; k < 3; ++k) areas[t[k]] += area;
-    }
-    double mean = 0;
-    for (const double a : areas) mean += a / static_cast<double>(areas.size());
-    for (double& a : areas) a = mean > 0 ? std::clamp(a / mean, 0.1, 10.0) : 1;
-    return areas;
-}
-
-/// Stiffness of what holds a vertex to its rest place, beside the 1 that holds every one.
-double tetherOf(const SkinParameters& p, std::uint32_t vertex) {
-    const double tether = p.tether.empty() ? 0 : p.tether[vertex];
-    return p.attachment * tether / (1.001 - tether);
-}
-
-void addHolds(SkinRig& rig, const Touched& touched, const std::vector<std::vector<Carried>>& close) {
-    const SkinParameters& p = rig.parameters;
-    const std::vector<double> areas = areaMasses(rig);
-    std::vector<double> carried(rig.vertices.size(), 0);
-    for (const auto& list : close)
-        for (const Carried& c : list) carried[touched.indexOf[c.vertex]] += c.pull;
-    for (std::size_t i = 0; i < rig.vertices.size(); ++i) {
-        const std::uint32_t v = rig.vertices[i];
-        const double out = touched.reach > 0 ? std::min(1.0, touched.distance[v] / touched.reach) : 0;
-        const double kept = 1 + rimStiffness * out * out + tetherOf(p, v);
-        // Carried by the muscles for a share of the way: as if by springs so much stiffer than the first.
-        const double held = areas[i] * (kept + carried[i] / (1 - carried[i]));
-        rig.sheet.inverseMass.push_back(std::isfinite(touched.distance[v]) ? static_cast<float>(1 / held)
-                                                                           : 0);
-    }
-    for (std::size_t m = 0; m < close.size(); ++m)
-        for (const Carried& c : close[m]) {
-            const std::uint32_t i = touched.indexOf[c.vertex];
-            const double stiffness = areas[i] * c.pull / (1 - carried[i]);
-            rig.muscles[m].carried.push_back({i, static_cast<float>(stiffness) * rig.sheet.inverseMass[i]});
-        }
-}
-
-/// Returns where each sphere of the table is among its own muscle's.
-std::vector<std::uint32_t> addTracks(SkinRig& rig,
-                                     const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
-                                     const SkinTable& table, const std::vector<std::vector<Carried>>& close) {
-    std::vector<std::vector<Sphere>> spheres(muscles.size());
-    std::vector<std::uint32_t> own(table.table.b.size());
-    for (std::size_t b = 0; b < table.table.b.size(); ++b) {
-        auto& list = spheres[table.muscleOf[b]];
-        own[b] = static_cast<std::uint32_t>(list.size());
-        list.push_back(table.table.b[b]);
-    }
-    for (std::size_t m = 0; m < muscles.size(); ++m) {
-        const MuscleDeformer& deformer = *muscles[m];
-        SkinMuscle& muscle = rig.muscles[m];
-        const std::vector<double> nodes =
-            activationNodes(deformer.muscle().activationLower, deformer.muscle().activationUpper);
-        std::vector<MusclePoint> points;
-        for (const Sphere& s : spheres[m]) {
-            points.push_back(deformer.bind(s.centre));
-            muscle.radii.push_back(s.radius);
-        }
-        muscle.spheres = makeTrack(deformer, points, nodes);
-        muscle.surface = makeTrack(deformer, deformer.surfacePoints(), nodes);
-        points.clear();
-        for (const Carried& c : close[m]) points.push_back(c.point);
-        muscle.skin = makeTrack(deformer, points, nodes);
-        muscle.rest = deformer.muscle().surface.vertices;
-        muscle.triangles = deformer.muscle().surface.triangles;
-    }
-    return own;
-}
-
-/// Splits each row of the table by the muscles that it meets.
-void addRows(SkinRig& rig, const SkinTable& table, const Touched& touched,
-             const std::vector<std::uint32_t>& own) {
-    const Table& t = table.table;
-    for (std::size_t i = 0; i < t.a.size(); ++i)
-        for (std::uint32_t m = 0; m < rig.muscles.size(); ++m) {
-            SkinRow row;
-            row.vertex = touched.indexOf[table.skinVertices[i]];
-            row.muscle = m;
-            row.radius = t.a[i].radius;
-            row.first = static_cast<std::uint32_t>(rig.tests.size());
-            for (std::uint32_t k = t.rowOffsets[i]; k < t.rowOffsets[i + 1]; ++k)
-                if (table.muscleOf[t.columns[k]] == m)
-                    rig.tests.push_back({own[t.columns[k]], t.restGaps.empty() ? 0 : t.restGaps[k]});
-            row.last = static_cast<std::uint32_t>(rig.tests.size());
-            if (row.last > row.first) rig.rows.push_back(row);
-        }
-}
-
-/// What each row and poke keeps: its own distance at rest where that is less than the thickness. Found by the
-/// look-up of the run time, or the skin would never come back to rest (METHOD 6.2).
-void addOffsets(SkinRig& rig) {
-    SkinScene scene;
-    const std::vector<double> none(rig.muscles.size(), 0.0);
-    placeMuscles(rig, none, std::vector<Pose>(rig.muscles.size(), Pose::Identity()), scene);
-    for (std::size_t i = 0; i < rig.rows.size(); ++i) {
-        const double radius = rig.rows[i].radius;
-        const SkinContact c = rowContact(rig, scene, i);
-        rig.rowOffsets.push_back(c.found() ? std::min(c.distance, radius) : radius);
-    }
-    for (std::size_t i = 0; i < rig.pokes.size(); ++i) {
-        const SkinContact c = pokeContact(rig, scene, i);
-        rig.pokeOffsets.push_back(c.found() ? std::min(c.distance, rig.pokes[i].radius)
-                                            : rig.pokes[i].radius);
-    }
-    for (std::size_t i = 0; i < rig.folds.size(); ++i) {
-        const SkinContact c = foldContact(rig, scene, i);
-        rig.foldOffsets.push_back(c.found() ? std::min(c.distance, 0.0) : 0);
-    }
-}
-
-void addDrags(SkinRig& rig, const TriangleMesh& skin, const rig::Rings& rings,
-              const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles, double reach) {
-    for (std::size_t m = 0; m < rig.muscles.size(); ++m) {
-        SkinMuscle& muscle = rig.muscles[m];
-        const Muscle& source = muscles[m]->muscle();
-        muscle.drag.nodes = activationNodes(source.activationLower, source.activationUpper, dragSteps);
-        std::vector<std::uint32_t> carried;
-        for (const SkinCarry& c : muscle.carried) carried.push_back(c.vertex);
-        rig::addDrag(rig, rig::patchAround(rig, skin, rings, carried, reach), muscle);
-    }
-}
-
-void addContactPatch(SkinRig& rig, const TriangleMesh& skin, const rig::Rings& rings, double reach) {
-    std::vector<std::uint32_t> vertices;
-    for (const SkinRow& row : rig.rows) vertices.push_back(row.vertex);
-    for (const SkinMuscle& muscle : rig.muscles)
-        for (const SkinCarry& c : muscle.carried) vertices.push_back(c.vertex);
-    for (const int t : rig.pokeTriangles)
-        if (t >= 0)
-            for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<std::uint32_t>(rig.triangles[t][k]));
-    for (const SkinFold& fold : rig.folds) {
-        vertices.push_back(fold.vertex);
-        for (std::uint32_t k = fold.first; k < fold.last; ++k)
-            for (const int corner : rig.triangles[rig.foldTriangles[k]])
-                vertices.push_back(static_cast<std::uint32_t>(corner));
-    }
-    rig.contactPatch = rig::patchAround(rig, skin, rings, vertices, reach);
-    // The walk of a poke may end a little outside: there, and beyond, nothing moves.
-    rig.contactIndex.assign(rig.rest.size(), SkinRig::outside);
-    for (std::uint32_t i = 0; i < rig.contactPatch.vertices.size(); ++i)
-        rig.contactIndex[rig.contactPatch.vertices[i]] = i;
-}
-
 } // namespace
+
+Pose SkinRig::local(const Pose& pose) const {
+    Pose result = pose;
+    result.translation() = (pose * centre - centre) / size;
+    return result;
+}
+
+std::size_t SkinRig::bytes() const {
+    std::size_t sum = foundation.bytes() + rows.size() * sizeof(SkinRow) + pulls.size() * sizeof(SkinPull) +
+                      frameShares.size() * sizeof(SkinFrameShare) +
+                      4 * (pullStart.size() + frameStart.size()) +
+                      vertices.size() * (2 * sizeof(Vec3) + 2 * sizeof(Move)) +
+                      (2 * triangles.size() + borderTriangles.size()) * sizeof(Tri);
+    for (const SkinBody& body : bodies)
+        sum += (body.rest.size() + body.places.size() + body.normals.size()) * sizeof(Move) +
+               2 * body.triangles.size() * sizeof(Tri);
+    return sum;
+}
 
 std::vector<Vec3> skinNormals(const TriangleMesh& skin) {
     std::vector<Vec3> normals(skin.vertices.size(), Vec3::Zero());
@@ -288,66 +232,87 @@ std::vector<Vec3> skinNormals(const TriangleMesh& skin) {
         const Vec3 n = (skin.vertices[t[1]] - a).cross(skin.vertices[t[2]] - a);
         for (int k = 0; k < 3; ++k) normals[t[k]] += n;
     }
-    for (Vec3& n : normals) n.normalize();
+    for (Vec3& n : normals)
+        if (n.squaredNorm() > 0) n.normalize();
     return normals;
 }
 
 SkinMoves skinMoves(const TriangleMesh& skin,
-                    const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
-                    const SkinParameters& parameters, double thickness) {
+                    const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
+                    const SkinParameters& parameters) {
+    check(skin, bodies, parameters);
     SkinMoves moves;
-    moves.stray.assign(muscles.size(), std::vector<double>(skin.vertices.size(), 0));
+    moves.stray.assign(bodies.size(), std::vector<double>(skin.vertices.size(), 0));
     moves.shares = moves.stray;
-    const auto carried =
-        rig::carriedSkin(skin, skinNormals(skin), rig::rings(skin), muscles, parameters, thickness);
-    std::vector<double> total(skin.vertices.size(), 0);
-    for (const auto& list : carried)
-        for (const Carried& c : list) total[c.vertex] += c.pull;
-    for (std::size_t m = 0; m < muscles.size(); ++m)
-        for (const Carried& c : carried[m]) {
-            moves.shares[m][c.vertex] = c.pull / (1 + (1 - total[c.vertex]) * tetherOf(parameters, c.vertex));
-            for (std::size_t other = 0; other < muscles.size(); ++other)
-                if (other != m) moves.stray[other][c.vertex] += c.pull * c.contracted;
+    const SkinGround ground(skin, bodies);
+    const std::vector<int> frames = framesOf(ground, parameters);
+    const SkinCarriage carriage = carrySkin(ground, parameters);
+    std::vector<bool> taken(carriage.frames.size(), false);
+    for (std::size_t m = 0; m < bodies.size(); ++m)
+        if (frames[m] >= 0 && !taken[frames[m]]) {
+            taken[frames[m]] = true;
+            moves.shares[m] = carriage.frames[frames[m]];
         }
+    for (std::size_t m = 0; m < bodies.size(); ++m) {
+        if (carriage.muscles[m].empty()) continue;
+        const Muscle& muscle = bodies[m]->muscle();
+        std::vector<double> most(muscle.surface.vertices.size(), 0);
+        for (const double node : activationNodes(muscle.activationLower, muscle.activationUpper, bodySteps)) {
+            const std::vector<Vec3> now = bodies[m]->vertices(node);
+            for (std::size_t v = 0; v < most.size(); ++v)
+                most[v] = std::max(most[v], (now[v] - muscle.surface.vertices[v]).norm());
+        }
+        for (std::size_t v = 0; v < skin.vertices.size(); ++v) {
+            if (!(carriage.muscles[m][v] > 0)) continue;
+            double moved = 0;
+            for (const int corner : muscle.surface.triangles[carriage.bound[m][v].triangle])
+                moved = std::max(moved, most[corner]);
+            for (std::size_t other = 0; other < bodies.size(); ++other)
+                if (other != m) moves.stray[other][v] += carriage.muscles[m][v] * moved;
+        }
+    }
     return moves;
 }
 
 std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
-                                           const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles,
+                                           const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
                                            const SkinTable& table, const SkinParameters& parameters) {
-    check(skin, muscles, table, parameters);
+    check(skin, bodies, parameters);
+    check(skin, bodies.size(), table);
     auto result = std::make_shared<SkinRig>();
     SkinRig& rig = *result;
     rig.parameters = parameters;
-    rig.size = skin.vertices.empty() ? 0 : bounds(skin).diagonal().norm();
-    rig.travel = table.travel;
-    rig.muscles.resize(muscles.size());
-    const double thickness = largestRadius(table.table);
-    const double reach = lookReach * thickness;
-
-    const rig::Rings rings = rig::rings(skin);
-    const std::vector<Vec3> normals = skinNormals(skin);
-    std::vector<std::vector<Carried>> close(muscles.size());
-    if (!parameters.faithful) close = rig::carriedSkin(skin, normals, rings, muscles, parameters, thickness);
-
-    const Touched touched = touch(rig, skin, rings, table, close, thickness, normals);
-    addTriangles(rig, skin, touched);
-    addHolds(rig, touched, close);
-    const std::vector<std::uint32_t> own = addTracks(rig, muscles, table, close);
-    addRows(rig, table, touched, own);
-    if (!parameters.faithful) {
-        rig::addSheet(rig, rings, touched.indexOf);
-        rig.across = trianglesAcross(rig.triangles);
-        rig.weave = makeWeave(rig.rest, rig.triangles, rig.sheet.inverseMass);
-        addDrags(rig, skin, rings, muscles, touched.reach);
-        for (std::uint32_t m = 0; m < muscles.size(); ++m) {
-            rig::addRowTriangles(rig, m, reach);
-            rig::addPokes(rig, m, thickness, reach);
-        }
-        if (parameters.selfContact) rig::addFolds(rig, thickness, foldReach * thickness);
+    const SkinGround ground(skin, bodies);
+    rig.size = ground.size;
+    if (!skin.vertices.empty()) rig.centre = bounds(skin).center();
+    rig.radius = static_cast<float>(std::max(largestRadius(table.table), 1e-3 * rig.size) / rig.size);
+    SkinCarriage carriage;
+    std::vector<SkinBefore> before;
+    std::vector<std::uint32_t> pushed;
+    if (parameters.faithful) {
+        pushed = table.skinVertices;
+    } else {
+        carriage = carrySkin(ground, parameters);
+        before = skinBefore(ground, table);
+        for (const SkinBefore& b : before) pushed.push_back(b.vertex);
     }
-    if (!parameters.faithful) addOffsets(rig);
-    addContactPatch(rig, skin, rings, contactReach * thickness);
+    const std::vector<std::uint32_t> indexOf = touch(rig, ground, carriage, pushed);
+    addTriangles(rig, skin, indexOf);
+    addBodies(rig, ground, framesOf(ground, parameters));
+    addShares(rig, carriage);
+    if (parameters.faithful) {
+        rig.spheres = skinSpheres(table, bodies, indexOf);
+        return result;
+    }
+    if (rig.rest.empty()) return result;
+    const std::vector<bool> mayBePushed = addRows(rig, before, indexOf);
+    TriangleMesh local{{}, rig.triangles};
+    for (const Move& x : rig.places) local.vertices.push_back(x.head<3>().cast<double>());
+    std::vector<double> firmness;
+    for (const std::uint32_t v : rig.vertices) firmness.push_back(carriage.firmness[v]);
+    rig.foundation = skinFoundation(local, skinGraph(local), mayBePushed, firmness, ground.length / rig.size,
+                                    parameters.stretchCompliance, parameters.bendCompliance);
+    measureRows(rig);
     return result;
 }
 

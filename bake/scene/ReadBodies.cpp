@@ -6,15 +6,21 @@ namespace tss {
 
 namespace {
 
-/// Xforms that are bodies: rigid ones, and those that a joint or a muscle names.
+/// Xforms that are bodies: rigid ones, and those that a joint, a muscle or a skin names.
 std::set<std::string> namedBodies(const SceneReading& reading) {
     std::set<std::string> named;
-    for (std::size_t i = 0; i < reading.index.entries.size(); ++i)
-        for (const char* relationship : {schema::body0, schema::body1, schema::bodies, schema::bone}) {
+    for (std::size_t i = 0; i < reading.index.entries.size(); ++i) {
+        for (const char* relationship :
+             {schema::body0, schema::body1, schema::bodies, schema::bone, schema::bones}) {
             const Property* property = reading.index.entries[i].prim->property(relationship);
             if (property && property->isRelationship())
                 for (const std::string& path : listItems(*property->targetPaths)) named.insert(path);
         }
+        if (!hasApi(*reading.index.entries[i].prim, "TssSkinAPI")) continue;
+        const Property* joints = reading.index.entries[i].prim->property(schema::skelJoints.name);
+        if (joints && joints->defaultValue)
+            for (const std::string& path : listItems(*joints->defaultValue)) named.insert(path);
+    }
     return named;
 }
 

@@ -58,10 +58,14 @@ std::vector<std::string> freeTokens(const PrimReader& prim) {
     return tokens;
 }
 
-/// tss:dofOrder, checked against what the joint leaves free; paths come on top.
+/// tss:dofOrder, checked against what the joint leaves free; paths come on top, last where no order is given.
 std::vector<std::string> readOrder(const PrimReader& prim) {
     auto free = freeTokens(prim);
-    if (!prim.value(schema::dofOrder)) return free;
+    if (!prim.value(schema::dofOrder)) {
+        const std::size_t paths = prim.reals(schema::pathRows).size();
+        for (std::size_t k = 0; k < paths; ++k) free.push_back("path" + std::to_string(k));
+        return free;
+    }
     auto order = prim.texts(schema::dofOrder);
     std::set<std::string> seen;
     for (const std::string& token : order) {
@@ -159,8 +163,8 @@ std::vector<std::vector<PathRow>> readPaths(const PrimReader& prim) {
     return paths;
 }
 
-void readPath(const PrimReader& prim, std::size_t which, Dof& dof) {
-    const auto paths = readPaths(prim);
+void readPath(const PrimReader& prim, const std::vector<std::vector<PathRow>>& paths, std::size_t which,
+              Dof& dof) {
     if (which >= paths.size()) {
         prim.problem(schema::dofOrder, "expected a path of tss:paths, found path" + std::to_string(which) +
                                            " of " + std::to_string(paths.size()));
@@ -230,6 +234,9 @@ double restWithin(const Dof& dof, double rest, bool given) {
 void readDofs(const PrimReader& prim, Joint& joint) {
     const auto order = readOrder(prim);
     const auto scales = readScales(prim, order);
+    const bool hasPaths = std::any_of(order.begin(), order.end(),
+                                      [](const std::string& token) { return token.starts_with("path"); });
+    const auto paths = hasPaths ? readPaths(prim) : std::vector<std::vector<PathRow>>();
     const auto rests = onePerDof(prim, schema::rest, order.size(), 0);
     auto names = prim.texts(schema::dofNames);
     if (prim.has(schema::dofNames) && names.size() != order.size())
@@ -242,7 +249,7 @@ void readDofs(const PrimReader& prim, Joint& joint) {
         dofFromToken(order[k], dof, path);
         const DofSlots slots = slotsOf(prim, order[k]);
         if (dof.kind == DofKind::Path)
-            readPath(prim, path, dof);
+            readPath(prim, paths, path, dof);
         else
             readLimits(prim, slots, scales[k], dof);
         dof.name = names[k];

@@ -1,5 +1,7 @@
 #include "bake/scene/SceneReading.h"
 
+#include <algorithm>
+
 namespace tss {
 
 namespace {
@@ -56,6 +58,24 @@ std::vector<double> readWeights(const PrimReader& prim, const Attribute& attribu
     return prim.reals(attribute, vertices, Range{0, 1});
 }
 
+/// The bodies that a skin lies on: any mesh but its own.
+void readBones(const SceneReading& reading, const PrimReader& prim, SkinModel& skin) {
+    for (const std::string& path : prim.targets(schema::bones)) {
+        const int bone = reading.body(prim, schema::bones, path);
+        if (bone < 0) continue;
+        const bool again = std::find(skin.bones.begin(), skin.bones.end(), bone) != skin.bones.end();
+        const char* wanted = bone == skin.body                         ? "another body than the skin"
+                             : reading.scene.bodies[bone].mesh.empty() ? "a mesh with faces"
+                             : again                                   ? "each bone once"
+                                                                       : nullptr;
+        if (wanted)
+            reading.problems.add(prim.placeOf(schema::bones, "targetPaths"),
+                                 std::string("expected ") + wanted + ", found \"" + path + "\"");
+        else
+            skin.bones.push_back(bone);
+    }
+}
+
 } // namespace
 
 void readMuscles(SceneReading& reading) {
@@ -88,6 +108,7 @@ void readSkins(SceneReading& reading) {
                 reading.problems.add(prim.placeOf(schema::muscles, "targetPaths"),
                                      "expected the path of a TssMuscle, found \"" + path + "\"");
         }
+        readBones(reading, prim, skin);
         constexpr Range positive{0};
         skin.thickness = prim.real(schema::thickness, 0, positive);
         skin.travel = prim.real(schema::travel, 0, positive);
@@ -97,6 +118,7 @@ void readSkins(SceneReading& reading) {
         const std::size_t vertices = reading.scene.bodies[skin.body].mesh.vertices.size();
         skin.tether = readWeights(prim, schema::tether, vertices);
         skin.attach = readWeights(prim, schema::attach, vertices);
+        skin.weights = readSkinWeights(reading, prim, vertices);
         skin.settings = readSettings(prim);
         reading.scene.skins.push_back(std::move(skin));
     }

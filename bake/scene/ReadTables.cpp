@@ -208,7 +208,7 @@ void readSkinTable(SceneReading& reading, const PrimReader& prim, SkinModel& ski
                                                    ", found " + std::to_string(index));
     };
     check(table->skinVertices, table->table.a.size(), vertices, schema::skinVertices);
-    check(table->muscleOf, table->table.b.size(), skin.muscles.size(), schema::muscleOf);
+    check(table->muscleOf, table->table.b.size(), skin.muscles.size() + skin.bones.size(), schema::muscleOf);
     skin.table = std::move(table);
 }
 

@@ -56,6 +56,8 @@ void readJoints(SceneReading& reading);
 void readPairs(SceneReading& reading);
 void readMuscles(SceneReading& reading);
 void readSkins(SceneReading& reading);
+/// The weights that a skin of so many vertices brings along.
+SkinWeights readSkinWeights(const SceneReading& reading, const PrimReader& prim, std::size_t vertices);
 /// Tables and proofs of pairs and skins.
 void readTables(SceneReading& reading);
 

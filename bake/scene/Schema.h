@@ -121,6 +121,7 @@ inline constexpr Attribute activationRange{"tss:activationRange", "double2", tru
 inline constexpr Attribute activation{"tss:activation", "double"};
 
 // TssSkinAPI
+inline constexpr const char* bones = "tss:bones";
 inline constexpr const char* muscles = "tss:muscles";
 inline constexpr Attribute thickness{"tss:thickness", "double", true};
 inline constexpr Attribute travel{"tss:travel", "double", true};
@@ -129,6 +130,10 @@ inline constexpr Attribute bendCompliance{"tss:bendCompliance", "double", true};
 inline constexpr Attribute selfContact{"tss:selfContact", "bool", true};
 inline constexpr Attribute tether{"primvars:tss:tether", "float[]"};
 inline constexpr Attribute attach{"primvars:tss:attach", "float[]"};
+// UsdSkel's, of a skin with weights of its own
+inline constexpr Attribute skelJoints{"skel:joints", "token[]", true};
+inline constexpr Attribute jointIndices{"primvars:skel:jointIndices", "int[]"};
+inline constexpr Attribute jointWeights{"primvars:skel:jointWeights", "float[]"};
 
 /// Settings of a bake: tss:bake:<option of `tss bake`, - written as _>, a string each.
 inline constexpr const char* bakePrefix = "tss:bake:";

@@ -25,6 +25,17 @@ std::vector<std::string> pathsOf(const Items& items, const std::vector<int>& ind
     return paths;
 }
 
+void writeWeights(PrimWriter& prim, const SceneModel& scene, const SkinWeights& weights) {
+    if (weights.joints.empty()) return;
+    prim.set(schema::skelJoints, pathsOf(scene.bodies, weights.joints));
+    prim.set(schema::jointIndices, weights.indices);
+    prim.set(schema::jointWeights, weights.weights);
+    for (const Attribute& attribute : {schema::jointIndices, schema::jointWeights}) {
+        prim.setMetadata(attribute, "elementSize", static_cast<double>(weights.influences));
+        prim.setMetadata(attribute, "interpolation", "vertex");
+    }
+}
+
 } // namespace
 
 void writePair(Layer& layer, const SceneModel& scene, const Pair& pair) {
@@ -64,7 +75,9 @@ void writeSkins(Layer& layer, const SceneModel& scene) {
     for (const SkinModel& skin : scene.skins) {
         PrimWriter prim(makePrim(layer, skin.path, "Mesh"));
         addApi(prim.prim(), "TssSkinAPI");
-        prim.setTargets(schema::muscles, pathsOf(scene.muscles, skin.muscles));
+        if (!skin.bones.empty()) prim.setTargets(schema::bones, pathsOf(scene.bodies, skin.bones));
+        if (!skin.muscles.empty() || skin.bones.empty())
+            prim.setTargets(schema::muscles, pathsOf(scene.muscles, skin.muscles));
         prim.setUnless(schema::thickness, skin.thickness, 0.0);
         prim.setUnless(schema::travel, skin.travel, 0.0);
         prim.setUnless(schema::stretchCompliance, skin.stretchCompliance, 0.0);
@@ -76,6 +89,7 @@ void writeSkins(Layer& layer, const SceneModel& scene) {
                 prim.set(attribute, *weights);
                 prim.setMetadata(attribute, "interpolation", "vertex");
             }
+        writeWeights(prim, scene, skin.weights);
         writeSettings(prim.prim(), skin.settings);
     }
 }

@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
 #include "bake/geometry/TriangleDistance.h"
+#include "bake/motion/PoseBlend.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,9 +78,14 @@ SwungPaths swungPaths(const SkinSearchOptions& options, std::size_t m, const Vec
         std::vector<Vec3> path{x};
         bool moves = false;
         for (const std::vector<Pose>& station : swing) {
-            Vec3 y = x;
+            PoseBlend blend;
+            bool carried = false;
             for (std::size_t k = 0; k < options.shares.size(); ++k)
-                if (options.shares[k][v] > 0) y += options.shares[k][v] * (station[k] * x - x);
+                if (options.shares[k][v] > 0 && station[k].matrix() != Pose::Identity().matrix()) {
+                    blend.add(options.shares[k][v], DualPose(station[k]));
+                    carried = true;
+                }
+            const Vec3 y = carried ? blend.pose() * x : x;
             path.push_back(station[m].inverse() * y);
             moves = moves || path.back() != x;
         }

@@ -48,9 +48,9 @@ double skinThickness(const TriangleMesh& skin);
 /// covered without gaps, but not all bones and muscles together: the table is not certified. Spheres move as
 /// their MuscleTrack, linear between its nodes, and each stretch is tested as the capsule it sweeps; the run
 /// time moves them on the same track. Bones swing one joint value at a time, the others at rest; a vertex
-/// moves against them by its shares, linear between the stations but for a tenth of each step. One skin
-/// sphere a vertex; rows of skin out of reach do not exist. restGaps: the negative gap of a pair that
-/// overlaps at activation 0 (2.4). Same table for any number of threads.
+/// moves with the blend of their motions by its shares, linear between the stations but for a tenth of each
+/// step. One skin sphere a vertex; rows of skin out of reach do not exist. restGaps: the negative gap of a
+/// pair that overlaps at activation 0 (2.4). Same table for any number of threads.
 SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscle>& muscles,
                      const SkinSearchOptions& options, const Progress& progress = {},
                      SkinSearchCounts* counts = nullptr);

@@ -3,9 +3,11 @@
 #include "bake/geometry/Import.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/model/AddPair.h"
+#include "bake/model/ShowMotion.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
+#include "bake/tool/RobotCommand.h"
 
 #include <cctype>
 #include <cmath>
@@ -21,6 +23,7 @@ struct MakeArguments {
     std::string output, a, b, offset = "0,0,0", rest, unit = "1";
     double metersPerUnit = 1; ///< what `unit` says
     std::vector<std::string> dofs;
+    RobotArguments robot;
 };
 
 int addBody(SceneModel& scene, const std::string& file, const Vec3& color, Json& audits,
@@ -67,22 +70,6 @@ Motion parseMotion(const MakeArguments& arguments) {
     return motion;
 }
 
-/// A motion to look at: one degree of freedom after the other goes from rest to its lower limit, to its upper
-/// one and back, two seconds each.
-void addMotion(SceneModel& scene, const Pair& pair) {
-    constexpr double codes = 48;
-    double start = 0;
-    for (int index : pair.joints) {
-        Joint& joint = scene.joints[index];
-        for (std::size_t k = 0; k < joint.dofs.size(); ++k, start += codes) {
-            const Dof& dof = joint.dofs[k];
-            joint.drives[k] = {{start, start + codes / 4, start + codes * 3 / 4, start + codes},
-                               {dof.rest, dof.lower, dof.upper, dof.rest}};
-        }
-    }
-    scene.endTimeCode = start;
-}
-
 /// An axis far away from both bodies, A and B of the scene, is mostly one in another unit.
 void remarkFarAxes(const Motion& motion, const SceneModel& scene, const Console& console) {
     constexpr double far = 10; // of their size
@@ -126,7 +113,8 @@ void remarkRadians(const Motion& motion, const Console& console) {
 
 /// The output is a scene: no input, and none that looks like a mesh.
 void checkOutput(const MakeArguments& arguments) {
-    refuseOverwriting(arguments.output, {arguments.a, arguments.b});
+    refuseOverwriting(arguments.output,
+                      {arguments.a, arguments.b, arguments.robot.input, arguments.robot.srdf});
     expectFolder(arguments.output);
     std::string extension = std::filesystem::path(arguments.output).extension().string();
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -149,8 +137,21 @@ double parseUnit(const std::string& text) {
     return metres;
 }
 
+/// A robot's file, or two meshes and a motion: one of the two, and all of it.
+void checkUsage(const MakeArguments& arguments) {
+    if (!arguments.robot.input.empty()) return;
+    if (arguments.a.empty()) throw CLI::RequiredError("--a, or a robot's file");
+    if (arguments.b.empty()) throw CLI::RequiredError("--b");
+    if (arguments.dofs.empty()) throw CLI::RequiredError("--dof");
+}
+
 void make(MakeArguments& arguments, const Console& console) {
+    checkUsage(arguments);
     checkOutput(arguments);
+    if (!arguments.robot.input.empty()) {
+        arguments.robot.output = arguments.output;
+        return makeRobot(arguments.robot, console);
+    }
     arguments.metersPerUnit = parseUnit(arguments.unit);
     SceneModel scene;
     scene.metersPerUnit = arguments.metersPerUnit;
@@ -160,7 +161,7 @@ void make(MakeArguments& arguments, const Console& console) {
     const int a = addBody(scene, arguments.a, {0.82, 0.77, 0.66}, audits, console);
     const int b = addBody(scene, arguments.b, {0.74, 0.64, 0.48}, audits, console);
     const int pair = addPair(scene, a, b, motion, "Joint");
-    addMotion(scene, scene.pairs[pair]);
+    addShowMotion(scene);
     saveScene(scene, arguments.output);
     console.say("joint  " + describeDofs(motion));
     remarkSizes(scene, console);
@@ -172,14 +173,46 @@ void make(MakeArguments& arguments, const Console& console) {
 
 } // namespace
 
+namespace {
+
+void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& arguments) {
+    RobotArguments& robot = arguments->robot;
+    CLI::Option* input =
+        command.add_option("robot", robot.input, "a robot's file, in place of --a, --b and --dof: a URDF");
+    command
+        .add_option(
+            "--package", robot.packages,
+            "NAME=DIR: the folder of package://NAME/...; repeat. Else it is looked for upwards from the file")
+        ->needs(input)
+        ->allow_extra_args(false);
+    command.add_option("--srdf", robot.srdf, "an SRDF: pairs that it switches off are left out")
+        ->needs(input);
+    command
+        .add_option("--geometry", robot.geometry,
+                    "collision or visual: the shapes that a link is made of; the others "
+                    "where it has none of these")
+        ->check(CLI::IsMember({"collision", "visual"}))
+        ->needs(input)
+        ->capture_default_str();
+    command
+        .add_option("--pairs", robot.pairs,
+                    "neighbours: of each joint; all: of all links that move against each other")
+        ->check(CLI::IsMember({"neighbours", "all"}))
+        ->needs(input)
+        ->capture_default_str();
+    for (const char* other : {"--a", "--b", "--dof", "--b-offset", "--rest", "--meters-per-unit"})
+        input->excludes(command.get_option(other));
+}
+
+} // namespace
+
 void addMake(CLI::App& app, Console& console) {
-    CLI::App* command =
-        addCommand(app, console, "make", "a scene from two meshes and the motion between them");
+    CLI::App* command = addCommand(
+        app, console, "make", "a scene from two meshes and the motion between them, or from a robot's file");
     auto arguments = std::make_shared<MakeArguments>();
     command->add_option("-o,--output", arguments->output, "the scene to write")->required();
-    command->add_option("--a", arguments->a, "mesh of the body that stays, any format that assimp reads")
-        ->required();
-    command->add_option("--b", arguments->b, "mesh of the body that moves")->required();
+    command->add_option("--a", arguments->a, "mesh of the body that stays, any format that assimp reads");
+    command->add_option("--b", arguments->b, "mesh of the body that moves");
     command
         ->add_option("--meters-per-unit", arguments->unit,
                      "length of the meshes' unit in metres, or with a unit of its own: 0.001 or 1mm")
@@ -188,15 +221,16 @@ void addMake(CLI::App& app, Console& console) {
         ->add_option(
             "--dof", arguments->dofs,
             "rot:ORIGIN:AXIS:LO:HI, trans:AXIS:LO:HI or path:FILE.csv:LO:HI; repeat: x' = D1 D2 ... x")
-        ->required()
         ->expected(1, -1);
     command->add_option("--b-offset", arguments->offset, "x,y,z added to the points of B first");
     command->add_option("--rest", arguments->rest,
                         "DOF values at which the joint rests: where a motion starts, and meshes that overlap "
                         "are free (default 0, or the limit next to it). The meshes lie as they do at 0");
+    addRobotOptions(*command, arguments);
     command->footer("Example, a hinge of 30 degrees about the Y axis through 0.3,0,0.7:\n"
                     "  tss make -o jaw.tss --a skull.obj --b mandible.obj --dof rot:0.3,0,0.7:0,1,0:-24:6\n"
-                    "The limits are degrees; for meshes in millimetres add --meters-per-unit 0.001.");
+                    "The limits are degrees; for meshes in millimetres add --meters-per-unit 0.001.\n"
+                    "A robot:\n  tss make robot.urdf -o robot.tss --package my_robot=../my_robot");
     command->callback([arguments, &console] { make(*arguments, console); });
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace tss::tool {
 
@@ -210,12 +211,10 @@ Json summary(const SceneModel& scene, const Pair& pair) {
 }
 
 Json summary(const SceneModel& scene, const SkinModel& skin) {
-    Json json = {{"path", skin.path},
-                 {"baked", skin.table != nullptr},
-                 {"muscles", Json::array()},
-                 {"stale", staleness(scene, skin)},
-                 {"seconds", nullptr}};
+    Json json = {{"path", skin.path},      {"baked", skin.table != nullptr},  {"muscles", Json::array()},
+                 {"bones", Json::array()}, {"stale", staleness(scene, skin)}, {"seconds", nullptr}};
     for (int muscle : skin.muscles) json["muscles"].push_back(scene.muscles[muscle].path);
+    for (int bone : skin.bones) json["bones"].push_back(scene.bodies[bone].path);
     if (skin.table) {
         addTable(json, skin.table->table);
         json["travel"] = skin.table->travel;
@@ -238,6 +237,10 @@ std::string describe(const Json& scene) {
         for (const Json& item : scene[kind]) {
             text += item["path"].get<std::string>() + "\n";
             if (item.contains("joint")) text += "  joint        " + item["joint"].get<std::string>() + "\n";
+            for (const char* under : {"muscles", "bones"})
+                if (!item.value(under, Json::array()).empty())
+                    text += fmt::format("  {:<12} {}\n", under,
+                                        fmt::join(item[under].get<std::vector<std::string>>(), ", "));
             if (!item["baked"].get<bool>()) {
                 text += "  not baked yet\n";
                 continue;

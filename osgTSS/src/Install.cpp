@@ -128,10 +128,7 @@ bool canStray(const PairPlace& place) {
 /// On the root: a skin is deformed after everything else of the scene has found its place.
 void installSkins(osg::Node& root, Scene& scene, Installed& installed) {
     for (const tss::SkinModel& skin : scene.getModel().skins) {
-        if (!skin.table) {
-            ++installed.unbaked;
-            continue;
-        }
+        if (!skin.table) ++installed.unbaked; // its bones and muscles carry it all the same
         osg::ref_ptr<SkinCallback> callback = new SkinCallback(&scene, skin.path);
         addOutermost(root, *callback);
         ++installed.skins;

@@ -175,6 +175,14 @@ struct DrawnPair {
     }
 };
 
+/// A bone as a muscle that does not contract.
+std::shared_ptr<const tss::MuscleDeformer> bone(const tss::TriangleMesh& mesh) {
+    tss::Muscle muscle;
+    muscle.surface = mesh;
+    muscle.maxContraction = 0;
+    return std::make_shared<const tss::MuscleDeformer>(std::move(muscle));
+}
+
 /// Skin spheres ride on vertices of the skin, muscle spheres on the muscle as it is shortened.
 struct DrawnSkin {
     struct Rider {
@@ -183,10 +191,10 @@ struct DrawnSkin {
     };
     DrawnTable table;
     const tss::SkinTable* source;
-    const tss::SkinModel* skin;
     const tss::TriangleMesh* rest;
     Carrier body;
-    std::vector<Carrier> muscleBodies; ///< one a muscle of the skin
+    std::vector<tss::UnderSkin> under; ///< the muscles and bones below the skin
+    std::vector<Carrier> muscleBodies; ///< one each
     std::vector<std::shared_ptr<const tss::MuscleDeformer>> muscles;
     std::vector<Rider> riders; ///< one a muscle sphere
     osg::observer_ptr<SkinGeometry> shape;
@@ -203,7 +211,8 @@ struct DrawnSkin {
         std::vector<tss::MuscleState> states;
         std::vector<std::optional<Similarity>> places;
         for (std::size_t m = 0; m < muscles.size(); ++m) {
-            states.push_back(muscles[m]->state(scene.getActivation(skin->muscles[m], time)));
+            const int muscle = under[m].muscle;
+            states.push_back(muscles[m]->state(muscle < 0 ? 0 : scene.getActivation(muscle, time)));
             places.push_back(muscleBodies[m].now(root, fromRoot));
         }
         for (std::size_t i = 0; i < table.b.size(); ++i) {
@@ -247,20 +256,22 @@ struct Overlay::Drawing {
             if (!skin.table || shape == nodes.shapes.end()) continue;
             DrawnSkin drawn{DrawnTable(skin.table->table),
                             skin.table.get(),
-                            &skin,
                             &model->bodies[skin.body].mesh,
                             carrier(skin.body),
+                            {},
                             {},
                             {},
                             {},
                             shape->second};
             const tss::Pose& skinPlace = model->bodies[skin.body].placement;
             std::vector<tss::Pose> toMuscle;
-            for (int m : skin.muscles) {
-                const int body = model->muscles[m].body;
-                drawn.muscleBodies.push_back(carrier(body));
-                drawn.muscles.push_back(scene.getCache().muscle(m));
-                toMuscle.push_back(model->bodies[body].placement.inverse(Eigen::Isometry) * skinPlace);
+            drawn.under = tss::underSkin(*model, skin);
+            std::erase_if(drawn.under, [](const tss::UnderSkin& under) { return under.body < 0; });
+            for (const tss::UnderSkin& under : drawn.under) {
+                drawn.muscleBodies.push_back(carrier(under.body));
+                drawn.muscles.push_back(under.muscle >= 0 ? scene.getCache().muscle(under.muscle)
+                                                          : bone(model->bodies[under.body].mesh));
+                toMuscle.push_back(model->bodies[under.body].placement.inverse(Eigen::Isometry) * skinPlace);
             }
             for (std::size_t i = 0; i < skin.table->table.b.size(); ++i) {
                 const std::size_t m = skin.table->muscleOf[i];

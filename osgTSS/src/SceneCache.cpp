@@ -43,8 +43,7 @@ std::shared_ptr<const tss::MuscleDeformer> Scene::Cache::muscle(int index) {
 std::shared_ptr<const tss::SkinRig> Scene::Cache::rig(int index) {
     const std::lock_guard lock(mutex);
     std::shared_ptr<const tss::SkinRig>& rig = rigs[index];
-    const tss::SkinModel& skin = model->skins[index];
-    if (!rig && skin.table) rig = tss::skinRig(*model, skin);
+    if (!rig) rig = tss::skinRig(*model, model->skins[index]);
     return rig;
 }
 

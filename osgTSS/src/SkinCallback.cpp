@@ -14,9 +14,10 @@ namespace osgTSS {
 
 namespace {
 
-/// A bone that a muscle rides on.
+/// What something below a skin moves with.
 struct Bone {
-    osg::observer_ptr<osg::Node> node; ///< null: the muscle does not move with anything
+    int muscle = -1;                   ///< whose activation it has; -1: none
+    osg::observer_ptr<osg::Node> node; ///< null: it does not move with anything
     tss::Pose restInverse;             ///< skin to bone, at rest
 };
 
@@ -26,8 +27,8 @@ struct Played {
     const tss::SkinModel* skin = nullptr;
     osg::observer_ptr<SkinGeometry> geometry;
     osg::observer_ptr<osg::Node> frame; ///< of the skin
-    std::vector<Bone> bones;            ///< one a muscle
-    bool riding = false;                ///< some muscle has a bone
+    std::vector<Bone> bones;            ///< one a muscle or bone below the skin
+    bool riding = false;                ///< some of them moves with a node
     std::unique_ptr<tss::SkinResponse> response;
     std::vector<double> activations;
     std::vector<tss::Pose> poses;
@@ -67,9 +68,10 @@ Played::Played(osg::Node& owner, const Scene& scene, const std::string& path) : 
 
 void Played::findBones(const BodyNodes& nodes) {
     const tss::Pose skinInverse = model->bodies[skin->body].placement.inverse(Eigen::Isometry);
-    for (int m : skin->muscles) {
+    for (const tss::UnderSkin& under : tss::underSkin(*model, *skin)) {
         Bone bone;
-        const int body = model->muscles[m].bone;
+        bone.muscle = under.muscle;
+        const int body = under.bone;
         const auto found = body < 0 ? nodes.frames.end() : nodes.frames.find(model->bodies[body].path);
         if (found != nodes.frames.end()) {
             bone.node = found->second.node;
@@ -80,7 +82,7 @@ void Played::findBones(const BodyNodes& nodes) {
     }
 }
 
-/// How far each muscle has been carried since rest, in the skin's frame; exactly nothing for less than
+/// How far each of them has been carried since rest, in the skin's frame; exactly nothing for less than
 /// rounding.
 void Played::pose(osg::Node& owner) {
     constexpr double rounding = 1e-12;
@@ -99,7 +101,8 @@ void Played::pose(osg::Node& owner) {
 
 void Played::update(osg::Node& owner, const Scene& scene, double time) {
     activations.clear();
-    for (int m : skin->muscles) activations.push_back(scene.getActivation(m, time));
+    for (const Bone& bone : bones)
+        activations.push_back(bone.muscle < 0 ? 0 : scene.getActivation(bone.muscle, time));
     if (riding) pose(owner);
     if (!response->update(activations, poses).moved) return;
     geometry->deform(response->rig().vertices, response->positions(), response->normals());

@@ -61,13 +61,13 @@ void measure(const tss::SceneModel& scene, int frames) {
         whole += frame;
         worst = std::max(worst, frame);
     }
-    std::size_t active = 0;
-    for (const float w : rig.sheet.inverseMass) active += w > 0;
-    std::printf("%6zu vertices   %6zu move   %6zu give way to contacts   %6zu tests   %5zu contacts   "
+    std::size_t carried = 0;
+    for (std::size_t v = 0; v < rig.vertices.size(); ++v) carried += rig.pullStart[v + 1] > rig.pullStart[v];
+    std::printf("%6zu vertices   %6zu move   %6zu rows   %5zu contacts   %5.1f MB   "
                 "%7.3f ms an update (%.0f a second), worst %.3f   loaded in %.2f s\n",
-                scene.bodies[skin.body].mesh.vertices.size(), active, rig.contactPatch.vertices.size(),
-                rig.tests.size(), contacts / static_cast<std::size_t>(frames), 1e3 * whole / frames,
-                frames / whole, 1e3 * worst, loading);
+                scene.bodies[skin.body].mesh.vertices.size(), carried, rig.rows.size(),
+                contacts / static_cast<std::size_t>(frames), 1e-6 * static_cast<double>(rig.bytes()),
+                1e3 * whole / frames, frames / whole, 1e3 * worst, loading);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
 #include "bake/motion/MuscleEllipsoid.h"
+#include "bake/motion/PoseBlend.h"
 #include "tests/FloatTraps.h"
 
 #include <catch2/catch.hpp>
@@ -118,7 +119,9 @@ TEST_CASE("every skin sphere that a swinging bone reaches, or is swung to, is in
             const Pose pose = swung(1.2 * k / 100);
             for (std::uint32_t v = 0; v < share.size(); ++v) {
                 const Vec3& rest = scene.skin.vertices[v];
-                const Vec3 x = rest + share[v] * (pose * rest - rest);
+                PoseBlend blend;
+                blend.add(share[v], DualPose(pose));
+                const Vec3 x = blend.pose() * rest;
                 for (const Sphere& sphere : scene.spheres) {
                     if ((x - pose * sphere.centre).norm() > 0.03 + sphere.radius) continue;
                     INFO("seed " << seed << ", vertex " << v << ", angle " << 1.2 * k / 100);

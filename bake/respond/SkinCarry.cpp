@@ -1,0 +1,160 @@
+#include "bake/respond/SkinCarry.h"
+
+#include "bake/base/Parallel.h"
+#include "bake/geometry/MeshQuery.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tss {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Lengths per size of the skin over which it gives way: 4 mm on a head of 0.3 m, the thickness of skin and
+/// what is below it. Never less than an edge, which could not show it.
+constexpr double lengthsPerSize = 80;
+/// In those lengths: how fast a muscle's hold falls off with the distance, and beyond which it has none.
+constexpr double holdFall = 0.5, holdReach = 4;
+/// Skin that is inside a muscle at rest cannot slide along it: how much firmer than other skin it is held.
+constexpr double insideFirmness = 300;
+/// A share below this counts as none, so that what hardly moves is left alone; the others are lowered by it.
+constexpr double leastShare = 1e-3;
+/// In sizes of the bone: skin that far from every bone that moves stays where it is, when no bone that holds
+/// still is named.
+constexpr double freeDistance = 0.5;
+
+double withoutLeast(double share) {
+    return share > leastShare ? (share - leastShare) / (1 - leastShare) : 0;
+}
+
+/// Frames that move somewhere along the swings.
+std::vector<bool> movingFrames(const SkinParameters& p, const std::vector<int>& frames, std::size_t count) {
+    std::vector<bool> moves(count, p.swings.empty());
+    for (const BoneSwing& swing : p.swings)
+        for (const std::vector<Pose>& station : swing)
+            for (std::size_t m = 0; m < station.size(); ++m)
+                if (frames[m] >= 0 && station[m].matrix() != Pose::Identity().matrix())
+                    moves[frames[m]] = true;
+    return moves;
+}
+
+/// The surfaces that stand for a frame: its bones, or its muscles where it has none.
+SkinHolder holderOf(const SkinGround& ground, const std::vector<int>& frames, int frame) {
+    SkinHolder holder{std::vector<double>(ground.skin.vertices.size(), infinite), 0};
+    Eigen::AlignedBox3d box;
+    bool bones = false;
+    for (std::size_t m = 0; m < frames.size(); ++m) bones |= frames[m] == frame && ground.bodies[m]->rigid();
+    for (std::size_t m = 0; m < frames.size(); ++m) {
+        if (frames[m] != frame || ground.bodies[m]->rigid() != bones) continue;
+        box.extend(bounds(ground.bodies[m]->muscle().surface));
+        parallelFor(holder.distance.size(), [&](std::size_t v) {
+            const NearestPoint near = ground.locators[m].nearest(ground.skin.vertices[v], holder.distance[v]);
+            if (near.triangle >= 0) holder.distance[v] = near.distance;
+        });
+    }
+    holder.size = box.isEmpty() ? 0 : box.diagonal().norm();
+    return holder;
+}
+
+std::vector<std::vector<double>> frameShares(const SkinGround& ground, const SkinParameters& p,
+                                             const std::vector<int>& frames) {
+    const int count = frames.empty() ? 0 : *std::max_element(frames.begin(), frames.end()) + 1;
+    if (!p.shares.empty() || count == 0) return p.shares;
+    std::vector<SkinHolder> holders;
+    for (int f = 0; f < count; ++f) holders.push_back(holderOf(ground, frames, f));
+    const std::vector<bool> moves = movingFrames(p, frames, holders.size());
+    if (std::find(frames.begin(), frames.end(), -1) != frames.end()) {
+        holders.push_back(holderOf(ground, frames, -1));
+        holders.back().size = infinite;
+    } else if (std::find(moves.begin(), moves.end(), false) == moves.end()) {
+        SkinHolder still{std::vector<double>(ground.skin.vertices.size(), 0), infinite};
+        for (const SkinHolder& h : holders)
+            for (std::size_t v = 0; v < still.distance.size(); ++v)
+                still.distance[v] = std::max(still.distance[v], freeDistance * h.size - h.distance[v]);
+        holders.push_back(std::move(still));
+    }
+    std::vector<std::vector<double>> shares = claimedShares(ground.skin, ground.graph, holders);
+    shares.resize(static_cast<std::size_t>(count));
+    return shares;
+}
+
+} // namespace
+
+SkinGround::SkinGround(const TriangleMesh& mesh,
+                       const std::vector<std::shared_ptr<const MuscleDeformer>>& under)
+    : skin(mesh), bodies(under), graph(skinGraph(mesh)), normals(skinNormals(mesh)) {
+    locators.reserve(bodies.size());
+    for (const auto& body : bodies) {
+        const TriangleMesh& surface = body->muscle().surface;
+        locators.emplace_back(surface);
+        surfaceNormals.push_back(vertexNormals(surface));
+        inside.emplace_back();
+        if (body->rigid()) continue;
+        const MeshQuery solid(surface);
+        const Eigen::AlignedBox3d box = bounds(surface);
+        std::vector<char> within(mesh.vertices.size(), 0);
+        parallelFor(within.size(), [&](std::size_t v) {
+            within[v] = box.contains(mesh.vertices[v]) && solid.inside(mesh.vertices[v]);
+        });
+        inside.back().assign(within.begin(), within.end());
+    }
+    size = skin.vertices.empty() ? 0 : bounds(skin).diagonal().norm();
+    if (!(size > 0)) size = 1;
+    length = std::max(size / lengthsPerSize, graph.meanEdge);
+}
+
+std::vector<int> framesOf(const SkinGround& ground, const SkinParameters& parameters) {
+    if (!parameters.frames.empty()) return parameters.frames;
+    std::vector<int> frames;
+    int next = 0;
+    for (const auto& body : ground.bodies) frames.push_back(body->rigid() ? next++ : -1);
+    return frames;
+}
+
+SkinCarriage carrySkin(const SkinGround& ground, const SkinParameters& p) {
+    const std::size_t count = ground.skin.vertices.size();
+    const auto free = [&](std::size_t v) { return p.tether.empty() ? 1 : 1 - p.tether[v]; };
+    SkinCarriage carriage;
+    carriage.frames = frameShares(ground, p, framesOf(ground, p));
+    for (auto& list : carriage.frames)
+        for (std::size_t v = 0; v < count; ++v) list[v] = free(v) * withoutLeast(list[v]);
+
+    std::vector<std::vector<double>> holds;
+    std::vector<double> sum(count, 0);
+    carriage.firmness.assign(count, 1);
+    for (std::size_t m = 0; m < ground.bodies.size(); ++m) {
+        if (ground.bodies[m]->rigid()) continue;
+        std::vector<double> hold(count, 0);
+        parallelFor(count, [&](std::size_t v) {
+            const Vec3& x = ground.skin.vertices[v];
+            const NearestPoint near = ground.locators[m].nearest(x, holdReach * ground.length);
+            if (near.triangle < 0) return;
+            const double above = ground.inside[m][v] ? 0 : near.distance;
+            if (ground.inside[m][v]) carriage.firmness[v] = insideFirmness;
+            hold[v] = std::exp(-above / (holdFall * ground.length)) * (p.attach.empty() ? 1 : p.attach[v]);
+        });
+        for (std::size_t v = 0; v < count; ++v) sum[v] += hold[v];
+        holds.push_back(std::move(hold));
+    }
+    for (auto& hold : holds)
+        for (std::size_t v = 0; v < count; ++v) hold[v] /= std::max(1.0, sum[v]);
+    spreadOver(ground.skin, ground.graph, ground.length, carriage.firmness, holds);
+
+    carriage.muscles.resize(ground.bodies.size());
+    carriage.bound.resize(ground.bodies.size());
+    std::size_t next = 0;
+    for (std::size_t m = 0; m < ground.bodies.size(); ++m) {
+        if (ground.bodies[m]->rigid()) continue;
+        std::vector<double>& share = carriage.muscles[m] = std::move(holds[next++]);
+        carriage.bound[m].resize(count);
+        parallelFor(count, [&](std::size_t v) {
+            share[v] = free(v) * withoutLeast(share[v]);
+            if (share[v] > 0)
+                carriage.bound[m][v] = ground.locators[m].nearest(ground.skin.vertices[v], infinite);
+        });
+    }
+    return carriage;
+}
+
+} // namespace tss

@@ -1,0 +1,36 @@
+#pragma once
+#include "bake/respond/SkinRig.h"
+#include "bake/respond/SkinShares.h"
+
+namespace tss {
+
+/// A skin and what lies under it, measured once for all steps of makeSkinRig().
+struct SkinGround {
+    SkinGround(const TriangleMesh& mesh, const std::vector<std::shared_ptr<const MuscleDeformer>>& under);
+
+    const TriangleMesh& skin;
+    const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies;
+    SkinGraph graph;
+    std::vector<Vec3> normals;
+    std::vector<MuscleLocator> locators; ///< one a body
+    std::vector<std::vector<Vec3>> surfaceNormals;
+    std::vector<std::vector<bool>> inside; ///< #bodies of #V: within a muscle at rest; empty: a bone
+    double size = 0;                       ///< diagonal of the skin's bounds, 1 where it has none
+    double length =
+        0; ///< over which skin gives way: of the sheet on its foundation, and of what muscles carry
+};
+
+/// How a skin is carried, before any contact: #V each.
+struct SkinCarriage {
+    std::vector<std::vector<double>> frames;      ///< #frames, shares of their motions
+    std::vector<std::vector<double>> muscles;     ///< #bodies, shares of their displacement; empty: a bone
+    std::vector<std::vector<NearestPoint>> bound; ///< #bodies, where each vertex with a share is bound to
+    std::vector<double> firmness; ///< >= 1: how much firmer than other skin it sits on what carries it
+};
+
+/// Which frame each body moves with, and how many there are.
+std::vector<int> framesOf(const SkinGround& ground, const SkinParameters& parameters);
+
+SkinCarriage carrySkin(const SkinGround& ground, const SkinParameters& parameters);
+
+} // namespace tss

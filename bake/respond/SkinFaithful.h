@@ -1,0 +1,35 @@
+#pragma once
+#include "bake/motion/MuscleTrack.h"
+#include "bake/table/SkinTable.h"
+
+#include <memory>
+
+namespace tss {
+
+/// [paper] The spheres of a skin's table as they move: what a skin without a sheet is pushed by.
+struct SkinSpheres {
+    struct Row {
+        std::uint32_t vertex = 0;          ///< index into SkinRig::vertices
+        std::uint32_t first = 0, last = 0; ///< its tests
+        double radius = 0;
+    };
+    std::vector<Row> rows;
+    std::vector<std::uint32_t> sphere;   ///< #tests
+    std::vector<double> restGap;         ///< #tests, at most 0
+    std::vector<MuscleTrack> tracks;     ///< one a body
+    std::vector<std::uint32_t> body, at; ///< #spheres: its body, and which point of its track it is
+    std::vector<double> radius;          ///< #spheres, at activation 0
+};
+
+/// indexOf: of each skin vertex among the touched ones.
+SkinSpheres skinSpheres(const SkinTable& table,
+                        const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
+                        const std::vector<std::uint32_t>& indexOf);
+
+/// Each skin sphere leaves the sphere that it is deepest in, until it is in none. poses: one a body, in the
+/// skin's frame. places: of the touched vertices, at rest, pushed; normals: theirs at rest. Returns how many
+/// were pushed.
+std::size_t pushOut(const SkinSpheres& spheres, std::span<const double> activations,
+                    std::span<const Pose> poses, std::span<const Vec3> normals, std::span<Vec3> places);
+
+} // namespace tss

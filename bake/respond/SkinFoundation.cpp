@@ -1,0 +1,241 @@
+#include "bake/respond/SkinFoundation.h"
+
+#include "bake/base/Parallel.h"
+
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tss {
+namespace {
+
+/// Distance of the nodes, in lengths l: closer ones would resolve what the sheet smooths away.
+constexpr double nodeSpacing = 0.8;
+/// In spacings: how far a node bears on vertices. Every vertex is nearer than 1 to some node; and where every
+/// vertex is a node, six neighbours weigh less than the node itself, or nodes could move against each other
+/// without anything that shows.
+constexpr double nodeReach = 1.25;
+/// A column is cut where it is below this share of its peak, and fades to nothing before.
+constexpr double columnCut = 3e-3;
+/// In lengths l: beyond, a column is below its cut (it falls as exp(-0.87 r / l)).
+constexpr double columnReach = 7;
+constexpr std::size_t nodesAPatch = 48; ///< columns that are solved on one patch of the skin
+
+/// Vertices with their distances within a limit of one vertex; its lists are kept between calls.
+class Surroundings {
+public:
+    explicit Surroundings(const SkinGraph& graph)
+        : graph_(graph), distance_(graph.vertices(), std::numeric_limits<double>::infinity()) {}
+
+    const std::vector<std::uint32_t>& of(std::uint32_t source, double limit) {
+        for (const std::uint32_t v : found_) distance_[v] = std::numeric_limits<double>::infinity();
+        found_.assign(1, source);
+        heap_.assign(1, {distance_[source] = 0, source});
+        while (!heap_.empty()) {
+            std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+            const auto [d, v] = heap_.back();
+            heap_.pop_back();
+            if (d > distance_[v]) continue;
+            for (std::uint32_t e = graph_.start[v]; e < graph_.start[v + 1]; ++e) {
+                const double through = d + graph_.length[e];
+                const std::uint32_t w = graph_.neighbour[e];
+                if (through >= limit || through >= distance_[w]) continue;
+                if (!std::isfinite(distance_[w])) found_.push_back(w);
+                heap_.emplace_back(distance_[w] = through, w);
+                std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+            }
+        }
+        return found_;
+    }
+    double distance(std::uint32_t v) const { return distance_[v]; }
+
+private:
+    const SkinGraph& graph_;
+    std::vector<double> distance_;
+    std::vector<std::uint32_t> found_;
+    std::vector<std::pair<double, std::uint32_t>> heap_;
+};
+
+using Weights = std::vector<std::vector<std::pair<std::uint32_t, double>>>; ///< #V: nodes and weights
+
+/// Nodes no nearer to each other than `spacing`, along the skin, and each vertex's weights of those around,
+/// which fall off smoothly. near: #V, what needs nodes.
+Weights chooseNodes(const SkinGraph& graph, const std::vector<bool>& near, double spacing,
+                    std::vector<std::uint32_t>& at) {
+    Weights weights(graph.vertices());
+    Surroundings around(graph);
+    std::vector<bool> covered(graph.vertices(), false);
+    for (std::uint32_t v = 0; v < graph.vertices(); ++v) {
+        if (covered[v] || !near[v]) continue;
+        const auto index = static_cast<std::uint32_t>(at.size());
+        at.push_back(v);
+        for (const std::uint32_t w : around.of(v, nodeReach * spacing)) {
+            const double t = around.distance(w) / (nodeReach * spacing);
+            if (around.distance(w) < spacing) covered[w] = true;
+            if (near[w]) weights[w].emplace_back(index, (1 - t * t) * (1 - t * t));
+        }
+    }
+    for (auto& list : weights) {
+        double sum = 0;
+        for (const auto& entry : list) sum += entry.second;
+        for (auto& entry : list) entry.second /= sum;
+    }
+    return weights;
+}
+
+SparseMatrix sheetOn(const TriangleMesh& skin, const SkinGraph& graph, const Weights& weights,
+                     const std::vector<double>& firmness, std::size_t nodes, double length, double stretch,
+                     double bend) {
+    const auto rows = static_cast<Eigen::Index>(graph.vertices());
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t v = 0; v < weights.size(); ++v)
+        for (const auto& [node, weight] : weights[v])
+            entries.emplace_back(static_cast<int>(v), static_cast<int>(node), weight);
+    SparseMatrix spread(rows, static_cast<Eigen::Index>(nodes));
+    spread.setFromTriplets(entries.begin(), entries.end());
+    const SparseMatrix laplacian = skinLaplacian(skin);
+    Eigen::VectorXd mass(rows);
+    for (Eigen::Index v = 0; v < rows; ++v) mass[v] = graph.area[v];
+    const SparseMatrix bent = laplacian * spread;
+    const SparseMatrix turned = spread.transpose();
+    SparseMatrix sheet = stretch * (turned * bent);
+    sheet +=
+        bend * length * length * SparseMatrix(bent.transpose() * mass.cwiseInverse().asDiagonal() * bent);
+    for (Eigen::Index v = 0; v < rows; ++v) mass[v] *= firmness[v];
+    sheet += SparseMatrix(turned * mass.asDiagonal() * spread) / (length * length);
+    return sheet;
+}
+
+struct Columns {
+    std::vector<std::vector<std::pair<std::uint32_t, float>>> of; ///< #nodes
+};
+
+/// One column after the other, each cut to what it has within a patch around some of the nodes.
+Columns solveColumns(const SparseMatrix& sheet, const std::vector<Vec3>& places,
+                     const std::vector<bool>& needed, double reach) {
+    std::vector<std::uint32_t> wanted;
+    for (const std::uint32_t n : alongCurve(places))
+        if (needed[n]) wanted.push_back(n);
+    Columns columns;
+    columns.of.resize(places.size());
+    const std::size_t patches = (wanted.size() + nodesAPatch - 1) / nodesAPatch;
+    parallelFor(patches, [&](std::size_t p) {
+        const std::size_t first = p * nodesAPatch, last = std::min(first + nodesAPatch, wanted.size());
+        Eigen::AlignedBox3d box;
+        for (std::size_t i = first; i < last; ++i) box.extend(places[wanted[i]]);
+        std::vector<std::uint32_t> patch;
+        std::vector<int> local(places.size(), -1);
+        for (std::uint32_t n = 0; n < places.size(); ++n)
+            if (box.squaredExteriorDistance(places[n]) < reach * reach) {
+                local[n] = static_cast<int>(patch.size());
+                patch.push_back(n);
+            }
+        std::vector<Eigen::Triplet<double>> entries;
+        for (std::size_t k = 0; k < patch.size(); ++k)
+            for (SparseMatrix::InnerIterator it(sheet, static_cast<Eigen::Index>(patch[k])); it; ++it)
+                if (local[it.row()] >= 0)
+                    entries.emplace_back(local[it.row()], static_cast<int>(k), it.value());
+        const auto size = static_cast<Eigen::Index>(patch.size());
+        SparseMatrix part(size, size);
+        part.setFromTriplets(entries.begin(), entries.end());
+        const Eigen::SimplicialLDLT<SparseMatrix> solver(part);
+        for (std::size_t i = first; i < last; ++i) {
+            const Eigen::VectorXd x = solver.solve(Eigen::VectorXd::Unit(size, local[wanted[i]]));
+            const double peak = x.cwiseAbs().maxCoeff();
+            for (std::size_t k = 0; k < patch.size(); ++k) {
+                const double above = std::abs(x[static_cast<Eigen::Index>(k)]) / peak - columnCut;
+                if (!(above > 0)) continue;
+                const double fade = std::min(above / columnCut, 1.0);
+                columns.of[wanted[i]].emplace_back(
+                    patch[k], static_cast<float>(fade * x[static_cast<Eigen::Index>(k)]));
+            }
+        }
+    });
+    // What is cut off one of two columns is cut off the other, or the problem of the pushes is not symmetric.
+    for (const std::uint32_t n : wanted)
+        for (auto& [other, value] : columns.of[n]) {
+            if (!needed[other] || other <= n) continue;
+            auto& back = columns.of[other];
+            const auto found =
+                std::find_if(back.begin(), back.end(), [&](const auto& e) { return e.first == n; });
+            if (found == back.end())
+                value = 0;
+            else
+                value = found->second = std::min(value, found->second);
+        }
+    for (const std::uint32_t n : wanted)
+        std::erase_if(columns.of[n], [&](const auto& entry) {
+            if (entry.second == 0 || !needed[entry.first] || entry.first >= n) return entry.second == 0;
+            const auto& back = columns.of[entry.first];
+            return std::find_if(back.begin(), back.end(), [&](const auto& e) { return e.first == n; }) ==
+                   back.end();
+        });
+    return columns;
+}
+
+} // namespace
+
+std::size_t SkinFoundation::bytes() const {
+    return 4 * (start.size() + 2 * node.size() + columnStart.size() + 2 * columnNode.size() +
+                nodeStart.size() + 2 * nodeVertex.size());
+}
+
+SkinFoundation skinFoundation(const TriangleMesh& skin, const SkinGraph& graph,
+                              const std::vector<bool>& pushed, const std::vector<double>& firmness,
+                              double length, double stretchCompliance, double bendCompliance) {
+    SkinFoundation foundation;
+    std::vector<std::uint32_t> sources;
+    for (std::uint32_t v = 0; v < pushed.size(); ++v)
+        if (pushed[v]) sources.push_back(v);
+    std::vector<double> distance(graph.vertices(), std::numeric_limits<double>::infinity());
+    lowerDistances(graph, sources, columnReach * length, distance);
+    std::vector<bool> near;
+    for (const double d : distance) near.push_back(std::isfinite(d));
+    std::vector<std::uint32_t> at;
+    const Weights weights = chooseNodes(graph, near, nodeSpacing * length, at);
+    foundation.nodes = at.size();
+    std::vector<bool> needed(at.size(), false);
+    for (const std::uint32_t v : sources)
+        for (const auto& entry : weights[v]) needed[entry.first] = true;
+    std::vector<Vec3> places;
+    for (const std::uint32_t v : at) places.push_back(skin.vertices[v]);
+    const SparseMatrix sheet = sheetOn(skin, graph, weights, firmness, at.size(), length,
+                                       1 / (1 + stretchCompliance), 1 / (1 + bendCompliance));
+    const Columns columns = solveColumns(sheet, places, needed, columnReach * length);
+
+    float peak = 0;
+    for (const auto& column : columns.of)
+        for (const auto& entry : column) peak = std::max(peak, entry.second);
+    foundation.start.push_back(0);
+    for (const auto& list : weights) {
+        for (const auto& [node, weight] : list) {
+            foundation.node.push_back(node);
+            foundation.weight.push_back(static_cast<float>(weight));
+        }
+        foundation.start.push_back(static_cast<std::uint32_t>(foundation.node.size()));
+    }
+    foundation.columnStart.push_back(0);
+    for (const auto& column : columns.of) {
+        for (const auto& [node, value] : column) {
+            foundation.columnNode.push_back(node);
+            foundation.column.push_back(value / peak);
+        }
+        foundation.columnStart.push_back(static_cast<std::uint32_t>(foundation.columnNode.size()));
+    }
+    std::vector<std::vector<std::pair<std::uint32_t, double>>> back(at.size());
+    for (std::uint32_t v = 0; v < weights.size(); ++v)
+        for (const auto& [node, weight] : weights[v]) back[node].emplace_back(v, weight);
+    foundation.nodeStart.push_back(0);
+    for (const auto& list : back) {
+        for (const auto& [vertex, weight] : list) {
+            foundation.nodeVertex.push_back(vertex);
+            foundation.nodeWeight.push_back(static_cast<float>(weight));
+        }
+        foundation.nodeStart.push_back(static_cast<std::uint32_t>(foundation.nodeVertex.size()));
+    }
+    return foundation;
+}
+
+} // namespace tss

@@ -1,0 +1,41 @@
+#pragma once
+#include "bake/geometry/TriangleMesh.h"
+
+#include <Eigen/SparseCore>
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace tss {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// The vertices of a skin as neighbours along its edges.
+struct SkinGraph {
+    std::vector<std::uint32_t> start, neighbour; ///< of v: neighbour[start[v]] to neighbour[start[v + 1]]
+    std::vector<double> length;                  ///< #neighbour, scene units
+    std::vector<double> area; ///< #V: a third of that of the triangles around, > 0; scene units squared
+    double meanEdge = 0;      ///< scene units
+
+    std::size_t vertices() const { return area.size(); }
+};
+
+SkinGraph skinGraph(const TriangleMesh& skin);
+
+/// Lowers each distance to that along the edges from a source, as far as it is at most `limit`. distance: #V,
+/// infinite where nothing is known.
+void lowerDistances(const SkinGraph& graph, std::span<const std::uint32_t> sources, double limit,
+                    std::vector<double>& distance);
+
+/// The cotangent Laplacian, symmetric, its rows summing to zero, without a unit. Angles beyond a right one
+/// and slivers keep a small weight above 0, so that what is spread by it stays between its bounds. softness:
+/// #triangles factors; empty: 1.
+SparseMatrix skinLaplacian(const TriangleMesh& skin, std::span<const double> softness = {});
+
+/// The indices of some points in the order of a curve that fills space (Morton's), so that what is near stays
+/// near in memory.
+std::vector<std::uint32_t> alongCurve(const std::vector<Vec3>& points);
+
+} // namespace tss

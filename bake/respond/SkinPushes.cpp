@@ -1,0 +1,259 @@
+#include "bake/respond/SkinPushes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tss {
+namespace {
+
+/// Rows that ask for opposite things give way by this share of their push, so that pushes stay bounded.
+constexpr float giveWay = 0.003f;
+/// Sweeps that find out what pushes, and steps of conjugate gradients that then find out how much, in turn.
+constexpr int sweepsBetween = 3, stepsBetween = 8;
+/// In sizes of the skin: the sweeps end when no place changes by more.
+constexpr float settled = 1e-5f;
+/// Of what is lacking at the planes around: how far a push may move its own place. Planes that ask for
+/// opposite things would push without bounds.
+constexpr float mostPush = 15;
+/// A step against the limits of the pushes is halved until it helps, down to this share of it.
+constexpr float leastShare = 0.1f;
+
+} // namespace
+
+SkinPushes::SkinPushes(const SkinFoundation& foundation)
+    : foundation_(foundation), dense_(foundation.nodes, 0), stamp_(foundation.nodes, 0),
+      nodes_(foundation.nodes, Move::Zero()) {
+    clear();
+}
+
+/// What each new plane has of the nodes, and how nodes move by a push of 1 along it.
+void SkinPushes::gather(std::span<const SkinPlane> planes) {
+    const SkinFoundation& f = foundation_;
+    const auto collect = [&](std::vector<Entry>& out) {
+        for (const std::uint32_t n : seen_) {
+            out.push_back({n, dense_[n]});
+            dense_[n] = 0;
+        }
+        seen_.clear();
+        ++round_;
+    };
+    const auto add = [&](std::uint32_t n, float value) {
+        if (stamp_[n] != round_) {
+            stamp_[n] = round_;
+            seen_.push_back(n);
+        }
+        dense_[n] += value;
+    };
+    ++round_;
+    for (const SkinPlane& plane : planes.subspan(self_.size())) {
+        for (int k = 0; k < plane.vertices; ++k)
+            for (std::uint32_t e = f.start[plane.vertex[k]]; e < f.start[plane.vertex[k] + 1]; ++e)
+                // What has no column cannot be pushed; seen without it the problem stays symmetric.
+                if (f.columnStart[f.node[e]] != f.columnStart[f.node[e] + 1])
+                    add(f.node[e], plane.weight[k] * f.weight[e]);
+        const std::size_t first = own_.size();
+        collect(own_);
+        for (std::size_t i = first; i < own_.size(); ++i)
+            for (std::uint32_t e = f.columnStart[own_[i].index]; e < f.columnStart[own_[i].index + 1]; ++e)
+                add(f.columnNode[e], own_[i].value * f.column[e]);
+        collect(column_);
+        ownStart_.push_back(static_cast<std::uint32_t>(own_.size()));
+        columnStart_.push_back(static_cast<std::uint32_t>(column_.size()));
+    }
+}
+
+/// How much a push of 1 along each plane's normal moves the others, were their normals alike.
+void SkinPushes::couple() {
+    const std::size_t count = ownStart_.size() - 1;
+    coupleStart_.assign(1, 0);
+    coupling_.clear();
+    self_.assign(count, 0);
+    for (std::size_t r = 0; r < count; ++r) {
+        for (std::uint32_t e = columnStart_[r]; e < columnStart_[r + 1]; ++e)
+            dense_[column_[e].index] = column_[e].value;
+        for (std::size_t s = 0; s < count; ++s) {
+            float sum = 0;
+            for (std::uint32_t e = ownStart_[s]; e < ownStart_[s + 1]; ++e)
+                sum += own_[e].value * dense_[own_[e].index];
+            if (s == r)
+                self_[r] = sum;
+            else if (sum != 0)
+                coupling_.push_back({static_cast<std::uint32_t>(s), sum});
+        }
+        for (std::uint32_t e = columnStart_[r]; e < columnStart_[r + 1]; ++e) dense_[column_[e].index] = 0;
+        coupleStart_.push_back(static_cast<std::uint32_t>(coupling_.size()));
+    }
+}
+
+void SkinPushes::clear() {
+    ownStart_.assign(1, 0);
+    columnStart_.assign(1, 0);
+    own_.clear();
+    column_.clear();
+    self_.clear();
+}
+
+/// What each plane still lacks, and how much of it a push of each other one gives: the matrix of the problem.
+void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base) {
+    const std::size_t count = planes.size();
+    lack_.resize(count);
+    asked_.resize(count);
+    matrix_.resize(coupling_.size());
+    for (std::size_t r = 0; r < count; ++r) {
+        Eigen::Vector3f now = Eigen::Vector3f::Zero();
+        for (int k = 0; k < planes[r].vertices; ++k)
+            now += planes[r].weight[k] * base[planes[r].vertex[k]].head<3>();
+        asked_[r] = lack_[r] = planes[r].level - planes[r].normal.dot(now);
+        for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
+            matrix_[e] = coupling_[e].value * planes[r].normal.dot(planes[coupling_[e].index].normal);
+    }
+    // No push moves its own place by more than a few times what is lacking around it.
+    most_.resize(count);
+    for (std::size_t r = 0; r < count; ++r) {
+        float asked = std::max(asked_[r], 0.0f);
+        for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
+            asked = std::max(asked, asked_[coupling_[e].index]);
+        most_[r] = self_[r] > 0 ? mostPush * asked / self_[r] : 0;
+        planes[r].push = std::min(planes[r].push, most_[r]);
+        if (planes[r].push > 0) spread(r, planes[r].push);
+    }
+}
+
+/// Takes from what the planes lack what a change of one push gives them.
+void SkinPushes::spread(std::size_t r, float change) {
+    lack_[r] -= (1 + giveWay) * self_[r] * change;
+    for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
+        lack_[coupling_[e].index] -= matrix_[e] * change;
+}
+
+/// One push after the other, to what its plane lacks. Returns the largest change of a place.
+float SkinPushes::sweep(std::span<SkinPlane> planes, bool backwards) {
+    float largest = 0;
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+        const std::size_t r = backwards ? planes.size() - 1 - k : k; // no end is always the last
+        if (!(self_[r] > 0)) continue;                               // nothing there can give way
+        const float next = std::clamp(planes[r].push + lack_[r] / ((1 + giveWay) * self_[r]), 0.0f, most_[r]);
+        const float change = next - planes[r].push;
+        if (change == 0) continue;
+        planes[r].push = next;
+        spread(r, change);
+        largest = std::max(largest, std::abs(change) * self_[r]);
+    }
+    return largest;
+}
+
+/// Conjugate gradients over those that push: what lies between opposite pushes is settled in a few steps,
+/// for which sweeps would take thousands. Returns how many steps it took.
+int SkinPushes::settle(std::span<SkinPlane> planes, int steps) {
+    const std::size_t count = planes.size();
+    step_.assign(count, 0);
+    way_.assign(count, 0);
+    left_.assign(count, 0);
+    float size = 0;
+    for (std::size_t r = 0; r < count; ++r) {
+        if (!inside(planes, r)) continue;
+        left_[r] = lack_[r];
+        way_[r] = left_[r] / self_[r];
+        size += left_[r] * way_[r];
+    }
+    const float enough = 1e-8f * size;
+    int taken = 0;
+    for (; taken < steps && size > enough; ++taken) {
+        answer_.assign(count, 0);
+        for (std::size_t r = 0; r < count; ++r) {
+            if (way_[r] == 0) continue;
+            answer_[r] += (1 + giveWay) * self_[r] * way_[r];
+            for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
+                answer_[coupling_[e].index] += matrix_[e] * way_[r];
+        }
+        float curve = 0;
+        float least = 0; // of the curvature, were nothing cut off the columns
+        for (std::size_t r = 0; r < count; ++r) {
+            curve += way_[r] * answer_[r];
+            least += giveWay * self_[r] * way_[r] * way_[r];
+        }
+        if (!(curve > least)) break;
+        const float reach = size / curve;
+        float next = 0;
+        for (std::size_t r = 0; r < count; ++r) {
+            if (!inside(planes, r)) continue;
+            step_[r] += reach * way_[r];
+            left_[r] -= reach * answer_[r];
+            next += left_[r] * left_[r] / self_[r];
+        }
+        for (std::size_t r = 0; r < count; ++r)
+            if (inside(planes, r)) way_[r] = left_[r] / self_[r] + next / size * way_[r];
+        size = next;
+    }
+    const float before = energy(planes);
+    way_.resize(count);
+    for (std::size_t r = 0; r < count; ++r) way_[r] = planes[r].push; // from where the way goes
+    for (float share = 1; taken > 0 && share > leastShare; share /= 2) {
+        for (std::size_t r = 0; r < count; ++r) {
+            const float next =
+                step_[r] == 0 ? way_[r] : std::clamp(way_[r] + share * step_[r], 0.0f, most_[r]);
+            const float change = next - planes[r].push;
+            if (change == 0) continue;
+            planes[r].push = next;
+            spread(r, change);
+        }
+        if (!(energy(planes) > before)) return taken;
+    }
+    for (std::size_t r = 0; r < count; ++r)
+        if (planes[r].push != way_[r]) {
+            spread(r, way_[r] - planes[r].push);
+            planes[r].push = way_[r];
+        }
+    return taken;
+}
+
+/// What the pushes make as small as they can, up to a factor.
+float SkinPushes::energy(std::span<const SkinPlane> planes) const {
+    float sum = 0;
+    for (std::size_t r = 0; r < planes.size(); ++r) sum -= planes[r].push * (asked_[r] + lack_[r]);
+    return sum;
+}
+
+float SkinPushes::solve(std::span<SkinPlane> planes, std::span<const Move> base, int sweeps) {
+    if (planes.size() > self_.size()) {
+        gather(planes);
+        couple();
+    }
+    prepare(planes, base);
+    float largest = 0;
+    for (int done = 0; done < sweeps;) {
+        largest = 0;
+        for (int k = 0; k < sweepsBetween && done < sweeps; ++k, ++done) largest = sweep(planes, k % 2 != 0);
+        if (largest <= settled) break;
+        done += settle(planes, std::min(stepsBetween, sweeps - done));
+    }
+    return largest;
+}
+
+std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, std::span<Move> places) {
+    std::size_t pushing = 0;
+    ++round_;
+    for (std::size_t r = 0; r < planes.size(); ++r) {
+        if (!(planes[r].push > 0)) continue;
+        ++pushing;
+        Move along = Move::Zero();
+        along.head<3>() = planes[r].push * planes[r].normal;
+        for (std::uint32_t e = columnStart_[r]; e < columnStart_[r + 1]; ++e) {
+            const std::uint32_t n = column_[e].index;
+            if (stamp_[n] != round_) {
+                stamp_[n] = round_;
+                seen_.push_back(n);
+                nodes_[n].setZero();
+            }
+            nodes_[n] += column_[e].value * along;
+        }
+    }
+    std::sort(seen_.begin(), seen_.end());
+    for (const std::uint32_t n : seen_)
+        for (std::uint32_t e = foundation_.nodeStart[n]; e < foundation_.nodeStart[n + 1]; ++e)
+            places[foundation_.nodeVertex[e]] += foundation_.nodeWeight[e] * nodes_[n];
+    seen_.clear();
+    return pushing;
+}
+
+} // namespace tss

@@ -1,0 +1,53 @@
+#pragma once
+#include "bake/respond/SkinContact.h"
+
+namespace tss {
+
+/// The small problem of the contacts that push (METHOD 6.5): pushes p >= 0 along the planes' normals, so that
+/// with the moves that they make through the columns of the foundation no plane is broken. Starts from
+/// nothing every time: what came before leaves no trace. Keeps its lists between calls.
+class SkinPushes {
+public:
+    explicit SkinPushes(const SkinFoundation& foundation);
+
+    /// Forgets all planes.
+    void clear();
+
+    /// Solves for planes of a skin that stands as `base`, starting from their pushes. Planes that were there
+    /// at the last call since clear() come first and may have other normals and levels only. sweeps: at most.
+    /// Returns the largest change of a place in the last sweep.
+    float solve(std::span<SkinPlane> planes, std::span<const Move> base, int sweeps);
+
+    /// Adds the moves by the planes' pushes to #touched places. Returns how many planes push.
+    std::size_t apply(std::span<const SkinPlane> planes, std::span<Move> places);
+
+private:
+    struct Entry {
+        std::uint32_t index;
+        float value;
+    };
+    /// Free to push more or less.
+    bool inside(std::span<const SkinPlane> planes, std::size_t r) const {
+        return planes[r].push > 0 && planes[r].push < most_[r];
+    }
+    void gather(std::span<const SkinPlane> planes);
+    void couple();
+    void prepare(std::span<SkinPlane> planes, std::span<const Move> base);
+    void spread(std::size_t r, float change);
+    float sweep(std::span<SkinPlane> planes, bool backwards);
+    float energy(std::span<const SkinPlane> planes) const;
+    int settle(std::span<SkinPlane> planes, int steps);
+
+    const SkinFoundation& foundation_;
+    std::vector<std::uint32_t> ownStart_, columnStart_, coupleStart_; ///< one a plane and an end
+    std::vector<Entry> own_;                                          ///< what each plane has of the nodes
+    std::vector<Entry> column_;                                       ///< how the nodes move when it pushes
+    std::vector<Entry> coupling_; ///< how much nearer to their goal the other planes come by it
+    std::vector<float> dense_, self_, asked_, lack_, most_, matrix_; ///< matrix_: one a coupling
+    std::vector<float> step_, way_, left_, answer_;                  ///< of conjugate gradients
+    std::vector<std::uint32_t> seen_, stamp_;
+    std::vector<Move> nodes_;
+    std::uint32_t round_ = 0;
+};
+
+} // namespace tss

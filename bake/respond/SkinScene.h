@@ -1,0 +1,38 @@
+#pragma once
+#include "bake/respond/SkinRig.h"
+
+#include <span>
+
+namespace tss {
+
+/// Where the bodies under a skin stand, and the skin as they carry it. Run-time lengths.
+struct SkinScene {
+    struct Placed {
+        double activation = std::numeric_limits<double>::quiet_NaN(); ///< NaN: not placed yet
+        Eigen::Matrix3f turn = Eigen::Matrix3f::Identity();           ///< body to skin
+        Eigen::Vector3f shift = Eigen::Vector3f::Zero();
+        bool moved = false; ///< the two are not the identity
+        float strain = 0;
+
+        Eigen::Vector3f toSkin(const Eigen::Vector3f& x) const { return moved ? turn * x + shift : x; }
+        Eigen::Vector3f toBody(const Eigen::Vector3f& x) const {
+            return moved ? turn.transpose() * (x - shift) : x;
+        }
+    };
+    std::vector<Placed> bodies;
+    std::vector<Move> surface, normals, moves; ///< of the vertices of all bodies, in the bodies' rest frames;
+                                               ///< moves: since rest
+    std::vector<Move> base;        ///< #touched: displacement of the skin as it is carried, without contact
+    std::vector<Move> skin;        ///< #touched: its places, with what contacts have added
+    std::vector<Move> skinNormals; ///< #touched: those at rest, turned by the bones; empty: none has turned
+    Eigen::Vector3f normalOf(const SkinRig& rig, std::size_t v) const {
+        return (skinNormals.empty() ? rig.placeNormals : skinNormals)[v].head<3>();
+    }
+};
+
+/// Moves the bodies, and the skin with them. activations, poses (motion of each body since rest, in the
+/// skin's frame, scene units): one a body, within its range.
+void placeBodies(const SkinRig& rig, std::span<const double> activations, std::span<const Pose> poses,
+                 SkinScene& scene);
+
+} // namespace tss

@@ -1,0 +1,168 @@
+#include "bake/respond/SkinShares.h"
+
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tss {
+namespace {
+
+/// A seed is nearer to its holder than to all others by this share of the most that any vertex is. Less, and
+/// skin that only passes another bone counts as its own; more, and a bone with little skin has none.
+constexpr double seedContrast = 0.2;
+/// Of those the nearest ones count: the rest lies far off, beyond the ends of the holder.
+constexpr double seedShare = 0.8;
+/// Distances below this share of the holder's size are alike: that is how thick the tissue on a bone may be
+/// before its hold gets weaker.
+constexpr double closeShare = 0.01;
+/// How much a claim weighs against the change of shares along the skin.
+constexpr double claimWeight = 4;
+/// How fast the certainty of a claim grows with the distance from where two claims meet.
+constexpr int certaintyPower = 4;
+/// A share that changes by this much along a length of one size of the holder counts twice; so skin does not
+/// fold where two holders meet at a point, as at the corner of a mouth. Without a unit.
+constexpr double steepShare = 3;
+constexpr int steepRounds = 3; ///< of solves that see the slope of the one before
+
+struct Claims {
+    std::vector<std::uint32_t> holder; ///< #V
+    std::vector<double> weight;        ///< #V, how firmly: area over squared distance, without a unit
+    std::vector<double> size;          ///< #V, of the smaller one of the two that meet here
+};
+
+std::vector<std::uint32_t> seedsOf(const std::vector<SkinHolder>& holders, std::size_t index) {
+    const std::vector<double>& own = holders[index].distance;
+    std::vector<double> contrast(own.size(), std::numeric_limits<double>::infinity());
+    double most = 0;
+    for (std::size_t v = 0; v < own.size(); ++v) {
+        for (std::size_t h = 0; h < holders.size(); ++h)
+            if (h != index) contrast[v] = std::min(contrast[v], holders[h].distance[v] - own[v]);
+        most = std::max(most, contrast[v]);
+    }
+    std::vector<std::uint32_t> seeds;
+    std::vector<double> distances;
+    for (std::uint32_t v = 0; v < own.size(); ++v)
+        if (contrast[v] > seedContrast * most) {
+            seeds.push_back(v);
+            distances.push_back(own[v]);
+        }
+    if (seeds.empty()) return seeds;
+    const auto last =
+        std::min(static_cast<std::size_t>(seedShare * static_cast<double>(seeds.size())), seeds.size() - 1);
+    std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(last),
+                     distances.end());
+    std::erase_if(seeds, [&](std::uint32_t v) { return own[v] > distances[last]; });
+    return seeds;
+}
+
+Claims claim(const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    const std::size_t count = graph.vertices();
+    std::vector<double> nearest(count, infinite), second(count, infinite);
+    Claims claims{std::vector<std::uint32_t>(count, 0), {}, {}};
+    std::vector<std::uint32_t> rival(count, 0);
+    for (std::uint32_t h = 0; h < holders.size(); ++h) {
+        std::vector<double> along(count, infinite);
+        lowerDistances(graph, seedsOf(holders, h), infinite, along);
+        for (std::size_t v = 0; v < count; ++v) {
+            if (along[v] < nearest[v]) {
+                second[v] = nearest[v];
+                rival[v] = claims.holder[v];
+                nearest[v] = along[v];
+                claims.holder[v] = h;
+            } else if (along[v] < second[v]) {
+                second[v] = along[v];
+                rival[v] = h;
+            }
+        }
+    }
+    for (std::size_t v = 0; v < count; ++v) {
+        if (!std::isfinite(nearest[v])) // a shell without a seed: whatever is nearest has it
+            for (std::uint32_t h = 0; h < holders.size(); ++h)
+                if (holders[h].distance[v] < holders[claims.holder[v]].distance[v]) claims.holder[v] = h;
+        if (!std::isfinite(second[v])) rival[v] = claims.holder[v];
+        const SkinHolder& own = holders[claims.holder[v]];
+        double size = std::min(own.size, holders[rival[v]].size);
+        if (!std::isfinite(size))
+            for (const SkinHolder& h : holders) size = std::min(size, h.size);
+        const double certainty = std::isfinite(second[v]) && second[v] > 0
+                                     ? (second[v] - nearest[v]) / (second[v] + nearest[v])
+                                     : 1;
+        const double distance = std::max(own.distance[v], closeShare * size);
+        claims.size.push_back(size);
+        claims.weight.push_back(graph.area[v] / (distance * distance) *
+                                std::max(claimWeight * std::pow(certainty, certaintyPower), 1e-9));
+    }
+    return claims;
+}
+
+/// How much stiffer each triangle gets by the slopes of the shares in it.
+void stiffen(const TriangleMesh& skin, const Claims& claims, const std::vector<std::vector<double>>& shares,
+             std::vector<double>& softness) {
+    for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
+        const Tri& t = skin.triangles[i];
+        const Vec3 u = skin.vertices[t[1]] - skin.vertices[t[0]],
+                   v = skin.vertices[t[2]] - skin.vertices[t[0]];
+        const double squared = u.cross(v).squaredNorm();
+        if (!(squared > 0)) continue;
+        double slope = 0;
+        for (const std::vector<double>& share : shares) {
+            const double du = share[t[1]] - share[t[0]], dv = share[t[2]] - share[t[0]];
+            slope += (du * v - dv * u).squaredNorm() / squared / 2; // both sides of a border have it
+        }
+        const double size = claims.size[t[0]] / steepShare;
+        softness[i] = (softness[i] + 1 + slope * size * size) / 2;
+    }
+}
+
+} // namespace
+
+std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const SkinGraph& graph,
+                                               const std::vector<SkinHolder>& holders) {
+    const std::size_t count = graph.vertices();
+    std::vector<std::vector<double>> shares(holders.size(), std::vector<double>(count, 1));
+    if (holders.size() < 2 || count == 0) return shares;
+    const Claims claims = claim(graph, holders);
+    std::vector<double> softness(skin.triangles.size(), 1);
+    const auto rows = static_cast<Eigen::Index>(count);
+    Eigen::SimplicialLDLT<SparseMatrix> solver;
+    for (int round = 0; round <= steepRounds; ++round) {
+        SparseMatrix system = skinLaplacian(skin, softness);
+        SparseMatrix hold(rows, rows);
+        hold.setIdentity();
+        for (Eigen::Index v = 0; v < rows; ++v) hold.coeffRef(v, v) = claims.weight[v];
+        system += hold;
+        if (round == 0) solver.analyzePattern(system);
+        solver.factorize(system);
+        for (std::size_t h = 0; h < holders.size(); ++h) {
+            Eigen::VectorXd right = Eigen::VectorXd::Zero(rows);
+            for (Eigen::Index v = 0; v < rows; ++v)
+                if (claims.holder[v] == h) right[v] = claims.weight[v];
+            const Eigen::VectorXd solved = solver.solve(right);
+            for (std::size_t v = 0; v < count; ++v)
+                shares[h][v] = std::clamp(solved[static_cast<Eigen::Index>(v)], 0.0, 1.0);
+        }
+        if (round < steepRounds) stiffen(skin, claims, shares, softness);
+    }
+    return shares;
+}
+
+void spreadOver(const TriangleMesh& skin, const SkinGraph& graph, double reach,
+                std::span<const double> firmness, std::vector<std::vector<double>>& values) {
+    const auto rows = static_cast<Eigen::Index>(graph.vertices());
+    if (rows == 0 || values.empty() || !(reach > 0)) return;
+    SparseMatrix mass(rows, rows);
+    mass.setIdentity();
+    for (Eigen::Index v = 0; v < rows; ++v)
+        mass.coeffRef(v, v) = firmness[v] * graph.area[v] / (reach * reach);
+    const SparseMatrix system = skinLaplacian(skin) + mass;
+    const Eigen::SimplicialLDLT<SparseMatrix> solver(system);
+    for (std::vector<double>& list : values) {
+        Eigen::Map<Eigen::VectorXd> value(list.data(), rows);
+        value = solver.solve(mass * value).eval();
+        for (double& v : list) v = std::max(v, 0.0);
+    }
+}
+
+} // namespace tss

@@ -1,0 +1,25 @@
+#pragma once
+#include "bake/respond/SkinGraph.h"
+
+namespace tss {
+
+/// What may carry skin: its distance to each vertex and how large it is.
+struct SkinHolder {
+    std::vector<double> distance; ///< #V, >= 0, scene units
+    double size = 0;              ///< diagonal of its bounds, scene units; infinite: no size of its own
+};
+
+/// Which share of a vertex follows each holder (METHOD 6.5): #holders of #V, >= 0, all of a vertex 1
+/// together. Whose a vertex is, is not a matter of the nearest: a closed upper lip lies on the lower teeth.
+/// Vertices much nearer to one holder than to any other are its seeds; every other vertex is claimed by the
+/// holder whose seeds are nearest along the skin; the claims are spread by a linear solve, softly where two
+/// meet and where the shares would change too fast.
+std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const SkinGraph& graph,
+                                               const std::vector<SkinHolder>& holders);
+
+/// Spreads values over the skin so that they change over lengths of `reach`, within their bounds. firmness:
+/// #V, >= 1, how much more than usual a vertex keeps of its own value. values: lists of #V.
+void spreadOver(const TriangleMesh& skin, const SkinGraph& graph, double reach,
+                std::span<const double> firmness, std::vector<std::vector<double>>& values);
+
+} // namespace tss

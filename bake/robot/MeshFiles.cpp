@@ -1,0 +1,129 @@
+#include "bake/robot/MeshFiles.h"
+
+#include "bake/base/AtomicFile.h"
+#include "bake/base/Error.h"
+
+#include <filesystem>
+
+namespace tss {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool isFolder(const fs::path& path) {
+    std::error_code none;
+    return fs::is_directory(path, none);
+}
+
+fs::path realPath(const fs::path& path) {
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(path, error);
+    return error ? path.lexically_normal() : real;
+}
+
+bool isWithin(const fs::path& path, const fs::path& folder) {
+    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+    return end == folder.end();
+}
+
+/// The name that a package.xml gives; empty where the folder has none.
+std::string packageName(const fs::path& folder) {
+    std::error_code none;
+    const fs::path manifest = folder / "package.xml";
+    if (!fs::is_regular_file(manifest, none) || fs::file_size(manifest, none) > (1 << 20)) return "";
+    const std::string text = readWholeFile(manifest.string());
+    const auto begin = text.find("<name>"), end = text.find("</name>");
+    if (begin == text.npos || end == text.npos || end < begin + 6) return "";
+    std::string name = text.substr(begin + 6, end - begin - 6);
+    std::erase_if(name, [](unsigned char c) { return std::isspace(c); });
+    return name;
+}
+
+/// A package beside or above the robot's file; empty where there is none.
+fs::path packageAbove(const fs::path& robotFolder, const std::string& name) {
+    for (fs::path folder = robotFolder;; folder = folder.parent_path()) {
+        if (folder.filename() == name || packageName(folder) == name) return folder;
+        if (isFolder(folder / name)) return folder / name;
+        if (folder == folder.parent_path()) return {};
+    }
+}
+
+/// The folder that plain paths stay within.
+fs::path homeOf(const fs::path& robotFolder) {
+    std::error_code none;
+    for (fs::path folder = robotFolder; folder != folder.parent_path(); folder = folder.parent_path())
+        if (fs::is_regular_file(folder / "package.xml", none)) return folder;
+    return robotFolder.parent_path();
+}
+
+std::string found(const std::string& name, const fs::path& path, const std::vector<fs::path>& within,
+                  const std::string& hint) {
+    const fs::path real = realPath(path);
+    if (std::none_of(within.begin(), within.end(),
+                     [&](const fs::path& folder) { return isWithin(real, realPath(folder)); }))
+        throw InputError("mesh \"" + name + "\" lies outside of " + within.front().string() +
+                         "; expected it within" + hint);
+    std::error_code none;
+    if (!fs::exists(real, none)) throw InputError("mesh \"" + name + "\": no such file, " + real.string());
+    return real.string();
+}
+
+class Finder {
+public:
+    Finder(const std::string& file, const Packages& packages)
+        : folder_(realPath(fs::absolute(file)).parent_path()), packages_(packages) {}
+
+    std::string operator()(const std::string& name) const {
+        if (name.empty() || name.find('\0') != name.npos) throw InputError("expected the name of a mesh");
+        for (const char* scheme : {"package://", "model://"})
+            if (name.starts_with(scheme)) return inPackage(name, name.substr(std::string(scheme).size()));
+        const auto scheme = name.find("://");
+        if (scheme != name.npos && !name.starts_with("file://"))
+            throw InputError("mesh \"" + name +
+                             "\": expected package://, model://, file:// or a path, and no other place");
+        const std::string path = scheme == name.npos ? name : name.substr(7);
+        std::vector<fs::path> within{homeOf(folder_)};
+        for (const auto& [key, folder] : packages_) within.emplace_back(folder);
+        return found(name, folder_ / path, within, ", or in the folder of a --package NAME=DIR");
+    }
+
+private:
+    std::string inPackage(const std::string& name, const std::string& rest) const {
+        const auto slash = rest.find('/');
+        const std::string package = rest.substr(0, slash);
+        if (slash == rest.npos || package.empty() || package == "." || package == "..")
+            throw InputError("mesh \"" + name + "\": expected package://NAME/PATH");
+        const auto given = packages_.find(package);
+        const fs::path folder =
+            given != packages_.end() ? fs::path(given->second) : packageAbove(folder_, package);
+        if (folder.empty())
+            throw InputError("mesh \"" + name + "\": no folder of a package " + package + " at or above " +
+                             folder_.string() + "; say where it is: --package " + package + "=DIR");
+        return found(name, folder / rest.substr(slash + 1), {folder}, " its package");
+    }
+
+    fs::path folder_;
+    Packages packages_;
+};
+
+} // namespace
+
+Packages parsePackages(const std::vector<std::string>& texts) {
+    Packages packages;
+    for (const std::string& text : texts) {
+        const auto sign = text.find('=');
+        if (sign == text.npos || sign == 0)
+            throw InputError("--package: expected NAME=DIR, found \"" + text + "\"");
+        const std::string folder = text.substr(sign + 1);
+        if (!isFolder(folder)) throw InputError("--package " + text + ": there is no folder " + folder);
+        packages[text.substr(0, sign)] = folder;
+    }
+    return packages;
+}
+
+FindMesh meshesOf(const std::string& file, const Packages& packages) {
+    return Finder(file, packages);
+}
+
+} // namespace tss

@@ -1,0 +1,198 @@
+#include "bake/robot/ReadUrdf.h"
+
+#include "bake/robot/UrdfText.h"
+#include "bake/robot/Xml.h"
+
+#include <cmath>
+#include <console_bridge/console.h>
+#include <numbers>
+#include <urdf_parser/urdf_parser.h>
+
+namespace tss {
+
+using tinyxml2::XMLElement;
+
+namespace {
+
+/// Keeps what urdfdom says, instead of printing it.
+class UrdfdomMessages : public console_bridge::OutputHandler {
+public:
+    UrdfdomMessages() { console_bridge::useOutputHandler(this); }
+    ~UrdfdomMessages() override { console_bridge::restorePreviousOutputHandler(); }
+    UrdfdomMessages(const UrdfdomMessages&) = delete;
+    UrdfdomMessages& operator=(const UrdfdomMessages&) = delete;
+    void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+        if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) all += (all.empty() ? "" : "; ") + text;
+    }
+    std::string all;
+};
+
+urdf::ModelInterfaceSharedPtr parse(const XMLElement& top, const std::string& file) {
+    UrdfdomMessages messages;
+    std::string thrown;
+    try {
+        if (auto model = urdf::parseURDF(urdfText(top))) return model;
+    } catch (const std::exception& error) {
+        thrown = error.what();
+    }
+    throw InputError(Where{file, "", ""}, "is no URDF that can be read: " + messages.all + thrown);
+}
+
+Vec3 vector(const urdf::Vector3& v) {
+    return {v.x, v.y, v.z};
+}
+
+Pose poseOf(const urdf::Pose& p) {
+    Pose pose = Pose::Identity();
+    pose.linear() = Eigen::Quaterniond(p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z)
+                        .normalized()
+                        .toRotationMatrix();
+    // Exact where it turns nothing.
+    if (p.rotation.x == 0 && p.rotation.y == 0 && p.rotation.z == 0) pose.linear().setIdentity();
+    pose.translation() = vector(p.position);
+    return pose;
+}
+
+class Reader {
+public:
+    Reader(const XMLElement& top, const std::string& file, Robot& robot)
+        : file_(file), robot_(robot), model_(parse(top, file)) {
+        robot.name = model_->getName();
+        for (auto* e = top.FirstChildElement("link"); e; e = e->NextSiblingElement("link")) readLink(*e);
+        for (auto* e = top.FirstChildElement("joint"); e; e = e->NextSiblingElement("joint")) readJoint(*e);
+    }
+
+private:
+    RobotShape readShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
+                         const XMLElement& element) const {
+        RobotShape shape;
+        shape.place = poseOf(origin);
+        shape.where = placeOf(file_, element).pointer;
+        if (const auto* box = dynamic_cast<const urdf::Box*>(&geometry)) {
+            shape.kind = RobotShape::Kind::Box;
+            shape.size = vector(box->dim);
+        } else if (const auto* cylinder = dynamic_cast<const urdf::Cylinder*>(&geometry)) {
+            shape.kind = RobotShape::Kind::Cylinder;
+            shape.size = {cylinder->radius, cylinder->length, 0};
+        } else if (const auto* sphere = dynamic_cast<const urdf::Sphere*>(&geometry)) {
+            shape.kind = RobotShape::Kind::Sphere;
+            shape.size = {sphere->radius, 0, 0};
+        } else if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(&geometry)) {
+            shape.size = vector(mesh->scale);
+            shape.file = mesh->filename;
+        }
+        return shape;
+    }
+
+    /// The urdfdom array holds those elements that are left in the tree, in their order.
+    template <class Items>
+    std::vector<RobotShape> readShapes(const XMLElement& link, const char* kind, const Items& items) const {
+        std::vector<RobotShape> shapes;
+        auto* element = link.FirstChildElement(kind);
+        for (const auto& item : items) {
+            while (element && !element->FirstChildElement("geometry"))
+                element = element->NextSiblingElement(kind);
+            if (!element || !item || !item->geometry) continue;
+            const XMLElement* shape = element->FirstChildElement("geometry")->FirstChildElement();
+            shapes.push_back(readShape(*item->geometry, item->origin, shape ? *shape : *element));
+            element = element->NextSiblingElement(kind);
+        }
+        return shapes;
+    }
+
+    void readLink(const XMLElement& element) {
+        const auto model = model_->getLink(textOf(element, "name"));
+        RobotLink link;
+        link.name = model->name;
+        link.collision = readShapes(element, "collision", model->collision_array);
+        link.visual = readShapes(element, "visual", model->visual_array);
+        link.color = urdfColor(file_, element);
+        index_[link.name] = static_cast<int>(robot_.links.size());
+        robot_.links.push_back(std::move(link));
+    }
+
+    void readJoint(const XMLElement& element) {
+        const auto model = model_->getJoint(textOf(element, "name"));
+        RobotJoint joint;
+        joint.name = model->name;
+        joint.where = placeOf(file_, element).pointer;
+        joint.parent = index_.at(model->parent_link_name);
+        joint.child = index_.at(model->child_link_name);
+        joint.origin = poseOf(model->parent_to_joint_origin_transform);
+        if (model->type == urdf::Joint::FLOATING || model->type == urdf::Joint::PLANAR) {
+            const char* kind = model->type == urdf::Joint::PLANAR ? "planar" : "floating";
+            robot_.notes.push_back("joint " + joint.name + " (" + joint.where + ") is " + kind +
+                                   ", without limits: left out, " + robot_.links[joint.child].name +
+                                   " and what hangs on it are tied to nothing");
+            return;
+        }
+        if (model->type != urdf::Joint::FIXED) readDof(element, *model, joint);
+        robot_.joints.push_back(std::move(joint));
+    }
+
+    void readDof(const XMLElement& element, const urdf::Joint& model, RobotJoint& joint) const {
+        Dof dof;
+        dof.kind = model.type == urdf::Joint::PRISMATIC ? DofKind::Translation : DofKind::Rotation;
+        const Vec3 axis = vector(model.axis);
+        if (!(axis.norm() > 0))
+            throw InputError(placeOf(file_, element), "expected an axis that is not zero");
+        dof.axis = axis.norm() == 1 ? axis : Vec3(axis.normalized());
+        if (model.type == urdf::Joint::CONTINUOUS) {
+            dof.lower = -std::numbers::pi;
+            dof.upper = std::numbers::pi;
+        } else {
+            dof.lower = model.limits->lower;
+            dof.upper = model.limits->upper;
+        }
+        if (dof.lower > dof.upper)
+            throw InputError(placeOf(file_, element), "limit: expected lower <= upper");
+        if (model.mimic) {
+            joint.leader = model.mimic->joint_name;
+            joint.factor = model.mimic->multiplier;
+            joint.offset = model.mimic->offset;
+        }
+        joint.dofs.push_back(dof);
+    }
+
+    std::string file_;
+    Robot& robot_;
+    urdf::ModelInterfaceSharedPtr model_;
+    std::map<std::string, int> index_;
+};
+
+} // namespace
+
+Robot readUrdf(const std::string& text, const std::string& file) {
+    const auto document = parseXml(text, file, "robot");
+    Robot robot;
+    XMLElement& top = *document->RootElement();
+    pruneUrdf(top, file, robot.notes);
+    robot.file = file;
+    Reader(top, file, robot);
+    settleRobot(robot);
+    return robot;
+}
+
+void readSrdf(Robot& robot, const std::string& text, const std::string& file) {
+    const auto document = parseXml(text, file, "robot");
+    const auto has = [&](const std::string& name) {
+        return std::any_of(robot.links.begin(), robot.links.end(),
+                           [&](const RobotLink& link) { return link.name == name; });
+    };
+    const XMLElement& top = *document->RootElement();
+    if (const std::string name = textOf(top, "name"); name != robot.name)
+        robot.notes.push_back(file + " is that of a robot \"" + name + "\", not of \"" + robot.name + "\"");
+    for (auto* e = top.FirstChildElement("disable_collisions"); e;
+         e = e->NextSiblingElement("disable_collisions")) {
+        const std::string a = textOf(*e, "link1"), b = textOf(*e, "link2");
+        if (a.empty() || b.empty())
+            throw InputError(placeOf(file, *e), "expected the attributes link1 and link2");
+        if (!has(a) || !has(b))
+            robot.notes.push_back(file + ": " + placeOf(file, *e).pointer + ": the robot has no link \"" +
+                                  (has(a) ? b : a) + "\"");
+        else
+            robot.unpaired.emplace_back(a, b);
+    }
+}
+
+} // namespace tss

@@ -1,0 +1,102 @@
+#include "bake/robot/Robot.h"
+
+#include "bake/base/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tss {
+
+namespace {
+
+Where placeOf(const Robot& robot, const RobotJoint& joint) {
+    return {robot.file, joint.where, "joint " + joint.name};
+}
+
+void checkForest(const Robot& robot) {
+    std::vector<int> above(robot.links.size(), -1); // the joint that holds a link
+    for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+        const RobotJoint& joint = robot.joints[j];
+        int& holder = above[joint.child];
+        if (holder >= 0)
+            throw InputError(placeOf(robot, joint),
+                             "link " + robot.links[joint.child].name + " hangs on joint " +
+                                 robot.joints[holder].name +
+                                 " too; expected each link to be the child of one joint");
+        holder = static_cast<int>(j);
+    }
+    for (std::size_t link = 0; link < robot.links.size(); ++link) {
+        std::size_t steps = 0;
+        for (int at = static_cast<int>(link); at >= 0 && above[at] >= 0; at = robot.joints[above[at]].parent)
+            if (++steps > robot.links.size())
+                throw InputError(placeOf(robot, robot.joints[above[at]]),
+                                 "the joints close a loop; expected links that hang on each other as a tree");
+    }
+}
+
+std::string rangeText(const Dof& dof) {
+    const double unit = dof.kind == DofKind::Rotation ? 180 / std::numbers::pi : 1;
+    const auto text = [&](double value) {
+        char digits[40];
+        std::snprintf(digits, sizeof digits, "%.6g", unit * value);
+        return std::string(digits);
+    };
+    return text(dof.lower) + " to " + text(dof.upper) + (dof.kind == DofKind::Rotation ? " degrees" : " m");
+}
+
+/// The limits that a follower has, through others that follow too.
+void settleFollower(Robot& robot, RobotJoint& joint) {
+    const auto named = [&](const std::string& name) {
+        return std::find_if(robot.joints.begin(), robot.joints.end(),
+                            [&](const RobotJoint& j) { return j.name == name; });
+    };
+    for (std::size_t steps = 0;; ++steps) {
+        const auto leader = named(joint.leader);
+        if (leader == robot.joints.end() || leader->dofs.size() != 1)
+            throw InputError(placeOf(robot, joint),
+                             "mimics \"" + joint.leader +
+                                 "\"; expected another joint that turns or slides within limits");
+        if (steps > robot.joints.size())
+            throw InputError(placeOf(robot, joint), "joints mimic each other in a circle");
+        if (leader->leader.empty()) break;
+        joint.offset += joint.factor * leader->offset;
+        joint.factor *= leader->factor;
+        joint.leader = leader->leader;
+    }
+    Dof& dof = joint.dofs[0];
+    const Dof& leads = named(joint.leader)->dofs[0];
+    const double a = joint.factor * leads.lower + joint.offset, b = joint.factor * leads.upper + joint.offset;
+    const double lower = std::max(dof.lower, std::min(a, b)), upper = std::min(dof.upper, std::max(a, b));
+    if (!(lower <= upper))
+        throw InputError(placeOf(robot, joint), "mimics \"" + joint.leader +
+                                                    "\", which never leads it into its limits " +
+                                                    rangeText(dof));
+    dof.lower = lower;
+    dof.upper = upper;
+    robot.notes.push_back(
+        "joint " + joint.name + " mimics " + joint.leader + ": " + rangeText(dof) +
+        " are left it. The scene's motion couples them; a table lets each move by itself, so "
+        "what is proven never to meet holds, and some contacts of it may need both apart");
+}
+
+void settleHeld(Robot& robot, RobotJoint& joint) {
+    const bool held =
+        std::all_of(joint.dofs.begin(), joint.dofs.end(), [](const Dof& d) { return d.lower == d.upper; });
+    if (joint.dofs.empty() || !held) return;
+    for (const Dof& dof : joint.dofs) joint.origin = joint.origin * dofPose(dof, dof.lower);
+    robot.notes.push_back("joint " + joint.name + " (" + joint.where + ") has the limits " +
+                          rangeText(joint.dofs[0]) + ": taken as fixed there");
+    joint.dofs.clear();
+}
+
+} // namespace
+
+void settleRobot(Robot& robot) {
+    checkForest(robot);
+    for (RobotJoint& joint : robot.joints)
+        if (!joint.leader.empty()) settleFollower(robot, joint);
+    for (RobotJoint& joint : robot.joints) settleHeld(robot, joint);
+}
+
+} // namespace tss

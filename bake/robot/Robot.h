@@ -1,0 +1,57 @@
+#pragma once
+#include "bake/motion/Motion.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tss {
+
+/// A shape of a link, in the link's frame once placed. Lengths in metres.
+struct RobotShape {
+    enum class Kind { Mesh, Box, Sphere, Cylinder, Capsule, Ellipsoid };
+    Kind kind = Kind::Mesh;
+    /// Mesh: scale along x, y, z. Box: its edges. Sphere: the radius. Cylinder: radius and length, along z.
+    /// Capsule: radius, and length between the centres of its ends. Ellipsoid: its three radii.
+    Vec3 size = Vec3::Ones();
+    std::string file; ///< of a mesh: its name as the robot's file has it
+    Pose place = Pose::Identity();
+    std::string where; ///< for messages: "line 12"
+};
+
+struct RobotLink {
+    std::string name;
+    std::vector<RobotShape> collision, visual;
+    std::optional<Vec3> color; ///< linear RGB
+};
+
+/// How a link hangs on another: child to parent is origin * D1(q1) ... Dd(qd), the DOFs in the child's frame
+/// as it stands at 0. No DOFs: fixed.
+struct RobotJoint {
+    std::string name;
+    int parent = -1, child = -1; ///< indices of links; -1: the world
+    Pose origin = Pose::Identity();
+    std::vector<Dof> dofs;
+    /// The joint that this one, of one DOF, follows: value = factor * its value + offset.
+    std::string leader;
+    double factor = 1, offset = 0;
+    std::string where;
+};
+
+/// What a robot's description says, whatever its format. Links hang on each other as a forest.
+struct Robot {
+    std::string name, file; ///< file: as the user gave it
+    std::vector<RobotLink> links;
+    std::vector<RobotJoint> joints;
+    std::vector<std::pair<std::string, std::string>> unpaired; ///< links whose collision is switched off
+    std::vector<std::string> notes; ///< what was left out or taken otherwise than it stands there, by name
+};
+
+/// What holds for any format, once all is read. A joint whose limits leave it one value becomes fixed there.
+/// One that follows another gets the limits that the other's leave it; the coupling itself is for the scene's
+/// motion alone, and noted: in a table both move by themselves, which only adds poses. Throws InputError with
+/// file and line: a link that hangs on two, a closed loop, a leader that is none.
+void settleRobot(Robot& robot);
+
+} // namespace tss

@@ -1,0 +1,180 @@
+#include "bake/robot/RobotScene.h"
+
+#include "bake/base/Error.h"
+#include "bake/geometry/Import.h"
+#include "bake/model/AddPair.h"
+#include "bake/model/ShowMotion.h"
+#include "bake/robot/Shapes.h"
+#include "bake/scene/AllPairs.h"
+
+#include <algorithm>
+#include <set>
+
+namespace tss {
+
+namespace {
+
+class SceneMaker {
+public:
+    SceneMaker(const Robot& robot, const RobotSceneRequest& request, const FindMesh& findMesh)
+        : robot_(robot), request_(request), findMesh_(findMesh) {
+        result_.notes = robot.notes;
+    }
+
+    RobotScene make() {
+        SceneModel& scene = result_.scene;
+        scene.defaultPrim = freePrimName(scene, robot_.name.empty() ? "Robot" : robot_.name);
+        for (const RobotLink& link : robot_.links) addLink(link);
+        if (!others_.empty())
+            result_.notes.push_back("these have no " + std::string(request_.visual ? "visual" : "collision") +
+                                    " geometry, and their other one is taken: " + others_);
+        // A joint's parent has its place before the joint's child gets one.
+        std::vector<bool> done(robot_.joints.size()), placed(robot_.links.size(), true);
+        for (const RobotJoint& joint : robot_.joints) placed[joint.child] = false;
+        chains_.resize(robot_.joints.size());
+        for (bool again = true; again;) {
+            again = false;
+            for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+                const RobotJoint& joint = robot_.joints[j];
+                if (done[j] || (joint.parent >= 0 && !placed[joint.parent])) continue;
+                addJoint(j);
+                again = done[j] = placed[joint.child] = true;
+            }
+        }
+        addPairs();
+        addShowMotion(scene);
+        coupleMotion();
+        return std::move(result_);
+    }
+
+private:
+    TriangleMesh meshOfFile(const RobotShape& shape) {
+        auto [at, isNew] = meshes_.try_emplace(shape.file);
+        if (isNew) at->second = importMesh(findMesh_(shape.file), MeshAxes::AsWritten);
+        TriangleMesh mesh = at->second;
+        if (!(shape.size.cwiseAbs().minCoeff() > 0)) throw InputError("mesh: expected a scale that is not 0");
+        for (Vec3& v : mesh.vertices) v = v.cwiseProduct(shape.size);
+        if (shape.size.prod() < 0)
+            for (Tri& t : mesh.triangles) std::swap(t[1], t[2]);
+        return mesh;
+    }
+
+    void append(const RobotShape& shape, TriangleMesh& whole) {
+        const TriangleMesh mesh = shape.kind == RobotShape::Kind::Mesh ? meshOfFile(shape) : meshOf(shape);
+        const auto offset = static_cast<int>(whole.vertices.size());
+        for (const Vec3& v : mesh.vertices) whole.vertices.push_back(shape.place * v);
+        for (const Tri& t : mesh.triangles) whole.triangles.emplace_back(t.array() + offset);
+    }
+
+    void addLink(const RobotLink& link) {
+        SceneModel& scene = result_.scene;
+        Body body;
+        const std::string name = freePrimName(scene, link.name);
+        body.path = "/" + scene.defaultPrim + "/" + name;
+        if (name != link.name) body.displayName = link.name;
+        const bool other = request_.visual ? link.visual.empty() : link.collision.empty();
+        const bool visual = request_.visual != other;
+        const auto& shapes = visual ? link.visual : link.collision;
+        for (const RobotShape& shape : shapes) {
+            try {
+                append(shape, body.mesh);
+            } catch (const InputError& error) {
+                const std::string of = error.where.file.empty() ? "" : error.where.file + ": ";
+                throw InputError(Where{robot_.file, shape.where, "link " + link.name}, of + error.message);
+            }
+        }
+        if (other && !shapes.empty()) others_ += (others_.empty() ? "" : ", ") + link.name;
+        const Vec3 tones[] = {{0.80, 0.79, 0.76}, {0.48, 0.56, 0.64}};
+        body.displayColor = link.color.value_or(tones[scene.bodies.size() % 2]);
+        body.rigid = true;
+        scene.bodies.push_back(std::move(body));
+        result_.links.push_back({scene.bodies.back().path, shapes.size(), visual});
+    }
+
+    void addJoint(std::size_t index) {
+        const RobotJoint& joint = robot_.joints[index];
+        Motion motion;
+        motion.base = joint.origin;
+        for (Dof dof : joint.dofs) { // in the parent's frame
+            dof.rest = std::clamp(0.0, dof.lower, dof.upper);
+            dof.axis = joint.origin.linear() * dof.axis;
+            dof.origin = dof.kind == DofKind::Rotation ? Vec3(joint.origin * dof.origin) : Vec3(Vec3::Zero());
+            if (dof.kind == DofKind::Rotation) dof.axis.normalize();
+            motion.dofs.push_back(dof);
+        }
+        const std::string name = freePrimName(result_.scene, joint.name.empty() ? "joint" : joint.name);
+        if (name != joint.name && !joint.name.empty())
+            result_.notes.push_back("joint " + joint.name + " is called " + name + " in the scene");
+        chains_[index] = addJoints(result_.scene, joint.parent, joint.child, motion, name);
+        for (int j : chains_[index]) result_.scene.joints[j].collisionEnabled = true;
+    }
+
+    bool isWanted(const Pair& pair) const {
+        const auto same = [&](int a, int b) {
+            return (pair.bodyA == a && pair.bodyB == b) || (pair.bodyA == b && pair.bodyB == a);
+        };
+        for (const auto& [a, b] : robot_.unpaired)
+            if (same(indexOf(a), indexOf(b))) return false;
+        if (request_.pairs == RobotPairs::All) return true;
+        return std::any_of(robot_.joints.begin(), robot_.joints.end(),
+                           [&](const RobotJoint& joint) { return same(joint.parent, joint.child); });
+    }
+
+    int indexOf(const std::string& link) const {
+        for (std::size_t i = 0; i < robot_.links.size(); ++i)
+            if (robot_.links[i].name == link) return static_cast<int>(i);
+        return -1;
+    }
+
+    void addPairs() {
+        const AllPairs found = addAllPairs(result_.scene);
+        std::vector<Pair>& pairs = result_.scene.pairs;
+        const std::size_t all = pairs.size();
+        std::erase_if(pairs, [&](const Pair& pair) { return !isWanted(pair); });
+        constexpr std::size_t most = 10;
+        for (std::size_t k = 0; k < found.notes.size() && k < most; ++k)
+            result_.notes.push_back("no pair: " + found.notes[k]);
+        if (found.notes.size() > most)
+            result_.notes.push_back("no pair: " + std::to_string(found.notes.size() - most) +
+                                    " more for like reasons");
+        if (request_.pairs == RobotPairs::All && pairs.size() < all)
+            result_.notes.push_back(std::to_string(all - pairs.size()) +
+                                    " pairs are left out, as the robot's files "
+                                    "switch their collision off");
+    }
+
+    /// Those that follow go where their leaders do, at each key of theirs.
+    void coupleMotion() {
+        std::vector<Joint>& joints = result_.scene.joints;
+        for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+            const RobotJoint& joint = robot_.joints[j];
+            if (joint.leader.empty() || joint.dofs.empty()) continue;
+            const auto leader =
+                std::find_if(robot_.joints.begin(), robot_.joints.end(),
+                             [&](const RobotJoint& other) { return other.name == joint.leader; });
+            if (leader == robot_.joints.end() || leader->dofs.empty()) continue;
+            Joint& follower = joints[chains_[j].front()];
+            TimeSamples drive = joints[chains_[leader - robot_.joints.begin()].front()].drives[0];
+            for (double& value : drive.values)
+                value =
+                    std::clamp(joint.factor * value + joint.offset, joint.dofs[0].lower, joint.dofs[0].upper);
+            follower.drives[0] = drive;
+        }
+    }
+
+    const Robot& robot_;
+    const RobotSceneRequest& request_;
+    const FindMesh& findMesh_;
+    std::string others_; ///< links that are made of the other kind of shapes
+    RobotScene result_;
+    std::map<std::string, TriangleMesh> meshes_;
+    std::vector<std::vector<int>> chains_; ///< the joints of the scene, per joint of the robot
+};
+
+} // namespace
+
+RobotScene sceneOf(const Robot& robot, const RobotSceneRequest& request, const FindMesh& findMesh) {
+    return SceneMaker(robot, request, findMesh).make();
+}
+
+} // namespace tss

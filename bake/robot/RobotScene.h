@@ -1,0 +1,38 @@
+#pragma once
+#include "bake/model/SceneModel.h"
+#include "bake/robot/Robot.h"
+
+#include <functional>
+
+namespace tss {
+
+/// Where the mesh of a robot's file lies, from its name there. Throws InputError.
+using FindMesh = std::function<std::string(const std::string& name)>;
+
+enum class RobotPairs { Neighbours, All };
+
+struct RobotSceneRequest {
+    bool visual = false; ///< take the visual shapes of a link, not those of its collision
+    RobotPairs pairs = RobotPairs::All;
+};
+
+/// What became of a link, for people and scripts.
+struct LinkReport {
+    std::string body;       ///< prim path
+    std::size_t shapes = 0; ///< that its mesh was put together from
+    bool visual = false;    ///< they are its visual ones
+};
+
+struct RobotScene {
+    SceneModel scene;
+    std::vector<LinkReport> links; ///< one a link
+    std::vector<std::string> notes;
+};
+
+/// A scene of a robot: a body a link, its shapes one mesh in the link's frame (the other kind of shapes where
+/// it has none of the wanted one, noted; an Xform where it has none at all), a joint a joint, fixed ones too,
+/// so that every link keeps its name; the pairs of links that move against each other and are not switched
+/// off; and a motion that shows each joint. Throws InputError for a mesh that cannot be read.
+RobotScene sceneOf(const Robot& robot, const RobotSceneRequest& request, const FindMesh& findMesh);
+
+} // namespace tss

@@ -1,0 +1,30 @@
+#pragma once
+#include "bake/base/Error.h"
+
+#include <memory>
+#include <string>
+#include <tinyxml2.h>
+#include <vector>
+
+namespace tss {
+
+/// Where an element stands, for a message: "line 12", and its name with that of its `name` attribute.
+Where placeOf(const std::string& file, const tinyxml2::XMLElement& element);
+
+/// The tree of an XML text whose elements know their lines. Refused with an InputError that names the file
+/// and the line: more than 8 MiB, not UTF-8, not well formed, a document type (no entity is ever expanded),
+/// an attribute given twice, elements more than 100 deep, xacro (with the command that expands it), a root of
+/// another name.
+std::unique_ptr<tinyxml2::XMLDocument> parseXml(const std::string& text, const std::string& file,
+                                                const std::string& root);
+
+/// The attribute, or the fallback where there is none.
+std::string textOf(const tinyxml2::XMLElement& element, const char* attribute,
+                   const std::string& fallback = "");
+
+/// Numbers apart by blanks; empty where the attribute is absent. Throws InputError for what is no finite
+/// number, or for another count than from `least` to `most`.
+std::vector<double> numbersOf(const std::string& file, const tinyxml2::XMLElement& element,
+                              const char* attribute, std::size_t least, std::size_t most);
+
+} // namespace tss

@@ -1,0 +1,16 @@
+#pragma once
+#include "bake/tool/Command.h"
+
+namespace tss::tool {
+
+/// `tss make` from a robot's file.
+struct RobotArguments {
+    std::string input, output;
+    std::vector<std::string> packages;
+    std::string srdf, geometry = "collision", pairs = "all";
+};
+
+/// Writes the scene of a robot and says what it holds. Throws InputError.
+void makeRobot(const RobotArguments& arguments, const Console& console);
+
+} // namespace tss::tool

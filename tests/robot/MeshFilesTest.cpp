@@ -1,0 +1,74 @@
+#include "bake/robot/MeshFiles.h"
+#include "tests/robot/Robots.h"
+
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+using namespace tss;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder with files, removed with the object.
+class Tree {
+public:
+    Tree() {
+        std::string pattern = (fs::temp_directory_path() / "tss-robot-XXXXXX").string();
+        REQUIRE(mkdtemp(pattern.data()));
+        root = fs::canonical(pattern);
+    }
+    ~Tree() {
+        std::error_code none;
+        fs::remove_all(root, none);
+    }
+    Tree(const Tree&) = delete;
+    Tree& operator=(const Tree&) = delete;
+    std::string write(const std::string& name, const std::string& text = "x") const {
+        fs::create_directories((root / name).parent_path());
+        std::ofstream(root / name) << text;
+        return (root / name).string();
+    }
+    fs::path root;
+};
+
+} // namespace
+
+TEST_CASE("a mesh of a package is found upwards by folder, by package.xml, or where it was said to be") {
+    const Tree tree;
+    const std::string mesh = tree.write("my_arm/meshes/a.stl"), urdf = tree.write("my_arm/urdf/arm.urdf");
+    CHECK(meshesOf(urdf, {})("package://my_arm/meshes/a.stl") == mesh);
+    CHECK(meshesOf(urdf, {})("model://my_arm/meshes/a.stl") == mesh);
+    const std::string other = tree.write("my_hand/b.stl");
+    CHECK(meshesOf(urdf, {})("package://my_hand/b.stl") == other); // beside the package
+
+    tree.write("checkout/package.xml", "<package><name> renamed </name></package>");
+    const std::string named = tree.write("checkout/c.stl"), inside = tree.write("checkout/deep/er/arm.urdf");
+    CHECK(meshesOf(inside, {})("package://renamed/c.stl") == named);
+
+    const Packages given = parsePackages({"elsewhere=" + (tree.root / "my_hand").string()});
+    CHECK(meshesOf(inside, given)("package://elsewhere/b.stl") == other);
+    CHECK(refusal([&] {
+              meshesOf(inside, {})("package://elsewhere/b.stl");
+          }).find("--package elsewhere=DIR") != std::string::npos);
+    CHECK(refusal([&] { parsePackages({"nonsense"}); }).find("NAME=DIR") != std::string::npos);
+    CHECK(refusal([&] { parsePackages({"a=/no/such/folder"}); }).find("no folder") != std::string::npos);
+}
+
+TEST_CASE("plain paths stay within the package or the parent of the file's folder, through links too") {
+    const Tree tree;
+    const std::string urdf = tree.write("robot/urdf/arm.urdf"), mesh = tree.write("robot/meshes/a.stl");
+    const std::string secret = tree.write("secret.stl");
+    const FindMesh find = meshesOf(urdf, {});
+    CHECK(find("../meshes/a.stl") == mesh);
+    CHECK(find("file://" + mesh) == mesh);
+    CHECK(refusal([&] { find("../../secret.stl"); }).find("lies outside") != std::string::npos);
+    CHECK(refusal([&] { find(secret); }).find("lies outside") != std::string::npos);
+    CHECK(refusal([&] { find("package://robot/../secret.stl"); }).find("lies outside") != std::string::npos);
+    CHECK(refusal([&] { find("package://../secret.stl"); }).find("package://NAME/PATH") != std::string::npos);
+    CHECK(refusal([&] { find("http://example.org/a.stl"); }).find("no other place") != std::string::npos);
+    CHECK(refusal([&] { find("missing.stl"); }).find("no such file") != std::string::npos);
+    fs::create_symlink(secret, tree.root / "robot/meshes/link.stl");
+    CHECK(refusal([&] { find("../meshes/link.stl"); }).find("lies outside") != std::string::npos);
+    CHECK(meshesOf(urdf, parsePackages({"all=" + tree.root.string()}))("../../secret.stl") == secret);
+}

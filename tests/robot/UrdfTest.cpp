@@ -1,0 +1,245 @@
+#ifdef OSGTSS_HAVE_URDF
+#include "bake/geometry/MeshAudit.h"
+#include "bake/robot/ReadUrdf.h"
+#include "bake/scene/ReadScene.h"
+#include "bake/scene/SceneFile.h"
+#include "tests/robot/Robots.h"
+
+#include <numbers>
+
+using namespace tss;
+
+namespace {
+
+const std::string box = "<collision><geometry><box size='0.1 0.1 0.1'/></geometry></collision>";
+
+std::string aLink(const std::string& name, const std::string& inside = box) {
+    return "<link name='" + name + "'>" + inside + "</link>\n";
+}
+
+std::string aJoint(const std::string& name, const std::string& type, const std::string& parent,
+                   const std::string& child, const std::string& inside) {
+    return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent + "'/><child link='" +
+           child + "'/>" + inside + "</joint>\n";
+}
+
+std::string robotOf(const std::string& inside) {
+    return "<?xml version='1.0'?>\n<robot name='arm'>\n" + inside + "</robot>\n";
+}
+
+const std::string limits = "<limit lower='-1' upper='2' effort='1' velocity='1'/>";
+
+RobotScene made(const std::string& text, const RobotSceneRequest& request = {}) {
+    return sceneOf(readUrdf(text, "arm.urdf"), request, noMeshes);
+}
+
+std::string refused(const std::string& text) {
+    return refusal([&] { made(text); });
+}
+
+} // namespace
+
+TEST_CASE("a link's point is where the URDF says, at any value of its joints") {
+    const RobotScene robot = made(robotOf(
+        aLink("base") + aLink("upper") + aLink("tool") +
+        aJoint("shoulder", "revolute", "base", "upper",
+               "<origin xyz='0.1 0.2 0.3' rpy='0.4 -0.5 0.6'/><axis xyz='1 2 -2'/>" + limits) +
+        aJoint("slide", "prismatic", "upper", "tool", "<origin xyz='0 0 1'/><axis xyz='0 -3 0'/>" + limits)));
+    const SceneModel& scene = robot.scene;
+    REQUIRE(scene.joints.size() == 2);
+    for (double angle : {-1.0, 0.0, 0.7, 2.0})
+        for (double way : {-1.0, 0.25, 2.0}) {
+            Pose upper = Pose::Identity(), tool = Pose::Identity();
+            upper.translate(Vec3(0.1, 0.2, 0.3)); // fixed axes: roll, then pitch, then yaw
+            upper.rotate(Eigen::AngleAxisd(0.6, Vec3::UnitZ()) * Eigen::AngleAxisd(-0.5, Vec3::UnitY()) *
+                         Eigen::AngleAxisd(0.4, Vec3::UnitX()));
+            upper.rotate(Eigen::AngleAxisd(angle, Vec3(1, 2, -2).normalized()));
+            tool = upper * Eigen::Translation3d(0, -way, 1);
+            const std::vector<double> values{angle, way};
+            const std::vector<Pose> placed = posedBodies(scene, values);
+            CHECK((placed[1].matrix() - upper.matrix()).norm() < 1e-12);
+            CHECK((placed[2].matrix() - tool.matrix()).norm() < 1e-12);
+        }
+    CHECK(scene.joints[0].dofs[0].lower == -1);
+    CHECK(scene.joints[1].dofs[0].upper == 2);
+    CHECK(scene.pairs.size() == 3);
+}
+
+TEST_CASE("several shapes of a link are one body in the link's frame; visual ones stand in where there is no "
+          "other") {
+    const std::string shapes =
+        "<collision><origin xyz='1 0 0'/><geometry><sphere radius='0.1'/></geometry></collision>"
+        "<collision><origin xyz='0 0 2' rpy='0 1.5707963267948966 0'/>"
+        "<geometry><cylinder radius='0.1' length='1'/></geometry></collision>"
+        "<visual><geometry><box size='9 9 9'/></geometry></visual>";
+    const std::string seen = "<visual><geometry><box size='1 1 1'/></geometry></visual>";
+    const std::string text =
+        robotOf(aLink("base", shapes) + aLink("eye", seen) + aLink("frame", "") +
+                aJoint("a", "fixed", "base", "eye", "") + aJoint("b", "fixed", "eye", "frame", ""));
+    const RobotScene robot = made(text);
+    const TriangleMesh& mesh = bodyCalled(robot.scene, "base").mesh;
+    CHECK(auditMesh(mesh).components == 2);
+    CHECK(auditMesh(mesh).watertight);
+    CHECK((bounds(mesh).max() - Vec3(1.1, 0.1, 2.1)).norm() < 2e-3);
+    CHECK((bounds(mesh).min() - Vec3(-0.5, -0.1, -0.1)).norm() < 2e-3);
+    CHECK(hasNote(robot.notes, "no collision geometry, and their other one is taken: eye"));
+    CHECK(robot.links[1].visual);
+    CHECK(bodyCalled(robot.scene, "frame").mesh.empty());
+    RobotSceneRequest visual;
+    visual.visual = true;
+    CHECK(bounds(bodyCalled(made(text, visual).scene, "base").mesh).sizes().isApprox(Vec3(9, 9, 9)));
+}
+
+TEST_CASE(
+    "fixed joints hold, continuous ones turn once round, floating and planar ones are left out by name") {
+    const RobotScene robot =
+        made(robotOf(aLink("base") + aLink("a") + aLink("b") + aLink("c") + aLink("d") +
+                     aJoint("hold", "fixed", "base", "a", "") +
+                     aJoint("wheel", "continuous", "a", "b", "<axis xyz='0 0 1'/>") +
+                     aJoint("swim", "floating", "base", "c", "") +
+                     aJoint("stuck", "revolute", "base", "d", "<limit lower='0.5' upper='0.5'/>")));
+    CHECK(jointCalled(robot.scene, "hold").dofs.empty());
+    CHECK(jointCalled(robot.scene, "stuck").dofs.empty());
+    const Dof& wheel = jointCalled(robot.scene, "wheel").dofs.at(0);
+    CHECK(wheel.upper - wheel.lower == Approx(2 * std::numbers::pi));
+    CHECK(robot.scene.joints.size() == 3);
+    CHECK(hasNote(robot.notes, "joint swim (line 10) is floating"));
+    CHECK(hasNote(robot.notes,
+                  "joint stuck (line 11) has the limits 28.6479 to 28.6479 degrees: taken as fixed"));
+    CHECK(robot.scene.pairs.size() == 3); // the wheel against the base, a and d; c is tied to nothing
+}
+
+TEST_CASE(
+    "a joint that mimics has the limits that its leader leaves it, and follows it in the scene's motion") {
+    const auto follower = [](const std::string& mimic, const std::string& itsLimits) {
+        return robotOf(
+            aLink("base") + aLink("a") + aLink("b") + aJoint("lead", "revolute", "base", "a", limits) +
+            aJoint("follow", "revolute", "base", "b", "<mimic joint='lead' " + mimic + "/>" + itsLimits));
+    };
+    const RobotScene robot =
+        made(follower("multiplier='-0.5' offset='0.25'", "<limit lower='-0.5' upper='9'/>"));
+    const Joint &lead = jointCalled(robot.scene, "lead"), &joint = jointCalled(robot.scene, "follow");
+    CHECK(joint.dofs[0].lower == Approx(-0.5));
+    CHECK(joint.dofs[0].upper == Approx(0.75));
+    REQUIRE(joint.drives[0].times == lead.drives[0].times);
+    for (std::size_t k = 0; k < joint.drives[0].values.size(); ++k)
+        CHECK(joint.drives[0].values[k] == Approx(std::max(-0.5, 0.25 - 0.5 * lead.drives[0].values[k])));
+    CHECK(hasNote(robot.notes, "follow mimics lead"));
+    CHECK(refused(follower("", "<limit lower='5' upper='6'/>")).find("never leads it into its limits") !=
+          std::string::npos);
+    const std::string circle =
+        robotOf(aLink("base") + aLink("a") + aLink("b") +
+                aJoint("one", "revolute", "base", "a", "<mimic joint='two'/>" + limits) +
+                aJoint("two", "revolute", "base", "b", "<mimic joint='one'/>" + limits));
+    CHECK(refused(circle).find("in a circle") != std::string::npos);
+    const std::string nobody =
+        robotOf(aLink("base") + aLink("a") +
+                aJoint("one", "revolute", "base", "a", "<mimic joint='nobody'/>" + limits));
+    CHECK(refused(nobody).find("line 5 (<joint one>): mimics \"nobody\"") != std::string::npos);
+}
+
+TEST_CASE("what a URDF gets wrong is refused with file, line and element") {
+    const auto says = [](const std::string& text, const std::string& words) {
+        const std::string message = refused(text);
+        INFO(message);
+        CHECK(message.find("arm.urdf") != std::string::npos);
+        CHECK(message.find(words) != std::string::npos);
+    };
+    const std::string two = aLink("a") + aLink("b");
+    says("", "expected XML, found nothing");
+    says("<robot name='x'>", "line 1: expected the end of the element");
+    says("<sdf/>", "line 1 (<sdf>): expected <robot>, found <sdf>");
+    says("<robot name='x'/>", "at least one <link>");
+    says("<robot><link name='a'/></robot>", "expected an attribute name");
+    says(robotOf(aLink("a") + aLink("a")), "line 4 (<link a>): expected a name that no other link has");
+    says(robotOf(aLink("a") + aJoint("j", "fixed", "a", "nobody", "")),
+         "line 4 (<child>): expected the name of a link, found \"nobody\"");
+    says(robotOf(two + aJoint("j", "hinge", "a", "b", "")), "found \"hinge\"");
+    says(robotOf(two + aJoint("j", "revolute", "a", "b", "")), "expected an element <limit");
+    says(robotOf(two + aJoint("j", "revolute", "a", "b", "<limit lower='2' upper='1'/>")),
+         "expected lower <= upper");
+    says(robotOf(two + aJoint("j", "revolute", "a", "b", "<axis xyz='0 0 0'/>" + limits)),
+         "axis that is not zero");
+    says(robotOf(two + aJoint("j", "revolute", "a", "b", "<origin xyz='0 nan 0'/>" + limits)),
+         "expected 3 finite numbers");
+    says(robotOf(two + aJoint("j", "revolute", "a", "b", "<origin xyz='0 1e999 0'/>" + limits)),
+         "expected 3 finite");
+    says(robotOf(two + aJoint("j", "fixed", "a", "b", "") + aJoint("k", "fixed", "a", "b", "")),
+         "hangs on joint j too");
+    says(robotOf(two + aLink("c") + aJoint("j", "fixed", "a", "b", "") + aJoint("k", "fixed", "b", "a", "")),
+         "loop");
+    says(robotOf(aLink("a", "<collision><geometry><box/></geometry></collision>")),
+         "expected an attribute size");
+    says(robotOf(aLink("a", "<collision><geometry><box size='1 0 1'/></geometry></collision>")),
+         "lengths above 0");
+    says(robotOf("<link name='a' name='b'/>"), "not well-formed XML");
+    says(robotOf(aLink("caf\xe9")), "UTF-8");
+}
+
+TEST_CASE("xacro, document types, bombs and depth are refused by name") {
+    const std::string xacro = robotOf("<xacro:include filename='x'/>" + aLink("a"));
+    CHECK(refused(xacro).find("line 3 (<xacro:include>): \"xacro:include\" is xacro") != std::string::npos);
+    CHECK(refused(xacro).find("xacro arm.urdf > arm_expanded.urdf") != std::string::npos);
+    CHECK(refused(robotOf("<link name='${prefix}a'/>")).find("is xacro") != std::string::npos);
+    const std::string bomb =
+        "<!DOCTYPE robot [<!ENTITY a \"lol\"><!ENTITY b \"&a;&a;&a;\">]>\n" + robotOf(aLink("&b;"));
+    CHECK(refused(bomb).find("line 1: a document type is not read") != std::string::npos);
+    std::string deep;
+    for (int k = 0; k < 100000; ++k) deep += "<link name='a'>";
+    CHECK(refused("<robot name='x'>" + deep).find("no more than 100 deep") != std::string::npos);
+    CHECK(refused(robotOf("<!-- " + std::string(9 << 20, 'x') + " -->" + aLink("a"))).find("8 MiB") !=
+          std::string::npos);
+}
+
+TEST_CASE("shapes of others are left out by name, and what is not used does not matter") {
+    const RobotScene robot = made(
+        robotOf("<material name='red'><color rgba='1 0 0 1'/></material><gazebo reference='a'><x/></gazebo>"
+                "<transmission name='t'><type>x</type></transmission>" +
+                aLink("a", "<inertial><mass value='junk'/></inertial>"
+                           "<visual><geometry><box size='1 1 1'/></geometry><material name='red'/></visual>"
+                           "<collision><geometry><capsule radius='1' length='2'/></geometry></collision>" +
+                               box)));
+    CHECK(hasNote(robot.notes, "a shape <capsule> (line 3)"));
+    CHECK(bodyCalled(robot.scene, "a").displayColor == Vec3(1, 0, 0));
+    CHECK(bounds(bodyCalled(robot.scene, "a").mesh).sizes().isApprox(Vec3(0.1, 0.1, 0.1)));
+}
+
+TEST_CASE("names that USD does not know are kept beside, and the scene reads back the same") {
+    const RobotScene robot = made(robotOf(aLink("1 base/link") + aLink("tool-0") +
+                                          aJoint("joint-1", "revolute", "1 base/link", "tool-0",
+                                                 "<origin xyz='0 0 0.5' rpy='0.1 0.2 0.3'/>" + limits)));
+    CHECK(bodyCalled(robot.scene, "tool_0").displayName == "tool-0");
+    CHECK(hasNote(robot.notes, "joint joint-1 is called joint_1"));
+    const SceneModel again = readScene(std::make_shared<const Layer>(layerOf(robot.scene)), "arm.tss");
+    REQUIRE(again.bodies.size() == 2);
+    CHECK(again.bodies[0].displayName == "1 base/link");
+    CHECK(again.bodies[1].mesh.triangles.size() == robot.scene.bodies[1].mesh.triangles.size());
+    REQUIRE(again.pairs.size() == 1);
+    CHECK(again.pairs[0].bodyB == 1);
+    const Motion motion = pairMotion(again, again.pairs[0]);
+    CHECK(motion.dofs[0].upper == Approx(2).epsilon(1e-6));
+    CHECK(motion.dofs[0].rest == 0);
+}
+
+TEST_CASE("pairs are those of neighbours or all, and an SRDF takes some out") {
+    const std::string text =
+        robotOf(aLink("a") + aLink("b") + aLink("c") + aJoint("j", "revolute", "a", "b", limits) +
+                aJoint("k", "revolute", "b", "c", "<origin xyz='1 0 0'/>" + limits));
+    CHECK(made(text).scene.pairs.size() == 3);
+    RobotSceneRequest neighbours;
+    neighbours.pairs = RobotPairs::Neighbours;
+    CHECK(made(text, neighbours).scene.pairs.size() == 2);
+    Robot robot = readUrdf(text, "arm.urdf");
+    readSrdf(robot,
+             "<robot name='arm'><group name='g'/><disable_collisions link1='c' link2='a' reason='Never'/>"
+             "<disable_collisions link1='c' link2='nobody' reason='Never'/></robot>",
+             "arm.srdf");
+    const RobotScene fewer = sceneOf(robot, {}, noMeshes);
+    CHECK(fewer.scene.pairs.size() == 2);
+    CHECK(hasNote(fewer.notes, "1 pairs are left out"));
+    CHECK(hasNote(fewer.notes, "no link \"nobody\""));
+    CHECK(refusal([&] {
+              readSrdf(robot, "<robot><disable_collisions link1='a'/></robot>", "arm.srdf");
+          }).find("link1 and link2") != std::string::npos);
+}
+#endif

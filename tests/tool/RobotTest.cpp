@@ -1,0 +1,136 @@
+// From a robot's file to a baked scene and back to what planners and simulators read.
+#include "bake/scene/SceneFile.h"
+#include "tests/tool/Swing.h"
+
+#include <nlohmann/json.hpp>
+
+using Json = nlohmann::json;
+
+namespace {
+
+/// Three boxes in a row: the first hinge never brings its neighbour to the base, the last box can hit it.
+const char* arm = R"(<?xml version="1.0"?>
+<robot name="arm">
+  <link name="base"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+  <link name="upper-arm"><collision><geometry><mesh filename="package://my_arm/upper.obj"/></geometry></collision></link>
+  <link name="tool"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+  <link name="camera"><collision><origin xyz="0 0 0.2"/><geometry><box size="0.02 0.02 0.02"/></geometry></collision></link>
+  <joint name="shoulder" type="revolute">
+    <parent link="base"/><child link="upper-arm"/><origin xyz="0.3 0 0"/><axis xyz="0 0 1"/><limit lower="-3" upper="3.1"/>
+  </joint>
+  <joint name="elbow" type="revolute">
+    <parent link="upper-arm"/><child link="tool"/><origin xyz="0.25 0 0"/><axis xyz="0 0 1"/><limit lower="-1" upper="1"/>
+  </joint>
+  <joint name="mount" type="fixed"><parent link="base"/><child link="camera"/></joint>
+</robot>
+)";
+
+void writeArm(const Folder& folder) {
+    std::filesystem::create_directories(folder.path() / "my_arm");
+    writeText(folder.path() / "my_arm/arm.urdf", arm);
+    writeObj(boxMesh({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}), folder / "my_arm/upper.obj");
+}
+
+Ran made(const std::string& arguments, const Folder& folder) {
+    Ran ran = runTss("make " + arguments, folder.path());
+    INFO(ran.err);
+    CHECK(ran.exit == 0);
+    return ran;
+}
+
+} // namespace
+
+#ifdef OSGTSS_HAVE_URDF
+TEST_CASE("a URDF is made, baked, and written as an SRDF that says Never only where it was proven") {
+    const Folder folder;
+    writeArm(folder);
+    const Json robot = Json::parse(made("my_arm/arm.urdf -o arm.tss --json", folder).out);
+    CHECK(robot["robot"] == "arm");
+    CHECK(robot["links"].size() == 4);
+    CHECK(robot["joints"].size() == 3);
+    // camera and base do not move against each other
+    CHECK(robot["pairs"].size() == 5);
+
+    // Nothing is proven before it is baked.
+    REQUIRE(runTss("convert arm.tss open.srdf --json", folder.path()).exit == 0);
+    CHECK(readText(folder.path() / "open.srdf").find("Never") == std::string::npos);
+
+    const Ran baked = runTss("bake arm.tss -o baked.tss --tolerance 5mm", folder.path());
+    INFO(baked.err);
+    REQUIRE(baked.exit == 0);
+    const Ran ran = runTss("convert baked.tss arm.srdf --json", folder.path());
+    REQUIRE(ran.exit == 0);
+    const Json counts = Json::parse(ran.out);
+    const std::string srdf = readText(folder.path() / "arm.srdf");
+    INFO(srdf);
+    CHECK(srdf.find("<robot name=\"arm\">") != std::string::npos);
+    CHECK(srdf.find("link1=\"base\" link2=\"upper-arm\" reason=\"Adjacent\"") != std::string::npos);
+    CHECK(srdf.find("link1=\"upper-arm\" link2=\"camera\" reason=\"Never\"") != std::string::npos);
+    CHECK(srdf.find("link1=\"base\" link2=\"tool\"") == std::string::npos);
+    CHECK(srdf.find("base, tool: stay on: the meshes meet, as at shoulder ") != std::string::npos);
+    CHECK(srdf.find("base, upper-arm: joined; proven apart by at least ") != std::string::npos);
+    CHECK(counts["adjacent"] == 3);
+    CHECK(counts["never"].get<int>() >= 1);
+    CHECK(counts["meets"].get<int>() >= 1);
+
+    // What the SRDF switches off is left out when the robot is made again.
+    const Json fewer = Json::parse(made("my_arm/arm.urdf -o fewer.tss --srdf arm.srdf --json", folder).out);
+    const std::size_t off = counts["never"].get<std::size_t>() + 2; // two of the adjacent ones move
+    CHECK(fewer["pairs"].size() == 5 - off);
+
+    REQUIRE(runTss("convert baked.tss excludes.xml", folder.path()).exit == 0);
+    const std::string excludes = readText(folder.path() / "excludes.xml");
+    CHECK(excludes.find("<exclude body1=\"upper-arm\" body2=\"camera\"/>") != std::string::npos);
+    CHECK(excludes.find("body1=\"base\" body2=\"tool\"") == std::string::npos);
+    REQUIRE(runTss("convert baked.tss arm.usda --filtered-pairs", folder.path()).exit == 0);
+    const std::string usda = readText(folder.path() / "arm.usda");
+    CHECK(usda.find("PhysicsFilteredPairsAPI") != std::string::npos);
+    CHECK(usda.find("rel physics:filteredPairs = ") != std::string::npos);
+}
+
+TEST_CASE("a stale proof is no proof: the SRDF is refused and names the pair") {
+    const Folder folder;
+    writeArm(folder);
+    made("my_arm/arm.urdf -o arm.tss --pairs neighbours", folder);
+    REQUIRE(runTss("bake arm.tss -o baked.tss --tolerance 5mm", folder.path()).exit == 0);
+    std::string text = readText(folder.path() / "baked.tss");
+    const auto at = text.find("physics:upperLimit");
+    REQUIRE(at != std::string::npos);
+    text.insert(text.find_first_of("0123456789", text.find("\"default\":", at)), 1, '1');
+    writeText(folder.path() / "baked.tss", text);
+    const Ran ran = runTss("convert baked.tss arm.srdf", folder.path());
+    INFO(ran.err);
+    CHECK(ran.exit == 1);
+    CHECK(ran.err.find("baked.tss") != std::string::npos);
+    CHECK(ran.err.find("limits") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "arm.srdf"));
+}
+
+TEST_CASE("what a robot's file needs and has not is exit 1 with the place, and leaves no scene") {
+    const Folder folder;
+    writeArm(folder);
+    const auto refused = [&](const std::string& arguments, int exit, const std::string& words) {
+        const Ran ran = runTss("make " + arguments, folder.path());
+        INFO(arguments << "\n" << ran.err);
+        CHECK(ran.exit == exit);
+        CHECK(ran.err.find(words) != std::string::npos);
+        CHECK_FALSE(std::filesystem::exists(folder.path() / "out.tss"));
+    };
+    std::filesystem::create_directories(folder.path() / "alone");
+    writeText(folder.path() / "alone/arm.urdf", arm);
+    refused("alone/none.urdf -o out.tss", 1, "alone/none.urdf");
+    std::filesystem::rename(folder.path() / "my_arm", folder.path() / "moved");
+    refused("alone/arm.urdf -o out.tss", 1,
+            "alone/arm.urdf: line 4 (<link upper-arm>): mesh \"package://my_arm/upper.obj\"");
+    refused("alone/arm.urdf -o out.tss", 1, "--package my_arm=DIR");
+    CHECK(runTss("make alone/arm.urdf -o found.tss --package my_arm=moved", folder.path()).exit == 0);
+    refused("alone/arm.urdf -o out.tss --package my_arm=nowhere", 1, "there is no folder nowhere");
+    refused("alone/arm.urdf -o alone/arm.urdf --package my_arm=moved", 1, "is read here");
+    refused("alone/arm.urdf -o out.tss --pairs some", 2, "neighbours");
+    refused("alone/arm.urdf -o out.tss --a moved/upper.obj", 2, "--a");
+    refused("-o out.tss --b moved/upper.obj --dof rot:0,0,0:0,0,1:0:1", 2, "--a");
+    refused("-o out.tss --a moved/upper.obj --b moved/upper.obj", 2, "--dof");
+    CHECK(runTss("convert moved/upper.obj out.srdf", folder.path()).err.find("expected a baked scene") !=
+          std::string::npos);
+}
+#endif
