@@ -1,6 +1,7 @@
 #include "bake/JointPlan.h"
 
 #include "bake/base/Error.h"
+#include "bake/model/PairDofs.h"
 #include "bake/motion/MotionBound.h"
 #include "bake/table/Query.h"
 
@@ -22,15 +23,14 @@ struct Placed {
 Placed place(const SceneModel& scene, int pair, JointPlan& plan) {
     Placed placed{pair, {}};
     for (int joint : scene.pairs[pair].joints) {
-        const auto known = std::find(plan.joints.begin(), plan.joints.end(), joint);
-        const std::size_t index = static_cast<std::size_t>(known - plan.joints.begin());
-        if (known == plan.joints.end()) {
-            plan.joints.push_back(joint);
-            plan.firstValue.push_back(plan.valueCount);
-            plan.valueCount += scene.joints[joint].dofs.size();
-        }
-        for (std::size_t k = 0; k < scene.joints[joint].dofs.size(); ++k)
-            placed.slots.push_back(plan.firstValue[index] + k);
+        if (std::find(plan.joints.begin(), plan.joints.end(), joint) != plan.joints.end()) continue;
+        plan.joints.push_back(joint);
+        plan.firstValue.push_back(plan.valueCount);
+        plan.valueCount += scene.joints[joint].dofs.size();
+    }
+    for (const JointDof& dof : pairDofs(scene, scene.pairs[pair])) {
+        const auto at = std::find(plan.joints.begin(), plan.joints.end(), dof.joint);
+        placed.slots.push_back(plan.firstValue[static_cast<std::size_t>(at - plan.joints.begin())] + dof.dof);
     }
     return placed;
 }
