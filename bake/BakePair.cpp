@@ -26,6 +26,12 @@ namespace tss {
 
 namespace {
 
+/// Over more DOFs than these neither what is within reach nor a cover is found in any time that people have,
+/// or within a budget of seconds.
+bool manyDofs(const Motion& motion, const BakeOptions& options) {
+    return motion.dofCount() > (options.budget > 0 ? 3u : 6u);
+}
+
 const char* name(SphereMethod method) {
     switch (method) {
     case SphereMethod::Medial:
@@ -184,6 +190,14 @@ double askedWithin(const SphereFit& a, const SphereFit& b, const BakeOptions& op
     return fitted && std::isfinite(lacking) ? lacking : 0;
 }
 
+/// Pairs of spheres that answer for themselves are no more than a query can ask.
+constexpr std::size_t mostPairsToAsk = 200'000;
+
+bool asksAll(const SphereSet& a, const SphereSet& b, const Motion& motion, const BakeOptions& options) {
+    return manyDofs(motion, options) && options.reduce == ReduceMethod::Cover &&
+           options.search == SearchMethod::Certified && a.size() * b.size() <= mostPairsToAsk;
+}
+
 CandidatePairs search(const SphereSet& a, const SphereSet& b, const Motion& motion,
                       const BakeOptions& options, double margin, const ContactRule& rule,
                       const Progress& progress) {
@@ -194,7 +208,8 @@ CandidatePairs search(const SphereSet& a, const SphereSet& b, const Motion& moti
     certified.margin = margin;
     // The cover does without the list, which wide limits can make longer than anybody needs; only the others
     // wait.
-    if (options.reduce == ReduceMethod::Cover) certified.effort = 50'000'000;
+    if (options.reduce == ReduceMethod::Cover)
+        certified.effort = asksAll(a, b, motion, options) ? 5'000'000 : 50'000'000;
     return searchCertified(a, b, motion, certified, progress);
 }
 
@@ -210,6 +225,27 @@ struct Selection {
     bool certified = false;
     std::optional<NeverCollides> proof; ///< there is nothing to select from
 };
+
+/// Every pair that the search has not ruled out; all, where it did not come to an end.
+Selection selectAll(const SphereSet& a, const SphereSet& b, const CandidatePairs& candidates,
+                    const Motion& motion, const ContactRule& rule, PairReport& report) {
+    Selection selection;
+    std::vector<SpherePair>& pairs = selection.reduced.pairs;
+    if (candidates.certified) {
+        pairs = candidates.pairs;
+    } else {
+        for (std::uint32_t i = 0; i < a.size(); ++i)
+            for (std::uint32_t j = 0; j < b.size(); ++j)
+                if (std::isfinite(rule.threshold({i, j}))) pairs.push_back({i, j});
+    }
+    selection.reduced.restGaps = rule.thresholds(pairs);
+    selection.certified = true;
+    report.notes.push_back(
+        fmt::format("{} degrees of freedom are too many to find out which pairs of spheres "
+                    "imply others: all {} that may meet are asked",
+                    motion.dofCount(), pairs.size()));
+    return selection;
+}
 
 Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& candidates,
                  const Motion& motion, const BakeOptions& options, double margin, const ContactRule& rule,
@@ -303,6 +339,7 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
         zone.atRest = options.atRest;
         zone.maxSpheres = options.maxSpheres;
         zone.conservative = options.conservative;
+        zone.whole = manyDofs(motion, options);
         const TriangleMesh meshA = cleaned(meshOf(a)), meshB = cleaned(meshOf(b));
         ContactZoneFit fit = fitContactZone(meshA, meshB, motion, zone, progress);
         if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
@@ -354,6 +391,8 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
     Selection selection;
     if (candidates.certified && candidates.pairs.empty())
         selection.proof = NeverCollides{candidates.clearance, candidates.explored, {}, {}, {}};
+    else if (asksAll(fitA.spheres, fitB.spheres, motion, options))
+        selection = selectAll(fitA.spheres, fitB.spheres, candidates, motion, ruled.rule, report);
     else
         selection = select(fitA.spheres, fitB.spheres, candidates, motion, options, margin, ruled.rule,
                            report, progress);

@@ -99,14 +99,14 @@ public:
             const ContactZoneOptions& options, const HollowBodies& hollow, bool clearAtRest,
             const Progress& progress)
         : a_(a, hollow.a), b_(b, hollow.b), motion_(motion), options_(options), progress_(progress),
-          cells_(wholeQ(motion)), clearAtRest_(clearAtRest) {}
+          cells_(wholeQ(motion)), clearAtRest_(clearAtRest), whole_(options.whole) {}
 
     /// Of no use where entered() says that a body is hollow after all.
     ContactZoneFit run() {
         const double smaller = std::min(a_.solid.diagonal(), b_.solid.diagonal());
         const double finest = options_.tolerance > 0 ? options_.tolerance : smaller / 500;
         if (!begin(finest)) return {};
-        std::vector<double> levels = levelTolerances(finest, smaller);
+        std::vector<double> levels = whole_ ? std::vector{finest} : levelTolerances(finest, smaller);
         for (std::size_t i = 0; i < levels.size(); ++i) {
             if (!narrow(levels[i])) break;
             if (i == 0) levels = coarsened(std::move(levels));
@@ -151,6 +151,7 @@ private:
 
     /// The zones within reach over what is left of Q. False: there are none.
     bool narrow(double tolerance) {
+        if (whole_) return true;
         std::vector<Patch> zoneA =
             findReach(a_.zone, Side::A, b_.surface, motion_, cells_, tolerance, options_.margin, progress_);
         std::vector<Patch> zoneB =
@@ -313,6 +314,7 @@ private:
     ContactZoneFit result_;
     HollowBodies entered_;
     const bool clearAtRest_;
+    const bool whole_; ///< no part of the surfaces is left out as out of reach
     bool hits_ = false;
     bool decided_ = false; ///< no pose is left whose verdict the spheres do not know
     std::string note_;

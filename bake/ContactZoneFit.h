@@ -19,6 +19,8 @@ struct ContactZoneOptions {
     bool conservative = true; ///< else all spheres are inscribed and the zone is covered to the tolerance
     bool keepCoarse =
         true; ///< the inscribed spheres of coarser levels stay where the finer ones do not reach
+    bool whole =
+        false; ///< all of both surfaces is filled, at once to the tolerance: nothing is looked for in Q
     MedialOptions medial;
 };
 
@@ -53,9 +55,8 @@ struct ContactZoneFit {
 /// where a pair does, the meshes are at most 2 L apart or one reaches into the other. Surfaces out of reach
 /// have no spheres: what is inside the other body from the beginning, surfaces apart, is not contact. Meshes
 /// that never meet get the spheres that show it, or none when the surfaces alone do. Where the joint rests,
-/// the spheres are apart wherever the meshes are (see RestPlan). Stopped through
-/// progress, the result is that of the level reached and the note says so. Throws InputError for a mesh that
-/// cannot be used.
+/// the spheres are apart wherever the meshes are (see RestPlan). Stopped through progress, the result is that
+/// of the level reached and the note says so. Throws InputError for a mesh that cannot be used.
 ContactZoneFit fitContactZone(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
                               const ContactZoneOptions& options, const Progress& progress = {});
 

@@ -1,9 +1,12 @@
 #include "bake/JointPlan.h"
 
 #include "bake/base/Error.h"
+#include "bake/model/PairDofs.h"
+#include "bake/motion/MotionBound.h"
 #include "bake/table/Query.h"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 namespace tss {
@@ -20,15 +23,14 @@ struct Placed {
 Placed place(const SceneModel& scene, int pair, JointPlan& plan) {
     Placed placed{pair, {}};
     for (int joint : scene.pairs[pair].joints) {
-        const auto known = std::find(plan.joints.begin(), plan.joints.end(), joint);
-        const std::size_t index = static_cast<std::size_t>(known - plan.joints.begin());
-        if (known == plan.joints.end()) {
-            plan.joints.push_back(joint);
-            plan.firstValue.push_back(plan.valueCount);
-            plan.valueCount += scene.joints[joint].dofs.size();
-        }
-        for (std::size_t k = 0; k < scene.joints[joint].dofs.size(); ++k)
-            placed.slots.push_back(plan.firstValue[index] + k);
+        if (std::find(plan.joints.begin(), plan.joints.end(), joint) != plan.joints.end()) continue;
+        plan.joints.push_back(joint);
+        plan.firstValue.push_back(plan.valueCount);
+        plan.valueCount += scene.joints[joint].dofs.size();
+    }
+    for (const JointDof& dof : pairDofs(scene, scene.pairs[pair])) {
+        const auto at = std::find(plan.joints.begin(), plan.joints.end(), dof.joint);
+        placed.slots.push_back(plan.firstValue[static_cast<std::size_t>(at - plan.joints.begin())] + dof.dof);
     }
     return placed;
 }
@@ -49,6 +51,31 @@ void addGroup(const SceneModel& scene, const std::vector<Placed>& tables, JointP
         pairs.push_back(table.pair);
     }
     plan.groups.push_back({pairs, slots, JointResponder(entries, static_cast<int>(slots.size()))});
+}
+
+/// In as few groups as a simple rule finds: each table where its values and those that are there already are
+/// no more than a response serves, of these where it adds fewest.
+std::vector<std::vector<Placed>> grouped(const std::vector<Placed>& tables) {
+    std::vector<std::vector<Placed>> groups;
+    std::vector<std::set<std::size_t>> slots;
+    for (const Placed& table : tables) {
+        std::size_t best = groups.size(), fewest = 0;
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+            const auto more = static_cast<std::size_t>(
+                std::count_if(table.slots.begin(), table.slots.end(),
+                              [&](std::size_t slot) { return !slots[g].contains(slot); }));
+            if (slots[g].size() + more > maxDofs || (best < groups.size() && more >= fewest)) continue;
+            best = g;
+            fewest = more;
+        }
+        if (best == groups.size()) {
+            groups.emplace_back();
+            slots.emplace_back();
+        }
+        groups[best].push_back(table);
+        slots[best].insert(table.slots.begin(), table.slots.end());
+    }
+    return groups;
 }
 
 void warn(std::vector<std::string>* warnings, const Pair& pair, const std::string& why) {
@@ -76,6 +103,17 @@ void remark(std::vector<std::string>* warnings, const Pair& pair) {
     warnings->push_back("pair " + pair.path + ": " + text.str());
 }
 
+/// Where the tables do not go together, each alone.
+void addOrPart(const SceneModel& scene, const std::vector<Placed>& tables, JointPlan& plan,
+               std::vector<std::string>* warnings) {
+    try {
+        return addGroup(scene, tables, plan);
+    } catch (const InputError& error) {
+        if (tables.size() == 1) return warn(warnings, scene.pairs[tables[0].pair], error.what());
+    }
+    for (const Placed& table : tables) addOrPart(scene, {table}, plan, warnings);
+}
+
 } // namespace
 
 std::shared_ptr<const JointPlan> makeJointPlan(const SceneModel& scene,
@@ -93,23 +131,7 @@ std::shared_ptr<const JointPlan> makeJointPlan(const SceneModel& scene,
         } else
             warn(warnings, scene.pairs[index], "its joints have other degrees of freedom than its table");
     }
-    if (tables.empty()) return plan;
-    try {
-        addGroup(scene, tables, *plan);
-        return plan;
-    } catch (const InputError& error) {
-        if (tables.size() == 1) {
-            warn(warnings, scene.pairs[tables[0].pair], error.what());
-            return plan;
-        }
-    }
-    for (const Placed& table : tables) {
-        try {
-            addGroup(scene, {table}, *plan);
-        } catch (const InputError& error) {
-            warn(warnings, scene.pairs[table.pair], error.what());
-        }
-    }
+    for (const std::vector<Placed>& group : grouped(tables)) addOrPart(scene, group, *plan, warnings);
     return plan;
 }
 

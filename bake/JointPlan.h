@@ -29,7 +29,7 @@ struct GroupAnswer : JointAnswer {
 };
 
 /// Pairs without a table are passed over. All tables go into one group; where that has more values than a
-/// response serves, each table into its own. What cannot be served is left out;
+/// response serves, into as few as are found. What cannot be served is left out;
 /// `warnings` then says which pair and why, and what of the others a person should know: a table that is too
 /// coarse for its joint, or says contact where that rests.
 std::shared_ptr<const JointPlan> makeJointPlan(const SceneModel& scene,

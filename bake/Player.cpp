@@ -3,6 +3,7 @@
 #include "bake/SkinSetup.h"
 #include "bake/geometry/Solid.h"
 #include "bake/model/Kinematics.h"
+#include "bake/model/PairDofs.h"
 #include "bake/table/Query.h"
 
 #include <algorithm>
@@ -92,8 +93,8 @@ Player::Step Player::step(const std::vector<double>& asked, double timeCode) {
     for (const Pair& pair : scene_.pairs) {
         if (!pair.table) continue;
         std::vector<double> q;
-        for (int joint : pair.joints)
-            q.insert(q.end(), values_.begin() + first[joint], values_.begin() + first[joint + 1]);
+        for (const JointDof& dof : pairDofs(scene_, pair))
+            q.push_back(values_[first[static_cast<std::size_t>(dof.joint)] + dof.dof]);
         result.gap = std::min(result.gap, query(*pair.table, pose(pair.table->motion, q)).gap);
     }
 

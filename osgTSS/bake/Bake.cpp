@@ -10,6 +10,7 @@
 #include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osg/ValueObject>
+#include <osgAnimation/Bone>
 #include <osgSim/DOFTransform>
 #include <osgTSS/Bake>
 #include <osgTSS/ConstraintVisitor>
@@ -32,6 +33,11 @@ public:
         setNodeMaskOverride(~0u);
     }
 
+    void apply(osg::Node& node) override {
+        tag(node, _options.ignored, "osgTSS:ignored");
+        traverse(node);
+    }
+
     void apply(osg::Transform& node) override {
         std::string words =
             _options.writtenLimits && dynamic_cast<osgSim::DOFTransform*>(&node) ? "written" : "";
@@ -41,25 +47,35 @@ public:
                 used.insert(name);
             }
         if (!words.empty()) node.setUserValue("osgTSS:limits", words);
-        if (std::find(_options.still.begin(), _options.still.end(), node.getName()) != _options.still.end()) {
-            node.setUserValue("osgTSS:static", true);
-            used.insert(node.getName());
-        }
-        traverse(node);
+        tag(node, _options.still, "osgTSS:static");
+        if (_options.boneStill > 0 && dynamic_cast<osgAnimation::Bone*>(&node))
+            node.setUserValue("osgTSS:still", _options.boneStill);
+        apply(static_cast<osg::Node&>(node));
     }
 
     std::set<std::string> used;
 
 private:
+    void tag(osg::Node& node, const std::vector<std::string>& names, const char* value) {
+        if (std::find(names.begin(), names.end(), node.getName()) == names.end()) return;
+        node.setUserValue(value, true);
+        used.insert(node.getName());
+    }
+
     const BakeOptions& _options;
 };
 
 void tagNodes(osg::Node& root, const BakeOptions& options) {
-    if (options.limits.empty() && options.still.empty() && !options.writtenLimits) return;
+    if (options.limits.empty() && options.still.empty() && options.ignored.empty() &&
+        !options.writtenLimits && !(options.boneStill > 0))
+        return;
     TagNodes visitor(options);
     root.accept(visitor);
     std::set<std::string> names(options.still.begin(), options.still.end());
     for (const auto& [name, word] : options.limits) names.insert(name);
+    for (const std::string& name : options.ignored)
+        if (!visitor.used.contains(name))
+            OSG_WARN << "osgTSS: option ignore: no node is named \"" << name << "\"" << std::endl;
     for (const std::string& name : names)
         if (!visitor.used.contains(name))
             OSG_WARN << "osgTSS: options limits and static: no transform is named \"" << name << "\""

@@ -12,7 +12,7 @@ namespace osgTSS {
 
 namespace {
 
-const char* const ownWords[] = {"pairs", "switches", "limits", "static", "cache"};
+const char* const ownWords[] = {"pairs", "switches", "limits", "static", "ignore", "still", "cache"};
 const char* const loadWords[] = {"clock", "light", "noRotation", "overlay"};
 
 std::string oneOf(const std::string& key, const std::string& value, const std::vector<std::string>& choices) {
@@ -76,6 +76,10 @@ BakeOptions::BakeOptions(const std::map<std::string, std::string>& words) {
             }
         else if (key == "static")
             still = parts(value);
+        else if (key == "ignore")
+            ignored = parts(value);
+        else if (key == "still")
+            boneStill = tss::parseNumber(value, "option still");
         else if (key == "cache")
             cache = value;
         else if (tss::isOption(key))

@@ -25,6 +25,8 @@ public:
         supportsOption("limits=<NAME:rotZ:-24:18,...>",
                        "Limits of DOFTransforms (* for all names), degrees and units of length");
         supportsOption("static=<NAME,...>", "Transforms that are taken to stand still");
+        supportsOption("ignore=<NAME,...>", "Nodes that are drawn, but part of no body");
+        supportsOption("still=<DEGREES>", "Turns of bones of less than this are no degree of freedom");
         supportsOption("cache=<FILE|off>",
                        "Where tables are kept (default FILE.EXT.cache.tss beside the file)");
         supportsOption("<setting>=<value>", "Settings of 'tss bake' without dashes, such as tolerance=0.1");

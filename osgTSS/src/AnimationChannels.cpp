@@ -3,6 +3,8 @@
 #include <osg/NodeVisitor>
 #include <osgAnimation/AnimationManagerBase>
 
+#include <algorithm>
+
 namespace osgTSS {
 
 namespace {
@@ -47,6 +49,16 @@ bool read(const Channel& channel, int steps, std::vector<Keys<Value>>& out) {
     return true;
 }
 
+template <class... Containers>
+void timesOf(const KeyframeContainer& container, std::vector<double>& times) {
+    const auto add = [&](const auto* keys) {
+        if (!keys) return false;
+        for (const auto& key : *keys) times.push_back(key.getTime());
+        return true;
+    };
+    (add(dynamic_cast<const Containers*>(&container)) || ...);
+}
+
 constexpr int curve = 32;
 
 void readAny(const Channel& channel, std::vector<Keys<double>>& out) {
@@ -71,9 +83,38 @@ AnimationChannels::AnimationChannels(osg::Node& root) {
     FindManagers managers;
     root.accept(managers);
     for (AnimationManagerBase* manager : managers.found)
-        for (const auto& animation : manager->getAnimationList())
-            for (const auto& channel : animation->getChannels())
-                _channels[{channel->getTargetName(), channel->getName()}].push_back(channel);
+        for (const auto& animation : manager->getAnimationList()) addAnimation(*animation);
+}
+
+void AnimationChannels::addAnimation(osgAnimation::Animation& animation) {
+    std::map<std::string, Channels> targets;
+    for (const auto& channel : animation.getChannels()) {
+        _channels[{channel->getTargetName(), channel->getName()}].push_back(channel);
+        targets[channel->getTargetName()].push_back(channel);
+    }
+    for (auto& [target, channels] : targets) _targets[target].push_back(std::move(channels));
+}
+
+const std::vector<AnimationChannels::Channels>& AnimationChannels::of(const std::string& target) const {
+    static const std::vector<Channels> none;
+    const auto found = _targets.find(target);
+    return found != _targets.end() ? found->second : none;
+}
+
+std::vector<double> keyTimes(const Channel& channel) {
+    const Sampler* sampler = channel.getSampler();
+    const KeyframeContainer* container = sampler ? sampler->getKeyframeContainer() : nullptr;
+    std::vector<double> times;
+    if (container)
+        timesOf<FloatKeyframeContainer, DoubleKeyframeContainer, Vec2KeyframeContainer, Vec3KeyframeContainer,
+                Vec4KeyframeContainer, QuatKeyframeContainer, MatrixKeyframeContainer,
+                FloatCubicBezierKeyframeContainer, DoubleCubicBezierKeyframeContainer,
+                Vec2CubicBezierKeyframeContainer, Vec3CubicBezierKeyframeContainer,
+                Vec4CubicBezierKeyframeContainer>(*container, times);
+    if (times.empty() && container && container->size() > 0)
+        times = {channel.getStartTime(), channel.getEndTime()};
+    std::sort(times.begin(), times.end());
+    return times;
 }
 
 template <class Value>

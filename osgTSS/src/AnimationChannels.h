@@ -2,6 +2,7 @@
 #include <osg/Node>
 #include <osg/Quat>
 #include <osg/Vec3>
+#include <osgAnimation/Animation>
 #include <osgAnimation/Channel>
 
 #include <map>
@@ -30,9 +31,19 @@ public:
     template <class Value>
     std::vector<Keys<Value>> keys(const std::string& target, const std::string& element) const;
 
+    using Channels = std::vector<osg::ref_ptr<const osgAnimation::Channel>>;
+
+    /// The channels that animate a target, those of each animation together.
+    const std::vector<Channels>& of(const std::string& target) const;
+
 private:
-    std::map<std::pair<std::string, std::string>, std::vector<osg::ref_ptr<const osgAnimation::Channel>>>
-        _channels;
+    void addAnimation(osgAnimation::Animation& animation);
+
+    std::map<std::pair<std::string, std::string>, Channels> _channels;
+    std::map<std::string, std::vector<Channels>> _targets;
 };
+
+/// When a channel has keys, seconds, rising; of a channel of an unknown type its start and its end.
+std::vector<double> keyTimes(const osgAnimation::Channel& channel);
 
 } // namespace osgTSS

@@ -1,6 +1,9 @@
 #include "AnimationChannels.h"
+#include "BoneJoint.h"
 #include "CollectTriangles.h"
 #include "JointNodes.h"
+#include "MovedNodes.h"
+#include "SkeletonMeshes.h"
 
 #include "bake/base/Error.h"
 #include "bake/model/AddPair.h"
@@ -45,6 +48,12 @@ std::optional<osg::Vec4> vertexColor(const osg::Drawable& drawable) {
     return std::nullopt;
 }
 
+/// Drawn, but no part of any body.
+bool leftOut(const osg::Node& node) {
+    bool ignored = false;
+    return node.getUserValue("osgTSS:ignored", ignored) && ignored;
+}
+
 std::vector<double> restOf(const tss::Joint& joint) {
     std::vector<double> rest;
     for (const tss::Dof& dof : joint.dofs) rest.push_back(dof.rest);
@@ -72,6 +81,7 @@ void ConstraintVisitor::enter(osg::Node& node, const Place& place) {
     const Place above = _place;
     _place = place;
     _place.visible = place.visible && node.getNodeMask() != 0;
+    if (_skeleton) _skeleton->addNode(node, {place.body, place.toBody, place.scale});
     const osg::Material* material = materialOf(node);
     if (material && material->getColorMode() == osg::Material::OFF)
         _place.color = material->getDiffuse(osg::Material::FRONT);
@@ -84,11 +94,18 @@ void ConstraintVisitor::enter(osg::Node& node, const Place& place) {
 void ConstraintVisitor::apply(osg::Node& node) {
     if (dynamic_cast<Overlay*>(&node)) return;
     begin(node);
+    if (leftOut(node)) return;
     enter(node, _place);
 }
 
 void ConstraintVisitor::apply(osg::Transform& node) {
     begin(node);
+    if (leftOut(node)) return;
+    if (dynamic_cast<osgAnimation::Skeleton*>(&node)) return applySkeleton(node);
+    applyTransform(node);
+}
+
+void ConstraintVisitor::applyTransform(osg::Transform& node) {
     if (dynamic_cast<osg::AutoTransform*>(&node)) return; // turns to the eye, which is no motion of a body
     std::string why;
     bool still = false, moved = false;
@@ -104,8 +121,12 @@ void ConstraintVisitor::apply(osg::Transform& node) {
     if (!why.empty() && _seen.insert(&node).second) warn("it moves, but is no joint: " + why);
     osg::Matrix matrix =
         node.getReferenceFrame() == osg::Transform::RELATIVE_RF ? _place.toBody : osg::Matrixd();
-    node.computeLocalToWorldMatrix(matrix, this);
-    if (!still && (node.getUpdateCallback() || moved || !why.empty())) return enterMoved(node, matrix);
+    const auto stands = standingBone(node);
+    if (stands && !still && why.empty())
+        matrix = *stands * matrix;
+    else
+        node.computeLocalToWorldMatrix(matrix, this);
+    if (!still && ((movesItself(node) && !stands) || moved || !why.empty())) return enterMoved(node, matrix);
     Place place = _place;
     place.toBody = matrix;
     enter(node, place);
@@ -121,7 +142,7 @@ void ConstraintVisitor::apply(osg::Billboard&) {}
 
 void ConstraintVisitor::apply(osg::LOD& node) {
     begin(node);
-    if (node.getNumChildren() == 0) return;
+    if (node.getNumChildren() == 0 || leftOut(node)) return;
     // The finest level: seen from nearest, or covering the most pixels.
     unsigned int finest = 0;
     const bool pixels = node.getRangeMode() == osg::LOD::PIXEL_SIZE_ON_SCREEN;
@@ -137,12 +158,20 @@ void ConstraintVisitor::apply(osg::LOD& node) {
 
 void ConstraintVisitor::apply(osg::Drawable& drawable) {
     begin(drawable);
+    if (leftOut(drawable)) return;
     const Place place = _place;
     enter(drawable, place);
+    if (auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable); rig && _skeleton)
+        return addRig(*rig);
     tss::Body& body = _model.bodies[_place.body];
     const bool first = body.mesh.empty();
     _dropped[_place.body] += collectTriangles(drawable, place.toBody, place.scale, body.mesh);
-    if (body.mesh.empty()) return;
+    if (!body.mesh.empty()) addLook(drawable, place, first);
+}
+
+/// first: the body shows nothing else yet.
+void ConstraintVisitor::addLook(const osg::Drawable& drawable, const Place& place, bool first) {
+    tss::Body& body = _model.bodies[place.body];
     const bool visible = place.visible && drawable.getNodeMask() != 0;
     body.visible = first ? visible : body.visible || visible;
     if (!first) return;
@@ -152,6 +181,36 @@ void ConstraintVisitor::apply(osg::Drawable& drawable) {
         color = material->getDiffuse(osg::Material::FRONT);
     if (!color) color = vertexColor(drawable);
     if (color) body.displayColor = toLinearColor(*color);
+}
+
+/// Bones first, whatever order they have: a mesh is cut when all that hold it are known.
+void ConstraintVisitor::applySkeleton(osg::Transform& node) {
+    std::unique_ptr<SkeletonMeshes> outer = std::move(_skeleton);
+    _skeleton = std::make_unique<SkeletonMeshes>(node);
+    applyTransform(node);
+    for (RigParts::Part& part : _skeleton->parts()) {
+        tss::Body& body = _model.bodies[part.body];
+        const bool first = body.mesh.empty();
+        const int offset = static_cast<int>(body.mesh.vertices.size());
+        body.mesh.vertices.insert(body.mesh.vertices.end(), part.mesh.vertices.begin(),
+                                  part.mesh.vertices.end());
+        for (const tss::Tri& triangle : part.mesh.triangles)
+            body.mesh.triangles.push_back(triangle + tss::Tri::Constant(offset));
+        _dropped[part.body] += part.dropped;
+        if (body.mesh.empty()) continue;
+        const SkeletonMeshes::Look& look = _skeleton->look(part.rig);
+        Place place;
+        place.body = part.body;
+        place.visible = look.visible;
+        place.color = look.color;
+        addLook(*look.drawable, place, first);
+    }
+    _skeleton = std::move(outer);
+}
+
+void ConstraintVisitor::addRig(osgAnimation::RigGeometry& rig) {
+    _skeleton->addRig(rig, getNodePath(), {_place.body, _place.toBody, _place.scale},
+                      {&rig, _place.visible, _place.color});
 }
 
 void ConstraintVisitor::enterJoint(osg::Transform& node, FoundJoints found) {
@@ -240,6 +299,7 @@ int ConstraintVisitor::addBody(osg::Node& node, const char* fallback, double sca
     _groups.emplace_back();
     _dropped.push_back(0);
     _jointAbove.push_back(-1);
+    _skeletonOf.push_back(_skeleton ? &_skeleton->skeleton() : nullptr);
     return static_cast<int>(_model.bodies.size()) - 1;
 }
 
@@ -294,6 +354,7 @@ void ConstraintVisitor::addPair(int a, int b) {
     _model.pairs.push_back(pair);
 }
 
+/// a stands before b.
 bool ConstraintVisitor::wanted(int a, int b) const {
     const auto parentOf = [&](int body) { return _model.joints[_jointAbove[body]].body0; };
     switch (_pairs) {
@@ -313,7 +374,9 @@ bool ConstraintVisitor::wanted(int a, int b) const {
         while (body >= 0 && _model.bodies[body].mesh.empty());
         return body;
     };
-    return nextAbove(b) == a;
+    const bool neighbours = nextAbove(b) == a;
+    if (!_skeletonOf[b]) return neighbours;
+    return _skeletonOf[a] == _skeletonOf[b] && !neighbours;
 }
 
 void ConstraintVisitor::addPairs() {

@@ -1,6 +1,7 @@
 #include "ContactReport.h"
 
 #include "bake/model/Kinematics.h"
+#include "bake/model/PairDofs.h"
 #include "bake/table/Query.h"
 
 #include <osgTSS/Convert>
@@ -15,11 +16,9 @@ namespace {
 std::vector<double> valuesOf(const tss::SceneModel& model, const tss::JointPlan& plan,
                              const std::vector<double>& q, const tss::Pair& pair) {
     std::vector<double> values;
-    for (int joint : pair.joints)
+    for (const tss::JointDof& dof : tss::pairDofs(model, pair))
         for (std::size_t j = 0; j < plan.joints.size(); ++j)
-            if (plan.joints[j] == joint)
-                for (std::size_t k = 0; k < model.joints[joint].dofs.size(); ++k)
-                    values.push_back(q[plan.firstValue[j] + k]);
+            if (plan.joints[j] == dof.joint) values.push_back(q[plan.firstValue[j] + dof.dof]);
     return values;
 }
 

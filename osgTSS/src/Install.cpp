@@ -4,6 +4,8 @@
 
 #include <osg/NodeVisitor>
 #include <osg/Notify>
+#include <osgAnimation/Bone>
+#include <osgAnimation/Skeleton>
 #include <osgTSS/Install>
 #include <osgTSS/JointCallback>
 #include <osgTSS/JointTransform>
@@ -50,7 +52,14 @@ osg::Node* lowestAbove(osg::Node& root, const std::vector<osg::Node*>& nodes) {
             std::erase_if(common,
                           [&](osg::Node* n) { return std::find(path.begin(), path.end(), n) == path.end(); });
         }
-    return common.empty() ? &root : common.back();
+    if (common.empty()) return &root;
+    // A rigged mesh is deformed within its skeleton, after the bones.
+    const bool bones = std::any_of(nodes.begin(), nodes.end(),
+                                   [](osg::Node* node) { return dynamic_cast<osgAnimation::Bone*>(node); });
+    const auto skeleton = std::find_if(common.rbegin(), common.rend(), [](osg::Node* node) {
+        return dynamic_cast<osgAnimation::Skeleton*>(node);
+    });
+    return bones && skeleton != common.rend() ? *skeleton : common.back();
 }
 
 /// Ours runs around those that are there, so that it has the last word whatever they do after their own

@@ -2,6 +2,7 @@
 #include "JointNodes.h"
 #include "PerNode.h"
 #include "SceneCache.h"
+#include "SkeletonPose.h"
 
 #include <osg/Geometry>
 #include <osg/Node>
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace osgTSS {
 
@@ -79,6 +81,7 @@ struct JointCallback::Binding {
     std::vector<double> asked;                    ///< room for what is asked
     std::vector<tss::GroupAnswer> found;
     ContactReport contacts;
+    std::optional<SkeletonPose> skeletons; ///< where some joint is a bone
     std::size_t drawn = 0;                 ///< DrawnBelow when the callback came to work here
     unsigned int updates = 0;              ///< so far
     unsigned int traversal = 0, frame = 0; ///< of the last update
@@ -122,6 +125,7 @@ JointCallback::Binding::Binding(osg::Node& owner, const Scene& scene,
                 const osg::NodePathList paths = node->second->getParentalNodePaths(&owner);
                 if (!paths.empty()) joint.path = paths.front();
                 joint.transforms = transformsOf(joint.path);
+                if (!skeletons && dynamic_cast<osgAnimation::Bone*>(node->second)) skeletons.emplace(owner);
             }
             const BoundJoint* old = nullptr;
             if (before && before->updated && before->model == model)
@@ -249,6 +253,7 @@ void JointCallback::Binding::show() const {
         joint->show(std::vector<double>(next, end));
         next = end;
     }
+    if (skeletons) skeletons->refresh();
 }
 
 void JointCallback::Binding::tell(const Scene& scene, osg::NodeVisitor& visitor) {

@@ -2,6 +2,7 @@
 
 #include "AnimationChannels.h"
 #include "AnimationPathJoint.h"
+#include "BoneJoint.h"
 #include "DofTransformJoint.h"
 #include "StackedJoint.h"
 #include "TaggedJoint.h"
@@ -11,6 +12,7 @@
 #include <osg/NodeVisitor>
 #include <osg/ValueObject>
 #include <osg/observer_ptr>
+#include <osgAnimation/Bone>
 #include <osgTSS/JointTransform>
 
 #include <algorithm>
@@ -87,6 +89,8 @@ std::optional<FoundJoints> jointsOf(osg::Transform& node, const AnimationChannel
     if (const auto* transform = dynamic_cast<osgSim::DOFTransform*>(&node))
         return dofTransformJoint(*transform, timeCodesPerSecond);
     if (isTagged(node)) return taggedJoint(node);
+    if (dynamic_cast<osgAnimation::Bone*>(&node))
+        return ifServed([&] { return boneJoint(node, channels); }, why);
     if (const auto* animation = animationPathOf(node))
         return ifServed([&] { return animationPathJoint(*animation, timeCodesPerSecond); }, why);
     if (auto* animation = stackOf(node))
@@ -102,6 +106,7 @@ std::unique_ptr<JointNode> makeJointNode(osg::Node& node, const tss::Joint& join
     if (auto* transform = dynamic_cast<osgSim::DOFTransform*>(&node))
         return makeDofTransformNode(*transform, joint);
     if (isTagged(node)) return makeTaggedNode(node, joint);
+    if (dynamic_cast<osgAnimation::Bone*>(&node)) return makeBoneNode(node, joint);
     if (animationPathOf(node)) return makeAnimationPathNode(node, joint);
     if (stackOf(node)) return makeStackedNode(node, joint);
     return nullptr;

@@ -14,9 +14,10 @@ namespace osgTSS {
 class AnimationChannels;
 
 /// The joints that a transform is: a JointTransform, an osgSim::DOFTransform, a transform tagged with
-/// "osgTSS:dofs", or one that an osg::AnimationPathCallback or an osgAnimation::UpdateMatrixTransform moves;
-/// nothing for another. Throws tss::InputError with the reason for one of the first three that cannot be
-/// served; what cannot be served of the others is nothing, and `why` then says so.
+/// "osgTSS:dofs", an osgAnimation::Bone that keys move, or one that an osg::AnimationPathCallback or an
+/// osgAnimation::UpdateMatrixTransform moves; nothing for another. Throws tss::InputError with the reason for
+/// one of the first three that cannot be served; what cannot be served of the others is nothing, and `why`
+/// then says so.
 std::optional<FoundJoints> jointsOf(osg::Transform& node, const AnimationChannels& channels,
                                     double timeCodesPerSecond, std::string& why);
 

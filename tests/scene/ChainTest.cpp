@@ -1,5 +1,6 @@
 #include "bake/base/Error.h"
 #include "bake/model/JointGraph.h"
+#include "bake/model/PairDofs.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/WriteLayer.h"
 #include "tests/scene/Samples.h"
@@ -184,4 +185,37 @@ TEST_CASE("a path is read with its rows, and is not crossed backwards") {
         CHECK((dofPose(read, q).matrix() - dofPose(dof, q).matrix()).norm() < 1e-15);
     std::swap(scene.pairs[0].bodyA, scene.pairs[0].bodyB);
     CHECK_THROWS_WITH(pairMotion(scene, scene.pairs[0]), Catch::Contains("physics:body0 to physics:body1"));
+}
+
+TEST_CASE(
+    "The DOFs of a pair's motion are those of its joints that pairDofs() says, however they are crossed") {
+    std::mt19937_64 random(4);
+    int reversed = 0;
+    for (int round = 0; round < 200; ++round) {
+        // Two arms on a hub, or one behind the other, each joint either way round.
+        SceneModel scene;
+        scene.bodies.resize(3);
+        const bool first = random() % 2, second = random() % 2;
+        scene.joints = {randomJoint(random, "J0", first ? 0 : 1, first ? 1 : 0),
+                        randomJoint(random, "J1", second ? 0 : 2, second ? 2 : 0)};
+        Pair pair;
+        pair.bodyA = 1;
+        pair.bodyB = 2;
+        pair.joints = {0, 1};
+        std::vector<std::vector<double>> values(2);
+        for (std::size_t j = 0; j < 2; ++j)
+            for (const Dof& dof : scene.joints[j].dofs)
+                values[j].push_back(uniform(random, dof.lower, dof.upper));
+        std::vector<double> q;
+        for (const JointDof& dof : pairDofs(scene, pair)) {
+            q.push_back(values[static_cast<std::size_t>(dof.joint)][dof.dof]);
+            reversed += q.size() > 1 && dof.dof == 0 &&
+                        scene.joints[static_cast<std::size_t>(dof.joint)].dofs.size() > 1;
+        }
+        const Pose one = jointMatrix(scene.joints[0], values[0]),
+                   other = jointMatrix(scene.joints[1], values[1]);
+        const Pose expected = (first ? one.inverse() : one) * (second ? other : other.inverse());
+        CHECK((pose(pairMotion(scene, pair), q).matrix() - expected.matrix()).cwiseAbs().maxCoeff() < 1e-12);
+    }
+    CHECK(reversed > 20);
 }

@@ -1,0 +1,24 @@
+#pragma once
+#include "AnimationChannels.h"
+#include "FoundJoint.h"
+
+#include <osgAnimation/Bone>
+
+namespace osgTSS {
+
+/// By how much more than the range of its keys a bone's joint may move, as a share of that range, at each
+/// end: animations that are blended go a little beyond either.
+inline constexpr double boneSlack = 0.05;
+
+/// Turns of less than this (radians, from the mean of all keys) are no degree of freedom: what keys are
+/// rounded by, or the user value "osgTSS:still" (degrees) of the bone.
+double boneStill(const osg::Node& bone);
+
+/// How a bone moves against its parent node, by the keys of all animations and the pose that it was bound in.
+/// One joint whose DOFs are the axes that the keys use: "slide.x" ... "slide.z", then one "turn", or "turn1"
+/// to "turn3"; its limits are the range of the keys and boneSlack. A joint without DOFs is a bone that
+/// stands, where its frame0 is. Rest is the bound pose. Throws tss::InputError with the reason for keys that
+/// are no rigid motion, or turn too far about several axes.
+FoundJoints boneMotion(osgAnimation::Bone& bone, const AnimationChannels& channels);
+
+} // namespace osgTSS

@@ -1,0 +1,10 @@
+#pragma once
+#include <osg/Node>
+
+namespace osgTSS {
+
+/// Whether an update callback may move the node itself: any but those that are known to move others only
+/// (osgTSS's own, animation managers, a skeleton's).
+bool movesItself(osg::Node& node);
+
+} // namespace osgTSS
