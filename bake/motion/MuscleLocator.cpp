@@ -58,7 +58,6 @@ NearestPoint MuscleLocator::nearestFacing(const Vec3& x, double range, const Vec
 bool MuscleLocator::entered(const Vec3& from, const Vec3& to) const {
     if (bvh_.empty()) return false;
     const Vec3 way = to - from;
-    const Vec3 inverse = way.cwiseInverse();
     std::vector<std::uint32_t> stack{0};
     while (!stack.empty()) {
         const Bvh::Node& node = bvh_.nodes[stack.back()];
@@ -69,8 +68,7 @@ bool MuscleLocator::entered(const Vec3& from, const Vec3& to) const {
                 if (from[k] < node.lower[k] || from[k] > node.upper[k]) last = -1;
                 continue;
             }
-            const double s = (node.lower[k] - from[k]) * inverse[k],
-                         t = (node.upper[k] - from[k]) * inverse[k];
+            const double s = (node.lower[k] - from[k]) / way[k], t = (node.upper[k] - from[k]) / way[k];
             first = std::max(first, std::min(s, t));
             last = std::min(last, std::max(s, t));
         }

@@ -21,9 +21,9 @@ constexpr double seedShare = 0.8;
 /// before its hold gets weaker.
 constexpr double closeShare = 0.01;
 /// How much a claim weighs against the change of shares along the skin.
-constexpr double claimWeight = 4;
+constexpr double claimWeight = 8;
 /// How fast the certainty of a claim grows with the distance from where two claims meet.
-constexpr int certaintyPower = 4;
+constexpr int certaintyPower = 8;
 /// A share that changes by this much along a length of one size of the holder counts twice; so skin does not
 /// fold where two holders meet at a point, as at the corner of a mouth. Without a unit.
 constexpr double steepShare = 3;

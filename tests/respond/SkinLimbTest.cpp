@@ -1,0 +1,124 @@
+#include "bake/respond/SkinFollowing.h"
+#include "bake/respond/SkinResponse.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace tss;
+
+namespace {
+
+constexpr double degree = M_PI / 180;
+constexpr int around = 40;
+
+/// A limb or a bone: round about the X axis, of one radius but for its closed ends. Its rings of `around`
+/// vertices follow the first vertex.
+TriangleMesh round(double radius, double from, double to, int rings) {
+    TriangleMesh mesh;
+    mesh.vertices.emplace_back(from, 0, 0);
+    for (int i = 1; i < rings; ++i) {
+        const double u = static_cast<double>(i) / rings, end = std::max({0.0, 1 - 10 * u, 10 * u - 9});
+        const double r = radius * std::sqrt(1 - end * end);
+        for (int k = 0; k < around; ++k) {
+            const double a = 2 * M_PI * k / around;
+            mesh.vertices.emplace_back(from + u * (to - from), r * std::cos(a), r * std::sin(a));
+        }
+    }
+    mesh.vertices.emplace_back(to, 0, 0);
+    const int last = static_cast<int>(mesh.vertices.size()) - 1, lastRing = last - around;
+    for (int k = 0; k < around; ++k) {
+        const int next = (k + 1) % around;
+        mesh.triangles.emplace_back(0, 1 + next, 1 + k);
+        for (int i = 0; i + 2 < rings; ++i) {
+            const int a = 1 + i * around + k, b = 1 + i * around + next;
+            mesh.triangles.emplace_back(a, b, a + around);
+            mesh.triangles.emplace_back(b, b + around, a + around);
+        }
+        mesh.triangles.emplace_back(last, lastRing + k, lastRing + next);
+    }
+    return mesh;
+}
+
+std::shared_ptr<const MuscleDeformer> boneOf(TriangleMesh mesh) {
+    Muscle bone;
+    bone.surface = std::move(mesh);
+    bone.activationUpper = 0;
+    return std::make_shared<const MuscleDeformer>(std::move(bone));
+}
+
+/// Of the surface that a ring spans.
+double areaOf(std::span<const Vec3> skin, int ring) {
+    Vec3 sum = Vec3::Zero();
+    const int first = 1 + ring * around;
+    for (int k = 0; k < around; ++k) sum += skin[first + k].cross(skin[first + (k + 1) % around]) / 2;
+    return sum.norm();
+}
+
+} // namespace
+
+TEST_CASE("a limb's skin follows the bone that it lies on and does not collapse where the limb bends") {
+    constexpr int rings = 90;
+    const TriangleMesh skin = round(0.12, -1.1, 1.1, rings);
+    const std::vector<std::shared_ptr<const MuscleDeformer>> bones{boneOf(round(0.05, -1.05, -0.03, 30)),
+                                                                   boneOf(round(0.05, 0.03, 1.05, 30))};
+    const auto bent = [](double angle) { return Pose(Eigen::AngleAxisd(angle, Vec3::UnitY())); };
+    SkinParameters parameters;
+    parameters.swings = {{{Pose::Identity(), bent(135 * degree)}}};
+    SkinTable nothingMet;
+    nothingMet.table.rowOffsets = {0};
+    const auto rig = makeSkinRig(skin, bones, nothingMet, parameters);
+    SkinResponse response(rig);
+    const SkinFollowMeasure measure(skin, bones, *rig);
+    for (const double angle : {80.0, 135.0}) {
+        const std::vector<Pose> poses{Pose::Identity(), bent(angle * degree)};
+        response.update(std::vector<double>{0, 0}, poses);
+        const SkinFollowing f = measure.at(response.positions(), poses);
+        for (const SkinFollowing::OnBone& bone : f.bones) {
+            CHECK(bone.vertices > 500);
+            CHECK(bone.mean < 0.3);
+            CHECK(bone.most < 1.5);
+        }
+        // At 135 degrees the inside of the bend is shorter than the skin that should fit in.
+        CHECK(f.turnedOver <= (angle > 90 ? rig->triangles.size() / 100 : 0));
+        CHECK(f.shortest > 0.3);
+        CHECK(f.longest < 2.2);
+        std::vector<Vec3> now = skin.vertices;
+        for (std::size_t k = 0; k < rig->vertices.size(); ++k)
+            now[rig->vertices[k]] = response.positions()[k];
+        for (int ring = rings / 4; ring < 3 * rings / 4; ++ring)
+            CHECK(areaOf(now, ring) > 0.8 * areaOf(skin.vertices, ring));
+    }
+    response.update(std::vector<double>{0, 0}, std::vector<Pose>(2, Pose::Identity()));
+    const SkinFollowing rest = measure.at(response.positions(), {});
+    CHECK(rest.shortest == 1);
+    CHECK(rest.longest == 1);
+}
+
+TEST_CASE("a measure of skin tells what is wrong with it") {
+    const TriangleMesh skin = round(0.12, -1.1, 1.1, 60);
+    const std::vector<std::shared_ptr<const MuscleDeformer>> bones{boneOf(round(0.05, -1.05, -0.03, 30)),
+                                                                   boneOf(round(0.05, 0.03, 1.05, 30))};
+    SkinParameters parameters;
+    parameters.swings = {{{Pose::Identity(), Pose(Eigen::AngleAxisd(1, Vec3::UnitY()))}}};
+    SkinTable nothingMet;
+    nothingMet.table.rowOffsets = {0};
+    const auto rig = makeSkinRig(skin, bones, nothingMet, parameters);
+    const SkinFollowMeasure measure(skin, bones, *rig);
+    // The second bone slides along by a tenth of the bones' diagonal, and the skin stays.
+    Eigen::AlignedBox3d box = bounds(bones[0]->muscle().surface);
+    box.extend(bounds(bones[1]->muscle().surface));
+    Pose slid = Pose::Identity();
+    slid.translation().x() = box.diagonal().norm() / 10;
+    const SkinFollowing f = measure.at(rig->rest, std::vector<Pose>{Pose::Identity(), slid});
+    CHECK(f.bones[0].mean == Approx(0).margin(1e-9));
+    CHECK(f.bones[1].mean == Approx(100));
+    CHECK(f.bones[1].most == Approx(100));
+    // All of it turned inside out.
+    std::vector<Vec3> mirrored = rig->rest;
+    for (Vec3& v : mirrored) v.y() = -v.y();
+    CHECK(measure.at(mirrored, {}).turnedOver > rig->triangles.size() / 2);
+    SkinFollowing worst = f;
+    worst.worsen(measure.at(mirrored, {}));
+    CHECK(worst.bones[1].mean == Approx(100));
+    CHECK(worst.turnedOver > 0);
+}
