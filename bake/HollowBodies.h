@@ -24,8 +24,8 @@ struct HollowBodies {
 /// where the other body stands inside without the surfaces being near each other, there is no material.
 /// Looks at poses over all of Q (those of a sampled search, the rest pose first) at which spheres touch
 /// though the surfaces are farther apart than `reach`, > 0; only bodies with openings can be hollow. Poses
-/// between those are not looked at: not a proof (of closed bodies see findNested()). Asked to stop, it has
-/// looked at fewer.
+/// between those are not looked at: not a proof, as findNested() is for what stands inside as a whole. Asked
+/// to stop, it has looked at fewer.
 HollowBodies findHollow(const FilledBody& a, const FilledBody& b, const Motion& motion, double reach,
                         const Progress& progress = {});
 

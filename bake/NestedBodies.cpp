@@ -69,7 +69,8 @@ std::vector<Part> partsOf(const TriangleMesh& loaded) {
 /// Does some part of the inner body's surface stand inside the outer body?
 struct Question {
     const Solid& outer;
-    bool outerMoves; ///< the outer body is B
+    const MeshQuery& surface; ///< of the outer body, without what closes its openings
+    bool outerMoves;          ///< the outer body is B
     std::vector<Part> parts = {};
 };
 
@@ -95,10 +96,9 @@ public:
     Examiner(const Solid& a, const Solid& b, const MotionRates& rates, double reach)
         : surfaceA_(a.mesh()), surfaceB_(b.mesh()), rates_(rates), reach_(reach),
           rounding_(coordinateRounding(rates.motion(), surfaceA_.extent(), surfaceB_.extent())),
-          questions_{Question{a, false}, Question{b, true}} {
-        const auto asked = [](const Solid& outer) { return !outer.open() && !outer.hollow(); };
-        if (asked(a)) questions_[0].parts = partsOf(b.mesh());
-        if (asked(b)) questions_[1].parts = partsOf(a.mesh());
+          questions_{Question{a, surfaceA_, false}, Question{b, surfaceB_, true}} {
+        if (!a.hollow()) questions_[0].parts = partsOf(b.mesh());
+        if (!b.hollow()) questions_[1].parts = partsOf(a.mesh());
         const Eigen::AlignedBox3d box = bounds(b.mesh());
         if (box.isEmpty()) return;
         centreB_ = box.center();
@@ -158,14 +158,16 @@ private:
                                                  : std::numeric_limits<double>::infinity();
             move += rounding_;
             const Vec3 place = question.outerMoves ? Vec3(inverse * x) : x;
-            const MeshQuery& surface = question.outer.boundary();
-            const double distance = surface.distance(place);
+            const double distance = question.outer.boundary().distance(place);
             const bool within = question.outer.inside(place);
             inside = inside && within;
-            // To get in it would have to cross the surface, which is near it then.
-            const bool never =
-                within ? distance + move <= settled * reach_ : distance >= move || move <= settled * reach_;
-            if (!never) continue;
+            // To get in it would have to cross the boundary, which is near it then, and is surface where
+            // there are no openings.
+            const bool near =
+                question.outer.open()
+                    ? question.surface.distance(place, settled * reach_) + move <= settled * reach_
+                    : (within ? distance : 0) + move <= settled * reach_;
+            if (!near && (within || distance < move)) continue;
             part.witness = at;
             return true;
         }

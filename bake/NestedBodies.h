@@ -17,13 +17,13 @@ struct Nesting {
     }
 };
 
-/// Whether a connected part of one body's surface ever stands inside the other body's solid while the
-/// surfaces are farther apart than `reach`, > 0: not contact, though solids that are filled would say so.
-/// Branch and bound over Q: a part is not inside all over a cell where one of its vertices stays outside, or
-/// where the surfaces stay within reach of each other. Where neither `outer` nor `undecided` is set that is
-/// proven for all of Q. Only bodies without openings are looked at as the outer one: of a filled opening the
-/// motion decides (findHollow()). Surfaces from three quarters of the reach on may count as farther.
-/// The same for any number of threads.
+/// Whether a connected part of one body's surface ever stands inside the other body's solid, its openings
+/// closed, while the surfaces are farther apart than `reach`, > 0: not contact, though solids that are filled
+/// would say so. Branch and bound over Q: a part is not inside all over a cell where one of its vertices
+/// stays outside, or where the surfaces stay within reach of each other. Where neither `outer` nor
+/// `undecided` is set that is proven for all of Q. (What reaches into an opening without being inside as a
+/// whole findHollow() looks for.) Surfaces from three quarters of the reach on may count as farther. The same
+/// for any number of threads.
 Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double reach,
                    const Progress& progress = {});
 

@@ -33,8 +33,11 @@ Player::Player(const SceneModel& scene, std::vector<std::string>& warnings) : sc
 
     for (std::size_t k = 0; k < scene.skins.size(); ++k) {
         const SkinModel& skin = scene.skins[k];
+        auto muscles = skinMuscles(scene, skin);
+        const auto rig = skinRig(scene, skin);
+        SkinFollowMeasure follow(scene.bodies[skin.body].mesh, muscles, *rig);
         skins_.push_back(
-            {static_cast<int>(k), skinMuscles(scene, skin), SkinResponse(skinRig(scene, skin)), {}, {}, {}});
+            {static_cast<int>(k), std::move(muscles), SkinResponse(rig), {}, {}, {}, std::move(follow)});
         skins_.back().activations.assign(skins_.back().muscles.size(), 0.0);
         skins_.back().restDepths = depths(skins_.back(), skins_.back().response.rig().rest);
     }
@@ -105,6 +108,12 @@ Player::Step Player::step(const std::vector<double>& asked, double timeCode) {
         for (std::size_t i = 0; i < now.size(); ++i) worst = std::max(worst, now[i] - skin.restDepths[i]);
         result.residualDepths.push_back(worst);
     }
+    return result;
+}
+
+std::vector<SkinFollowing> Player::following() const {
+    std::vector<SkinFollowing> result;
+    for (const Skin& skin : skins_) result.push_back(skin.follow.at(skin.response.positions(), skin.poses));
     return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/JointPlan.h"
 #include "bake/model/SceneModel.h"
+#include "bake/respond/SkinFollowing.h"
 #include "bake/respond/SkinResponse.h"
 
 namespace tss {
@@ -20,6 +21,9 @@ public:
         std::vector<double> residualDepths;     ///< one a skin: how deep its vertices are in the muscles'
                                                 ///< surfaces beyond their depth at rest, scene units
     };
+    /// How truly each skin follows its bones after the last step.
+    std::vector<SkinFollowing> following() const;
+
     Step step(const std::vector<double>& asked, double timeCode);
 
     /// Every body's vertices in the world after the last step, skins and muscles deformed.
@@ -33,6 +37,7 @@ private:
         std::vector<double> activations;
         std::vector<Pose> poses;        ///< of the muscles' bones since rest; empty: none moves
         std::vector<double> restDepths; ///< one a touched vertex
+        SkinFollowMeasure follow;
     };
 
     std::vector<double> clamped(const std::vector<double>& asked) const;

@@ -11,6 +11,10 @@ namespace tss {
 
 namespace {
 
+/// Of the smaller body's size: what is exempt at rest without touching is no farther from the other body, for
+/// then contact of it would be of another feature. RegionProof has the same share and goes by its own.
+constexpr double closeShare = 0.02;
+
 /// Surfaces apart at rest: whether one has a part inside of what the other would be filled with.
 bool enters(const MeshQuery& surface, const TriangleMesh& mesh, const Solid& other, const Pose& toOther,
             double touching) {
@@ -65,8 +69,10 @@ public:
         if (options_.atRest == AtRest::Collide)
             plan.contact.clearance = apartBy(touching);
         else
-            plan.contact = findRestContact({a_, surfaceA_}, {b_, surfaceB_}, motion_, touching,
-                                           {reach(), 1.5 * options_.epsilon, 1000}, progress_);
+            plan.contact = findRestContact(
+                {a_, surfaceA_}, {b_, surfaceB_}, motion_, touching,
+                {reach(), std::min(reach(), closest()), std::min(1.5 * options_.epsilon, closest()), 1000},
+                progress_);
         if (plan.contact.clearance > 0) {
             plan.entered = {enters(surfaceB_, b_.mesh(), a_, bToA_, touching),
                             enters(surfaceA_, a_.mesh(), b_, aToB_, touching)};
@@ -82,6 +88,11 @@ public:
 
 private:
     double reach() const { return 2.5 * options_.tolerance + options_.epsilon; }
+
+    double closest() const {
+        return closeShare *
+               std::min(bounds(a_.mesh()).diagonal().norm(), bounds(b_.mesh()).diagonal().norm());
+    }
 
     double apartBy(double touching) const {
         const double distance = surfaceA_.distanceTo(surfaceB_, bToA_);
@@ -105,8 +116,8 @@ private:
         toB.spare = toA.spare = spare;
         toB.clearance = toA.clearance = plan.contact.apart;
         if (!plan.contact.region.empty()) {
-            makeRegion(plan.a, a_, toB, plan.contact.nearB, spare);
-            makeRegion(plan.b, b_, toA, plan.contact.nearA, spare);
+            makeRegion(plan.a, a_, toB, plan.contact.region.a, plan.contact.nearB, spare);
+            makeRegion(plan.b, b_, toA, plan.contact.region.b, plan.contact.nearA, spare);
             toB.spheres = std::make_shared<const SphereQuery>(plan.b.region.spheres);
             toA.spheres = std::make_shared<const SphereQuery>(plan.a.region.spheres);
         }
@@ -117,8 +128,8 @@ private:
     }
 
     /// near: what of the other is not of the region and near at rest. The spheres leave it room.
-    void makeRegion(RestSide& side, const Solid& solid, RestNeighbour neighbour, const TriangleMesh& near,
-                    double spare) const {
+    void makeRegion(RestSide& side, const Solid& solid, RestNeighbour neighbour,
+                    const std::vector<SurfacePart>& parts, const TriangleMesh& near, double spare) const {
         side.protrusion = protrusionFor(options_.tolerance, magnitude(solid.mesh()));
         std::vector<Patch> region;
         for (const Patch& patch : side.patches)
@@ -126,7 +137,10 @@ private:
         MedialOptions medial = options_.medial;
         if (!near.empty()) {
             neighbour.parts = std::make_shared<const MeshQuery>(near);
-            neighbour.beside = spare + options_.tolerance / 2;
+            // Half of what is left of their distance, where that is less.
+            const double apart =
+                neighbour.parts->distanceTo(MeshQuery(meshOf(solid.mesh(), parts)), neighbour.toOther);
+            neighbour.beside = spare + std::min(options_.tolerance, std::max(apart - spare, 0.0)) / 2;
             medial.neighbour = std::make_shared<const RestNeighbour>(std::move(neighbour));
         }
         side.region = medialSpheres(solid, region, side.protrusion, medial, progress_);

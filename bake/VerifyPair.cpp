@@ -46,11 +46,16 @@ void addNotes(PairVerdict& verdict, const Pair& pair) {
     if (meshes.fillings)
         verdict.notes.push_back(
             "what is behind openings of a mesh counts as body in the bound on early reports");
-    if (meshes.exempt.areaA + meshes.exempt.areaB > 0)
+    if (meshes.exempt.areaA + meshes.exempt.areaB > 0) {
         verdict.notes.push_back(fmt::format("nothing is proven of contact between the parts of the surfaces "
                                             "that overlap at rest: {:.3g} % of A "
                                             "with {:.3g} % of B",
                                             100 * meshes.exempt.shareA, 100 * meshes.exempt.shareB));
+        if (meshes.farthestExempt > 0)
+            verdict.notes.push_back(fmt::format("pieces of these parts are up to {:.3g} scene units from the "
+                                                "other body at rest",
+                                                meshes.farthestExempt));
+    }
 }
 
 } // namespace

@@ -5,38 +5,6 @@
 
 namespace tss {
 
-Vec3 nearestOnTriangle(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
-    // Voronoi regions of corners and edges first; what is left projects into the face.
-    const Vec3 ab = b - a, ac = c - a, ax = x - a;
-    const double d1 = ab.dot(ax), d2 = ac.dot(ax);
-    if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-    const Vec3 bx = x - b;
-    const double d3 = ab.dot(bx), d4 = ac.dot(bx);
-    if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-    const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) {
-        const double t = d1 > d3 ? d1 / (d1 - d3) : 0;
-        return {1 - t, t, 0};
-    }
-    const Vec3 cx = x - c;
-    const double d5 = ab.dot(cx), d6 = ac.dot(cx);
-    if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-    const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) {
-        const double t = d2 > d6 ? d2 / (d2 - d6) : 0;
-        return {1 - t, 0, t};
-    }
-    const double va = d3 * d6 - d5 * d4;
-    const double e = d4 - d3, f = d5 - d6;
-    if (va <= 0 && e >= 0 && f >= 0) {
-        const double t = e + f > 0 ? e / (e + f) : 0;
-        return {0, 1 - t, t};
-    }
-    const double sum = va + vb + vc;
-    if (!(sum > 0)) return {1, 0, 0};
-    return {va / sum, vb / sum, vc / sum};
-}
-
 std::vector<Vec3> vertexNormals(const TriangleMesh& mesh) {
     std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
     for (const Tri& t : mesh.triangles)

@@ -13,7 +13,40 @@ struct NearestPoint {
 
 /// Barycentric weights of the point of triangle (a, b, c) nearest to x. A triangle without area answers with
 /// its nearest edge or corner.
-Vec3 nearestOnTriangle(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
+template <class T>
+Eigen::Matrix<T, 3, 1> nearestOnTriangle(const Eigen::Matrix<T, 3, 1>& x, const Eigen::Matrix<T, 3, 1>& a,
+                                         const Eigen::Matrix<T, 3, 1>& b, const Eigen::Matrix<T, 3, 1>& c) {
+    using Vec = Eigen::Matrix<T, 3, 1>;
+    // Voronoi regions of corners and edges first; what is left projects into the face.
+    const Vec ab = b - a, ac = c - a, ax = x - a;
+    const T d1 = ab.dot(ax), d2 = ac.dot(ax);
+    if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
+    const Vec bx = x - b;
+    const T d3 = ab.dot(bx), d4 = ac.dot(bx);
+    if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
+    const T vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+        const T t = d1 > d3 ? d1 / (d1 - d3) : 0;
+        return {1 - t, t, 0};
+    }
+    const Vec cx = x - c;
+    const T d5 = ab.dot(cx), d6 = ac.dot(cx);
+    if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
+    const T vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+        const T t = d2 > d6 ? d2 / (d2 - d6) : 0;
+        return {1 - t, 0, t};
+    }
+    const T va = d3 * d6 - d5 * d4;
+    const T e = d4 - d3, f = d5 - d6;
+    if (va <= 0 && e >= 0 && f >= 0) {
+        const T t = e + f > 0 ? e / (e + f) : 0;
+        return {0, 1 - t, t};
+    }
+    const T sum = va + vb + vc;
+    if (!(sum > 0)) return {1, 0, 0};
+    return {va / sum, vb / sum, vc / sum};
+}
 
 /// Unit normals of the vertices, weighted by angle; zero for a vertex of no triangle with area.
 std::vector<Vec3> vertexNormals(const TriangleMesh& mesh);

@@ -6,9 +6,16 @@
 #include <cmath>
 
 namespace tss {
-namespace {
 
 using Vec3f = Eigen::Vector3f;
+
+Vec3f placeOf(const SkinScene& scene, const SkinPlane& plane) {
+    Vec3f sum = Vec3f::Zero();
+    for (int k = 0; k < plane.vertices; ++k) sum += plane.weight[k] * scene.skin[plane.vertex[k]].head<3>();
+    return sum;
+}
+
+namespace {
 
 /// Cosine between two surfaces at which a contact is not believed, and from which on it is: what faces the
 /// skin's way at less than 84 degrees may be its other side.
@@ -39,16 +46,9 @@ Vec3f pushDirection(const Vec3f& smooth, const Vec3f& away, float side, float ra
 
 Vec3f smoothAt(const SurfacePoint& at, const Tri& corners, const auto& normal) {
     Vec3f sum = Vec3f::Zero();
-    for (int k = 0; k < 3; ++k) sum += static_cast<float>(at.weights[k]) * normal(corners[k]);
+    for (int k = 0; k < 3; ++k) sum += at.weights[k] * normal(corners[k]);
     const float length = sum.norm();
     return length > 0 ? Vec3f(sum / length) : sum;
-}
-
-/// Of what a plane holds, in the skin as it is.
-Vec3f placeOf(const SkinScene& scene, const SkinPlane& plane) {
-    Vec3f sum = Vec3f::Zero();
-    for (int k = 0; k < plane.vertices; ++k) sum += plane.weight[k] * scene.skin[plane.vertex[k]].head<3>();
-    return sum;
 }
 
 /// Which side of a surface what lies `away` from its nearest point is on: amid a triangle that of the
@@ -76,19 +76,27 @@ void finish(const SkinRig& rig, const SkinScene& scene, const Vec3f& smooth, con
 }
 
 SurfacePoint toPoint(const NearestPoint& near) {
-    return {near.triangle, near.weights, near.point, near.distance * near.distance};
+    return {near.triangle, near.weights.cast<float>(), near.point.cast<float>(),
+            static_cast<float>(near.distance * near.distance)};
 }
 
-/// Where a place of the skin was at rest, seen from what it is before on a body.
-Vec3f restOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    const Move* surface = scene.surface.data() + rig.bodies[row.body].first;
-    Vec3f rest = row.relative;
-    for (int k = 0; k < 3; ++k) rest += row.weights[k] * surface[row.corners[k]].head<3>();
-    return rest;
+/// From where a row's vertex is before to the vertex, as it stands; in the body's frame.
+Vec3f relativeOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    const SkinScene::Placed& placed = scene.bodies[row.body];
+    Vec3f before = Vec3f::Zero();
+    if (row.meeting == SkinMeeting::SkinOnBody) {
+        const Move* surface = scene.surface.data() + rig.bodies[row.body].first;
+        for (int k = 0; k < 3; ++k) before += row.weights[k] * surface[row.corners[k]].head<3>();
+        return placed.toBody(scene.skin[row.vertex].head<3>()) - before;
+    }
+    for (int k = 0; k < 3; ++k) before += row.weights[k] * scene.skin[row.corners[k]].head<3>();
+    if (row.meeting == SkinMeeting::BodyOnSkin)
+        return scene.surface[row.vertex].head<3>() - placed.toBody(before);
+    return scene.skin[row.vertex].head<3>() - before;
 }
 
-/// Whether skin that seems this deep in a bone can have come there: by its way since rest, and the overlap
-/// there. What seems deeper is another side of the bone, seen past it.
+/// Whether what seems this deep in a surface can have come there: by its way since rest, and the overlap
+/// there. What seems deeper is another side of the surface, seen past it.
 float comeThrough(float depth, float most) {
     return most > 0 ? 1 - smoothStep((depth - most) / most) : 0;
 }
@@ -106,20 +114,20 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
             x.cast<double>(), static_cast<double>(boneReach * rig.radius), own.cast<double>()));
     } else {
         const Move* surface = scene.surface.data() + body.first;
-        const auto at = [&](int v) -> Vec3 { return surface[v].head<3>().cast<double>(); };
-        hit =
-            walkDownhill(x.cast<double>(), rig.starts[row.first], body.triangles, body.across, at, walkSteps);
+        const auto at = [&](int v) -> Vec3f { return surface[v].head<3>(); };
+        hit = walkDownhill(x, rig.starts[row.first], body.triangles, body.across, at, walkSteps);
     }
     if (hit.triangle < 0) return plane;
     const Move* normals = scene.normals.data() + body.first;
     Vec3f smooth = smoothAt(hit, body.triangles[hit.triangle], [&](int v) { return normals[v].head<3>(); });
     // Skin inside a muscle may be nearest to a side that faces away from it.
     float trust = trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
-    const Vec3f away = x - hit.point.cast<float>();
+    const Vec3f away = x - hit.point;
     if (body.bone() && smooth.dot(away) < 0) {
-        const Vec3f rest = restOf(rig, scene, row);
+        const Vec3f way = relativeOf(rig, scene, row) - row.relative;
+        const Vec3f rest = x - way;
         if (row.offset == 0 && !body.locator->entered(rest.cast<double>(), x.cast<double>())) return plane;
-        trust *= comeThrough(away.norm(), (x - rest).norm() - row.offset);
+        trust *= comeThrough(away.norm(), way.norm() - row.offset);
     }
     if (!(trust > 0)) return plane;
     plane.vertex[0] = row.vertex;
@@ -154,9 +162,21 @@ int startOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, cons
 }
 
 SurfacePoint walkSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Vec3f& x) {
-    const auto at = [&](int v) -> Vec3 { return scene.skin[v].head<3>().cast<double>(); };
-    return walkDownhill(x.cast<double>(), startOf(rig, scene, row, x), rig.triangles, rig.across, at,
-                        walkSteps);
+    const auto at = [&](int v) -> Vec3f { return scene.skin[v].head<3>(); };
+    return walkDownhill(x, startOf(rig, scene, row, x), rig.triangles, rig.across, at, walkSteps);
+}
+
+/// How far a bone's vertex stuck out at rest, there where it meets the skin now: teeth do, and may again.
+float outAtRest(const SkinRig& rig, const SkinRow& row, const SurfacePoint& hit) {
+    const SkinBody& body = rig.bodies[row.body];
+    const std::uint32_t v = row.vertex - body.first;
+    const Tri& corners = rig.triangles[hit.triangle];
+    Vec3f away = -body.rest[v].head<3>();
+    for (int k = 0; k < 3; ++k) away += hit.weights[k] * rig.places[corners[k]].head<3>();
+    const Vec3f smooth = smoothAt(hit, corners, [&](int c) { return rig.placeNormals[c].head<3>(); });
+    const float out = -(smooth + body.normals[v].head<3>()).normalized().dot(away);
+    // Straight before that place, and not beside it.
+    return out > 0 ? out * smoothStep(2 * out / away.norm() - 0.5f) : 0;
 }
 
 SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
@@ -175,14 +195,18 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
             before += row.weights[k] * scene.normalOf(rig, static_cast<std::size_t>(row.corners[k]));
         facing = std::max(facing, smooth.dot(before.normalized()));
     }
-    const float trust = trustOf(facing);
+    float trust = trustOf(facing);
+    const Vec3f away = hit.point - x, both = row.within ? smooth : (smooth + own).normalized();
+    if (rig.bodies[row.body].bone() && both.dot(away) < 0) {
+        offset = -outAtRest(rig, row, hit);
+        trust *= comeThrough(away.norm(), (relativeOf(rig, scene, row) - row.relative).norm() - offset);
+    }
     if (!(trust > 0)) return plane;
     plane.vertices = 3;
     for (int k = 0; k < 3; ++k) {
         plane.vertex[k] = static_cast<std::uint32_t>(corners[k]);
-        plane.weight[k] = static_cast<float>(hit.weights[k]);
+        plane.weight[k] = hit.weights[k];
     }
-    const Vec3f away = hit.point.cast<float>() - x, both = row.within ? smooth : (smooth + own).normalized();
     finish(rig, scene, both, away,
            both.dot(away) >= 0 ? 1.0f
            : row.within        ? -1.0f
@@ -200,16 +224,18 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     if ((corners.array() == static_cast<int>(row.vertex)).any()) return plane;
     const Vec3f smooth = smoothAt(hit, corners, [&](int v) { return scene.normalOf(rig, v); });
     const Vec3f own = scene.normalOf(rig, row.vertex);
-    const float trust = trustOf(-smooth.dot(own));
+    float trust = trustOf(-smooth.dot(own));
+    const Vec3f away = x - hit.point, both = (smooth - own).normalized();
+    if (both.dot(away) < 0)
+        trust *= comeThrough(away.norm(), (relativeOf(rig, scene, row) - row.relative).norm() - row.offset);
     if (!(trust > 0)) return plane;
     plane.vertices = 4;
     plane.vertex[0] = row.vertex;
     plane.weight[0] = 1;
     for (int k = 0; k < 3; ++k) {
         plane.vertex[k + 1] = static_cast<std::uint32_t>(corners[k]);
-        plane.weight[k + 1] = -static_cast<float>(hit.weights[k]);
+        plane.weight[k + 1] = -hit.weights[k];
     }
-    const Vec3f away = x - hit.point.cast<float>(), both = (smooth - own).normalized();
     finish(rig, scene, both, away, both.dot(away) < 0 ? 0.0f : 1.0f, trust, offset, plane);
     return plane;
 }
@@ -217,26 +243,11 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
 } // namespace
 
 bool mayMeet(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    const SkinScene::Placed& placed = scene.bodies[row.body];
-    Vec3f relative;
-    float strain = 0;
-    if (row.meeting == SkinMeeting::SkinOnBody) {
-        const Move* surface = scene.surface.data() + rig.bodies[row.body].first;
-        relative = placed.toBody(scene.skin[row.vertex].head<3>());
-        for (int k = 0; k < 3; ++k) relative -= row.weights[k] * surface[row.corners[k]].head<3>();
-        strain = placed.strain;
-    } else {
-        Vec3f before = Vec3f::Zero();
-        for (int k = 0; k < 3; ++k) before += row.weights[k] * scene.skin[row.corners[k]].head<3>();
-        if (row.meeting == SkinMeeting::BodyOnSkin)
-            relative = scene.surface[row.vertex].head<3>() - placed.toBody(before);
-        else
-            relative = scene.skin[row.vertex].head<3>() - before;
-        strain = 0.25f; // of the skin about the place: half of what edges are let change
-    }
+    // Of the skin: half of what edges are let change.
+    const float strain = row.meeting == SkinMeeting::SkinOnBody ? scene.bodies[row.body].strain : 0.25f;
     // Beside the place that is looked at, a surface has moved by its strain over at most twice the gap.
     const float free = row.gap * (1 - 2 * strain);
-    return !(free > 0) || (relative - row.relative).squaredNorm() >= free * free;
+    return !(free > 0) || (relativeOf(rig, scene, row) - row.relative).squaredNorm() >= free * free;
 }
 
 void lookAgain(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinPlane& plane) {

@@ -27,6 +27,9 @@ inline SkinPlane lookUp(const SkinRig& rig, const SkinScene& scene, const SkinRo
     return lookUp(rig, scene, row, row.offset);
 }
 
+/// Where what a plane holds is, in the skin as it is.
+Eigen::Vector3f placeOf(const SkinScene& scene, const SkinPlane& plane);
+
 /// Turns a plane to what its row meets now. What it pushes stays as it was first found, since it has hardly
 /// slid, and so does its push.
 void lookAgain(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinPlane& plane);

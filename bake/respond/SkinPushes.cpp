@@ -9,9 +9,9 @@ namespace {
 /// Rows that ask for opposite things give way by this share of their push, so that pushes stay bounded.
 constexpr float giveWay = 0.003f;
 /// Sweeps that find out what pushes, and steps of conjugate gradients that then find out how much, in turn.
-constexpr int sweepsBetween = 2, stepsBetween = 16;
+constexpr int sweepsBetween = 3, stepsBetween = 8;
 /// In sizes of the skin: the sweeps end when no place changes by more.
-constexpr float settled = 1e-6f;
+constexpr float settled = 1e-5f;
 /// Of what is lacking at the planes around: how far a push may move its own place. Planes that ask for
 /// opposite things would push without bounds.
 constexpr float mostPush = 15;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace tss {
 namespace {
@@ -20,9 +21,9 @@ double activationOf(std::span<const double> activations, const SkinBody& body, s
 } // namespace
 
 SkinResponse::SkinResponse(std::shared_ptr<const SkinRig> rig)
-    : rig_(std::move(rig)), pushes_(rig_->foundation), planeOf_(rig_->rows.size(), 0), positions_(rig_->rest),
-      normals_(rig_->restNormals), activations_(rig_->bodies.size(), 0),
-      poses_(rig_->bodies.size(), Pose::Identity()) {
+    : rig_(std::move(rig)), pushes_(rig_->foundation), planeOf_(rig_->rows.size(), 0),
+      seenOf_(rig_->rows.size(), 0), positions_(rig_->rest), normals_(rig_->restNormals),
+      activations_(rig_->bodies.size(), 0), poses_(rig_->bodies.size(), Pose::Identity()) {
     normalSums_.resize(rig_->rest.size() + rig_->border.size());
 }
 
@@ -76,31 +77,93 @@ void SkinResponse::toRest() {
     atRest_ = true;
 }
 
+/// What a row that lacks nothing keeps until contacts have moved the skin there. Where nothing faced it, any
+/// move may change that.
+SkinResponse::Seen SkinResponse::seen(const SkinRow& row, const SkinPlane& plane) const {
+    Seen seen{plane, {}, 0};
+    if (plane.found()) {
+        seen.free = std::max(std::min(plane.gap, plane.distance - row.offset), 0.0f) / 2;
+    } else if (row.meeting == SkinMeeting::BodyOnSkin) {
+        seen.plane.vertices = 3;
+        for (int k = 0; k < 3; ++k) {
+            seen.plane.vertex[k] = static_cast<std::uint32_t>(row.corners[k]);
+            seen.plane.weight[k] = row.weights[k];
+        }
+    } else {
+        seen.plane.vertices = 1;
+        seen.plane.vertex[0] = row.vertex;
+        seen.plane.weight[0] = 1;
+    }
+    seen.place = placeOf(scene_, seen.plane);
+    return seen;
+}
+
+bool SkinResponse::mayPush(std::uint32_t r) const {
+    if (seenOf_[r] == 0) return mayMeet(*rig_, scene_, rig_->rows[r]);
+    const Seen& seen = seen_[seenOf_[r] - 1];
+    return (placeOf(scene_, seen.plane) - seen.place).squaredNorm() > seen.free * seen.free;
+}
+
+/// Where a plane is found for the choice of the deepest: the node that bears most on it, and what meets.
+std::uint64_t SkinResponse::placeOfChoice(const SkinRow& row, const SkinPlane& plane) const {
+    const SkinFoundation& f = rig_->foundation;
+    const std::uint32_t first = f.start[plane.vertex[0]], last = f.start[plane.vertex[0] + 1];
+    const auto most = std::max_element(f.weight.begin() + first, f.weight.begin() + last);
+    const std::uint64_t node = first == last ? f.nodes : f.node[most - f.weight.begin()];
+    return (node * 3 + static_cast<std::uint64_t>(row.meeting)) * rig_->bodies.size() + row.body;
+}
+
+/// Of the planes that were found, the deepest at each node and body: pushes act through nodes, so that most
+/// of the others are met by it, and what is not is found again at the next look-up.
+void SkinResponse::addDeepest() {
+    std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+        return std::tie(a.place, a.plane.gap, a.row) < std::tie(b.place, b.plane.gap, b.row);
+    });
+    for (std::size_t k = 0; k < found_.size(); ++k) {
+        if (k > 0 && found_[k].place == found_[k - 1].place) continue;
+        rows_.push_back(found_[k].row);
+        planes_.push_back(found_[k].plane);
+        planeOf_[found_[k].row] = static_cast<std::uint32_t>(planes_.size());
+    }
+    found_.clear();
+}
+
 /// The skin leaves what it is carried into.
 void SkinResponse::resist() {
     for (const std::uint32_t r : rows_) planeOf_[r] = 0;
+    for (const std::uint32_t r : seenRows_) seenOf_[r] = 0;
     rows_.clear();
+    seenRows_.clear();
     planes_.clear();
+    seen_.clear();
     pushes_.clear();
     residual_ = 0;
     contacts_ = 0;
     for (int round = 0; round < lookUps; ++round) {
         bool open = false;
         for (std::uint32_t r = 0; r < rig_->rows.size(); ++r) {
+            const SkinRow& row = rig_->rows[r];
             if (planeOf_[r] > 0) {
                 SkinPlane& plane = planes_[planeOf_[r] - 1];
-                lookAgain(*rig_, scene_, rig_->rows[r], plane);
+                lookAgain(*rig_, scene_, row, plane);
                 open = open || plane.gap < -settled;
                 continue;
             }
-            if (!mayMeet(*rig_, scene_, rig_->rows[r])) continue;
-            const SkinPlane plane = lookUp(*rig_, scene_, rig_->rows[r]);
-            if (!plane.found() || !(plane.gap < 0)) continue;
-            rows_.push_back(r);
-            planes_.push_back(plane);
-            planeOf_[r] = static_cast<std::uint32_t>(planes_.size());
+            if (!mayPush(r)) continue;
+            const SkinPlane plane = lookUp(*rig_, scene_, row);
+            if (!plane.found() || !(plane.gap < 0)) {
+                if (seenOf_[r] == 0) {
+                    seenRows_.push_back(r);
+                    seenOf_[r] = static_cast<std::uint32_t>(seenRows_.size());
+                    seen_.emplace_back();
+                }
+                seen_[seenOf_[r] - 1] = seen(row, plane);
+                continue;
+            }
+            found_.push_back({placeOfChoice(row, plane), r, plane});
             open = true;
         }
+        addDeepest();
         if (!open) break;
         residual_ =
             rig_->size * static_cast<double>(pushes_.solve(planes_, start_, rig_->parameters.iterations));
@@ -112,14 +175,17 @@ void SkinResponse::resist() {
 void SkinResponse::findNormals() {
     std::fill(normalSums_.begin(), normalSums_.end(), Move::Zero());
     const std::size_t inside = positions_.size();
+    const auto add = [&](const Tri& t, const Move& a, const Move& b, const Move& c) {
+        const Move n = (b - a).cross3(c - a);
+        for (int k = 0; k < 3; ++k) normalSums_[t[k]] += n;
+    };
+    const std::vector<Move>& skin = scene_.skin;
+    for (const Tri& t : rig_->triangles) add(t, skin[t[0]], skin[t[1]], skin[t[2]]);
     const auto at = [&](int v) -> const Move& {
         const auto u = static_cast<std::size_t>(v);
-        return u < inside ? scene_.skin[u] : rig_->borderPlaces[u - inside];
+        return u < inside ? skin[u] : rig_->borderPlaces[u - inside];
     };
-    for (const Tri& t : rig_->normalTriangles) {
-        const Move a = at(t[0]), n = (at(t[1]) - a).cross3(at(t[2]) - a);
-        for (int k = 0; k < 3; ++k) normalSums_[t[k]] += n;
-    }
+    for (const Tri& t : rig_->borderTriangles) add(t, at(t[0]), at(t[1]), at(t[2]));
     for (std::size_t v = 0; v < inside; ++v) {
         const float squared = normalSums_[v].head<3>().squaredNorm();
         normals_[v] = squared > 0 ? Vec3((normalSums_[v].head<3>() / std::sqrt(squared)).cast<double>())

@@ -43,7 +43,23 @@ public:
     double residual() const { return residual_; }
 
 private:
+    /// A row that was looked up in this update and lacks nothing: not before it has come nearer by this much.
+    struct Seen {
+        SkinPlane plane;
+        Eigen::Vector3f place; ///< of what the plane holds, then
+        float free = 0;
+    };
+    /// A row that lacks something, and where: of each place the deepest is chosen.
+    struct Found {
+        std::uint64_t place = 0;
+        std::uint32_t row = 0;
+        SkinPlane plane;
+    };
+    std::uint64_t placeOfChoice(const SkinRow& row, const SkinPlane& plane) const;
+    Seen seen(const SkinRow& row, const SkinPlane& plane) const;
+    bool mayPush(std::uint32_t r) const;
     void toRest();
+    void addDeepest();
     void resist();
     void findNormals();
 
@@ -53,7 +69,11 @@ private:
     std::vector<SkinPlane> planes_;
     std::vector<std::uint32_t> rows_;    ///< of planes_
     std::vector<std::uint32_t> planeOf_; ///< #rows: 1 + its place in planes_, 0: none
-    std::vector<Move> start_;            ///< the skin as it is carried
+    std::vector<Found> found_;
+    std::vector<Seen> seen_;
+    std::vector<std::uint32_t> seenRows_; ///< of seen_
+    std::vector<std::uint32_t> seenOf_;   ///< #rows: 1 + its place in seen_, 0: none
+    std::vector<Move> start_;             ///< the skin as it is carried
     std::vector<Vec3> positions_, normals_;
     std::vector<Move> normalSums_;
     std::vector<double> activations_;

@@ -120,12 +120,10 @@ void addTriangles(SkinRig& rig, const TriangleMesh& skin, const std::vector<std:
             }
             local[k] = static_cast<int>(index);
         }
-        if (inside == 3) rig.triangles.push_back(local);
-        rig.normalTriangles.push_back(local);
+        (inside == 3 ? rig.triangles : rig.borderTriangles).push_back(local);
     }
     const auto byFirstVertex = [](const Tri& a, const Tri& b) { return a.minCoeff() < b.minCoeff(); };
     std::stable_sort(rig.triangles.begin(), rig.triangles.end(), byFirstVertex);
-    std::stable_sort(rig.normalTriangles.begin(), rig.normalTriangles.end(), byFirstVertex);
     rig.across = trianglesAcross(rig.triangles);
     for (const Vec3& x : rig.rest) rig.places.push_back(placeOf(rig, x));
     for (const Vec3& n : rig.restNormals) rig.placeNormals.push_back(toMove(n));
@@ -220,7 +218,7 @@ std::size_t SkinRig::bytes() const {
                       frameShares.size() * sizeof(SkinFrameShare) +
                       4 * (pullStart.size() + frameStart.size()) +
                       vertices.size() * (2 * sizeof(Vec3) + 2 * sizeof(Move)) +
-                      (2 * triangles.size() + normalTriangles.size()) * sizeof(Tri);
+                      (2 * triangles.size() + borderTriangles.size()) * sizeof(Tri);
     for (const SkinBody& body : bodies)
         sum += (body.rest.size() + body.places.size() + body.normals.size()) * sizeof(Move) +
                2 * body.triangles.size() * sizeof(Tri);

@@ -95,8 +95,8 @@ struct SkinRig {
     std::vector<Vec3> restNormals;       ///< unit
     std::vector<Tri> triangles;          ///< of touched vertices only
     std::vector<Tri> across;             ///< beyond each of their edges, -1: none
-    std::vector<Tri> normalTriangles;    ///< all that bear on a normal, into vertices then border
-    std::vector<Vec3> border;            ///< places of the untouched corners of normalTriangles
+    std::vector<Tri> borderTriangles;    ///< the others at a touched vertex, into vertices then border
+    std::vector<Vec3> border;            ///< places of the untouched corners of borderTriangles
 
     std::vector<Move> places, placeNormals; ///< rest and restNormals as the run time has them
     std::vector<Move> borderPlaces;

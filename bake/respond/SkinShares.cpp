@@ -10,7 +10,7 @@ namespace {
 
 /// A seed is nearer to its holder than to all others by this share of the most that any vertex is. Less, and
 /// skin that only passes another bone counts as its own; more, and a bone with little skin has none.
-constexpr double seedContrast = 0.3;
+constexpr double seedContrast = 0.2;
 /// Of those the nearest ones count: the rest lies far off, beyond the ends of the holder.
 constexpr double seedShare = 0.8;
 /// Distances below this share of the holder's size are alike: that is how thick the tissue on a bone may be

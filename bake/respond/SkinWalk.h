@@ -10,9 +10,9 @@ namespace tss {
 /// Where a walk over a surface has ended.
 struct SurfacePoint {
     int triangle = -1;
-    Vec3 weights = Vec3::Zero(); ///< barycentric
-    Vec3 point = Vec3::Zero();
-    double squared = std::numeric_limits<double>::infinity(); ///< distance
+    Eigen::Vector3f weights = Eigen::Vector3f::Zero(); ///< barycentric
+    Eigen::Vector3f point = Eigen::Vector3f::Zero();
+    float squared = std::numeric_limits<float>::infinity(); ///< distance
 };
 
 /// look(triangle) at those that meet at a corner of `from`, beside it.
@@ -40,20 +40,21 @@ void lookAround(int from, int corner, const std::vector<Tri>& triangles, const s
 /// through the solid or across a fold is never reached, so that the answer moves without jumps when the
 /// surface does. place(v): where vertex v is.
 template <class Place>
-SurfacePoint walkDownhill(const Vec3& x, int start, const std::vector<Tri>& triangles,
+SurfacePoint walkDownhill(const Eigen::Vector3f& x, int start, const std::vector<Tri>& triangles,
                           const std::vector<Tri>& across, const Place& place, int steps) {
     SurfacePoint best;
     const auto look = [&](int triangle) {
         const Tri& t = triangles[triangle];
-        const Vec3 w = nearestOnTriangle(x, place(t[0]), place(t[1]), place(t[2]));
-        const Vec3 p = w[0] * place(t[0]) + w[1] * place(t[1]) + w[2] * place(t[2]);
-        const double d = (x - p).squaredNorm();
+        const Eigen::Vector3f a = place(t[0]), b = place(t[1]), c = place(t[2]);
+        const Eigen::Vector3f w = nearestOnTriangle(x, a, b, c);
+        const Eigen::Vector3f p = w[0] * a + w[1] * b + w[2] * c;
+        const float d = (x - p).squaredNorm();
         if (d < best.squared) best = {triangle, w, p, d};
     };
     look(start);
     for (int step = 0; step < steps; ++step) {
         const int from = best.triangle;
-        const Vec3 w = best.weights;
+        const Eigen::Vector3f w = best.weights;
         // Only over an edge that the nearest point lies on it may go on downhill, at a corner to any triangle
         // that meets there.
         if ((w.array() > 0).count() == 1) {

@@ -97,8 +97,7 @@ private:
         return rest;
     }
 
-    /// What is near at rest and within reach of the other's region there joins: spheres of the region stick
-    /// out so far.
+    /// What is near at rest and close to the other's region there joins: spheres of the region stick out.
     void closeBy() {
         for (bool more = true; more;) {
             a_.renew();
@@ -115,7 +114,7 @@ private:
         if (other.region.triangleCount() > 0)
             parallelFor(near.size(), [&](std::size_t i) {
                 close[i] = !side.parts.contains(near[i]) &&
-                           !other.region.apart(side.queryOf({near[i]}), toOther, options_.reach);
+                           !other.region.apart(side.queryOf({near[i]}), toOther, options_.close);
             });
         Parts found;
         for (std::size_t i = 0; i < near.size(); ++i)

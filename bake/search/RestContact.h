@@ -17,12 +17,15 @@ struct RestContact {
 
 struct RestContactOptions {
     double reach = 0; ///< surfaces this near to each other count as touching where contact goes on, > 0
+    double close = 0; ///< what is this near to the other's region at rest is of the region too, though it
+                      ///< touches nothing, >= 0
     double near = 0;  ///< where surfaces touch at all, others this near at rest count as touching too, >= 0
     int poses = 1000; ///< of Q that are looked at, about
 };
 
 /// Decides by the surfaces. Apart: no region. Otherwise the region is what is inside the other body or within
-/// reach of it at rest, as far as it hangs together with what touches there; then it is grown along the
+/// reach of it at rest, as far as it hangs together with what touches there; so no connected piece of it is
+/// farther from the other body at rest than `close` or `near` allow. Then it is grown along the
 /// motion, from pose to pose over a grid of Q outwards from rest and over poses between: contact that hangs
 /// together with the region is the same contact carried on and joins it; where any other is met the joint is
 /// stopped and goes no farther. The same for any number of threads; stopped, the region is smaller.

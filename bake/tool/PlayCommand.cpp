@@ -141,6 +141,31 @@ std::string line(const SceneModel& scene, std::size_t number, const std::vector<
     return text + "\n";
 }
 
+/// What a skin has done at worst, in words and as data.
+nlohmann::json sayFollowing(const SceneModel& scene, const SkinModel& skin, const SkinFollowing& worst,
+                            const Console& console) {
+    console.say(fmt::format("  {}: edges {:.2f} to {:.2f} of their length at rest (1st and 99th percentile), "
+                            "{} triangles turned over, at worst",
+                            skin.path, worst.shortest, worst.longest, worst.turnedOver));
+    nlohmann::json bones = nlohmann::json::array();
+    const std::vector<UnderSkin> under = underSkin(scene, skin);
+    for (std::size_t m = 0; m < worst.bones.size(); ++m) {
+        const SkinFollowing::OnBone& bone = worst.bones[m];
+        if (bone.vertices == 0) continue;
+        const std::string& path = scene.bodies[under[m].body].path;
+        console.say(
+            fmt::format("    on {} alone, {} vertices: off its motion by {:.2g} on average, 95 % within "
+                        "{:.2g} (thousandths of the bones' size)",
+                        path, bone.vertices, bone.mean, bone.most));
+        bones.push_back(
+            {{"bone", path}, {"vertices", bone.vertices}, {"mean", bone.mean}, {"within95", bone.most}});
+    }
+    return {{"skin", skin.path},
+            {"edges", {worst.shortest, worst.longest}},
+            {"turnedOver", worst.turnedOver},
+            {"bones", bones}};
+}
+
 void play(const PlayArguments& arguments, const Console& console) {
     refuseOverwriting(arguments.output, {arguments.scene, arguments.motion});
     const SceneModel scene = loadScene(arguments.scene);
@@ -167,11 +192,14 @@ void play(const PlayArguments& arguments, const Console& console) {
     std::string text = header(scene);
     std::map<std::string, int> statuses;
     double deepest = 0;
+    std::vector<SkinFollowing> following(scene.skins.size());
     for (std::size_t k = 0; k < steps.size(); ++k) {
         const Player::Step step = player.step(steps[k], scene.startTimeCode + static_cast<double>(k));
         text += line(scene, k, steps[k], step);
         ++statuses[name(step.status)];
         for (double depth : step.residualDepths) deepest = std::max(deepest, depth);
+        const std::vector<SkinFollowing> now = player.following();
+        for (std::size_t skin = 0; skin < now.size(); ++skin) following[skin].worsen(now[skin]);
         if (!arguments.meshes.empty())
             writeFileAtomically(numbered(arguments.meshes, k), objText(scene, player.worldMeshes()));
     }
@@ -180,8 +208,12 @@ void play(const PlayArguments& arguments, const Console& console) {
     for (const auto& [status, count] : statuses) console.say(fmt::format("  {:<10}{}", status, count));
     if (!scene.skins.empty())
         console.say("  deepest residual of a skin " + lengthText(deepest, scene.metersPerUnit));
+    nlohmann::json skins = nlohmann::json::array();
+    for (std::size_t k = 0; k < scene.skins.size(); ++k)
+        skins.push_back(sayFollowing(scene, scene.skins[k], following[k], console));
     console.print({{"steps", steps.size()},
                    {"statuses", statuses},
+                   {"skins", skins},
                    {"outsideLimits", outside},
                    {"residualDepth", deepest},
                    {"warnings", warnings},

@@ -49,10 +49,7 @@ EarlyResult proveEarly(const VerifiedBody& a, const VerifiedBody& b, const Motio
                        const std::vector<MeshTest>& tests, double claimed, const Progress& progress) {
     EarlyResult result;
     const StickingOut outA = stickingOut(a, spheresA), outB = stickingOut(b, spheresB);
-    for (const MeshTest& t : tests)
-        result.protrusion = std::max({result.protrusion, outA.body[t.sphereA], outB.body[t.sphereB]});
     result.bound = worst(tests, outA.surface, outB.surface);
-    if (claimed < 0) return result; // only how far the spheres stick out is asked
     const double granted = claimed * (1 + 1e-6);
     result.surfaces = result.bound <= granted;
     if (result.surfaces) {

@@ -9,7 +9,6 @@ namespace tss::verify {
 /// What is shown of a table's early reports.
 struct EarlyResult {
     double bound = 0;      ///< where a test fires, points of the two bodies are no farther apart than this
-    double protrusion = 0; ///< the farthest that a sphere of some test sticks out of its body
     bool surfaces = false; ///< shown for the surfaces alone: nothing is taken to be behind openings
     bool proven = false;
     std::string reason;       ///< why not; empty when proven
@@ -19,8 +18,7 @@ struct EarlyResult {
 
 /// Shows from the meshes that wherever a test fires the two surfaces are at most `claimed` apart: how far the
 /// spheres of each test stick out of their bodies bounds how far apart the bodies are, and Nesting.h shows
-/// that then neither is inside the other with the surfaces apart. claimed < 0: nothing is claimed, only the
-/// protrusion and the bound for the surfaces alone are found.
+/// that then neither is inside the other with the surfaces apart.
 EarlyResult proveEarly(const VerifiedBody& a, const VerifiedBody& b, const Motion& motion, double size,
                        const std::vector<Sphere>& spheresA, const std::vector<Sphere>& spheresB,
                        const std::vector<MeshTest>& tests, double claimed, const Progress& progress);

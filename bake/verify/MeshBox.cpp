@@ -1,6 +1,7 @@
 #include "bake/verify/MeshBox.h"
 
 #include "bake/geometry/TriangleDistance.h"
+#include "bake/verify/SeparatingAxis.h"
 
 #include <algorithm>
 #include <bit>
@@ -139,8 +140,15 @@ bool MeshBox::apart(const Shape& shapeA, const Shape& shapeB, const MovingPoint&
         }
         return false;
     };
-    return pastEdges(*shapeA.corners, a.axis, [](const Vec3& n) { return n; }) ||
-           pastEdges(*shapeB.corners, b.axis, [&](const Vec3& n) { return Vec3(turned * n); });
+    if (pastEdges(*shapeA.corners, a.axis, [](const Vec3& n) { return n; }) ||
+        pastEdges(*shapeB.corners, b.axis, [&](const Vec3& n) { return Vec3(turned * n); }))
+        return true;
+    // Where the box is small beside them, what separates them in its middle does so all over it.
+    if (!(a.reach + b.reach > 8 * at.move)) return false;
+    Corners placed = *shapeB.corners;
+    for (Vec3& corner : placed) corner = at.at + turned * (corner - b.centre);
+    const Vec3 axis = separatingAxis(*shapeA.corners, placed);
+    return !axis.isZero() && separates(axis);
 }
 
 // The test's gap at every pose of the box where the two pieces come as near as the claim says, T(q) y = x +

@@ -91,6 +91,14 @@ void take(MeshVerdict& verdict, MeshProofResult&& result) {
     verdict.pose = std::move(result.pose);
 }
 
+/// False: what is exempt may not be.
+bool takeRegion(MeshVerdict& verdict, const Frame& frame, const RestRegion& region) {
+    RegionVerdict judged = judgeRegion(frame.a, frame.b, frame.motion, region);
+    verdict.reason = std::move(judged.reason);
+    verdict.farthestExempt = judged.farthest;
+    return verdict.holds();
+}
+
 void proveMiss(MeshVerdict& verdict, const Frame& frame, const RestRegion& region, const MeshClaim& claim,
                const Progress& progress) {
     const SurfaceTree treeA(frame.a.mesh, region.a), treeB(frame.b.mesh, region.b);
@@ -118,12 +126,11 @@ MeshVerdict verifyOnMeshes(const TriangleMesh& meshA, const TriangleMesh& meshB,
     claim.band = frame.band;
     claim.work = work;
     // First what is soon said.
-    EarlyResult early = proveEarly(frame.a, frame.b, motion, frame.size, table.a, table.b, claim.tests,
-                                   table.boundEarly >= 0 ? table.boundEarly + frame.band : -1, progress);
-    verdict.cells += early.cells;
-    verdict.reason = refuteRegion(frame.a, frame.b, motion, table.restRegion, 4 * early.protrusion);
-    if (!verdict.holds()) return verdict;
+    if (!takeRegion(verdict, frame, table.restRegion)) return verdict;
     if (table.boundEarly >= 0) {
+        EarlyResult early = proveEarly(frame.a, frame.b, motion, frame.size, table.a, table.b, claim.tests,
+                                       table.boundEarly + frame.band, progress);
+        verdict.cells += early.cells;
         verdict.early = early.proven;
         verdict.earlyBound = early.bound;
         verdict.fillings = !early.surfaces && ((frame.a.solid && frame.a.solid->open()) ||
@@ -145,11 +152,11 @@ MeshVerdict verifyOnMeshes(const TriangleMesh& meshA, const TriangleMesh& meshB,
     const Frame frame(meshA, meshB, motion, {}, {});
     verdict.band = frame.band;
     verdict.exempt = exemptShare(meshA, meshB, proof.restRegion);
-    if (!(proof.clearance > frame.band))
+    if (!(proof.clearance > frame.band)) {
         verdict.reason = "it states no positive clearance of the meshes";
-    else
-        verdict.reason = refuteRegion(frame.a, frame.b, motion, proof.restRegion, 0);
-    if (!verdict.holds()) return verdict;
+        return verdict;
+    }
+    if (!takeRegion(verdict, frame, proof.restRegion)) return verdict;
     MeshClaim claim;
     claim.near = proof.clearance * (1 - 1e-9) - frame.band;
     claim.band = frame.band;

@@ -18,10 +18,11 @@ struct MeshVerdict {
     double earlyBound = -1;   ///< how near they are, as far as the meshes show it; -1: not asked for
     bool fillings = false;    ///< what is behind openings of a mesh counts as body in that
     verify::ExemptShare exempt;
-    double band = 0;         ///< rounding granted to lengths, scene units
-    std::uint64_t cells = 0; ///< boxes of Q looked at
-    std::uint64_t work = 0;  ///< comparisons of patches
-    double bytes = 0;        ///< of what was open at the same time, about
+    double farthestExempt = 0; ///< no connected piece of that is farther from the other body at rest
+    double band = 0;           ///< rounding granted to lengths, scene units
+    std::uint64_t cells = 0;   ///< boxes of Q looked at
+    std::uint64_t work = 0;    ///< comparisons of patches
+    double bytes = 0;          ///< of what was open at the same time, about
     bool holds() const { return reason.empty(); }
 };
 

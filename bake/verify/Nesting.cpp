@@ -103,14 +103,24 @@ public:
         return !deepest || cross(box, *deepest) || allOutside(box) || near(box);
     }
 
-    /// At the pose a test fires and the surfaces are farther apart than they may be.
+    /// At the pose a test fires, the surfaces are farther apart than they may be, and a component of one body
+    /// is in the other as far as its extreme points tell.
     bool brokenAt(const std::vector<double>& q) const {
         if (!withinLimits(motion_, q)) return false;
         const Pose at = tss::pose(motion_, q);
         const bool fires = std::any_of(tests_.begin(), tests_.end(), [&](const MeshTest& t) {
             return (at * t.centreB - t.centreA).norm() <= t.reach;
         });
-        return fires && a_.surface.apart(b_.surface, at, early_ * (1 + 1e-6));
+        if (!fires || !a_.surface.apart(b_.surface, at, early_ * (1 + 1e-6))) return false;
+        const Pose back = at.inverse(Eigen::Isometry);
+        const auto nested = [&](const Components& inner, const VerifiedBody& outer, const Pose& toOuter) {
+            return std::any_of(inner.extremes().begin(), inner.extremes().end(), [&](const Extremes& piece) {
+                return std::all_of(piece.begin(), piece.end(), [&](const Vec3& p) {
+                    return verify::outside(outer, toOuter * p) < -early_;
+                });
+            });
+        };
+        return nested(ofB_, a_, at) || nested(ofA_, b_, back);
     }
 
 private:

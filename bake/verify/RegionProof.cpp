@@ -24,8 +24,11 @@ std::vector<std::vector<Corners>> pieces(const TriangleMesh& mesh, const std::ve
         boxes.emplace_back(all.back()[0]);
         for (const Vec3& c : all.back()) boxes.back().extend(c);
     }
-    // What is this near touches: shared corners are equal, halves of edges to rounding.
-    const double touching = 1e-12 * bounds(mesh).diagonal().norm();
+    // What is this near touches: the bake joins what is nearer than 1e-9 of the mesh's size; halves of edges
+    // round.
+    const Eigen::AlignedBox3d whole = bounds(mesh);
+    const double touching = 1.01e-9 * whole.diagonal().norm() +
+                            1e-15 * whole.min().cwiseAbs().cwiseMax(whole.max().cwiseAbs()).norm();
     std::vector<std::size_t> parent(parts.size());
     std::iota(parent.begin(), parent.end(), std::size_t(0));
     const auto root = [&](std::size_t i) {
@@ -55,13 +58,17 @@ TriangleMesh meshOf(const std::vector<Corners>& piece) {
     return mesh;
 }
 
-/// Some point of the piece, moved, is in the body or no farther than `slack` from its surface.
-bool touches(const std::vector<Corners>& piece, const Pose& toBody, const VerifiedBody& body, double slack) {
+/// Of the smaller body's diagonal.
+constexpr double closeShare = 0.02;
+
+/// How far the piece, moved, is from the body, what closes its openings counted; 0: it is in it.
+double distanceTo(const VerifiedBody& body, const std::vector<Corners>& piece, const Pose& toBody) {
     for (const Corners& c : piece)
         for (const Vec3& corner : c)
-            if (body.solid && body.solid->inside(toBody * corner)) return true;
+            if (body.solid && body.solid->inside(toBody * corner)) return 0;
     const MeshQuery surface(meshOf(piece));
-    return !body.surface.apart(surface, toBody, slack);
+    const double distance = body.surface.distanceTo(surface, toBody);
+    return body.solid ? std::min(distance, body.solid->boundary().distanceTo(surface, toBody)) : distance;
 }
 
 } // namespace
@@ -80,9 +87,10 @@ ExemptShare exemptShare(const TriangleMesh& a, const TriangleMesh& b, const Rest
     return out;
 }
 
-std::string refuteRegion(const VerifiedBody& a, const VerifiedBody& b, const Motion& motion,
-                         const RestRegion& region, double slack) {
-    if (region.empty()) return {};
+RegionVerdict judgeRegion(const VerifiedBody& a, const VerifiedBody& b, const Motion& motion,
+                          const RestRegion& region) {
+    RegionVerdict verdict;
+    if (region.empty()) return verdict;
     const Pose rest = pose(motion, restValues(motion));
     // Files hold points as floats, and placing them rounds in double.
     const double smaller = std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm());
@@ -90,23 +98,27 @@ std::string refuteRegion(const VerifiedBody& a, const VerifiedBody& b, const Mot
                        bounds(a.mesh).min().cwiseAbs().norm() + bounds(b.mesh).max().cwiseAbs().norm() +
                        bounds(b.mesh).min().cwiseAbs().norm();
     const double rounding = 0x1p-22 * smaller + 1e-12 * far;
-    if (a.surface.apart(b.surface, rest, rounding))
-        return "it excepts parts of the surfaces though the meshes do not meet at rest";
-    slack = std::max(slack, rounding);
-    const auto stray = [&](const VerifiedBody& body, const std::vector<SurfacePart>& parts,
-                           const VerifiedBody& other, const Pose& toOther) {
-        const auto all = pieces(body.mesh, parts);
-        return std::count_if(all.begin(), all.end(),
-                             [&](const auto& piece) { return !touches(piece, toOther, other, slack); });
+    if (a.surface.apart(b.surface, rest, rounding)) {
+        verdict.reason = "it excepts parts of the surfaces though the meshes do not meet at rest";
+        return verdict;
+    }
+    int strays = 0;
+    const auto look = [&](const VerifiedBody& body, const std::vector<SurfacePart>& parts,
+                          const VerifiedBody& other, const Pose& toOther) {
+        for (const auto& piece : pieces(body.mesh, parts)) {
+            const double distance = distanceTo(other, piece, toOther);
+            if (distance > rounding) verdict.farthest = std::max(verdict.farthest, distance);
+            strays += distance > closeShare * smaller + rounding;
+        }
     };
-    const auto straysA = stray(a, region.a, b, rest.inverse(Eigen::Isometry));
-    const auto straysB = stray(b, region.b, a, rest);
-    if (straysA + straysB > 0)
-        return fmt::format(
-            "{} connected pieces of the surfaces that it excepts are nowhere near the other body "
-            "at rest",
-            straysA + straysB);
-    return {};
+    look(a, region.a, b, rest.inverse(Eigen::Isometry));
+    look(b, region.b, a, rest);
+    if (strays > 0)
+        verdict.reason = fmt::format(
+            "{} connected pieces of the surfaces that it excepts are nowhere near the other body at rest: up "
+            "to {:.4g} away",
+            strays, verdict.farthest);
+    return verdict;
 }
 
 } // namespace tss::verify

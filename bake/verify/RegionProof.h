@@ -14,9 +14,15 @@ struct ExemptShare {
 };
 ExemptShare exemptShare(const TriangleMesh& a, const TriangleMesh& b, const RestRegion& region);
 
-/// Why the region may not be exempt; empty: it may. The surfaces must meet at rest, and every connected piece
-/// of the region must have a point in the other body, or no farther than `slack` from it.
-std::string refuteRegion(const VerifiedBody& a, const VerifiedBody& b, const Motion& motion,
-                         const RestRegion& region, double slack);
+/// What came out of looking at a region.
+struct RegionVerdict {
+    std::string reason;  ///< why it may not be exempt; empty: it may
+    double farthest = 0; ///< no connected piece of it is farther from the other body at rest, scene units
+};
+
+/// The surfaces must meet at rest, and every connected piece of the region must have a point in the other
+/// body, or no farther from it than a fiftieth of the smaller body's diagonal: whatever the file says.
+RegionVerdict judgeRegion(const VerifiedBody& a, const VerifiedBody& b, const Motion& motion,
+                          const RestRegion& region);
 
 } // namespace tss::verify

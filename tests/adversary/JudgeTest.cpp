@@ -46,6 +46,29 @@ TEST_CASE("the judge finds contacts that a table misses, reports that are early,
     CHECK(early.earliest == Approx(0.2 + 2e-7).epsilon(1e-9));
 }
 
+TEST_CASE(
+    "a report for a body that stands behind an opening as a whole is early, for one in the opening not") {
+    TriangleMesh a = ballMesh(Vec3::Zero(), 1, 3);
+    std::erase_if(a.triangles, [&](const tss::Tri& t) { // open towards the other
+        return std::all_of(t.begin(), t.end(), [&](int v) { return a.vertices[std::size_t(v)].x() > 0.6; });
+    });
+    const TriangleMesh b = ballMesh({0.6, 0, 0}, 0.1, 1);
+    tss::Table table = tableOf(1);
+    table.b[0] = {Vec3(0.6, 0, 0), 0.1};
+    const auto judged = [&](double from, double to) {
+        Motion motion;
+        motion.dofs = {slide({-1, 0, 0}, from, to)};
+        motion.dofs[0].rest = from;
+        table.motion = motion;
+        return attackTable(a, b, motion, table, {300, 1});
+    };
+    const Findings within = judged(0.4, 0.6), across = judged(-0.05, 0.05);
+    CHECK(within.fired >= 100); // of which it soon has enough
+    CHECK(within.early >= 100);
+    CHECK(across.fired > 200);
+    CHECK_FALSE(across.failed());
+}
+
 TEST_CASE("the judge measures how late and how early a table with bounds is") {
     const TriangleMesh a = ballMesh(Vec3::Zero(), 1, 2), b = ballMesh({3, 0, 0}, 1, 2);
     tss::Table table = tableOf(0.9);

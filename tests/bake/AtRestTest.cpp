@@ -1,5 +1,6 @@
 #include "bake/Bake.h"
 #include "bake/BakePair.h"
+#include "bake/VerifyPair.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/PartSet.h"
 #include "bake/search/TreePair.h"
@@ -142,6 +143,30 @@ TEST_CASE("bodies that overlap at rest are free there, and of all but the region
             contacts += judged.contacts;
         }
     CHECK(contacts > 100);
+}
+
+TEST_CASE("a foot off the ground is not exempt with the one that stands in it, however coarse the spheres") {
+    TriangleMesh stool = boxMesh({0, 0, -0.05}, {0.4, 1, 1});
+    append(stool, boxMesh({1, 0, 0.12}, {1.4, 1, 1}));
+    Motion motion;
+    motion.dofs = {joints::slide({0, 0, 1}, -0.3, 0.3)};
+    for (const char* tolerance : {"0.02", "0.1", "0.2"}) {
+        CAPTURE(tolerance);
+        SceneModel scene = sceneOf(boxMesh({-1, -1, -1}, {3, 2, 0}), stool, motion);
+        const Pair& pair = bakedPair(scene, {{"tolerance", tolerance}, {"at-rest", "ignore"}});
+        REQUIRE(pair.table);
+        const RestRegion& region = pair.table->restRegion;
+        CHECK(bounds(meshOf(scene.bodies[1].mesh, region.b)).max().x() < 0.5);
+        CHECK(freeAtRest(scene));
+        CHECK(query(*pair.table, std::vector{-0.13}).hit());
+        const PairVerdict verdict = verifyPair(scene, pair);
+        INFO(verdict.reason);
+        CHECK(verdict.holds());
+        const Judged judged = judge(scene, 100, 1);
+        CHECK(judged.contacts > 10);
+        CHECK(judged.missed == 0);
+        CHECK(judged.early == 0);
+    }
 }
 
 TEST_CASE("a table with a tolerance is free at rest, or refused where the clearance is less") {

@@ -1,6 +1,7 @@
 #include "bake/NestedBodies.h"
 
 #include "bake/Bake.h"
+#include "bake/VerifyPair.h"
 #include "bake/geometry/MeshQuery.h"
 #include "bake/model/AddPair.h"
 #include "bake/table/Query.h"
@@ -148,6 +149,44 @@ TEST_CASE("a body on its way through a closed one is in contact where their surf
         touching += distance == 0;
     }
     CHECK(touching > 20);
+}
+
+TEST_CASE(
+    "a body that comes through an opening as a whole makes an open mesh hollow, one that looks in does not") {
+    const auto open = [](Through through) { // towards +x, where the small one comes from
+        std::erase_if(through.large.triangles, [&](const Tri& t) {
+            return std::all_of(t.begin(), t.end(),
+                               [&](int v) { return through.large.vertices[std::size_t(v)].x() > 1.6; });
+        });
+        return through;
+    };
+    CHECK(open(Through(-1, 4)).nesting(0.1).outer.a);
+    // In by a hair, for a range that samples do not meet.
+    Through narrow = open(Through(-1500, 1500));
+    narrow.motion.dofs[0].lower -= 0.37;
+    CHECK(narrow.nesting(0.1).outer.a);
+    const Nesting looks = open(Through(1.6, 4)).nesting(0.1);
+    CHECK_FALSE(looks.outer);
+    CHECK(decided(looks));
+}
+
+TEST_CASE("a body that stands behind an opening is reported where surfaces are near, by all methods") {
+    const std::string spheres = GENERATE("medial", "shrinking");
+    CAPTURE(spheres);
+    Through through(-0.5, 4);
+    std::erase_if(through.large.triangles, [&](const Tri& t) {
+        return std::all_of(t.begin(), t.end(),
+                           [&](int v) { return through.large.vertices[std::size_t(v)].x() > 1.6; });
+    });
+    SceneModel scene = sceneOf(through, false, "0.05");
+    scene.pairs[0].settings["spheres"] = spheres;
+    bake(scene, {});
+    const Pair& pair = scene.pairs[0];
+    REQUIRE((pair.table || pair.proof));
+    const PairVerdict verdict = verifyPair(scene, pair);
+    INFO(verdict.reason);
+    CHECK(verdict.holds());
+    if (pair.table) CHECK_FALSE(query(*pair.table, std::vector{0.0}).hit());
 }
 
 TEST_CASE("a body that stays inside a closed one, surfaces apart, never collides with it") {

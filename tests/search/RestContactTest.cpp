@@ -19,9 +19,9 @@ struct Both {
     Both(const TriangleMesh& a, const TriangleMesh& b)
         : a(a), b(b), surfaceA(a), surfaceB(b), sideA(this->a, surfaceA), sideB(this->b, surfaceB) {}
 
-    RestContact find(const Motion& motion, double reach) const {
+    RestContact find(const Motion& motion, double reach, double close = -1) const {
         return findRestContact(sideA, sideB, motion, touchingDistance(a.mesh(), b.mesh(), motion),
-                               {reach, 0, 400});
+                               {reach, close < 0 ? reach : close, 0, 400});
     }
 };
 
@@ -101,6 +101,19 @@ TEST_CASE("what is near at rest without touching is no part of the region") {
     CHECK(boundsOf(both.b.mesh(), rest.region.b).max().y() < 1.01);
     CHECK(bounds(rest.nearA).min().y() > 2.9);
     CHECK(bounds(rest.nearB).min().y() > 2.9);
+}
+
+TEST_CASE(
+    "a second foot that stands off the ground is of the region as far as it is close, not within reach") {
+    TriangleMesh a = boxMesh({0, 0, -0.05}, {1, 1, 1}); // stands in the ground
+    append(a, boxMesh({1.02, 0, 0.04}, {2, 1, 1}));     // does not reach it
+    const Both both(a, boxMesh({-1, -1, -1}, {5, 2, 0}));
+    for (const double close : {0.03, 0.05}) {
+        const RestContact rest = both.find(Motion{}, 0.1, close);
+        CHECK((boundsOf(both.a.mesh(), rest.region.a).max().x() > 1.9) == (close > 0.04));
+        CHECK(rest.apart == Approx(close > 0.04 ? 0.1 : 0.04));
+        CHECK(rest.nearA.empty() == (close > 0.04));
+    }
 }
 
 TEST_CASE("what the region leaves out is outside of the other body and at least the reach away") {

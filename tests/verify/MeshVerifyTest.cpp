@@ -5,6 +5,7 @@
 #include "bake/table/Query.h"
 #include "tests/Joints.h"
 #include "tests/geometry/TestMeshes.h"
+#include "tests/search/Scenes.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -171,6 +172,28 @@ TEST_CASE("a region is refused where the meshes do not meet at rest, or far from
     CHECK(c.verdict().reason.find("nowhere near") != std::string::npos);
 }
 
+TEST_CASE("a piece that stands off the other body is exempt up to a fiftieth of the smaller one, and told") {
+    for (const double off : {0.01, 0.019, 0.021, 0.1}) {
+        Case c = boxes(0.5);
+        const double smaller = std::sqrt(3.0);
+        for (Vec3& v : c.b.vertices) v.x() -= 1.2; // overlap by 0.2 at rest
+        // Beside B, which the table has nothing to say about.
+        append(c.a, boxMesh({0.4, 0.5 + off * smaller, -0.4}, {1.2, 2, 0.4}));
+        c.motion.dofs[0].lower = 0;
+        c.table = makeTable({}, {}, {}, {}, c.motion);
+        c.table.boundMiss = 0;
+        // Many large spheres: what they stick out must not widen what may be exempt.
+        c.table.a = {{Vec3::Zero(), 50}};
+        c.table.rowOffsets = {0, 0};
+        for (std::uint32_t t = 0; t < 24; ++t) c.table.restRegion.a.push_back({t, 1});
+        for (std::uint32_t t = 0; t < 12; ++t) c.table.restRegion.b.push_back({t, 1});
+        const MeshVerdict verdict = c.verdict();
+        INFO(off << ": " << verdict.reason);
+        CHECK(verdict.holds() == (off < 0.02));
+        CHECK(verdict.farthestExempt == Approx(off * smaller));
+    }
+}
+
 TEST_CASE("spheres that stick out further than stated are refused") {
     const double out = std::sqrt(0.75); // a ball of that radius holds the box, and sticks out of its faces
     Case c = boxes(out, 2 * (out - 0.5));
@@ -231,6 +254,30 @@ TEST_CASE(
     c = boxes(0.5);
     c.motion.dofs[0].lower = c.motion.dofs[0].upper = c.motion.dofs[0].rest = -1.5;
     CHECK_FALSE(verdict().holds());
+}
+
+TEST_CASE("edges a millionth of the bodies apart are proven to be, whichever way they cross") {
+    scenes::Random random(7);
+    for (int round = 0; round < 20; ++round) {
+        const double apart = 1e-6, tilt = 0.3 + 2.5 * random.in(0, 1);
+        Case c;
+        // Two wedges, edge over edge.
+        c.a = {{{-1, 0, 0}, {1, 0, 0}, {0, -0.7, -1}, {0, 0.8, -1.3}},
+               {{0, 1, 3}, {1, 0, 2}, {0, 3, 2}, {1, 2, 3}}};
+        c.b = c.a;
+        const Eigen::Quaterniond all(Eigen::AngleAxisd(3 * random.in(0, 1), random.direction()));
+        for (Vec3& v : c.b.vertices)
+            v = all * Vec3(Eigen::AngleAxisd(tilt, Vec3::UnitZ()) * Vec3(v.x(), -v.y(), apart - v.z()));
+        for (Vec3& v : c.a.vertices) v = all * v;
+        c.motion.dofs = {joints::slide((all * Vec3(1, 0.2, 0.1)).normalized(), -1e-7, 1e-7)};
+        NeverCollides proof;
+        proof.clearance = apart - 1e-7 * 0.1 / std::sqrt(1.05) - 2e-9;
+        const MeshVerdict verdict = verifyOnMeshes(c.a, c.b, proof, c.motion);
+        INFO(round << ", tilt " << tilt << ": " << verdict.reason);
+        CHECK(verdict.holds());
+        proof.clearance += 4e-9;
+        CHECK_FALSE(verifyOnMeshes(c.a, c.b, proof, c.motion).holds());
+    }
 }
 
 TEST_CASE("a table of limits that leave no pose is refused, and one of another motion") {

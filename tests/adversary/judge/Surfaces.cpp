@@ -101,7 +101,7 @@ struct Surfaces::Part {
 
 struct Surfaces::Side {
     Side(const TriangleMesh& mesh, const SplitSurface& parts)
-        : whole(mesh), exempt(parts.exempt), other(parts.other), vertices(mesh.vertices) {
+        : whole(mesh), exempt(parts.exempt), other(parts.other) {
         TriangleMesh proper{mesh.vertices, {}};
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
             if (!tss::hasZeroArea(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)))
@@ -110,7 +110,6 @@ struct Surfaces::Side {
     }
     Part whole, exempt, other;
     std::optional<tss::Solid> filled;
-    std::vector<Vec3> vertices;
 };
 
 Surfaces::Surfaces(const TriangleMesh& a, const TriangleMesh& b, const tss::RestRegion& region) {
@@ -171,12 +170,7 @@ double Surfaces::distanceByFcl(const Pose& pose) const {
 
 bool Surfaces::fillingsNear(const Pose& pose, double within) const {
     if (!a_->filled || !b_->filled || !(a_->filled->open() || b_->filled->open())) return false;
-    if (!a_->filled->boundary().apart(b_->filled->boundary(), pose, within)) return true;
-    const Pose back = pose.inverse(Eigen::Isometry);
-    return (a_->filled->open() && std::any_of(b_->vertices.begin(), b_->vertices.end(),
-                                              [&](const Vec3& v) { return a_->filled->inside(pose * v); })) ||
-           (b_->filled->open() && std::any_of(a_->vertices.begin(), a_->vertices.end(),
-                                              [&](const Vec3& v) { return b_->filled->inside(back * v); }));
+    return !a_->filled->boundary().apart(b_->filled->boundary(), pose, within);
 }
 
 double Surfaces::rounding(const Pose& pose) const {

@@ -43,7 +43,7 @@ public:
     double distanceByFcl(const Pose& pose) const;
 
     /// Where a mesh has openings its filling may count as body: the boundaries with their fans are nearer
-    /// than `within`, or one body has a vertex inside the other's filling.
+    /// than `within`. What stands behind an opening as a whole, away from all of them, is no such case.
     bool fillingsNear(const Pose& pose, double within) const;
 
     /// How far calculating with coordinates of this size at this pose may be off, scene units.

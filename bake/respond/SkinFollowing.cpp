@@ -1,0 +1,123 @@
+#include "bake/respond/SkinFollowing.h"
+
+#include "bake/base/Parallel.h"
+
+#include <algorithm>
+
+namespace tss {
+namespace {
+
+/// In diagonals of the bones: skin on a bone alone is nearer than the first, and farther from all others than
+/// the second.
+constexpr double near = 1 / 30.0, far = 1 / 9.0;
+/// Edges shorter than this share of the diagonal say nothing about the skin: scans have slivers.
+constexpr double shortestEdge = 1e-5;
+
+double percentile(std::vector<double>& values, double share) {
+    const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), values.begin() + place, values.end());
+    return values[static_cast<std::size_t>(place)];
+}
+
+/// How the shares of the frames have turned each touched vertex.
+std::vector<Eigen::Matrix3d> turnsOf(const SkinRig& rig, std::span<const Pose> poses) {
+    std::vector<DualPose> frames(rig.frames);
+    for (std::size_t m = 0; m < poses.size(); ++m)
+        if (rig.bodies[m].frame >= 0)
+            frames[static_cast<std::size_t>(rig.bodies[m].frame)] = DualPose(poses[m]);
+    std::vector<Eigen::Matrix3d> turns;
+    for (std::size_t v = 0; v < rig.vertices.size(); ++v) {
+        PoseBlend blend;
+        for (std::uint32_t k = rig.frameStart[v]; k < rig.frameStart[v + 1]; ++k)
+            blend.add(static_cast<double>(rig.frameShares[k].share), frames[rig.frameShares[k].frame]);
+        turns.push_back(blend.pose().linear());
+    }
+    return turns;
+}
+
+} // namespace
+
+void SkinFollowing::worsen(const SkinFollowing& other) {
+    bones.resize(std::max(bones.size(), other.bones.size()));
+    for (std::size_t m = 0; m < other.bones.size(); ++m) {
+        bones[m].vertices = other.bones[m].vertices;
+        bones[m].mean = std::max(bones[m].mean, other.bones[m].mean);
+        bones[m].most = std::max(bones[m].most, other.bones[m].most);
+    }
+    shortest = std::min(shortest, other.shortest);
+    longest = std::max(longest, other.longest);
+    turnedOver = std::max(turnedOver, other.turnedOver);
+}
+
+SkinFollowMeasure::SkinFollowMeasure(const TriangleMesh& skin,
+                                     const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
+                                     const SkinRig& rig)
+    : skin_(skin), rig_(rig), alone_(bodies.size()) {
+    Eigen::AlignedBox3d box;
+    const auto isBone = [&](std::size_t m) {
+        return bodies[m]->rigid() && !bodies[m]->muscle().surface.empty();
+    };
+    for (std::size_t m = 0; m < bodies.size(); ++m)
+        if (isBone(m)) box.extend(bounds(bodies[m]->muscle().surface));
+    if (box.isEmpty()) return;
+    size_ = box.diagonal().norm();
+    std::vector<std::vector<double>> distances(bodies.size());
+    for (std::size_t m = 0; m < bodies.size(); ++m) {
+        if (!isBone(m)) continue;
+        const MuscleLocator locator(bodies[m]->muscle().surface);
+        distances[m].assign(skin.vertices.size(), far * size_);
+        parallelFor(skin.vertices.size(), [&](std::size_t v) {
+            const NearestPoint point = locator.nearest(skin.vertices[v], far * size_);
+            if (point.triangle >= 0) distances[m][v] = point.distance;
+        });
+    }
+    for (std::size_t m = 0; m < bodies.size(); ++m)
+        for (std::uint32_t v = 0; v < distances[m].size(); ++v) {
+            bool alone = distances[m][v] < near * size_;
+            for (std::size_t other = 0; other < bodies.size(); ++other)
+                alone =
+                    alone && (other == m || distances[other].empty() || distances[other][v] >= far * size_);
+            if (alone) alone_[m].push_back(v);
+        }
+}
+
+SkinFollowing SkinFollowMeasure::at(std::span<const Vec3> positions, std::span<const Pose> poses) const {
+    std::vector<Vec3> now = skin_.vertices;
+    for (std::size_t k = 0; k < positions.size(); ++k) now[rig_.vertices[k]] = positions[k];
+    SkinFollowing result;
+    result.bones.resize(alone_.size());
+    for (std::size_t m = 0; m < alone_.size(); ++m) {
+        if (alone_[m].empty()) continue;
+        std::vector<double> off;
+        for (const std::uint32_t v : alone_[m]) {
+            const Vec3 wanted = m < poses.size() ? poses[m] * skin_.vertices[v] : skin_.vertices[v];
+            off.push_back(1000 * (now[v] - wanted).norm() / size_);
+            result.bones[m].mean += off.back();
+        }
+        result.bones[m].vertices = off.size();
+        result.bones[m].mean /= static_cast<double>(off.size());
+        result.bones[m].most = percentile(off, 0.95);
+    }
+    std::vector<double> edges;
+    const double least = shortestEdge * bounds(skin_).diagonal().norm();
+    for (const Tri& t : skin_.triangles)
+        for (int k = 0; k < 3; ++k) {
+            const int i = t[k], j = t[(k + 1) % 3];
+            const double rest = (skin_.vertices[i] - skin_.vertices[j]).norm();
+            if (rest > least) edges.push_back((now[i] - now[j]).norm() / rest);
+        }
+    if (!edges.empty()) {
+        result.shortest = percentile(edges, 0.01);
+        result.longest = percentile(edges, 0.99);
+    }
+    const std::vector<Eigen::Matrix3d> turns = turnsOf(rig_, poses);
+    for (const Tri& t : rig_.triangles) {
+        const auto normal = [&](const auto& x) -> Vec3 {
+            return (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+        };
+        result.turnedOver += normal(positions).dot(turns[t[0]] * normal(rig_.rest)) < 0;
+    }
+    return result;
+}
+
+} // namespace tss

@@ -1,0 +1,44 @@
+#pragma once
+#include "bake/respond/SkinRig.h"
+
+#include <span>
+
+namespace tss {
+
+/// How truly skin follows the bones that it lies on, whatever carries it.
+struct SkinFollowing {
+    /// Skin that lies on one bone alone: how far it is off the bone's own motion, in thousandths of the
+    /// bones' bounding diagonal.
+    struct OnBone {
+        std::size_t vertices = 0;
+        double mean = 0;
+        double most = 0; ///< 95 % of the vertices are within it
+    };
+    std::vector<OnBone> bones;        ///< one a body; none lies on a muscle
+    double shortest = 1, longest = 1; ///< edges, of their length at rest: 1st and 99th percentile
+    std::size_t turnedOver = 0;       ///< triangles that lie upside down against the skin's own turn
+
+    /// Takes the worse of each figure.
+    void worsen(const SkinFollowing& other);
+};
+
+/// Measures it. Skin lies on a bone alone when it is nearer to it than a thirtieth of the bones' diagonal and
+/// farther than a ninth from every other. Keeps references to skin and rig.
+class SkinFollowMeasure {
+public:
+    /// bodies: those that the rig was made with.
+    SkinFollowMeasure(const TriangleMesh& skin,
+                      const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies, const SkinRig& rig);
+
+    /// positions: of the rig's touched vertices. poses: one a body, its motion since rest, in the skin's
+    /// frame; empty: none moves.
+    SkinFollowing at(std::span<const Vec3> positions, std::span<const Pose> poses) const;
+
+private:
+    const TriangleMesh& skin_;
+    const SkinRig& rig_;
+    double size_ = 0;                               ///< diagonal of the bones' bounds, scene units
+    std::vector<std::vector<std::uint32_t>> alone_; ///< #bodies, vertices of the skin mesh
+};
+
+} // namespace tss
