@@ -7,7 +7,7 @@
 
 namespace tss {
 
-/// What <compiler> says, and how the rest is to be read with it.
+/// What the compiler element says, and how the rest is to be read with it.
 struct MjcfCompiler {
     bool degrees = true, autoLimits = true, stripPath = false;
     std::string eulerOrder = "xyz", meshFolder;

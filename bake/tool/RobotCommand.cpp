@@ -35,7 +35,8 @@ std::string rootName(const std::string& text) {
     return "";
 }
 
-Robot readRobot(const RobotArguments& arguments, const std::string& text, const FindMesh& find) {
+Robot readRobot(const RobotArguments& arguments, [[maybe_unused]] const std::string& text,
+                [[maybe_unused]] const FindMesh& find) {
     const bool mujoco = rootName(text) == "mujoco";
     if (mujoco) {
 #ifdef OSGTSS_HAVE_MJCF
@@ -119,9 +120,8 @@ void sayScene(const RobotScene& made, const std::string& output, const Console& 
     for (const MuscleModel& muscle : made.scene.muscles) muscles.push_back(muscle.path);
     for (const SkinModel& skin : made.scene.skins) skins.push_back(skin.path);
     console.say(fmt::format("wrote {}: {}, {}, {}; next: tss bake {} -o BAKED.tss", output,
-                            counted(made.links.size(), "part"),
-                            counted(made.scene.joints.size(), "joint"), counted(pairs.size(), "pair"),
-                            output));
+                            counted(made.links.size(), "part"), counted(made.scene.joints.size(), "joint"),
+                            counted(pairs.size(), "pair"), output));
     console.print({{"output", output},
                    {"robot", made.scene.defaultPrim},
                    {"links", links},
