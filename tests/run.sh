@@ -30,5 +30,5 @@ fi
 say "The API reference, every warning an error"
 cmake --build --preset release --target api
 
-say "Fuzzing the scene reader"
+say "Fuzzing the readers of scenes and robots"
 tests/fuzz/run.sh "$([ -n "$long" ] && echo 1800 || echo 30)"

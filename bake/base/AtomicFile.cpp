@@ -64,7 +64,8 @@ void writeFileAtomically(const std::string& file, std::string_view content) {
 std::string readWholeFile(const std::string& file) {
     Temporary open;
     open.kept = true;
-    open.descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    // Without waiting for whoever would write into a pipe: that is refused below.
+    open.descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (open.descriptor < 0) fail(file, "cannot be read");
     struct stat status {};
     if (::fstat(open.descriptor, &status) != 0) fail(file, "cannot be read");

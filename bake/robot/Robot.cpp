@@ -93,6 +93,10 @@ void settleHeld(Robot& robot, RobotJoint& joint) {
 } // namespace
 
 void settleRobot(Robot& robot) {
+    constexpr std::size_t most = 500;
+    if (robot.links.size() > most)
+        throw InputError(Where{robot.file, "", ""},
+                         "expected no more than 500 links, found " + std::to_string(robot.links.size()));
     checkForest(robot);
     for (RobotJoint& joint : robot.joints)
         if (!joint.leader.empty()) settleFollower(robot, joint);

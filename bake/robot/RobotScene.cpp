@@ -1,7 +1,6 @@
 #include "bake/robot/RobotScene.h"
 
 #include "bake/base/Error.h"
-#include "bake/geometry/Import.h"
 #include "bake/model/AddPair.h"
 #include "bake/model/ShowMotion.h"
 #include "bake/robot/Shapes.h"
@@ -23,6 +22,7 @@ public:
 
     RobotScene make() {
         SceneModel& scene = result_.scene;
+        scene.metersPerUnit = request_.metersPerUnit;
         scene.defaultPrim = freePrimName(scene, robot_.name.empty() ? "Robot" : robot_.name);
         for (const RobotLink& link : robot_.links) addLink(link);
         if (!others_.empty())
@@ -50,7 +50,7 @@ public:
 private:
     TriangleMesh meshOfFile(const RobotShape& shape) {
         auto [at, isNew] = meshes_.try_emplace(shape.file);
-        if (isNew) at->second = importMesh(findMesh_(shape.file), MeshAxes::AsWritten);
+        if (isNew) at->second = importMesh(findMesh_(shape.file), request_.axes);
         TriangleMesh mesh = at->second;
         if (!(shape.size.cwiseAbs().minCoeff() > 0)) throw InputError("mesh: expected a scale that is not 0");
         for (Vec3& v : mesh.vertices) v = v.cwiseProduct(shape.size);
@@ -61,6 +61,10 @@ private:
 
     void append(const RobotShape& shape, TriangleMesh& whole) {
         const TriangleMesh mesh = shape.kind == RobotShape::Kind::Mesh ? meshOfFile(shape) : meshOf(shape);
+        constexpr std::size_t most = 4'000'000;
+        triangles_ += mesh.triangles.size();
+        if (triangles_ > most)
+            throw InputError("expected no more than " + std::to_string(most) + " triangles in all");
         const auto offset = static_cast<int>(whole.vertices.size());
         for (const Vec3& v : mesh.vertices) whole.vertices.push_back(shape.place * v);
         for (const Tri& t : mesh.triangles) whole.triangles.emplace_back(t.array() + offset);
@@ -168,6 +172,7 @@ private:
     std::string others_; ///< links that are made of the other kind of shapes
     RobotScene result_;
     std::map<std::string, TriangleMesh> meshes_;
+    std::size_t triangles_ = 0;
     std::vector<std::vector<int>> chains_; ///< the joints of the scene, per joint of the robot
 };
 

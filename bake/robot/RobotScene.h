@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/geometry/Import.h"
 #include "bake/model/SceneModel.h"
 #include "bake/robot/Robot.h"
 
@@ -14,6 +15,8 @@ enum class RobotPairs { Neighbours, All };
 struct RobotSceneRequest {
     bool visual = false; ///< take the visual shapes of a link, not those of its collision
     RobotPairs pairs = RobotPairs::All;
+    double metersPerUnit = 1;
+    MeshAxes axes = MeshAxes::AsWritten; ///< of files that say which way is up
 };
 
 /// What became of a link, for people and scripts.

@@ -17,7 +17,7 @@ struct PairsWritten {
 PairsWritten srdfOf(const SceneModel& scene, const std::vector<PairEvidence>& evidence,
                     const std::string& source);
 
-/// The same as <exclude>s of MuJoCo, a file to <include> in a model.
+/// The same as exclude elements of MuJoCo, in a file to include in a model.
 PairsWritten mjcfExcludesOf(const SceneModel& scene, const std::vector<PairEvidence>& evidence,
                             const std::string& source);
 

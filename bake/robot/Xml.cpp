@@ -13,9 +13,11 @@ using tinyxml2::XMLElement;
 namespace {
 
 constexpr std::size_t mostBytes = 8 << 20; ///< a tree takes some 30 times that
-constexpr int mostLevels = 100;
+constexpr int mostLevels = 100, mostElements = 100000;
 
+/// What is put in from another file has no line here.
 std::string lineText(int line) {
+    if (line == 0) return "in a file that is included";
     return "line " + std::to_string(line);
 }
 
@@ -36,7 +38,10 @@ void refuseMacros(const std::string& file, const XMLElement& element) {
     }
 }
 
-void checkElement(const std::string& file, const XMLElement& element, int level) {
+void checkElement(const std::string& file, const XMLElement& element, int level, int& count) {
+    if (++count > mostElements)
+        throw InputError(placeOf(file, element),
+                         "expected no more than " + std::to_string(mostElements) + " elements");
     if (level > mostLevels)
         throw InputError(placeOf(file, element),
                          "expected elements no more than " + std::to_string(mostLevels) + " deep");
@@ -46,7 +51,7 @@ void checkElement(const std::string& file, const XMLElement& element, int level)
         if (child->ToUnknown())
             throw InputError(Where{file, lineText(child->GetLineNum()), ""},
                              "expected elements, found <!" + std::string(child->Value()).substr(0, 40) + ">");
-        if (const XMLElement* inner = child->ToElement()) checkElement(file, *inner, level + 1);
+        if (const XMLElement* inner = child->ToElement()) checkElement(file, *inner, level + 1, count);
     }
 }
 
@@ -90,8 +95,9 @@ std::unique_ptr<tinyxml2::XMLDocument> parseXml(const std::string& text, const s
         if (node->ToUnknown()) refuseDocumentType(file, node->GetLineNum());
     const XMLElement* top = document->RootElement();
     if (!top) throw InputError(Where{file, "", ""}, "expected an element <" + root + ">, found none");
-    checkElement(file, *top, 1);
-    if (top->Name() != root)
+    int count = 0;
+    checkElement(file, *top, 1, count);
+    if (!root.empty() && top->Name() != root)
         throw InputError(placeOf(file, *top), "expected <" + root + ">, found <" + top->Name() + ">");
     if (top->NextSiblingElement())
         throw InputError(placeOf(file, *top->NextSiblingElement()),

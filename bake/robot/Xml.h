@@ -13,8 +13,9 @@ Where placeOf(const std::string& file, const tinyxml2::XMLElement& element);
 
 /// The tree of an XML text whose elements know their lines. Refused with an InputError that names the file
 /// and the line: more than 8 MiB, not UTF-8, not well formed, a document type (no entity is ever expanded),
-/// an attribute given twice, elements more than 100 deep, xacro (with the command that expands it), a root of
-/// another name.
+/// an attribute given twice, elements more than 100 deep or more than
+/// 100000 of them, xacro (with the command that expands it), a root of
+/// another name (any will do where none is given).
 std::unique_ptr<tinyxml2::XMLDocument> parseXml(const std::string& text, const std::string& file,
                                                 const std::string& root);
 

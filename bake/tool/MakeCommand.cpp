@@ -8,6 +8,7 @@
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
 #include "bake/tool/RobotCommand.h"
+#include "bake/tool/WholeScene.h"
 
 #include <cctype>
 #include <cmath>
@@ -24,6 +25,7 @@ struct MakeArguments {
     double metersPerUnit = 1; ///< what `unit` says
     std::vector<std::string> dofs;
     RobotArguments robot;
+    WholeSceneArguments whole;
 };
 
 int addBody(SceneModel& scene, const std::string& file, const Vec3& color, Json& audits,
@@ -139,8 +141,9 @@ double parseUnit(const std::string& text) {
 
 /// A robot's file, or two meshes and a motion: one of the two, and all of it.
 void checkUsage(const MakeArguments& arguments) {
-    if (!arguments.robot.input.empty()) return;
-    if (arguments.a.empty()) throw CLI::RequiredError("--a, or a robot's file");
+    if (!arguments.robot.input.empty() || !arguments.whole.bodies.empty() || !arguments.whole.skins.empty())
+        return;
+    if (arguments.a.empty()) throw CLI::RequiredError("--a, or --body, or a robot's file");
     if (arguments.b.empty()) throw CLI::RequiredError("--b");
     if (arguments.dofs.empty()) throw CLI::RequiredError("--dof");
 }
@@ -153,6 +156,12 @@ void make(MakeArguments& arguments, const Console& console) {
         return makeRobot(arguments.robot, console);
     }
     arguments.metersPerUnit = parseUnit(arguments.unit);
+    if (!arguments.whole.bodies.empty() || !arguments.whole.skins.empty()) {
+        arguments.whole.output = arguments.output;
+        arguments.whole.metersPerUnit = arguments.metersPerUnit;
+        arguments.whole.pairs = arguments.robot.pairs;
+        return makeWholeScene(arguments.whole, console);
+    }
     SceneModel scene;
     scene.metersPerUnit = arguments.metersPerUnit;
     scene.defaultPrim = freePrimName(scene, std::filesystem::path(arguments.output).stem().string());
@@ -177,8 +186,8 @@ namespace {
 
 void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& arguments) {
     RobotArguments& robot = arguments->robot;
-    CLI::Option* input =
-        command.add_option("robot", robot.input, "a robot's file, in place of --a, --b and --dof: a URDF");
+    CLI::Option* input = command.add_option(
+        "robot", robot.input, "a robot's file, in place of --a, --b and --dof: URDF, or MJCF of MuJoCo");
     command
         .add_option(
             "--package", robot.packages,
@@ -198,10 +207,30 @@ void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& ar
         .add_option("--pairs", robot.pairs,
                     "neighbours: of each joint; all: of all links that move against each other")
         ->check(CLI::IsMember({"neighbours", "all"}))
-        ->needs(input)
+        ->excludes(command.get_option("--a"))
         ->capture_default_str();
     for (const char* other : {"--a", "--b", "--dof", "--b-offset", "--rest", "--meters-per-unit"})
         input->excludes(command.get_option(other));
+}
+
+void addWholeSceneOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& arguments) {
+    WholeSceneArguments& whole = arguments->whole;
+    const auto add = [&](const char* name, std::vector<std::string>& texts, const char* description) {
+        CLI::Option* option = command.add_option(name, texts, description)->allow_extra_args(false);
+        for (const char* other : {"--a", "--b", "--dof", "--b-offset", "--rest", "robot"})
+            option->excludes(command.get_option(other));
+        return option;
+    };
+    add("--body", whole.bodies,
+        "[NAME=]MESH: a rigid body; repeat. All meshes lie as they do where every joint is at 0");
+    add("--joint", whole.joints,
+        "NAME=PARENT,CHILD:DOF[;DOF...]: a joint of two bodies, its DOFs as for --dof; repeat");
+    CLI::Option* skin = add("--skin", whole.skins, "[NAME=]MESH: a skin over the bodies and muscles");
+    add("--bone", whole.bones, "BODY: a body that the skin lies on; repeat (default: all)")->needs(skin);
+    add("--muscle", whole.muscles,
+        "[NAME=]MESH[,from=BODY,to=BODY,contract=0.15,sheet]: a muscle; its fibre line is found from its "
+        "mesh, the end at "
+        "its `from` body stays, which it moves with; repeat");
 }
 
 } // namespace
@@ -227,6 +256,7 @@ void addMake(CLI::App& app, Console& console) {
                         "DOF values at which the joint rests: where a motion starts, and meshes that overlap "
                         "are free (default 0, or the limit next to it). The meshes lie as they do at 0");
     addRobotOptions(*command, arguments);
+    addWholeSceneOptions(*command, arguments);
     command->footer("Example, a hinge of 30 degrees about the Y axis through 0.3,0,0.7:\n"
                     "  tss make -o jaw.tss --a skull.obj --b mandible.obj --dof rot:0.3,0,0.7:0,1,0:-24:6\n"
                     "The limits are degrees; for meshes in millimetres add --meters-per-unit 0.001.\n"

@@ -11,6 +11,9 @@
 #ifdef OSGTSS_HAVE_URDF
 #include "bake/robot/ReadUrdf.h"
 #endif
+#ifdef OSGTSS_HAVE_MJCF
+#include "bake/robot/ReadMjcf.h"
+#endif
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -19,22 +22,49 @@ namespace tss::tool {
 
 namespace {
 
-Robot readRobot(const RobotArguments& arguments) {
-    const std::string text = readWholeFile(arguments.input);
-    Robot robot;
-#ifdef OSGTSS_HAVE_URDF
-    robot = readUrdf(text, arguments.input);
-    if (!arguments.srdf.empty()) readSrdf(robot, readWholeFile(arguments.srdf), arguments.srdf);
-    return robot;
+/// The name of an XML text's first element; empty where it has none.
+std::string rootName(const std::string& text) {
+    for (auto at = text.find('<'); at != text.npos; at = text.find('<', at + 1)) {
+        if (text.compare(at, 4, "<!--") == 0) {
+            at = text.find("-->", at);
+            if (at == text.npos) return "";
+        } else if (text[at + 1] != '?' && text[at + 1] != '!') {
+            return text.substr(at + 1, text.find_first_of(" \t\r\n/>", at) - at - 1);
+        }
+    }
+    return "";
+}
+
+Robot readRobot(const RobotArguments& arguments, [[maybe_unused]] const std::string& text,
+                [[maybe_unused]] const FindMesh& find) {
+    const bool mujoco = rootName(text) == "mujoco";
+    if (mujoco) {
+#ifdef OSGTSS_HAVE_MJCF
+        return readMjcf(text, arguments.input,
+                        [&](const std::string& name) { return readWholeFile(find(name)); });
 #endif
-    throw InputError(Where{arguments.input, "", ""}, "this build reads no URDF (OSGTSS_URDF is off)");
+    } else {
+#ifdef OSGTSS_HAVE_URDF
+        return readUrdf(text, arguments.input);
+#endif
+    }
+    throw InputError(Where{arguments.input, "", ""},
+                     std::string("this build reads no ") +
+                         (mujoco ? "MJCF (OSGTSS_MJCF is off)" : "URDF (OSGTSS_URDF is off)"));
+}
+
+Robot readRobot(const RobotArguments& arguments, const FindMesh& find) {
+    Robot robot = readRobot(arguments, readWholeFile(arguments.input), find);
+#ifdef OSGTSS_HAVE_URDF
+    if (!arguments.srdf.empty()) readSrdf(robot, readWholeFile(arguments.srdf), arguments.srdf);
+#endif
+    return robot;
 }
 
 Json sayLinks(const RobotScene& made, const Console& console) {
     Json links = Json::array();
-    for (std::size_t i = 0; i < made.links.size(); ++i) {
-        const LinkReport& link = made.links[i];
-        const Body& body = made.scene.bodies[i];
+    for (const LinkReport& link : made.links) {
+        const Body& body = made.scene.bodies[findBody(made.scene, link.body)];
         const std::string name = body.path.substr(body.path.rfind('/') + 1);
         Json json = {{"body", body.path}, {"shapes", link.shapes}, {"triangles", body.mesh.triangles.size()}};
         if (body.mesh.empty()) {
@@ -47,7 +77,8 @@ Json sayLinks(const RobotScene& made, const Console& console) {
                                     link.shapes > 1 ? fmt::format(" ({} shapes as one)", link.shapes) : "",
                                     length(0), length(1), length(2)));
             json["watertight"] = audit.watertight;
-            json["sizeMm"] = {1000 * size.x(), 1000 * size.y(), 1000 * size.z()};
+            const double mm = 1000 * made.scene.metersPerUnit;
+            json["sizeMm"] = {mm * size.x(), mm * size.y(), mm * size.z()};
         }
         links.push_back(json);
     }
@@ -57,48 +88,59 @@ Json sayLinks(const RobotScene& made, const Console& console) {
 /// A link larger than a house or smaller than a grain: its meshes are mostly in another unit.
 void remarkSizes(const SceneModel& scene, const Console& console) {
     for (const Body& body : scene.bodies) {
-        const double size = body.mesh.empty() ? 0 : bounds(body.mesh).diagonal().norm();
+        const double units = body.mesh.empty() ? 0 : bounds(body.mesh).diagonal().norm();
+        const double size = units * scene.metersPerUnit;
         if (size > 10 || (size > 0 && size < 1e-3))
-            console.say(
-                fmt::format("note: {} is {} long; are its meshes in metres? Where they are not, their <mesh> "
-                            "needs a scale",
-                            body.path, lengthText(size, 1)));
+            console.say(fmt::format("note: {} is {} long if one unit of its meshes is {} m; where it is not, "
+                                    "say what it is: a scale in a robot's file, else --meters-per-unit",
+                                    body.path, lengthText(size, 1), scene.metersPerUnit));
     }
 }
 
 } // namespace
 
-void makeRobot(const RobotArguments& arguments, const Console& console) {
-    const FindMesh find = meshesOf(arguments.input, parsePackages(arguments.packages));
-    const Robot robot = readRobot(arguments);
-    RobotSceneRequest request;
-    request.visual = arguments.geometry == "visual";
-    request.pairs = arguments.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
-    const RobotScene made = inFile(arguments.input, [&] { return sceneOf(robot, request, find); });
-    saveScene(made.scene, arguments.output);
+void sayScene(const RobotScene& made, const std::string& output, const Console& console) {
     const Json links = sayLinks(made, console);
     Json joints = Json::array();
     for (const Joint& joint : made.scene.joints) {
         Motion motion;
         motion.dofs = joint.dofs;
-        for (Dof& dof : motion.dofs) dof.name = dof.kind == DofKind::Rotation ? "turns" : "slides";
+        for (Dof& dof : motion.dofs)
+            dof.name = dof.kind == DofKind::Rotation      ? "turns"
+                       : dof.kind == DofKind::Translation ? "slides"
+                                                          : "goes along its path";
         joints.push_back({{"path", joint.path}, {"dofs", joint.dofs.size()}});
         console.say(joint.path.substr(joint.path.rfind('/') + 1) + ": " +
                     (joint.dofs.empty() ? "fixed" : describeDofs(motion)));
     }
     for (const std::string& note : made.notes) console.say("note: " + note);
     remarkSizes(made.scene, console);
-    Json pairs = Json::array();
+    Json pairs = Json::array(), muscles = Json::array(), skins = Json::array();
     for (const Pair& pair : made.scene.pairs) pairs.push_back(pair.path);
-    console.say(fmt::format("wrote {}: {}, {}, {}; next: tss bake {} -o BAKED.tss", arguments.output,
-                            counted(robot.links.size(), "link"), counted(robot.joints.size(), "joint"),
-                            counted(made.scene.pairs.size(), "pair"), arguments.output));
-    console.print({{"output", arguments.output},
-                   {"robot", robot.name},
+    for (const MuscleModel& muscle : made.scene.muscles) muscles.push_back(muscle.path);
+    for (const SkinModel& skin : made.scene.skins) skins.push_back(skin.path);
+    console.say(fmt::format("wrote {}: {}, {}, {}; next: tss bake {} -o BAKED.tss", output,
+                            counted(made.links.size(), "part"), counted(made.scene.joints.size(), "joint"),
+                            counted(pairs.size(), "pair"), output));
+    console.print({{"output", output},
+                   {"robot", made.scene.defaultPrim},
                    {"links", links},
                    {"joints", joints},
                    {"pairs", pairs},
+                   {"muscles", muscles},
+                   {"skins", skins},
                    {"notes", made.notes}});
+}
+
+void makeRobot(const RobotArguments& arguments, const Console& console) {
+    const FindMesh find = meshesOf(arguments.input, parsePackages(arguments.packages));
+    const Robot robot = readRobot(arguments, find);
+    RobotSceneRequest request;
+    request.visual = arguments.geometry == "visual";
+    request.pairs = arguments.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
+    const RobotScene made = inFile(arguments.input, [&] { return sceneOf(robot, request, find); });
+    saveScene(made.scene, arguments.output);
+    sayScene(made, arguments.output, console);
 }
 
 } // namespace tss::tool

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/robot/RobotScene.h"
 #include "bake/tool/Command.h"
 
 namespace tss::tool {
@@ -9,6 +10,9 @@ struct RobotArguments {
     std::vector<std::string> packages;
     std::string srdf, geometry = "collision", pairs = "all";
 };
+
+/// Says what the scene holds that was written: meshes, joints, notes, what comes next.
+void sayScene(const RobotScene& made, const std::string& output, const Console& console);
 
 /// Writes the scene of a robot and says what it holds. Throws InputError.
 void makeRobot(const RobotArguments& arguments, const Console& console);

@@ -3,6 +3,7 @@
 #include "tests/tool/Swing.h"
 
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 using Json = nlohmann::json;
 
@@ -119,6 +120,8 @@ TEST_CASE("what a robot's file needs and has not is exit 1 with the place, and l
     std::filesystem::create_directories(folder.path() / "alone");
     writeText(folder.path() / "alone/arm.urdf", arm);
     refused("alone/none.urdf -o out.tss", 1, "alone/none.urdf");
+    REQUIRE(mkfifo((folder / "pipe.urdf").c_str(), 0600) == 0);
+    refused("pipe.urdf -o out.tss", 1, "expected a regular file"); // and not waited for
     std::filesystem::rename(folder.path() / "my_arm", folder.path() / "moved");
     refused("alone/arm.urdf -o out.tss", 1,
             "alone/arm.urdf: line 4 (<link upper-arm>): mesh \"package://my_arm/upper.obj\"");

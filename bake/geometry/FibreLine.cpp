@@ -1,0 +1,135 @@
+#include "bake/geometry/FibreLine.h"
+
+#include "bake/base/Error.h"
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+
+namespace tss {
+
+namespace {
+
+constexpr double unreached = std::numeric_limits<double>::infinity();
+
+/// Along the edges of the surface.
+class Ways {
+public:
+    explicit Ways(const TriangleMesh& mesh) : mesh_(mesh), next_(mesh.vertices.size()) {
+        for (const Tri& t : mesh.triangles)
+            for (int k = 0; k < 3; ++k) {
+                next_[t[k]].push_back(t[(k + 1) % 3]);
+                next_[t[(k + 1) % 3]].push_back(t[k]);
+            }
+    }
+
+    std::vector<double> lengthsFrom(int vertex) const {
+        std::vector<double> lengths(next_.size(), unreached);
+        using Entry = std::pair<double, int>;
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+        lengths[vertex] = 0;
+        front.emplace(0, vertex);
+        while (!front.empty()) {
+            const auto [length, at] = front.top();
+            front.pop();
+            if (length > lengths[at]) continue;
+            for (int to : next_[at]) {
+                const double there = length + (mesh_.vertices[to] - mesh_.vertices[at]).norm();
+                if (there >= lengths[to]) continue;
+                lengths[to] = there;
+                front.emplace(there, to);
+            }
+        }
+        return lengths;
+    }
+
+private:
+    const TriangleMesh& mesh_;
+    std::vector<std::vector<int>> next_;
+};
+
+int farthest(const std::vector<double>& lengths) {
+    int best = -1;
+    for (std::size_t v = 0; v < lengths.size(); ++v)
+        if (lengths[v] != unreached && (best < 0 || lengths[v] > lengths[best])) best = static_cast<int>(v);
+    return best;
+}
+
+/// The ways from both ends of the component that a vertex is of.
+struct Ends {
+    int first = -1, second = -1;
+    std::vector<double> fromFirst, fromSecond;
+};
+
+Ends endsFrom(const Ways& ways, int vertex) {
+    Ends ends;
+    ends.first = farthest(ways.lengthsFrom(vertex));
+    ends.fromFirst = ways.lengthsFrom(ends.first);
+    ends.second = farthest(ends.fromFirst);
+    ends.fromSecond = ways.lengthsFrom(ends.second);
+    return ends;
+}
+
+Ends longestEnds(const TriangleMesh& mesh) {
+    const Ways ways(mesh);
+    std::vector<bool> seen(mesh.vertices.size());
+    Ends best;
+    double length = -1;
+    for (const Tri& t : mesh.triangles) {
+        if (seen[t[0]]) continue;
+        Ends ends = endsFrom(ways, t[0]);
+        for (std::size_t v = 0; v < seen.size(); ++v)
+            if (ends.fromFirst[v] != unreached) seen[v] = true;
+        const double its = ends.fromFirst[ends.second];
+        if (its > length) length = its, best = std::move(ends);
+    }
+    if (!(length > 0)) throw InputError("a muscle's mesh has no length; expected a closed surface");
+    return best;
+}
+
+/// The line goes straight on as far as the end slice does: the vertex that is farthest by way may lie beside
+/// it.
+Vec3 endBeyond(const TriangleMesh& mesh, const std::vector<double>& here, const std::vector<double>& there,
+               int slices, const Vec3& last, const Vec3& before) {
+    const Vec3 direction = (last - before).normalized();
+    double farthest = 0;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+        if (here[v] < unreached && here[v] * slices < here[v] + there[v])
+            farthest = std::max(farthest, direction.dot(mesh.vertices[v] - last));
+    return last + farthest * direction;
+}
+
+} // namespace
+
+std::vector<Vec3> fibreLine(const TriangleMesh& mesh, int inner) {
+    const Ends ends = longestEnds(mesh);
+    const int slices = inner + 2; // those at the ends are the ends' own
+    std::vector<Vec3> middles(slices, Vec3::Zero());
+    std::vector<double> areas(slices, 0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Vec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
+        double first = 0, both = 0;
+        for (int k = 0; k < 3; ++k) {
+            const int v = mesh.triangles[t][k];
+            first += ends.fromFirst[v];
+            both += ends.fromFirst[v] + ends.fromSecond[v];
+        }
+        if (!(both < unreached) || !(both > 0)) continue; // another component
+        const int slice = std::min(slices - 1, static_cast<int>(slices * first / both));
+        const double area = (b - a).cross(c - a).norm() / 2;
+        middles[slice] += area * (a + b + c) / 3;
+        areas[slice] += area;
+    }
+    std::vector<Vec3> line;
+    for (int k = 1; k + 1 < slices; ++k)
+        if (areas[k] > 0) line.push_back(middles[k] / areas[k]);
+    if (line.size() < 2) return {mesh.vertices[ends.first], mesh.vertices[ends.second]};
+    const Vec3 first = endBeyond(mesh, ends.fromFirst, ends.fromSecond, slices, line[0], line[1]);
+    const Vec3 last =
+        endBeyond(mesh, ends.fromSecond, ends.fromFirst, slices, line.back(), line[line.size() - 2]);
+    line.insert(line.begin(), first);
+    line.push_back(last);
+    return line;
+}
+
+} // namespace tss

@@ -1,0 +1,18 @@
+#pragma once
+#include "bake/robot/Robot.h"
+
+#include <functional>
+
+namespace tss {
+
+/// The text of a file that a model includes, from its name there. Throws InputError.
+using ReadOther = std::function<std::string(const std::string& name)>;
+
+/// Reads a model from the text of an MJCF of MuJoCo: bodies, geoms, joints, default classes, frames,
+/// excludes. Hinges and balls without limits turn once round; a ball becomes three turns about x, y, z whose
+/// limits hold all that its own angle does. Left out with a note, by name: free joints and slides without
+/// limits (their bodies are tied to nothing), planes, height fields and the like, shapes fitted to a mesh,
+/// equalities, what makes bodies by a rule. Throws InputError with file, line and element.
+Robot readMjcf(const std::string& text, const std::string& file, const ReadOther& readOther);
+
+} // namespace tss

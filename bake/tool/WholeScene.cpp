@@ -1,0 +1,261 @@
+#include "bake/tool/WholeScene.h"
+
+#include "bake/BakeOptions.h"
+#include "bake/base/Error.h"
+#include "bake/geometry/FibreLine.h"
+#include "bake/geometry/Import.h"
+#include "bake/geometry/MeshAudit.h"
+#include "bake/geometry/MeshQuery.h"
+#include "bake/model/AddPair.h"
+#include "bake/model/ShowMotion.h"
+#include "bake/robot/RobotScene.h"
+#include "bake/scene/SceneFile.h"
+#include "bake/tool/DofSpec.h"
+#include "bake/tool/RobotCommand.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace tss::tool {
+
+namespace {
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts(1);
+    for (char c : text)
+        if (c == separator)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    return parts;
+}
+
+/// "NAME=MESH", or MESH that gives its name.
+struct Named {
+    std::string name, file;
+};
+
+Named namedMesh(const std::string& text) {
+    const auto sign = text.find('=');
+    const bool named = sign != text.npos && isPrimName(text.substr(0, sign));
+    Named result{named ? text.substr(0, sign) : "", named ? text.substr(sign + 1) : text};
+    if (!named) result.name = std::filesystem::path(result.file).stem().string();
+    return result;
+}
+
+int linkCalled(const Robot& robot, const std::string& name, const std::string& option) {
+    std::string known;
+    for (std::size_t i = 0; i < robot.links.size(); ++i) {
+        if (robot.links[i].name == name) return static_cast<int>(i);
+        known += (known.empty() ? "" : ", ") + robot.links[i].name;
+    }
+    throw InputError(option + ": no body is called \"" + name + "\"; expected one of " + known);
+}
+
+/// NAME=PARENT,CHILD:DOF[;DOF...]
+RobotJoint parseJoint(const Robot& robot, const std::string& text, double metersPerUnit) {
+    const std::string option = "--joint " + text;
+    const auto sign = text.find('='), comma = text.find(',', sign), colon = text.find(':', comma);
+    if (sign == text.npos || comma == text.npos || colon == text.npos)
+        throw InputError(option + ": expected NAME=PARENT,CHILD:DOF[;DOF...]");
+    RobotJoint joint;
+    joint.name = text.substr(0, sign);
+    if (!isPrimName(joint.name))
+        throw InputError(option + ": expected a name of letters, digits and _, found \"" + joint.name + "\"");
+    joint.where = option;
+    joint.parent = linkCalled(robot, text.substr(sign + 1, comma - sign - 1), option);
+    joint.child = linkCalled(robot, text.substr(comma + 1, colon - comma - 1), option);
+    if (joint.parent == joint.child) throw InputError(option + ": expected two bodies");
+    for (const std::string& dof : split(text.substr(colon + 1), ';')) {
+        joint.dofs.push_back(parseDof(dof, metersPerUnit));
+        joint.dofs.back().name.clear();
+    }
+    return joint;
+}
+
+Robot robotOf(const WholeSceneArguments& arguments) {
+    Robot robot;
+    robot.name = std::filesystem::path(arguments.output).stem().string();
+    for (const std::string& text : arguments.bodies) {
+        const Named named = namedMesh(text);
+        for (const RobotLink& link : robot.links)
+            if (link.name == named.name)
+                throw InputError("--body " + text + ": another body is called " + named.name +
+                                 "; give it a name, NAME=" + named.file);
+        RobotLink link;
+        link.name = named.name;
+        link.collision.emplace_back().file = named.file;
+        robot.links.push_back(link);
+    }
+    for (const std::string& text : arguments.joints)
+        robot.joints.push_back(parseJoint(robot, text, arguments.metersPerUnit));
+    settleRobot(robot);
+    return robot;
+}
+
+class SoftParts {
+public:
+    SoftParts(RobotScene& made, const Robot& robot, const Console& console)
+        : made_(made), scene_(made.scene), robot_(robot), console_(console) {}
+
+    /// [NAME=]MESH[,from=BODY,to=BODY,contract=0.15,sheet]
+    void addMuscle(const std::string& text) {
+        const std::string option = "--muscle " + text;
+        const std::vector<std::string> parts = split(text, ',');
+        MuscleModel model;
+        int to = -1;
+        for (std::size_t k = 1; k < parts.size(); ++k) {
+            const auto sign = parts[k].find('=');
+            const std::string key = parts[k].substr(0, sign),
+                              value = sign == text.npos ? "" : parts[k].substr(sign + 1);
+            if (parts[k] == "sheet")
+                model.muscle.form = MuscleForm::Sheet;
+            else if (key == "from" || key == "to")
+                (key == "from" ? model.bone : to) = linkCalled(robot_, value, option);
+            else if (key == "contract")
+                model.muscle.maxContraction = parseNumber(value, option);
+            else
+                throw InputError(option + ": expected from=BODY, to=BODY, contract=0.15 or sheet, found \"" +
+                                 parts[k] + "\"");
+        }
+        if (!(model.muscle.maxContraction > 0 && model.muscle.maxContraction < 1))
+            throw InputError(option + ": contract: expected a share of its length between 0 and 1");
+        const Named named = namedMesh(parts[0]);
+        const Pose placement = model.bone < 0 ? Pose::Identity() : scene_.bodies[model.bone].placement;
+        model.path = pathOf(named.name);
+        const int body = addBody(named, named.name + "Surface", placement, {0.62, 0.20, 0.18});
+        model.body = body;
+        const TriangleMesh& mesh = scene_.bodies[body].mesh;
+        if (!auditMesh(mesh).watertight)
+            note(named.name + " is not closed; a muscle's volume is that of a closed surface");
+        model.muscle.surface = mesh;
+        model.muscle.fibre = fibreLine(mesh);
+        orient(model, to, placement);
+        scene_.muscles.push_back(model);
+        sayMuscle(named.name, model);
+    }
+
+    void addSkin(const std::string& text, const std::vector<std::string>& bones) {
+        const Named named = namedMesh(text);
+        SkinModel skin;
+        skin.body = addBody(named, named.name, Pose::Identity(), {0.87, 0.68, 0.58});
+        skin.path = scene_.bodies[skin.body].path;
+        for (std::size_t m = 0; m < scene_.muscles.size(); ++m) skin.muscles.push_back(static_cast<int>(m));
+        if (bones.empty())
+            for (std::size_t k = 0; k < robot_.links.size(); ++k) skin.bones.push_back(static_cast<int>(k));
+        for (const std::string& bone : bones) skin.bones.push_back(linkCalled(robot_, bone, "--bone"));
+        remarkSkin(named.name, skin);
+        scene_.skins.push_back(skin);
+    }
+
+    /// Meshes that differ by a thousand in size are mostly in different units.
+    void remarkUnits() {
+        double least = 0, most = 0;
+        std::string small, large;
+        for (const Body& body : scene_.bodies) {
+            if (body.mesh.empty()) continue;
+            const double size = bounds(body.mesh).diagonal().norm();
+            if (small.empty() || size < least) least = size, small = body.path;
+            if (large.empty() || size > most) most = size, large = body.path;
+        }
+        if (most > 300 * least)
+            note(fmt::format("{} is {:.3g} times as large as {}; are their meshes in the same unit?", large,
+                             most / least, small));
+    }
+
+private:
+    std::string pathOf(const std::string& name) const {
+        return "/" + scene_.defaultPrim + "/" + freePrimName(scene_, name);
+    }
+
+    void note(const std::string& text) { made_.notes.push_back(text); }
+
+    int addBody(const Named& named, const std::string& name, const Pose& placement, const Vec3& color) {
+        Body body;
+        body.mesh = importMesh(named.file);
+        body.path = pathOf(name);
+        body.placement = placement;
+        body.displayColor = color;
+        scene_.bodies.push_back(body);
+        made_.links.push_back({body.path, 1, false});
+        return static_cast<int>(scene_.bodies.size()) - 1;
+    }
+
+    /// The end that stays comes first: the one nearer to its bone, or the one farther from where it goes to.
+    void orient(MuscleModel& model, int to, const Pose& placement) const {
+        std::vector<Vec3>& fibre = model.muscle.fibre;
+        const auto distance = [&](const Vec3& p, int bone) {
+            const Pose& of = scene_.bodies[bone].placement;
+            return MeshQuery(scene_.bodies[bone].mesh)
+                .distance(of.inverse(Eigen::Isometry) * (placement * p));
+        };
+        double asItIs = 0, turned = 0;
+        if (model.bone >= 0)
+            asItIs += distance(fibre.front(), model.bone), turned += distance(fibre.back(), model.bone);
+        if (to >= 0) asItIs += distance(fibre.back(), to), turned += distance(fibre.front(), to);
+        if (turned < asItIs) std::reverse(fibre.begin(), fibre.end());
+    }
+
+    void sayMuscle(const std::string& name, const MuscleModel& model) const {
+        const auto point = [](const Vec3& p) {
+            return fmt::format("{:.4g},{:.4g},{:.4g}", p.x(), p.y(), p.z());
+        };
+        const std::vector<Vec3>& fibre = model.muscle.fibre;
+        console_.say(fmt::format("{}: a {} of {} points from {}{} to {}, shortens by {:.3g} of its length",
+                                 name, model.muscle.form == MuscleForm::Sheet ? "sheet" : "tube",
+                                 fibre.size(), point(fibre.front()),
+                                 model.bone >= 0 ? " (on " + robot_.links[model.bone].name + ")" : "",
+                                 point(fibre.back()), model.muscle.maxContraction));
+    }
+
+    void remarkSkin(const std::string& name, const SkinModel& skin) {
+        constexpr double far = 0.2; // of the skin's size
+        const TriangleMesh& mesh = scene_.bodies[skin.body].mesh;
+        const MeshQuery query(mesh);
+        const double size = bounds(mesh).diagonal().norm();
+        for (int bone : skin.bones) {
+            const Body& body = scene_.bodies[bone];
+            if (body.mesh.empty()) continue;
+            const double away = query.distanceTo(MeshQuery(body.mesh), body.placement);
+            if (away > far * size)
+                note(fmt::format(
+                    "the skin {} is nowhere near {}, {} away; do they lie in one place, in one unit?", name,
+                    body.path, lengthText(away, scene_.metersPerUnit)));
+        }
+        for (int muscle : skin.muscles) {
+            const Body& body = scene_.bodies[scene_.muscles[muscle].body];
+            std::size_t inside = 0;
+            for (const Vec3& v : body.mesh.vertices) inside += query.inside(body.placement * v);
+            if (2 * inside < body.mesh.vertices.size())
+                note(fmt::format(
+                    "most of the muscle {} lies outside of the skin {}: it will not push it from below",
+                    scene_.muscles[muscle].path, name));
+        }
+    }
+
+    RobotScene& made_;
+    SceneModel& scene_;
+    const Robot& robot_;
+    const Console& console_;
+};
+
+} // namespace
+
+void makeWholeScene(const WholeSceneArguments& arguments, const Console& console) {
+    const Robot robot = robotOf(arguments);
+    RobotSceneRequest request;
+    request.pairs = arguments.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
+    request.metersPerUnit = arguments.metersPerUnit;
+    request.axes = MeshAxes::Turned;
+    RobotScene made = sceneOf(robot, request, [](const std::string& name) { return name; });
+    SoftParts soft(made, robot, console);
+    for (const std::string& muscle : arguments.muscles) soft.addMuscle(muscle);
+    for (const std::string& skin : arguments.skins) soft.addSkin(skin, arguments.bones);
+    soft.remarkUnits();
+    addShowMotion(made.scene);
+    saveScene(made.scene, arguments.output);
+    sayScene(made, arguments.output, console);
+}
+
+} // namespace tss::tool

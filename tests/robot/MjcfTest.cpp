@@ -1,0 +1,240 @@
+#ifdef OSGTSS_HAVE_MJCF
+#include "bake/geometry/MeshAudit.h"
+#include "bake/robot/ReadMjcf.h"
+#include "bake/scene/ReadScene.h"
+#include "bake/scene/SceneFile.h"
+#include "tests/robot/Robots.h"
+
+#include <numbers>
+
+using namespace tss;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+const std::string ball = "<geom size='.1'/>";
+
+std::string modelOf(const std::string& inside) {
+    return "<mujoco model='arm'>\n" + inside + "\n</mujoco>\n";
+}
+
+std::string world(const std::string& inside) {
+    return "<worldbody>" + inside + "</worldbody>";
+}
+
+std::string noOthers(const std::string& name) {
+    throw InputError("no file " + name);
+}
+
+RobotScene made(const std::string& text, const ReadOther& others = noOthers) {
+    return sceneOf(readMjcf(text, "arm.xml", others), {}, noMeshes);
+}
+
+std::string refused(const std::string& text, const ReadOther& others = noOthers) {
+    return refusal([&] { made(text, others); });
+}
+
+Eigen::AngleAxisd about(const Vec3& axis, double degrees) {
+    return {degrees * degree, axis.normalized()};
+}
+
+/// Where the model's first geom, a small box off the middle, stands.
+Pose placed(const std::string& attributes, const std::string& compiler = "") {
+    const RobotScene robot = made(modelOf(compiler + world("<body name='a'>" + ball + "<body name='b' " +
+                                                           attributes + ">" + ball + "</body></body>")));
+    return posedBodies(robot.scene, {})[1];
+}
+
+} // namespace
+
+TEST_CASE("several joints of a body turn in their order about their own anchors") {
+    const RobotScene robot = made(modelOf(
+        world("<body name='a' pos='1 0 0'>" + ball + "<body name='b' pos='0 1 0' euler='0 0 90'>" + ball +
+              "<joint name='z' pos='.1 .2 .3' axis='0 0 1' range='-30 40'/>"
+              "<joint name='x' pos='.1 .2 .3' axis='1 0 0' range='-50 60'/>"
+              "<joint name='odd' type='slide' axis='1 1 0' range='-1 2'/></body></body>")));
+    const SceneModel& scene = robot.scene;
+    REQUIRE(robot.scene.pairs.size() == 1);
+    const Motion motion = pairMotion(scene, scene.pairs[0]);
+    REQUIRE(motion.dofCount() == 3);
+    CHECK(motion.dofs[0].upper == Approx(40 * degree));
+    const Vec3 anchor(.1, .2, .3);
+    for (const std::vector<double>& q : {std::vector{0.0, 0.0, 0.0}, {-0.5, 1.0, 1.5}, {0.6, -0.8, -1.0}}) {
+        Pose pose = Pose::Identity();
+        pose.translate(Vec3(0, 1, 0)).rotate(about({0, 0, 1}, 90));
+        pose.translate(anchor).rotate(Eigen::AngleAxisd(q[0], Vec3::UnitZ())).translate(-anchor);
+        pose.translate(anchor).rotate(Eigen::AngleAxisd(q[1], Vec3::UnitX())).translate(-anchor);
+        pose.translate(q[2] * Vec3(1, 1, 0).normalized());
+        CHECK((tss::pose(motion, q).matrix() - pose.matrix()).norm() < 1e-12);
+    }
+    const SceneModel again = readScene(std::make_shared<const Layer>(layerOf(scene)), "arm.tss");
+    CHECK(again.pairs.size() == 1);
+    CHECK(pairMotion(again, again.pairs[0]).dofCount() == 3);
+}
+
+TEST_CASE("orientations are read in each of their forms, and in the compiler's angles and order") {
+    const auto same = [](const Pose& a, const Eigen::Quaterniond& b) {
+        return (a.linear() - b.toRotationMatrix()).norm() < 1e-12;
+    };
+    const Eigen::Quaterniond turned(about({0, 0, 1}, 90));
+    CHECK(same(placed("quat='2 0 0 2'"), turned));
+    CHECK(same(placed("axisangle='0 0 3 90'"), turned));
+    CHECK(same(placed("xyaxes='0 2 0 -1 1 0'"), turned));
+    CHECK(same(placed("zaxis='1 0 0'"), Eigen::Quaterniond(about({0, 1, 0}, 90))));
+    const auto x = about({1, 0, 0}, 20), y = about({0, 1, 0}, 30), z = about({0, 0, 1}, 40);
+    CHECK(same(placed("euler='20 30 40'"), x * y * z));
+    CHECK(same(placed("euler='20 30 40'", "<compiler eulerseq='XYZ'/>"), z * y * x));
+    CHECK(same(placed("euler='40 30 20'", "<compiler eulerseq='zyx'/>"), z * y * x));
+    CHECK(same(placed("euler='0 0 1.5707963267948966'", "<compiler angle='radian'/>"), turned));
+    CHECK(placed("pos='1 2 3'").translation() == Vec3(1, 2, 3));
+}
+
+TEST_CASE("geoms are closed meshes of their sizes: half lengths, between two points, in frames") {
+    const auto box = [](const std::string& geom) {
+        const RobotScene robot = made(modelOf(world("<body name='a'>" + geom + "</body>")));
+        CHECK(auditMesh(robot.scene.bodies[0].mesh).watertight);
+        return bounds(robot.scene.bodies[0].mesh);
+    };
+    const auto like = [](const Eigen::AlignedBox3d& a, const Vec3& low, const Vec3& high) {
+        return (a.min() - low).norm() < 0.01 * (high - low).norm() &&
+               (a.max() - high).norm() < 0.01 * (high - low).norm();
+    };
+    CHECK(like(box("<geom type='box' size='1 2 3' pos='1 0 0'/>"), {0, -2, -3}, {2, 2, 3}));
+    CHECK(like(box("<geom size='2'/>"), {-2, -2, -2}, {2, 2, 2}));
+    CHECK(like(box("<geom type='capsule' size='1 3'/>"), {-1, -1, -4}, {1, 1, 4}));
+    CHECK(like(box("<geom type='cylinder' size='1 3' euler='90 0 0'/>"), {-1, -3, -1}, {1, 3, 1}));
+    CHECK(like(box("<geom type='ellipsoid' size='1 2 3'/>"), {-1, -2, -3}, {1, 2, 3}));
+    CHECK(like(box("<geom type='capsule' size='1' fromto='0 0 0 4 0 0'/>"), {-1, -1, -1}, {5, 1, 1}));
+    CHECK(like(box("<geom type='box' size='.5 .5' fromto='0 0 0 0 4 0'/>"), {-.5, 0, -.5}, {.5, 4, .5}));
+    CHECK(like(
+        box("<frame pos='0 0 9'><frame euler='0 90 0'><geom type='capsule' size='1 3'/></frame></frame>"),
+        {-4, -1, 8}, {4, 1, 10}));
+}
+
+TEST_CASE("what a class says holds for its elements, and what they say themselves before it") {
+    const RobotScene robot = made(modelOf(
+        "<default><geom type='box' size='1 1 1'/><joint range='-10 10'/><default class='arm'><joint axis='1 "
+        "0 0'/>"
+        "<default class='fine'><geom size='3 3 3' euler='0 0 45'/></default></default></default>" +
+        world("<body name='a' childclass='arm'><geom/><body name='b'><joint name='j'/><geom class='fine' "
+              "quat='1 0 0 0'/>"
+              "</body><body name='c'><joint name='k' range='-20 20'/><geom class='fine'/></body></body>")));
+    const auto size = [&](const char* body) {
+        return Vec3(bounds(bodyCalled(robot.scene, body).mesh).sizes());
+    };
+    CHECK(size("a").isApprox(Vec3(2, 2, 2)));
+    CHECK(size("b").isApprox(Vec3(6, 6, 6))); // its own quat, not the class's euler
+    CHECK(size("c").isApprox(Vec3(6 * std::sqrt(2), 6 * std::sqrt(2), 6)));
+    CHECK(jointCalled(robot.scene, "j").dofs[0].upper == Approx(10 * degree));
+    CHECK(jointCalled(robot.scene, "k").dofs[0].upper == Approx(20 * degree));
+    CHECK(pairMotion(robot.scene, robot.scene.pairs[0]).dofs[0].axis.isApprox(Vec3::UnitX()));
+    CHECK(refused(modelOf(world("<body><geom class='nobody' size='1'/></body>"))).find("found \"nobody\"") !=
+          std::string::npos);
+}
+
+TEST_CASE("what is not served is left out by name, and the rest comes in") {
+    const RobotScene robot = made(
+        modelOf("<asset><mesh name='shell' vertex='0 0 0'/></asset>" +
+                world("<geom name='floor' type='plane' size='1 1 1'/><body name='a'>" + ball +
+                      "<freejoint/><geom type='mesh' mesh='shell'/><body name='b'>" + ball +
+                      "<joint name='far' type='slide'/></body><body name='c'>" + ball +
+                      "<joint name='round' type='ball' range='0 30'/></body><body name='d'>" + ball +
+                      "<joint name='spin'/></body><replicate count='3'><body name='e'/></replicate></body>") +
+                "<equality><weld name='glue'/></equality>"));
+    CHECK(robot.scene.bodies.size() >= 4);
+    for (const char* words :
+         {"geoms of type plane: floor", "free joints: the bodies are tied to nothing: a",
+          "meshes without a file: shell", "slides without limits: the bodies are tied to nothing: b",
+          "bodies made by replicate", "glue", "balls, which are taken as three turns"})
+        CHECK(hasNote(robot.notes, words));
+    const Dof& spin = jointCalled(robot.scene, "spin").dofs[0];
+    CHECK(spin.upper - spin.lower == Approx(2 * std::numbers::pi));
+    CHECK(jointCalled(robot.scene, "round").dofs.size() == 3);
+}
+
+TEST_CASE("three turns hold every turn of a ball up to its angle") {
+    const double most = 50 * degree;
+    const RobotScene robot = made(modelOf(world("<body name='a'>" + ball + "<body name='b'>" + ball +
+                                                "<joint type='ball' range='0 50'/></body></body>")));
+    const Motion motion = pairMotion(robot.scene, robot.scene.pairs.at(0));
+    for (int k = 0; k < 500; ++k) {
+        const Vec3 axis(std::sin(k * 1.1), std::cos(k * 2.3), std::sin(k * 0.7 + 1));
+        const Eigen::Matrix3d turn =
+            Eigen::AngleAxisd(most * (k % 10 + 1) / 10, axis.normalized()).toRotationMatrix();
+        const std::vector<double> q{std::atan2(-turn(1, 2), turn(2, 2)), std::asin(turn(0, 2)),
+                                    std::atan2(-turn(0, 1), turn(0, 0))};
+        REQUIRE((pose(motion, q).linear() - turn).norm() < 1e-12);
+        CHECK(withinLimits(motion, q, 1e-12));
+    }
+}
+
+TEST_CASE(
+    "excludes are read, bodies in the world meet each other, and values count from the pose as modelled") {
+    const RobotScene robot =
+        made(modelOf(world("<body name='a'>" + ball + "</body><body name='b' pos='1 0 0'>" + ball +
+                           "<joint name='j' range='10 40' ref='15'/></body><body name='c'>" + ball +
+                           "<joint name='k' range='0 1'/></body>") +
+                     "<contact><exclude body1='c' body2='a'/></contact>"));
+    CHECK(robot.scene.pairs.size() == 2);
+    CHECK(jointCalled(robot.scene, "j").dofs[0].lower == Approx(-5 * degree));
+    CHECK(hasNote(robot.notes, "from their ref on: j"));
+    CHECK(refused(modelOf(world("<body/>") + "<contact><exclude body1='x' body2='y'/></contact>"))
+              .find("found \"x\"") != std::string::npos);
+}
+
+TEST_CASE("included files stand where they are named, once each") {
+    const auto others = [](const std::string& name) -> std::string {
+        if (name == "bodies.xml")
+            return "<mujocoinclude><worldbody><body name='a'><include "
+                   "file='geom.xml'/></body></worldbody></mujocoinclude>";
+        if (name == "geom.xml") return "<mujoco><geom type='box' size='1 1 1'/></mujoco>";
+        if (name == "self.xml") return "<mujoco><include file='self.xml'/></mujoco>";
+        if (name == "bad.xml") return "<mujoco><worldbody>";
+        throw InputError("no file " + name);
+    };
+    const RobotScene robot = made(modelOf("<include file='bodies.xml'/>"), others);
+    CHECK(bounds(bodyCalled(robot.scene, "a").mesh).sizes().isApprox(Vec3(2, 2, 2)));
+    CHECK(refused(modelOf("<include file='self.xml'/>"), others).find("found self.xml again") !=
+          std::string::npos);
+    CHECK(
+        refused(modelOf("<include file='none.xml'/>"), others).find("line 2 (<include>): no file none.xml") !=
+        std::string::npos);
+    CHECK(refused(modelOf("<include file='bad.xml'/>"), others).find("bad.xml: line 1") != std::string::npos);
+}
+
+TEST_CASE("what an MJCF gets wrong is refused with file, line and element") {
+    const auto says = [](const std::string& text, const std::string& words) {
+        const std::string message = refused(text);
+        INFO(message);
+        CHECK(message.find("arm.xml") != std::string::npos);
+        CHECK(message.find(words) != std::string::npos);
+    };
+    const auto body = [](const std::string& inside) {
+        return modelOf(world("<body name='a'>" + inside + "</body>"));
+    };
+    says("<robot/>", "expected <mujoco>, found <robot>");
+    says(modelOf(""), "expected at least one <body>");
+    says(modelOf("<compiler coordinate='global'/>"), "coordinate: expected local");
+    says(modelOf("<compiler angle='grad'/>"), "expected degree, found \"grad\"");
+    says(modelOf("<compiler eulerseq='xyw'/>"), "eulerseq");
+    says(body("<geom type='box' size='1 1'/>"), "line 2 (<geom>): size: expected 3 numbers for a box");
+    says(body("<geom size='-1'/>"), "lengths above 0");
+    says(body("<geom size='1' quat='0 0 0 0'/>"), "not zero");
+    says(body("<geom size='1' pos='0 0'/>"), "pos: expected 3 finite numbers");
+    says(body("<geom type='capsule' size='1' fromto='1 1 1 1 1 1'/>"), "expected two points");
+    says(body("<geom type='mesh' mesh='m'/>"), "found \"m\"");
+    says(body("<body name='a'/>"), "no other body");
+    says(body("<joint name='j' axis='0 0 0'/>"), "line 2 (<joint j>): expected an axis");
+    says(body("<joint range='2 1'/>"), "lower <= upper");
+    says(body("<joint limited='true'/>"), "expected an attribute range");
+    says(body("<joint type='screw'/>"), "found \"screw\"");
+    std::string deep;
+    for (int k = 0; k < 100000; ++k) deep += "<body>";
+    says("<mujoco><worldbody>" + deep, "no more than 100 deep");
+    std::string many;
+    for (int k = 0; k < 600; ++k) many += "<body/>";
+    says(modelOf(world(many)), "no more than 500 links");
+    says(modelOf("<default><geom pos='" + std::string(300, ' ') + "'/></default>" + world("<body/>")),
+         "200 characters");
+}
+#endif
