@@ -125,15 +125,20 @@ SkinCarriage carrySkin(const SkinGround& ground, const SkinParameters& p) {
     carriage.firmness.assign(count, 1);
     for (std::size_t m = 0; m < ground.bodies.size(); ++m) {
         if (ground.bodies[m]->rigid()) continue;
-        std::vector<double> hold(count, 0);
+        std::vector<double> hold(count, 0), above(count, infinite);
         parallelFor(count, [&](std::size_t v) {
-            const Vec3& x = ground.skin.vertices[v];
-            const NearestPoint near = ground.locators[m].nearest(x, holdReach * ground.length);
-            if (near.triangle < 0) return;
-            const double above = ground.inside[m][v] ? 0 : near.distance;
-            if (ground.inside[m][v]) carriage.firmness[v] = insideFirmness;
-            hold[v] = std::exp(-above / (holdFall * ground.length)) * (p.attach.empty() ? 1 : p.attach[v]);
+            const NearestPoint near =
+                ground.locators[m].nearest(ground.skin.vertices[v], holdReach * ground.length);
+            if (near.triangle >= 0) above[v] = ground.inside[m][v] ? 0 : near.distance;
         });
+        // The tissue between a muscle and its skin hands on what it does; what is farther off follows less.
+        const double tissue = count > 0 ? *std::min_element(above.begin(), above.end()) : 0;
+        for (std::size_t v = 0; v < count; ++v) {
+            if (!std::isfinite(above[v])) continue;
+            if (ground.inside[m][v]) carriage.firmness[v] = insideFirmness;
+            hold[v] = std::exp((tissue - above[v]) / (holdFall * ground.length)) *
+                      (p.attach.empty() ? 1 : p.attach[v]);
+        }
         for (std::size_t v = 0; v < count; ++v) sum[v] += hold[v];
         holds.push_back(std::move(hold));
     }
