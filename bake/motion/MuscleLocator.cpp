@@ -1,6 +1,7 @@
 #include "bake/motion/MuscleLocator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tss {
@@ -58,10 +59,11 @@ NearestPoint MuscleLocator::nearestFacing(const Vec3& x, double range, const Vec
 bool MuscleLocator::entered(const Vec3& from, const Vec3& to) const {
     if (bvh_.empty()) return false;
     const Vec3 way = to - from;
-    std::vector<std::uint32_t> stack{0};
-    while (!stack.empty()) {
-        const Bvh::Node& node = bvh_.nodes[stack.back()];
-        stack.pop_back();
+    std::array<std::uint32_t, 128> stack; // as visitNearest() has it
+    std::size_t top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+        const Bvh::Node& node = bvh_.nodes[stack[--top]];
         double first = 0, last = 1;
         for (int k = 0; k < 3; ++k) {
             if (way[k] == 0) {
@@ -85,8 +87,8 @@ bool MuscleLocator::entered(const Vec3& from, const Vec3& to) const {
                 return true;
         }
         if (node.count == 0) {
-            stack.push_back(node.first);
-            stack.push_back(node.first + 1);
+            stack[top++] = node.first;
+            stack[top++] = node.first + 1;
         }
     }
     return false;

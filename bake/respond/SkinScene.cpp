@@ -25,8 +25,7 @@ void placeSurface(const SkinBody& body, double activation, SkinScene::Placed& pl
 }
 
 /// Turns what muscles have displaced, and the normals, by the frames' shares.
-void turnSkin(const SkinRig& rig, std::span<const DualPose> frames, const std::vector<bool>& still,
-              SkinScene& scene) {
+void turnSkin(const SkinRig& rig, SkinScene& scene) {
     scene.skinNormals = rig.placeNormals;
     for (std::size_t v = 0; v < rig.places.size(); ++v) {
         const SkinFrameShare* share = rig.frameShares.data() + rig.frameStart[v];
@@ -34,8 +33,8 @@ void turnSkin(const SkinRig& rig, std::span<const DualPose> frames, const std::v
         PoseBlend blend;
         bool moves = false;
         for (; share != end; ++share)
-            if (!still[share->frame]) {
-                blend.add(static_cast<double>(share->share), frames[share->frame]);
+            if (!scene.still[share->frame]) {
+                blend.add(static_cast<double>(share->share), scene.frames[share->frame]);
                 moves = true;
             }
         if (!moves) continue;
@@ -59,8 +58,8 @@ void placeBodies(const SkinRig& rig, std::span<const double> activations, std::s
         scene.base.resize(rig.places.size());
         scene.skin = scene.base;
     }
-    std::vector<DualPose> frames(rig.frames);
-    std::vector<bool> still(rig.frames, true);
+    scene.frames.resize(rig.frames);
+    scene.still.assign(rig.frames, true);
     bool turned = false;
     for (std::size_t m = 0; m < rig.bodies.size(); ++m) {
         const SkinBody& body = rig.bodies[m];
@@ -71,9 +70,9 @@ void placeBodies(const SkinRig& rig, std::span<const double> activations, std::s
         const Pose local = rig.local(poses[m]);
         placed.turn = local.linear().cast<float>();
         placed.shift = local.translation().cast<float>();
-        if (body.frame < 0 || !still[body.frame]) continue;
-        frames[body.frame] = DualPose(local);
-        still[body.frame] = false;
+        if (body.frame < 0 || !scene.still[body.frame]) continue;
+        scene.frames[body.frame] = DualPose(local);
+        scene.still[body.frame] = false;
         turned = true;
     }
     const SkinPull* pull = rig.pulls.data();
@@ -84,7 +83,7 @@ void placeBodies(const SkinRig& rig, std::span<const double> activations, std::s
         scene.base[v] = sum;
     }
     scene.skinNormals.clear();
-    if (turned) turnSkin(rig, frames, still, scene);
+    if (turned) turnSkin(rig, scene);
     for (std::size_t v = 0; v < rig.places.size(); ++v) scene.skin[v] = rig.places[v] + scene.base[v];
 }
 

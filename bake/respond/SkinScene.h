@@ -20,6 +20,8 @@ struct SkinScene {
         }
     };
     std::vector<Placed> bodies;
+    std::vector<DualPose> frames;              ///< #frames, of those that are not still
+    std::vector<bool> still;                   ///< #frames
     std::vector<Move> surface, normals, moves; ///< of the vertices of all bodies, in the bodies' rest frames;
                                                ///< moves: since rest
     std::vector<Move> base;        ///< #touched: displacement of the skin as it is carried, without contact
