@@ -228,7 +228,8 @@ void addWholeSceneOptions(CLI::App& command, const std::shared_ptr<MakeArguments
     CLI::Option* skin = add("--skin", whole.skins, "[NAME=]MESH: a skin over the bodies and muscles");
     add("--bone", whole.bones, "BODY: a body that the skin lies on; repeat (default: all)")->needs(skin);
     add("--muscle", whole.muscles,
-        "[NAME=]MESH[,from=BODY,to=BODY,contract=0.15,sheet]: a muscle; its fibre line is found from its "
+        "[NAME=]MESH[,from=BODY,to=BODY,contract=0.15,sheet|ring]: a muscle; its fibre line is found from "
+        "its "
         "mesh, the end at "
         "its `from` body stays, which it moves with; repeat");
 }

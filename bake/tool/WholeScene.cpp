@@ -99,7 +99,7 @@ public:
     SoftParts(RobotScene& made, const Robot& robot, const Console& console)
         : made_(made), scene_(made.scene), robot_(robot), console_(console) {}
 
-    /// [NAME=]MESH[,from=BODY,to=BODY,contract=0.15,sheet]
+    /// [NAME=]MESH[,from=BODY,to=BODY,contract=0.15,sheet|ring]
     void addMuscle(const std::string& text) {
         const std::string option = "--muscle " + text;
         const std::vector<std::string> parts = split(text, ',');
@@ -111,12 +111,15 @@ public:
                               value = sign == text.npos ? "" : parts[k].substr(sign + 1);
             if (parts[k] == "sheet")
                 model.muscle.form = MuscleForm::Sheet;
+            else if (parts[k] == "ring")
+                model.muscle.form = MuscleForm::Ring;
             else if (key == "from" || key == "to")
                 (key == "from" ? model.bone : to) = linkCalled(robot_, value, option);
             else if (key == "contract")
                 model.muscle.maxContraction = parseNumber(value, option);
             else
-                throw InputError(option + ": expected from=BODY, to=BODY, contract=0.15 or sheet, found \"" +
+                throw InputError(option +
+                                 ": expected from=BODY, to=BODY, contract=0.15, sheet or ring, found \"" +
                                  parts[k] + "\"");
         }
         if (!(model.muscle.maxContraction > 0 && model.muscle.maxContraction < 1))
@@ -130,8 +133,12 @@ public:
         if (!auditMesh(mesh).watertight)
             note(named.name + " is not closed; a muscle's volume is that of a closed surface");
         model.muscle.surface = mesh;
-        model.muscle.fibre = fibreLine(mesh);
-        orient(model, to, placement);
+        if (model.muscle.form == MuscleForm::Ring) {
+            model.muscle.fibre = ringLine(mesh);
+        } else {
+            model.muscle.fibre = fibreLine(mesh);
+            orient(model, to, placement);
+        }
         scene_.muscles.push_back(model);
         sayMuscle(named.name, model);
     }
@@ -202,6 +209,9 @@ private:
             return fmt::format("{:.4g},{:.4g},{:.4g}", p.x(), p.y(), p.z());
         };
         const std::vector<Vec3>& fibre = model.muscle.fibre;
+        if (model.muscle.form == MuscleForm::Ring)
+            return console_.say(fmt::format("{}: a ring of {} points from {} round, narrows by {:.3g}", name,
+                                            fibre.size(), point(fibre.front()), model.muscle.maxContraction));
         console_.say(fmt::format("{}: a {} of {} points from {}{} to {}, shortens by {:.3g} of its length",
                                  name, model.muscle.form == MuscleForm::Sheet ? "sheet" : "tube",
                                  fibre.size(), point(fibre.front()),
