@@ -2,6 +2,7 @@
 
 #include "bake/base/Error.h"
 #include "bake/pipeline/BakePair.h"
+#include "bake/pipeline/BakeSkin.h"
 
 #include <algorithm>
 #include <chrono>

@@ -3,11 +3,11 @@
 #include "bake/base/Error.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
-#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -16,8 +16,31 @@ namespace tss {
 namespace {
 
 template <class Value>
-Value choice(const std::string& key, const std::string& text,
-             std::initializer_list<std::pair<const char*, Value>> choices) {
+using Word = std::pair<const char*, Value>;
+
+// The words of the command line, the scene file and a table's method.
+constexpr std::array<Word<SphereMethod>, 4> sphereWords{{{"medial", SphereMethod::Medial},
+                                                         {"shrinking", SphereMethod::Shrinking},
+                                                         {"growth", SphereMethod::Growth},
+                                                         {"surface", SphereMethod::Surface}}};
+constexpr std::array<Word<SearchMethod>, 2> searchWords{
+    {{"certified", SearchMethod::Certified}, {"sampled", SearchMethod::Sampled}}};
+constexpr std::array<Word<ReduceMethod>, 4> reduceWords{{{"cover", ReduceMethod::Cover},
+                                                         {"cooccurrence", ReduceMethod::Cooccurrence},
+                                                         {"minimal", ReduceMethod::Minimal},
+                                                         {"none", ReduceMethod::None}}};
+constexpr std::array<Word<AtRest>, 3> atRestWords{
+    {{"offset", AtRest::Offset}, {"ignore", AtRest::Ignore}, {"collide", AtRest::Collide}}};
+constexpr std::array<Word<bool>, 2> flagWords{{{"true", true}, {"false", false}}};
+
+template <class Value, std::size_t count>
+std::string wordOf(const std::array<Word<Value>, count>& words, Value value) {
+    return std::find_if(words.begin(), words.end(), [&](const auto& word) { return word.second == value; })
+        ->first;
+}
+
+template <class Value, std::size_t count>
+Value choice(const std::string& key, const std::string& text, const std::array<Word<Value>, count>& choices) {
     std::string expected;
     for (const auto& [name, value] : choices) {
         if (text == name) return value;
@@ -44,7 +67,7 @@ double length(const std::string& key, const std::string& text, double metersPerU
 }
 
 bool flag(const std::string& key, const std::string& text) {
-    return choice<bool>(key, text, {{"true", true}, {"false", false}});
+    return choice(key, text, flagWords);
 }
 
 /// "T_min,dt,T_max,R": plain numbers are fractions of the bounding diagonal, with units they are lengths.
@@ -110,34 +133,11 @@ bool set(BakeOptions& options, const std::string& key, const std::string& text, 
          bool onlyLook, std::vector<std::string>* names = nullptr) {
     using Setter = std::function<void()>;
     const std::pair<const char*, Setter> setters[] = {
-        {"spheres",
-         [&] {
-             options.spheres = choice<SphereMethod>(key, text,
-                                                    {{"medial", SphereMethod::Medial},
-                                                     {"shrinking", SphereMethod::Shrinking},
-                                                     {"growth", SphereMethod::Growth},
-                                                     {"surface", SphereMethod::Surface}});
-         }},
+        {"spheres", [&] { options.spheres = choice(key, text, sphereWords); }},
         {"growth", [&] { options.growth = growth(text, metersPerUnit); }},
-        {"search",
-         [&] {
-             options.search = choice<SearchMethod>(
-                 key, text, {{"certified", SearchMethod::Certified}, {"sampled", SearchMethod::Sampled}});
-         }},
-        {"reduce",
-         [&] {
-             options.reduce = choice<ReduceMethod>(key, text,
-                                                   {{"cover", ReduceMethod::Cover},
-                                                    {"cooccurrence", ReduceMethod::Cooccurrence},
-                                                    {"minimal", ReduceMethod::Minimal},
-                                                    {"none", ReduceMethod::None}});
-         }},
-        {"at-rest",
-         [&] {
-             options.atRest = choice<AtRest>(
-                 key, text,
-                 {{"offset", AtRest::Offset}, {"ignore", AtRest::Ignore}, {"collide", AtRest::Collide}});
-         }},
+        {"search", [&] { options.search = choice(key, text, searchWords); }},
+        {"reduce", [&] { options.reduce = choice(key, text, reduceWords); }},
+        {"at-rest", [&] { options.atRest = choice(key, text, atRestWords); }},
         {"tolerance", [&] { options.tolerance = length(key, text, metersPerUnit, false); }},
         {"epsilon", [&] { options.epsilon = length(key, text, metersPerUnit, true); }},
         {"depth", [&] { options.depth = length(key, text, metersPerUnit, true); }},
@@ -179,6 +179,11 @@ std::vector<std::string> optionNames() {
 void setOption(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit) {
     if (!set(options, key, text, metersPerUnit, false))
         throw InputError("bake setting \"" + key + "\" is not known");
+}
+
+std::string methodName(const BakeOptions& options) {
+    return wordOf(sphereWords, options.spheres) + "/" + wordOf(searchWords, options.search) + "/" +
+           wordOf(reduceWords, options.reduce);
 }
 
 BakeOptions optionsFor(const BakeSettings& ofScene, const BakeSettings& given, double metersPerUnit) {

@@ -40,6 +40,9 @@ bool isOption(const std::string& key);
 /// All names that setOption() knows.
 std::vector<std::string> optionNames();
 
+/// What a table states as its method: "medial/certified/cover".
+std::string methodName(const BakeOptions& options);
+
 /// The options of one pair: the defaults, then the scene's own settings, then those given now.
 BakeOptions optionsFor(const BakeSettings& ofScene, const BakeSettings& given, double metersPerUnit);
 

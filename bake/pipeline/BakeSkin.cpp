@@ -1,9 +1,9 @@
+#include "bake/pipeline/BakeSkin.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/model/SourceHash.h"
-#include "bake/pipeline/BakePair.h"
+
 #include "bake/play/SkinSetup.h"
-#include "bake/search/SkinSearch.h"
 #include "bake/spheres/GenerateSpheres.h"
 #include "bake/spheres/RoundToFloat.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/pipeline/BakePair.h"
+#include "bake/pipeline/FillPair.h"
 #include "bake/search/AtRest.h"
 
 namespace tss {

@@ -2,7 +2,7 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/compare/Ellipsoid.h"
-#include "bake/pipeline/BakePair.h"
+#include "bake/pipeline/BakeSkin.h"
 #include "bake/search/SkinSearch.h"
 
 #include <algorithm>
