@@ -1,6 +1,6 @@
-#include "bake/Bake.h"
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
+#include "bake/pipeline/Bake.h"
 #include "bake/scene/AllPairs.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/BakeTimes.h"

@@ -1,5 +1,5 @@
-#include "bake/BakeOptions.h"
 #include "bake/base/Error.h"
+#include "bake/pipeline/BakeOptions.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/table/Bench.h"
 #include "bake/tool/ChoosePair.h"

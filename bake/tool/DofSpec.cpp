@@ -1,7 +1,7 @@
 #include "bake/tool/DofSpec.h"
 
-#include "bake/BakeOptions.h"
 #include "bake/base/Error.h"
+#include "bake/pipeline/BakeOptions.h"
 #include "bake/tool/Csv.h"
 
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "bake/tool/RobotCommand.h"
 
-#include "bake/BakeOptions.h"
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
+#include "bake/pipeline/BakeOptions.h"
 #include "bake/robot/MeshFiles.h"
 #include "bake/robot/RobotScene.h"
 #include "bake/scene/SceneFile.h"

@@ -1,9 +1,9 @@
 #include "bake/tool/Summary.h"
 
-#include "bake/BakeOptions.h"
-#include "bake/EarlyContact.h"
+#include "bake/check/EarlyContact.h"
 #include "bake/geometry/PartSet.h"
 #include "bake/model/SourceHash.h"
+#include "bake/pipeline/BakeOptions.h"
 #include "bake/table/PreparedTable.h"
 #include "bake/tool/DofSpec.h"
 

@@ -1,6 +1,5 @@
 #include "bake/tool/WholeScene.h"
 
-#include "bake/BakeOptions.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/FibreLine.h"
 #include "bake/geometry/Import.h"
@@ -8,6 +7,7 @@
 #include "bake/geometry/MeshQuery.h"
 #include "bake/model/AddPair.h"
 #include "bake/model/ShowMotion.h"
+#include "bake/pipeline/BakeOptions.h"
 #include "bake/robot/RobotScene.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/DofSpec.h"
