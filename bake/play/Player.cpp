@@ -1,5 +1,6 @@
 #include "bake/play/Player.h"
 
+#include "bake/base/ThreadTime.h"
 #include "bake/geometry/Solid.h"
 #include "bake/model/Kinematics.h"
 #include "bake/model/PairDofs.h"
@@ -82,7 +83,9 @@ Player::Step Player::step(const std::vector<double>& asked, double timeCode) {
         last.push_back(values_[place]);
         wanted.push_back(goal[place]);
     }
+    const double began = threadSeconds();
     const std::vector<GroupAnswer> answers = resolve(*plan_, last, wanted, workspaces_);
+    result.jointSeconds = threadSeconds() - began;
     values_ = goal;
     for (std::size_t k = 0; k < places_.size(); ++k) values_[places_[k]] = wanted[k];
     for (const JointAnswer& answer : answers) result.status = std::max(result.status, answer.status);
@@ -103,7 +106,9 @@ Player::Step Player::step(const std::vector<double>& asked, double timeCode) {
         const SkinModel& model = scene_.skins[skin.index];
         skin.activations = skinActivations(scene_, model, timeCode);
         skin.poses = skinPoses(scene_, model, placements);
+        const double skinBegan = threadSeconds();
         skin.response.update(skin.activations, skin.poses);
+        result.skinSeconds.push_back(threadSeconds() - skinBegan);
         const std::vector<double> now = depths(skin, skin.response.positions());
         double worst = 0;
         for (std::size_t i = 0; i < now.size(); ++i) worst = std::max(worst, now[i] - skin.restDepths[i]);

@@ -20,6 +20,8 @@ public:
         JointStatus status = JointStatus::Free; ///< the gravest of all
         std::vector<double> residualDepths;     ///< one a skin: how deep its vertices are in the muscles'
                                                 ///< surfaces beyond their depth at rest, scene units
+        double jointSeconds = 0;                ///< of this thread's processor time, for all joints
+        std::vector<double> skinSeconds;        ///< the same, one a skin: for its update alone
     };
     /// How truly each skin follows its bones after the last step.
     std::vector<SkinFollowing> following() const;

@@ -166,6 +166,16 @@ nlohmann::json sayFollowing(const SceneModel& scene, const SkinModel& skin, cons
             {"bones", bones}};
 }
 
+/// What a step costs on one core, in words; the tool's own measuring of depths is not in it.
+std::string costText(const SceneModel& scene, std::size_t steps, double joints,
+                     const std::vector<double>& skins) {
+    const auto each = static_cast<double>(std::max<std::size_t>(steps, 1));
+    std::string text = fmt::format("  a step costs {:.3g} us for the joints", 1e6 * joints / each);
+    for (std::size_t k = 0; k < skins.size(); ++k)
+        text += fmt::format(", {:.3g} ms for {}", 1e3 * skins[k] / each, scene.skins[k].path);
+    return text + ", on one core";
+}
+
 void play(const PlayArguments& arguments, const Console& console) {
     refuseOverwriting(arguments.output, {arguments.scene, arguments.motion});
     const SceneModel scene = loadScene(arguments.scene);
@@ -191,12 +201,16 @@ void play(const PlayArguments& arguments, const Console& console) {
 
     std::string text = header(scene);
     std::map<std::string, int> statuses;
-    double deepest = 0;
+    double deepest = 0, jointSeconds = 0;
+    std::vector<double> skinSeconds(scene.skins.size(), 0);
     std::vector<SkinFollowing> following(scene.skins.size());
     for (std::size_t k = 0; k < steps.size(); ++k) {
         const Player::Step step = player.step(steps[k], scene.startTimeCode + static_cast<double>(k));
         text += line(scene, k, steps[k], step);
         ++statuses[name(step.status)];
+        jointSeconds += step.jointSeconds;
+        for (std::size_t skin = 0; skin < skinSeconds.size(); ++skin)
+            skinSeconds[skin] += step.skinSeconds[skin];
         for (double depth : step.residualDepths) deepest = std::max(deepest, depth);
         const std::vector<SkinFollowing> now = player.following();
         for (std::size_t skin = 0; skin < now.size(); ++skin) following[skin].worsen(now[skin]);
@@ -206,6 +220,7 @@ void play(const PlayArguments& arguments, const Console& console) {
     writeFileAtomically(arguments.output, text);
     console.say(fmt::format("{} steps, wrote {}", steps.size(), arguments.output));
     for (const auto& [status, count] : statuses) console.say(fmt::format("  {:<10}{}", status, count));
+    console.say(costText(scene, steps.size(), jointSeconds, skinSeconds));
     if (!scene.skins.empty())
         console.say("  deepest residual of a skin " + lengthText(deepest, scene.metersPerUnit));
     nlohmann::json skins = nlohmann::json::array();

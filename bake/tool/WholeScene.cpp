@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
 
 namespace tss::tool {
 
@@ -141,6 +142,7 @@ public:
         }
         scene_.muscles.push_back(model);
         sayMuscle(named.name, model);
+        remarkMuscle(named.name, model);
     }
 
     void addSkin(const std::string& text, const std::vector<std::string>& bones) {
@@ -217,6 +219,34 @@ private:
                                  fibre.size(), point(fibre.front()),
                                  model.bone >= 0 ? " (on " + robot_.links[model.bone].name + ")" : "",
                                  point(fibre.back()), model.muscle.maxContraction));
+    }
+
+    /// A muscle moves with one bone; skin on another one is pushed by what of the muscle lies there.
+    void remarkMuscle(const std::string& name, const MuscleModel& model) {
+        constexpr double most = 0.25; // of its vertices
+        if (model.bone < 0) return;
+        const Body& surface = scene_.bodies[model.body];
+        const std::vector<Vec3>& vertices = surface.mesh.vertices;
+        std::vector<double> nearest(vertices.size(), std::numeric_limits<double>::infinity());
+        std::vector<int> whose(vertices.size(), model.bone);
+        for (int k = 0; k < static_cast<int>(robot_.links.size()); ++k) {
+            const Body& bone = scene_.bodies[k];
+            if (bone.mesh.empty()) continue;
+            const MeshQuery query(bone.mesh);
+            const Pose toBone = bone.placement.inverse(Eigen::Isometry) * surface.placement;
+            for (std::size_t v = 0; v < vertices.size(); ++v)
+                if (const double distance = query.distance(toBone * vertices[v]); distance < nearest[v])
+                    nearest[v] = distance, whose[v] = k;
+        }
+        for (int k = 0; k < static_cast<int>(robot_.links.size()); ++k) {
+            const auto count = static_cast<double>(std::count(whose.begin(), whose.end(), k));
+            if (k != model.bone && count > most * static_cast<double>(vertices.size()))
+                note(
+                    fmt::format("{:.0f} % of the muscle {} lie nearer to {} than to {}, which it moves with: "
+                                "where the two move against each other it pushes the skin of the other",
+                                100 * count / static_cast<double>(vertices.size()), name,
+                                robot_.links[k].name, robot_.links[model.bone].name));
+        }
     }
 
     void remarkSkin(const std::string& name, const SkinModel& skin) {

@@ -1,3 +1,5 @@
+#include "bake/pipeline/Bake.h"
+#include "bake/pipeline/BakePair.h"
 #include "bake/pipeline/RestRule.h"
 #include "bake/search/TreePair.h"
 #include "bake/table/Query.h"
