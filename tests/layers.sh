@@ -17,9 +17,10 @@ declare -A may=(
     [model]="base geometry motion spheres table"
     [scene]="base geometry model motion spheres table"
     [robot]="base geometry model motion scene search spheres table"
+    [usd]="base geometry model motion robot scene spheres table"
     [compare]="base geometry motion spheres table"
     [report]="base compare geometry model motion reduce respond scene search spheres table top verify"
-    [tool]="base geometry model motion report respond robot scene spheres table top verify"
+    [tool]="base geometry model motion report respond robot scene spheres table top usd verify"
 )
 wrong=0
 for folder in bake/*/; do

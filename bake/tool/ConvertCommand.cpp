@@ -8,6 +8,7 @@
 #include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteUsda.h"
 #include "bake/tool/Command.h"
+#include "bake/tool/UsdInput.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -63,7 +64,12 @@ void writePairsOf(const ConvertArguments& arguments, const Console& console) {
                    {"open", written.open}});
 }
 
-Layer inputLayer(const ConvertArguments& arguments) {
+Layer inputLayer(const ConvertArguments& arguments, const Console& console) {
+    if (isUsd(arguments.input)) {
+        const RobotScene made = readUsdScene(arguments.input, {});
+        for (const std::string& note : made.notes) console.say("note: " + note);
+        return layerOf(made.scene);
+    }
     if (extension(arguments.input) != ".tss") return meshLayer(arguments);
     if (!arguments.filteredPairs) return readLayer(arguments.input);
     const SceneModel scene = loadScene(arguments.input);
@@ -73,7 +79,7 @@ Layer inputLayer(const ConvertArguments& arguments) {
 void convert(const ConvertArguments& arguments, const Console& console) {
     if (extension(arguments.output) == ".srdf" || extension(arguments.output) == ".xml")
         return writePairsOf(arguments, console);
-    const Layer layer = inputLayer(arguments);
+    const Layer layer = inputLayer(arguments, console);
     const Encoding encoding = arguments.binary ? Encoding::Cbor : Encoding::Json;
     Json result = {{"input", arguments.input}, {"output", arguments.output}};
     if (extension(arguments.output) == ".usda")
@@ -96,7 +102,8 @@ void addConvert(CLI::App& app, Console& console) {
         addCommand(app, console, "convert",
                    ".tss as JSON, binary .tss, .usda; proofs as SRDF or MJCF; meshes become a .tss");
     auto arguments = std::make_shared<ConvertArguments>();
-    command->add_option("input", arguments->input, "a .tss, or any mesh that assimp reads")->required();
+    command->add_option("input", arguments->input, "a .tss, a .usda, or any mesh that assimp reads")
+        ->required();
     command
         ->add_option(
             "output", arguments->output,

@@ -187,7 +187,8 @@ namespace {
 void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& arguments) {
     RobotArguments& robot = arguments->robot;
     CLI::Option* input = command.add_option(
-        "robot", robot.input, "a robot's file, in place of --a, --b and --dof: URDF, or MJCF of MuJoCo");
+        "robot", robot.input,
+        "a robot's file, in place of --a, --b and --dof: URDF, MJCF of MuJoCo, or .usda with UsdPhysics");
     command
         .add_option(
             "--package", robot.packages,

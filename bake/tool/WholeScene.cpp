@@ -77,6 +77,7 @@ RobotJoint parseJoint(const Robot& robot, const std::string& text, double meters
 Robot robotOf(const WholeSceneArguments& arguments) {
     Robot robot;
     robot.name = std::filesystem::path(arguments.output).stem().string();
+    robot.metersPerUnit = arguments.metersPerUnit;
     for (const std::string& text : arguments.bodies) {
         const Named named = namedMesh(text);
         for (const RobotLink& link : robot.links)
@@ -246,7 +247,6 @@ void makeWholeScene(const WholeSceneArguments& arguments, const Console& console
     const Robot robot = robotOf(arguments);
     RobotSceneRequest request;
     request.pairs = arguments.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
-    request.metersPerUnit = arguments.metersPerUnit;
     request.axes = MeshAxes::Turned;
     RobotScene made = sceneOf(robot, request, [](const std::string& name) { return name; });
     SoftParts soft(made, robot, console);
