@@ -50,7 +50,12 @@ public:
 private:
     TriangleMesh meshOfFile(const RobotShape& shape) {
         auto [at, isNew] = meshes_.try_emplace(shape.file);
-        if (isNew) at->second = importMesh(findMesh_(shape.file), request_.axes);
+        if (isNew) {
+            std::vector<std::string> leftOut;
+            at->second = importMesh(findMesh_(shape.file), request_.axes, &leftOut);
+            for (const std::string& what : leftOut)
+                result_.notes.push_back("left out of " + shape.file + ": " + what);
+        }
         TriangleMesh mesh = at->second;
         if (!(shape.size.cwiseAbs().minCoeff() > 0)) throw InputError("mesh: expected a scale that is not 0");
         for (Vec3& v : mesh.vertices) v = v.cwiseProduct(shape.size);

@@ -1,5 +1,6 @@
 #include "bake/scene/WriteUsda.h"
 
+#include "bake/scene/Schema.h"
 #include "bake/scene/UsdaValue.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteNumber.h"
@@ -181,13 +182,35 @@ private:
         metadata(all, primMetadata, "customData");
         line("{\n");
         indent_ += 4;
-        for (const auto& [name, property] : prim.properties) write(name, property);
+        writeProperties(prim);
         for (const Prim& child : prim.children) {
             if (&child != &prim.children.front() || !prim.properties.empty()) out += '\n';
             write(child);
         }
         indent_ -= 4;
         line("}\n");
+    }
+
+    void writeProperties(const Prim& prim) {
+        // Other programs would round what has no such word; the faces are what osgTSS has proven.
+        static const std::string scheme = schema::subdivisionScheme.name;
+        bool owed = prim.typeName == "Mesh" && prim.specifier != "over";
+        const auto pay = [&] {
+            Property none;
+            none.typeName = schema::subdivisionScheme.typeName;
+            none.defaultValue = Value("none");
+            none.other["variability"] = Value("uniform");
+            write(scheme, none);
+            owed = false;
+        };
+        for (const auto& [name, property] : prim.properties) {
+            if (owed && name >= scheme) {
+                pay();
+                if (name == scheme) continue;
+            }
+            write(name, property);
+        }
+        if (owed) pay();
     }
 
     void write(const std::string& name, const Property& property) {

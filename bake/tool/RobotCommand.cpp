@@ -8,6 +8,7 @@
 #include "bake/robot/RobotScene.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/DofSpec.h"
+#include "bake/tool/OwnMotion.h"
 #include "bake/tool/UsdInput.h"
 #ifdef OSGTSS_HAVE_URDF
 #include "bake/robot/ReadUrdf.h"
@@ -154,7 +155,14 @@ RobotScene robotScene(const RobotArguments& arguments) {
 } // namespace
 
 void makeRobot(const RobotArguments& arguments, const Console& console) {
-    const RobotScene made = robotScene(arguments);
+    RobotScene made = robotScene(arguments);
+    if (!arguments.motion.empty()) {
+        if (made.scene.layer)
+            throw InputError(
+                Where{arguments.input, "", ""},
+                "is a scene of osgTSS already, which has its motion in it; --motion is for one to make");
+        applyMotion(made.scene, arguments.motion);
+    }
     saveScene(made.scene, arguments.output);
     sayScene(made, arguments.output, console);
 }

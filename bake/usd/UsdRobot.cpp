@@ -303,7 +303,10 @@ private:
     void remarkRest() {
         for (const RobotJoint& joint : robot_.joints) {
             const Pose parent = joint.parent >= 0 ? robot_.links[joint.parent].place : Pose::Identity();
-            const Pose should = parent * joint.origin, stands = robot_.links[joint.child].place;
+            Pose should = parent * joint.origin;
+            for (const Dof& dof : joint.dofs)
+                should = should * dofPose(dof, std::clamp(0.0, dof.lower, dof.upper));
+            const Pose stands = robot_.links[joint.child].place;
             const double size = 1 + should.translation().norm() + stands.translation().norm();
             if ((should.matrix() - stands.matrix()).cwiseAbs().maxCoeff() > 1e-3 * size)
                 leftOut_.add(

@@ -13,11 +13,17 @@ using namespace tss;
 
 namespace {
 
-void dropRelationshipVariability(std::vector<Prim>& prims) {
+void spell(std::vector<Prim>& prims) {
     for (Prim& prim : prims) {
+        if (prim.typeName == "Mesh" && prim.specifier != "over") {
+            Property& scheme = prim.properties["subdivisionScheme"];
+            scheme.typeName = "token";
+            scheme.defaultValue = Value("none");
+            scheme.other["variability"] = Value("uniform");
+        }
         for (auto& [name, property] : prim.properties)
             if (property.isRelationship()) property.other.erase("variability"); // they all are
-        dropRelationshipVariability(prim.children);
+        spell(prim.children);
     }
 }
 
@@ -26,7 +32,7 @@ std::string spelled(Layer layer) {
     layer.metadata.try_emplace("metersPerUnit", 0.01);
     layer.metadata.try_emplace("upAxis", "Y");
     if (!layer.children.empty()) layer.metadata.try_emplace("defaultPrim", layer.children.front().name);
-    dropRelationshipVariability(layer.children);
+    spell(layer.children);
     return writeJson(layer);
 }
 
