@@ -21,9 +21,10 @@ declare -A may=(
     [check]="base geometry model motion pipeline play search spheres table verify"
     [scene]="base geometry model motion spheres table"
     [robot]="base geometry model motion scene search spheres table"
+    [usd]="base geometry model motion robot scene spheres table"
     [compare]="base geometry motion spheres table"
     [report]="base compare geometry model motion pipeline play reduce respond scene search spheres table verify"
-    [tool]="base check geometry model motion pipeline play report respond robot scene spheres table verify"
+    [tool]="base check geometry model motion pipeline play report respond robot scene spheres table usd verify"
 )
 wrong=0
 for folder in bake/*/; do

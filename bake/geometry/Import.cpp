@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <numeric>
 
@@ -83,34 +84,95 @@ void append(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& par
     for (unsigned i = 0; i < node.mNumChildren; ++i) append(scene, *node.mChildren[i], transform, mesh);
 }
 
-} // namespace
+void collect(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& parent,
+             std::vector<ImportedNode>& nodes) {
+    const Eigen::Matrix4d transform = parent * matrix(node.mTransformation);
+    ImportedNode part{node.mName.C_Str(), Eigen::Affine3d(transform), {}};
+    for (unsigned i = 0; i < node.mNumMeshes; ++i)
+        append(*scene.mMeshes[node.mMeshes[i]], Eigen::Matrix4d::Identity(), part.mesh);
+    if (!part.mesh.empty()) nodes.push_back(std::move(part));
+    for (unsigned i = 0; i < node.mNumChildren; ++i) collect(scene, *node.mChildren[i], transform, nodes);
+}
 
-TriangleMesh importMesh(const std::string& file, MeshAxes axes) {
+std::vector<std::string> leftOutOf(const aiScene& scene) {
+    std::size_t bones = 0, shapes = 0, lines = 0;
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        const aiMesh& mesh = *scene.mMeshes[m];
+        bones += mesh.mNumBones;
+        shapes += mesh.mNumAnimMeshes;
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f) lines += mesh.mFaces[f].mNumIndices < 3;
+    }
+    std::vector<std::string> names;
+    const auto add = [&](std::size_t count, const char* what) {
+        if (count > 0) names.push_back(std::to_string(count) + " " + what + (count > 1 ? "s" : ""));
+    };
+    add(scene.mNumAnimations, "animation");
+    add(bones, "bone");
+    add(shapes, "blend shape");
+    add(scene.mNumCameras, "camera");
+    add(scene.mNumLights, "light");
+    add(lines, "point or line");
+    return names;
+}
+
+const aiScene& readFile(Assimp::Importer& importer, const std::string& file,
+                        std::vector<std::string>* leftOut) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) throw InputError(Where{file, "", ""}, "no such file");
     if (!std::filesystem::is_regular_file(file, error))
         throw InputError(Where{file, "", ""}, "not a file, a mesh file was expected");
-    Assimp::Importer importer;
-    if (axes == MeshAxes::AsWritten)
-        importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     // STL and the like repeat a vertex for every face: welded() joins them, exactly equal ones only.
     const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
     if (!scene || !scene->mRootNode)
         throw InputError(Where{file, "", ""},
                          "cannot be read as a mesh: " + std::string(importer.GetErrorString()));
+    if (leftOut) *leftOut = leftOutOf(*scene);
+    return *scene;
+}
+
+[[noreturn]] void refuseEmpty(const std::string& file) {
+    throw InputError(Where{file, "", ""}, "holds no triangle, a mesh with faces was expected");
+}
+
+} // namespace
+
+TriangleMesh importMesh(const std::string& file, MeshAxes axes, std::vector<std::string>* leftOut) {
+    Assimp::Importer importer;
+    if (axes == MeshAxes::AsWritten)
+        importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+    const aiScene& scene = readFile(importer, file, leftOut);
     TriangleMesh mesh;
-    append(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), mesh);
-    if (mesh.triangles.empty())
-        throw InputError(Where{file, "", ""}, "holds no triangle, a mesh with faces was expected");
+    append(scene, *scene.mRootNode, Eigen::Matrix4d::Identity(), mesh);
+    if (mesh.triangles.empty()) refuseEmpty(file);
     return welded(mesh);
+}
+
+std::vector<ImportedNode> importNodes(const std::string& file, std::vector<std::string>* leftOut) {
+    Assimp::Importer importer;
+    const aiScene& scene = readFile(importer, file, leftOut);
+    std::vector<ImportedNode> nodes;
+    collect(scene, *scene.mRootNode, Eigen::Matrix4d::Identity(), nodes);
+    if (nodes.empty()) refuseEmpty(file);
+    for (ImportedNode& node : nodes) node.mesh = welded(node.mesh);
+    return nodes;
 }
 
 #else
 
-TriangleMesh importMesh(const std::string& file, MeshAxes) {
+TriangleMesh importMesh(const std::string& file, MeshAxes, std::vector<std::string>*) {
+    throw InputError(Where{file, "", ""}, "this build reads no mesh files (OSGTSS_IMPORT is off)");
+}
+
+std::vector<ImportedNode> importNodes(const std::string& file, std::vector<std::string>*) {
     throw InputError(Where{file, "", ""}, "this build reads no mesh files (OSGTSS_IMPORT is off)");
 }
 
 #endif
+
+bool isGltf(const std::string& file) {
+    std::string extension = std::filesystem::path(file).extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension == ".gltf" || extension == ".glb";
+}
 
 } // namespace tss

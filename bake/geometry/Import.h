@@ -2,6 +2,7 @@
 #include "bake/geometry/TriangleMesh.h"
 
 #include <string>
+#include <vector>
 
 namespace tss {
 
@@ -15,7 +16,23 @@ enum class MeshAxes { Turned, AsWritten };
 /// most 7 digits of a file survive: a mesh far from the origin of its file loses detail (at 1e7 units a float
 /// is 1 unit wide). Throws InputError: no such file, a format or content that cannot be read, no triangle in
 /// it, or a build without OSGTSS_IMPORT.
-TriangleMesh importMesh(const std::string& file, MeshAxes axes = MeshAxes::Turned);
+/// leftOut, where given, receives what else the file holds and a mesh has no place for: animations, bones,
+/// shapes to blend to, cameras, lights, points and lines.
+TriangleMesh importMesh(const std::string& file, MeshAxes axes = MeshAxes::Turned,
+                        std::vector<std::string>* leftOut = nullptr);
+
+/// One node of a file with the meshes that hang on it.
+struct ImportedNode {
+    std::string name;
+    Eigen::Affine3d place = Eigen::Affine3d::Identity(); ///< in the file's own frame
+    TriangleMesh mesh;                                   ///< in the node's
+};
+
+/// The same with each node that has meshes for itself. Throws as importMesh() does.
+std::vector<ImportedNode> importNodes(const std::string& file, std::vector<std::string>* leftOut = nullptr);
+
+/// The file is a glTF, whose Y axis is up and whose unit is the metre, always.
+bool isGltf(const std::string& file);
 
 /// The mesh with vertices at exactly the same place made one, in the order of their first appearance.
 TriangleMesh welded(const TriangleMesh& mesh);

@@ -35,8 +35,8 @@ void checkForest(const Robot& robot) {
     }
 }
 
-std::string rangeText(const Dof& dof) {
-    const double unit = dof.kind == DofKind::Rotation ? 180 / std::numbers::pi : 1;
+std::string rangeText(const Robot& robot, const Dof& dof) {
+    const double unit = dof.kind == DofKind::Rotation ? 180 / std::numbers::pi : robot.metersPerUnit;
     const auto text = [&](double value) {
         char digits[40];
         std::snprintf(digits, sizeof digits, "%.6g", unit * value);
@@ -71,11 +71,11 @@ void settleFollower(Robot& robot, RobotJoint& joint) {
     if (!(lower <= upper))
         throw InputError(placeOf(robot, joint), "mimics \"" + joint.leader +
                                                     "\", which never leads it into its limits " +
-                                                    rangeText(dof));
+                                                    rangeText(robot, dof));
     dof.lower = lower;
     dof.upper = upper;
     robot.notes.push_back(
-        "joint " + joint.name + " mimics " + joint.leader + ": " + rangeText(dof) +
+        "joint " + joint.name + " mimics " + joint.leader + ": " + rangeText(robot, dof) +
         " are left it. The scene's motion couples them; a table lets each move by itself, so "
         "what is proven never to meet holds, and some contacts of it may need both apart");
 }
@@ -86,8 +86,9 @@ void settleHeld(Robot& robot, RobotJoint& joint) {
     if (joint.dofs.empty() || !held) return;
     for (const Dof& dof : joint.dofs) joint.origin = joint.origin * dofPose(dof, dof.lower);
     robot.notes.push_back("joint " + joint.name + " (" + joint.where + ") has the limits " +
-                          rangeText(joint.dofs[0]) + ": taken as fixed there");
+                          rangeText(robot, joint.dofs[0]) + ": taken as fixed there");
     joint.dofs.clear();
+    joint.drives.clear();
 }
 
 } // namespace

@@ -1,21 +1,25 @@
 #pragma once
+#include "bake/model/TimeSamples.h"
 #include "bake/motion/Motion.h"
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace tss {
 
-/// A shape of a link, in the link's frame once placed. Lengths in metres.
+/// A shape of a link, in the link's frame once placed. Lengths in units of the robot.
 struct RobotShape {
-    enum class Kind { Mesh, Box, Sphere, Cylinder, Capsule, Ellipsoid };
+    enum class Kind { Mesh, Box, Sphere, Cylinder, Capsule, Ellipsoid, Cone };
     Kind kind = Kind::Mesh;
     /// Mesh: scale along x, y, z. Box: its edges. Sphere: the radius. Cylinder: radius and length, along z.
-    /// Capsule: radius, and length between the centres of its ends. Ellipsoid: its three radii.
+    /// Capsule: radius, and length between the centres of its ends. Ellipsoid: its three radii. Cone: radius
+    /// and height, its tip up along z, the middle of its height at 0.
     Vec3 size = Vec3::Ones();
-    std::string file; ///< of a mesh: its name as the robot's file has it
+    std::string file;                         ///< of a mesh: its name as the robot's file has it
+    std::shared_ptr<const TriangleMesh> mesh; ///< or the mesh itself, where it stands in the robot's file
     Pose place = Pose::Identity();
     std::string where; ///< for messages: "line 12"
 };
@@ -23,7 +27,8 @@ struct RobotShape {
 struct RobotLink {
     std::string name;
     std::vector<RobotShape> collision, visual;
-    std::optional<Vec3> color; ///< linear RGB
+    std::optional<Vec3> color;     ///< linear RGB
+    Pose place = Pose::Identity(); ///< in the world, where no joint says it
 };
 
 /// How a link hangs on another: child to parent is origin * D1(q1) ... Dd(qd), the DOFs in the child's frame
@@ -36,12 +41,17 @@ struct RobotJoint {
     /// The joint that this one, of one DOF, follows: value = factor * its value + offset.
     std::string leader;
     double factor = 1, offset = 0;
+    std::vector<TimeSamples> drives; ///< the motion that the file asks for, none or one a DOF
     std::string where;
 };
 
 /// What a robot's description says, whatever its format. Links hang on each other as a forest.
 struct Robot {
     std::string name, file; ///< file: as the user gave it
+    double metersPerUnit = 1;
+    char upAxis = 'Z'; ///< 'Y' or 'Z'
+    /// Of its drives, if any joint has some.
+    double timeCodesPerSecond = 24, startTimeCode = 0, endTimeCode = 0;
     std::vector<RobotLink> links;
     std::vector<RobotJoint> joints;
     std::vector<std::pair<std::string, std::string>> unpaired; ///< links whose collision is switched off

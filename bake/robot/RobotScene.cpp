@@ -22,7 +22,8 @@ public:
 
     RobotScene make() {
         SceneModel& scene = result_.scene;
-        scene.metersPerUnit = request_.metersPerUnit;
+        scene.metersPerUnit = robot_.metersPerUnit;
+        scene.upAxis = robot_.upAxis;
         scene.defaultPrim = freePrimName(scene, robot_.name.empty() ? "Robot" : robot_.name);
         for (const RobotLink& link : robot_.links) addLink(link);
         if (!others_.empty())
@@ -42,15 +43,19 @@ public:
             }
         }
         addPairs();
-        addShowMotion(scene);
-        coupleMotion();
+        addMotion();
         return std::move(result_);
     }
 
 private:
     TriangleMesh meshOfFile(const RobotShape& shape) {
         auto [at, isNew] = meshes_.try_emplace(shape.file);
-        if (isNew) at->second = importMesh(findMesh_(shape.file), request_.axes);
+        if (isNew) {
+            std::vector<std::string> leftOut;
+            at->second = importMesh(findMesh_(shape.file), request_.axes, &leftOut);
+            for (const std::string& what : leftOut)
+                result_.notes.push_back("left out of " + shape.file + ": " + what);
+        }
         TriangleMesh mesh = at->second;
         if (!(shape.size.cwiseAbs().minCoeff() > 0)) throw InputError("mesh: expected a scale that is not 0");
         for (Vec3& v : mesh.vertices) v = v.cwiseProduct(shape.size);
@@ -60,7 +65,9 @@ private:
     }
 
     void append(const RobotShape& shape, TriangleMesh& whole) {
-        const TriangleMesh mesh = shape.kind == RobotShape::Kind::Mesh ? meshOfFile(shape) : meshOf(shape);
+        const TriangleMesh mesh = shape.mesh                             ? *shape.mesh
+                                  : shape.kind == RobotShape::Kind::Mesh ? meshOfFile(shape)
+                                                                         : meshOf(shape);
         constexpr std::size_t most = 4'000'000;
         triangles_ += mesh.triangles.size();
         if (triangles_ > most)
@@ -91,6 +98,7 @@ private:
         const Vec3 tones[] = {{0.80, 0.79, 0.76}, {0.48, 0.56, 0.64}};
         body.displayColor = link.color.value_or(tones[scene.bodies.size() % 2]);
         body.rigid = true;
+        body.placement = link.place;
         scene.bodies.push_back(std::move(body));
         result_.links.push_back({scene.bodies.back().path, shapes.size(), visual});
     }
@@ -145,6 +153,25 @@ private:
             result_.notes.push_back(std::to_string(all - pairs.size()) +
                                     " pairs are left out, as the robot's files "
                                     "switch their collision off");
+    }
+
+    /// The file's own motion, or one that shows each joint.
+    void addMotion() {
+        const auto driven = [](const RobotJoint& joint) { return !joint.drives.empty(); };
+        SceneModel& scene = result_.scene;
+        if (std::none_of(robot_.joints.begin(), robot_.joints.end(), driven)) {
+            addShowMotion(scene);
+            return coupleMotion();
+        }
+        scene.timeCodesPerSecond = robot_.timeCodesPerSecond;
+        scene.startTimeCode = robot_.startTimeCode;
+        scene.endTimeCode = robot_.endTimeCode;
+        for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+            if (!driven(robot_.joints[j])) continue;
+            auto drive = robot_.joints[j].drives.begin();
+            for (int part : chains_[j])
+                for (TimeSamples& samples : scene.joints[part].drives) samples = *drive++;
+        }
     }
 
     /// Those that follow go where their leaders do, at each key of theirs.

@@ -15,7 +15,6 @@ enum class RobotPairs { Neighbours, All };
 struct RobotSceneRequest {
     bool visual = false; ///< take the visual shapes of a link, not those of its collision
     RobotPairs pairs = RobotPairs::All;
-    double metersPerUnit = 1;
     MeshAxes axes = MeshAxes::AsWritten; ///< of files that say which way is up
 };
 

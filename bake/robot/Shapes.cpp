@@ -107,6 +107,11 @@ TriangleMesh meshOf(const RobotShape& shape) {
         const double radius = size[0] / std::cos(std::numbers::pi / aroundCount), half = size[1] / 2;
         return turned({{0, half}, {radius, half}, {radius, -half}, {0, -half}});
     }
+    case RobotShape::Kind::Cone: {
+        expectLengths(shape, 2, 1e300);
+        const double radius = size[0] / std::cos(std::numbers::pi / aroundCount), half = size[1] / 2;
+        return turned({{0, half}, {radius, -half}, {0, -half}});
+    }
     case RobotShape::Kind::Mesh:
         break;
     }

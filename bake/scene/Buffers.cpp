@@ -84,7 +84,9 @@ public:
         for (std::size_t i = 0; i < array->size(); ++i) {
             const auto* keys = (*array)[i].as<Value::Object>();
             if (!keys) problems_.add(place / i, "expected an object, found " + describe((*array)[i]));
-            buffers_.emplace_back(keys ? read(*keys, place / i) : std::string());
+            auto bytes = keys ? read(*keys, place / i) : std::nullopt;
+            unread_.push_back(!bytes);
+            buffers_.push_back(bytes ? std::move(*bytes) : std::string());
             left_.push_back(buffers_.back().size());
         }
     }
@@ -106,7 +108,7 @@ public:
     }
 
 private:
-    std::string read(const Value::Object& keys, const Place& place) {
+    std::optional<std::string> read(const Value::Object& keys, const Place& place) {
         const auto text = [&](const char* key) {
             const auto found = keys.find(key);
             const auto* string = found == keys.end() ? nullptr : found->second.as<std::string>();
@@ -115,36 +117,42 @@ private:
         };
         const std::string uri = text(uriKey), hash = text(hashKey);
         const auto length = whole(keys, lengthKey, place);
-        if (!length || uri.empty() || hash.empty()) return {};
+        if (!length || uri.empty() || hash.empty()) return std::nullopt;
         const Place at = place / std::string(uriKey);
         if (file_.empty()) {
             problems_.add(at, "expected a scene that is a file: its buffers stand beside it");
-            return {};
+            return std::nullopt;
         }
         if (!isBareName(uri)) {
             problems_.add(at, "expected the bare name of a file beside the scene, found \"" + uri + "\"");
-            return {};
+            return std::nullopt;
         }
         const fs::path file = folderOf(file_) / uri;
         std::error_code error;
         const fs::file_status status = fs::symlink_status(file, error);
+        if (!fs::exists(status)) {
+            problems_.add(at, "the buffer \"" + uri +
+                                  "\" is missing: expected it beside the scene, where `convert "
+                                  "--buffers` put it");
+            return std::nullopt;
+        }
         if (!fs::is_regular_file(status)) {
             problems_.add(at, "expected a regular file beside the scene and no link: \"" + uri + "\"");
-            return {};
+            return std::nullopt;
         }
         const std::uintmax_t size = fs::file_size(file, error);
         if (error || size != *length) {
             problems_.add(place / std::string(lengthKey), "expected the size of \"" + uri + "\", " +
                                                               std::to_string(size) + " bytes, found " +
                                                               std::to_string(*length));
-            return {};
+            return std::nullopt;
         }
         std::string bytes = readWholeFile(file.string());
         if (hashOf(bytes) == hash) return bytes;
         problems_.add(place / std::string(hashKey),
                       "expected the SHA-256 of \"" + uri + "\", " + hashOf(bytes) +
                           ": the file is another one than the scene was saved with");
-        return {};
+        return std::nullopt;
     }
 
     /// A whole number of at least 0.
@@ -205,6 +213,7 @@ private:
             return problems_.add(place / std::string(bufferKey),
                                  "expected an index below " + std::to_string(buffers_.size()) +
                                      ", the number of buffers, found " + std::to_string(*index));
+        if (unread_[*index]) return; // which has been said
         const std::string& bytes = buffers_[*index];
         const std::size_t each = sizeOf(scalar) * static_cast<std::size_t>(type.width);
         if (*offset > bytes.size() || *count > (bytes.size() - *offset) / each)
@@ -227,6 +236,7 @@ private:
     const std::string file_;
     Problems& problems_;
     std::vector<std::string> buffers_;
+    std::vector<bool> unread_;      ///< that could not be read
     std::vector<std::size_t> left_; ///< bytes of each that no value has used yet
 };
 

@@ -24,22 +24,6 @@ std::set<std::string> namedBodies(const SceneReading& reading) {
     return named;
 }
 
-/// Transforms to the world, one an entry.
-std::vector<Xform> worldXforms(const SceneReading& reading) {
-    std::vector<Xform> world;
-    for (std::size_t i = 0; i < reading.index.entries.size(); ++i) {
-        const PrimReader prim = reading.reader(static_cast<int>(i));
-        const int parent = reading.index.entries[i].parent;
-        Xform xform = localXform(prim);
-        if (parent >= 0 && !resetsXformStack(prim)) {
-            xform.matrix = world[parent].matrix * xform.matrix;
-            xform.rigid = world[parent].rigid && xform.rigid;
-        }
-        world.push_back(xform);
-    }
-    return world;
-}
-
 void checkCounts(const PrimReader& prim, std::size_t corners, std::size_t indices) {
     if (corners != indices)
         prim.problem(schema::faceVertexIndices, "expected " + std::to_string(corners) +
@@ -74,19 +58,6 @@ std::vector<Tri> readTriangles(const PrimReader& prim, std::size_t vertices) {
         first += static_cast<std::size_t>(count);
     }
     return triangles;
-}
-
-TriangleMesh readMesh(const PrimReader& prim, const SplitXform& xform) {
-    TriangleMesh mesh;
-    mesh.vertices = prim.vectors(schema::points);
-    mesh.triangles = readTriangles(prim, mesh.vertices.size());
-    if (xform.stretched)
-        for (Vec3& vertex : mesh.vertices) vertex = xform.stretch * vertex;
-    const bool leftHanded = prim.choice(schema::orientation, {"rightHanded", "leftHanded"}) == "leftHanded";
-    const bool mirrored = xform.stretched && xform.stretch.determinant() < 0;
-    if (leftHanded != mirrored)
-        for (Tri& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-    return mesh;
 }
 
 std::string originalName(const Prim& prim) {
@@ -133,6 +104,34 @@ Body readBody(const PrimReader& prim, const PrimEntry& entry, const SplitXform& 
 }
 
 } // namespace
+
+std::vector<Xform> worldXforms(const SceneReading& reading) {
+    std::vector<Xform> world;
+    for (std::size_t i = 0; i < reading.index.entries.size(); ++i) {
+        const PrimReader prim = reading.reader(static_cast<int>(i));
+        const int parent = reading.index.entries[i].parent;
+        Xform xform = localXform(prim);
+        if (parent >= 0 && !resetsXformStack(prim)) {
+            xform.matrix = world[parent].matrix * xform.matrix;
+            xform.rigid = world[parent].rigid && xform.rigid;
+        }
+        world.push_back(xform);
+    }
+    return world;
+}
+
+TriangleMesh readMesh(const PrimReader& prim, const SplitXform& xform) {
+    TriangleMesh mesh;
+    mesh.vertices = prim.vectors(schema::points);
+    mesh.triangles = readTriangles(prim, mesh.vertices.size());
+    if (xform.stretched)
+        for (Vec3& vertex : mesh.vertices) vertex = xform.stretch * vertex;
+    const bool leftHanded = prim.choice(schema::orientation, {"rightHanded", "leftHanded"}) == "leftHanded";
+    const bool mirrored = xform.stretched && xform.stretch.determinant() < 0;
+    if (leftHanded != mirrored)
+        for (Tri& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+    return mesh;
+}
 
 void readBodies(SceneReading& reading) {
     const auto named = namedBodies(reading);

@@ -7,6 +7,7 @@
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/StoreTables.h"
 #include "bake/scene/ToLayer.h"
+#include "bake/scene/Typos.h"
 #include "bake/scene/WriteLayer.h"
 
 namespace tss {
@@ -61,6 +62,7 @@ std::vector<LocatedError> validateScene(const std::string& file, std::vector<Loc
     try {
         text = readWholeFile(file);
         const auto layer = std::make_shared<const Layer>(parseLayer(text, file, problems));
+        remarkTypos(*layer, problems);
         const SceneModel scene = readScene(layer, problems);
         if (problems.empty()) addStaleness(scene, problems);
     } catch (const LocatedError& error) { // the text itself cannot be read on

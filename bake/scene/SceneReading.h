@@ -52,6 +52,10 @@ struct SceneReading {
 };
 
 void readBodies(SceneReading& reading);
+/// Transforms to the world, one an entry.
+std::vector<Xform> worldXforms(const SceneReading& reading);
+/// The faces of a Mesh cut into triangles, its points stretched.
+TriangleMesh readMesh(const PrimReader& prim, const SplitXform& xform);
 void readJoints(SceneReading& reading);
 void readPairs(SceneReading& reading);
 void readMuscles(SceneReading& reading);

@@ -1,5 +1,6 @@
 #include "bake/scene/WriteUsda.h"
 
+#include "bake/scene/Schema.h"
 #include "bake/scene/UsdaValue.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteNumber.h"
@@ -56,7 +57,11 @@ public:
         all.try_emplace("metersPerUnit", 0.01);
         all.try_emplace("upAxis", "Y");
         if (!layer.children.empty()) all.try_emplace("defaultPrim", layer.children.front().name);
-        if (!layer.other.empty()) keepUnknown(all, "customLayerData", layer.other);
+        if (!layer.other.empty()) keepUnknown(all, "customLayerData", usda::unknownKeys, layer.other);
+        Value& data = all["customLayerData"];
+        if (data.isNull()) data = Value(Value::Object());
+        if (auto* dictionary = data.as<Value::Object>())
+            (*dictionary)[usda::mark] = Value(layer.formatVersion);
         metadata(all, layerMetadata, "customLayerData");
         for (const Prim& prim : layer.children) {
             out += '\n';
@@ -71,10 +76,11 @@ private:
     }
 
     /// What has no word of its own goes as JSON text into a dictionary that has one.
-    static void keepUnknown(Value::Object& metadata, const char* dictionary, const Value::Object& unknown) {
+    static void keepUnknown(Value::Object& metadata, const char* dictionary, const char* key,
+                            const Value::Object& unknown) {
         Value& data = metadata[dictionary];
         if (!data.as<Value::Object>()) data = Value(Value::Object());
-        (*data.as<Value::Object>())["osgtssJson"] = Value(jsonText(Value(unknown)));
+        (*data.as<Value::Object>())[key] = Value(jsonText(Value(unknown)));
     }
 
     template <class Table>
@@ -138,7 +144,7 @@ private:
             unknown.insert(std::move(*it));
             it = all.erase(it);
         }
-        if (!unknown.empty()) keepUnknown(all, dictionary, unknown);
+        if (!unknown.empty()) keepUnknown(all, dictionary, usda::unknownMetadata, unknown);
         if (all.empty()) return;
         out.pop_back(); // the line break: the parenthesis follows on the same line, except after the first
                         // line
@@ -172,17 +178,39 @@ private:
         line(prim.specifier + (prim.typeName.empty() ? "" : " " + prim.typeName) + " \"" + prim.name +
              "\"\n");
         Value::Object all = prim.metadata;
-        if (!prim.other.empty()) keepUnknown(all, "customData", prim.other);
+        if (!prim.other.empty()) keepUnknown(all, "customData", usda::unknownKeys, prim.other);
         metadata(all, primMetadata, "customData");
         line("{\n");
         indent_ += 4;
-        for (const auto& [name, property] : prim.properties) write(name, property);
+        writeProperties(prim);
         for (const Prim& child : prim.children) {
             if (&child != &prim.children.front() || !prim.properties.empty()) out += '\n';
             write(child);
         }
         indent_ -= 4;
         line("}\n");
+    }
+
+    void writeProperties(const Prim& prim) {
+        // Other programs would round what has no such word; the faces are what osgTSS has proven.
+        static const std::string scheme = schema::subdivisionScheme.name;
+        bool owed = prim.typeName == "Mesh" && prim.specifier != "over";
+        const auto pay = [&] {
+            Property none;
+            none.typeName = schema::subdivisionScheme.typeName;
+            none.defaultValue = Value("none");
+            none.other["variability"] = Value("uniform");
+            write(scheme, none);
+            owed = false;
+        };
+        for (const auto& [name, property] : prim.properties) {
+            if (owed && name >= scheme) {
+                pay();
+                if (name == scheme) continue;
+            }
+            write(name, property);
+        }
+        if (owed) pay();
     }
 
     void write(const std::string& name, const Property& property) {

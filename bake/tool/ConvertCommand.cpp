@@ -1,3 +1,4 @@
+#include "bake/BakeOptions.h"
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/Import.h"
@@ -7,10 +8,14 @@
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteUsda.h"
+#include "bake/scene/Xform.h"
 #include "bake/tool/Command.h"
+#include "bake/tool/UsdInput.h"
+#include "bake/tool/WriteSpheres.h"
 
 #include <filesystem>
 #include <fmt/format.h>
+#include <map>
 
 namespace tss::tool {
 
@@ -20,23 +25,66 @@ struct ConvertArguments {
     std::string input, output;
     bool binary = false, buffers = false, filteredPairs = false;
     double metersPerUnit = 1;
+    std::string tolerance;
+    int maxSpheres = 0;
+    std::vector<std::string> given; ///< options that stand on the command line
 };
 
 std::string extension(const std::string& file) {
     return std::filesystem::path(file).extension().string();
 }
 
-/// A scene of one body from a mesh file.
-Layer meshLayer(const ConvertArguments& arguments) {
+/// A scene of one body from a mesh file; of a glTF, a body a node.
+Layer meshLayer(const ConvertArguments& arguments, const Console& console) {
     SceneModel scene;
     scene.metersPerUnit = arguments.metersPerUnit;
+    if (isGltf(arguments.input)) scene.upAxis = 'Y';
     const std::string stem = std::filesystem::path(arguments.input).stem().string();
     scene.defaultPrim = freePrimName(scene, stem);
-    Body body;
-    body.path = "/" + scene.defaultPrim + "/" + freePrimName(scene, stem);
-    body.mesh = importMesh(arguments.input);
-    scene.bodies.push_back(body);
+    const auto add = [&](const std::string& name) -> Body& {
+        Body& body = scene.bodies.emplace_back();
+        body.path = "/" + scene.defaultPrim + "/" + freePrimName(scene, name);
+        return body;
+    };
+    std::vector<std::string> leftOut;
+    if (isGltf(arguments.input)) {
+        for (ImportedNode& node : importNodes(arguments.input, &leftOut)) {
+            Body& body = add(node.name.empty() ? stem : node.name);
+            const SplitXform place = split({node.place, false});
+            body.placement = place.placement;
+            if (place.stretched)
+                for (Vec3& v : node.mesh.vertices) v = place.stretch * v;
+            if (place.stretch.determinant() < 0)
+                for (Tri& t : node.mesh.triangles) std::swap(t[1], t[2]);
+            body.mesh = std::move(node.mesh);
+        }
+    } else {
+        TriangleMesh mesh = importMesh(arguments.input, MeshAxes::Turned, &leftOut);
+        add(stem).mesh = std::move(mesh);
+    }
+    for (const std::string& what : leftOut) console.say("note: left out of " + arguments.input + ": " + what);
     return layerOf(scene);
+}
+
+/// Spheres of each body for cuRobo.
+void writeSpheresOf(const ConvertArguments& arguments, const Console& console) {
+    if (extension(arguments.input) != ".tss")
+        throw InputError(Where{arguments.input, "", ""}, "expected a scene, whose bodies get spheres");
+    const SceneModel scene = loadScene(arguments.input);
+    SphereOptions options;
+    options.tolerance =
+        parseLength(arguments.tolerance.empty() ? "1cm" : arguments.tolerance, scene.metersPerUnit);
+    if (!(options.tolerance > 0)) throw InputError("--tolerance: expected a length above 0");
+    options.maxSpheres = arguments.maxSpheres;
+    const SpheresWritten written = inFile(arguments.input, [&] { return curoboSpheresOf(scene, options); });
+    writeFileAtomically(arguments.output, written.text);
+    for (const std::string& note : written.notes) console.say("note: " + note);
+    console.say(fmt::format("wrote {}: {} of {}", arguments.output, counted(written.spheres, "sphere"),
+                            counted(written.links, "link")));
+    console.print({{"input", arguments.input},
+                   {"output", arguments.output},
+                   {"links", written.links},
+                   {"spheres", written.spheres}});
 }
 
 /// What a planner or a simulator need not test, from the proofs of a baked scene.
@@ -63,17 +111,44 @@ void writePairsOf(const ConvertArguments& arguments, const Console& console) {
                    {"open", written.open}});
 }
 
-Layer inputLayer(const ConvertArguments& arguments) {
-    if (extension(arguments.input) != ".tss") return meshLayer(arguments);
+Layer inputLayer(const ConvertArguments& arguments, const Console& console) {
+    if (isUsd(arguments.input)) {
+        const RobotScene made = readUsdScene(arguments.input, {});
+        for (const std::string& note : made.notes) console.say("note: " + note);
+        return layerOf(made.scene);
+    }
+    if (extension(arguments.input) != ".tss") return meshLayer(arguments, console);
     if (!arguments.filteredPairs) return readLayer(arguments.input);
     const SceneModel scene = loadScene(arguments.input);
     return inFile(arguments.input, [&] { return withFilteredPairs(scene, evidenceOf(scene)); });
 }
 
+/// An option that does nothing for these files is a mistake.
+void refuseIdleOptions(const ConvertArguments& arguments) {
+    const std::string from = extension(arguments.input), to = extension(arguments.output);
+    const bool mesh = from != ".tss" && !isUsd(arguments.input), spheres = to == ".yml" || to == ".yaml";
+    const std::map<std::string, std::pair<bool, const char*>> uses = {
+        {"--binary", {to == ".tss", "for a .tss to write"}},
+        {"--buffers", {to == ".tss", "for a .tss to write"}},
+        {"--filtered-pairs",
+         {from == ".tss" && (to == ".tss" || to == ".usda"), "for a baked .tss to write as .usda or .tss"}},
+        {"--meters-per-unit", {mesh, "for a mesh to read"}},
+        {"--tolerance", {spheres, "for spheres to write, .yml"}},
+        {"--max-spheres", {spheres, "for spheres to write, .yml"}}};
+    for (const std::string& option : arguments.given)
+        if (const auto use = uses.find(option); use != uses.end() && !use->second.first)
+            throw CLI::ValidationError(option,
+                                       std::string("is ") + use->second.second + "; it does nothing here");
+}
+
 void convert(const ConvertArguments& arguments, const Console& console) {
+    refuseIdleOptions(arguments);
+    refuseOverwriting(arguments.output, {arguments.input});
+    if (extension(arguments.output) == ".yml" || extension(arguments.output) == ".yaml")
+        return writeSpheresOf(arguments, console);
     if (extension(arguments.output) == ".srdf" || extension(arguments.output) == ".xml")
         return writePairsOf(arguments, console);
-    const Layer layer = inputLayer(arguments);
+    const Layer layer = inputLayer(arguments, console);
     const Encoding encoding = arguments.binary ? Encoding::Cbor : Encoding::Json;
     Json result = {{"input", arguments.input}, {"output", arguments.output}};
     if (extension(arguments.output) == ".usda")
@@ -84,7 +159,7 @@ void convert(const ConvertArguments& arguments, const Console& console) {
         saveLayer(layer, arguments.output, encoding);
     else
         throw InputError(Where{arguments.output, "", ""},
-                         "expected a name that ends in .tss, .usda, .srdf or .xml");
+                         "expected a name that ends in .tss, .usda, .srdf, .xml or .yml");
     console.say("wrote " + arguments.output);
     console.print(result);
 }
@@ -96,12 +171,14 @@ void addConvert(CLI::App& app, Console& console) {
         addCommand(app, console, "convert",
                    ".tss as JSON, binary .tss, .usda; proofs as SRDF or MJCF; meshes become a .tss");
     auto arguments = std::make_shared<ConvertArguments>();
-    command->add_option("input", arguments->input, "a .tss, or any mesh that assimp reads")->required();
+    command->add_option("input", arguments->input, "a .tss, a .usda, or any mesh that assimp reads")
+        ->required();
     command
         ->add_option(
             "output", arguments->output,
             "a .tss or .usda; of a baked scene also an .srdf, or an .xml of MuJoCo's <exclude>s: the pairs "
-            "that are proven never to meet, and those that are joined")
+            "that are proven never to meet, and those that are joined; or a .yml of cuRobo's collision "
+            "spheres")
         ->required();
     command->add_flag("--binary", arguments->binary, "write the binary twin of .tss (CBOR)");
     command->add_flag("--buffers", arguments->buffers, "big arrays of a .tss into a file beside it");
@@ -109,7 +186,17 @@ void addConvert(CLI::App& app, Console& console) {
         "--filtered-pairs", arguments->filteredPairs,
         "of a baked scene: PhysicsFilteredPairsAPI for the pairs that are proven never to meet");
     command->add_option("--meters-per-unit", arguments->metersPerUnit, "of a mesh")->capture_default_str();
-    command->callback([arguments, &console] { convert(*arguments, console); });
+    command->add_option("--tolerance", arguments->tolerance,
+                        "of a .yml: how far a sphere may stick out of its link (1cm)");
+    command
+        ->add_option("--max-spheres", arguments->maxSpheres,
+                     "of a .yml: at most so many a link, as close as that goes")
+        ->check(CLI::PositiveNumber);
+    command->callback([arguments, command, &console] {
+        for (const CLI::Option* option : command->get_options())
+            if (option->count() > 0) arguments->given.push_back(option->get_name());
+        convert(*arguments, console);
+    });
 }
 
 } // namespace tss::tool

@@ -7,6 +7,7 @@
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
+#include "bake/tool/OwnMotion.h"
 #include "bake/tool/RobotCommand.h"
 #include "bake/tool/WholeScene.h"
 
@@ -21,7 +22,7 @@ namespace tss::tool {
 namespace {
 
 struct MakeArguments {
-    std::string output, a, b, offset = "0,0,0", rest, unit = "1";
+    std::string output, a, b, offset = "0,0,0", rest, unit = "1", motion, upAxis;
     double metersPerUnit = 1; ///< what `unit` says
     std::vector<std::string> dofs;
     RobotArguments robot;
@@ -31,7 +32,9 @@ struct MakeArguments {
 int addBody(SceneModel& scene, const std::string& file, const Vec3& color, Json& audits,
             const Console& console) {
     Body body;
-    body.mesh = importMesh(file);
+    std::vector<std::string> leftOut;
+    body.mesh = importMesh(file, MeshAxes::Turned, &leftOut);
+    for (const std::string& what : leftOut) console.say("note: left out of " + file + ": " + what);
     const MeshAudit audit = auditMesh(body.mesh);
     const Vec3 units = bounds(body.mesh).isEmpty() ? Vec3::Zero() : Vec3(bounds(body.mesh).sizes());
     const Vec3 size = 1000 * scene.metersPerUnit * units;
@@ -115,8 +118,8 @@ void remarkRadians(const Motion& motion, const Console& console) {
 
 /// The output is a scene: no input, and none that looks like a mesh.
 void checkOutput(const MakeArguments& arguments) {
-    refuseOverwriting(arguments.output,
-                      {arguments.a, arguments.b, arguments.robot.input, arguments.robot.srdf});
+    refuseOverwriting(arguments.output, {arguments.a, arguments.b, arguments.robot.input,
+                                         arguments.robot.srdf, arguments.motion});
     expectFolder(arguments.output);
     std::string extension = std::filesystem::path(arguments.output).extension().string();
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -153,6 +156,7 @@ void make(MakeArguments& arguments, const Console& console) {
     checkOutput(arguments);
     if (!arguments.robot.input.empty()) {
         arguments.robot.output = arguments.output;
+        arguments.robot.motion = arguments.motion;
         return makeRobot(arguments.robot, console);
     }
     arguments.metersPerUnit = parseUnit(arguments.unit);
@@ -160,6 +164,8 @@ void make(MakeArguments& arguments, const Console& console) {
         arguments.whole.output = arguments.output;
         arguments.whole.metersPerUnit = arguments.metersPerUnit;
         arguments.whole.pairs = arguments.robot.pairs;
+        arguments.whole.motion = arguments.motion;
+        arguments.whole.upAxis = arguments.upAxis;
         return makeWholeScene(arguments.whole, console);
     }
     SceneModel scene;
@@ -170,7 +176,12 @@ void make(MakeArguments& arguments, const Console& console) {
     const int a = addBody(scene, arguments.a, {0.82, 0.77, 0.66}, audits, console);
     const int b = addBody(scene, arguments.b, {0.74, 0.64, 0.48}, audits, console);
     const int pair = addPair(scene, a, b, motion, "Joint");
-    addShowMotion(scene);
+    const bool gltf = isGltf(arguments.a) && isGltf(arguments.b);
+    scene.upAxis = !arguments.upAxis.empty() ? arguments.upAxis[0] : gltf ? 'Y' : 'Z';
+    if (arguments.motion.empty())
+        addShowMotion(scene);
+    else
+        applyMotion(scene, arguments.motion);
     saveScene(scene, arguments.output);
     console.say("joint  " + describeDofs(motion));
     remarkSizes(scene, console);
@@ -187,7 +198,8 @@ namespace {
 void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& arguments) {
     RobotArguments& robot = arguments->robot;
     CLI::Option* input = command.add_option(
-        "robot", robot.input, "a robot's file, in place of --a, --b and --dof: URDF, or MJCF of MuJoCo");
+        "robot", robot.input,
+        "a robot's file, in place of --a, --b and --dof: URDF, MJCF of MuJoCo, or .usda with UsdPhysics");
     command
         .add_option(
             "--package", robot.packages,
@@ -209,7 +221,8 @@ void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& ar
         ->check(CLI::IsMember({"neighbours", "all"}))
         ->excludes(command.get_option("--a"))
         ->capture_default_str();
-    for (const char* other : {"--a", "--b", "--dof", "--b-offset", "--rest", "--meters-per-unit"})
+    for (const char* other :
+         {"--a", "--b", "--dof", "--b-offset", "--rest", "--meters-per-unit", "--up-axis"})
         input->excludes(command.get_option(other));
 }
 
@@ -256,6 +269,12 @@ void addMake(CLI::App& app, Console& console) {
     command->add_option("--rest", arguments->rest,
                         "DOF values at which the joint rests: where a motion starts, and meshes that overlap "
                         "are free (default 0, or the limit next to it). The meshes lie as they do at 0");
+    command->add_option(
+        "--motion", arguments->motion,
+        "a CSV file, the motion that the scene plays: a line of names (time or step, joints, muscles), "
+        "then degrees, units of a value, or activations. Else each moves in turn");
+    command->add_option("--up-axis", arguments->upAxis, "Y or Z (default Z; Y where all meshes are glTF)")
+        ->check(CLI::IsMember({"Y", "Z"}));
     addRobotOptions(*command, arguments);
     addWholeSceneOptions(*command, arguments);
     command->footer("Example, a hinge of 30 degrees about the Y axis through 0.3,0,0.7:\n"

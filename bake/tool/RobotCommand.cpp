@@ -8,6 +8,8 @@
 #include "bake/robot/RobotScene.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/DofSpec.h"
+#include "bake/tool/OwnMotion.h"
+#include "bake/tool/UsdInput.h"
 #ifdef OSGTSS_HAVE_URDF
 #include "bake/robot/ReadUrdf.h"
 #endif
@@ -132,13 +134,35 @@ void sayScene(const RobotScene& made, const std::string& output, const Console& 
                    {"notes", made.notes}});
 }
 
-void makeRobot(const RobotArguments& arguments, const Console& console) {
-    const FindMesh find = meshesOf(arguments.input, parsePackages(arguments.packages));
-    const Robot robot = readRobot(arguments, find);
+namespace {
+
+RobotScene robotScene(const RobotArguments& arguments) {
     RobotSceneRequest request;
     request.visual = arguments.geometry == "visual";
     request.pairs = arguments.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
-    const RobotScene made = inFile(arguments.input, [&] { return sceneOf(robot, request, find); });
+    if (isUsd(arguments.input)) {
+        if (!arguments.srdf.empty() || !arguments.packages.empty())
+            throw CLI::ValidationError(
+                "--srdf and --package are for URDF and MJCF; a .usda says which pairs are "
+                "filtered, and names files beside it");
+        return readUsdScene(arguments.input, request);
+    }
+    const FindMesh find = meshesOf(arguments.input, parsePackages(arguments.packages));
+    const Robot robot = readRobot(arguments, find);
+    return inFile(arguments.input, [&] { return sceneOf(robot, request, find); });
+}
+
+} // namespace
+
+void makeRobot(const RobotArguments& arguments, const Console& console) {
+    RobotScene made = robotScene(arguments);
+    if (!arguments.motion.empty()) {
+        if (made.scene.layer)
+            throw InputError(
+                Where{arguments.input, "", ""},
+                "is a scene of osgTSS already, which has its motion in it; --motion is for one to make");
+        applyMotion(made.scene, arguments.motion);
+    }
     saveScene(made.scene, arguments.output);
     sayScene(made, arguments.output, console);
 }

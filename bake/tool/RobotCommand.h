@@ -9,6 +9,7 @@ struct RobotArguments {
     std::string input, output;
     std::vector<std::string> packages;
     std::string srdf, geometry = "collision", pairs = "all";
+    std::string motion; ///< a CSV file, see applyMotion()
 };
 
 /// Says what the scene holds that was written: meshes, joints, notes, what comes next.

@@ -11,6 +11,7 @@
 #include "bake/robot/RobotScene.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/DofSpec.h"
+#include "bake/tool/OwnMotion.h"
 #include "bake/tool/RobotCommand.h"
 
 #include <algorithm>
@@ -75,9 +76,20 @@ RobotJoint parseJoint(const Robot& robot, const std::string& text, double meters
     return joint;
 }
 
+/// As asked for; else Y where all meshes are glTF, whose Y is up, and Z.
+char upAxisOf(const WholeSceneArguments& arguments) {
+    if (!arguments.upAxis.empty()) return arguments.upAxis[0];
+    bool all = true;
+    for (const auto* texts : {&arguments.bodies, &arguments.skins})
+        for (const std::string& text : *texts) all = all && isGltf(namedMesh(text).file);
+    return all ? 'Y' : 'Z';
+}
+
 Robot robotOf(const WholeSceneArguments& arguments) {
     Robot robot;
     robot.name = std::filesystem::path(arguments.output).stem().string();
+    robot.metersPerUnit = arguments.metersPerUnit;
+    robot.upAxis = upAxisOf(arguments);
     for (const std::string& text : arguments.bodies) {
         const Named named = namedMesh(text);
         for (const RobotLink& link : robot.links)
@@ -182,7 +194,9 @@ private:
 
     int addBody(const Named& named, const std::string& name, const Pose& placement, const Vec3& color) {
         Body body;
-        body.mesh = importMesh(named.file);
+        std::vector<std::string> leftOut;
+        body.mesh = importMesh(named.file, MeshAxes::Turned, &leftOut);
+        for (const std::string& what : leftOut) note("left out of " + named.file + ": " + what);
         body.path = pathOf(name);
         body.placement = placement;
         body.displayColor = color;
@@ -286,14 +300,16 @@ void makeWholeScene(const WholeSceneArguments& arguments, const Console& console
     const Robot robot = robotOf(arguments);
     RobotSceneRequest request;
     request.pairs = arguments.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
-    request.metersPerUnit = arguments.metersPerUnit;
     request.axes = MeshAxes::Turned;
     RobotScene made = sceneOf(robot, request, [](const std::string& name) { return name; });
     SoftParts soft(made, robot, console);
     for (const std::string& muscle : arguments.muscles) soft.addMuscle(muscle);
     for (const std::string& skin : arguments.skins) soft.addSkin(skin, arguments.bones);
     soft.remarkUnits();
-    addShowMotion(made.scene);
+    if (arguments.motion.empty())
+        addShowMotion(made.scene);
+    else
+        applyMotion(made.scene, arguments.motion);
     saveScene(made.scene, arguments.output);
     sayScene(made, arguments.output, console);
 }

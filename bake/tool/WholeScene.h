@@ -9,6 +9,8 @@ struct WholeSceneArguments {
     double metersPerUnit = 1;
     std::vector<std::string> bodies, joints, skins, bones, muscles;
     std::string pairs = "all";
+    std::string motion; ///< a CSV file, see applyMotion()
+    std::string upAxis; ///< "Y" or "Z"; empty: that of the meshes
 };
 
 /// Writes the scene and says what it holds. Throws InputError that quotes the option that is wrong.

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the fuzzers of the readers of scenes and of robots (preset fuzz) and runs all for a time, side by side, with
+# Builds the fuzzers of the readers of scenes, of robots and of USD (preset fuzz) and runs all for a time, side by side, with
 # address and undefined-behaviour sanitizers. What they find stays in build-fuzz/run/found-*, what they learn in build-fuzz/run/.
 set -euo pipefail
 if [ $# -ne 1 ] || ! [[ "$1" =~ ^[0-9]+$ ]]; then
@@ -13,13 +13,14 @@ cmake --build --preset fuzz --parallel "$(nproc)"
 mkdir -p build-fuzz/run
 cd build-fuzz/run
 ../bin/fuzz_seeds .
-mkdir -p urdf mjcf
+mkdir -p urdf mjcf usda
 cp ../../examples/arm/arm.urdf urdf/
 cp ../../examples/arm/arm.xml mjcf/
+cp ../../examples/arm/*.usda ../../tests/scene/everything.usda usda/
 
 declare -A running
-declare -A words=([json]=words [cbor]=words [urdf]=../../tests/fuzz/robot.words [mjcf]=../../tests/fuzz/robot.words)
-for encoding in json cbor urdf mjcf; do
+declare -A words=([json]=words [cbor]=words [urdf]=../../tests/fuzz/robot.words [mjcf]=../../tests/fuzz/robot.words [usda]=../../tests/fuzz/usda.words)
+for encoding in json cbor urdf mjcf usda; do
     mkdir -p "learnt-$encoding"
     "../bin/fuzz_$encoding" "learnt-$encoding" "$encoding" -dict="${words[$encoding]}" -max_total_time="$seconds" -timeout=10 \
         -malloc_limit_mb=256 -max_len=40000 -artifact_prefix="found-$encoding-" -print_final_stats=1 \
@@ -27,12 +28,12 @@ for encoding in json cbor urdf mjcf; do
     running[$encoding]=$!
 done
 failed=
-for encoding in json cbor urdf mjcf; do
+for encoding in json cbor urdf mjcf usda; do
     wait "${running[$encoding]}" || failed=yes
     printf '%s: ' "$encoding"
     grep -E 'SUMMARY|ERROR|number_of_executed_units' "$encoding.log" | tail -n 3
 done
 if [ -n "$failed" ]; then
-    tail -n 40 json.log cbor.log urdf.log mjcf.log
+    tail -n 40 json.log cbor.log urdf.log mjcf.log usda.log
     exit 1
 fi

@@ -32,7 +32,8 @@ TEST_CASE("a layer is written in USD's own text form") {
     customLayerData = {
         int "a" = 1
         double[] "b" = [1, 2.5]
-        string "osgtssJson" = "{\"theirs\": 3}"
+        string "osgtss" = "1.0"
+        string "osgtssKeys" = "{\"theirs\": 3}"
     }
     defaultPrim = "Jaw"
     metersPerUnit = 0.001
@@ -94,6 +95,9 @@ TEST_CASE("what OpenUSD's parser refuses is written in the form that it takes") 
     CHECK(writeUsda(parseLayer(json, "")) == R"usda(#usda 1.0
 (
     "of \"all\""
+    customLayerData = {
+        string "osgtss" = "1.0"
+    }
     defaultPrim = "A"
     metersPerUnit = 0.01
     upAxis = "Y"

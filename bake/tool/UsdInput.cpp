@@ -1,0 +1,54 @@
+#include "bake/tool/UsdInput.h"
+
+#include "bake/base/AtomicFile.h"
+#include "bake/base/Error.h"
+#include "bake/scene/ReadScene.h"
+#ifdef OSGTSS_HAVE_USDA
+#include "bake/usd/Stage.h"
+#include "bake/usd/UsdRobot.h"
+#endif
+
+#include <filesystem>
+
+namespace tss::tool {
+
+bool isUsd(const std::string& file) {
+    const std::string extension = std::filesystem::path(file).extension().string();
+    return extension == ".usda" || extension == ".usd" || extension == ".usdc" || extension == ".usdz";
+}
+
+#ifdef OSGTSS_HAVE_USDA
+
+namespace {
+
+RobotScene sceneOfOurs(const UsdStage& stage, const std::string& file) {
+    RobotScene made;
+    made.notes = stage.notes;
+    try {
+        made.scene = readScene(stage.layer, file);
+    } catch (const InputError& error) { // a JSON pointer says nothing of a text that is none
+        throw InputError(Where{error.where.file, "", error.where.path}, error.message);
+    }
+    for (const Body& body : made.scene.bodies) made.links.push_back({body.path, 1, false});
+    return made;
+}
+
+} // namespace
+
+RobotScene readUsdScene(const std::string& file, const RobotSceneRequest& request) {
+    const OpenUsd open = besideUsd(file);
+    UsdStage stage = readStage(open(std::filesystem::path(file).filename().string()).text, file, open);
+    if (stage.ours) return sceneOfOurs(stage, file);
+    const FindMesh none = [](const std::string& name) -> std::string { return name; };
+    return sceneOf(robotOf(std::move(stage), file), request, none);
+}
+
+#else
+
+RobotScene readUsdScene(const std::string& file, const RobotSceneRequest&) {
+    throw InputError(Where{file, "", ""}, "this build reads no USD (OSGTSS_USDA is off)");
+}
+
+#endif
+
+} // namespace tss::tool

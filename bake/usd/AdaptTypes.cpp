@@ -1,0 +1,86 @@
+#include "bake/usd/AdaptTypes.h"
+
+#include "bake/scene/Schema.h"
+#include "bake/scene/ValueType.h"
+
+#include <array>
+#include <cmath>
+
+namespace tss {
+
+namespace {
+
+constexpr std::array attributes = {schema::points,
+                                   schema::faceVertexCounts,
+                                   schema::faceVertexIndices,
+                                   schema::displayColor,
+                                   schema::localPos0,
+                                   schema::localPos1,
+                                   schema::localRot0,
+                                   schema::localRot1,
+                                   schema::lowerLimit,
+                                   schema::upperLimit,
+                                   schema::coneAngle0,
+                                   schema::coneAngle1,
+                                   Attribute{"size", "double"},
+                                   Attribute{"radius", "double"},
+                                   Attribute{"height", "double"}};
+
+const char* schemaType(const std::string& name) {
+    for (const Attribute& attribute : attributes)
+        if (name == attribute.name) return attribute.typeName;
+    if (name.starts_with("limit:") ||
+        (name.starts_with("drive:") && name.ends_with(":physics:targetPosition")))
+        return "float";
+    return nullptr;
+}
+
+bool sameForm(const ValueType& a, const ValueType& b) {
+    const bool numbers = a.base != ValueType::Base::Bool && a.base != ValueType::Base::Text && b.isReal();
+    return a.array == b.array && a.width == b.width && a.rows == b.rows && (numbers || a.base == b.base);
+}
+
+/// True where it was of another length.
+bool normalize(Value& value) {
+    auto* numbers = value.as<Numbers>();
+    if (!numbers || numbers->values.size() != 4) return false;
+    double square = 0;
+    for (double x : numbers->values) square += x * x;
+    const double length = std::sqrt(square);
+    if (!(length > 0) || !std::isfinite(length) || std::abs(length - 1) < 1e-3) return false;
+    for (double& x : numbers->values) x /= length;
+    return true;
+}
+
+void adapt(Prim& prim, const std::string& parent, const std::string& file, LeftOut& leftOut) {
+    const std::string path = parent + "/" + prim.name;
+    for (auto& [name, property] : prim.properties) {
+        const auto type = valueType(property.typeName);
+        if (!type || property.isRelationship()) continue;
+        const char* wanted = schemaType(name);
+        if (wanted && property.typeName != wanted && sameForm(*type, *valueType(wanted))) {
+            Problems problems(file);
+            property.typeName = wanted;
+            if (property.defaultValue)
+                conform(*property.defaultValue, *valueType(wanted), wanted, {"", path + "." + name},
+                        problems);
+            for (Property::Sample& sample : property.timeSamples)
+                conform(sample.value, *valueType(wanted), wanted, {"", path + "." + name}, problems);
+        }
+        if (!property.typeName.starts_with("quat")) continue;
+        bool changed = property.defaultValue && normalize(*property.defaultValue);
+        for (Property::Sample& sample : property.timeSamples) changed = normalize(sample.value) || changed;
+        if (changed)
+            leftOut.add("quaternions of another length than 1 are taken as the turn they are",
+                        path + "." + name);
+    }
+    for (Prim& child : prim.children) adapt(child, path, file, leftOut);
+}
+
+} // namespace
+
+void adaptTypes(Layer& layer, const std::string& file, LeftOut& leftOut) {
+    for (Prim& prim : layer.children) adapt(prim, "", file, leftOut);
+}
+
+} // namespace tss

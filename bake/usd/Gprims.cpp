@@ -1,0 +1,66 @@
+#include "bake/usd/Gprims.h"
+
+#include "bake/robot/Shapes.h"
+
+#include <array>
+
+namespace tss {
+
+namespace {
+
+constexpr Attribute size{"size", "double"}, radius{"radius", "double"}, height{"height", "double"},
+    axisOf{"axis", "token"};
+
+/// Along z, with USD's fallbacks.
+RobotShape shapeOf(const PrimReader& prim) {
+    const std::string& type = prim.prim().typeName;
+    RobotShape shape;
+    if (type == "Cube") {
+        shape.kind = RobotShape::Kind::Box;
+        shape.size = Vec3::Constant(prim.real(size, 2));
+    } else if (type == "Sphere") {
+        shape.kind = RobotShape::Kind::Sphere;
+        shape.size[0] = prim.real(radius, 1);
+    } else {
+        const bool capsule = type == "Capsule";
+        shape.kind = capsule              ? RobotShape::Kind::Capsule
+                     : type == "Cylinder" ? RobotShape::Kind::Cylinder
+                                          : RobotShape::Kind::Cone;
+        shape.size[0] = prim.real(radius, capsule ? 0.5 : 1);
+        shape.size[1] = prim.real(height, capsule ? 1 : 2);
+    }
+    return shape;
+}
+
+/// From along z to along the axis that the prim names.
+Eigen::Matrix3d turnTo(const PrimReader& prim) {
+    const std::string axis = prim.choice(axisOf, {"Z", "X", "Y"});
+    if (axis == "Z") return Eigen::Matrix3d::Identity();
+    return Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis == "X" ? Vec3::UnitX() : Vec3::UnitY())
+        .toRotationMatrix();
+}
+
+} // namespace
+
+bool isGprim(const Prim& prim) {
+    static constexpr std::array types = {"Mesh", "Cube", "Sphere", "Cylinder", "Capsule", "Cone"};
+    return std::find(types.begin(), types.end(), prim.typeName) != types.end();
+}
+
+TriangleMesh meshOfGprim(const PrimReader& prim, const Eigen::Affine3d& place) {
+    TriangleMesh mesh;
+    Eigen::Affine3d whole = place;
+    if (prim.prim().typeName == "Mesh") {
+        mesh = readMesh(prim, {});
+    } else {
+        mesh = meshOf(shapeOf(prim));
+        const bool turns = prim.prim().typeName != "Cube" && prim.prim().typeName != "Sphere";
+        if (turns) whole.linear() = whole.linear() * turnTo(prim);
+    }
+    for (Vec3& v : mesh.vertices) v = whole * v;
+    if (whole.linear().determinant() < 0)
+        for (Tri& t : mesh.triangles) std::swap(t[1], t[2]);
+    return mesh;
+}
+
+} // namespace tss

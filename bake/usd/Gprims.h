@@ -1,0 +1,14 @@
+#pragma once
+#include "bake/scene/SceneReading.h"
+
+namespace tss {
+
+/// The prim is of a type that meshOfGprim() reads.
+bool isGprim(const Prim& prim);
+
+/// A Mesh (its cage, polygons cut into triangles), or the closed mesh of a Cube, Sphere, Cylinder, Capsule or
+/// Cone, which encloses it; in the frame that `place` leads to. Throws InputError, or adds to the reader's
+/// problems.
+TriangleMesh meshOfGprim(const PrimReader& prim, const Eigen::Affine3d& place);
+
+} // namespace tss

@@ -1,0 +1,29 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tss {
+
+/// Names by what became of them, as notes: at most some a kind, and how many there are.
+class LeftOut {
+public:
+    void add(const std::string& kind, const std::string& name) { names_[kind].push_back(name); }
+
+    std::vector<std::string> notes() const {
+        constexpr std::size_t most = 4;
+        std::vector<std::string> notes;
+        for (const auto& [kind, names] : names_) {
+            std::string text = kind + ": ";
+            for (std::size_t k = 0; k < names.size() && k < most; ++k) text += (k > 0 ? ", " : "") + names[k];
+            if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
+            notes.push_back(std::move(text));
+        }
+        return notes;
+    }
+
+private:
+    std::map<std::string, std::vector<std::string>> names_;
+};
+
+} // namespace tss

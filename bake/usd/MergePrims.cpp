@@ -1,0 +1,118 @@
+#include "bake/usd/MergePrims.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace tss {
+
+namespace {
+
+constexpr std::array listKeys = {"apiSchemas",   "references",  "payload",
+                                 "inheritPaths", "specializes", "variantSets"};
+
+Value::Array itemsOf(const Value::Object& ops, const char* op) {
+    const auto found = ops.find(op);
+    const auto* items = found == ops.end() ? nullptr : found->second.as<Value::Array>();
+    return items ? *items : Value::Array();
+}
+
+/// The stronger list's operations on the weaker one.
+Value joinedLists(const Value& stronger, const Value& weaker) {
+    const auto* ops = stronger.as<Value::Object>();
+    if (!ops) return stronger; // it says all there is
+    std::set<std::string> said;
+    for (const char* op : {"prepend", "append", "add", "delete"})
+        for (const Value& item : itemsOf(*ops, op)) said.insert(*item.as<std::string>());
+    Value::Array all = itemsOf(*ops, "prepend");
+    for (const std::string& item : listItems(weaker))
+        if (!said.contains(item)) all.emplace_back(item);
+    for (const char* op : {"add", "append"})
+        for (const Value& item : itemsOf(*ops, op)) all.push_back(item);
+    return Value(std::move(all));
+}
+
+void mergeDictionary(Value& stronger, Value& weaker) {
+    auto *own = stronger.as<Value::Object>(), *theirs = weaker.as<Value::Object>();
+    if (!own || !theirs) return;
+    for (auto& [key, value] : *theirs)
+        if (const auto [at, isNew] = own->try_emplace(key, std::move(value)); !isNew)
+            mergeDictionary(at->second, value);
+}
+
+bool hasValue(const Property& property) {
+    return property.defaultValue || !property.timeSamples.empty();
+}
+
+void mergeProperty(Property& own, Property weaker) {
+    if (own.targetPaths && weaker.targetPaths)
+        own.targetPaths = joinedLists(*own.targetPaths, *weaker.targetPaths);
+    else if (!own.targetPaths && !weaker.targetPaths && !hasValue(own)) {
+        own.typeName = weaker.typeName;
+        own.defaultValue = std::move(weaker.defaultValue);
+        own.timeSamples = std::move(weaker.timeSamples);
+    }
+    own.other.merge(weaker.other);
+}
+
+/// A path at or below one prim as the same below another; any other path stays.
+void moveBelow(std::string& path, const std::string& from, const std::string& to) {
+    if (path.starts_with(from) &&
+        (path.size() == from.size() || path[from.size()] == '/' || path[from.size()] == '.'))
+        path.replace(0, from.size(), to);
+}
+
+void moveList(Value& list, const std::string& from, const std::string& to) {
+    if (auto* array = list.as<Value::Array>()) {
+        for (Value& item : *array)
+            if (auto* path = item.as<std::string>()) moveBelow(*path, from, to);
+    } else if (auto* ops = list.as<Value::Object>()) {
+        for (auto& [op, items] : *ops) moveList(items, from, to);
+    }
+}
+
+} // namespace
+
+void mergeMetadata(Value::Object& stronger, Value::Object weaker) {
+    for (auto& [key, value] : weaker) {
+        const auto [at, isNew] = stronger.try_emplace(key, std::move(value));
+        if (isNew) continue;
+        if (std::find(listKeys.begin(), listKeys.end(), key) != listKeys.end())
+            at->second = joinedLists(at->second, value);
+        else
+            mergeDictionary(at->second, value);
+    }
+}
+
+void mergeUnder(Prim& stronger, Prim weaker) {
+    if (stronger.specifier == "over") stronger.specifier = weaker.specifier;
+    if (stronger.typeName.empty()) stronger.typeName = weaker.typeName;
+    mergeMetadata(stronger.metadata, std::move(weaker.metadata));
+    for (auto& [name, property] : weaker.properties)
+        if (const auto [at, isNew] = stronger.properties.try_emplace(name, std::move(property)); !isNew)
+            mergeProperty(at->second, std::move(property));
+    std::map<std::string, std::size_t> places;
+    std::vector<Prim> children = std::move(weaker.children);
+    for (std::size_t i = 0; i < children.size(); ++i) places[children[i].name] = i;
+    for (Prim& child : stronger.children) {
+        const auto same = places.find(child.name);
+        if (same == places.end()) {
+            children.push_back(std::move(child));
+        } else {
+            mergeUnder(child, std::move(children[same->second]));
+            children[same->second] = std::move(child);
+        }
+    }
+    stronger.children = std::move(children);
+}
+
+void movePaths(Prim& prim, const std::string& from, const std::string& to) {
+    for (auto& [name, property] : prim.properties) {
+        if (property.targetPaths) moveList(*property.targetPaths, from, to);
+        if (const auto found = property.other.find("connectionPaths"); found != property.other.end())
+            moveList(found->second, from, to);
+    }
+    for (Prim& child : prim.children) movePaths(child, from, to);
+}
+
+} // namespace tss

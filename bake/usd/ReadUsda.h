@@ -1,0 +1,15 @@
+#pragma once
+#include "bake/usd/UsdSpec.h"
+#include "bake/usd/UsdaCursor.h"
+
+namespace tss {
+
+/// Reads one layer from USD's text form. Everything of it is kept, but for what has no value (the order of
+/// children and properties) and what is noted. folder: of the file, relative to that of the first layer,
+/// which the files that it names become relative to. Throws InputError with file, line and prim: what is no
+/// USD text, values that are none of their type, more than 64 levels, what would take too much memory, and
+/// relocates.
+UsdLayer parseUsda(std::string_view text, const std::string& file, const std::string& folder,
+                   UsdBudget& budget);
+
+} // namespace tss

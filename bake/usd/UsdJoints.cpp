@@ -1,0 +1,169 @@
+#include "bake/usd/UsdJoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tss {
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+constexpr Attribute excluded{"physics:excludeFromArticulation", "bool", true};
+
+Pose frameAt(const JointEnd& end, const PrimReader& prim, const Attribute& position,
+             const Attribute& rotation) {
+    Pose frame = Pose::Identity();
+    frame.linear() = end.turn * prim.rotation(rotation).toRotationMatrix();
+    frame.translation() = end.points * prim.vector(position, Vec3::Zero());
+    return frame;
+}
+
+/// A joint as the file has it: of body0 and body1, either of which may be the world.
+struct Edge {
+    RobotJoint joint;  ///< parent: of body0, child: of body1, which may be -1
+    bool last = false; ///< comes into the forest after all others
+};
+
+/// The same joint seen from its other body.
+RobotJoint turnedRound(const RobotJoint& joint) {
+    RobotJoint other = joint;
+    std::swap(other.parent, other.child);
+    other.origin = joint.origin.inverse(Eigen::Isometry);
+    // (O D1...Dd)^-1 = Dd^-1...D1^-1 O^-1, the DOFs then in the parent's frame: O carries them into the
+    // child's.
+    std::reverse(other.dofs.begin(), other.dofs.end());
+    std::reverse(other.drives.begin(), other.drives.end());
+    for (Dof& dof : other.dofs) {
+        dof.axis = -(joint.origin.linear() * dof.axis);
+        dof.origin = joint.origin * dof.origin;
+    }
+    return other;
+}
+
+class Joints {
+public:
+    Joints(const SceneReading& reading, const FindJointEnd& findEnd, Robot& robot, LeftOut& leftOut)
+        : reading_(reading), findEnd_(findEnd), robot_(robot), leftOut_(leftOut) {}
+
+    void read() {
+        for (std::size_t i = 0; i < reading_.index.entries.size(); ++i) {
+            const PrimReader prim = reading_.reader(static_cast<int>(i));
+            const std::string& type = prim.prim().typeName;
+            if (isJoint(prim.prim()))
+                readEdge(prim);
+            else if (type.find("Joint") != type.npos)
+                leftOut_.add("left out: " + type + "s, which tie nothing here", prim.place().path);
+        }
+        std::stable_partition(edges_.begin(), edges_.end(), [](const Edge& edge) { return !edge.last; });
+        chooseForest();
+    }
+
+private:
+    void readEdge(const PrimReader& prim) {
+        const std::string path = prim.place().path;
+        if (!prim.flag(schema::jointEnabled, true))
+            return leftOut_.add("left out: joints that are not enabled", path);
+        const JointEnd end0 = findEnd_(prim, prim.target(schema::body0)),
+                       end1 = findEnd_(prim, prim.target(schema::body1));
+        if (end0.link == end1.link)
+            return leftOut_.add("left out: joints that tie a body to itself, or the world", path);
+        Joint read;
+        readDofs(prim, read);
+        const Pose frame0 = frameAt(end0, prim, schema::localPos0, schema::localRot0),
+                   frame1 = frameAt(end1, prim, schema::localPos1, schema::localRot1);
+        Edge edge;
+        edge.last = prim.flag(excluded, false);
+        edge.joint.name = path.substr(path.rfind('/') + 1);
+        edge.joint.where = path;
+        edge.joint.parent = end0.link;
+        edge.joint.child = end1.link;
+        edge.joint.origin = frame0 * frame1.inverse(Eigen::Isometry);
+        const bool moves = std::any_of(read.drives.begin(), read.drives.end(),
+                                       [](const TimeSamples& drive) { return drive.times.size() > 1; });
+        for (std::size_t k = 0; k < read.dofs.size(); ++k) {
+            Dof dof = read.dofs[k];
+            if (dof.lower == 0 && dof.upper == 0) continue; // as good as locked
+            if (dof.kind == DofKind::Path) prim.problem("expected no tss:paths in a scene of other software");
+            if (!limit(dof, path)) return;
+            dof.axis = frame1.linear() * dof.axis;
+            dof.origin = frame1.translation();
+            edge.joint.dofs.push_back(dof);
+            if (moves) edge.joint.drives.push_back(read.drives[k]);
+        }
+        edges_.push_back(std::move(edge));
+    }
+
+    /// False where it ties nothing.
+    bool limit(Dof& dof, const std::string& path) {
+        constexpr double far = 1e30; // some write the largest float for no limit
+        if (dof.kind == DofKind::Translation) {
+            if (std::abs(dof.lower) < far && std::abs(dof.upper) < far) return true;
+            leftOut_.add("left out: joints that slide without limits, which tie nothing", path);
+            return false;
+        }
+        if (!(dof.upper - dof.lower < turn)) {
+            dof.lower = -turn / 2;
+            dof.upper = turn / 2;
+            leftOut_.add(
+                "joints without limits of their turn, or with ones of a turn and more, turn once round",
+                path);
+        }
+        return true;
+    }
+
+    int rootOf(int link) const {
+        while (component_[link + 1] != link) link = component_[link + 1];
+        return link;
+    }
+
+    /// Edges that close no loop, each turned so that its parent is nearer to the world, or to the first link.
+    void chooseForest() {
+        const int count = static_cast<int>(robot_.links.size());
+        for (int link = -1; link < count; ++link) component_.push_back(link);
+        std::vector<std::vector<std::size_t>> at(count + 1);
+        for (std::size_t e = 0; e < edges_.size(); ++e) {
+            const RobotJoint& joint = edges_[e].joint;
+            const int a = rootOf(joint.parent), b = rootOf(joint.child);
+            if (a == b) {
+                leftOut_.add(
+                    "left out: joints that close a loop (what is proven without them holds with them)",
+                    joint.where);
+                continue;
+            }
+            component_[std::max(a, b) + 1] = std::min(a, b);
+            at[joint.parent + 1].push_back(e);
+            at[joint.child + 1].push_back(e);
+        }
+        std::vector<bool> reached(count + 1), used(edges_.size());
+        for (int root = -1; root < count; ++root) {
+            std::vector<int> open{root};
+            if (reached[root + 1]) continue;
+            reached[root + 1] = true;
+            for (std::size_t next = 0; next < open.size(); ++next)
+                for (std::size_t e : at[open[next] + 1]) {
+                    if (used[e]) continue;
+                    used[e] = true;
+                    const RobotJoint& joint = edges_[e].joint;
+                    robot_.joints.push_back(joint.parent == open[next] ? joint : turnedRound(joint));
+                    reached[robot_.joints.back().child + 1] = true;
+                    open.push_back(robot_.joints.back().child);
+                }
+        }
+    }
+
+    const SceneReading& reading_;
+    const FindJointEnd& findEnd_;
+    Robot& robot_;
+    LeftOut& leftOut_;
+    std::vector<Edge> edges_;
+    std::vector<int> component_; ///< by link + 1: another link of the same component, or itself
+};
+
+} // namespace
+
+void readUsdJoints(const SceneReading& reading, const FindJointEnd& findEnd, Robot& robot, LeftOut& leftOut) {
+    Joints(reading, findEnd, robot, leftOut).read();
+}
+
+} // namespace tss

@@ -1,0 +1,361 @@
+#include "bake/usd/UsdRobot.h"
+
+#include "bake/usd/AdaptTypes.h"
+#include "bake/usd/Gprims.h"
+#include "bake/usd/UsdJoints.h"
+
+#include <algorithm>
+#include <set>
+
+namespace tss {
+
+namespace {
+
+constexpr Attribute rigidEnabled{"physics:rigidBodyEnabled", "bool"},
+    collides{"physics:collisionEnabled", "bool"}, approximation{"physics:approximation", "token", true};
+constexpr const char* filtered = "physics:filteredPairs";
+
+class Reader {
+public:
+    Reader(const UsdStage& stage, const std::string& file)
+        : problems_(file), reading_(stage.layer, problems_), entries_(reading_.index.entries),
+          world_(worldXforms(reading_)) {
+        robot_.file = file;
+        robot_.notes = stage.notes;
+    }
+
+    Robot read() {
+        readMetadata();
+        findLinks();
+        placeGprims();
+        addWorld();
+        readUsdJoints(
+            reading_, [this](const PrimReader& prim, const std::string& path) { return endOf(prim, path); },
+            robot_, leftOut_);
+        tieToWorld();
+        readFilteredPairs();
+        remarkRest();
+        if (robot_.links.empty()) {
+            std::string found;
+            for (const std::string& note : leftOut_.notes()) found += "; " + note;
+            throw InputError(Where{robot_.file, "", ""},
+                             "expected at least one rigid body, collider or mesh, found none" + found);
+        }
+        for (const std::string& note : leftOut_.notes()) robot_.notes.push_back(note);
+        settleRobot(robot_);
+        return std::move(robot_);
+    }
+
+private:
+    PrimReader reader(std::size_t entry) const { return reading_.reader(static_cast<int>(entry)); }
+    const std::string& pathOf(std::size_t entry) const { return entries_[entry].place.path; }
+
+    double number(const char* key, double fallback) const {
+        const auto found = reading_.layer.metadata.find(key);
+        const double* value = found == reading_.layer.metadata.end() ? nullptr : found->second.as<double>();
+        return value ? *value : fallback;
+    }
+
+    void readMetadata() {
+        const Value::Object& metadata = reading_.layer.metadata;
+        robot_.metersPerUnit = number("metersPerUnit", 0.01);
+        if (!(robot_.metersPerUnit > 0 && robot_.metersPerUnit < 1e30))
+            throw InputError(Where{robot_.file, "", ""}, "metersPerUnit: expected a number above 0");
+        if (!metadata.contains("metersPerUnit"))
+            robot_.notes.push_back("the file has no metersPerUnit: one unit is a centimetre, as in USD");
+        const auto up = metadata.find("upAxis");
+        robot_.upAxis = up != metadata.end() && up->second == Value("Z") ? 'Z' : 'Y';
+        const auto name = metadata.find("defaultPrim");
+        if (const auto* text = name == metadata.end() ? nullptr : name->second.as<std::string>())
+            robot_.name = *text;
+        if (robot_.name.empty() && !reading_.layer.children.empty())
+            robot_.name = reading_.layer.children.front().name;
+        robot_.timeCodesPerSecond = number("timeCodesPerSecond", 24);
+        robot_.startTimeCode = number("startTimeCode", 0);
+        robot_.endTimeCode = std::max(number("endTimeCode", 0), robot_.startTimeCode);
+        if (!(robot_.timeCodesPerSecond > 0)) robot_.timeCodesPerSecond = 24;
+    }
+
+    bool isRigid(std::size_t entry) const {
+        return hasApi(*entries_[entry].prim, "PhysicsRigidBodyAPI") && reader(entry).flag(rigidEnabled, true);
+    }
+
+    bool isCollider(std::size_t entry) const { return hasApi(*entries_[entry].prim, "PhysicsCollisionAPI"); }
+
+    int addLink(const std::string& path, const Eigen::Affine3d& world) {
+        constexpr std::size_t most = 500;
+        if (robot_.links.size() >= most)
+            throw InputError(Where{robot_.file, "", path}, "expected no more than 500 bodies");
+        RobotLink link;
+        link.name = path.substr(path.rfind('/') + 1);
+        if (!names_.insert(link.name).second) { // with its parents' names, as many as it takes
+            std::string rest = path.substr(0, path.rfind('/'));
+            while (!rest.empty() && names_.contains(link.name)) {
+                link.name = rest.substr(rest.rfind('/') + 1) + "_" + link.name;
+                rest.resize(rest.rfind('/'));
+            }
+            for (int k = 2; !names_.insert(link.name).second; ++k) link.name += std::to_string(k);
+        }
+        link.place = split({world, false}).placement;
+        robot_.links.push_back(std::move(link));
+        return static_cast<int>(robot_.links.size()) - 1;
+    }
+
+    void expectInvertible(std::size_t entry) const {
+        if (!(std::abs(world_[entry].matrix.linear().determinant()) > 0))
+            problems_.add(entries_[entry].place, "expected a transform that can be inverted");
+    }
+
+    /// Rigid bodies, and prims of none that a joint ties a body to.
+    void findLinks() {
+        const std::size_t count = entries_.size();
+        linkOf_.assign(count, -1);
+        std::vector<bool> holdsBodies(count), starts(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            starts[i] = isRigid(i);
+            if (starts[i])
+                for (int at = entries_[i].parent; at >= 0 && !holdsBodies[at]; at = entries_[at].parent)
+                    holdsBodies[at] = true;
+        }
+        rigid_ = starts;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!isJoint(*entries_[i].prim)) continue;
+            for (const char* body : {schema::body0, schema::body1}) {
+                const std::string path = reader(i).target(body);
+                int at = path.empty() ? -1 : reading_.index.find(path);
+                if (at < 0 || holdsBodies[at]) continue;
+                bool within = false;
+                for (int above = at; above >= 0; above = entries_[above].parent)
+                    within = within || starts[above];
+                if (!within) starts[at] = true;
+            }
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            const int parent = entries_[i].parent;
+            if (starts[i])
+                expectInvertible(i), linkOf_[i] = addLink(pathOf(i), world_[i].matrix),
+                                     fixed_.push_back(!rigid_[i]);
+            else if (parent >= 0 && !isJoint(*entries_[i].prim))
+                linkOf_[i] = linkOf_[parent];
+        }
+    }
+
+    /// Each gprim to its link; what none has becomes part of the world.
+    void placeGprims() {
+        bool physics = !robot_.links.empty();
+        for (std::size_t i = 0; i < entries_.size(); ++i) physics = physics || isCollider(i);
+        if (!physics)
+            leftOut_.add("no rigid bodies and no colliders: each mesh is a body of its own", robot_.name);
+        for (std::size_t i = 0; i < entries_.size(); ++i) {
+            const Prim& prim = *entries_[i].prim;
+            remark(i);
+            if (!isGprim(prim)) continue;
+            const bool collider = isCollider(i) && reader(i).flag(collides, true);
+            int link = linkOf_[i];
+            if (link < 0 && physics && !collider) {
+                leftOut_.add("left out: " + prim.typeName +
+                                 "s that belong to no rigid body and collide with nothing",
+                             pathOf(i));
+                continue;
+            }
+            expectInvertible(i);
+            if (link < 0 && !physics) link = addLink(pathOf(i), world_[i].matrix), fixed_.push_back(false);
+            addShape(i, link, collider);
+        }
+    }
+
+    void addShape(std::size_t entry, int link, bool collider) {
+        Eigen::Affine3d place = world_[entry].matrix;
+        if (link >= 0) place = Eigen::Affine3d(robot_.links[link].place.inverse(Eigen::Isometry)) * place;
+        const PrimReader prim = reader(entry);
+        RobotShape shape;
+        shape.where = pathOf(entry);
+        try {
+            shape.mesh = std::make_shared<const TriangleMesh>(meshOfGprim(prim, place));
+        } catch (const InputError& error) {
+            if (!error.where.path.empty()) throw;
+            throw InputError(Where{robot_.file, "", pathOf(entry)}, error.message);
+        }
+        if (shape.mesh->empty()) return leftOut_.add("left out: meshes without faces", pathOf(entry));
+        RobotLink& to = link >= 0 ? robot_.links[link] : scenery_;
+        if (const auto colors = prim.vectors(schema::displayColor); !colors.empty() && !to.color)
+            to.color = colors.front().cwiseMax(0).cwiseMin(1);
+        (collider ? to.collision : to.visual).push_back(std::move(shape));
+    }
+
+    /// What is in the prim and is not read, or read otherwise.
+    void remark(std::size_t entry) {
+        static const std::set<std::string> plain = {"", "Xform", "Scope"};
+        const Prim& prim = *entries_[entry].prim;
+        const std::string& type = prim.typeName;
+        if (!plain.contains(type) && !isGprim(prim) && type.find("Joint") == type.npos)
+            leftOut_.add("left out: " +
+                             std::string(isCollider(entry) ? "colliders of type " : "prims of type ") + type,
+                         pathOf(entry));
+        if (hasApi(prim, "PhysicsCollisionAPI") && !isGprim(prim) && plain.contains(type))
+            leftOut_.add(
+                "colliders that are no gprims themselves; what is below them collides where it says so",
+                pathOf(entry));
+        if (const Property* how = prim.property(approximation.name);
+            how && how->defaultValue && *how->defaultValue != Value("none"))
+            leftOut_.add("meshes that others collide as " + describe(*how->defaultValue) +
+                             ", taken as they are",
+                         pathOf(entry));
+        const Property* scheme = prim.property(schema::subdivisionScheme.name);
+        if (type == "Mesh" && !(scheme && scheme->defaultValue && *scheme->defaultValue == Value("none")))
+            leftOut_.add(
+                "meshes whose surface USD subdivides (no subdivisionScheme \"none\"), taken as they are",
+                pathOf(entry));
+        for (const auto& [name, property] : prim.properties)
+            if (!property.timeSamples.empty() && (name.starts_with("xformOp:") || name == "points")) {
+                leftOut_.add(
+                    "left out: animation of places and points; the default counts, or the first sample",
+                    pathOf(entry));
+                break;
+            }
+        if (prim.property("primvars:skel:jointIndices") || prim.property("skel:skeleton"))
+            leftOut_.add("left out: weights of a UsdSkel skeleton, whose joints are no bodies",
+                         pathOf(entry));
+        if (hasApi(prim, "PhysicsArticulationRootAPI") || hasApi(prim, "PhysicsMassAPI"))
+            leftOut_.add("not read: masses and articulations' settings", pathOf(entry));
+    }
+
+    /// The link of all that stands still, if there is any need for it.
+    void addWorld() {
+        if (scenery_.collision.empty() && scenery_.visual.empty()) return;
+        scenery_.name = "world";
+        while (!names_.insert(scenery_.name).second) scenery_.name += "_";
+        worldLink_ = static_cast<int>(robot_.links.size());
+        robot_.links.push_back(std::move(scenery_));
+        fixed_.push_back(false);
+    }
+
+    JointEnd endOf(const PrimReader& prim, const std::string& path) {
+        JointEnd end;
+        end.link = worldLink_;
+        if (path.empty()) return end;
+        const int entry = reading_.index.find(path);
+        if (entry < 0) {
+            prim.problem("expected the paths of bodies that are there, found \"" + path + "\"");
+            return end;
+        }
+        expectInvertible(entry);
+        if (linkOf_[entry] >= 0) end.link = linkOf_[entry];
+        const Pose place = end.link >= 0 ? robot_.links[end.link].place : Pose::Identity();
+        end.points = Eigen::Affine3d(place.inverse(Eigen::Isometry)) * world_[entry].matrix;
+        end.turn = place.linear().transpose() * split(world_[entry]).placement.linear();
+        return end;
+    }
+
+    /// What no joint holds and stands still hangs on the world; the rest is free, and said.
+    void tieToWorld() {
+        std::vector<bool> held(robot_.links.size());
+        std::size_t onWorld = 0;
+        for (const RobotJoint& joint : robot_.joints) {
+            held[joint.child] = true;
+            onWorld += joint.parent == worldLink_;
+        }
+        std::size_t still = 0;
+        for (std::size_t k = 0; k < held.size(); ++k) still += fixed_[k] && !held[k];
+        const bool several = still + onWorld > 1 || worldLink_ >= 0;
+        std::vector<std::string> free;
+        for (std::size_t k = 0; k < held.size(); ++k) {
+            if (held[k] || static_cast<int>(k) == worldLink_) continue;
+            if (!fixed_[k]) {
+                free.push_back(robot_.links[k].name);
+            } else if (several) {
+                RobotJoint joint;
+                joint.name = robot_.links[k].name + "_still";
+                joint.parent = worldLink_;
+                joint.child = static_cast<int>(k);
+                joint.origin = robot_.links[k].place;
+                robot_.joints.push_back(std::move(joint));
+            }
+        }
+        const bool tied = worldLink_ >= 0 || still + onWorld > 0;
+        for (const std::string& name : free)
+            if (free.size() > 1 || tied)
+                leftOut_.add("free bodies, which are in no pair but with what hangs on them", name);
+    }
+
+    void readFilteredPairs() {
+        for (std::size_t i = 0; i < entries_.size(); ++i) {
+            if (!hasApi(*entries_[i].prim, "PhysicsFilteredPairsAPI")) continue;
+            for (const std::string& path : reader(i).targets(filtered)) {
+                const int other = reading_.index.find(path), a = linkOf_[i],
+                          b = other < 0 ? -1 : linkOf_[other];
+                const bool whole = a >= 0 && b >= 0 && isLinkItself(i) && isLinkItself(other);
+                if (whole)
+                    robot_.unpaired.emplace_back(robot_.links[a].name, robot_.links[b].name);
+                else
+                    leftOut_.add("left out: filtered pairs that are not of two bodies, so that they stay on",
+                                 pathOf(i));
+            }
+        }
+    }
+
+    bool isLinkItself(std::size_t entry) const {
+        const int parent = entries_[entry].parent;
+        return linkOf_[entry] >= 0 && (parent < 0 || linkOf_[parent] != linkOf_[entry]);
+    }
+
+    /// Bodies that stand elsewhere than their joint puts them at 0.
+    void remarkRest() {
+        for (const RobotJoint& joint : robot_.joints) {
+            const Pose parent = joint.parent >= 0 ? robot_.links[joint.parent].place : Pose::Identity();
+            Pose should = parent * joint.origin;
+            for (const Dof& dof : joint.dofs)
+                should = should * dofPose(dof, std::clamp(0.0, dof.lower, dof.upper));
+            const Pose stands = robot_.links[joint.child].place;
+            const double size = 1 + should.translation().norm() + stands.translation().norm();
+            if ((should.matrix() - stands.matrix()).cwiseAbs().maxCoeff() > 1e-3 * size)
+                leftOut_.add(
+                    "bodies that the file shows elsewhere than their joint has them at 0; values count from "
+                    "the joint's frames",
+                    robot_.links[joint.child].name);
+        }
+    }
+
+    mutable Problems problems_;
+    SceneReading reading_;
+    const std::vector<PrimEntry>& entries_;
+    std::vector<Xform> world_;
+    Robot robot_;
+    LeftOut leftOut_;
+    RobotLink scenery_;
+    int worldLink_ = -1;
+    std::vector<int> linkOf_;         ///< by entry: its link, or that of a prim above it
+    std::vector<bool> rigid_, fixed_; ///< by entry; by link: stands still unless a joint moves it
+    std::set<std::string> names_;
+};
+
+void remarkUnused(const std::vector<Prim>& prims, const std::string& parent, LeftOut& leftOut) {
+    for (const Prim& prim : prims) {
+        const std::string path = parent + "/" + prim.name;
+        const auto active = prim.metadata.find("active");
+        if (active != prim.metadata.end() && active->second == Value(false))
+            leftOut.add("left out: prims that are not active", path);
+        else if (prim.specifier == "over")
+            leftOut.add("left out: overs of prims that are nowhere defined", path);
+        else if (prim.specifier == "def")
+            remarkUnused(prim.children, path, leftOut);
+    }
+}
+
+} // namespace
+
+Robot robotOf(UsdStage stage, const std::string& file) {
+    try {
+        LeftOut unused;
+        adaptTypes(stage.layer, file, unused);
+        remarkUnused(stage.layer.children, "", unused);
+        Robot robot = Reader(stage, file).read();
+        for (const std::string& note : unused.notes()) robot.notes.push_back(note);
+        return robot;
+    } catch (const InputError& error) { // JSON pointers say nothing of a text that is none
+        if (!error.where.pointer.starts_with('/')) throw;
+        throw InputError(Where{error.where.file, "", error.where.path}, error.message);
+    }
+}
+
+} // namespace tss

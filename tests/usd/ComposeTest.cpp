@@ -1,0 +1,137 @@
+#include "tests/usd/Stages.h"
+
+using namespace tss;
+
+TEST_CASE("what is stronger wins: local, inherits, variants, references, payloads, specializes") {
+    const std::string arm = R"usda(#usda 1.0
+(
+    defaultPrim = "Arm"
+)
+def Xform "Arm" (
+    variants = { string size = "small" }
+    append variantSets = "size"
+)
+{
+    double d = 4
+    double ref = 4
+    rel there = </Arm/Hand>
+    rel outside = </Other>
+    variantSet "size" = {
+        "small" { double variant = 1 }
+        "large" { double variant = 2
+            def Xform "Hand" { double variant = 2 } }
+    }
+    def Xform "Hand" ( references = @hand.usda@</H> ) { double d = 5 }
+}
+)usda";
+    const UsdStage stage = stageOf(
+        Files{{"root.usda", R"usda(#usda 1.0
+( subLayers = [@sub.usda@] )
+class "Common" { double a = 1
+    double b = 1
+    double c = 1 }
+def "Left" (
+    inherits = </Common>
+    references = @parts/arm.usda@
+    payload = @pay.usda@</P>
+    specializes = </Base>
+    variants = { string size = "large" }
+)
+{
+    double a = 0
+    over "Hand" { double mine = 7 }
+}
+class "Base" { double a = 9
+    double payload = 9
+    double base = 9 }
+)usda"},
+              {"sub.usda", "#usda 1.0\nover \"Left\" { double a = 8\n double sub = 8 }\ndef \"Below\" {}"},
+              {"parts/arm.usda", arm},
+              {"parts/hand.usda", "#usda 1.0\ndef \"H\" { double d = 6\n double hand = 6 }"},
+              {"pay.usda", "#usda 1.0\ndef \"P\" { double ref = 5\n double payload = 5 }"}});
+    CHECK(numberAt(stage, "/Left", "a") == 0);
+    CHECK(numberAt(stage, "/Left", "sub") == 8);
+    CHECK(numberAt(stage, "/Left", "b") == 1);
+    CHECK(numberAt(stage, "/Left", "d") == 4);
+    CHECK(numberAt(stage, "/Left", "variant") == 2); // the selection of the stronger layer
+    CHECK(numberAt(stage, "/Left", "ref") == 4);
+    CHECK(numberAt(stage, "/Left", "payload") == 5);
+    CHECK(numberAt(stage, "/Left", "base") == 9);
+    CHECK(numberAt(stage, "/Left/Hand", "mine") == 7);
+    CHECK(numberAt(stage, "/Left/Hand", "d") == 5);
+    CHECK(numberAt(stage, "/Left/Hand", "hand") == 6);
+    CHECK(numberAt(stage, "/Left/Hand", "variant") == 2);
+    CHECK(primAt(stage, "/Left").typeName == "Xform");
+    CHECK(primAt(stage, "/Left").specifier == "def");
+    CHECK(listItems(*primAt(stage, "/Left").property("there")->targetPaths) ==
+          std::vector<std::string>{"/Left/Hand"});
+    CHECK(listItems(*primAt(stage, "/Left").property("outside")->targetPaths) ==
+          std::vector<std::string>{"/Other"});
+    CHECK(findPrim(stage.layer, "/Below"));
+    CHECK_FALSE(primAt(stage, "/Left").metadata.contains("references"));
+}
+
+TEST_CASE("a variant set without a selection is said, and one that is not there refused") {
+    const char* set = "variantSet \"v\" = { \"a\" { def \"X\" {} } } }";
+    const UsdStage stage = stageOf(std::string("def \"A\" {") + set);
+    CHECK(hasNote(stage.notes, "the variant set v of /A has no selection"));
+    CHECK_FALSE(findPrim(stage.layer, "/A/X"));
+    CHECK(refusalOf(std::string("def \"A\" ( variants = { string v = \"b\" } ) {") + set)
+              .find("has no variant \"b\"") != std::string::npos);
+}
+
+TEST_CASE("an instance has what it references, and nothing of its own below it") {
+    const UsdStage stage = stageOf(
+        Files{{"root.usda",
+               "#usda 1.0\ndef \"I\" ( instanceable = true\n references = @a.usda@</A> ) { def \"Own\" {} }"},
+              {"a.usda", "#usda 1.0\ndef \"A\" { def \"X\" {} }"}});
+    CHECK(findPrim(stage.layer, "/I/X"));
+    CHECK_FALSE(findPrim(stage.layer, "/I/Own"));
+}
+
+TEST_CASE("files and prims that are not there, and what leads back to itself, are refused by name") {
+    const auto refused = [](const Files& files) { return refusal([&] { stageOf(files); }); };
+    const std::string head = "#usda 1.0\n";
+    CHECK(refusalOf("def \"A\" ( references = @gone.usda@ ) {}") ==
+          "root.usda: line 2 (</A>): @gone.usda@: no such file");
+    CHECK(refused({{"root.usda", head + "def \"A\" ( payload = @b.usda@ ) {}"}, {"b.usda", head}})
+              .find("b.usda has no defaultPrim") != std::string::npos);
+    CHECK(refused({{"root.usda", head + "def \"A\" ( references = @b.usda@</B> ) {}"}, {"b.usda", head}})
+              .find("there is no prim /B in b.usda") != std::string::npos);
+    CHECK(refused({{"root.usda", head + "def \"A\" ( references = @b.usda@</B> ) {}"},
+                   {"b.usda", head + "def \"B\" ( references = @root.usda@</A> ) {}"}})
+              .find("leads back to itself") != std::string::npos);
+    CHECK(refusalOf("def \"A\" ( inherits = </A> ) {}").find("leads back to itself") != std::string::npos);
+    CHECK(refusalOf("def \"A\" { def \"B\" ( inherits = </A> ) {} }").find("leads back to itself") !=
+          std::string::npos);
+    CHECK(refused({{"root.usda", head + "( subLayers = [@b.usda@] )"},
+                   {"b.usda", head + "( subLayers = [@b.usda@] )"}})
+              .find("leads back to itself") != std::string::npos);
+    CHECK(refusalOf("def \"A\" ( relocates = { <a>: <b> } ) {}").find("relocates are not read") !=
+          std::string::npos);
+}
+
+TEST_CASE("references that make more of each other than fits are refused") {
+    std::string text = "class \"C0\" { double x = 1 }\n";
+    for (int k = 1; k < 40; ++k) {
+        const std::string below = std::to_string(k - 1);
+        text += "class \"C" + std::to_string(k) + "\" { def \"a\" ( inherits = </C" + below +
+                "> ) {} def \"b\" ( inherits = </C" + below + "> ) {} }\n";
+    }
+    CHECK(refusalOf(text + "def \"A\" ( inherits = </C39> ) {}").find("at most 65536 prims") !=
+          std::string::npos);
+}
+
+TEST_CASE("a layer of other units is said, and not converted") {
+    const UsdStage stage = stageOf(
+        Files{{"root.usda", "#usda 1.0\n( metersPerUnit = 1 )\ndef \"A\" ( references = @b.usda@</B> ) {}"},
+              {"b.usda", "#usda 1.0\n( metersPerUnit = 0.01 )\ndef \"B\" {}"}});
+    CHECK(hasNote(stage.notes, "b.usda has metersPerUnit number 0.01"));
+}
+
+TEST_CASE("a prim that only the arcs of one above it make can be referenced") {
+    const UsdStage stage =
+        stageOf("class \"C\" { def \"Child\" { double x = 3 } }\ndef \"A\" ( inherits = </C> ) {}\n"
+                "def \"B\" ( references = </A/Child> ) {}");
+    CHECK(numberAt(stage, "/B", "x") == 3);
+}

@@ -1,0 +1,208 @@
+#include "bake/model/Kinematics.h"
+#include "tests/usd/Stages.h"
+
+#include <numbers>
+
+using namespace tss;
+
+namespace {
+
+const Body& bodyCalled(const SceneModel& scene, const std::string& name) {
+    const int body = findBody(scene, "/" + scene.defaultPrim + "/" + name);
+    if (body < 0) FAIL("no body " << name);
+    return scene.bodies[body];
+}
+
+/// Two boxes of 2 at x = 0 and x = 4 and a joint between them.
+std::string twoBoxes(const std::string& joint, const std::string& second = "") {
+    return R"usda(( defaultPrim = "R"
+ metersPerUnit = 0.01
+ upAxis = "Z" )
+def Xform "R" {
+    def Xform "a" ( prepend apiSchemas = ["PhysicsRigidBodyAPI"] ) {
+        def Cube "c" ( prepend apiSchemas = ["PhysicsCollisionAPI"] ) {}
+    }
+    def Xform "b" ( prepend apiSchemas = ["PhysicsRigidBodyAPI"] ) {
+        double3 xformOp:translate = (4, 0, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        def Cube "c" ( prepend apiSchemas = ["PhysicsCollisionAPI"] ) {}
+        )usda" +
+           second + "}\n" + joint + "}\n";
+}
+
+const char* const hinge = R"usda(
+    def PhysicsRevoluteJoint "j" {
+        rel physics:body0 = </R/a>
+        rel physics:body1 = </R/b>
+        uniform token physics:axis = "Z"
+        point3f physics:localPos0 = (2, 0, 0)
+        point3f physics:localPos1 = (-2, 0, 0)
+        float physics:lowerLimit = -30
+        float physics:upperLimit = 90
+    }
+)usda";
+
+} // namespace
+
+TEST_CASE("rigid bodies with colliders below them and a hinge are a scene with a pair") {
+    const RobotScene made = robotScene(twoBoxes(hinge));
+    const SceneModel& scene = made.scene;
+    CHECK(scene.metersPerUnit == 0.01);
+    CHECK(scene.upAxis == 'Z');
+    REQUIRE(scene.joints.size() == 1);
+    REQUIRE(scene.pairs.size() == 1);
+    CHECK(scene.joints[0].path == "/R/j");
+    CHECK(bodyCalled(scene, "b").placement.translation().isApprox(Vec3(4, 0, 0)));
+    CHECK(bounds(bodyCalled(scene, "b").mesh).max().isApprox(Vec3(1, 1, 1)));
+    const Motion motion = pairMotion(scene, scene.pairs[0]);
+    REQUIRE(motion.dofCount() == 1);
+    CHECK(motion.dofs[0].lower == Approx(-30 * std::numbers::pi / 180));
+    CHECK(motion.dofs[0].upper == Approx(90 * std::numbers::pi / 180));
+    const double quarter[] = {std::numbers::pi / 2};
+    const bool fromA = scene.bodies[scene.pairs[0].bodyA].path == "/R/a";
+    const Pose turned = fromA ? pose(motion, quarter) : Pose(pose(motion, quarter).inverse());
+    CHECK((turned * Vec3(0, 0, 0)).isApprox(Vec3(2, 2, 0), 1e-6));
+}
+
+TEST_CASE("a joint that names its bodies the other way round, and one to the world, move as they should") {
+    std::string reversed = hinge;
+    reversed.replace(reversed.find("body0"), 5, "bodyX").replace(reversed.find("body1"), 5, "body0");
+    reversed.replace(reversed.find("bodyX"), 5, "body1");
+    reversed.replace(reversed.find("localPos0 = (2"), 14, "localPos0 = (-2");
+    reversed.replace(reversed.find("localPos1 = (-2"), 15, "localPos1 = (2");
+    const std::string fixed = "def PhysicsFixedJoint \"f\" { rel physics:body1 = </R/a> }\n";
+    const SceneModel scene = robotScene(twoBoxes(reversed + fixed)).scene;
+    REQUIRE(scene.joints.size() == 2);
+    REQUIRE(scene.pairs.size() == 1);
+    // +30 of the file turns a by 30 about b, that is b by -30 about a.
+    const Motion motion = pairMotion(scene, scene.pairs[0]);
+    const double q[] = {std::numbers::pi / 2};
+    const bool fromA = scene.bodies[scene.pairs[0].bodyA].path == "/R/a";
+    const Pose turned = fromA ? pose(motion, q) : Pose(pose(motion, q).inverse());
+    CHECK((turned * Vec3(0, 0, 0)).isApprox(Vec3(2, -2, 0), 1e-6));
+}
+
+TEST_CASE("every kind of shape becomes a mesh that encloses it, where its transforms put it") {
+    const auto sizes = [](const std::string& prim) {
+        const SceneModel scene =
+            robotScene("def Xform \"R\" ( prepend apiSchemas = [\"PhysicsRigidBodyAPI\"] ) { " + prim + " }")
+                .scene;
+        return bounds(scene.bodies.at(0).mesh);
+    };
+    const auto near = [](const Eigen::AlignedBox3d& box, const Vec3& min, const Vec3& max) {
+        return (box.min() - min).cwiseAbs().maxCoeff() < 0.02 &&
+               (box.max() - max).cwiseAbs().maxCoeff() < 0.02;
+    };
+    CHECK(near(sizes("def Cube \"c\" { double size = 3 }"), Vec3::Constant(-1.5), Vec3::Constant(1.5)));
+    CHECK(near(sizes("def Sphere \"c\" {}"), Vec3::Constant(-1), Vec3::Constant(1)));
+    CHECK(near(sizes("def Capsule \"c\" { uniform token axis = \"X\" }"), {-1, -0.5, -0.5}, {1, 0.5, 0.5}));
+    CHECK(near(sizes("def Cylinder \"c\" { uniform token axis = \"Y\"\n double height = 4 }"), {-1, -2, -1},
+               {1, 2, 1}));
+    CHECK(near(sizes("def Cone \"c\" {}"), {-1, -1, -1}, {1, 1, 1}));
+    CHECK(near(sizes("def Cube \"c\" { double3 xformOp:translate = (1, 0, 0)\n float3 xformOp:scale = (2, 1, "
+                     "1)\n float xformOp:rotateZ = 90\n"
+                     "uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:rotateZ\", "
+                     "\"xformOp:scale\"] }"),
+               {0, -2, -1}, {2, 2, 1}));
+    CHECK(near(sizes("def Cube \"c\" { double3 xformOp:translate = (1, 0, 0)\nuniform token[] xformOpOrder = "
+                     "[\"!invert!xformOp:translate\"] }"),
+               {-2, -1, -1}, {0, 1, 1}));
+}
+
+TEST_CASE("the tip of a cone is up along its axis, and a mirrored shape stays outward") {
+    const auto only = [](const std::string& prim) {
+        return robotScene("def Xform \"R\" ( prepend apiSchemas = [\"PhysicsRigidBodyAPI\"] ) { " + prim +
+                          " }")
+            .scene.bodies.at(0)
+            .mesh;
+    };
+    const TriangleMesh cone = only("def Cone \"c\" { uniform token axis = \"X\" }");
+    int tips = 0;
+    for (const Vec3& v : cone.vertices) tips += (v - Vec3(1, 0, 0)).norm() < 1e-9;
+    CHECK(tips == 1);
+    const TriangleMesh mirrored = only("def Cube \"c\" { float3 xformOp:scale = (-1, 1, 1)\nuniform token[] "
+                                       "xformOpOrder = [\"xformOp:scale\"] }");
+    double volume = 0;
+    for (std::size_t t = 0; t < mirrored.triangles.size(); ++t)
+        volume += mirrored.corner(t, 0).dot(mirrored.corner(t, 1).cross(mirrored.corner(t, 2))) / 6;
+    CHECK(volume == Approx(8));
+}
+
+TEST_CASE("D6, spherical and prismatic joints keep their limits, and what ties nothing is left out by name") {
+    const std::string ends = "rel physics:body0 = </R/a>\nrel physics:body1 = </R/b>\n";
+    const auto locked = [](const char* dof) {
+        return std::string("float limit:") + dof + ":physics:low = 1\nfloat limit:" + dof +
+               ":physics:high = -1\n";
+    };
+    const RobotScene d6 = robotScene(twoBoxes(
+        "def PhysicsJoint \"j\" ( prepend apiSchemas = [\"PhysicsLimitAPI:transX\", "
+        "\"PhysicsLimitAPI:transY\", \"PhysicsLimitAPI:transZ\", \"PhysicsLimitAPI:rotX\"] ) {" +
+        ends + locked("transX") + locked("transY") +
+        "float limit:transZ:physics:low = -1\nfloat limit:transZ:physics:high = 2\n" + locked("rotX") + "}"));
+    REQUIRE(d6.scene.pairs.size() == 1);
+    CHECK(pairMotion(d6.scene, d6.scene.pairs[0]).dofCount() == 3);
+    CHECK(hasNote(d6.notes, "turn once round"));
+    const RobotScene ball =
+        robotScene(twoBoxes("def PhysicsSphericalJoint \"j\" {" + ends +
+                            "float physics:coneAngle0Limit = 20\nfloat physics:coneAngle1Limit = 30 }"));
+    CHECK(pairMotion(ball.scene, ball.scene.pairs.at(0)).dofCount() == 3);
+    const RobotScene slide = robotScene(twoBoxes("def PhysicsPrismaticJoint \"j\" {" + ends + "}"));
+    CHECK(slide.scene.joints.empty());
+    CHECK(hasNote(slide.notes, "slide without limits, which tie nothing: /R/j"));
+    const RobotScene rope = robotScene(twoBoxes("def PhysicsDistanceJoint \"j\" {" + ends + "}"));
+    CHECK(hasNote(rope.notes, "PhysicsDistanceJoints, which tie nothing here: /R/j"));
+}
+
+TEST_CASE("a joint that closes a loop is left out, the one outside of the articulation first") {
+    const std::string second = R"usda(
+    def PhysicsRevoluteJoint "first" {
+        rel physics:body0 = </R/a>
+        rel physics:body1 = </R/b>
+        uniform bool physics:excludeFromArticulation = 1
+        float physics:lowerLimit = 0
+        float physics:upperLimit = 1
+    })usda";
+    const RobotScene made = robotScene(twoBoxes(second + hinge));
+    REQUIRE(made.scene.joints.size() == 1);
+    CHECK(made.scene.joints[0].path == "/R/j");
+    CHECK(hasNote(made.notes, "close a loop"));
+    CHECK(hasNote(made.notes, "/R/first"));
+}
+
+TEST_CASE("scenery is one body of the world, and filtered pairs are none") {
+    const std::string ground =
+        "def Cube \"ground\" ( prepend apiSchemas = [\"PhysicsCollisionAPI\"] ) {}\n"
+        "def PhysicsFixedJoint \"f\" { rel physics:body0 = </R/a> }\n"
+        "def Material \"M\" {}\ndef Plane \"P\" ( prepend apiSchemas = [\"PhysicsCollisionAPI\"] ) {}\n";
+    const RobotScene made = robotScene(twoBoxes(hinge + ground));
+    CHECK(bodyCalled(made.scene, "world").mesh.triangles.size() == 12);
+    CHECK(made.scene.pairs.size() == 2); // of b with a and the world; a and the world stand still
+    CHECK(hasNote(made.notes, "left out: prims of type Material: /R/M"));
+    CHECK(hasNote(made.notes, "left out: colliders of type Plane: /R/P"));
+    std::string filtered = twoBoxes(hinge);
+    filtered.replace(filtered.find("\"PhysicsRigidBodyAPI\"]"), 22,
+                     "\"PhysicsRigidBodyAPI\", \"PhysicsFilteredPairsAPI\"]");
+    filtered.insert(filtered.find("def Cube"), "rel physics:filteredPairs = </R/b>\n");
+    CHECK(robotScene(filtered).scene.pairs.empty());
+}
+
+TEST_CASE("the motion that a file drives its joints by is kept") {
+    std::string driven = hinge;
+    driven.insert(driven.find("float physics:lower"),
+                  "float drive:angular:physics:targetPosition.timeSamples = { 0: 0, 10: 45 }\n");
+    std::string text = twoBoxes(driven);
+    text.replace(text.find("upAxis"), 0, "endTimeCode = 10\n ");
+    const SceneModel scene = robotScene(text).scene;
+    CHECK(scene.endTimeCode == 10);
+    REQUIRE(scene.joints.at(0).drives.at(0).values.size() == 2);
+    CHECK(scene.joints[0].drives[0].values[1] == Approx(std::numbers::pi / 4));
+}
+
+TEST_CASE("a stage without physics is a body a mesh, each where it stands") {
+    const SceneModel scene =
+        robotScene("def Xform \"W\" { def Cube \"a\" {} def Sphere \"b\" { double3 xformOp:translate = (5, "
+                   "0, 0)\nuniform token[] xformOpOrder = [\"xformOp:translate\"] } }")
+            .scene;
+    REQUIRE(scene.bodies.size() == 2);
+    CHECK(bodyCalled(scene, "b").placement.translation() == Vec3(5, 0, 0));
+}
