@@ -67,13 +67,8 @@ const TriangleMesh& meshOf(const Body& body) {
 
 SphereFit wholeBody(const Body& body, const BakeOptions& options, double tolerance, bool hollow,
                     const Progress& progress) {
-    SphereOptions how;
+    SphereOptions how = sphereOptions(options, tolerance);
     how.hollow = hollow;
-    how.method = options.spheres;
-    how.tolerance = tolerance;
-    how.maxSpheres = options.maxSpheres;
-    how.conservative = options.conservative;
-    how.growth = options.growth;
     return fitSpheres(cleaned(meshOf(body)), how, progress);
 }
 
@@ -169,12 +164,6 @@ SampledSearchOptions sampled(const BakeOptions& options, const ContactRule& rule
     search.samples = static_cast<std::size_t>(options.samples);
     search.rule = rule;
     return search;
-}
-
-double clearanceAtRest(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion) {
-    const std::vector<double> rest = restValues(motion);
-    const double distance = MeshQuery(a).distanceTo(MeshQuery(b), pose(motion, rest));
-    return distance > touchingDistance(a, b, motion) ? distance : 0;
 }
 
 double defaultTolerance(const Body& a, const Body& b) {
@@ -323,6 +312,22 @@ void noteExempt(const SceneModel& scene, const Pair& pair, const RestRegion& reg
 }
 
 } // namespace
+
+double clearanceAtRest(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion) {
+    const std::vector<double> rest = restValues(motion);
+    const double distance = MeshQuery(a).distanceTo(MeshQuery(b), pose(motion, rest));
+    return distance > touchingDistance(a, b, motion) ? distance : 0;
+}
+
+SphereOptions sphereOptions(const BakeOptions& options, double tolerance) {
+    SphereOptions how;
+    how.method = options.spheres;
+    how.tolerance = tolerance;
+    how.maxSpheres = options.maxSpheres;
+    how.conservative = options.conservative;
+    how.growth = options.growth;
+    return how;
+}
 
 // Medial spheres stand in the contact zone only, fine where the verdict needs it; the paper's fill the
 // bodies.

@@ -91,8 +91,8 @@ void convert(const ConvertArguments& arguments, const Console& console) {
 
 } // namespace
 
-void addConvert(CLI::App& app, Console& console) {
-    CLI::App* command =
+void addConvert(Options& app, Console& console) {
+    Options* command =
         addCommand(app, console, "convert",
                    ".tss as JSON, binary .tss, .usda; proofs as SRDF or MJCF; meshes become a .tss");
     auto arguments = std::make_shared<ConvertArguments>();
