@@ -34,5 +34,7 @@ for encoding in json cbor urdf mjcf; do
 done
 if [ -n "$failed" ]; then
     tail -n 40 json.log cbor.log urdf.log mjcf.log
+    echo "FAILED: what was found is in build-fuzz/run/found-*"
     exit 1
 fi
+echo "PASSED: nothing found in $seconds s of each"
