@@ -272,8 +272,9 @@ Selection select(const SphereSet& a, const SphereSet& b, const CandidatePairs& c
         if (selection.certified && result.complete && result.pairs.empty())
             selection.proof = NeverCollides{result.clearance, result.cells, {}, {}, {}};
         if (!result.complete)
-            report.notes.push_back(fmt::format("the budget ended first: epsilon {} was reached, not {}",
-                                               result.epsilon, options.epsilon));
+            report.notes.push_back(
+                fmt::format("the budget ended first: epsilon {} scene units was reached, not {}",
+                            result.epsilon, options.epsilon));
         break;
     }
     }

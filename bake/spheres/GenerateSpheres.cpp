@@ -37,9 +37,9 @@ SphereFit surfaceFit(const Solid& solid, const SphereOptions& options, double to
     for (const Sphere& s : fit.spheres) fit.protrusion = std::max(fit.protrusion, s.radius);
     fit.coverage = options.conservative ? 0 : unbounded;
     if (options.tolerance > 0 && fit.protrusion > tolerance)
-        fit.note = fmt::format(
-            "tolerance {} not reached: surface spheres stand on the vertices and have radii up to {}",
-            tolerance, fit.protrusion);
+        fit.note = fmt::format("tolerance {} not reached: surface spheres stand on the vertices and have "
+                               "radii up to {} scene units",
+                               tolerance, fit.protrusion);
     return fit;
 }
 
@@ -100,8 +100,8 @@ SphereFit limitedFit(const Solid& solid, const SphereOptions& options, const Pro
     const double reached = toleranceFor(limit, finest, 2 * solid.diagonal(), count, progress);
     if (best.spheres.empty()) best = fitOnce(solid, options, reached, progress);
     if (options.tolerance > 0 && reached > options.tolerance)
-        addNote(best, fmt::format("tolerance {} not reached: {} spheres allow {:.4g}", options.tolerance,
-                                  limit, reached));
+        addNote(best, fmt::format("tolerance {} not reached: {} spheres allow {:.4g} scene units",
+                                  options.tolerance, limit, reached));
     return best;
 }
 

@@ -7,6 +7,7 @@
 #include "bake/tool/BakeTimes.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/DrivenSteps.h"
+#include "bake/tool/FreeingAdvice.h"
 #include "bake/tool/KeptParts.h"
 #include "bake/tool/Summary.h"
 
@@ -111,6 +112,14 @@ void endIncomplete(const BakeArguments& arguments, const KeptParts& parts, const
                    arguments.output);
 }
 
+/// The meshes overlap at rest, and at many other poses too.
+bool hasNoRoom(const Json& pair) {
+    const Json early = pair.value("earlyContact", Json());
+    if (early.is_null() || pair["clearanceAtRest"].get<double>() > 0) return false;
+    return early["stuck"].get<bool>() || early["held"].get<bool>() ||
+           10 * early["freePoses"].get<int>() < 9 * early["poses"].get<int>();
+}
+
 void runBake(BakeArguments& arguments, Console& console) {
     if (arguments.inscribed) arguments.request.given["conservative"] = "false";
     if (arguments.keep) arguments.request.given["keep-spheres"] = "true";
@@ -137,6 +146,9 @@ void runBake(BakeArguments& arguments, Console& console) {
     if (arguments.allPairs) result["allPairs"] = pairs;
     console.say(describe(result) + (arguments.allPairs ? tally(result["pairs"]) : "") + "wrote " +
                 arguments.output);
+    for (std::size_t k = 0; k < scene.pairs.size(); ++k)
+        if (hasNoRoom(result["pairs"][k]))
+            result["pairs"][k]["freeingShifts"] = adviseShifts(scene, scene.pairs[k], console);
     console.print(result);
 }
 

@@ -7,6 +7,7 @@
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
+#include "bake/tool/FreeingAdvice.h"
 #include "bake/tool/RobotCommand.h"
 #include "bake/tool/WholeScene.h"
 
@@ -177,7 +178,11 @@ void make(MakeArguments& arguments, const Console& console) {
     remarkRadians(motion, console);
     remarkFarAxes(motion, scene, console);
     console.say("wrote " + arguments.output + "; next: tss bake " + arguments.output + " -o BAKED.tss");
-    console.print({{"output", arguments.output}, {"pair", scene.pairs[pair].path}, {"meshes", audits}});
+    const Json shifts = adviseShifts(scene, scene.pairs[pair], console);
+    console.print({{"output", arguments.output},
+                   {"pair", scene.pairs[pair].path},
+                   {"meshes", audits},
+                   {"freeingShifts", shifts}});
 }
 
 } // namespace
