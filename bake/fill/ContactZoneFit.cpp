@@ -118,7 +118,7 @@ public:
             if (!decide(levels[i], levels[i] <= finest)) break;
         }
         if (!decided_ && note_.empty() && result_.levels.back().tolerance > finest * (1 + 1e-9))
-            note_ = fmt::format("tolerance {:.4g} instead of {:.4g}: {} spheres do not suffice",
+            note_ = fmt::format("tolerance {:.4g} instead of {:.4g} scene units: {} spheres do not suffice",
                                 result_.levels.back().tolerance, finest, options_.maxSpheres);
         result_.a = a_.result(options_);
         result_.b = b_.result(options_);
@@ -254,8 +254,8 @@ private:
             throw;
         } catch (const InputError& error) { // too fine, or stopped
             if (!result_.levels.empty()) {
-                note_ = fmt::format("tolerance {:.4g} instead of {:.4g}: {}", result_.levels.back().tolerance,
-                                    tolerance, error.message);
+                note_ = fmt::format("tolerance {:.4g} instead of {:.4g} scene units: {}",
+                                    result_.levels.back().tolerance, tolerance, error.message);
                 return backToLast();
             }
             try { // some level there must be, if it can be had soon
@@ -283,7 +283,7 @@ private:
         }
         result_.levels.back().undecided = cells_.leaves();
         if (report(progress_, "contact zone", 0.5)) return true;
-        note_ = fmt::format("stopped at tolerance {:.4g}", tolerance);
+        note_ = fmt::format("stopped at tolerance {:.4g} scene units", tolerance);
         return false;
     }
 

@@ -102,9 +102,10 @@ private:
     bool room(double apart) const {
         if (apart > options_.epsilon * (1 + 1e-6)) return true;
         if (options_.atRest == AtRest::Collide) return false;
-        throw InputError(fmt::format("the meshes are {:.4g} apart at rest, and a table with --epsilon {:.4g} "
-                                     "would report contact there: expected a smaller epsilon",
-                                     apart, options_.epsilon));
+        throw InputError(
+            fmt::format("the meshes are {:.4g} apart at rest, and a table with --epsilon {:.4g}, "
+                        "both in scene units, would report contact there: expected a smaller epsilon",
+                        apart, options_.epsilon));
     }
 
     void keepApart(RestPlan& plan) const {

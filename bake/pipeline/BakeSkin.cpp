@@ -1,8 +1,9 @@
 #include "bake/pipeline/BakeSkin.h"
+
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/model/SourceHash.h"
-
+#include "bake/pipeline/FillPair.h"
 #include "bake/play/SkinSetup.h"
 #include "bake/spheres/GenerateSpheres.h"
 #include "bake/spheres/RoundToFloat.h"
@@ -19,11 +20,8 @@ FilledMuscles fillMuscles(const SceneModel& scene, const SkinModel& skin, const 
             filled.searched.push_back({deformer.get(), {}});
             continue;
         }
-        SphereOptions how;
-        how.method = options.spheres;
-        how.tolerance = options.tolerance.value_or(bounds(surface).diagonal().norm() / 100);
-        how.maxSpheres = options.maxSpheres;
-        how.conservative = options.conservative;
+        const SphereOptions how =
+            sphereOptions(options, options.tolerance.value_or(bounds(surface).diagonal().norm() / 100));
         const SphereFit fit = fitSpheres(cleaned(surface), how, progress);
         if (!fit.note.empty()) report.notes.push_back(fit.note);
         filled.searched.push_back({deformer.get(), roundToFloat(fit.spheres)});

@@ -26,13 +26,8 @@ const TriangleMesh& meshOf(const Body& body) {
 
 SphereFit wholeBody(const Body& body, const BakeOptions& options, double tolerance, bool hollow,
                     const Progress& progress) {
-    SphereOptions how;
+    SphereOptions how = sphereOptions(options, tolerance);
     how.hollow = hollow;
-    how.method = options.spheres;
-    how.tolerance = tolerance;
-    how.maxSpheres = options.maxSpheres;
-    how.conservative = options.conservative;
-    how.growth = options.growth;
     return fitSpheres(cleaned(meshOf(body)), how, progress);
 }
 
@@ -111,12 +106,6 @@ PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const B
             {partsOf(a.mesh, meshA, fit.rest.region.a), partsOf(b.mesh, meshB, fit.rest.region.b)}};
 }
 
-double clearanceAtRest(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion) {
-    const std::vector<double> rest = restValues(motion);
-    const double distance = MeshQuery(a).distanceTo(MeshQuery(b), pose(motion, rest));
-    return distance > touchingDistance(a, b, motion) ? distance : 0;
-}
-
 /// The paper's spheres fill the bodies.
 PairSpheres fillWhole(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
                       double tolerance, const Progress& progress) {
@@ -165,6 +154,22 @@ FitRecord measured(const Body& body, SphereFit& fit, const std::optional<std::ve
 }
 
 } // namespace
+
+double clearanceAtRest(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion) {
+    const std::vector<double> rest = restValues(motion);
+    const double distance = MeshQuery(a).distanceTo(MeshQuery(b), pose(motion, rest));
+    return distance > touchingDistance(a, b, motion) ? distance : 0;
+}
+
+SphereOptions sphereOptions(const BakeOptions& options, double tolerance) {
+    SphereOptions how;
+    how.method = options.spheres;
+    how.tolerance = tolerance;
+    how.maxSpheres = options.maxSpheres;
+    how.conservative = options.conservative;
+    how.growth = options.growth;
+    return how;
+}
 
 bool manyDofs(const Motion& motion, const BakeOptions& options) {
     return motion.dofCount() > (options.budget > 0 ? 3u : 6u);

@@ -19,6 +19,12 @@ struct PairSpheres {
     double stickOut = 0;              ///< of the spheres of both together, by which they tell no depths apart
 };
 
+/// How far apart the surfaces are where the joint rests; 0: they touch or overlap.
+double clearanceAtRest(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion);
+
+/// Of the whole of a body, as the options of a bake say, with this tolerance.
+SphereOptions sphereOptions(const BakeOptions& options, double tolerance);
+
 /// Fills the two bodies of a pair as the options say (METHOD 1). The same spheres at every call.
 PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
                      const BakeOptions& options, const Progress& progress = {});

@@ -40,10 +40,11 @@ void checkRest(const PairSpheres& spheres, const Motion& motion, const BakeOptio
                          if (!region.excepts({i, j})) least = std::min(least, gap);
                      });
     if (least <= options.epsilon)
-        throw InputError(fmt::format(
-            "the meshes are {:.4g} apart at rest, and their spheres, rounded as files hold them, {:.4g}: "
-            "expected coordinates nearer to the origin, or a rest pose with more clearance",
-            spheres.clearanceAtRest, least));
+        throw InputError(
+            fmt::format("the meshes are {:.4g} scene units apart at rest, and their spheres, rounded as "
+                        "files hold them, {:.4g}: "
+                        "expected coordinates nearer to the origin, or a rest pose with more clearance",
+                        spheres.clearanceAtRest, least));
 }
 
 void noteRest(const PairSpheres& spheres, const RuleAtRest& ruled, const Motion& motion,

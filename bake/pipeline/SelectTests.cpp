@@ -73,7 +73,7 @@ Selection selectCover(const PairTask& task, const CandidatePairs& candidates, st
     if (selection.certified && result.complete && result.pairs.empty())
         selection.proof = NeverCollides{result.clearance, result.cells, {}, {}, {}};
     if (!result.complete)
-        notes.push_back(fmt::format("the budget ended first: epsilon {} was reached, not {}", result.epsilon,
+        notes.push_back(fmt::format("the budget ended first: epsilon {} scene units was reached, not {}", result.epsilon,
                                     task.options.epsilon));
     return selection;
 }

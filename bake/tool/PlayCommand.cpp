@@ -7,6 +7,7 @@
 #include "bake/tool/Command.h"
 #include "bake/tool/Csv.h"
 #include "bake/tool/DofSpec.h"
+#include "bake/tool/DrivenSteps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,17 +46,7 @@ std::vector<std::vector<double>> askedSteps(const SceneModel& scene, const PlayA
         }
         return steps;
     }
-    for (int k = 0; scene.startTimeCode + k <= scene.endTimeCode; ++k) {
-        const double time = scene.startTimeCode + k;
-        std::vector<double> row;
-        for (const Joint& joint : scene.joints)
-            for (std::size_t dof = 0; dof < joint.dofs.size(); ++dof) {
-                const bool driven = dof < joint.drives.size() && !joint.drives[dof].empty();
-                row.push_back(driven ? joint.drives[dof].at(time) : joint.dofs[dof].rest);
-            }
-        steps.push_back(row);
-    }
-    return steps;
+    return drivenSteps(scene);
 }
 
 /// How many steps ask for a pose outside of a joint's limits or planes.
@@ -121,7 +112,7 @@ std::string header(const SceneModel& scene) {
             for (const Dof& dof : joint.dofs)
                 text +=
                     fmt::format(",{}{}:{}", prefix, joint.path.substr(joint.path.rfind('/') + 1), dof.name);
-    text += ",gap,status";
+    text += ",table_gap,status";
     for (const SkinModel& skin : scene.skins)
         text += fmt::format(",residual_{}", skin.path.substr(skin.path.rfind('/') + 1));
     return text + "\n";
@@ -222,7 +213,8 @@ void play(const PlayArguments& arguments, const Console& console) {
     for (const auto& [status, count] : statuses) console.say(fmt::format("  {:<10}{}", status, count));
     console.say(costText(scene, steps.size(), jointSeconds, skinSeconds));
     if (!scene.skins.empty())
-        console.say("  deepest residual of a skin " + lengthText(deepest, scene.metersPerUnit));
+        console.say("  deepest residual of a skin " + lengthText(deepest, scene.metersPerUnit) +
+                    ": so far it is in what is below it, beyond its depth at rest");
     nlohmann::json skins = nlohmann::json::array();
     for (std::size_t k = 0; k < scene.skins.size(); ++k)
         skins.push_back(sayFollowing(scene, scene.skins[k], following[k], console));
@@ -237,14 +229,18 @@ void play(const PlayArguments& arguments, const Console& console) {
 
 } // namespace
 
-void addPlay(CLI::App& app, Console& console) {
-    CLI::App* command = addCommand(app, console, "play", "resolves a motion step by step");
+void addPlay(Options& app, Console& console) {
+    Options* command = addCommand(app, console, "play", "resolves a motion step by step");
     auto arguments = std::make_shared<PlayArguments>();
     command->add_option("scene", arguments->scene, "a baked scene")->required();
     command->add_option("--motion", arguments->motion,
                         "CSV, one row a step, one column a DOF of the joints in file order (default: the "
                         "scene's own drives)");
-    command->add_option("-o,--output", arguments->output, "CSV: step, asked and resolved DOFs, gap, status")
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "CSV: step, asked and resolved DOFs, table_gap, status, and of each skin residual_NAME: "
+                     "how deep it is "
+                     "in what is below it, beyond its depth at rest, scene units")
         ->required();
     command->add_option("--mesh-out", arguments->meshes, "also the posed meshes, like f_%04d.obj");
     command->callback([arguments, &console] { play(*arguments, console); });

@@ -46,3 +46,9 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/osgTSSConfig.cmake.in
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/osgTSSConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/package/osgTSSConfig.cmake ${PROJECT_BINARY_DIR}/package/osgTSSConfigVersion.cmake
         DESTINATION ${OSGTSS_PACKAGE_DESTINATION})
+
+if(NOT TARGET uninstall) # a project around this one may have its own
+    add_custom_target(uninstall VERBATIM
+        COMMAND ${CMAKE_COMMAND} -D BINARY_DIR=${PROJECT_BINARY_DIR} -P ${CMAKE_CURRENT_LIST_DIR}/uninstall.cmake
+        COMMENT "Removing what was installed")
+endif()
