@@ -120,6 +120,17 @@ TEST_CASE(
     CHECK(text.find("arm.tss") != std::string::npos);
     CHECK(text.find("somewhere") == std::string::npos);
     CHECK(text.find("bent ellipsoid") == std::string::npos); // not asked for: not even as not run
+    CHECK(text.find("skull") == std::string::npos);          // the user's scene alone
+    CHECK(text.find("Goals") == std::string::npos);
+    const std::string page = readWholeFile(folder.path + "/index.html"); // tests/report/page.sh looks at it
+    CHECK(page.find("REPORT_DATA") == std::string::npos);
+    for (const Row& row : study.rows) CHECK(page.find('"' + row.method + '"') != std::string::npos);
+    REQUIRE(report.pairPictures.at(0).size() == 3);
+    for (const Picture& picture : report.pairPictures[0]) {
+        CHECK(picture.png.starts_with("\x89PNG\r\n"));
+        CHECK(std::count(picture.png.begin(), picture.png.end(), '\0') <
+              static_cast<std::ptrdiff_t>(picture.png.size() * 9 / 10)); // something is drawn
+    }
     const std::string csv = readWholeFile(folder.path + "/report.csv");
     CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == study.rows.size() + 1);
 }
