@@ -9,7 +9,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 for scene in "${scenes[@]}"; do
     LD_LIBRARY_PATH="$PWD/build/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" \
-        build/bin/tss report "scenes/$scene.tss" -o "$work/$scene" "$@"
+        build/bin/tss report "scenes/$scene.tss" -o "$work/$scene" --beside-paper "$@"
 done
 
 rm -rf docs/report

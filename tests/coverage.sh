@@ -7,8 +7,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source tests/setup.sh
-packages+=(gcovr)
-install_packages
+packages_coverage=(gcovr)
+install_packages build pictures report tests coverage
 
 cmake --preset coverage
 targets=()

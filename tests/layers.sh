@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-# folder: the folders of bake/ that it may include, besides itself. "top": bake/*.h, the pipeline itself.
+# folder: the folders of bake/ that it may include, besides itself.
 declare -A may=(
     [base]=""
     [geometry]="base"
@@ -15,12 +15,16 @@ declare -A may=(
     [verify]="base geometry motion spheres table"
     [respond]="base geometry motion spheres table"
     [model]="base geometry motion spheres table"
+    [play]="base geometry model motion respond spheres table"
+    [fill]="base geometry motion search spheres table"
+    [pipeline]="base fill geometry model motion play reduce search spheres table"
+    [check]="base geometry model motion pipeline play search spheres table verify"
     [scene]="base geometry model motion spheres table"
     [robot]="base geometry model motion scene search spheres table"
     [usd]="base geometry model motion robot scene spheres table"
     [compare]="base geometry motion spheres table"
-    [report]="base compare geometry model motion reduce respond scene search spheres table top verify"
-    [tool]="base geometry model motion report respond robot scene spheres table top usd verify"
+    [report]="base compare geometry model motion pipeline play reduce respond scene search spheres table verify"
+    [tool]="base check geometry model motion pipeline play report respond robot scene spheres table usd verify"
 )
 wrong=0
 for folder in bake/*/; do
@@ -32,10 +36,7 @@ for folder in bake/*/; do
     fi
     while IFS=: read -r file include; do
         target=${include#*\"bake/}
-        case "$target" in
-        */*) target=${target%%/*} ;;
-        *) target=top ;;
-        esac
+        target=${target%%/*}
         [[ " $name ${may[$name]} " == *" $target "* ]] || {
             echo "$file: bake/$name may not include ${include#*include }"
             wrong=1

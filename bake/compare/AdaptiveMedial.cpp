@@ -1,3 +1,4 @@
+// After Bradshaw and O'Sullivan, "Adaptive medial-axis approximation for sphere-tree construction", 2004.
 #include "bake/compare/MeshTree.h"
 
 #include "bake/base/Parallel.h"

@@ -1,3 +1,4 @@
+// Wang, Wang and Kim, "An algebraic condition for the separation of two ellipsoids", 2001.
 #include "bake/compare/Ellipsoid.h"
 
 #include <Eigen/Eigenvalues>

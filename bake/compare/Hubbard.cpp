@@ -1,3 +1,4 @@
+// After Hubbard, "Approximating polyhedra with spheres for time-critical collision detection", 1996.
 #include "bake/compare/MeshTree.h"
 
 #include "bake/base/Parallel.h"

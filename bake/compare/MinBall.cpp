@@ -1,3 +1,5 @@
+// Welzl, "Smallest enclosing disks (balls and ellipsoids)", 1991; Fischer and Gaertner, "The smallest
+// enclosing ball of balls", 2003; Badoiu and Clarkson, "Smaller core-sets for balls", 2003.
 #include "bake/compare/MinBall.h"
 
 #include <CGAL/Cartesian.h>

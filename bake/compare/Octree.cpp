@@ -1,3 +1,5 @@
+// Hubbard, "Approximating polyhedra with spheres for time-critical collision detection", 1996, and Bradshaw
+// and O'Sullivan, "Adaptive medial-axis approximation for sphere-tree construction", 2004: their octree.
 #include "bake/compare/MeshTree.h"
 
 #include <chrono>

@@ -1,3 +1,4 @@
+// O'Rourke and Badler, "Decomposition of three-dimensional objects into spheres", 1979.
 #include "bake/compare/MeshTree.h"
 
 #include "bake/base/Parallel.h"

@@ -1,3 +1,5 @@
+// The binned surface area heuristic of Wald, "On fast construction of SAH-based bounding volume hierarchies",
+// 2007.
 #include "bake/geometry/Bvh.h"
 
 #include <algorithm>

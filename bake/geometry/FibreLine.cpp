@@ -2,8 +2,12 @@
 
 #include "bake/base/Error.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <queue>
 
 namespace tss {
@@ -129,6 +133,40 @@ std::vector<Vec3> fibreLine(const TriangleMesh& mesh, int inner) {
         endBeyond(mesh, ends.fromSecond, ends.fromFirst, slices, line.back(), line[line.size() - 2]);
     line.insert(line.begin(), first);
     line.push_back(last);
+    return line;
+}
+
+std::vector<Vec3> ringLine(const TriangleMesh& mesh, int points) {
+    std::vector<Vec3> centres;
+    std::vector<double> areas;
+    Vec3 middle = Vec3::Zero();
+    double whole = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Vec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
+        centres.push_back((a + b + c) / 3);
+        areas.push_back((b - a).cross(c - a).norm() / 2);
+        middle += areas.back() * centres.back();
+        whole += areas.back();
+    }
+    if (!(whole > 0)) throw InputError("a muscle's mesh has no area; expected a closed surface");
+    middle /= whole;
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (std::size_t t = 0; t < centres.size(); ++t)
+        spread += areas[t] / whole * (centres[t] - middle) * (centres[t] - middle).transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread); // the least extent first
+    const Vec3 x = axes.eigenvectors().col(2), y = axes.eigenvectors().col(1);
+    std::vector<Vec3> sums(points, Vec3::Zero());
+    std::vector<double> weights(points, 0);
+    for (std::size_t t = 0; t < centres.size(); ++t) {
+        const Vec3 from = centres[t] - middle;
+        const double turn = std::atan2(y.dot(from), x.dot(from)) / (2 * std::numbers::pi) + 0.5;
+        const int slice = std::clamp(static_cast<int>(turn * points), 0, points - 1);
+        sums[slice] += areas[t] * centres[t];
+        weights[slice] += areas[t];
+    }
+    std::vector<Vec3> line;
+    for (int k = 0; k < points; ++k)
+        if (weights[k] > 0) line.push_back(sums[k] / weights[k]);
     return line;
 }
 

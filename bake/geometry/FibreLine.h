@@ -10,4 +10,8 @@ namespace tss {
 /// no meaning. Throws InputError for a mesh without area.
 std::vector<Vec3> fibreLine(const TriangleMesh& mesh, int inner = 7);
 
+/// The same of a muscle that closes on itself: `points` middles of slices around the axis of least extent, or
+/// fewer where a slice is empty. Throws InputError for a mesh without area.
+std::vector<Vec3> ringLine(const TriangleMesh& mesh, int points = 16);
+
 } // namespace tss

@@ -1,3 +1,6 @@
+// Winding numbers: Jacobson, Kavan and Sorkine-Hornung, "Robust inside-outside segmentation using generalized
+// winding numbers", 2013; Barill, Dickson, Schmidt, Levin and Jacobson, "Fast winding numbers for soups and
+// clouds", 2018.
 #include "bake/geometry/MeshQuery.h"
 
 #include "bake/geometry/MeshAudit.h"

@@ -1,3 +1,5 @@
+// Goldfarb and Idnani, "A numerically stable dual method for solving strictly convex quadratic programs",
+// 1983.
 #include "bake/motion/JointQp.h"
 
 #include <algorithm>

@@ -28,6 +28,7 @@ Muscle checked(Muscle muscle) {
     if (rigid) { // one shape, whatever is asked
         muscle.activationLower = muscle.activationUpper = muscle.maxContraction = 0;
         muscle.fibre = {Vec3::Zero(), Vec3::UnitX()};
+        muscle.form = MuscleForm::Tube;
     }
     std::map<std::pair<int, int>, int> balance;
     for (const Tri& t : mesh.triangles)
@@ -72,7 +73,10 @@ double enclosedVolume(const std::vector<Vec3>& vertices, const std::vector<Tri>&
 }
 
 MuscleDeformer::MuscleDeformer(Muscle muscle)
-    : muscle_(checked(std::move(muscle))), fibre_(muscle_.fibre), locator_(muscle_.surface) {
+    : muscle_(checked(std::move(muscle))),
+      ring_(muscle_.form == MuscleForm::Ring ? std::optional<MuscleRing>(muscle_.fibre) : std::nullopt),
+      fibre_(ring_ ? std::vector<Vec3>{Vec3::Zero(), Vec3::UnitX()} : muscle_.fibre),
+      locator_(muscle_.surface) {
     const TriangleMesh& mesh = muscle_.surface;
     volume_ = enclosedVolume(mesh.vertices, mesh.triangles);
     if (!(volume_ > 0) && !rigid())
@@ -83,10 +87,10 @@ MuscleDeformer::MuscleDeformer(Muscle muscle)
     if (!(std::isfinite(muscle_.maxContraction) && std::isfinite(muscle_.anchor)))
         throw InputError("contraction and anchor of a muscle must be finite");
     const double most = std::max(lower * muscle_.maxContraction, upper * muscle_.maxContraction);
-    if (1 - most * contractionPeak() < leastStretch)
-        throw InputError("a muscle may shorten by at most " +
-                         std::to_string((1 - leastStretch) / contractionPeak()) +
-                         " of its chord within its activation range");
+    const double peak = ring_ ? 1 : contractionPeak();
+    if (1 - most * peak < leastStretch)
+        throw InputError("a muscle may shorten by at most " + std::to_string((1 - leastStretch) / peak) +
+                         " of its " + (ring_ ? "length" : "chord") + " within its activation range");
     anchorIntegral_ = contractionIntegral(muscle_.anchor);
 
     normals_ = vertexNormals(mesh);
@@ -96,18 +100,19 @@ MuscleDeformer::MuscleDeformer(Muscle muscle)
     points_.reserve(mesh.vertices.size());
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
         const Vec3& x = mesh.vertices[v];
-        const double s = fibre_.parameter(x);
-        const Vec3 offset = medial.empty() ? Vec3(x - fibre_.point(s)) : medial[v];
+        const double s = parameter(x);
+        const Vec3 offset = medial.empty() ? Vec3(x - linePoint(s)) : medial[v];
         points_.push_back({x, s, offset, normals_[v], 0});
     }
 }
 
 double MuscleDeformer::gain(double s, double activation) const {
-    const double length = 1 - activation * muscle_.maxContraction * contractionBump(s);
+    const double length = 1 - activation * muscle_.maxContraction * (ring_ ? 1 : contractionBump(s));
     return (muscle_.form == MuscleForm::Sheet ? 1 / length : 1 / std::sqrt(length)) - 1;
 }
 
 Vec3 MuscleDeformer::slide(double s, double activation) const {
+    if (ring_) return -activation * muscle_.maxContraction * ring_->spoke(s);
     const double shift = -activation * muscle_.maxContraction * (contractionIntegral(s) - anchorIntegral_);
     return shift == 0 ? Vec3(Vec3::Zero()) : Vec3(fibre_.point(s + shift) - fibre_.point(s));
 }
@@ -155,7 +160,7 @@ Vec3 MuscleDeformer::map(const MusclePoint& point, const MuscleState& state) con
 }
 
 MusclePoint MuscleDeformer::bind(const Vec3& rest) const {
-    MusclePoint point{rest, fibre_.parameter(rest), Vec3::Zero(), Vec3::Zero(), 0};
+    MusclePoint point{rest, parameter(rest), Vec3::Zero(), Vec3::Zero(), 0};
     const NearestPoint near = locator_.nearest(rest, std::numeric_limits<double>::infinity());
     if (near.triangle < 0) return point;
     const Tri& t = muscle_.surface.triangles[near.triangle];
@@ -169,8 +174,8 @@ MusclePoint MuscleDeformer::bind(const Vec3& rest) const {
     point.height = outside ? near.distance : -near.distance;
     if (outside)
         point.offset = onSurface;
-    else if (muscle_.form == MuscleForm::Tube)
-        point.offset = rest - fibre_.point(point.s);
+    else if (muscle_.form != MuscleForm::Sheet)
+        point.offset = rest - linePoint(point.s);
     else if (const double half = onSurface.norm(); half > near.distance)
         point.offset = (1 - near.distance / half) * onSurface;
     return point;

@@ -2,6 +2,9 @@
 #include "bake/motion/Muscle.h"
 #include "bake/motion/MuscleFibre.h"
 #include "bake/motion/MuscleLocator.h"
+#include "bake/motion/MuscleRing.h"
+
+#include <optional>
 
 namespace tss {
 
@@ -28,9 +31,10 @@ inline bool isRigid(const Muscle& muscle) {
 /// The deformation of a muscle by its activation a (METHOD 6.1), exact and without history:
 ///   x(a) = x + C(s') - C(s) + k(a) (g(s, a) - 1) o(x),   s' = s - a c_max (I(s) - I(s_anchor))
 /// C is the fibre, I the integral of a bump with smooth ends, g the factor that makes up for the local
-/// shortening 1 - a c_max I'(s): its inverse across a sheet, the square root of that about a tube. k is
-/// solved so that the volume enclosed by the mesh is kept to rounding. a = 0 gives the rest shape bit for
-/// bit; a < 0 stretches.
+/// shortening 1 - a c_max I'(s): its inverse across a sheet, the square root of that about a tube. A ring
+/// narrows instead: C(s') - C(s) is -a c_max times the way from its axis to C(s), its local shortening
+/// 1 - a c_max. k is solved so that the volume enclosed by the mesh is kept to rounding. a = 0 gives the rest
+/// shape bit for bit; a < 0 stretches.
 class MuscleDeformer {
 public:
     /// Throws InputError: an open or inside-out surface of what is not rigid, a bad fibre, a contraction that
@@ -42,7 +46,7 @@ public:
     const Muscle& muscle() const { return muscle_; }
     /// Nothing about it moves by itself: a bone.
     bool rigid() const { return isRigid(muscle_); }
-    const MuscleFibre& fibre() const { return fibre_; }
+    const MuscleFibre& fibre() const { return fibre_; } ///< not of a ring
     double restVolume() const { return volume_; }
 
     /// a is clamped to the muscle's activation range; NaN counts as 0.
@@ -64,10 +68,13 @@ public:
     double thickness(double s, const MuscleState& state) const;
 
 private:
+    double parameter(const Vec3& x) const { return ring_ ? ring_->parameter(x) : fibre_.parameter(x); }
+    Vec3 linePoint(double s) const { return ring_ ? ring_->point(s) : fibre_.point(s); }
     Vec3 slide(double s, double activation) const;
     double gain(double s, double activation) const;
 
     Muscle muscle_;
+    std::optional<MuscleRing> ring_;
     MuscleFibre fibre_;
     MuscleLocator locator_;
     std::vector<Vec3> normals_;       ///< #V

@@ -29,10 +29,10 @@ MuscleLocator::MuscleLocator(const TriangleMesh& mesh) : mesh_(mesh) {
 }
 
 template <class Accept>
-NearestPoint MuscleLocator::search(const Vec3& x, double range, const Accept& accept) const {
+NearestPoint MuscleLocator::search(const Vec3& x, double range, int first, const Accept& accept) const {
     NearestPoint best;
     double bound = range * range;
-    visitNearest(bvh_, x, bound, [&](std::uint32_t t) {
+    const auto look = [&](std::uint32_t t) {
         if (!accept(t)) return;
         const Vec3 &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
         const Vec3 w = nearestOnTriangle(x, a, b, c);
@@ -41,24 +41,27 @@ NearestPoint MuscleLocator::search(const Vec3& x, double range, const Accept& ac
         if (!(d < bound)) return;
         bound = d;
         best = {static_cast<int>(t), w, p, std::sqrt(d)};
-    });
+    };
+    if (first >= 0) look(static_cast<std::uint32_t>(first));
+    visitNearest(bvh_, x, bound, look);
     return best;
 }
 
 NearestPoint MuscleLocator::nearest(const Vec3& x, double range) const {
-    return search(x, range, [](std::uint32_t) { return true; });
+    return search(x, range, -1, [](std::uint32_t) { return true; });
 }
 
-NearestPoint MuscleLocator::nearestFacing(const Vec3& x, double range, const Vec3& facing) const {
-    return search(x, range, [&](std::uint32_t t) {
+NearestPoint MuscleLocator::nearestFacing(const Vec3& x, double range, const Vec3& facing, int first) const {
+    return search(x, range, first, [&](std::uint32_t t) {
         const Vec3& a = mesh_.corner(t, 0);
         return (mesh_.corner(t, 1) - a).cross(mesh_.corner(t, 2) - a).dot(facing) > 0;
     });
 }
 
-bool MuscleLocator::entered(const Vec3& from, const Vec3& to) const {
-    if (bvh_.empty()) return false;
+int MuscleLocator::entered(const Vec3& from, const Vec3& to) const {
+    if (bvh_.empty()) return -1;
     const Vec3 way = to - from;
+    const Vec3 perWay = (way.array() == 0).select(Vec3::Zero(), way.array().inverse());
     std::array<std::uint32_t, 128> stack; // as visitNearest() has it
     std::size_t top = 0;
     stack[top++] = 0;
@@ -70,7 +73,7 @@ bool MuscleLocator::entered(const Vec3& from, const Vec3& to) const {
                 if (from[k] < node.lower[k] || from[k] > node.upper[k]) last = -1;
                 continue;
             }
-            const double s = (node.lower[k] - from[k]) / way[k], t = (node.upper[k] - from[k]) / way[k];
+            const double s = (node.lower[k] - from[k]) * perWay[k], t = (node.upper[k] - from[k]) * perWay[k];
             first = std::max(first, std::min(s, t));
             last = std::min(last, std::max(s, t));
         }
@@ -84,14 +87,14 @@ bool MuscleLocator::entered(const Vec3& from, const Vec3& to) const {
             const Vec3 p = from + ahead / along * way;
             if (normal.dot((b - a).cross(p - a)) >= 0 && normal.dot((c - b).cross(p - b)) >= 0 &&
                 normal.dot((a - c).cross(p - c)) >= 0)
-                return true;
+                return static_cast<int>(t);
         }
         if (node.count == 0) {
             stack[top++] = node.first;
             stack[top++] = node.first + 1;
         }
     }
-    return false;
+    return -1;
 }
 
 } // namespace tss

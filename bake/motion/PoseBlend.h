@@ -1,4 +1,5 @@
 #pragma once
+// Kavan, Collins, Zara and O'Sullivan, "Skinning with dual quaternions", 2007.
 #include "bake/motion/Motion.h"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+// The co-occurrence table Ta and the merging of rows in "Object Interaction Using Tabulated Spheres Subsets".
 #include "bake/reduce/Cooccurrence.h"
 
 #include <algorithm>

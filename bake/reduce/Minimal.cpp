@@ -1,3 +1,4 @@
+// The minimal sphere set Mss of "Object Interaction Using Tabulated Spheres Subsets".
 #include "bake/reduce/Minimal.h"
 
 #include "bake/base/Parallel.h"

@@ -1,3 +1,5 @@
+// Lagrangian relaxation with a greedy repair, after Beasley, "A Lagrangian heuristic for set-covering
+// problems", 1990.
 #include "bake/reduce/SetCover.h"
 
 #include <algorithm>

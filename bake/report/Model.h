@@ -1,6 +1,6 @@
 #pragma once
-#include "bake/BakePair.h"
 #include "bake/compare/Problem.h"
+#include "bake/pipeline/BakePair.h"
 
 namespace tss::reporting {
 

@@ -139,12 +139,12 @@ std::string ratioTable(const PairStudy& study) {
 }
 
 /// What this project set out to reach, and whether the base's table does.
-std::string goalsText(const PairStudy& study) {
+std::string goalsText(const PairStudy& study, bool goals) {
     const Row* ours = findRow(study, "tss", study.base.name);
     if (!ours || !(ours->times.median > 0)) return "";
-    std::string text = "Goals of this project, with the table of " + study.base.name + ":";
+    std::string text = goals ? "Goals of this project, with the table of " + study.base.name + ":" : "";
     const auto goal = [&](const Row* row, const std::string& what, double times) {
-        if (!row || !(row->times.median > 0)) return;
+        if (!goals || !row || !(row->times.median > 0)) return;
         const double ratio = row->times.median / ours->times.median;
         text += fmt::format("{} {} in at least {} times the table's time: {}, {}reached",
                             text.back() == ':' ? "" : ";", what, number(times), number(ratio),
@@ -154,14 +154,14 @@ std::string goalsText(const PairStudy& study) {
     goal(findRow(study, "tree-all-8-balls", study.base.name), "the sphere tree", 500);
     goal(findRow(study, "tree-all-8-balls", "whole bodies"), "the sphere tree over whole bodies", 500);
     goal(findRow(study, "tss-scalar", study.base.name), "the scalar loop over indices", 10);
-    text += ".";
+    if (goals) text += ". ";
     const Row* fcl = findMeshRow(study, "fcl-obbrss");
     if (fcl && study.fclDirectly.median > 0)
         text += fmt::format(
-            " FCL is not slowed down by being asked through this report: its row takes {} times what it "
+            "FCL is not slowed down by being asked through this report: its row takes {} times what it "
             "takes when called directly ({}).",
             number(fcl->times.median / study.fclDirectly.median), timeText(study.fclDirectly.median));
-    return text + "\n";
+    return text.empty() ? text : text + "\n";
 }
 
 /// When to choose what, from the figures above and nothing else.
@@ -212,10 +212,12 @@ std::string advice(const PairStudy& study) {
                   "for a single DOF only.\n";
 }
 
-std::string paperTable(const PairStudy& study) {
+/// What a table is made of; besidePaper: with the paper's own pair beside it.
+std::string countTable(const PairStudy& study, bool besidePaper) {
     const BakePoint& ours = study.base;
-    std::string head = "| | the paper: dog's skull + mandible |", rule = "|---|---|", spheres, used, tests,
-                products;
+    const auto paper = [&](const char* text) { return std::string(besidePaper ? text : ""); };
+    std::string head = "| |" + paper(" the paper: dog's skull + mandible |"), rule = "|---|" + paper("---|"),
+                spheres, used, tests, products;
     const auto column = [&](const std::string& title, const BakePoint& point) {
         head += fmt::format(" {} |", title);
         rule += "---|";
@@ -226,10 +228,10 @@ std::string paperTable(const PairStudy& study) {
     };
     for (const BakePoint& recipe : study.recipes)
         if (recipe.name == "paper") column("the paper's recipe on this pair", recipe);
-    column(fmt::format("this software: {}, every pose proven", ours.name), ours);
-    std::string text = head + "\n" + rule + "\n| spheres | 1158 + 812 |" + spheres +
-                       "\n| spheres used | 9 + 22 |" + used + "\n| tests a step | 22 |" + tests +
-                       "\n| products a step | 88 |" + products + "\n\n";
+    column(fmt::format("{}{}, every pose proven", paper("this software: "), ours.name), ours);
+    std::string text = head + "\n" + rule + "\n| spheres |" + paper(" 1158 + 812 |") + spheres +
+                       "\n| spheres used |" + paper(" 9 + 22 |") + used + "\n| tests a step |" +
+                       paper(" 22 |") + tests + "\n| products a step |" + paper(" 88 |") + products + "\n\n";
     if (ours.lowerBound > 0)
         text += fmt::format(
             "No table that gives the answers of these spheres at every pose has fewer than {} tests. ",
@@ -241,13 +243,13 @@ std::string paperTable(const PairStudy& study) {
     };
     text += fmt::format(
         "Steps in the angular region of collision: {:.0f} % of {} along {} by the meshes, {:.0f} % by the "
-        "spheres of {} "
-        "(the paper: 22 %). The pairs and their limits are not the same: the counts say of what size such "
-        "tables are, "
-        "not which method is better.\n",
+        "spheres of {}{}.{}\n",
         shareOf(steps.inMeshRegion), steps.leading.size(), steps.motion,
         shareOf(static_cast<std::size_t>(std::count(steps.inRegion.begin(), steps.inRegion.end(), char{1}))),
-        ours.name);
+        ours.name, paper(" (the paper: 22 %)"),
+        paper(
+            " The pairs and their limits are not the same: the counts say of what size such tables are, not "
+            "which method is better."));
     return text;
 }
 
@@ -328,7 +330,7 @@ std::string facts(const PairStudy& study) {
 
 } // namespace
 
-std::string pairText(const PairStudy& study, const std::vector<Plot>& plots) {
+std::string pairText(const PairStudy& study, const std::vector<Plot>& plots, bool besidePaper) {
     std::string text = fmt::format("## {}\n\n", study.path) + facts(study);
     if (study.neverCollides)
         return text +
@@ -336,7 +338,8 @@ std::string pairText(const PairStudy& study, const std::vector<Plot>& plots) {
                    "The two can never meet within these limits: their surfaces stay {} mm apart at every "
                    "pose, proven. No table is needed and no method has anything to find.\n\n",
                    number(study.clearance * study.millimetres));
-    text += "### Beside the paper\n\n" + paperTable(study) + "\n### Error against run time\n\n" +
+    text += (besidePaper ? "### Beside the paper\n\n" : "### The table\n\n") +
+            countTable(study, besidePaper) + "\n### Error against run time\n\n" +
             pictureText(plots, "pareto") + frontText(study) + pictureText(plots, "verdicts") +
             fmt::format("All methods, those on spheres with the spheres of {}:\n\n", study.base.name) +
             methodTable(study) +
@@ -361,8 +364,9 @@ std::string pairText(const PairStudy& study, const std::vector<Plot>& plots) {
         "as the paper runs it, the sphere tree stands on the same spheres; FCL answers for the triangles "
         "exactly, Bullet in single precision. With ε above 0 a yes/no table is silent where its own nearest "
         "pair is still up to ε apart while others touch, however deep those are.\n\n" +
-        ratioTable(study) + "\n" + goalsText(study) + "\n### When to choose what\n\n" + advice(study) +
-        "\n### Along a motion\n\n" + pictureText(plots, "steps") + pictureText(plots, "region");
+        ratioTable(study) + "\n" + goalsText(study, besidePaper) + "\n### When to choose what\n\n" +
+        advice(study) + "\n### Along a motion\n\n" + pictureText(plots, "steps") +
+        pictureText(plots, "region");
     for (const auto& [region, whose] : {std::pair(&study.region.meshes, std::string("meshes")),
                                         std::pair(&study.region.spheres, "spheres of " + study.base.name)})
         text += region->upper > region->lower

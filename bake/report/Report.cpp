@@ -3,6 +3,7 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/report/Contestants.h"
+#include "bake/report/Page.h"
 
 #include <algorithm>
 #include <chrono>
@@ -45,6 +46,14 @@ void checkMethods(const std::vector<std::string>& wanted) {
     }
 }
 
+/// Of the pair's DOFs, the one that the study follows; 0 where it follows none.
+std::size_t leadingDof(const SceneModel& scene, const Pair& pair, const PairStudy& study) {
+    const Motion motion = pairMotion(scene, pair);
+    for (std::size_t k = 0; k < motion.dofs.size(); ++k)
+        if (motion.dofs[k].name == study.leadingDof) return k;
+    return 0;
+}
+
 } // namespace
 
 Report makeReport(const SceneModel& scene, const std::string& sceneFile, const std::string& folder,
@@ -63,8 +72,11 @@ Report makeReport(const SceneModel& scene, const std::string& sceneFile, const s
         return options.pairs.empty() ||
                std::find(options.pairs.begin(), options.pairs.end(), path) != options.pairs.end();
     };
-    for (const Pair& pair : scene.pairs)
-        if (wanted(pair.path)) result.pairs.push_back(studyPair(scene, pair, options, progress));
+    for (const Pair& pair : scene.pairs) {
+        if (!wanted(pair.path)) continue;
+        result.pairs.push_back(studyPair(scene, pair, options, progress));
+        result.pairPictures.push_back(picturesOf(scene, pair, leadingDof(scene, pair, result.pairs.back())));
+    }
     for (const SkinModel& skin : scene.skins)
         if (wanted(skin.path)) result.skins.push_back(studySkin(scene, skin, options, progress));
     const bool alone = result.pairs.size() + result.skins.size() == 1;
@@ -78,6 +90,7 @@ Report makeReport(const SceneModel& scene, const std::string& sceneFile, const s
     writeFileAtomically(folder + "/report.csv", csvOf(result));
     writeFileAtomically(folder + "/report.json", jsonOf(result));
     writeFileAtomically(folder + "/report.md", markdownOf(result));
+    writeFileAtomically(folder + "/index.html", pageOf(result));
     return result;
 }
 

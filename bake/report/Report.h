@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/report/Picture.h"
 #include "bake/report/Plots.h"
 #include "bake/report/SkinStudy.h"
 #include "bake/report/Study.h"
@@ -13,14 +14,15 @@ struct Report {
     std::vector<PairStudy> pairs;
     std::vector<SkinStudy> skins;
     std::vector<std::vector<Plot>> pairPlots, skinPlots; ///< one list each
+    std::vector<std::vector<Picture>> pairPictures;      ///< one list a pair
     std::string plotProblem;
     double seconds = 0;
 };
 
-/// Measures all methods on a scene and writes report.md, report.json, report.csv and plots/ into the folder,
-/// which is made where it is not there (METHOD 8). scene: meshes, joints and skins; tables in it are not
-/// used, they are made anew. Throws InputError for a scene without pairs and skins and for paths that are not
-/// in it.
+/// Measures all methods on a scene and writes report.md, index.html, report.json, report.csv and plots/ into
+/// the folder, which is made where it is not there (METHOD 8). scene: meshes, joints and skins; tables in it
+/// are not used, they are made anew. Throws InputError for a scene without pairs and skins and for paths that
+/// are not in it.
 Report makeReport(const SceneModel& scene, const std::string& sceneFile, const std::string& folder,
                   const ReportOptions& options, const Progress& progress = {});
 

@@ -1,8 +1,8 @@
 #include "bake/report/SkinMotion.h"
 
-#include "bake/SkinSetup.h"
 #include "bake/base/Parallel.h"
 #include "bake/geometry/Solid.h"
+#include "bake/play/SkinSetup.h"
 #include "bake/report/Timing.h"
 #include "bake/respond/SkinResponse.h"
 

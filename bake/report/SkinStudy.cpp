@@ -1,8 +1,8 @@
 #include "bake/report/SkinStudy.h"
 
-#include "bake/BakePair.h"
 #include "bake/base/Parallel.h"
 #include "bake/compare/Ellipsoid.h"
+#include "bake/pipeline/BakeSkin.h"
 #include "bake/search/SkinSearch.h"
 
 #include <algorithm>

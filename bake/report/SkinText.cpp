@@ -6,24 +6,26 @@ namespace tss::reporting {
 
 namespace {
 
-std::string paperTable(const SkinStudy& study) {
+/// What a table is made of; besidePaper: with the paper's own skin beside it.
+std::string countTable(const SkinStudy& study, bool besidePaper) {
+    const auto paper = [&](const char* text) { return std::string(besidePaper ? text : ""); };
     std::string text = fmt::format(
-        "| | the paper: skin + muscle | this scene, skin at rest (the paper's way) | this scene, skin "
-        "carried by its "
-        "muscles (what `tss bake` makes) |\n|---|---|---|---|\n"
-        "| spheres | 1426 + 280 | {} + {} | {} + {} |\n| spheres used | 70 + 190 | {} + {} | {} + {} |\n"
-        "| tests a step | 268 | {} | {} |\n| products a step | 1072 | {} | {} |\n",
-        study.skinSpheres, study.muscleSpheres, study.skinSpheres, study.muscleSpheres, study.usedSkin,
-        study.usedMuscle, study.carriedSkin, study.carriedMuscle, study.tests, study.carriedTests,
-        4 * study.tests, 4 * study.carriedTests);
+        "| |{} skin at rest (the paper's way) | skin carried by its muscles (what `tss bake` makes) |\n"
+        "|---|{}---|---|\n| spheres |{} {} + {} | {} + {} |\n| spheres used |{} {} + {} | {} + {} |\n"
+        "| tests a step |{} {} | {} |\n| products a step |{} {} | {} |\n",
+        paper(" the paper: skin + muscle |"), paper("---|"), paper(" 1426 + 280 |"), study.skinSpheres,
+        study.muscleSpheres, study.skinSpheres, study.muscleSpheres, paper(" 70 + 190 |"), study.usedSkin,
+        study.usedMuscle, study.carriedSkin, study.carriedMuscle, paper(" 268 |"), study.tests,
+        study.carriedTests, paper(" 1072 |"), 4 * study.tests, 4 * study.carriedTests);
     const auto withEllipsoids = [&](std::size_t spheres) {
         return study.productsEllipsoid * static_cast<double>(spheres * study.muscles);
     };
     return text +
-           fmt::format("| products a step, the same skin spheres against one bent ellipsoid a muscle | 2870 "
-                       "(70 × 41) | {:.0f} ({} × {:.0f}) | {:.0f} |\n",
-                       withEllipsoids(study.usedSkin), study.usedSkin * study.muscles,
-                       study.productsEllipsoid, withEllipsoids(study.carriedSkin));
+           fmt::format(
+               "| products a step, the same skin spheres against one bent ellipsoid a muscle |{} {:.0f} "
+               "({} × {:.0f}) | {:.0f} |\n",
+               paper(" 2870 (70 × 41) |"), withEllipsoids(study.usedSkin), study.usedSkin * study.muscles,
+               study.productsEllipsoid, withEllipsoids(study.carriedSkin));
 }
 
 std::string methodTable(const SkinStudy& study) {
@@ -56,15 +58,15 @@ std::string answerTable(const SkinStudy& study) {
 
 } // namespace
 
-std::string skinText(const SkinStudy& study, const std::vector<Plot>& plots) {
+std::string skinText(const SkinStudy& study, const std::vector<Plot>& plots, bool besidePaper) {
     const double mm = study.millimetres;
     const SkinMotionStudy& motion = study.motion;
-    std::string text =
-        fmt::format("## {}\n\nA skin of {} vertices over {} muscle{}.\n\n### Beside the paper\n\n",
-                    study.path, study.skinSpheres, study.muscles, study.muscles == 1 ? "" : "s");
-    text += paperTable(study);
-    text += fmt::format("\nThe meshes are not the same: the counts say of what size such tables are.\n\n"
-                        "### Which skin spheres touch a muscle\n\n"
+    std::string text = fmt::format(
+        "## {}\n\nA skin of {} vertices over {} muscle{}.\n\n### {}\n\n", study.path, study.skinSpheres,
+        study.muscles, study.muscles == 1 ? "" : "s", besidePaper ? "Beside the paper" : "The table");
+    text += countTable(study, besidePaper);
+    if (besidePaper) text += "\nThe meshes are not the same: the counts say of what size such tables are.\n";
+    text += fmt::format("\n### Which skin spheres touch a muscle\n\n"
                         "The paper's question, at {} activations: which of the skin's spheres, one a vertex "
                         "at its rest place with a "
                         "radius of {} mm, touch a muscle? The truth is the distance of the vertex to the "

@@ -16,6 +16,7 @@ struct ReportOptions {
                                              ///< units); empty: the scene's own drives, or a sweep
     std::vector<std::string> pairs;          ///< prim paths; empty: all
     std::uint64_t seed = 20;
+    bool besidePaper = false; ///< also the paper's own counts, and what this project set out to reach
 };
 
 /// One method with one setting.

@@ -63,9 +63,9 @@ std::string markdownOf(const Report& report) {
         machine.libraries);
     if (!report.plotProblem.empty()) text += report.plotProblem + "\n\n";
     for (std::size_t k = 0; k < report.pairs.size(); ++k)
-        text += pairText(report.pairs[k], report.pairPlots[k]);
+        text += pairText(report.pairs[k], report.pairPlots[k], report.options.besidePaper);
     for (std::size_t k = 0; k < report.skins.size(); ++k)
-        text += skinText(report.skins[k], report.skinPlots[k]);
+        text += skinText(report.skins[k], report.skinPlots[k], report.options.besidePaper);
     return text +
            "## Licence\n\nThe minimal enclosing balls and the Delaunay balls of this report come from "
            "CGAL, which is GPL-3.0-or-later: a `tss` built with `OSGTSS_REPORT` may be passed on under "

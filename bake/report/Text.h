@@ -18,7 +18,8 @@ std::string notRunText(const std::vector<NotRun>& notRun);
 /// The plot whose file name has this part, with its caption; nothing where it was not drawn.
 std::string pictureText(const std::vector<Plot>& plots, const std::string& part);
 
-std::string pairText(const PairStudy& study, const std::vector<Plot>& plots);
-std::string skinText(const SkinStudy& study, const std::vector<Plot>& plots);
+/// besidePaper: also the paper's own counts, and what this project set out to reach.
+std::string pairText(const PairStudy& study, const std::vector<Plot>& plots, bool besidePaper);
+std::string skinText(const SkinStudy& study, const std::vector<Plot>& plots, bool besidePaper);
 
 } // namespace tss::reporting

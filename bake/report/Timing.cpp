@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 namespace tss::reporting {
 
@@ -27,12 +26,6 @@ double at(const std::vector<double>& sorted, double share) {
 }
 
 } // namespace
-
-double threadSeconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 std::vector<Times> timeMethods(const std::vector<const compare::Rival*>& rivals,
                                std::span<const compare::PoseQuery> queries, const TimingOptions& options) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/base/ThreadTime.h"
 #include "bake/compare/Rival.h"
 
 namespace tss::reporting {
@@ -16,9 +17,6 @@ struct TimingOptions {
     double secondsRound = 2e-3; ///< a method that is quicker repeats the poses until a round takes this long
     double secondsPass = 0.05;  ///< a method that is slower takes the first of the poses, at least 100
 };
-
-/// Seconds that this thread has run: another program that takes its turn in between does not count.
-double threadSeconds();
 
 /// Times the loop over the same poses for every method, in one process on one thread: a warm-up, then rounds
 /// in which all methods take turns, so that what disturbs the machine disturbs all of them. queries: in

@@ -14,10 +14,14 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Lengths per size of the skin over which it gives way: 4 mm on a head of 0.3 m, the thickness of skin and
 /// what is below it. Never less than an edge, which could not show it.
 constexpr double lengthsPerSize = 80;
-/// In those lengths: how fast a muscle's hold falls off with the distance, and beyond which it has none.
+/// In those lengths: how fast a muscle's hold falls off beyond the tissue on it, and how far from the muscle
+/// it ends.
 constexpr double holdFall = 0.5, holdReach = 4;
-/// Skin that is inside a muscle at rest cannot slide along it: how much firmer than other skin it is held.
-constexpr double insideFirmness = 300;
+/// Skin that is inside a muscle at rest cannot slide along it, nor can skin that touches it: how much firmer
+/// than other skin it is held, and over which distance in those lengths that fades.
+constexpr double touchFirmness = 300, touchFade = 0.03;
+/// Skin lies over a muscle where the muscle is below it, by at most this much to the side per depth.
+constexpr double besideOver = 0.6;
 /// A share below this counts as none, so that what hardly moves is left alone; the others are lowered by it.
 constexpr double leastShare = 1e-3;
 /// In sizes of the bone: skin that far from every bone that moves stays where it is, when no bone that holds
@@ -26,6 +30,37 @@ constexpr double freeDistance = 0.5;
 
 double withoutLeast(double share) {
     return share > leastShare ? (share - leastShare) / (1 - leastShare) : 0;
+}
+
+/// How firmly skin goes with a muscle, #V, 0 to 1: wholly over it, through the tissue between the two, whose
+/// thickness is that over the middle one of the vertices over the muscle; less beside it and where it is
+/// deeper. Raises the firmness of what touches it.
+std::vector<double> holdOf(const SkinGround& ground, std::size_t m, std::vector<double>& firmness) {
+    const std::size_t count = ground.skin.vertices.size();
+    std::vector<double> depth(count, infinite), aside(count, 0);
+    parallelFor(count, [&](std::size_t v) {
+        const Vec3& x = ground.skin.vertices[v];
+        const NearestPoint near = ground.locators[m].nearest(x, holdReach * ground.length);
+        if (near.triangle < 0) return;
+        const Vec3 way = ground.inside[m][v] ? Vec3::Zero() : Vec3(x - near.point);
+        depth[v] = std::max(way.dot(ground.normals[v]), 0.0);
+        aside[v] = std::sqrt(std::max(way.squaredNorm() - depth[v] * depth[v], 0.0));
+    });
+    std::vector<double> over;
+    for (std::size_t v = 0; v < count; ++v)
+        if (std::isfinite(depth[v]) && aside[v] <= besideOver * depth[v]) over.push_back(depth[v]);
+    const auto middle = over.begin() + static_cast<std::ptrdiff_t>(over.size() / 2);
+    std::nth_element(over.begin(), middle, over.end());
+    const double tissue = over.empty() ? 0 : *middle;
+    std::vector<double> hold(count, 0);
+    for (std::size_t v = 0; v < count; ++v) {
+        if (!std::isfinite(depth[v])) continue;
+        const double touch = (depth[v] + aside[v]) / (touchFade * ground.length),
+                     away = (aside[v] + std::max(depth[v] - tissue, 0.0)) / (holdFall * ground.length);
+        firmness[v] = std::max(firmness[v], 1 + (touchFirmness - 1) * std::exp(-touch));
+        hold[v] = std::exp(-away);
+    }
+    return hold;
 }
 
 /// Frames that move somewhere along the swings.
@@ -125,20 +160,8 @@ SkinCarriage carrySkin(const SkinGround& ground, const SkinParameters& p) {
     carriage.firmness.assign(count, 1);
     for (std::size_t m = 0; m < ground.bodies.size(); ++m) {
         if (ground.bodies[m]->rigid()) continue;
-        std::vector<double> hold(count, 0), above(count, infinite);
-        parallelFor(count, [&](std::size_t v) {
-            const NearestPoint near =
-                ground.locators[m].nearest(ground.skin.vertices[v], holdReach * ground.length);
-            if (near.triangle >= 0) above[v] = ground.inside[m][v] ? 0 : near.distance;
-        });
-        // The tissue between a muscle and its skin hands on what it does; what is farther off follows less.
-        const double tissue = count > 0 ? *std::min_element(above.begin(), above.end()) : 0;
-        for (std::size_t v = 0; v < count; ++v) {
-            if (!std::isfinite(above[v])) continue;
-            if (ground.inside[m][v]) carriage.firmness[v] = insideFirmness;
-            hold[v] = std::exp((tissue - above[v]) / (holdFall * ground.length)) *
-                      (p.attach.empty() ? 1 : p.attach[v]);
-        }
+        std::vector<double> hold = holdOf(ground, m, carriage.firmness);
+        for (std::size_t v = 0; v < count && !p.attach.empty(); ++v) hold[v] *= p.attach[v];
         for (std::size_t v = 0; v < count; ++v) sum[v] += hold[v];
         holds.push_back(std::move(hold));
     }

@@ -112,12 +112,13 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     Vec3f way = Vec3f::Zero(); // since rest, past the bone
     if (body.bone()) {
         way = relativeOf(rig, scene, row) - row.relative;
-        if (row.offset == 0 && !body.locator->entered((x - way).cast<double>(), x.cast<double>()))
-            return plane;
+        int first = rig.starts[row.first];
+        if (row.offset == 0) first = body.locator->entered((x - way).cast<double>(), x.cast<double>());
+        if (first < 0) return plane;
         // Deeper than twice its way it is not believed, see comeThrough().
         const float range = std::min(boneReach * rig.radius, 2 * (way.norm() - row.offset));
-        hit = toPoint(
-            body.locator->nearestFacing(x.cast<double>(), static_cast<double>(range), own.cast<double>()));
+        hit = toPoint(body.locator->nearestFacing(x.cast<double>(), static_cast<double>(range),
+                                                  own.cast<double>(), first));
     } else {
         const Move* surface = scene.surface.data() + body.first;
         const auto at = [&](int v) -> Vec3f { return surface[v].head<3>(); };

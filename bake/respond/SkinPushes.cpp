@@ -62,25 +62,32 @@ void SkinPushes::gather(std::span<const SkinPlane> planes) {
     }
 }
 
-/// How much a push of 1 along each plane's normal moves the others, were their normals alike.
+/// How much a push of 1 along each new plane's normal moves those before it, and they it, were their normals
+/// alike.
 void SkinPushes::couple() {
     const std::size_t count = ownStart_.size() - 1;
-    coupleStart_.assign(1, 0);
-    coupling_.clear();
-    self_.assign(count, 0);
-    for (std::size_t r = 0; r < count; ++r) {
+    const auto dot = [&](std::size_t s) {
+        float sum = 0;
+        for (std::uint32_t e = ownStart_[s]; e < ownStart_[s + 1]; ++e)
+            sum += own_[e].value * dense_[own_[e].index];
+        return sum;
+    };
+    for (std::size_t r = self_.size(); r < count; ++r) {
         for (std::uint32_t e = columnStart_[r]; e < columnStart_[r + 1]; ++e)
             dense_[column_[e].index] = column_[e].value;
-        for (std::size_t s = 0; s < count; ++s) {
-            float sum = 0;
-            for (std::uint32_t e = ownStart_[s]; e < ownStart_[s + 1]; ++e)
-                sum += own_[e].value * dense_[own_[e].index];
-            if (s == r)
-                self_[r] = sum;
-            else if (sum != 0)
-                coupling_.push_back({static_cast<std::uint32_t>(s), sum});
-        }
+        for (std::size_t s = 0; s < r; ++s) before_.push_back(dot(s));
+        self_.push_back(dot(r));
         for (std::uint32_t e = columnStart_[r]; e < columnStart_[r + 1]; ++e) dense_[column_[e].index] = 0;
+    }
+    coupleStart_.assign(1, 0);
+    coupling_.clear();
+    for (std::uint32_t r = 0; r < count; ++r) {
+        const float* before = before_.data() + std::size_t{r} * (r - 1) / 2;
+        for (std::uint32_t s = 0; s < r; ++s)
+            if (before[s] != 0) coupling_.push_back({s, before[s]});
+        for (std::uint32_t s = r + 1; s < count; ++s)
+            if (const float after = before_[std::size_t{s} * (s - 1) / 2 + r]; after != 0)
+                coupling_.push_back({s, after});
         coupleStart_.push_back(static_cast<std::uint32_t>(coupling_.size()));
     }
 }
@@ -91,6 +98,7 @@ void SkinPushes::clear() {
     own_.clear();
     column_.clear();
     self_.clear();
+    before_.clear();
 }
 
 /// What each plane still lacks, and how much of it a push of each other one gives: the matrix of the problem.

@@ -21,34 +21,6 @@ void checkNumber(double value, const char* what) {
         throw InputError(std::string(what) + " of a skin must be finite and at least 0");
 }
 
-void check(const TriangleMesh& skin, const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
-           const SkinParameters& p) {
-    checkNumber(p.stretchCompliance, "the stretch compliance");
-    checkNumber(p.bendCompliance, "the bend compliance");
-    for (const auto* weights : {&p.tether, &p.attach}) {
-        if (!weights->empty() && weights->size() != skin.vertices.size())
-            throw InputError("tether and attach of a skin need one value a vertex");
-        for (const double w : *weights)
-            if (!(w >= 0 && w <= 1)) throw InputError("tether and attach of a skin lie in [0, 1]");
-    }
-    if (!p.frames.empty() && p.frames.size() != bodies.size())
-        throw InputError("a skin needs one frame a muscle or bone below it");
-    for (const int frame : p.frames)
-        if (frame < -1 || frame >= static_cast<int>(bodies.size()))
-            throw InputError("a frame of a skin is numbered from 0 and fewer than its bodies");
-    for (const std::vector<double>& list : p.shares) {
-        if (list.size() != skin.vertices.size())
-            throw InputError("the shares of a skin need one value a vertex");
-        for (const double w : list)
-            if (!(w >= 0 && w <= 1)) throw InputError("the shares of a skin lie in [0, 1]");
-    }
-    for (const BoneSwing& swing : p.swings)
-        for (const std::vector<Pose>& station : swing)
-            if (station.size() != bodies.size())
-                throw InputError("the swings of the bones under a skin need one pose a muscle or bone");
-    if (p.iterations < 1) throw InputError("a skin needs at least one iteration");
-}
-
 void check(const TriangleMesh& skin, std::size_t bodies, const SkinTable& table) {
     const Table& t = table.table;
     if (table.skinVertices.size() != t.a.size() || table.muscleOf.size() != t.b.size() ||
@@ -207,6 +179,33 @@ double largestRadius(const Table& table) {
 
 } // namespace
 
+void checkSkin(const TriangleMesh& skin, std::size_t bodies, const SkinParameters& p) {
+    checkNumber(p.stretchCompliance, "the stretch compliance");
+    checkNumber(p.bendCompliance, "the bend compliance");
+    for (const auto* weights : {&p.tether, &p.attach}) {
+        if (!weights->empty() && weights->size() != skin.vertices.size())
+            throw InputError("tether and attach of a skin need one value a vertex");
+        for (const double w : *weights)
+            if (!(w >= 0 && w <= 1)) throw InputError("tether and attach of a skin lie in [0, 1]");
+    }
+    if (!p.frames.empty() && p.frames.size() != bodies)
+        throw InputError("a skin needs one frame a muscle or bone below it");
+    for (const int frame : p.frames)
+        if (frame < -1 || frame >= static_cast<int>(bodies))
+            throw InputError("a frame of a skin is numbered from 0 and fewer than its bodies");
+    for (const std::vector<double>& list : p.shares) {
+        if (list.size() != skin.vertices.size())
+            throw InputError("the shares of a skin need one value a vertex");
+        for (const double w : list)
+            if (!(w >= 0 && w <= 1)) throw InputError("the shares of a skin lie in [0, 1]");
+    }
+    for (const BoneSwing& swing : p.swings)
+        for (const std::vector<Pose>& station : swing)
+            if (station.size() != bodies)
+                throw InputError("the swings of the bones under a skin need one pose a muscle or bone");
+    if (p.iterations < 1) throw InputError("a skin needs at least one iteration");
+}
+
 Pose SkinRig::local(const Pose& pose) const {
     Pose result = pose;
     result.translation() = (pose * centre - centre) / size;
@@ -240,7 +239,7 @@ std::vector<Vec3> skinNormals(const TriangleMesh& skin) {
 SkinMoves skinMoves(const TriangleMesh& skin,
                     const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
                     const SkinParameters& parameters) {
-    check(skin, bodies, parameters);
+    checkSkin(skin, bodies.size(), parameters);
     SkinMoves moves;
     moves.stray.assign(bodies.size(), std::vector<double>(skin.vertices.size(), 0));
     moves.shares = moves.stray;
@@ -277,7 +276,7 @@ SkinMoves skinMoves(const TriangleMesh& skin,
 std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
                                            const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
                                            const SkinTable& table, const SkinParameters& parameters) {
-    check(skin, bodies, parameters);
+    checkSkin(skin, bodies.size(), parameters);
     check(skin, bodies.size(), table);
     auto result = std::make_shared<SkinRig>();
     SkinRig& rig = *result;

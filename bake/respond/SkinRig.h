@@ -131,6 +131,9 @@ SkinMoves skinMoves(const TriangleMesh& skin,
                     const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
                     const SkinParameters& parameters);
 
+/// Throws InputError for parameters that makeSkinRig() would refuse over so many muscles and bones.
+void checkSkin(const TriangleMesh& skin, std::size_t bodies, const SkinParameters& parameters);
+
 /// Makes a rig. skin: the mesh the table was made for. bodies: muscles and bones in the order the table knows
 /// them, in the skin's frame. Throws InputError when they do not fit each other.
 std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,

@@ -1,3 +1,5 @@
+#include "bake/base/Error.h"
+#include "bake/motion/MuscleRing.h"
 #include "bake/scene/SceneReading.h"
 
 #include <algorithm>
@@ -17,7 +19,12 @@ int readSurface(const SceneReading& reading, const PrimReader& prim) {
     return body;
 }
 
-std::vector<Vec3> readFibre(const SceneReading& reading, const PrimReader& prim, int body) {
+MuscleForm readForm(const PrimReader& prim) {
+    const std::string form = prim.choice(schema::form, {"tube", "sheet", "ring"});
+    return form == "ring" ? MuscleForm::Ring : form == "sheet" ? MuscleForm::Sheet : MuscleForm::Tube;
+}
+
+std::vector<Vec3> readLine(const PrimReader& prim) {
     for (const Attribute& end : {schema::origin, schema::insertion})
         if (!prim.value(end)) prim.problem(std::string("expected the attribute ") + end.name + " (point3f)");
     std::vector<Vec3> fibre{prim.vector(schema::origin, Vec3::Zero())};
@@ -25,8 +32,21 @@ std::vector<Vec3> readFibre(const SceneReading& reading, const PrimReader& prim,
     fibre.push_back(prim.vector(schema::insertion, Vec3::UnitX()));
     if (fibre.front() == fibre.back())
         prim.problem(schema::insertion, "expected another point than tss:origin");
-    if (body >= 0 && reading.bodyXforms[body].stretched)
-        for (Vec3& point : fibre) point = reading.bodyXforms[body].stretch * point;
+    return fibre;
+}
+
+/// A ring's line is closed and has no ends.
+std::vector<Vec3> readRing(const PrimReader& prim) {
+    for (const Attribute& end : {schema::origin, schema::insertion})
+        if (prim.value(end)) prim.problem(end, "expected none: a ring of muscle has no ends");
+    std::vector<Vec3> fibre;
+    for (const Vec3& point : prim.vectors(schema::fibre)) fibre.push_back(point);
+    try {
+        MuscleRing{fibre};
+    } catch (const InputError& e) {
+        prim.problem(schema::fibre, std::string("expected the ring's line, once round: ") + e.what());
+        fibre = {Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitX() - Vec3::UnitY()};
+    }
     return fibre;
 }
 
@@ -37,9 +57,10 @@ MuscleModel readMuscle(const SceneReading& reading, const PrimReader& prim) {
     model.bone = reading.body(prim, schema::bone, prim.target(schema::bone));
     Muscle& muscle = model.muscle;
     if (model.body >= 0) muscle.surface = reading.scene.bodies[model.body].mesh;
-    muscle.fibre = readFibre(reading, prim, model.body);
-    muscle.form =
-        prim.choice(schema::form, {"tube", "sheet"}) == "sheet" ? MuscleForm::Sheet : MuscleForm::Tube;
+    muscle.form = readForm(prim);
+    muscle.fibre = muscle.form == MuscleForm::Ring ? readRing(prim) : readLine(prim);
+    if (model.body >= 0 && reading.bodyXforms[model.body].stretched)
+        for (Vec3& point : muscle.fibre) point = reading.bodyXforms[model.body].stretch * point;
     muscle.anchor = prim.real(schema::anchor, muscle.anchor, {0, 1});
     muscle.maxContraction = prim.real(schema::maxContraction, muscle.maxContraction, {0, 1});
     const auto range = prim.reals(schema::activationRange, 2);

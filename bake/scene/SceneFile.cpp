@@ -14,13 +14,18 @@ namespace tss {
 
 namespace {
 
-void addStaleness(const SceneModel& scene, Problems& problems) {
+/// Stale tables, and what `more` finds.
+void addFaults(const SceneModel& scene, Problems& problems,
+               const std::function<std::vector<InputError>(const SceneModel&)>& more) {
     const PrimIndex index(*scene.layer, problems);
     const auto add = [&](const std::string& path, const std::string& why) {
-        if (!why.empty()) problems.add(index.entries[index.find(path)].place, why);
+        const int entry = index.find(path);
+        if (!why.empty()) problems.add(entry < 0 ? Place{"", path} : index.entries[entry].place, why);
     };
     for (const Pair& pair : scene.pairs) add(pair.path, staleness(scene, pair));
     for (const SkinModel& skin : scene.skins) add(skin.path, staleness(scene, skin));
+    if (!more) return;
+    for (const InputError& error : more(scene)) add(error.where.path, error.message);
 }
 
 std::vector<LocatedError> located(const std::vector<InputError>& errors, std::string_view text) {
@@ -56,7 +61,9 @@ void saveScene(const SceneModel& scene, const std::string& file) {
     }
 }
 
-std::vector<LocatedError> validateScene(const std::string& file, std::vector<LocatedError>* warnings) {
+std::vector<LocatedError>
+validateScene(const std::string& file, std::vector<LocatedError>* warnings,
+              const std::function<std::vector<InputError>(const SceneModel&)>& more) {
     Problems problems(file, Problems::Mode::Collect);
     std::string text;
     try {
@@ -64,7 +71,7 @@ std::vector<LocatedError> validateScene(const std::string& file, std::vector<Loc
         const auto layer = std::make_shared<const Layer>(parseLayer(text, file, problems));
         remarkTypos(*layer, problems);
         const SceneModel scene = readScene(layer, problems);
-        if (problems.empty()) addStaleness(scene, problems);
+        if (problems.empty()) addFaults(scene, problems, more);
     } catch (const LocatedError& error) { // the text itself cannot be read on
         return {error};
     } catch (const InputError& error) {

@@ -50,6 +50,10 @@ void writePairs(Layer& layer, const SceneModel& scene) {
     for (const Pair& pair : scene.pairs) writePair(layer, scene, pair);
 }
 
+const char* formText(MuscleForm form) {
+    return form == MuscleForm::Ring ? "ring" : form == MuscleForm::Sheet ? "sheet" : "tube";
+}
+
 void writeMuscles(Layer& layer, const SceneModel& scene) {
     const Muscle plain;
     for (const MuscleModel& model : scene.muscles) {
@@ -57,11 +61,15 @@ void writeMuscles(Layer& layer, const SceneModel& scene) {
         const Muscle& muscle = model.muscle;
         prim.setTargets(schema::surface, pathsOf(scene.bodies, {model.body}));
         if (model.bone >= 0) prim.setTargets(schema::bone, pathsOf(scene.bodies, {model.bone}));
-        prim.set(schema::origin, muscle.fibre.at(0));
-        prim.set(schema::insertion, muscle.fibre.back());
-        if (muscle.fibre.size() > 2)
-            prim.set(schema::fibre, std::vector<Vec3>(muscle.fibre.begin() + 1, muscle.fibre.end() - 1));
-        prim.setUnless(schema::form, muscle.form == MuscleForm::Sheet ? "sheet" : "tube", "tube");
+        if (muscle.form == MuscleForm::Ring) {
+            prim.set(schema::fibre, muscle.fibre);
+        } else {
+            prim.set(schema::origin, muscle.fibre.at(0));
+            prim.set(schema::insertion, muscle.fibre.back());
+            if (muscle.fibre.size() > 2)
+                prim.set(schema::fibre, std::vector<Vec3>(muscle.fibre.begin() + 1, muscle.fibre.end() - 1));
+        }
+        prim.setUnless(schema::form, formText(muscle.form), "tube");
         prim.setUnless(schema::anchor, muscle.anchor, plain.anchor);
         prim.setUnless(schema::maxContraction, muscle.maxContraction, plain.maxContraction);
         if (muscle.activationLower != plain.activationLower ||

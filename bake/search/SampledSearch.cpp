@@ -1,3 +1,4 @@
+// The exploration in "Object Interaction Using Tabulated Spheres Subsets": its table of collisions Tc.
 #include "bake/search/SampledSearch.h"
 
 #include "bake/base/Parallel.h"

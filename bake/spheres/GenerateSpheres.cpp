@@ -19,22 +19,6 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-void checkOptions(const SphereOptions& o) {
-    const auto need = [](bool good, const char* what) {
-        if (!good) throw InputError(fmt::format("sphere options: {}", what));
-    };
-    need(std::isfinite(o.tolerance) && o.tolerance >= 0, "the tolerance must be a number >= 0");
-    need(o.maxSpheres >= 0, "the largest number of spheres must be >= 0");
-    need(o.medial.slackFactor > 0 && o.medial.slackFactor <= 0.5, "slackFactor must be in (0, 0.5]");
-    need(o.medial.sizeFactor > 0 && o.medial.sizeFactor <= 1, "sizeFactor must be in (0, 1]");
-    need(o.growth.start > 0 && o.growth.step > 0 && o.growth.end >= o.growth.start &&
-             o.growth.maxRadius > 0 && std::isfinite(o.growth.end / o.growth.step),
-         "growth needs start, step, maximum radius > 0 and end >= start");
-    need(std::isfinite(o.surface.radius) && o.surface.radius >= 0,
-         "the surface radius must be a number >= 0");
-    need(std::isfinite(o.surface.edgeFactor) && o.surface.edgeFactor > 0, "edgeFactor must be > 0");
-}
-
 SphereFit medialFit(const Solid& solid, const SphereOptions& options, double tolerance,
                     const Progress& progress) {
     const double protrusion = protrusionFor(tolerance, magnitude(solid.mesh()));
@@ -53,9 +37,9 @@ SphereFit surfaceFit(const Solid& solid, const SphereOptions& options, double to
     for (const Sphere& s : fit.spheres) fit.protrusion = std::max(fit.protrusion, s.radius);
     fit.coverage = options.conservative ? 0 : unbounded;
     if (options.tolerance > 0 && fit.protrusion > tolerance)
-        fit.note = fmt::format(
-            "tolerance {} not reached: surface spheres stand on the vertices and have radii up to {}",
-            tolerance, fit.protrusion);
+        fit.note = fmt::format("tolerance {} not reached: surface spheres stand on the vertices and have "
+                               "radii up to {} scene units",
+                               tolerance, fit.protrusion);
     return fit;
 }
 
@@ -116,12 +100,28 @@ SphereFit limitedFit(const Solid& solid, const SphereOptions& options, const Pro
     const double reached = toleranceFor(limit, finest, 2 * solid.diagonal(), count, progress);
     if (best.spheres.empty()) best = fitOnce(solid, options, reached, progress);
     if (options.tolerance > 0 && reached > options.tolerance)
-        addNote(best, fmt::format("tolerance {} not reached: {} spheres allow {:.4g}", options.tolerance,
-                                  limit, reached));
+        addNote(best, fmt::format("tolerance {} not reached: {} spheres allow {:.4g} scene units",
+                                  options.tolerance, limit, reached));
     return best;
 }
 
 } // namespace
+
+void checkOptions(const SphereOptions& o) {
+    const auto need = [](bool good, const char* what) {
+        if (!good) throw InputError(fmt::format("sphere options: {}", what));
+    };
+    need(std::isfinite(o.tolerance) && o.tolerance >= 0, "the tolerance must be a number >= 0");
+    need(o.maxSpheres >= 0, "the largest number of spheres must be >= 0");
+    need(o.medial.slackFactor > 0 && o.medial.slackFactor <= 0.5, "slackFactor must be in (0, 0.5]");
+    need(o.medial.sizeFactor > 0 && o.medial.sizeFactor <= 1, "sizeFactor must be in (0, 1]");
+    need(o.growth.start > 0 && o.growth.step > 0 && o.growth.end >= o.growth.start &&
+             o.growth.maxRadius > 0 && std::isfinite(o.growth.end / o.growth.step),
+         "growth needs start, step, maximum radius > 0 and end >= start");
+    need(std::isfinite(o.surface.radius) && o.surface.radius >= 0,
+         "the surface radius must be a number >= 0");
+    need(std::isfinite(o.surface.edgeFactor) && o.surface.edgeFactor > 0, "edgeFactor must be > 0");
+}
 
 double magnitude(const TriangleMesh& mesh) {
     double m = 0;

@@ -19,6 +19,9 @@ struct SphereFit {
     std::string note{};  ///< what was assumed of the mesh and what could not be reached; empty: nothing
 };
 
+/// Throws InputError for options out of range, as fitSpheres() does.
+void checkOptions(const SphereOptions& options);
+
 /// Fills a body with spheres by the method of the options. The mesh may be open, inside out, non-manifold or
 /// a soup of triangles: the note says what was assumed (see Solid). The same spheres for any number of
 /// threads. Stopped through `progress`, the result is still conservative, with more spheres than need be.

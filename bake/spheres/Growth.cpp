@@ -1,3 +1,4 @@
+// The growth of spheres in "Object Interaction Using Tabulated Spheres Subsets", Figure 1f-i.
 #include "bake/spheres/Growth.h"
 
 #include "bake/geometry/Bvh.h"

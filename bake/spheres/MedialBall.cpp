@@ -1,3 +1,5 @@
+// After the shrinking ball of Ma, Bae and Choi, "3D medial axis point approximation using nearest neighbors
+// and the normal field", 2012, with the exact distance from the mesh in place of sampled points.
 #include "bake/spheres/MedialBall.h"
 
 #include <algorithm>

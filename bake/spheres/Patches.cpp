@@ -110,11 +110,11 @@ private:
 
     [[noreturn]] void refuse() const {
         if (options_.neighbour && finest_ < 0.5 * options_.protrusion)
-            throw RestTooClose(
-                fmt::format("the meshes are {:.4g} apart at rest: spheres that are apart there too may stick "
-                            "out by no more than {:.4g} and take more than {} patches: expected a rest pose "
-                            "with more clearance, or meshes that overlap where they are meant to",
-                            options_.neighbour->clearance, std::max(finest_, 0.0), options_.mostPatches));
+            throw RestTooClose(fmt::format(
+                "the meshes are {:.4g} scene units apart at rest: spheres that are apart there too may stick "
+                "out by no more than {:.4g} and take more than {} patches: expected a rest pose "
+                "with more clearance, or meshes that overlap where they are meant to",
+                options_.neighbour->clearance, std::max(finest_, 0.0), options_.mostPatches));
         throw TooFine(
             fmt::format("a tolerance of about {:.4g} takes more than {} patches of a mesh {:.4g} in size: "
                         "expected a coarser one",

@@ -1,3 +1,4 @@
+// The surface spheres of "Object Interaction Using Tabulated Spheres Subsets".
 #include "bake/spheres/SurfaceSpheres.h"
 
 #include <algorithm>

@@ -1,14 +1,19 @@
-#include "bake/Bake.h"
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
+#include "bake/pipeline/Bake.h"
+#include "bake/pipeline/CheckBake.h"
 #include "bake/scene/AllPairs.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/BakeTimes.h"
 #include "bake/tool/Command.h"
+#include "bake/tool/DrivenSteps.h"
+#include "bake/tool/FreeingAdvice.h"
+#include "bake/tool/KeptParts.h"
 #include "bake/tool/Summary.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace tss::tool {
 
@@ -18,7 +23,7 @@ struct BakeArguments {
     std::string input, output;
     BakeRequest request;
     int threads = 0;
-    bool inscribed = false, keep = false, allPairs = false, pairsOnly = false;
+    bool inscribed = false, keep = false, allPairs = false, pairsOnly = false, again = false;
 };
 
 /// Adds the pairs of all bodies to the scene and says which; also what cannot be a pair.
@@ -60,44 +65,97 @@ void remarkTolerance(const SceneModel& scene, const BakeOptions& options, const 
                         lengthText(size, scene.metersPerUnit), scene.metersPerUnit));
 }
 
-void runBake(BakeArguments& arguments, const Console& console) {
+/// Where some have tables and others have none, a bake goes on with these.
+bool goesOn(const SceneModel& scene, const BakeArguments& arguments, const Console& console) {
+    if (arguments.again || !arguments.request.pairs.empty()) return false;
+    BakeRequest missing = arguments.request;
+    missing.onlyMissing = true;
+    std::size_t there = 0, not_ = 0;
+    const auto count = [&](const auto& item) { ++(toBake(scene, item, missing) ? not_ : there); };
+    for (const Pair& pair : scene.pairs) count(pair);
+    for (const SkinModel& skin : scene.skins) count(skin);
+    if (there == 0 || not_ == 0) return false;
+    console.say(
+        fmt::format("{} of {} baked already: going on with the others (--again: all)", there, there + not_));
+    return true;
+}
+
+/// Of several things that bake() refuses it throws the first.
+void tellOtherRefusals(const SceneModel& scene, const BakeArguments& arguments) {
+    const std::vector<InputError> refused = refusedByBake(scene, arguments.request);
+    for (std::size_t k = 1; k < refused.size(); ++k)
+        fmt::print(stderr, "tss: {} (<{}>): {}\n", arguments.input, refused[k].where.path,
+                   refused[k].message);
+}
+
+/// Says why, what is kept, and how to go on.
+void endIncomplete(const BakeArguments& arguments, const KeptParts& parts, const std::string& written,
+                   Console& console) {
+    console.exitCode = parts.signal() ? 128 + parts.signal() : 1; // as shells have it
+    if (written.empty() && !parts.failures().empty())
+        return inFile(arguments.input, [&] { throw parts.failures().front(); });
+    Json failures = Json::array();
+    for (const InputError& error : parts.failures()) {
+        failures.push_back({{"path", error.where.path}, {"message", error.message}});
+        fmt::print(stderr, "tss: {} (<{}>): {}\n", arguments.input, error.where.path, error.message);
+    }
+    console.print({{"complete", false},
+                   {"output", written},
+                   {"missing", parts.missing()},
+                   {"failures", failures},
+                   {"notes", parts.notes()}});
+    if (parts.signal()) fmt::print(stderr, "tss: interrupted\n");
+    fmt::print(stderr, "tss: {} not baked: {}\n", counted(parts.missing().size(), "pair or skin"),
+               fmt::join(parts.missing(), ", "));
+    if (!written.empty())
+        fmt::print(stderr, "tss: what is done is in {}; go on with\n  tss bake {} -o {}\n", written, written,
+                   arguments.output);
+}
+
+/// The meshes overlap at rest, and at many other poses too.
+bool hasNoRoom(const Json& pair) {
+    const Json early = pair.value("earlyContact", Json());
+    if (early.is_null() || pair["clearanceAtRest"].get<double>() > 0) return false;
+    return early["stuck"].get<bool>() || early["held"].get<bool>() ||
+           10 * early["freePoses"].get<int>() < 9 * early["poses"].get<int>();
+}
+
+void runBake(BakeArguments& arguments, Console& console) {
     if (arguments.inscribed) arguments.request.given["conservative"] = "false";
     if (arguments.keep) arguments.request.given["keep-spheres"] = "true";
     const ThreadLimit limit(arguments.threads);
-    expectFolder(arguments.output);
+    expectWritable(arguments.output);
     SceneModel scene = loadScene(arguments.input);
     // What is wrong with them is no fault of the file.
     remarkTolerance(scene, optionsFor({}, arguments.request.given, scene.metersPerUnit), console);
     const Json pairs = arguments.allPairs ? addPairs(scene, console) : Json();
-    std::vector<PairReport> reports;
-    if (!arguments.pairsOnly)
-        reports = inFile(arguments.input, [&] { return bake(scene, arguments.request, console.progress()); });
-    saveScene(scene, arguments.output);
-
-    BakeTimes times = readBakeTimes(arguments.input);
-    Json notes = Json::object();
-    for (const PairReport& report : reports) {
-        times[report.path] = report.seconds;
-        for (const std::string& note : report.notes) {
-            console.say(report.path + ": " + note);
-            notes[report.path].push_back(note);
-        }
+    KeptParts parts(scene, arguments.output, readBakeTimes(arguments.input), console);
+    if (!arguments.pairsOnly) {
+        arguments.request.onlyMissing = goesOn(scene, arguments, console);
+        tellOtherRefusals(scene, arguments);
+        inFile(arguments.input, [&] { parts.run(arguments.request); });
     }
-    writeBakeTimes(arguments.output, times);
+    const std::string written = parts.write();
+    if (!parts.complete()) return endIncomplete(arguments, parts, written, console);
+
     Json result = summary(scene);
-    addTimes(result, times);
+    addTimes(result, parts.times());
+    if (!arguments.pairsOnly) addResiduals(result, scene);
     result["output"] = arguments.output;
-    result["notes"] = notes;
+    result["notes"] = parts.notes();
     if (arguments.allPairs) result["allPairs"] = pairs;
     console.say(describe(result) + (arguments.allPairs ? tally(result["pairs"]) : "") + "wrote " +
                 arguments.output);
+    for (std::size_t k = 0; k < scene.pairs.size(); ++k)
+        if (hasNoRoom(result["pairs"][k]))
+            result["pairs"][k]["freeingShifts"] = adviseShifts(scene, scene.pairs[k], console);
     console.print(result);
 }
 
 } // namespace
 
-void addBake(CLI::App& app, Console& console) {
-    CLI::App* command = addCommand(app, console, "bake", "makes the tables of a scene");
+void addBake(Options& app, Console& console) {
+    Options* command = addCommand(app, console, "bake", "makes the tables of a scene");
     auto arguments = std::make_shared<BakeArguments>();
     command->add_option("scene", arguments->input, "the scene to bake")->required();
     command->add_option("-o,--output", arguments->output, "the scene with its tables")->required();
@@ -105,7 +163,7 @@ void addBake(CLI::App& app, Console& console) {
         ->add_option("--pair", arguments->request.pairs,
                      "prim path of a pair or a skin; repeat; default: all")
         ->allow_extra_args(false);
-    CLI::Option* allPairs = command->add_flag(
+    Option* allPairs = command->add_flag(
         "--all-pairs", arguments->allPairs,
         "first make pairs of all bodies that joints link, neighbours and over chains of joints");
     command
@@ -127,7 +185,7 @@ void addBake(CLI::App& app, Console& console) {
         {"at-rest", "the region in which the meshes overlap at rest: offset (default), ignore or collide"},
         {"budget", "seconds to find the few tests of each pair; making its spheres does not count"}};
     for (const auto& [name, description] : settings)
-        command->add_option_function<std::string>(
+        command->add_option(
             std::string("--") + name,
             [arguments, key = std::string(name)](const std::string& text) {
                 arguments->request.given[key] = text;
@@ -137,9 +195,14 @@ void addBake(CLI::App& app, Console& console) {
                       "inscribed spheres: nothing early, misses stated");
     command->add_flag("--keep-spheres", arguments->keep,
                       "store all generated spheres, not only the used ones");
+    command->add_flag("--again", arguments->again,
+                      "bake all, also those that a bake of the same settings has left baked");
     command->add_option("--threads", arguments->threads, "worker threads (default: one a core)")
-        ->check(CLI::Range(1, 1024));
-    command->footer("Example:\n  tss bake jaw.tss -o jaw_baked.tss --tolerance 0.2mm");
+        ->between(1, 1024);
+    command->footer("Where not all can be baked, or Ctrl-C comes, what is done is in BAKED.incomplete.tss, "
+                    "and baking that\n"
+                    "goes on with what is missing.\n"
+                    "Example:\n  tss bake jaw.tss -o jaw_baked.tss --tolerance 0.2mm");
     command->callback([arguments, &console] { runBake(*arguments, console); });
 }
 

@@ -1,5 +1,5 @@
-#include "bake/BakeOptions.h"
 #include "bake/base/Error.h"
+#include "bake/pipeline/BakeOptions.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/table/Bench.h"
 #include "bake/tool/ChoosePair.h"
@@ -67,9 +67,8 @@ void runBench(const BenchArguments& arguments, const Console& console) {
 
 } // namespace
 
-void addBench(CLI::App& app, Console& console) {
-    CLI::App* command =
-        addCommand(app, console, "bench", "times the query alone, over poses made beforehand");
+void addBench(Options& app, Console& console) {
+    Options* command = addCommand(app, console, "bench", "times the query alone, over poses made beforehand");
     auto arguments = std::make_shared<BenchArguments>();
     command->add_option("scene", arguments->scene, "a baked scene")->required();
     command->add_option("--pair", arguments->pair, "prim path of the pair (not needed when there is one)");

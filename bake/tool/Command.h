@@ -1,7 +1,7 @@
 #pragma once
 #include "bake/base/Progress.h"
+#include "bake/tool/CommandLine.h"
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -29,24 +29,23 @@ std::string counted(std::size_t count, const std::string& thing);
 /// Throws InputError where the output would replace a file that is read.
 void refuseOverwriting(const std::string& output, std::initializer_list<std::string> inputs);
 
-/// Throws InputError where the folder of an output is not there: before long work, not after it.
-void expectFolder(const std::string& output);
+/// Throws InputError where an output cannot be written: before long work, not after it.
+void expectWritable(const std::string& output);
 
 /// Adds --json and --quiet to a command.
-CLI::App* addCommand(CLI::App& app, Console& console, const std::string& name,
-                     const std::string& description);
+Options* addCommand(Options& app, Console& console, const std::string& name, const std::string& description);
 
 // One function a command, in a file of its name.
-void addMake(CLI::App& app, Console& console);
-void addBake(CLI::App& app, Console& console);
-void addMerge(CLI::App& app, Console& console);
-void addVerify(CLI::App& app, Console& console);
-void addInfo(CLI::App& app, Console& console);
-void addQuery(CLI::App& app, Console& console);
-void addPlay(CLI::App& app, Console& console);
-void addValidate(CLI::App& app, Console& console);
-void addConvert(CLI::App& app, Console& console);
-void addBench(CLI::App& app, Console& console);
-void addReport(CLI::App& app, Console& console); ///< only with OSGTSS_REPORT
+void addMake(Options& app, Console& console);
+void addBake(Options& app, Console& console);
+void addMerge(Options& app, Console& console);
+void addVerify(Options& app, Console& console);
+void addInfo(Options& app, Console& console);
+void addQuery(Options& app, Console& console);
+void addPlay(Options& app, Console& console);
+void addValidate(Options& app, Console& console);
+void addConvert(Options& app, Console& console);
+void addBench(Options& app, Console& console);
+void addReport(Options& app, Console& console); ///< only with OSGTSS_REPORT
 
 } // namespace tss::tool

@@ -2,6 +2,8 @@
 
 #include "bake/base/Error.h"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -43,16 +45,21 @@ void refuseOverwriting(const std::string& output, std::initializer_list<std::str
     }
 }
 
-void expectFolder(const std::string& output) {
+void expectWritable(const std::string& output) {
     const std::filesystem::path folder = std::filesystem::path(output).parent_path();
     std::error_code none;
     if (!folder.empty() && !std::filesystem::is_directory(folder, none))
         throw InputError(Where{output, "", ""}, "cannot be written: there is no folder " + folder.string());
+    if (std::filesystem::is_directory(output, none))
+        throw InputError(Where{output, "", ""}, "cannot be written: it is a folder");
+    const std::string within = folder.empty() ? "." : folder.string();
+    if (::access(within.c_str(), W_OK | X_OK) != 0)
+        throw InputError(Where{output, "", ""},
+                         fmt::format("cannot be written: {}: {}", within, std::strerror(errno)));
 }
 
-CLI::App* addCommand(CLI::App& app, Console& console, const std::string& name,
-                     const std::string& description) {
-    CLI::App* command = app.add_subcommand(name, description);
+Options* addCommand(Options& app, Console& console, const std::string& name, const std::string& description) {
+    Options* command = app.add_subcommand(name, description);
     command->add_flag("--json", console.json, "one JSON object on stdout, everything else on stderr");
     command->add_flag("--quiet", console.quiet, "nothing but errors and what was asked for");
     return command;

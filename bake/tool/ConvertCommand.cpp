@@ -1,8 +1,8 @@
-#include "bake/BakeOptions.h"
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/Import.h"
 #include "bake/model/AddPair.h"
+#include "bake/pipeline/BakeOptions.h"
 #include "bake/robot/WritePairs.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/SceneFile.h"
@@ -15,6 +15,7 @@
 
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 
 namespace tss::tool {
@@ -137,8 +138,7 @@ void refuseIdleOptions(const ConvertArguments& arguments) {
         {"--max-spheres", {spheres, "for spheres to write, .yml"}}};
     for (const std::string& option : arguments.given)
         if (const auto use = uses.find(option); use != uses.end() && !use->second.first)
-            throw CLI::ValidationError(option,
-                                       std::string("is ") + use->second.second + "; it does nothing here");
+            failUsage(option, std::string("is ") + use->second.second + "; it does nothing here");
 }
 
 void convert(const ConvertArguments& arguments, const Console& console) {
@@ -166,8 +166,8 @@ void convert(const ConvertArguments& arguments, const Console& console) {
 
 } // namespace
 
-void addConvert(CLI::App& app, Console& console) {
-    CLI::App* command =
+void addConvert(Options& app, Console& console) {
+    Options* command =
         addCommand(app, console, "convert",
                    ".tss as JSON, binary .tss, .usda; proofs as SRDF or MJCF; meshes become a .tss");
     auto arguments = std::make_shared<ConvertArguments>();
@@ -191,10 +191,9 @@ void addConvert(CLI::App& app, Console& console) {
     command
         ->add_option("--max-spheres", arguments->maxSpheres,
                      "of a .yml: at most so many a link, as close as that goes")
-        ->check(CLI::PositiveNumber);
+        ->between(1, std::numeric_limits<int>::max());
     command->callback([arguments, command, &console] {
-        for (const CLI::Option* option : command->get_options())
-            if (option->count() > 0) arguments->given.push_back(option->get_name());
+        arguments->given = command->given();
         convert(*arguments, console);
     });
 }

@@ -1,8 +1,8 @@
 #include "bake/tool/Csv.h"
 
-#include "bake/BakeOptions.h"
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/pipeline/BakeOptions.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,9 +1,10 @@
 #include "bake/tool/DofSpec.h"
 
-#include "bake/BakeOptions.h"
 #include "bake/base/Error.h"
+#include "bake/pipeline/BakeOptions.h"
 #include "bake/tool/Csv.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <sstream>
@@ -39,7 +40,9 @@ std::vector<PathRow> readPath(const std::string& file) {
     std::vector<PathRow> rows;
     for (const auto& row : csv.rows) {
         if (row.size() != 4 && row.size() != 7)
-            throw InputError(Where{file, "", ""}, "expected 4 or 7 columns: value,tx,ty,tz[,rx,ry,rz]");
+            throw InputError(
+                Where{file, "", ""},
+                "expected 4 or 7 columns: value,tx,ty,tz, and for rotation rx,ry,rz, an axis times degrees");
         PathRow path;
         path.value = row[0];
         path.translation = Vec3(row[1], row[2], row[3]);
@@ -49,6 +52,12 @@ std::vector<PathRow> readPath(const std::string& file) {
         rows.push_back(path);
     }
     return rows;
+}
+
+std::string describePath(const Dof& dof) {
+    const auto turns = [](const PathRow& row) { return row.rotation.vec().norm() > 0; };
+    const bool any = std::any_of(dof.path.begin(), dof.path.end(), turns);
+    return fmt::format(" ({} rows, {})", dof.path.size(), any ? "with rotation" : "no rotation");
 }
 
 } // namespace
@@ -99,9 +108,10 @@ Dof parseDof(const std::string& text, double metersPerUnit) {
 std::string describeDofs(const Motion& motion) {
     std::string text;
     for (const Dof& dof : motion.dofs)
-        text += fmt::format("{}{} {:.6g} to {:.6g}{}, rest {:.6g}", text.empty() ? "" : "; ", dof.name,
+        text += fmt::format("{}{} {:.6g} to {:.6g}{}, rest {:.6g}{}", text.empty() ? "" : "; ", dof.name,
                             toUser(dof, dof.lower), toUser(dof, dof.upper),
-                            dof.kind == DofKind::Rotation ? " degrees" : "", toUser(dof, dof.rest));
+                            dof.kind == DofKind::Rotation ? " degrees" : "", toUser(dof, dof.rest),
+                            dof.kind == DofKind::Path ? describePath(dof) : "");
     return text;
 }
 

@@ -1,12 +1,13 @@
-#include "bake/BakeOptions.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/Import.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/model/AddPair.h"
 #include "bake/model/ShowMotion.h"
+#include "bake/pipeline/BakeOptions.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
+#include "bake/tool/FreeingAdvice.h"
 #include "bake/tool/OwnMotion.h"
 #include "bake/tool/RobotCommand.h"
 #include "bake/tool/WholeScene.h"
@@ -120,7 +121,7 @@ void remarkRadians(const Motion& motion, const Console& console) {
 void checkOutput(const MakeArguments& arguments) {
     refuseOverwriting(arguments.output, {arguments.a, arguments.b, arguments.robot.input,
                                          arguments.robot.srdf, arguments.motion});
-    expectFolder(arguments.output);
+    expectWritable(arguments.output);
     std::string extension = std::filesystem::path(arguments.output).extension().string();
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     for (const char* mesh : {".obj", ".stl", ".ply", ".off", ".dae", ".fbx", ".gltf", ".glb", ".3ds"})
@@ -146,9 +147,9 @@ double parseUnit(const std::string& text) {
 void checkUsage(const MakeArguments& arguments) {
     if (!arguments.robot.input.empty() || !arguments.whole.bodies.empty() || !arguments.whole.skins.empty())
         return;
-    if (arguments.a.empty()) throw CLI::RequiredError("--a, or --body, or a robot's file");
-    if (arguments.b.empty()) throw CLI::RequiredError("--b");
-    if (arguments.dofs.empty()) throw CLI::RequiredError("--dof");
+    if (arguments.a.empty()) failRequired("--a, or --body, or a robot's file");
+    if (arguments.b.empty()) failRequired("--b");
+    if (arguments.dofs.empty()) failRequired("--dof");
 }
 
 void make(MakeArguments& arguments, const Console& console) {
@@ -188,16 +189,20 @@ void make(MakeArguments& arguments, const Console& console) {
     remarkRadians(motion, console);
     remarkFarAxes(motion, scene, console);
     console.say("wrote " + arguments.output + "; next: tss bake " + arguments.output + " -o BAKED.tss");
-    console.print({{"output", arguments.output}, {"pair", scene.pairs[pair].path}, {"meshes", audits}});
+    const Json shifts = adviseShifts(scene, scene.pairs[pair], console);
+    console.print({{"output", arguments.output},
+                   {"pair", scene.pairs[pair].path},
+                   {"meshes", audits},
+                   {"freeingShifts", shifts}});
 }
 
 } // namespace
 
 namespace {
 
-void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& arguments) {
+void addRobotOptions(Options& command, const std::shared_ptr<MakeArguments>& arguments) {
     RobotArguments& robot = arguments->robot;
-    CLI::Option* input = command.add_option(
+    Option* input = command.add_option(
         "robot", robot.input,
         "a robot's file, in place of --a, --b and --dof: URDF, MJCF of MuJoCo, or .usda with UsdPhysics");
     command
@@ -212,13 +217,13 @@ void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& ar
         .add_option("--geometry", robot.geometry,
                     "collision or visual: the shapes that a link is made of; the others "
                     "where it has none of these")
-        ->check(CLI::IsMember({"collision", "visual"}))
+        ->among({"collision", "visual"})
         ->needs(input)
         ->capture_default_str();
     command
         .add_option("--pairs", robot.pairs,
                     "neighbours: of each joint; all: of all links that move against each other")
-        ->check(CLI::IsMember({"neighbours", "all"}))
+        ->among({"neighbours", "all"})
         ->excludes(command.get_option("--a"))
         ->capture_default_str();
     for (const char* other :
@@ -226,10 +231,10 @@ void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& ar
         input->excludes(command.get_option(other));
 }
 
-void addWholeSceneOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& arguments) {
+void addWholeSceneOptions(Options& command, const std::shared_ptr<MakeArguments>& arguments) {
     WholeSceneArguments& whole = arguments->whole;
     const auto add = [&](const char* name, std::vector<std::string>& texts, const char* description) {
-        CLI::Option* option = command.add_option(name, texts, description)->allow_extra_args(false);
+        Option* option = command.add_option(name, texts, description)->allow_extra_args(false);
         for (const char* other : {"--a", "--b", "--dof", "--b-offset", "--rest", "robot"})
             option->excludes(command.get_option(other));
         return option;
@@ -238,18 +243,19 @@ void addWholeSceneOptions(CLI::App& command, const std::shared_ptr<MakeArguments
         "[NAME=]MESH: a rigid body; repeat. All meshes lie as they do where every joint is at 0");
     add("--joint", whole.joints,
         "NAME=PARENT,CHILD:DOF[;DOF...]: a joint of two bodies, its DOFs as for --dof; repeat");
-    CLI::Option* skin = add("--skin", whole.skins, "[NAME=]MESH: a skin over the bodies and muscles");
+    Option* skin = add("--skin", whole.skins, "[NAME=]MESH: a skin over the bodies and muscles");
     add("--bone", whole.bones, "BODY: a body that the skin lies on; repeat (default: all)")->needs(skin);
     add("--muscle", whole.muscles,
-        "[NAME=]MESH[,from=BODY,to=BODY,contract=0.15,sheet]: a muscle; its fibre line is found from its "
+        "[NAME=]MESH[,from=BODY,to=BODY,contract=0.15,sheet|ring]: a muscle; its fibre line is found from "
+        "its "
         "mesh, the end at "
         "its `from` body stays, which it moves with; repeat");
 }
 
 } // namespace
 
-void addMake(CLI::App& app, Console& console) {
-    CLI::App* command = addCommand(
+void addMake(Options& app, Console& console) {
+    Options* command = addCommand(
         app, console, "make", "a scene from two meshes and the motion between them, or from a robot's file");
     auto arguments = std::make_shared<MakeArguments>();
     command->add_option("-o,--output", arguments->output, "the scene to write")->required();
@@ -273,7 +279,7 @@ void addMake(CLI::App& app, Console& console) {
         "a CSV file, the motion that the scene plays: a line of names (time or step, joints, muscles), "
         "then degrees, units of a value, or activations. Else each moves in turn");
     command->add_option("--up-axis", arguments->upAxis, "Y or Z (default Z; Y where all meshes are glTF)")
-        ->check(CLI::IsMember({"Y", "Z"}));
+        ->among({"Y", "Z"});
     addRobotOptions(*command, arguments);
     addWholeSceneOptions(*command, arguments);
     command->footer("Example, a hinge of 30 degrees about the Y axis through 0.3,0,0.7:\n"

@@ -1,12 +1,13 @@
-#include "bake/BakeOptions.h"
-#include "bake/Player.h"
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/model/SourceHash.h"
+#include "bake/pipeline/BakeOptions.h"
+#include "bake/play/Player.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/Csv.h"
 #include "bake/tool/DofSpec.h"
+#include "bake/tool/DrivenSteps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,17 +46,7 @@ std::vector<std::vector<double>> askedSteps(const SceneModel& scene, const PlayA
         }
         return steps;
     }
-    for (int k = 0; scene.startTimeCode + k <= scene.endTimeCode; ++k) {
-        const double time = scene.startTimeCode + k;
-        std::vector<double> row;
-        for (const Joint& joint : scene.joints)
-            for (std::size_t dof = 0; dof < joint.dofs.size(); ++dof) {
-                const bool driven = dof < joint.drives.size() && !joint.drives[dof].empty();
-                row.push_back(driven ? joint.drives[dof].at(time) : joint.dofs[dof].rest);
-            }
-        steps.push_back(row);
-    }
-    return steps;
+    return drivenSteps(scene);
 }
 
 /// How many steps ask for a pose outside of a joint's limits or planes.
@@ -121,7 +112,7 @@ std::string header(const SceneModel& scene) {
             for (const Dof& dof : joint.dofs)
                 text +=
                     fmt::format(",{}{}:{}", prefix, joint.path.substr(joint.path.rfind('/') + 1), dof.name);
-    text += ",gap,status";
+    text += ",table_gap,status";
     for (const SkinModel& skin : scene.skins)
         text += fmt::format(",residual_{}", skin.path.substr(skin.path.rfind('/') + 1));
     return text + "\n";
@@ -166,6 +157,16 @@ nlohmann::json sayFollowing(const SceneModel& scene, const SkinModel& skin, cons
             {"bones", bones}};
 }
 
+/// What a step costs on one core, in words; the tool's own measuring of depths is not in it.
+std::string costText(const SceneModel& scene, std::size_t steps, double joints,
+                     const std::vector<double>& skins) {
+    const auto each = static_cast<double>(std::max<std::size_t>(steps, 1));
+    std::string text = fmt::format("  a step costs {:.3g} us for the joints", 1e6 * joints / each);
+    for (std::size_t k = 0; k < skins.size(); ++k)
+        text += fmt::format(", {:.3g} ms for {}", 1e3 * skins[k] / each, scene.skins[k].path);
+    return text + ", on one core";
+}
+
 void play(const PlayArguments& arguments, const Console& console) {
     refuseOverwriting(arguments.output, {arguments.scene, arguments.motion});
     const SceneModel scene = loadScene(arguments.scene);
@@ -191,12 +192,16 @@ void play(const PlayArguments& arguments, const Console& console) {
 
     std::string text = header(scene);
     std::map<std::string, int> statuses;
-    double deepest = 0;
+    double deepest = 0, jointSeconds = 0;
+    std::vector<double> skinSeconds(scene.skins.size(), 0);
     std::vector<SkinFollowing> following(scene.skins.size());
     for (std::size_t k = 0; k < steps.size(); ++k) {
         const Player::Step step = player.step(steps[k], scene.startTimeCode + static_cast<double>(k));
         text += line(scene, k, steps[k], step);
         ++statuses[name(step.status)];
+        jointSeconds += step.jointSeconds;
+        for (std::size_t skin = 0; skin < skinSeconds.size(); ++skin)
+            skinSeconds[skin] += step.skinSeconds[skin];
         for (double depth : step.residualDepths) deepest = std::max(deepest, depth);
         const std::vector<SkinFollowing> now = player.following();
         for (std::size_t skin = 0; skin < now.size(); ++skin) following[skin].worsen(now[skin]);
@@ -206,8 +211,10 @@ void play(const PlayArguments& arguments, const Console& console) {
     writeFileAtomically(arguments.output, text);
     console.say(fmt::format("{} steps, wrote {}", steps.size(), arguments.output));
     for (const auto& [status, count] : statuses) console.say(fmt::format("  {:<10}{}", status, count));
+    console.say(costText(scene, steps.size(), jointSeconds, skinSeconds));
     if (!scene.skins.empty())
-        console.say("  deepest residual of a skin " + lengthText(deepest, scene.metersPerUnit));
+        console.say("  deepest residual of a skin " + lengthText(deepest, scene.metersPerUnit) +
+                    ": so far it is in what is below it, beyond its depth at rest");
     nlohmann::json skins = nlohmann::json::array();
     for (std::size_t k = 0; k < scene.skins.size(); ++k)
         skins.push_back(sayFollowing(scene, scene.skins[k], following[k], console));
@@ -222,14 +229,18 @@ void play(const PlayArguments& arguments, const Console& console) {
 
 } // namespace
 
-void addPlay(CLI::App& app, Console& console) {
-    CLI::App* command = addCommand(app, console, "play", "resolves a motion step by step");
+void addPlay(Options& app, Console& console) {
+    Options* command = addCommand(app, console, "play", "resolves a motion step by step");
     auto arguments = std::make_shared<PlayArguments>();
     command->add_option("scene", arguments->scene, "a baked scene")->required();
     command->add_option("--motion", arguments->motion,
                         "CSV, one row a step, one column a DOF of the joints in file order (default: the "
                         "scene's own drives)");
-    command->add_option("-o,--output", arguments->output, "CSV: step, asked and resolved DOFs, gap, status")
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "CSV: step, asked and resolved DOFs, table_gap, status, and of each skin residual_NAME: "
+                     "how deep it is "
+                     "in what is below it, beyond its depth at rest, scene units")
         ->required();
     command->add_option("--mesh-out", arguments->meshes, "also the posed meshes, like f_%04d.obj");
     command->callback([arguments, &console] { play(*arguments, console); });

@@ -1,5 +1,6 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/geometry/MeshQuery.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/table/Query.h"
 #include "bake/tool/ChoosePair.h"
@@ -21,6 +22,7 @@ constexpr std::size_t mostRowsNamed = 1000;
 
 struct QueryArguments {
     std::string scene, pair, poses, output;
+    bool distance = false; ///< of the meshes themselves, too
 };
 
 /// The values lie outside the limits or planes that the table was made for, by more than files round.
@@ -43,6 +45,13 @@ bool beyond(const Motion& motion, const std::vector<double>& q) {
     });
 }
 
+/// The two bodies as they are, to ask for their distance.
+struct Meshes {
+    Meshes(const SceneModel& scene, const Pair& pair)
+        : a(scene.bodies[pair.bodyA].mesh), b(scene.bodies[pair.bodyB].mesh) {}
+    MeshQuery a, b;
+};
+
 void runQuery(const QueryArguments& arguments, const Console& console) {
     refuseOverwriting(arguments.output, {arguments.scene, arguments.poses});
     const SceneModel scene = loadScene(arguments.scene);
@@ -56,7 +65,10 @@ void runQuery(const QueryArguments& arguments, const Console& console) {
     for (const Dof& dof : motion.dofs) names.push_back(dof.name);
     checkColumns(poses, names, arguments.poses);
 
-    std::string text = "gap,hit,pair,px,py,pz,nx,ny,nz\n";
+    const std::unique_ptr<const Meshes> meshes =
+        arguments.distance ? std::make_unique<const Meshes>(scene, pair) : nullptr;
+    std::string text =
+        std::string("table_gap,hit,pair,px,py,pz,nx,ny,nz") + (meshes ? ",distance" : "") + "\n";
     std::size_t hits = 0, outside = 0;
     Json outsideRows = Json::array();
     for (std::size_t row = 0; row < poses.rows.size(); ++row) {
@@ -65,13 +77,14 @@ void runQuery(const QueryArguments& arguments, const Console& console) {
         const bool out = beyond(motion, q);
         if (out && ++outside <= mostRowsNamed) outsideRows.push_back(row);
         if (pair.proof) { // within the limits they never meet: no test is made; beyond nothing is known
-            text += out ? "nan,0,-1,,,,,,\n" : fmt::format("{},0,-1,,,,,,\n", pair.proof->clearance);
-            continue;
+            text += out ? "nan,0,-1,,,,,," : fmt::format("{},0,-1,,,,,,", pair.proof->clearance);
+        } else {
+            const QueryResult r = query(*pair.table, pose(motion, q));
+            hits += r.hit() && !out;
+            text += fmt::format("{},{},{},{},{},{},{},{},{}", r.gap, r.hit() ? 1 : 0, r.test, r.point.x(),
+                                r.point.y(), r.point.z(), r.normal.x(), r.normal.y(), r.normal.z());
         }
-        const QueryResult r = query(*pair.table, pose(motion, q));
-        hits += r.hit() && !out;
-        text += fmt::format("{},{},{},{},{},{},{},{},{}\n", r.gap, r.hit() ? 1 : 0, r.test, r.point.x(),
-                            r.point.y(), r.point.z(), r.normal.x(), r.normal.y(), r.normal.z());
+        text += meshes ? fmt::format(",{}\n", meshes->a.distanceTo(meshes->b, pose(motion, q))) : "\n";
     }
     writeFileAtomically(arguments.output, text);
     console.say(fmt::format("{} poses, {} hits, wrote {}", poses.rows.size(), hits, arguments.output));
@@ -89,8 +102,8 @@ void runQuery(const QueryArguments& arguments, const Console& console) {
 
 } // namespace
 
-void addQuery(CLI::App& app, Console& console) {
-    CLI::App* command = addCommand(app, console, "query", "gap, contact point and normal at given poses");
+void addQuery(Options& app, Console& console) {
+    Options* command = addCommand(app, console, "query", "contact, its point and its normal at given poses");
     auto arguments = std::make_shared<QueryArguments>();
     command->add_option("scene", arguments->scene, "a baked scene")->required();
     command->add_option("--pair", arguments->pair, "prim path of the pair (not needed when there is one)");
@@ -99,12 +112,14 @@ void addQuery(CLI::App& app, Console& console) {
     command
         ->add_option(
             "-o,--output", arguments->output,
-            "CSV: gap,hit,pair,px,py,pz,nx,ny,nz; lengths in scene units, point and normal in body A's "
-            "frame. The gap is that of the table's spheres: where it is above 0 it is no distance of the "
+            "CSV: table_gap,hit,pair,px,py,pz,nx,ny,nz; lengths in scene units, point and normal in body A's "
+            "frame. table_gap is that of the table's spheres: where it is above 0 it is no distance of the "
             "meshes. Beyond the limits no bound holds: --json lists such rows, and of a pair that never "
-            "collides "
-            "their gap is nan")
+            "collides their table_gap is nan")
         ->required();
+    command->add_flag(
+        "--distance", arguments->distance,
+        "a last column, distance: that of the meshes themselves, 0 where they touch or overlap; slow");
     command->callback([arguments, &console] { runQuery(*arguments, console); });
 }
 

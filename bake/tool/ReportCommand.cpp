@@ -69,7 +69,7 @@ void runReport(ReportArguments& arguments, const Console& console) {
     for (const auto& pair : report.pairs) methods += pair.rows.size();
     for (const auto& skin : report.skins) methods += skin.methods.size();
     if (!report.plotProblem.empty()) console.say(report.plotProblem);
-    console.say(fmt::format("{} and {}, {} in {:.0f} s, wrote {}/report.md",
+    console.say(fmt::format("{} and {}, {} in {:.0f} s, wrote {}/index.html and report.md",
                             counted(report.pairs.size(), "pair"), counted(report.skins.size(), "skin"),
                             counted(static_cast<std::size_t>(methods), "row"), report.seconds,
                             arguments.output));
@@ -78,14 +78,14 @@ void runReport(ReportArguments& arguments, const Console& console) {
 
 } // namespace
 
-void addReport(CLI::App& app, Console& console) {
-    CLI::App* command =
+void addReport(Options& app, Console& console) {
+    Options* command =
         addCommand(app, console, "report", "error against run time: this method and all others, as a folder");
     auto arguments = std::make_shared<ReportArguments>();
     command->add_option("scene", arguments->scene, "a scene, baked or not")->required();
     command
         ->add_option("-o,--output", arguments->output,
-                     "folder for report.md, report.json, report.csv and plots")
+                     "folder for index.html, report.md, report.json, report.csv and plots")
         ->required();
     command
         ->add_option("--pair", arguments->pairs, "prim path of a pair or skin (repeat; all when not given)")
@@ -98,6 +98,8 @@ void addReport(CLI::App& app, Console& console) {
         ->allow_extra_args(false);
     command->add_option("--seed", arguments->options.seed, "of the random poses");
     command->add_flag("--quick", arguments->options.quick, "fewer poses and settings, a minute or two");
+    command->add_flag("--beside-paper", arguments->options.besidePaper,
+                      "also the paper's own counts and the goals of osgTSS, as docs/REPORT.md has them");
     command->callback([arguments, &console] { runReport(*arguments, console); });
 }
 

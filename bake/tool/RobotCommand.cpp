@@ -1,9 +1,9 @@
 #include "bake/tool/RobotCommand.h"
 
-#include "bake/BakeOptions.h"
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
+#include "bake/pipeline/BakeOptions.h"
 #include "bake/robot/MeshFiles.h"
 #include "bake/robot/RobotScene.h"
 #include "bake/scene/SceneFile.h"
@@ -142,9 +142,9 @@ RobotScene robotScene(const RobotArguments& arguments) {
     request.pairs = arguments.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
     if (isUsd(arguments.input)) {
         if (!arguments.srdf.empty() || !arguments.packages.empty())
-            throw CLI::ValidationError(
-                "--srdf and --package are for URDF and MJCF; a .usda says which pairs are "
-                "filtered, and names files beside it");
+            failUsage(
+                "--srdf and --package",
+                "are for URDF and MJCF; a .usda says which pairs are filtered, and names files beside it");
         return readUsdScene(arguments.input, request);
     }
     const FindMesh find = meshesOf(arguments.input, parsePackages(arguments.packages));

@@ -1,9 +1,9 @@
 #include "bake/tool/Summary.h"
 
-#include "bake/BakeOptions.h"
-#include "bake/EarlyContact.h"
+#include "bake/check/EarlyContact.h"
 #include "bake/geometry/PartSet.h"
 #include "bake/model/SourceHash.h"
+#include "bake/pipeline/BakeOptions.h"
 #include "bake/table/PreparedTable.h"
 #include "bake/tool/DofSpec.h"
 
@@ -276,6 +276,12 @@ std::string describe(const Json& scene) {
                     text +=
                         "  explored     each muscle and each joint value by itself: where several move at "
                         "once nothing is proven\n";
+                if (item.contains("residual"))
+                    text +=
+                        fmt::format("  residual     {} at most: so deep it goes into what is below it, "
+                                    "beyond its depth at rest, in {} steps\n"
+                                    "               of the scene's own motion\n",
+                                    length(item["residual"], metersPerUnit), item["residualSteps"].dump());
                 if (!item.contains("travel")) // a skin's table has no bound of depth
                     text += fmt::format(
                         "  bounds       miss {}, early {}, epsilon {}, {}{}\n",

@@ -1,3 +1,4 @@
+#include "bake/pipeline/CheckBake.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
 
@@ -21,7 +22,12 @@ Json place(const LocatedError& error) {
 
 void validate(const std::string& file, Console& console) {
     std::vector<LocatedError> warnings;
-    const std::vector<LocatedError> errors = validateScene(file, &warnings);
+    // A table that fits its meshes needs none to be made.
+    const std::vector<LocatedError> errors = validateScene(file, &warnings, [](const SceneModel& scene) {
+        BakeRequest request;
+        request.onlyMissing = true;
+        return refusedByBake(scene, request);
+    });
     Json result = {
         {"file", file}, {"valid", errors.empty()}, {"errors", Json::array()}, {"warnings", Json::array()}};
     for (const LocatedError& warning : warnings) {
@@ -39,8 +45,9 @@ void validate(const std::string& file, Console& console) {
 
 } // namespace
 
-void addValidate(CLI::App& app, Console& console) {
-    CLI::App* command = addCommand(app, console, "validate", "everything wrong with a scene file");
+void addValidate(Options& app, Console& console) {
+    Options* command = addCommand(app, console, "validate",
+                                  "everything wrong with a scene file, and what bake would refuse of it");
     auto file = std::make_shared<std::string>();
     command->add_option("scene", *file, "the scene file")->required();
     command->callback([file, &console] { validate(*file, console); });

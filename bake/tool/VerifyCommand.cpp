@@ -1,7 +1,7 @@
-#include "bake/BakeOptions.h"
-#include "bake/VerifyPair.h"
-#include "bake/VerifySkin.h"
 #include "bake/base/Error.h"
+#include "bake/check/VerifyPair.h"
+#include "bake/check/VerifySkin.h"
+#include "bake/pipeline/BakeOptions.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
@@ -160,16 +160,20 @@ void verify(const std::string& file, double budget, Console& console) {
         if (skin.table) bad += !verifyOne(file, scene, skin, result, console, console.progress());
     if (result["pairs"].empty() && result["skins"].empty())
         throw InputError(Where{file, "", ""},
-                         "nothing to verify; expected a scene with a baked pair of rigid bodies");
+                         "nothing to verify; expected a scene with a baked pair or skin");
+    if (result["pairs"].empty())
+        console.say(fmt::format("nothing is proven: {} looked at, and no pair of rigid bodies has a table",
+                                counted(result["skins"].size(), "skin")));
     result["holds"] = bad == 0;
+    result["proven"] = bad == 0 && !result["pairs"].empty();
     console.print(result);
     console.exitCode = bad == 0 ? 0 : 1;
 }
 
 } // namespace
 
-void addVerify(CLI::App& app, Console& console) {
-    CLI::App* command =
+void addVerify(Options& app, Console& console) {
+    Options* command =
         addCommand(app, console, "verify", "proves the stored bounds again, with code of its own");
     auto file = std::make_shared<std::string>();
     auto budget = std::make_shared<double>(0);

@@ -1,6 +1,5 @@
 #include "bake/tool/WholeScene.h"
 
-#include "bake/BakeOptions.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/FibreLine.h"
 #include "bake/geometry/Import.h"
@@ -8,6 +7,7 @@
 #include "bake/geometry/MeshQuery.h"
 #include "bake/model/AddPair.h"
 #include "bake/model/ShowMotion.h"
+#include "bake/pipeline/BakeOptions.h"
 #include "bake/robot/RobotScene.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/DofSpec.h"
@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
 
 namespace tss::tool {
 
@@ -111,7 +112,7 @@ public:
     SoftParts(RobotScene& made, const Robot& robot, const Console& console)
         : made_(made), scene_(made.scene), robot_(robot), console_(console) {}
 
-    /// [NAME=]MESH[,from=BODY,to=BODY,contract=0.15,sheet]
+    /// [NAME=]MESH[,from=BODY,to=BODY,contract=0.15,sheet|ring]
     void addMuscle(const std::string& text) {
         const std::string option = "--muscle " + text;
         const std::vector<std::string> parts = split(text, ',');
@@ -123,12 +124,15 @@ public:
                               value = sign == text.npos ? "" : parts[k].substr(sign + 1);
             if (parts[k] == "sheet")
                 model.muscle.form = MuscleForm::Sheet;
+            else if (parts[k] == "ring")
+                model.muscle.form = MuscleForm::Ring;
             else if (key == "from" || key == "to")
                 (key == "from" ? model.bone : to) = linkCalled(robot_, value, option);
             else if (key == "contract")
                 model.muscle.maxContraction = parseNumber(value, option);
             else
-                throw InputError(option + ": expected from=BODY, to=BODY, contract=0.15 or sheet, found \"" +
+                throw InputError(option +
+                                 ": expected from=BODY, to=BODY, contract=0.15, sheet or ring, found \"" +
                                  parts[k] + "\"");
         }
         if (!(model.muscle.maxContraction > 0 && model.muscle.maxContraction < 1))
@@ -142,10 +146,15 @@ public:
         if (!auditMesh(mesh).watertight)
             note(named.name + " is not closed; a muscle's volume is that of a closed surface");
         model.muscle.surface = mesh;
-        model.muscle.fibre = fibreLine(mesh);
-        orient(model, to, placement);
+        if (model.muscle.form == MuscleForm::Ring) {
+            model.muscle.fibre = ringLine(mesh);
+        } else {
+            model.muscle.fibre = fibreLine(mesh);
+            orient(model, to, placement);
+        }
         scene_.muscles.push_back(model);
         sayMuscle(named.name, model);
+        remarkMuscle(named.name, model);
     }
 
     void addSkin(const std::string& text, const std::vector<std::string>& bones) {
@@ -216,11 +225,42 @@ private:
             return fmt::format("{:.4g},{:.4g},{:.4g}", p.x(), p.y(), p.z());
         };
         const std::vector<Vec3>& fibre = model.muscle.fibre;
+        if (model.muscle.form == MuscleForm::Ring)
+            return console_.say(fmt::format("{}: a ring of {} points from {} round, narrows by {:.3g}", name,
+                                            fibre.size(), point(fibre.front()), model.muscle.maxContraction));
         console_.say(fmt::format("{}: a {} of {} points from {}{} to {}, shortens by {:.3g} of its length",
                                  name, model.muscle.form == MuscleForm::Sheet ? "sheet" : "tube",
                                  fibre.size(), point(fibre.front()),
                                  model.bone >= 0 ? " (on " + robot_.links[model.bone].name + ")" : "",
                                  point(fibre.back()), model.muscle.maxContraction));
+    }
+
+    /// A muscle moves with one bone; skin on another one is pushed by what of the muscle lies there.
+    void remarkMuscle(const std::string& name, const MuscleModel& model) {
+        constexpr double most = 0.25; // of its vertices
+        if (model.bone < 0) return;
+        const Body& surface = scene_.bodies[model.body];
+        const std::vector<Vec3>& vertices = surface.mesh.vertices;
+        std::vector<double> nearest(vertices.size(), std::numeric_limits<double>::infinity());
+        std::vector<int> whose(vertices.size(), model.bone);
+        for (int k = 0; k < static_cast<int>(robot_.links.size()); ++k) {
+            const Body& bone = scene_.bodies[k];
+            if (bone.mesh.empty()) continue;
+            const MeshQuery query(bone.mesh);
+            const Pose toBone = bone.placement.inverse(Eigen::Isometry) * surface.placement;
+            for (std::size_t v = 0; v < vertices.size(); ++v)
+                if (const double distance = query.distance(toBone * vertices[v]); distance < nearest[v])
+                    nearest[v] = distance, whose[v] = k;
+        }
+        for (int k = 0; k < static_cast<int>(robot_.links.size()); ++k) {
+            const auto count = static_cast<double>(std::count(whose.begin(), whose.end(), k));
+            if (k != model.bone && count > most * static_cast<double>(vertices.size()))
+                note(
+                    fmt::format("{:.0f} % of the muscle {} lie nearer to {} than to {}, which it moves with: "
+                                "where the two move against each other it pushes the skin of the other",
+                                100 * count / static_cast<double>(vertices.size()), name,
+                                robot_.links[k].name, robot_.links[model.bone].name));
+        }
     }
 
     void remarkSkin(const std::string& name, const SkinModel& skin) {

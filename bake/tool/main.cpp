@@ -3,7 +3,6 @@
 #include "bake/base/Error.h"
 #include "bake/tool/Command.h"
 
-#include <algorithm>
 #include <csignal>
 #include <fmt/format.h>
 
@@ -19,26 +18,16 @@ int fail(const tss::tool::Console& console, int code, const std::string& message
     return code;
 }
 
-/// A word that is no command; said here, as it would else be called a missing one.
-bool isMistyped(const CLI::App& app, const std::string& word) {
-    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
-    const auto named = [&](const CLI::App* command) { return command->get_name() == word; };
-    if (word.starts_with('-') || std::any_of(commands.begin(), commands.end(), named)) return false;
-    std::string names;
-    for (const CLI::App* command : commands) names += " " + command->get_name();
-    fmt::print(stderr, "tss: \"{}\" is no command; expected one of{}\n", word, names);
-    return true;
-}
-
 } // namespace
 
 int main(int argc, char** argv) {
     using namespace tss::tool;
     std::signal(SIGXFSZ,
                 SIG_IGN); // a file that may not grow further is an error to report, and its rest to remove
-    CLI::App app{"Tabulated sphere subsets: collisions between things whose motion is constrained.", "tss"};
-    app.require_subcommand(1);
-    app.set_version_flag("--version", std::string("tss ") + OSGTSS_VERSION);
+    CommandLine line("tss",
+                     "Tabulated sphere subsets: collisions between things whose motion is constrained.",
+                     std::string("tss ") + OSGTSS_VERSION);
+    Options& app = line.options();
     app.footer("Lengths take a unit (0.2mm, 1cm) or are scene units; angles are degrees.\n"
                "Exit: 0 done, 1 the input is at fault, 2 usage, 3 internal error.");
     Console console;
@@ -55,12 +44,9 @@ int main(int argc, char** argv) {
 #ifdef OSGTSS_HAVE_REPORT
     addReport(app, console);
 #endif
-    if (argc > 1 && isMistyped(app, argv[1])) return 2;
     try {
-        app.parse(argc, argv);
+        if (const int usage = line.parse(argc, argv)) return usage;
         return console.exitCode;
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
     } catch (const tss::InputError& error) {
         return fail(console, 1, error.what(), error.where);
     } catch (const std::bad_alloc&) {

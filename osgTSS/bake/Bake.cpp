@@ -1,7 +1,7 @@
-#include "bake/Bake.h"
+#include "bake/pipeline/Bake.h"
 
-#include "bake/EarlyContact.h"
 #include "bake/base/Error.h"
+#include "bake/check/EarlyContact.h"
 #include "bake/model/SourceHash.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"

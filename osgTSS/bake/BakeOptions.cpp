@@ -1,4 +1,4 @@
-#include "bake/BakeOptions.h"
+#include "bake/pipeline/BakeOptions.h"
 
 #include "bake/base/Error.h"
 

@@ -11,5 +11,6 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "openscenegraph, libopenscenegraph-dev, libeigen3-dev")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "openscenegraph") # osgviewer
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libopenscenegraph-dev, libeigen3-dev")
 include(CPack)

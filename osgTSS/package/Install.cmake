@@ -21,10 +21,9 @@ endfunction()
 osgtss_install(osgTSSCore osgTSSCore)
 target_include_directories(osgTSSCore INTERFACE $<INSTALL_INTERFACE:${OSGTSS_CORE_INCLUDES}>)
 # The headers of what the library holds.
-install(FILES bake/JointPlan.h bake/SkinSetup.h bake/Player.h DESTINATION ${OSGTSS_CORE_INCLUDES}/bake)
 install(FILES bake/geometry/SurfacePart.h bake/geometry/TriangleMesh.h DESTINATION ${OSGTSS_CORE_INCLUDES}/bake/geometry)
 install(FILES bake/spheres/SphereSet.h DESTINATION ${OSGTSS_CORE_INCLUDES}/bake/spheres)
-foreach(folder base motion table respond model scene)
+foreach(folder base motion table respond model scene play)
     install(DIRECTORY bake/${folder} DESTINATION ${OSGTSS_CORE_INCLUDES}/bake FILES_MATCHING PATTERN "*.h")
 endforeach()
 
@@ -47,3 +46,9 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/osgTSSConfig.cmake.in
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/osgTSSConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/package/osgTSSConfig.cmake ${PROJECT_BINARY_DIR}/package/osgTSSConfigVersion.cmake
         DESTINATION ${OSGTSS_PACKAGE_DESTINATION})
+
+if(NOT TARGET uninstall) # a project around this one may have its own
+    add_custom_target(uninstall VERBATIM
+        COMMAND ${CMAKE_COMMAND} -D BINARY_DIR=${PROJECT_BINARY_DIR} -P ${CMAKE_CURRENT_LIST_DIR}/uninstall.cmake
+        COMMENT "Removing what was installed")
+endif()

@@ -1,10 +1,14 @@
 #include "OffscreenViewer.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace osgTSS {
 
 namespace {
 
 constexpr double framesPerSecond = 24;
+constexpr double fieldOfView = 30; ///< from bottom to top, degrees
 
 } // namespace
 
@@ -16,7 +20,8 @@ OffscreenViewer::OffscreenViewer(osg::Node& scene, const Shot& shot) : _shot(sho
     _viewer->setKeyEventSetsDone(0);
     osg::Camera& camera = *_viewer->getCamera();
     camera.setClearColor(shot.background);
-    camera.setProjectionMatrixAsPerspective(30, static_cast<double>(shot.width) / shot.height, 1, 1e4);
+    camera.setProjectionMatrixAsPerspective(fieldOfView, static_cast<double>(shot.width) / shot.height, 1,
+                                            1e4);
     camera.setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
     _image->allocateImage(shot.width, shot.height, 1, GL_RGB, GL_UNSIGNED_BYTE);
     _drawn->allocateImage(width, height, 1, GL_RGB, GL_UNSIGNED_BYTE);
@@ -57,10 +62,19 @@ void OffscreenViewer::look(unsigned int frame) {
     if (_shot.view && _shot.view->getInverse(frame / framesPerSecond, view))
         return camera.setViewMatrix(view);
     if (frame > 0) return;
-    // As osgviewer's manipulators stand at first.
-    const osg::BoundingSphere bound = _viewer->getSceneData()->getBound();
-    const osg::Vec3d back = osg::Vec3d(0, -3.5 * bound.radius(), 0);
-    camera.setViewMatrixAsLookAt(bound.center() + back, bound.center(), osg::Z_AXIS);
+    if (_shot.place) {
+        const auto& [eye, at] = *_shot.place;
+        const osg::Vec3d up =
+            ((at - eye) ^ osg::Z_AXIS).length() > 1e-6 * (at - eye).length() ? osg::Z_AXIS : osg::Y_AXIS;
+        return camera.setViewMatrixAsLookAt(eye, at, up);
+    }
+    // From the front, as osgviewer's manipulators stand at first, so far that the sphere is in sight on all
+    // sides.
+    osg::BoundingSphere bound = _viewer->getSceneData()->getBound();
+    bound.expandBy(_shot.reach);
+    const double narrow = std::max(1.0, static_cast<double>(_shot.height) / _shot.width);
+    const double away = bound.radius() / std::sin(osg::DegreesToRadians(fieldOfView / 2)) * narrow;
+    camera.setViewMatrixAsLookAt(bound.center() + osg::Vec3d(0, -away, 0), bound.center(), osg::Z_AXIS);
 }
 
 } // namespace osgTSS

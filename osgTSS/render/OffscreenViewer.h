@@ -3,6 +3,9 @@
 #include <osg/Image>
 #include <osgViewer/Viewer>
 
+#include <array>
+#include <optional>
+
 namespace osgTSS {
 
 /// How pictures are taken.
@@ -11,7 +14,10 @@ struct Shot {
     int finer = 2; ///< pixels drawn along each side of one, and averaged
     osg::Vec4 background{0.16f, 0.18f, 0.22f, 1};
     osg::ref_ptr<osg::AnimationPath>
-        view; ///< eye to world over seconds, 24 frames in each; null: all in sight
+        view; ///< eye to world over seconds, 24 frames in each; null: from a place
+    std::optional<std::array<osg::Vec3d, 2>>
+        place;                 ///< eye and what it looks at; none: from the front, all in sight
+    osg::BoundingSphere reach; ///< what the motion reaches beyond the beginning; not valid: nothing
 };
 
 /// A viewer without a window, in the OpenGL context that is current in this thread: one time code a frame,

@@ -5,6 +5,7 @@
 #include "OffscreenViewer.h"
 
 #include "bake/base/Error.h"
+#include "bake/model/Kinematics.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -12,13 +13,17 @@
 #include <osgDB/FileUtils>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
+#include <osgTSS/LoadOptions>
 #include <osgTSS/Scene>
 #include <osgTSS/SceneFile>
 #include <osgTSS/Version>
 #include <osgTSS/ViewerCallback>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <unistd.h>
 #include <vector>
 
@@ -33,6 +38,19 @@ struct Arguments {
     bool overlay = false, json = false, quiet = false;
 };
 
+/// "x,y,z:x,y,z": the eye, and what it looks at.
+std::optional<std::array<osg::Vec3d, 2>> placeOf(const std::string& text) {
+    std::array<osg::Vec3d, 2> place;
+    auto& [eye, at] = place;
+    int end = 0;
+    const int found = std::sscanf(text.c_str(), "%lf,%lf,%lf:%lf,%lf,%lf%n", &eye[0], &eye[1], &eye[2],
+                                  &at[0], &at[1], &at[2], &end);
+    if (found != 6 || static_cast<std::size_t>(end) != text.size() || !eye.valid() || !at.valid() ||
+        eye == at)
+        return std::nullopt;
+    return place;
+}
+
 osgTSS::Shot shotOf(const Arguments& arguments) {
     osgTSS::Shot shot;
     char x = 0, rest = 0;
@@ -42,12 +60,18 @@ osgTSS::Shot shotOf(const Arguments& arguments) {
         throw CLI::ValidationError("--size", "expected WxH in pixels, found " + arguments.size);
     shot.finer = arguments.finer;
     if (arguments.view.empty()) return shot;
+    if (const auto place = placeOf(arguments.view)) {
+        shot.place = place;
+        return shot;
+    }
     std::ifstream file(arguments.view);
     std::vector<double> numbers;
     for (double number = 0; file >> number;) numbers.push_back(number);
     // The path's own reader would wait forever for the end of what is no number.
     if (numbers.empty() || numbers.size() % 8 != 0 || !file.eof())
-        throw tss::InputError({arguments.view, "", ""}, "expected a camera path as osgviewer -p reads it");
+        throw tss::InputError({arguments.view, "", ""},
+                              "expected a camera path as osgviewer -p reads it, or EYE:AT, six numbers "
+                              "as in 0,-3,1:0,0,1");
     shot.view = new osg::AnimationPath;
     for (std::size_t k = 0; k < numbers.size(); k += 8) {
         const double* n = &numbers[k]; // time, x, y, z, and the rotation
@@ -77,6 +101,36 @@ osg::ref_ptr<osg::Node> load(const Arguments& arguments) {
     return node;
 }
 
+/// What the bodies of a scene reach when their joints do all that is asked of them.
+osg::BoundingSphere reachOf(const Arguments& arguments, const osg::Node& graph) {
+    const osgTSS::Scene* scene = osgTSS::Scene::on(graph);
+    osg::BoundingBox box;
+    if (!scene) return {};
+    const tss::SceneModel& model = scene->getModel();
+    const bool turned = model.upAxis == 'Y' && osgTSS::LoadOptions(arguments.options).graph.rotateUp;
+    constexpr int most = 200; // looked at, of long motions
+    const double codes = std::floor(model.endTimeCode - model.startTimeCode);
+    const int count = static_cast<int>(std::clamp(codes, 0.0, double(most)));
+    for (int k = 0; k <= count; ++k) {
+        const double time = model.startTimeCode + (count ? codes * k / count : 0);
+        std::vector<double> values;
+        for (const tss::Joint& joint : model.joints)
+            for (std::size_t dof = 0; dof < joint.dofs.size(); ++dof)
+                values.push_back(dof < joint.drives.size() && !joint.drives[dof].empty()
+                                     ? joint.drives[dof].at(time)
+                                     : joint.dofs[dof].rest);
+        const std::vector<tss::Pose> poses = tss::posedBodies(model, values);
+        for (std::size_t body = 0; body < poses.size(); ++body) {
+            if (!model.bodies[body].visible) continue;
+            for (const tss::Vec3& v : model.bodies[body].mesh.vertices) {
+                const tss::Vec3 x = poses[body] * v;
+                box.expandBy(turned ? osg::Vec3(x.x(), -x.z(), x.y()) : osg::Vec3(x.x(), x.y(), x.z()));
+            }
+        }
+    }
+    return box.valid() ? osg::BoundingSphere(box) : osg::BoundingSphere();
+}
+
 unsigned int framesOf(const Arguments& arguments, const osg::Node& scene) {
     if (arguments.frames > 0) return static_cast<unsigned int>(arguments.frames);
     const osgTSS::Scene* found = osgTSS::Scene::on(scene);
@@ -95,13 +149,14 @@ void write(const osg::Image& image, const std::string& name) {
 }
 
 int render(const Arguments& arguments) {
-    const osgTSS::Shot shot = shotOf(arguments);
+    osgTSS::Shot shot = shotOf(arguments);
     const bool pattern = osgTSS::isFramePattern(arguments.output);
     if (!pattern && (arguments.frames != 1 || arguments.output.find('%') != std::string::npos))
         throw CLI::ValidationError(
             "--output", "expected one %d for the frame number, as in f_%04d.png, found " + arguments.output);
     const osg::ref_ptr<osg::Node> scene = load(arguments);
     const unsigned int frames = framesOf(arguments, *scene);
+    if (frames > 1) shot.reach = reachOf(arguments, *scene);
 
     const osgTSS::EglContext context;
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
@@ -153,7 +208,10 @@ int main(int argc, char** argv) {
     app.add_option("--finer", arguments.finer, "pixels drawn along each side of one, and averaged")
         ->check(CLI::Range(1, 4))
         ->capture_default_str();
-    app.add_option("--view", arguments.view, "camera path, as osgviewer -p reads it (default: all in sight)");
+    app.add_option("--view", arguments.view,
+                   "a camera path, as osgviewer -p reads it, or EYE:AT in scene units, such as 0,-3,1:0,0,1 "
+                   "(default: from the front, "
+                   "all of the motion in sight)");
     app.add_flag("--overlay", arguments.overlay, "show spheres, tested pairs and contacts");
     app.add_option("--options", arguments.options,
                    "further words for the loader, as osgviewer -O takes them");

@@ -22,15 +22,15 @@ constexpr double farAway = 100;
 } // namespace
 
 osg::ref_ptr<osg::StateSet> makeBodyState(const tss::Vec3& linearColor, bool doubleSided) {
-    // Headlight, key light and ambient add up to a little over one at most (see makeKeyLight); a body takes
-    // as much of it as keeps white from burning out.
-    constexpr float diffuse = 0.8f, specular = 0.12f, shininess = 24;
+    // Headlight and key light add up to 1.0 at most, ambient to 0.22, and a flat face that looks at the
+    // headlight shines all over (see makeKeyLight): white comes to 0.94.
+    constexpr float diffuse = 0.68f, ambient = 0.8f, specular = 0.08f, shininess = 24;
     const osg::Vec4 color = toDisplayColor(linearColor);
     osg::ref_ptr<osg::Material> material = new osg::Material;
     material->setColorMode(osg::Material::OFF);
-    material->setAmbient(osg::Material::FRONT_AND_BACK, color);
-    material->setDiffuse(osg::Material::FRONT_AND_BACK,
-                         osg::Vec4(osg::Vec3(color.x(), color.y(), color.z()) * diffuse, 1));
+    const osg::Vec3 rgb(color.x(), color.y(), color.z());
+    material->setAmbient(osg::Material::FRONT_AND_BACK, osg::Vec4(rgb * ambient, 1));
+    material->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(rgb * diffuse, 1));
     material->setSpecular(osg::Material::FRONT_AND_BACK, osg::Vec4(specular, specular, specular, 1));
     material->setShininess(osg::Material::FRONT_AND_BACK, shininess);
     osg::ref_ptr<osg::StateSet> state = new osg::StateSet;

@@ -1,7 +1,7 @@
 #pragma once
 #include "BodyNodes.h"
 
-#include "bake/JointPlan.h"
+#include "bake/play/JointPlan.h"
 
 #include <osg/observer_ptr>
 #include <osgTSS/ContactCallback>

@@ -1,6 +1,6 @@
 #include "SceneCache.h"
 
-#include "bake/SkinSetup.h"
+#include "bake/play/SkinSetup.h"
 
 #include <osg/Notify>
 

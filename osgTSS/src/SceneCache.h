@@ -1,8 +1,8 @@
 #pragma once
 #include "UpdateTime.h"
 
-#include "bake/JointPlan.h"
 #include "bake/motion/MuscleDeformer.h"
+#include "bake/play/JointPlan.h"
 #include "bake/respond/SkinRig.h"
 
 #include <osgTSS/Scene>

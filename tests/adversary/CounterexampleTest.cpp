@@ -1,9 +1,9 @@
 // What an audit found to be said and not so, or so and refused: each file of it where those are at hand, and
 // a scene of the same kind made here, always.
-#include "bake/Bake.h"
-#include "bake/VerifyPair.h"
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
+#include "bake/check/VerifyPair.h"
+#include "bake/pipeline/Bake.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/table/Query.h"
 #include "tests/Shapes.h"

@@ -1,11 +1,11 @@
 // Baked files damaged in every way that comes to mind: what verify lets pass may not miss what it says it
 // does not.
 #include "tests/adversary/scenes/FileDamage.h"
-#include "bake/Bake.h"
-#include "bake/VerifyPair.h"
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
+#include "bake/check/VerifyPair.h"
 #include "bake/model/SourceHash.h"
+#include "bake/pipeline/Bake.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/WriteLayer.h"
 #include "tests/adversary/judge/Attack.h"

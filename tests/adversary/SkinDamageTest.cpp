@@ -1,10 +1,10 @@
 // Tables of skins damaged: what verify lets pass claims nothing, and keeps what verify says it has looked at.
 #include "tests/adversary/scenes/SkinDamage.h"
-#include "bake/Bake.h"
-#include "bake/SkinSetup.h"
-#include "bake/VerifySkin.h"
 #include "bake/base/Error.h"
+#include "bake/check/VerifySkin.h"
 #include "bake/geometry/MeshQuery.h"
+#include "bake/pipeline/Bake.h"
+#include "bake/play/SkinSetup.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/spheres/RoundToFloat.h"

@@ -1,8 +1,8 @@
 // A skin of a whole head over thirteen muscles that all move at once: bench_skin [FRAMES, 240 [FILE]]. Prints
 // the processor time of an update, by the size of the skin. With FILE the largest scene, baked, goes there,
 // to be played in osgviewer.
-#include "bake/Bake.h"
-#include "bake/SkinSetup.h"
+#include "bake/pipeline/Bake.h"
+#include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinResponse.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"

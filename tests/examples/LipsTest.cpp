@@ -1,5 +1,5 @@
-#include "bake/Player.h"
 #include "bake/motion/MuscleLocator.h"
+#include "bake/play/Player.h"
 #include "bake/scene/SceneFile.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "bake/SkinSetup.h"
+#include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinResponse.h"
 #include "tests/extreme/Served.h"
 #include "tests/extreme/tool/LongRun.h"

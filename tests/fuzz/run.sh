@@ -35,5 +35,7 @@ for encoding in json cbor urdf mjcf usda; do
 done
 if [ -n "$failed" ]; then
     tail -n 40 json.log cbor.log urdf.log mjcf.log usda.log
+    echo "FAILED: what was found is in build-fuzz/run/found-*"
     exit 1
 fi
+echo "PASSED: nothing found in $seconds s of each"

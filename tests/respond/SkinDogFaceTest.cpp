@@ -157,11 +157,10 @@ TEST_CASE("the frontal mask slides under the skin of the dog's head and the skin
         print("skin in muscle", in);
         print("muscle through skin", out);
         print("skin in muscle, spheres alone [paper]", alone);
-        CHECK(largestMove(skin) > 0.3 * slide);
+        CHECK(largestMove(skin) > 0.8 * slide); // the tissue between the two hands on what the muscle does
         farthestOff = std::max(farthestOff, distance(skin, converged));
-        CHECK(in.p95 < 0.2 * mm);
-        CHECK(in.worst < 0.2 * mm);
-        CHECK(out.worst < 0.2 * mm);
+        CHECK(in.worst < 0.02 * mm);
+        CHECK(out.worst < 0.02 * mm);
         CHECK(strain.shortest > 0.6);
         CHECK(strain.longest < 1.6);
         CHECK(strain.flipped == 0);
@@ -171,7 +170,7 @@ TEST_CASE("the frontal mask slides under the skin of the dog's head and the skin
     CHECK(places(couple, skin) == couple.skin.vertices);
 }
 
-TEST_CASE("a facial muscle of the dog that tightens slowly hardly ever makes the skin jump") {
+TEST_CASE("a facial muscle of the dog that tightens slowly never makes the skin jump") {
     REQUIRE_SHARED_MESHES();
     const skins::Couple couple = faceCouple(dogMesh("skin_head"));
     constexpr int steps = 125;
@@ -202,7 +201,7 @@ TEST_CASE("a facial muscle of the dog that tightens slowly hardly ever makes the
         all += jumps.size();
     }
     std::cout << " in all " << far << " of " << all << " steps\n";
-    CHECK(far < all / 20); // where skin slides from one side of a muscle's edge to the other
+    CHECK(far == 0);
 }
 
 TEST_CASE("all facial muscles of the dog move one skin of 29,000 vertices", "[.long]") {

@@ -46,7 +46,7 @@ TEST_CASE("two meshes and a hinge become a table that stops the motion where the
     std::istringstream rows(readText(folder.path() / "r.csv"));
     std::string line;
     std::getline(rows, line);
-    CHECK(line == "gap,hit,pair,px,py,pz,nx,ny,nz");
+    CHECK(line == "table_gap,hit,pair,px,py,pz,nx,ny,nz");
     int wrong = 0, hits = 0;
     for (int angle = -40; angle <= 90; ++angle) {
         REQUIRE(std::getline(rows, line));

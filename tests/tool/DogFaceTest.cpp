@@ -62,7 +62,7 @@ TEST_CASE("the skin of the real dog's head follows the frontal mask, and comes b
     std::istringstream rows(readText(folder.path() / "played.csv"));
     std::string line;
     std::getline(rows, line);
-    CHECK(line == "step,gap,status,residual_Skin");
+    CHECK(line == "step,table_gap,status,residual_Skin");
     double worst = 0;
     int steps = 0;
     for (; std::getline(rows, line); ++steps)

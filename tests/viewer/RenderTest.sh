@@ -29,6 +29,10 @@ for frame in 000 008; do
     ! cmp -s "$out/skin_$frame.png" "$out/spheres_$frame.png" || fail "no overlay over a skin"
 done
 ends 0 "$render" "$jaw" -o "$out/one.png" --frames 1
+ends 0 "$render" "$jaw" -o "$out/from.png" --frames 1 --view=0.5,-2,0.5:0.3,0,0.3
+ends 0 "$render" "$jaw" -o "$out/behind.png" --frames 1 --view 0.3,2,0.5:0.3,0,0.3
+! cmp -s "$out/from.png" "$out/behind.png" || fail "--view EYE:AT changes nothing"
+ends 1 "$render" "$jaw" -o "$out/n_%d.png" --frames 1 --view 0,0,1:0,0
 ends 0 "$render" --help
 ends 1 "$render" "$scenes/none.tss" -o "$out/n_%d.png"
 ends 1 "$render" "$jaw" -o "$out/n_%d.png" --frames 1 --view "$out/none.path"

@@ -1,3 +1,4 @@
+// After Botsch and Kobbelt, "A remeshing approach to multiresolution modeling", 2004.
 #include "examples/doghead/mesh/Remesh.h"
 
 #include "bake/base/Parallel.h"

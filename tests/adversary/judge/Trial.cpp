@@ -1,7 +1,7 @@
 #include "tests/adversary/judge/Trial.h"
 
-#include "bake/Bake.h"
 #include "bake/base/Error.h"
+#include "bake/pipeline/Bake.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/table/Query.h"

@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/VerifyPair.h"
+#include "bake/check/VerifyPair.h"
 #include "tests/adversary/judge/Attack.h"
 #include "tests/adversary/scenes/Scene.h"
 

@@ -1,6 +1,6 @@
 #include "tests/extreme/tool/Invariance.h"
 
-#include "bake/Bake.h"
+#include "bake/pipeline/Bake.h"
 #include "bake/table/Query.h"
 #include "bake/table/TablePairs.h"
 #include "tests/extreme/scenes/Builders.h"

@@ -1,6 +1,6 @@
 #include "tests/extreme/tool/LongRun.h"
 
-#include "bake/SkinSetup.h"
+#include "bake/play/SkinSetup.h"
 #include "bake/respond/JointResponder.h"
 #include "bake/respond/SkinResponse.h"
 

@@ -1,9 +1,9 @@
 #include "tests/extreme/tool/Serve.h"
 
-#include "bake/Player.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/MeshQuery.h"
+#include "bake/play/Player.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/table/Query.h"

@@ -1,6 +1,6 @@
 #pragma once
-#include "bake/Bake.h"
-#include "bake/VerifyPair.h"
+#include "bake/check/VerifyPair.h"
+#include "bake/pipeline/Bake.h"
 #include "bake/respond/JointResponse.h"
 #include "bake/table/PreparedTable.h"
 

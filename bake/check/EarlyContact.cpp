@@ -1,0 +1,134 @@
+#include "bake/check/EarlyContact.h"
+
+#include "bake/base/Parallel.h"
+#include "bake/geometry/MeshAudit.h"
+#include "bake/geometry/MeshQuery.h"
+#include "bake/search/ExploredPoses.h"
+#include "bake/table/Query.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tss {
+
+namespace {
+
+/// The distance of the surfaces; `most` where it is more, 0 under a thousandth of that.
+double clearance(const MeshQuery& a, const MeshQuery& b, const Pose& bToA, double most) {
+    const double distance = std::min(a.distanceTo(b, bToA, most), most);
+    return distance < most / 1000 ? 0 : distance;
+}
+
+/// To one digit.
+double roundedDown(double length) {
+    const double power = std::pow(10.0, std::floor(std::log10(length)));
+    return std::floor(length / power) * power;
+}
+
+double shareBelow(const std::vector<double>& lengths, double limit) {
+    if (lengths.empty()) return 0;
+    const auto below = std::count_if(lengths.begin(), lengths.end(), [&](double l) { return l < limit; });
+    return static_cast<double>(below) / static_cast<double>(lengths.size());
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Whether one of the first steps from rest this way is reported: 1/1024 to 1/128 of each DOF's range.
+/// Nothing where the limits are in the way.
+std::optional<bool> stopped(const Table& table, const Motion& motion, const std::vector<double>& rest,
+                            const std::vector<int>& way) {
+    for (const double step : {1.0 / 1024, 1.0 / 512, 1.0 / 256, 1.0 / 128}) {
+        std::vector<double> q = rest;
+        for (std::size_t k = 0; k < q.size(); ++k)
+            q[k] += step * way[k] * (motion.dofs[k].upper - motion.dofs[k].lower);
+        if (!withinLimits(motion, q, 0)) return std::nullopt;
+        if (query(table, q).hit()) return true;
+    }
+    return false;
+}
+
+/// All ways that turn each DOF back, on or not at all; with many DOFs one at a time.
+bool heldAtRest(const Table& table, const Motion& motion, const std::vector<double>& rest) {
+    constexpr std::size_t most = 5; // 242 ways
+    const std::size_t dofs = rest.size();
+    std::vector<std::vector<int>> ways;
+    if (dofs <= most) {
+        std::size_t count = 1;
+        for (std::size_t k = 0; k < dofs; ++k) count *= 3;
+        for (std::size_t number = 0; number < count; ++number) {
+            std::vector<int> way;
+            for (std::size_t k = 0, digits = number; k < dofs; ++k, digits /= 3)
+                way.push_back(static_cast<int>(digits % 3) - 1);
+            ways.push_back(std::move(way));
+        }
+    } else {
+        for (std::size_t k = 0; k < dofs; ++k)
+            for (const int sign : {-1, 1}) ways.emplace_back(dofs, 0)[k] = sign;
+    }
+    bool any = false;
+    for (const std::vector<int>& way : ways) {
+        if (std::all_of(way.begin(), way.end(), [](int turn) { return turn == 0; })) continue;
+        const std::optional<bool> stop = stopped(table, motion, rest, way);
+        if (stop == false) return false;
+        any |= stop.has_value();
+    }
+    return any;
+}
+
+} // namespace
+
+std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const Pair& pair) {
+    const TriangleMesh &meshA = scene.bodies[pair.bodyA].mesh, &meshB = scene.bodies[pair.bodyB].mesh;
+    if (!pair.table || !(pair.table->boundEarly > 0) || meshA.empty() || meshB.empty()) return std::nullopt;
+    const double early = pair.table->boundEarly, epsilon = pair.table->epsilon;
+    const Motion motion = pairMotion(scene, pair);
+    const MeshQuery a(meshA), b(meshB);
+    EarlyContact result;
+    const double size = std::min(bounds(meshA).diagonal().norm(), bounds(meshB).diagonal().norm());
+    const std::vector<double> rest = restValues(motion);
+    result.atRest = clearance(a, b, pose(motion, rest), std::max(size, early));
+    const Table& table = *pair.table;
+    const bool contact = query(table, rest).hit();
+    result.restReported = result.atRest > 0 && contact;
+    result.held = !contact && heldAtRest(table, motion, rest);
+
+    const std::vector<std::vector<double>> poses = exploredPoses(motion, 100, 1);
+    std::vector<double> distances(poses.size(), early);
+    std::vector<char> reported(poses.size());
+    parallelFor(poses.size(), [&](std::size_t i) {
+        reported[i] = query(table, poses[i]).hit();
+        // Where no contact is reported there is none when nothing is missed; how near it is comes later.
+        if (reported[i] || pair.table->boundMiss != 0)
+            distances[i] = clearance(a, b, pose(motion, poses[i]), early);
+    });
+    std::vector<double> free, wrong; // distances: of the free poses, and of those reported nevertheless
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (distances[i] > 0) free.push_back(distances[i]);
+        if (distances[i] > 0 && reported[i]) wrong.push_back(distances[i]);
+    }
+    result.poses = static_cast<int>(poses.size());
+    result.freePoses = static_cast<int>(free.size());
+    if (!free.empty()) result.share = static_cast<double>(wrong.size()) / static_cast<double>(free.size());
+    if (!result.coarse()) return result;
+
+    // The spheres of both bodies then take at most six tenths of the play that the joint has where it is
+    // reported without reason.
+    const double play =
+        std::min(wrong.empty() ? early : median(wrong), result.atRest > 0 ? result.atRest : early);
+    const double proposed = roundedDown(0.3 * play), now = (early - epsilon) / 2;
+    if (proposed >= 0.9 * now) return result;
+    result.tolerance = proposed;
+    const double then = 2 * proposed + epsilon;
+    parallelFor(poses.size(), [&](std::size_t i) {
+        if (distances[i] >= early && !a.apart(b, pose(motion, poses[i]), then)) distances[i] = 0.5 * then;
+    });
+    std::erase(distances, 0.0);
+    result.shareThen = shareBelow(distances, then);
+    return result;
+}
+
+} // namespace tss

@@ -1,0 +1,357 @@
+#include "bake/fill/ContactZoneFit.h"
+
+#include "bake/base/Error.h"
+#include "bake/fill/HollowBodies.h"
+#include "bake/fill/NestedBodies.h"
+#include "bake/geometry/MeshAudit.h"
+#include "bake/search/Reach.h"
+#include "bake/spheres/MedialSpheres.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace tss {
+
+namespace {
+
+double area(std::span<const Patch> patches) {
+    double sum = 0;
+    for (const Patch& patch : patches) sum += patch.area();
+    return sum;
+}
+
+/// One body while the levels go by.
+struct Body {
+    Body(const TriangleMesh& mesh, bool hollow)
+        : solid(cleaned(mesh), hollow ? Interior::Hollow : Interior::Filled), surface(solid.mesh()),
+          magnitude(tss::magnitude(solid.mesh())) {}
+
+    Solid solid;
+    MeshQuery surface; ///< without closing fans: contact is of the mesh itself
+    double magnitude;
+    std::vector<Patch> zone; ///< of all but the region that overlaps at rest
+    RestSide rest;
+    MedialSet fitted;      ///< to the zone, on this level
+    double protrusion = 0; ///< of all spheres of the level
+    SphereSet coarse;      ///< inscribed spheres of the levels before
+
+    void begin(RestSide side) {
+        rest = std::move(side);
+        protrusion = rest.protrusion;
+        for (const Patch& patch : rest.patches)
+            if (!patch.region) zone.push_back(patch);
+    }
+    void fit(double tolerance, MedialOptions medial, const Progress& progress) {
+        const double own = protrusionFor(tolerance, magnitude);
+        medial.neighbour = rest.neighbour;
+        fitted = medialSpheres(solid, zone, own, medial, progress);
+        protrusion = std::max(own, rest.protrusion);
+    }
+    std::size_t count() const { return fitted.spheres.size() + rest.region.spheres.size(); }
+    LevelSpheres level() const {
+        LevelSpheres level{fitted.spheres, fitted.inner, std::vector<char>(fitted.spheres.size(), 0)};
+        const MedialSet& region = rest.region;
+        level.spheres.insert(level.spheres.end(), region.spheres.begin(), region.spheres.end());
+        level.inner.insert(level.inner.end(), region.inner.begin(), region.inner.end());
+        level.region.resize(level.spheres.size(), 1);
+        return level;
+    }
+    /// All spheres so far.
+    SphereSet spheres() const {
+        SphereSet all = level().spheres;
+        all.insert(all.end(), coarse.begin(), coarse.end());
+        return all;
+    }
+    ContactZoneBody result(const ContactZoneOptions& options) const {
+        ContactZoneBody body;
+        const LevelSpheres finest = level();
+        body.fit.spheres = options.conservative ? finest.spheres : inscribed({finest.spheres, finest.inner});
+        body.fit.protrusion = options.conservative ? protrusion : 0;
+        body.fit.coverage = options.conservative ? 0 : protrusion;
+        body.fit.note = solid.assumptions();
+        body.fit.hollow = solid.hollow();
+        body.fine = body.fit.spheres.size();
+        body.neighbour = rest.neighbour;
+        body.zone = zone;
+        for (const Patch& patch : rest.patches)
+            if (patch.region) body.zone.push_back(patch);
+        if (options.keepCoarse) body.fit.spheres.insert(body.fit.spheres.end(), coarse.begin(), coarse.end());
+        if (rest.region.spheres.empty()) return body;
+        body.fit.region = finest.region;
+        body.fit.region.resize(body.fit.spheres.size(), 0);
+        return body;
+    }
+};
+
+/// The tolerances of the levels, each half of the one before, from about 1/400 of the body's size.
+std::vector<double> levelTolerances(double finest, double diagonal) {
+    std::vector<double> levels{finest};
+    while (2 * levels.back() < diagonal / 300) levels.push_back(2 * levels.back());
+    std::reverse(levels.begin(), levels.end());
+    return levels;
+}
+
+class Refiner {
+public:
+    Refiner(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
+            const ContactZoneOptions& options, const HollowBodies& hollow, bool clearAtRest,
+            const Progress& progress)
+        : a_(a, hollow.a), b_(b, hollow.b), motion_(motion), options_(options), progress_(progress),
+          cells_(wholeQ(motion)), clearAtRest_(clearAtRest), whole_(options.whole) {}
+
+    /// Of no use where entered() says that a body is hollow after all.
+    ContactZoneFit run() {
+        const double smaller = std::min(a_.solid.diagonal(), b_.solid.diagonal());
+        const double finest = options_.tolerance > 0 ? options_.tolerance : smaller / 500;
+        if (!begin(finest)) return {};
+        std::vector<double> levels = whole_ ? std::vector{finest} : levelTolerances(finest, smaller);
+        for (std::size_t i = 0; i < levels.size(); ++i) {
+            if (!narrow(levels[i])) break;
+            if (i == 0) levels = coarsened(std::move(levels));
+            if (!fit(levels[i])) {
+                if (i > 0 && note_.empty()) fitBetween(levels[i - 1], levels[i]);
+                break;
+            }
+            if ((entered_ = entered(2 * levels[i]))) return {};
+            if (!decide(levels[i], levels[i] <= finest)) break;
+        }
+        if (!decided_ && note_.empty() && result_.levels.back().tolerance > finest * (1 + 1e-9))
+            note_ = fmt::format("tolerance {:.4g} instead of {:.4g} scene units: {} spheres do not suffice",
+                                result_.levels.back().tolerance, finest, options_.maxSpheres);
+        result_.a = a_.result(options_);
+        result_.b = b_.result(options_);
+        for (ContactZoneBody* body : {&result_.a, &result_.b})
+            if (!note_.empty()) body->fit.note += (body->fit.note.empty() ? "" : "; ") + note_;
+        return std::move(result_);
+    }
+
+    const HollowBodies& entered() const { return entered_; }
+
+private:
+    /// Looks at the pose at rest. False: a body is hollow after all.
+    bool begin(double tolerance) {
+        RestPlan plan = planRest(
+            a_.solid, a_.surface, b_.solid, b_.surface, motion_,
+            {tolerance, options_.epsilon, options_.atRest, clearAtRest_, options_.medial}, progress_);
+        if ((entered_ = plan.entered)) return false;
+        a_.begin(std::move(plan.a));
+        b_.begin(std::move(plan.b));
+        result_.rest = std::move(plan.contact);
+        return true;
+    }
+
+    HollowBodies entered(double reach) const {
+        if (!a_.solid.open() && !b_.solid.open()) return {};
+        const SphereSet a = a_.spheres(), b = b_.spheres();
+        return findHollow({a_.solid, a_.surface, a, a_.protrusion}, {b_.solid, b_.surface, b, b_.protrusion},
+                          motion_, reach, progress_);
+    }
+
+    /// The zones within reach over what is left of Q. False: there are none.
+    bool narrow(double tolerance) {
+        if (whole_) return true;
+        std::vector<Patch> zoneA =
+            findReach(a_.zone, Side::A, b_.surface, motion_, cells_, tolerance, options_.margin, progress_);
+        std::vector<Patch> zoneB =
+            findReach(b_.zone, Side::B, a_.surface, motion_, cells_, tolerance, options_.margin, progress_);
+        const bool region = !result_.rest.region.empty(); // of which either zone may meet the other's
+        if (region ? zoneA.empty() && zoneB.empty() : zoneA.empty() || zoneB.empty()) {
+            // The poses left are free; what was decided before stays with the inscribed spheres.
+            result_.neverMeet = !hits_;
+            // Spheres of the last level may touch there yet: finer ones of the last zone show that nothing
+            // does.
+            if (!hits_ && !result_.levels.empty()) return true;
+            decided_ = true;
+            finish(std::move(zoneA), std::move(zoneB));
+            return false;
+        }
+        a_.zone = std::move(zoneA);
+        b_.zone = std::move(zoneB);
+        return true;
+    }
+
+    void finish(std::vector<Patch> zoneA, std::vector<Patch> zoneB) {
+        keepInner();
+        a_.fitted = b_.fitted = {};
+        a_.zone = std::move(zoneA);
+        b_.zone = std::move(zoneB);
+    }
+
+    void keepInner() {
+        for (Body* body : {&a_, &b_}) {
+            const SphereSet inner = inscribed(body->fitted);
+            body->coarse.insert(body->coarse.end(), inner.begin(), inner.end());
+        }
+    }
+
+    bool few(double tolerance) {
+        const auto limit = static_cast<std::size_t>(options_.maxSpheres);
+        const MedialOptions trial = forTrial(options_.medial, limit);
+        try {
+            a_.fit(tolerance, trial, progress_);
+            b_.fit(tolerance, trial, progress_);
+        } catch (const TooFine&) {
+            return false;
+        }
+        return std::max(a_.count(), b_.count()) <= limit;
+    }
+
+    /// The levels from the finest tolerance on with which no body takes too many spheres.
+    std::vector<double> coarsened(std::vector<double> levels) {
+        if (options_.maxSpheres <= 0) return levels;
+        int doubled = 0;
+        for (; doubled < 20 && !few(levels[0]); ++doubled) levels.insert(levels.begin(), 2 * levels[0]);
+        if (doubled == 0) return levels;
+        double good = levels[0], bad = levels[1];
+        for (int round = 0; round < 3; ++round) {
+            const double middle = std::sqrt(good * bad);
+            (few(middle) ? good : bad) = middle;
+        }
+        levels[0] = good;
+        return levels;
+    }
+
+    /// After a level that took too many spheres: the finest one between it and the one before that does not.
+    void fitBetween(double good, double bad) {
+        const std::array<MedialSet, 2> before{a_.fitted, b_.fitted};
+        const std::array<SphereSet, 2> coarse{a_.coarse, b_.coarse};
+        const std::array<double, 2> protrusion{a_.protrusion, b_.protrusion};
+        const std::vector<ContactZoneLevel> levels = result_.levels;
+        const auto refit = [&](double tolerance) {
+            a_.fitted = before[0], a_.coarse = coarse[0], a_.protrusion = protrusion[0];
+            b_.fitted = before[1], b_.coarse = coarse[1], b_.protrusion = protrusion[1];
+            result_.levels = levels;
+            return fit(tolerance);
+        };
+        for (int round = 0; round < 3; ++round) {
+            const double middle = std::sqrt(good * bad);
+            (refit(middle) ? good : bad) = middle;
+        }
+        if (result_.levels.back().tolerance != good) refit(good);
+    }
+
+    /// False: it took too many spheres and the level before stands.
+    bool fit(double tolerance) {
+        const Body* bodies[] = {&a_, &b_};
+        std::array<MedialSet, 2> before{a_.fitted, b_.fitted};
+        const std::array<double, 2> protrusion{a_.protrusion, b_.protrusion};
+        std::array<SphereSet, 2> coarse{a_.coarse, b_.coarse};
+        if (!result_.levels.empty()) keepInner();
+        const auto backToLast = [&] {
+            a_.fitted = before[0], a_.coarse = coarse[0], a_.protrusion = protrusion[0];
+            b_.fitted = before[1], b_.coarse = coarse[1], b_.protrusion = protrusion[1];
+            return false;
+        };
+        const auto fitBoth = [&](const MedialOptions& medial, const Progress& progress) {
+            a_.fit(tolerance, medial, progress);
+            b_.fit(tolerance, medial, progress);
+        };
+        try {
+            fitBoth(options_.medial, progress_);
+        } catch (const RestTooClose&) { // which does not depend on the level
+            throw;
+        } catch (const InputError& error) { // too fine, or stopped
+            if (!result_.levels.empty()) {
+                note_ = fmt::format("tolerance {:.4g} instead of {:.4g} scene units: {}",
+                                    result_.levels.back().tolerance, tolerance, error.message);
+                return backToLast();
+            }
+            try { // some level there must be, if it can be had soon
+                fitBoth(forTrial(options_.medial, 0), {});
+            } catch (const TooFine&) {
+                throw InputError(error.message);
+            }
+        }
+        const auto limit = static_cast<std::size_t>(options_.maxSpheres);
+        for (const Body* body : bodies)
+            if (limit > 0 && !result_.levels.empty() && body->count() + body->coarse.size() > limit)
+                return backToLast();
+        result_.levels.push_back({tolerance, a_.count(), b_.count(), area(a_.zone), area(b_.zone), 0});
+        return true;
+    }
+
+    /// False: nothing is left to refine.
+    bool decide(double tolerance, bool last) {
+        if (last) return false;
+        if (!dropDecided(tolerance)) {
+            decided_ = true;
+            result_.neverMeet = !hits_;
+            if (hits_) finish({}, {}); // inscribed spheres answer everywhere, nothing is claimed beyond them
+            return false;
+        }
+        result_.levels.back().undecided = cells_.leaves();
+        if (report(progress_, "contact zone", 0.5)) return true;
+        note_ = fmt::format("stopped at tolerance {:.4g} scene units", tolerance);
+        return false;
+    }
+
+    /// Drops the cells that the level's spheres decide, from large cells on and as small as pays: with many
+    /// DOFs their number explodes. False: none is left.
+    bool dropDecided(double tolerance) {
+        constexpr double mostCells = 2e5;
+        const double growth = std::pow(2.0, static_cast<double>(motion_.dofCount()));
+        UndecidedOptions how;
+        how.margin = options_.margin;
+        how.depth = options_.depth;
+        const LevelSpheres a = a_.level(), b = b_.level();
+        for (how.resolution = 8 * tolerance;; how.resolution /= 2) {
+            Undecided left = undecidedCells(a, b, motion_, cells_, how, progress_);
+            hits_ |= left.hits;
+            if (!left.cells) return false;
+            cells_ = std::move(*left.cells);
+            if (how.resolution <= tolerance / 2 || static_cast<double>(cells_.leaves()) * growth > mostCells)
+                return true;
+        }
+    }
+
+    Body a_, b_;
+    const Motion& motion_;
+    const ContactZoneOptions& options_;
+    const Progress& progress_;
+    CellTree cells_;
+    ContactZoneFit result_;
+    HollowBodies entered_;
+    const bool clearAtRest_;
+    const bool whole_; ///< no part of the surfaces is left out as out of reach
+    bool hits_ = false;
+    bool decided_ = false; ///< no pose is left whose verdict the spheres do not know
+    std::string note_;
+};
+
+} // namespace
+
+ContactZoneFit fitContactZone(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
+                              const ContactZoneOptions& options, const Progress& progress) {
+    const auto need = [](bool good, const char* what) {
+        if (!good) throw InputError(fmt::format("contact zone: {}", what));
+    };
+    need(std::isfinite(options.tolerance) && options.tolerance >= 0, "the tolerance must be a number >= 0");
+    need(std::isfinite(options.margin) && options.margin >= 0, "the margin must be a number >= 0");
+    need(std::isfinite(options.epsilon) && options.epsilon >= 0, "epsilon must be a number >= 0");
+    need(std::isfinite(options.depth) && options.depth >= 0, "the depth must be a number >= 0");
+    checkMotion(motion);
+    const Solid solidA(cleaned(a)), solidB(cleaned(b));
+    const double finest =
+        options.tolerance > 0 ? options.tolerance : std::min(solidA.diagonal(), solidB.diagonal()) / 500;
+    const Nesting nesting = findNested(solidA, solidB, motion, 2 * finest, progress);
+    HollowBodies hollow = nesting.outer;
+    bool clearAtRest = true;
+    for (;;) {
+        Refiner refiner(a, b, motion, options, hollow, clearAtRest, progress);
+        try {
+            ContactZoneFit fit = refiner.run();
+            fit.a.fit.enclosed = nesting.apart(nesting.undecided.a);
+            fit.b.fit.enclosed = nesting.apart(nesting.undecided.b);
+            const HollowBodies& more = refiner.entered();
+            if (!more) return fit;
+            hollow = {hollow.a || more.a, hollow.b || more.b};
+        } catch (const RestTooClose&) {
+            if (options.atRest != AtRest::Collide) throw;
+            clearAtRest = false; // contact at rest is then what the spheres say
+        }
+    }
+}
+
+} // namespace tss

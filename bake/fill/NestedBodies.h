@@ -1,0 +1,30 @@
+#pragma once
+#include "bake/fill/HollowBodies.h"
+
+#include <limits>
+
+namespace tss {
+
+/// What is known of two bodies of which one may stand wholly inside the other.
+struct Nesting {
+    HollowBodies outer;     ///< something stands inside of it at some pose, surfaces apart
+    HollowBodies undecided; ///< neither that nor the contrary was shown within the effort
+    double settled = 0;     ///< of the others nothing stands inside with surfaces farther apart than this
+
+    /// How far apart the surfaces may be while something stands inside; infinity: not shown.
+    double apart(bool isUndecided) const {
+        return isUndecided ? std::numeric_limits<double>::infinity() : settled;
+    }
+};
+
+/// Whether a connected part of one body's surface ever stands inside the other body's solid, its openings
+/// closed, while the surfaces are farther apart than `reach`, > 0: not contact, though solids that are filled
+/// would say so. Branch and bound over Q: a part is not inside all over a cell where one of its vertices
+/// stays outside, or where the surfaces stay within reach of each other. Where neither `outer` nor
+/// `undecided` is set that is proven for all of Q. (What reaches into an opening without being inside as a
+/// whole findHollow() looks for.) Surfaces from three quarters of the reach on may count as farther. The same
+/// for any number of threads.
+Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double reach,
+                   const Progress& progress = {});
+
+} // namespace tss

@@ -1,0 +1,145 @@
+#include "bake/pipeline/Bake.h"
+
+#include "bake/model/SourceHash.h"
+#include "bake/pipeline/BakePair.h"
+#include "bake/pipeline/BakeSkin.h"
+#include "bake/pipeline/CheckBake.h"
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+
+namespace tss {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+void checkPaths(const SceneModel& scene, const BakeRequest& request) {
+    for (const std::string& path : request.pairs) {
+        const auto same = [&](const auto& item) { return item.path == path; };
+        if (std::none_of(scene.pairs.begin(), scene.pairs.end(), same) &&
+            std::none_of(scene.skins.begin(), scene.skins.end(), same))
+            throw InputError(Where{"", "", path}, "no pair and no skin of this path in the scene");
+    }
+}
+
+bool wanted(const BakeRequest& request, const std::string& path) {
+    return request.pairs.empty() ||
+           std::find(request.pairs.begin(), request.pairs.end(), path) != request.pairs.end();
+}
+
+bool hasTable(const Pair& pair) {
+    return pair.table || pair.proof;
+}
+bool hasTable(const SkinModel& skin) {
+    return skin.table != nullptr;
+}
+
+template <class Item>
+void addSettings(Item& item, const BakeRequest& request) {
+    for (const auto& [key, text] : request.given) item.settings[key] = text;
+}
+
+template <class Item>
+bool isToBake(const SceneModel& scene, Item item, const BakeRequest& request) {
+    if (!wanted(request, item.path)) return false;
+    if (!request.onlyMissing || !hasTable(item)) return true;
+    addSettings(item, request);
+    return !staleness(scene, item).empty();
+}
+
+/// Runs one bake and times it; an input error is told with the prim that it belongs to.
+template <class Item, class Work>
+PairReport timed(Item& item, const Work& work) {
+    PairReport report;
+    report.path = item.path;
+    const auto start = Clock::now();
+    try {
+        work(report);
+    } catch (const InputError& error) {
+        if (!error.where.path.empty()) throw;
+        throw InputError(Where{error.where.file, error.where.pointer, item.path}, error.message);
+    } catch (const std::bad_alloc&) {
+        throw InputError(Where{"", "", item.path}, "not enough memory for this input");
+    }
+    report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    return report;
+}
+
+class Baker {
+public:
+    Baker(SceneModel& scene, const BakeRequest& request, const Progress& progress)
+        : scene_(scene), request_(request), progress_([&](std::string_view step, double done) {
+              return !interrupted() && report(progress, step, done);
+          }) {}
+
+    std::vector<PairReport> run() {
+        if (const auto refused = refusedByBake(scene_, request_); !refused.empty()) throw refused.front();
+        // Those that are never reached keep what was asked for.
+        for (Pair& pair : scene_.pairs)
+            if (toBake(scene_, pair, request_)) addSettings(pair, request_);
+        for (SkinModel& skin : scene_.skins)
+            if (toBake(scene_, skin, request_)) addSettings(skin, request_);
+        each(scene_.pairs, [&](Pair& pair, PairReport& report) {
+            bakePair(scene_, pair, optionsFor(pair.settings, {}, scene_.metersPerUnit), report, progress_);
+        });
+        each(scene_.skins, [&](SkinModel& skin, PairReport& report) {
+            bakeSkin(scene_, skin, optionsFor(skin.settings, {}, scene_.metersPerUnit), report, progress_);
+        });
+        return std::move(reports_);
+    }
+
+private:
+    bool interrupted() {
+        over_ = over_ || (request_.interrupted && request_.interrupted());
+        return over_;
+    }
+
+    template <class Items, class Work>
+    void each(Items& items, const Work& work) {
+        for (auto& item : items)
+            if (!interrupted() && toBake(scene_, item, request_)) one(item, work);
+    }
+
+    template <class Item, class Work>
+    void one(Item& item, const Work& work) {
+        const Item before = item;
+        try {
+            const PairReport report = timed(item, [&](PairReport& report) { work(item, report); });
+            if (!interrupted()) {
+                reports_.push_back(report);
+                if (request_.done) request_.done(report);
+                return;
+            }
+        } catch (const InputError& error) {
+            if (!interrupted()) {
+                if (!request_.failed) throw;
+                request_.failed(error);
+            }
+        }
+        item = before;
+    }
+
+    SceneModel& scene_;
+    const BakeRequest& request_;
+    bool over_ = false;
+    const Progress progress_;
+    std::vector<PairReport> reports_;
+};
+
+} // namespace
+
+bool toBake(const SceneModel& scene, const Pair& pair, const BakeRequest& request) {
+    return isToBake(scene, pair, request);
+}
+bool toBake(const SceneModel& scene, const SkinModel& skin, const BakeRequest& request) {
+    return isToBake(scene, skin, request);
+}
+
+std::vector<PairReport> bake(SceneModel& scene, const BakeRequest& request, const Progress& progress) {
+    checkPaths(scene, request);
+    return Baker(scene, request, progress).run();
+}
+
+} // namespace tss

@@ -1,0 +1,196 @@
+#include "bake/pipeline/BakeOptions.h"
+
+#include "bake/base/Error.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace tss {
+
+namespace {
+
+template <class Value>
+using Word = std::pair<const char*, Value>;
+
+// The words of the command line, the scene file and a table's method.
+constexpr std::array<Word<SphereMethod>, 4> sphereWords{{{"medial", SphereMethod::Medial},
+                                                         {"shrinking", SphereMethod::Shrinking},
+                                                         {"growth", SphereMethod::Growth},
+                                                         {"surface", SphereMethod::Surface}}};
+constexpr std::array<Word<SearchMethod>, 2> searchWords{
+    {{"certified", SearchMethod::Certified}, {"sampled", SearchMethod::Sampled}}};
+constexpr std::array<Word<ReduceMethod>, 4> reduceWords{{{"cover", ReduceMethod::Cover},
+                                                         {"cooccurrence", ReduceMethod::Cooccurrence},
+                                                         {"minimal", ReduceMethod::Minimal},
+                                                         {"none", ReduceMethod::None}}};
+constexpr std::array<Word<AtRest>, 3> atRestWords{
+    {{"offset", AtRest::Offset}, {"ignore", AtRest::Ignore}, {"collide", AtRest::Collide}}};
+constexpr std::array<Word<bool>, 2> flagWords{{{"true", true}, {"false", false}}};
+
+template <class Value, std::size_t count>
+std::string wordOf(const std::array<Word<Value>, count>& words, Value value) {
+    return std::find_if(words.begin(), words.end(), [&](const auto& word) { return word.second == value; })
+        ->first;
+}
+
+template <class Value, std::size_t count>
+Value choice(const std::string& key, const std::string& text, const std::array<Word<Value>, count>& choices) {
+    std::string expected;
+    for (const auto& [name, value] : choices) {
+        if (text == name) return value;
+        expected += (expected.empty() ? "" : ", ") + std::string(name);
+    }
+    throw InputError("--" + key + ": expected one of " + expected + ", found \"" + text + "\"");
+}
+
+int count(const std::string& key, const std::string& text, int least) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < least)
+        throw InputError("--" + key + ": expected a whole number of at least " + std::to_string(least) +
+                         ", found \"" + text + "\"");
+    return value;
+}
+
+double length(const std::string& key, const std::string& text, double metersPerUnit, bool zeroAllowed) {
+    const double value = parseLength(text, metersPerUnit);
+    if (value < 0 || (value == 0 && !zeroAllowed))
+        throw InputError("--" + key + ": expected a length " + (zeroAllowed ? ">= 0" : "> 0") + ", found \"" +
+                         text + "\"");
+    return value;
+}
+
+bool flag(const std::string& key, const std::string& text) {
+    return choice(key, text, flagWords);
+}
+
+/// "T_min,dt,T_max,R": plain numbers are fractions of the bounding diagonal, with units they are lengths.
+GrowthOptions growth(const std::string& text, double metersPerUnit) {
+    std::vector<std::string> parts;
+    for (std::size_t from = 0; from <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', from), text.size());
+        parts.push_back(text.substr(from, comma - from));
+        from = comma + 1;
+    }
+    const auto plain = [](const std::string& part) {
+        return part.find_first_not_of("+-.0123456789eE") == std::string::npos;
+    };
+    const auto fractions = std::count_if(parts.begin(), parts.end(), plain);
+    if (parts.size() != 4 || (fractions != 0 && fractions != 4))
+        throw InputError(
+            "--growth: expected START,STEP,END,MAXRADIUS, all fractions of the bounding diagonal or all "
+            "lengths with units, found \"" +
+            text + "\"");
+    GrowthOptions growth;
+    growth.relative = fractions == 4;
+    double* const values[] = {&growth.start, &growth.step, &growth.end, &growth.maxRadius};
+    for (std::size_t k = 0; k < 4; ++k) *values[k] = length("growth", parts[k], metersPerUnit, false);
+    return growth;
+}
+
+} // namespace
+
+double parseNumber(const std::string& text, const std::string& what) {
+    double value = 0;
+    const char* begin = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
+    const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+        throw InputError(what + ": expected a finite number, found \"" + text + "\"");
+    return value;
+}
+
+double parseLength(const std::string& text, double metersPerUnit) {
+    static constexpr std::pair<const char*, double> units[] = {
+        {"um", 1e-6}, {"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"in", 0.0254}, {"ft", 0.3048}, {"m", 1}};
+    for (const auto& [unit, meters] : units) {
+        const std::string suffix = unit;
+        if (text.size() <= suffix.size() ||
+            text.compare(text.size() - suffix.size(), suffix.size(), suffix) != 0)
+            continue;
+        return parseNumber(text.substr(0, text.size() - suffix.size()), "length \"" + text + "\"") * meters /
+               metersPerUnit;
+    }
+    return parseNumber(text, "length (a number, or a number with um, mm, cm, m, km, in or ft)");
+}
+
+std::string lengthText(double length, double metersPerUnit) {
+    const double meters = length * metersPerUnit, size = std::abs(meters);
+    if (size >= 1) return fmt::format("{:.4g} m", meters);
+    if (size >= 1e-5 || size == 0) return fmt::format("{:.4g} mm", 1e3 * meters);
+    return fmt::format("{:.4g} um", 1e6 * meters);
+}
+
+namespace {
+
+/// Sets the option if there is one of this name, and says whether there is. names: gets them all, if given.
+bool set(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit,
+         bool onlyLook, std::vector<std::string>* names = nullptr) {
+    using Setter = std::function<void()>;
+    const std::pair<const char*, Setter> setters[] = {
+        {"spheres", [&] { options.spheres = choice(key, text, sphereWords); }},
+        {"growth", [&] { options.growth = growth(text, metersPerUnit); }},
+        {"search", [&] { options.search = choice(key, text, searchWords); }},
+        {"reduce", [&] { options.reduce = choice(key, text, reduceWords); }},
+        {"at-rest", [&] { options.atRest = choice(key, text, atRestWords); }},
+        {"tolerance", [&] { options.tolerance = length(key, text, metersPerUnit, false); }},
+        {"epsilon", [&] { options.epsilon = length(key, text, metersPerUnit, true); }},
+        {"depth", [&] { options.depth = length(key, text, metersPerUnit, true); }},
+        {"max-spheres", [&] { options.maxSpheres = count(key, text, 1); }},
+        {"samples", [&] { options.samples = count(key, text, 1); }},
+        {"conservative", [&] { options.conservative = flag(key, text); }},
+        {"keep-spheres", [&] { options.keepSpheres = flag(key, text); }},
+        {"budget",
+         [&] {
+             options.budget = parseNumber(text, "--budget");
+             if (options.budget < 0)
+                 throw InputError("--budget: expected seconds >= 0, found \"" + text + "\"");
+         }},
+    };
+    for (const auto& [name, set] : setters) {
+        if (names) names->push_back(name);
+        if (key == name) {
+            if (!onlyLook) set();
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+bool isOption(const std::string& key) {
+    BakeOptions none;
+    return set(none, key, "", 1, true);
+}
+
+std::vector<std::string> optionNames() {
+    BakeOptions none;
+    std::vector<std::string> names;
+    set(none, "", "", 1, true, &names);
+    return names;
+}
+
+void setOption(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit) {
+    if (!set(options, key, text, metersPerUnit, false))
+        throw InputError("bake setting \"" + key + "\" is not known");
+}
+
+std::string methodName(const BakeOptions& options) {
+    return wordOf(sphereWords, options.spheres) + "/" + wordOf(searchWords, options.search) + "/" +
+           wordOf(reduceWords, options.reduce);
+}
+
+BakeOptions optionsFor(const BakeSettings& ofScene, const BakeSettings& given, double metersPerUnit) {
+    BakeOptions options;
+    for (const auto& [key, text] : ofScene) setOption(options, key, text, metersPerUnit);
+    for (const auto& [key, text] : given) setOption(options, key, text, metersPerUnit);
+    return options;
+}
+
+} // namespace tss

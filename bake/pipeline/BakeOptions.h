@@ -1,0 +1,58 @@
+#pragma once
+#include "bake/model/SceneModel.h"
+#include "bake/search/AtRest.h"
+#include "bake/spheres/SphereOptions.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tss {
+
+enum class SearchMethod { Certified, Sampled };
+enum class ReduceMethod { Cover, Cooccurrence, Minimal, None };
+
+/// Settings of a bake; each is an option of `tss bake` of the same name. Lengths in scene units.
+struct BakeOptions {
+    SphereMethod spheres = SphereMethod::Medial;
+    GrowthOptions growth; ///< of SphereMethod::Growth (METHOD 1.1)
+    std::optional<double>
+        tolerance;      ///< protrusion of the spheres (METHOD 1.6); default: 1/500 of the smaller diagonal
+    double epsilon = 0; ///< 0: the table answers as the whole sphere model does (METHOD 3.3)
+    double depth = 0;   ///< > 0: the gap too is right down to this depth (METHOD 3.4); 0: yes/no
+    int maxSpheres = 0; ///< a body; 0: as many as the tolerance needs
+    ReduceMethod reduce = ReduceMethod::Cover;
+    SearchMethod search = SearchMethod::Certified;
+    int samples = 20000; ///< poses explored by the sampled search
+    AtRest atRest = AtRest::Offset;
+    bool conservative = true; ///< spheres contain the surface; otherwise they are inscribed
+    bool keepSpheres = false; ///< store all generated spheres too
+    double budget = 0;        ///< seconds for each pair's cover; 0: no limit
+};
+
+/// Sets one option by its name on the command line, without dashes, from its text. Lengths may carry a unit.
+/// Throws InputError naming the option and what was expected.
+void setOption(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit);
+
+/// Whether setOption() knows this name.
+bool isOption(const std::string& key);
+
+/// All names that setOption() knows.
+std::vector<std::string> optionNames();
+
+/// What a table states as its method: "medial/certified/cover".
+std::string methodName(const BakeOptions& options);
+
+/// The options of one pair: the defaults, then the scene's own settings, then those given now.
+BakeOptions optionsFor(const BakeSettings& ofScene, const BakeSettings& given, double metersPerUnit);
+
+/// "0.2mm", "1cm", "2e-3m", "0.01in" or a plain number in scene units. Throws InputError.
+double parseLength(const std::string& text, double metersPerUnit);
+
+/// A length in scene units as people read it: "0.2 mm", "350 um", "1.2 m".
+std::string lengthText(double length, double metersPerUnit);
+
+/// A finite number and nothing else. Throws InputError that names `what`.
+double parseNumber(const std::string& text, const std::string& what);
+
+} // namespace tss

@@ -1,0 +1,55 @@
+#include "bake/pipeline/BakeSkin.h"
+
+#include "bake/base/Error.h"
+#include "bake/geometry/MeshAudit.h"
+#include "bake/model/SourceHash.h"
+#include "bake/pipeline/FillPair.h"
+#include "bake/play/SkinSetup.h"
+#include "bake/spheres/GenerateSpheres.h"
+#include "bake/spheres/RoundToFloat.h"
+
+namespace tss {
+
+FilledMuscles fillMuscles(const SceneModel& scene, const SkinModel& skin, const BakeOptions& options,
+                          PairReport& report, const Progress& progress) {
+    FilledMuscles filled;
+    filled.deformers = skinMuscles(scene, skin);
+    for (const auto& deformer : filled.deformers) {
+        const TriangleMesh& surface = deformer->muscle().surface;
+        if (surface.empty()) {
+            filled.searched.push_back({deformer.get(), {}});
+            continue;
+        }
+        const SphereOptions how =
+            sphereOptions(options, options.tolerance.value_or(bounds(surface).diagonal().norm() / 100));
+        const SphereFit fit = fitSpheres(cleaned(surface), how, progress);
+        if (!fit.note.empty()) report.notes.push_back(fit.note);
+        filled.searched.push_back({deformer.get(), roundToFloat(fit.spheres)});
+    }
+    return filled;
+}
+
+void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, PairReport& report,
+              const Progress& progress) {
+    const TriangleMesh& mesh = scene.bodies[skin.body].mesh;
+    if (mesh.empty()) throw InputError("expected a mesh, the skin has none");
+    const FilledMuscles filled = fillMuscles(scene, skin, options, report, progress);
+    SkinSearchOptions search;
+    search.thickness = floatAbove(2 * (skin.thickness > 0 ? skin.thickness : skinThickness(mesh))) / 2.0;
+    search.travel = skin.travel;
+    const SkinParameters parameters = skinParameters(scene, skin);
+    SkinMoves moves = skinMoves(mesh, filled.deformers, parameters);
+    search.stray = std::move(moves.stray);
+    search.shares = std::move(moves.shares);
+    search.swings = parameters.swings;
+    SkinSearchCounts counts;
+    auto table = std::make_shared<SkinTable>(searchSkin(mesh, filled.searched, search, progress, &counts));
+    if (counts.stopped) throw InputError("stopped before the table was complete");
+    table->table.record.spheresA = counts.skinSpheres;
+    table->table.record.spheresB = counts.muscleSpheres;
+    table->table.record.candidatePairs = counts.tests;
+    skin.table = table;
+    skin.sourceHash = sourceHash(scene, skin);
+}
+
+} // namespace tss

@@ -1,0 +1,93 @@
+#include "bake/pipeline/CheckBake.h"
+
+#include "bake/pipeline/FillPair.h"
+#include "bake/play/SkinSetup.h"
+#include "bake/geometry/MeshAudit.h"
+#include "bake/motion/MotionBound.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace tss {
+
+namespace {
+
+double diagonal(const TriangleMesh& mesh) {
+    return bounds(mesh).diagonal().norm();
+}
+
+/// Throws for a mesh that no spheres can be made for.
+void checkBody(const Body& body) {
+    if (body.mesh.empty()) throw InputError(Where{"", "", body.path}, "expected a mesh, the body has none");
+    try {
+        cleaned(body.mesh);
+    } catch (const InputError& error) {
+        throw InputError(Where{"", "", body.path}, error.message);
+    }
+}
+
+/// A table reports contact from epsilon on: at rest there would be some.
+void checkEpsilon(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
+                  const BakeOptions& options, double metersPerUnit) {
+    if (!(options.epsilon > 0) || options.atRest == AtRest::Collide ||
+        options.spheres != SphereMethod::Medial)
+        return;
+    const double apart = clearanceAtRest(a, b, motion);
+    if (apart > 0 && apart <= options.epsilon)
+        throw InputError(fmt::format("the meshes are {} apart at rest, and a table with --epsilon {} would "
+                                     "report contact there: expected a smaller epsilon",
+                                     lengthText(apart, metersPerUnit),
+                                     lengthText(options.epsilon, metersPerUnit)));
+}
+
+void checkPair(const SceneModel& scene, const Pair& pair, const BakeOptions& options) {
+    const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
+    const Motion motion = pairMotion(scene, pair);
+    checkMotion(motion);
+    wholeBox(motion); // which tells too many DOFs
+    checkBody(a);
+    checkBody(b);
+    const double smaller = std::min(diagonal(a.mesh), diagonal(b.mesh));
+    checkOptions(sphereOptions(options, options.tolerance.value_or(smaller / 500)));
+    checkEpsilon(a.mesh, b.mesh, motion, options, scene.metersPerUnit);
+}
+
+void checkSkin(const SceneModel& scene, const SkinModel& skin, const BakeOptions& options) {
+    checkBody(scene.bodies[skin.body]);
+    const auto muscles = skinMuscles(scene, skin);
+    for (const auto& muscle : muscles)
+        if (const TriangleMesh& surface = muscle->muscle().surface; !surface.empty())
+            checkOptions(sphereOptions(options, options.tolerance.value_or(diagonal(surface) / 100)));
+    checkSkin(scene.bodies[skin.body].mesh, muscles.size(), skinParameters(scene, skin));
+    for (const double length : {skin.thickness, skin.travel})
+        if (!(length >= 0) || !std::isfinite(length))
+            throw InputError("thickness and travel of a skin must be finite lengths of at least 0");
+}
+
+template <class Item, class Check>
+void collect(std::vector<InputError>& refused, const Item& item, const Check& check) {
+    try {
+        check();
+    } catch (const InputError& error) {
+        const std::string& path = error.where.path.empty() ? item.path : error.where.path;
+        refused.emplace_back(Where{error.where.file, error.where.pointer, path}, error.message);
+    }
+}
+
+} // namespace
+
+std::vector<InputError> refusedByBake(const SceneModel& scene, const BakeRequest& request) {
+    std::vector<InputError> refused;
+    const auto options = [&](const BakeSettings& ofScene) {
+        return optionsFor(ofScene, request.given, scene.metersPerUnit);
+    };
+    for (const Pair& pair : scene.pairs)
+        if (toBake(scene, pair, request))
+            collect(refused, pair, [&] { checkPair(scene, pair, options(pair.settings)); });
+    for (const SkinModel& skin : scene.skins)
+        if (toBake(scene, skin, request))
+            collect(refused, skin, [&] { checkSkin(scene, skin, options(skin.settings)); });
+    return refused;
+}
+
+} // namespace tss

@@ -1,0 +1,42 @@
+#pragma once
+#include "bake/base/Progress.h"
+#include "bake/pipeline/BakeOptions.h"
+#include "bake/spheres/GenerateSpheres.h"
+#include "bake/spheres/Patches.h"
+
+#include <optional>
+
+namespace tss {
+
+/// The spheres of both bodies as a file can hold them, with what is proven of them.
+struct PairSpheres {
+    SphereFit a, b;
+    /// The surface that they stand for, where that is not all of it: the contact zone.
+    std::optional<std::vector<Patch>> zoneA{}, zoneB{};
+    FitRecord figuresA{}, figuresB{}; ///< as far as they were measured
+    double clearanceAtRest = 0;       ///< of the surfaces; 0: they touch or overlap
+    RestRegion region{};              ///< of the meshes as loaded, where spheres are fitted to surfaces
+    double stickOut = 0;              ///< of the spheres of both together, by which they tell no depths apart
+};
+
+/// How far apart the surfaces are where the joint rests; 0: they touch or overlap.
+double clearanceAtRest(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion);
+
+/// Of the whole of a body, as the options of a bake say, with this tolerance.
+SphereOptions sphereOptions(const BakeOptions& options, double tolerance);
+
+/// Fills the two bodies of a pair as the options say (METHOD 1). The same spheres at every call.
+PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
+                     const BakeOptions& options, const Progress& progress = {});
+
+/// Measures how well the spheres fit: their figures, and their bounds where these become better.
+void measureSpheres(const SceneModel& scene, const Pair& pair, PairSpheres& spheres);
+
+/// Over more DOFs than these neither what is within reach nor a cover is found in any time that people have,
+/// or within a budget of seconds.
+bool manyDofs(const Motion& motion, const BakeOptions& options);
+
+/// A bound as a file states it: -1 where none is known.
+double boundOrUnknown(double bound);
+
+} // namespace tss

@@ -1,0 +1,24 @@
+#pragma once
+#include "bake/pipeline/FillPair.h"
+#include "bake/search/AtRest.h"
+
+namespace tss {
+
+/// When spheres of a pair are in contact (METHOD 2.4).
+struct RuleAtRest {
+    ContactRule rule;
+    RestRegion region;    ///< of the meshes as loaded, with its depth
+    bool spheres = false; ///< excepted are spheres that stand for no known part of the surface
+};
+
+/// The rule for spheres from fillPair().
+RuleAtRest ruleAtRest(const PairSpheres& spheres, const Motion& motion, const BakeOptions& options);
+
+/// Throws InputError where spheres that are not excepted are no farther apart at rest than epsilon.
+void checkRest(const PairSpheres& spheres, const Motion& motion, const BakeOptions& options);
+
+/// What a person should know of it.
+void noteRest(const PairSpheres& spheres, const RuleAtRest& ruled, const Motion& motion,
+              const BakeOptions& options, std::vector<std::string>& notes);
+
+} // namespace tss

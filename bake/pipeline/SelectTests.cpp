@@ -1,0 +1,134 @@
+#include "bake/pipeline/SelectTests.h"
+
+#include "bake/base/Error.h"
+#include "bake/reduce/CertifiedCover.h"
+#include "bake/reduce/Cooccurrence.h"
+#include "bake/reduce/Minimal.h"
+#include "bake/search/CertifiedSearch.h"
+#include "bake/search/SampledSearch.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace tss {
+
+namespace {
+
+/// Pairs of spheres that answer for themselves are no more than a query can ask.
+constexpr std::size_t mostPairsToAsk = 200'000;
+
+bool asksAll(const PairTask& task) {
+    return manyDofs(task.motion, task.options) && task.options.reduce == ReduceMethod::Cover &&
+           task.options.search == SearchMethod::Certified &&
+           task.spheres.a.spheres.size() * task.spheres.b.spheres.size() <= mostPairsToAsk;
+}
+
+SampledSearchOptions sampled(const PairTask& task) {
+    SampledSearchOptions search;
+    search.samples = static_cast<std::size_t>(task.options.samples);
+    search.rule = task.ruled.rule;
+    return search;
+}
+
+/// Every pair that the search has not ruled out; all, where it did not come to an end.
+Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes) {
+    const SphereSet &a = task.spheres.a.spheres, &b = task.spheres.b.spheres;
+    const ContactRule& rule = task.ruled.rule;
+    Selection selection;
+    std::vector<SpherePair>& pairs = selection.reduced.pairs;
+    if (candidates.certified) {
+        pairs = candidates.pairs;
+    } else {
+        for (std::uint32_t i = 0; i < a.size(); ++i)
+            for (std::uint32_t j = 0; j < b.size(); ++j)
+                if (std::isfinite(rule.threshold({i, j}))) pairs.push_back({i, j});
+    }
+    selection.reduced.restGaps = rule.thresholds(pairs);
+    selection.certified = true;
+    notes.push_back(fmt::format("{} degrees of freedom are too many to find out which pairs of spheres "
+                                "imply others: all {} that may meet are asked",
+                                task.motion.dofCount(), pairs.size()));
+    return selection;
+}
+
+/// The least that answers like all at every pose.
+Selection selectCover(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes,
+                      const Progress& progress) {
+    CoverOptions cover;
+    cover.epsilon = task.options.epsilon;
+    cover.gapDepth = task.options.depth;
+    cover.gapMargin = task.margin;
+    cover.rule = task.ruled.rule;
+    cover.seconds = task.options.budget;
+    const CoverResult result = certifiedCover(task.spheres.a.spheres, task.spheres.b.spheres,
+                                              allListed(candidates, task.options) ? &candidates : nullptr,
+                                              task.motion, cover, progress);
+    if (!std::isfinite(result.epsilon))
+        throw InputError("the budget ended before any bound was proven: expected a longer --budget, or a "
+                         "coarser --tolerance or --epsilon");
+    Selection selection;
+    selection.reduced = result;
+    selection.epsilon = result.epsilon;
+    selection.certified = task.options.search == SearchMethod::Certified;
+    if (selection.certified && result.complete && result.pairs.empty())
+        selection.proof = NeverCollides{result.clearance, result.cells, {}, {}, {}};
+    if (!result.complete)
+        notes.push_back(fmt::format("the budget ended first: epsilon {} scene units was reached, not {}", result.epsilon,
+                                    task.options.epsilon));
+    return selection;
+}
+
+} // namespace
+
+PairTask pairTask(const PairSpheres& spheres, const Motion& motion, const BakeOptions& options) {
+    const double lacking = spheres.a.coverage + spheres.b.coverage;
+    const bool fitted = options.spheres == SphereMethod::Medial && options.search == SearchMethod::Certified;
+    return {spheres, motion, options, ruleAtRest(spheres, motion, options),
+            fitted && std::isfinite(lacking) ? lacking : 0};
+}
+
+CandidatePairs searchPair(const PairTask& task, const Progress& progress) {
+    const SphereSet &a = task.spheres.a.spheres, &b = task.spheres.b.spheres;
+    if (task.options.search == SearchMethod::Sampled)
+        return searchSampled(a, b, task.motion, sampled(task), progress);
+    CertifiedSearchOptions certified;
+    certified.rule = task.ruled.rule;
+    certified.margin = task.margin;
+    // The cover does without the list, which wide limits can make longer than anybody needs; only the others
+    // wait.
+    if (task.options.reduce == ReduceMethod::Cover) certified.effort = asksAll(task) ? 5'000'000 : 50'000'000;
+    return searchCertified(a, b, task.motion, certified, progress);
+}
+
+bool allListed(const CandidatePairs& candidates, const BakeOptions& options) {
+    return candidates.certified || options.search == SearchMethod::Sampled;
+}
+
+Selection selectTests(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes,
+                      const Progress& progress) {
+    Selection selection;
+    if (candidates.certified && candidates.pairs.empty()) {
+        selection.proof = NeverCollides{candidates.clearance, candidates.explored, {}, {}, {}};
+        return selection;
+    }
+    if (asksAll(task)) return selectAll(task, candidates, notes);
+    switch (task.options.reduce) {
+    case ReduceMethod::Cooccurrence:
+        selection.reduced = reduceCooccurrence(candidates);
+        break;
+    case ReduceMethod::Minimal:
+        selection.reduced = reduceMinimal(task.spheres.a.spheres, task.spheres.b.spheres, task.motion,
+                                          sampled(task), progress);
+        break;
+    case ReduceMethod::None:
+        selection.reduced.pairs = candidates.pairs;
+        selection.reduced.restGaps = candidates.restGaps;
+        selection.certified = candidates.certified;
+        break;
+    case ReduceMethod::Cover:
+        return selectCover(task, candidates, notes, progress);
+    }
+    return selection;
+}
+
+} // namespace tss

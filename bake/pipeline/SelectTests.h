@@ -1,0 +1,41 @@
+#pragma once
+#include "bake/pipeline/RestRule.h"
+#include "bake/reduce/Reduced.h"
+#include "bake/search/CandidatePairs.h"
+
+namespace tss {
+
+/// What search, selection and bounds of one pair are about.
+struct PairTask {
+    const PairSpheres& spheres;
+    const Motion& motion;
+    const BakeOptions& options;
+    RuleAtRest ruled;
+    double margin = 0; ///< spheres that come this near are asked for, scene units, >= 0
+};
+
+/// The task for spheres from fillPair(). They are asked for within what they lack of the surfaces, so that a
+/// table's own gap is no larger wherever the meshes meet (METHOD 3.5); 0 where that is nothing, or not known
+/// of all of them.
+PairTask pairTask(const PairSpheres& spheres, const Motion& motion, const BakeOptions& options);
+
+/// The pairs of spheres that can meet, or come within the margin (METHOD 2).
+CandidatePairs searchPair(const PairTask& task, const Progress& progress);
+
+/// Whether these are all: a search may run out of effort.
+bool allListed(const CandidatePairs& candidates, const BakeOptions& options);
+
+/// The table's tests by the method asked for. Only the cover proves something about every pose.
+struct Selection {
+    Reduced reduced;
+    double epsilon = 0;
+    bool certified = false;
+    std::optional<NeverCollides> proof; ///< there is nothing to select from
+};
+
+/// The few pairs that answer for all, or the proof that none can meet (METHOD 3). Notes get what a person
+/// should know. Throws InputError where a budget ends before anything is proven.
+Selection selectTests(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes,
+                      const Progress& progress);
+
+} // namespace tss

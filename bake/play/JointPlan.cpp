@@ -1,0 +1,184 @@
+#include "bake/play/JointPlan.h"
+
+#include "bake/base/Error.h"
+#include "bake/model/PairDofs.h"
+#include "bake/motion/MotionBound.h"
+#include "bake/table/Query.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+namespace tss {
+
+namespace {
+
+/// A table with the places of its DOFs among all values.
+struct Placed {
+    int pair;
+    std::vector<std::size_t> slots;
+};
+
+/// Adds the joints of the pair to the plan where they are not in it yet.
+Placed place(const SceneModel& scene, int pair, JointPlan& plan) {
+    Placed placed{pair, {}};
+    for (int joint : scene.pairs[pair].joints) {
+        if (std::find(plan.joints.begin(), plan.joints.end(), joint) != plan.joints.end()) continue;
+        plan.joints.push_back(joint);
+        plan.firstValue.push_back(plan.valueCount);
+        plan.valueCount += scene.joints[joint].dofs.size();
+    }
+    for (const JointDof& dof : pairDofs(scene, scene.pairs[pair])) {
+        const auto at = std::find(plan.joints.begin(), plan.joints.end(), dof.joint);
+        placed.slots.push_back(plan.firstValue[static_cast<std::size_t>(at - plan.joints.begin())] + dof.dof);
+    }
+    return placed;
+}
+
+void addGroup(const SceneModel& scene, const std::vector<Placed>& tables, JointPlan& plan) {
+    std::vector<std::size_t> slots;
+    for (const Placed& table : tables) slots.insert(slots.end(), table.slots.begin(), table.slots.end());
+    std::sort(slots.begin(), slots.end());
+    slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+    std::vector<TableOnJoint> entries;
+    std::vector<int> pairs;
+    for (const Placed& table : tables) {
+        TableOnJoint entry{scene.pairs[table.pair].table.get(), {}};
+        for (std::size_t slot : table.slots)
+            entry.dofs.push_back(
+                static_cast<int>(std::find(slots.begin(), slots.end(), slot) - slots.begin()));
+        entries.push_back(entry);
+        pairs.push_back(table.pair);
+    }
+    plan.groups.push_back({pairs, slots, JointResponder(entries, static_cast<int>(slots.size()))});
+}
+
+/// In as few groups as a simple rule finds: each table where its values and those that are there already are
+/// no more than a response serves, of these where it adds fewest.
+std::vector<std::vector<Placed>> grouped(const std::vector<Placed>& tables) {
+    std::vector<std::vector<Placed>> groups;
+    std::vector<std::set<std::size_t>> slots;
+    for (const Placed& table : tables) {
+        std::size_t best = groups.size(), fewest = 0;
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+            const auto more = static_cast<std::size_t>(
+                std::count_if(table.slots.begin(), table.slots.end(),
+                              [&](std::size_t slot) { return !slots[g].contains(slot); }));
+            if (slots[g].size() + more > maxDofs || (best < groups.size() && more >= fewest)) continue;
+            best = g;
+            fewest = more;
+        }
+        if (best == groups.size()) {
+            groups.emplace_back();
+            slots.emplace_back();
+        }
+        groups[best].push_back(table);
+        slots[best].insert(table.slots.begin(), table.slots.end());
+    }
+    return groups;
+}
+
+void warn(std::vector<std::string>* warnings, const Pair& pair, const std::string& why) {
+    if (warnings) warnings->push_back("pair " + pair.path + " is not kept apart: " + why);
+}
+
+/// What a table does to its joint that a person would not expect of it.
+void remark(std::vector<std::string>* warnings, const Pair& pair) {
+    if (!warnings) return;
+    const Table& table = *pair.table;
+    if (table.testCount() == 0) return;
+    const double gap = query(table, restValues(table.motion)).gap, kept = 1.5 * table.epsilon;
+    // What overlaps at rest counts from there, and is at 0 but for rounding.
+    double size = 0;
+    for (const Sphere& sphere : table.a) size = std::max(size, sphere.radius);
+    const double rounding = 1e-6 * size;
+    std::ostringstream text;
+    if (gap < -rounding)
+        text << "its table says contact where the joint rests, which is held there or pushed out";
+    else if (gap > rounding && gap < kept)
+        text << "its table is too coarse: it keeps the bodies " << kept
+             << " apart (1.5 epsilon), and they are " << gap << " apart where the joint rests";
+    else
+        return;
+    warnings->push_back("pair " + pair.path + ": " + text.str());
+}
+
+/// Where the tables do not go together, each alone.
+void addOrPart(const SceneModel& scene, const std::vector<Placed>& tables, JointPlan& plan,
+               std::vector<std::string>* warnings) {
+    try {
+        return addGroup(scene, tables, plan);
+    } catch (const InputError& error) {
+        if (tables.size() == 1) return warn(warnings, scene.pairs[tables[0].pair], error.what());
+    }
+    for (const Placed& table : tables) addOrPart(scene, {table}, plan, warnings);
+}
+
+} // namespace
+
+std::shared_ptr<const JointPlan> makeJointPlan(const SceneModel& scene,
+                                               const std::vector<std::string>& pairPaths,
+                                               std::vector<std::string>* warnings) {
+    auto plan = std::make_shared<JointPlan>();
+    std::vector<Placed> tables;
+    for (const std::string& path : pairPaths) {
+        const int index = findPair(scene, path);
+        if (index < 0 || !scene.pairs[index].table) continue;
+        const Placed table = place(scene, index, *plan);
+        if (table.slots.size() == scene.pairs[index].table->motion.dofCount()) {
+            tables.push_back(table);
+            remark(warnings, scene.pairs[index]);
+        } else
+            warn(warnings, scene.pairs[index], "its joints have other degrees of freedom than its table");
+    }
+    for (const std::vector<Placed>& group : grouped(tables)) addOrPart(scene, group, *plan, warnings);
+    return plan;
+}
+
+std::vector<JointWorkspace> workspaces(const JointPlan& plan) {
+    std::vector<JointWorkspace> made;
+    for (const JointPlan::Group& group : plan.groups) made.push_back(group.responder.workspace());
+    return made;
+}
+
+namespace {
+
+std::vector<int> heldOf(const JointAnswer& answer, const JointWorkspace& workspace) {
+    std::vector<int> held;
+    for (std::size_t k = 0; answer.status != JointStatus::Free && k < workspace.held.size(); ++k)
+        if (workspace.held[k]) held.push_back(static_cast<int>(k));
+    return held;
+}
+
+} // namespace
+
+std::vector<GroupAnswer> resolve(const JointPlan& plan, const std::vector<double>& last,
+                                 std::vector<double>& q, std::vector<JointWorkspace>& workspaces) {
+    constexpr int mostRounds = 16;
+    std::vector<GroupAnswer> answers(plan.groups.size());
+    bool settled = false;
+    for (int round = 0; round < mostRounds && !settled; ++round) {
+        settled = true;
+        for (std::size_t g = 0; g < plan.groups.size(); ++g) {
+            const JointPlan::Group& group = plan.groups[g];
+            JointValues from{}, asked{};
+            for (std::size_t k = 0; k < group.slots.size(); ++k) {
+                from[k] = last[group.slots[k]];
+                asked[k] = q[group.slots[k]];
+            }
+            const JointAnswer answer = group.responder.respond(from.data(), asked.data(), workspaces[g]);
+            bool changed = false;
+            for (std::size_t k = 0; k < group.slots.size(); ++k) {
+                changed = changed || answer.q[k] != asked[k];
+                q[group.slots[k]] = answer.q[k];
+            }
+            // The first word of a group tells whether it stopped its joints; later rounds only confirm.
+            if (round == 0 || changed) answers[g] = {answer, heldOf(answer, workspaces[g])};
+            if (changed && plan.groups.size() > 1) settled = false;
+        }
+    }
+    if (!settled) q = last;
+    return answers;
+}
+
+} // namespace tss

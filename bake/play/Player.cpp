@@ -1,0 +1,149 @@
+#include "bake/play/Player.h"
+
+#include "bake/base/ThreadTime.h"
+#include "bake/geometry/Solid.h"
+#include "bake/model/Kinematics.h"
+#include "bake/model/PairDofs.h"
+#include "bake/play/SkinSetup.h"
+#include "bake/table/Query.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace tss {
+
+namespace {
+
+std::vector<std::size_t> firstValues(const SceneModel& scene) {
+    std::vector<std::size_t> first{0};
+    for (const Joint& joint : scene.joints) first.push_back(first.back() + joint.dofs.size());
+    return first;
+}
+
+} // namespace
+
+Player::Player(const SceneModel& scene, std::vector<std::string>& warnings) : scene_(scene) {
+    std::vector<std::string> paths;
+    for (const Pair& pair : scene.pairs) paths.push_back(pair.path);
+    plan_ = makeJointPlan(scene, paths, &warnings);
+    workspaces_ = workspaces(*plan_);
+    const std::vector<std::size_t> first = firstValues(scene);
+    for (int joint : plan_->joints)
+        for (std::size_t k = 0; k < scene.joints[joint].dofs.size(); ++k) places_.push_back(first[joint] + k);
+    for (const Joint& joint : scene.joints)
+        for (const Dof& dof : joint.dofs) values_.push_back(dof.rest);
+
+    for (std::size_t k = 0; k < scene.skins.size(); ++k) {
+        const SkinModel& skin = scene.skins[k];
+        auto muscles = skinMuscles(scene, skin);
+        const auto rig = skinRig(scene, skin);
+        SkinFollowMeasure follow(scene.bodies[skin.body].mesh, muscles, *rig);
+        skins_.push_back(
+            {static_cast<int>(k), std::move(muscles), SkinResponse(rig), {}, {}, {}, std::move(follow)});
+        skins_.back().activations.assign(skins_.back().muscles.size(), 0.0);
+        skins_.back().restDepths = depths(skins_.back(), skins_.back().response.rig().rest);
+    }
+}
+
+std::vector<double> Player::clamped(const std::vector<double>& asked) const {
+    std::vector<double> values;
+    std::size_t next = 0;
+    for (const Joint& joint : scene_.joints) {
+        Motion own;
+        own.dofs = joint.dofs;
+        own.planes = joint.planes;
+        const auto inside = clampToLimits(own, std::span(asked).subspan(next, joint.dofs.size()));
+        values.insert(values.end(), inside.begin(), inside.end());
+        next += joint.dofs.size();
+    }
+    return values;
+}
+
+std::vector<double> Player::depths(const Skin& skin, std::span<const Vec3> positions) const {
+    std::vector<double> deepest(positions.size(), 0.0);
+    for (std::size_t m = 0; m < skin.muscles.size(); ++m) {
+        const MuscleDeformer& deformer = *skin.muscles[m];
+        if (deformer.muscle().surface.empty()) continue;
+        std::vector<Vec3> places = deformer.vertices(skin.activations[m]);
+        if (!skin.poses.empty())
+            for (Vec3& v : places) v = skin.poses[m] * v;
+        const Solid solid({std::move(places), deformer.muscle().surface.triangles});
+        for (std::size_t i = 0; i < positions.size(); ++i)
+            if (solid.inside(positions[i]))
+                deepest[i] = std::max(deepest[i], solid.boundary().distance(positions[i]));
+    }
+    return deepest;
+}
+
+Player::Step Player::step(const std::vector<double>& asked, double timeCode) {
+    Step result;
+    const std::vector<double> goal = clamped(asked);
+    std::vector<double> last, wanted;
+    for (std::size_t place : places_) {
+        last.push_back(values_[place]);
+        wanted.push_back(goal[place]);
+    }
+    const double began = threadSeconds();
+    const std::vector<GroupAnswer> answers = resolve(*plan_, last, wanted, workspaces_);
+    result.jointSeconds = threadSeconds() - began;
+    values_ = goal;
+    for (std::size_t k = 0; k < places_.size(); ++k) values_[places_[k]] = wanted[k];
+    for (const JointAnswer& answer : answers) result.status = std::max(result.status, answer.status);
+
+    result.values = values_;
+    result.gap = std::numeric_limits<double>::infinity();
+    const std::vector<std::size_t> first = firstValues(scene_);
+    for (const Pair& pair : scene_.pairs) {
+        if (!pair.table) continue;
+        std::vector<double> q;
+        for (const JointDof& dof : pairDofs(scene_, pair))
+            q.push_back(values_[first[static_cast<std::size_t>(dof.joint)] + dof.dof]);
+        result.gap = std::min(result.gap, query(*pair.table, pose(pair.table->motion, q)).gap);
+    }
+
+    const std::vector<Pose> placements = posedBodies(scene_, values_);
+    for (Skin& skin : skins_) {
+        const SkinModel& model = scene_.skins[skin.index];
+        skin.activations = skinActivations(scene_, model, timeCode);
+        skin.poses = skinPoses(scene_, model, placements);
+        const double skinBegan = threadSeconds();
+        skin.response.update(skin.activations, skin.poses);
+        result.skinSeconds.push_back(threadSeconds() - skinBegan);
+        const std::vector<double> now = depths(skin, skin.response.positions());
+        double worst = 0;
+        for (std::size_t i = 0; i < now.size(); ++i) worst = std::max(worst, now[i] - skin.restDepths[i]);
+        result.residualDepths.push_back(worst);
+    }
+    return result;
+}
+
+std::vector<SkinFollowing> Player::following() const {
+    std::vector<SkinFollowing> result;
+    for (const Skin& skin : skins_) result.push_back(skin.follow.at(skin.response.positions(), skin.poses));
+    return result;
+}
+
+std::vector<TriangleMesh> Player::worldMeshes() const {
+    const std::vector<Pose> placements = posedBodies(scene_, values_);
+    std::vector<TriangleMesh> meshes;
+    for (const Body& body : scene_.bodies) meshes.push_back(body.mesh);
+    for (const Skin& skin : skins_) {
+        const SkinModel& model = scene_.skins[skin.index];
+        const auto positions = skin.response.positions();
+        for (std::size_t k = 0; k < positions.size(); ++k)
+            meshes[model.body].vertices[skin.response.rig().vertices[k]] = positions[k];
+        for (std::size_t m = 0; m < model.muscles.size(); ++m) {
+            if (skin.muscles[m]->rigid()) continue;
+            const int body = scene_.muscles[model.muscles[m]].body;
+            const Pose toBody =
+                scene_.bodies[body].placement.inverse(Eigen::Isometry) * scene_.bodies[model.body].placement;
+            meshes[body].vertices = skin.muscles[m]->vertices(skin.activations[m]);
+            for (Vec3& v : meshes[body].vertices) v = toBody * v;
+        }
+    }
+    for (std::size_t k = 0; k < meshes.size(); ++k)
+        for (Vec3& v : meshes[k].vertices) v = placements[k] * v;
+    return meshes;
+}
+
+} // namespace tss

@@ -1,0 +1,181 @@
+#include "bake/play/SkinSetup.h"
+
+#include "bake/base/Error.h"
+#include "bake/model/Kinematics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace tss {
+namespace {
+
+const TriangleMesh& meshOf(const SceneModel& scene, const SkinModel& skin) {
+    if (skin.body < 0 || skin.body >= static_cast<int>(scene.bodies.size()))
+        throw InputError(Where{"", "", skin.path}, "the skin has no mesh");
+    return scene.bodies[skin.body].mesh;
+}
+
+constexpr int stations = 16; ///< of a swing, after rest
+
+/// How far a value goes either way. A joint of no pair may turn without limits: half way round.
+std::array<double, 2> endsOf(const Dof& dof) {
+    const auto end = [&](double limit, double side) {
+        return dof.kind == DofKind::Rotation && std::isinf(limit) ? dof.rest + side * std::numbers::pi
+                                                                  : limit;
+    };
+    return {end(dof.lower, -1), end(dof.upper, 1)};
+}
+
+/// What the bones under a skin do while one joint value at a time goes to either limit.
+std::vector<BoneSwing> swingsOf(const SceneModel& scene, const SkinModel& skin) {
+    std::vector<double> values;
+    for (const Joint& joint : scene.joints)
+        for (const Dof& dof : joint.dofs) values.push_back(dof.rest);
+    const std::vector<double> rest = values;
+    std::vector<BoneSwing> swings;
+    std::size_t next = 0;
+    for (const Joint& joint : scene.joints)
+        for (const Dof& dof : joint.dofs) {
+            for (const double limit : endsOf(dof)) {
+                if (!std::isfinite(limit) || limit == dof.rest) continue;
+                BoneSwing swing;
+                bool moves = false;
+                for (int s = 1; s <= stations; ++s) {
+                    values[next] = s == stations ? limit : dof.rest + (limit - dof.rest) * s / stations;
+                    swing.push_back(skinPoses(scene, skin, posedBodies(scene, values)));
+                    for (const Pose& pose : swing.back())
+                        moves = moves || pose.matrix() != Pose::Identity().matrix();
+                }
+                values = rest;
+                if (moves) swings.push_back(std::move(swing));
+            }
+            ++next;
+        }
+    return swings;
+}
+
+/// What each body under a skin moves with: one frame a bone.
+std::vector<int> framesOf(const SceneModel& scene, const SkinModel& skin) {
+    std::vector<int> bones, frames;
+    for (const UnderSkin& under : underSkin(scene, skin)) {
+        const auto known = std::find(bones.begin(), bones.end(), under.bone);
+        frames.push_back(under.bone < 0 ? -1 : static_cast<int>(known - bones.begin()));
+        if (under.bone >= 0 && known == bones.end()) bones.push_back(under.bone);
+    }
+    return frames;
+}
+
+/// The weights that a skin brings along, as shares of the frames.
+std::vector<std::vector<double>> sharesOf(const SceneModel& scene, const SkinModel& skin,
+                                          const std::vector<int>& frames) {
+    const SkinWeights& weights = skin.weights;
+    std::vector<std::vector<double>> shares;
+    if (weights.joints.empty()) return shares;
+    const std::vector<UnderSkin> under = underSkin(scene, skin);
+    std::vector<std::size_t> frameOf;
+    for (const int joint : weights.joints) {
+        const auto found =
+            std::find_if(under.begin(), under.end(), [&](const UnderSkin& u) { return u.bone == joint; });
+        frameOf.push_back(static_cast<std::size_t>(frames[static_cast<std::size_t>(found - under.begin())]));
+    }
+    const std::size_t count = meshOf(scene, skin).vertices.size();
+    shares.assign(static_cast<std::size_t>(*std::max_element(frames.begin(), frames.end()) + 1),
+                  std::vector<double>(count, 0));
+    for (std::size_t i = 0; i < weights.indices.size(); ++i) {
+        double& share = shares[frameOf.at(weights.indices[i])].at(i / weights.influences);
+        share = std::min(share + weights.weights[i], 1.0); // floats may sum to a little more
+    }
+    return shares;
+}
+
+Muscle bone(const TriangleMesh& mesh) {
+    Muscle muscle;
+    muscle.surface = mesh;
+    muscle.maxContraction = 0;
+    return muscle;
+}
+
+} // namespace
+
+std::vector<std::shared_ptr<const MuscleDeformer>> skinMuscles(const SceneModel& scene,
+                                                               const SkinModel& skin) {
+    meshOf(scene, skin);
+    std::vector<std::shared_ptr<const MuscleDeformer>> result;
+    const Pose toSkin = scene.bodies[skin.body].placement.inverse();
+    for (const UnderSkin& under : underSkin(scene, skin)) {
+        const TriangleMesh empty;
+        Muscle muscle = under.muscle >= 0 ? scene.muscles[under.muscle].muscle
+                                          : bone(under.body >= 0 ? scene.bodies[under.body].mesh : empty);
+        const Pose pose = under.body >= 0 ? Pose(toSkin * scene.bodies[under.body].placement) : toSkin;
+        // A muscle modelled in the skin's own frame keeps its bits.
+        if (pose.matrix() != Pose::Identity().matrix()) {
+            for (Vec3& v : muscle.surface.vertices) v = pose * v;
+            for (Vec3& v : muscle.fibre) v = pose * v;
+        }
+        try {
+            result.push_back(std::make_shared<const MuscleDeformer>(std::move(muscle)));
+        } catch (const InputError& error) {
+            const std::string& path =
+                under.muscle >= 0 ? scene.muscles[under.muscle].path : scene.bodies[under.bone].path;
+            throw InputError(Where{error.where.file, error.where.pointer, path}, error.message);
+        }
+    }
+    return result;
+}
+
+SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin) {
+    meshOf(scene, skin);
+    SkinParameters parameters;
+    parameters.stretchCompliance = skin.stretchCompliance;
+    parameters.bendCompliance = skin.bendCompliance;
+    parameters.selfContact = skin.selfContact;
+    parameters.frames = framesOf(scene, skin);
+    parameters.shares = sharesOf(scene, skin, parameters.frames);
+    parameters.swings = swingsOf(scene, skin);
+    parameters.tether = skin.tether;
+    parameters.attach = skin.attach;
+    return parameters;
+}
+
+std::shared_ptr<const SkinRig> skinRig(const SceneModel& scene, const SkinModel& skin) {
+    SkinTable none;
+    none.table.rowOffsets = {0};
+    try {
+        return makeSkinRig(meshOf(scene, skin), skinMuscles(scene, skin), skin.table ? *skin.table : none,
+                           skinParameters(scene, skin));
+    } catch (const InputError& error) {
+        if (!error.where.path.empty()) throw;
+        throw InputError(Where{"", "", skin.path}, error.message);
+    }
+}
+
+std::vector<double> skinActivations(const SceneModel& scene, const SkinModel& skin, double timeCode) {
+    std::vector<double> activations;
+    for (const UnderSkin& under : underSkin(scene, skin))
+        activations.push_back(under.muscle < 0 ? 0 : scene.muscles[under.muscle].activation.at(timeCode));
+    return activations;
+}
+
+std::vector<Pose> skinPoses(const SceneModel& scene, const SkinModel& skin,
+                            std::span<const Pose> placements) {
+    std::vector<Pose> poses;
+    bool any = false;
+    const Pose& skinRest = scene.bodies.at(static_cast<std::size_t>(skin.body)).placement;
+    const Pose& skinNow = placements[static_cast<std::size_t>(skin.body)];
+    for (const UnderSkin& under : underSkin(scene, skin)) {
+        const int bone = under.bone;
+        poses.push_back(Pose::Identity());
+        if (bone < 0) continue;
+        any = true;
+        const Pose& boneRest = scene.bodies[static_cast<std::size_t>(bone)].placement;
+        const Pose& boneNow = placements[static_cast<std::size_t>(bone)];
+        const bool still = boneNow.matrix() == boneRest.matrix() && skinNow.matrix() == skinRest.matrix();
+        if (!still) poses.back() = skinNow.inverse() * boneNow * boneRest.inverse() * skinRest;
+    }
+    if (!any) poses.clear();
+    return poses;
+}
+
+} // namespace tss

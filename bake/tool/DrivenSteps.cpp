@@ -1,0 +1,48 @@
+#include "bake/tool/DrivenSteps.h"
+
+#include "bake/play/Player.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace tss::tool {
+
+std::vector<std::vector<double>> drivenSteps(const SceneModel& scene) {
+    std::vector<std::vector<double>> steps;
+    for (int k = 0; scene.startTimeCode + k <= scene.endTimeCode; ++k) {
+        const double time = scene.startTimeCode + k;
+        std::vector<double> row;
+        for (const Joint& joint : scene.joints)
+            for (std::size_t dof = 0; dof < joint.dofs.size(); ++dof) {
+                const bool driven = dof < joint.drives.size() && !joint.drives[dof].empty();
+                row.push_back(driven ? joint.drives[dof].at(time) : joint.dofs[dof].rest);
+            }
+        steps.push_back(row);
+    }
+    return steps;
+}
+
+void addResiduals(Json& summary, const SceneModel& scene) {
+    constexpr auto patience = std::chrono::seconds(20);
+    const bool baked = std::any_of(scene.skins.begin(), scene.skins.end(),
+                                   [](const SkinModel& skin) { return skin.table != nullptr; });
+    const auto steps = drivenSteps(scene);
+    if (!baked || steps.size() < 2) return;
+    std::vector<std::string> warnings; // of the pairs; `tss play` tells them
+    Player player(scene, warnings);
+    std::vector<double> deepest(scene.skins.size(), 0);
+    std::size_t done = 0;
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (done < steps.size() && std::chrono::steady_clock::now() < end) {
+        const auto depths = player.step(steps[done], scene.startTimeCode + double(done)).residualDepths;
+        for (std::size_t k = 0; k < depths.size(); ++k) deepest[k] = std::max(deepest[k], depths[k]);
+        ++done;
+    }
+    for (std::size_t k = 0; k < scene.skins.size(); ++k) {
+        if (!scene.skins[k].table) continue;
+        summary["skins"][k]["residual"] = deepest[k];
+        summary["skins"][k]["residualSteps"] = done;
+    }
+}
+
+} // namespace tss::tool

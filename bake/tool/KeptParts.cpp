@@ -1,0 +1,82 @@
+#include "bake/tool/KeptParts.h"
+
+#include "bake/scene/SceneFile.h"
+#include "bake/tool/Interrupt.h"
+
+#include <filesystem>
+
+namespace tss::tool {
+
+namespace {
+
+/// Seconds of baking that may be lost where the program is killed, or the machine goes off.
+constexpr double mayBeLost = 60;
+
+bool hasTable(const SceneModel& scene) {
+    for (const Pair& pair : scene.pairs)
+        if (pair.table || pair.proof) return true;
+    for (const SkinModel& skin : scene.skins)
+        if (skin.table) return true;
+    return false;
+}
+
+} // namespace
+
+std::string incompleteName(const std::string& output) {
+    std::filesystem::path path(output);
+    const std::string extension = path.extension().string();
+    path.replace_extension();
+    return path.string() + ".incomplete" + extension;
+}
+
+KeptParts::KeptParts(SceneModel& scene, std::string output, BakeTimes times, const Console& console)
+    : scene_(scene), output_(std::move(output)), incomplete_(incompleteName(output_)),
+      times_(std::move(times)), console_(console) {}
+
+void KeptParts::run(BakeRequest request) {
+    const Interrupt interrupt;
+    request.done = [&](const PairReport& report) { done(report); };
+    request.failed = [&](const InputError& error) { failures_.push_back(error); };
+    request.interrupted = [] { return Interrupt::signal() != 0; };
+    bake(scene_, request, console_.progress());
+    signal_ = Interrupt::signal();
+    request.onlyMissing = true;
+    for (const Pair& pair : scene_.pairs)
+        if (toBake(scene_, pair, request)) missing_.push_back(pair.path);
+    for (const SkinModel& skin : scene_.skins)
+        if (toBake(scene_, skin, request)) missing_.push_back(skin.path);
+    if (missing_.empty()) signal_ = 0; // it came too late to stop anything
+}
+
+void KeptParts::done(const PairReport& report) {
+    times_[report.path] = report.seconds;
+    for (const std::string& note : report.notes) {
+        console_.say(report.path + ": " + note);
+        notes_[report.path].push_back(note);
+    }
+    const auto now = std::chrono::steady_clock::now();
+    if (std::chrono::duration<double>(now - lastKept_).count() < mayBeLost) return;
+    lastKept_ = now;
+    try {
+        writeTo(incomplete_);
+        kept_ = true;
+    } catch (const InputError& error) { // there may be room again at the end
+        console_.say(std::string("what is baked so far could not be kept: ") + error.what());
+    }
+}
+
+std::string KeptParts::write() {
+    if (!complete() && !hasTable(scene_)) return {};
+    const std::string file = complete() ? output_ : incomplete_;
+    writeTo(file);
+    std::error_code none;
+    if (complete() && kept_) std::filesystem::remove(incomplete_, none);
+    return file;
+}
+
+void KeptParts::writeTo(const std::string& file) const {
+    saveScene(scene_, file);
+    writeBakeTimes(file, times_);
+}
+
+} // namespace tss::tool

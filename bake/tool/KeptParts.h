@@ -1,0 +1,51 @@
+#pragma once
+#include "bake/pipeline/Bake.h"
+#include "bake/model/SceneModel.h"
+#include "bake/tool/BakeTimes.h"
+#include "bake/tool/Command.h"
+
+#include <chrono>
+
+namespace tss::tool {
+
+/// "jaw.incomplete.tss" for "jaw.tss": what a bake that did not come to its end leaves, so that a file of the
+/// name asked for is always whole.
+std::string incompleteName(const std::string& output);
+
+/// Bakes a scene for a file. What is done is kept in the incomplete file, now and then while it goes on, and
+/// where it cannot go on; once all is done that file is gone.
+class KeptParts {
+public:
+    KeptParts(SceneModel& scene, std::string output, BakeTimes times, const Console& console);
+
+    /// Notes of the bake go to people as it ends, and stay in notes().
+    void run(BakeRequest request);
+
+    bool complete() const { return failures_.empty() && signal_ == 0; }
+    int signal() const { return signal_; } ///< that ended it; 0: none
+    const std::vector<InputError>& failures() const { return failures_; }
+    const std::vector<std::string>& missing() const { return missing_; } ///< paths of those without a table
+    const Json& notes() const { return notes_; }
+    const BakeTimes& times() const { return times_; }
+
+    /// Writes what there is: the output, or the incomplete file; nothing where there is no table at all.
+    /// Returns the name, empty for nothing.
+    std::string write();
+
+private:
+    void done(const PairReport& report);
+    void writeTo(const std::string& file) const;
+
+    SceneModel& scene_;
+    const std::string output_, incomplete_;
+    BakeTimes times_;
+    const Console& console_;
+    Json notes_ = Json::object();
+    std::vector<InputError> failures_;
+    std::vector<std::string> missing_;
+    int signal_ = 0;
+    bool kept_ = false; ///< the incomplete file is of this run
+    std::chrono::steady_clock::time_point lastKept_ = std::chrono::steady_clock::now();
+};
+
+} // namespace tss::tool

@@ -1,0 +1,198 @@
+#include "bake/fill/NestedBodies.h"
+
+#include "bake/check/VerifyPair.h"
+#include "bake/geometry/MeshQuery.h"
+#include "bake/model/AddPair.h"
+#include "bake/pipeline/Bake.h"
+#include "bake/table/Query.h"
+#include "tests/Joints.h"
+#include "tests/geometry/TestMeshes.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tss;
+using namespace tss::test;
+
+namespace {
+
+/// A small ball on a slide along x through a large one about the origin.
+struct Through {
+    TriangleMesh large = ballMesh(Vec3::Zero(), 2, 3), small = ballMesh({0, 0.3, 0}, 0.3, 2);
+    Motion motion;
+
+    explicit Through(double from, double to) { motion.dofs = {joints::slide(Vec3::UnitX(), from, to)}; }
+    Nesting nesting(double reach) const { return findNested(Solid(large), Solid(small), motion, reach); }
+};
+
+bool decided(const Nesting& nesting) {
+    return !nesting.undecided;
+}
+
+SceneModel sceneOf(const Through& through, bool swapped, const std::string& tolerance) {
+    SceneModel scene;
+    scene.metersPerUnit = 1;
+    scene.defaultPrim = "Scene";
+    for (const auto& [name, mesh] :
+         {std::pair("Large", &through.large), std::pair("Small", &through.small)}) {
+        Body body;
+        body.path = std::string("/Scene/") + name;
+        body.mesh = *mesh;
+        scene.bodies.push_back(body);
+    }
+    const int pair = addPair(scene, swapped ? 1 : 0, swapped ? 0 : 1, through.motion, "Slide");
+    scene.pairs[pair].settings["tolerance"] = tolerance;
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("a body that comes to stand inside a closed one makes it hollow, one that only dips in does not") {
+    CHECK(Through(-4, 4).nesting(0.1).outer.a);
+    CHECK_FALSE(Through(-4, 4).nesting(0.1).outer.b);
+    // Where it is deepest in, its far side is still out.
+    const Nesting dips = Through(1.85, 4).nesting(0.1);
+    CHECK_FALSE(dips.outer);
+    CHECK(decided(dips));
+    // Wholly inside, but nowhere with the surfaces that far apart.
+    const Nesting near = Through(-4, 4).nesting(4);
+    CHECK_FALSE(near.outer);
+    CHECK(decided(near));
+    // A range that no sample of a coarse grid would meet: inside for a thousandth of it.
+    Through narrow(-3000, 3000);
+    narrow.motion.dofs[0].lower -= 0.37;
+    CHECK(narrow.nesting(0.1).outer.a);
+}
+
+TEST_CASE("the body that stands still may be the one inside, and a part of a body alone may be") {
+    Through through(-4, 4);
+    const Solid large(through.large), small(through.small);
+    Motion turned = through.motion;
+    turned.dofs.push_back(joints::turn({0.1, 0, 0}, Vec3::UnitZ(), -3, 3));
+    const Nesting other = findNested(small, large, turned, 0.1);
+    CHECK(other.outer.b);
+    CHECK_FALSE(other.outer.a);
+    // A second part that stays outside: the first one is inside all the same.
+    append(through.small, ballMesh({0, 9, 0}, 0.5, 1));
+    CHECK(through.nesting(0.1).outer.a);
+    // Not while the surfaces of another part are near.
+    Through both(-0.2, 0.2);
+    append(both.small, ballMesh({0, 2.3, 0}, 0.27, 1));
+    const Nesting touched = both.nesting(0.2);
+    CHECK_FALSE(touched.outer);
+    CHECK(decided(touched));
+}
+
+TEST_CASE("planes that keep a body out of another keep that one from being hollow") {
+    Through through(-4, 4);
+    through.motion.dofs.push_back(joints::slide(Vec3::UnitY(), 0, 4));
+    through.motion.dofs[0].rest = 0;
+    through.motion.dofs[1].rest = 3;
+    through.motion.planes = {{{0, -1}, -2.05}};
+    const Nesting above = through.nesting(0.1);
+    CHECK_FALSE(above.outer);
+    CHECK(decided(above));
+    through.motion.planes = {{{0, -1}, -1}};
+    CHECK(through.nesting(0.1).outer.a);
+}
+
+TEST_CASE("random bodies that meet and part are decided, and as poses say") {
+    int nested = 0;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        CAPTURE(seed);
+        std::mt19937_64 random(seed);
+        const TriangleMesh a = lumpyMesh(random, 2, 0.3);
+        const TriangleMesh b = transformed(lumpyMesh(random, 1, 0.2),
+                                           Eigen::Affine3d(Eigen::Translation3d(uniformPoint(random, 1))) *
+                                               Eigen::UniformScaling<double>(uniform(random, 0.1, 0.6)));
+        Motion motion;
+        motion.dofs = {joints::slide(Vec3::UnitX(), uniform(random, -1.5, 0), uniform(random, 0, 1.5)),
+                       joints::turn(uniformPoint(random, 1), Vec3::UnitZ(), -0.6, 0.6)};
+        const double reach = 0.05;
+        const Nesting nesting = findNested(Solid(a), Solid(b), motion, reach);
+        CHECK(decided(nesting));
+        const MeshQuery surfaceA(a), surfaceB(b);
+        bool seen = false;
+        for (int i = 0; i < 900; ++i) {
+            const auto value = [&](const Dof& dof, int k) {
+                return dof.lower + (dof.upper - dof.lower) * k / 29;
+            };
+            const Pose at = pose(
+                motion, std::vector<double>{value(motion.dofs[0], i % 30), value(motion.dofs[1], i / 30)});
+            seen = seen || (surfaceA.inside(at * b.vertices[0]) && surfaceA.apart(surfaceB, at, reach));
+        }
+        nested += seen;
+        if (seen) CHECK(nesting.outer.a);
+    }
+    CHECK(nested > 2);
+    CHECK(nested < 12);
+}
+
+TEST_CASE("a body on its way through a closed one is in contact where their surfaces are and nowhere else") {
+    const bool swapped = GENERATE(false, true);
+    CAPTURE(swapped);
+    const Through through(-4, 4);
+    SceneModel scene = sceneOf(through, swapped, "0.05");
+    const auto reports = bake(scene, {});
+    const Pair& pair = scene.pairs[0];
+    REQUIRE(pair.table);
+    CHECK(pair.table->boundMiss == 0);
+    CHECK(pair.table->boundEarly <= 0.1);
+    const Motion motion = pairMotion(scene, pair);
+    const MeshQuery a(scene.bodies[pair.bodyA].mesh), b(scene.bodies[pair.bodyB].mesh);
+    int touching = 0;
+    for (int i = 0; i <= 400; ++i) {
+        const std::vector<double> q{-4 + 0.02 * i};
+        const double distance = a.distanceTo(b, pose(motion, q));
+        const bool hit = query(*pair.table, q).hit();
+        if (distance == 0) CHECK(hit);
+        if (hit) CHECK(distance <= pair.table->boundEarly);
+        touching += distance == 0;
+    }
+    CHECK(touching > 20);
+}
+
+TEST_CASE(
+    "a body that comes through an opening as a whole makes an open mesh hollow, one that looks in does not") {
+    const auto open = [](Through through) { // towards +x, where the small one comes from
+        std::erase_if(through.large.triangles, [&](const Tri& t) {
+            return std::all_of(t.begin(), t.end(),
+                               [&](int v) { return through.large.vertices[std::size_t(v)].x() > 1.6; });
+        });
+        return through;
+    };
+    CHECK(open(Through(-1, 4)).nesting(0.1).outer.a);
+    // In by a hair, for a range that samples do not meet.
+    Through narrow = open(Through(-1500, 1500));
+    narrow.motion.dofs[0].lower -= 0.37;
+    CHECK(narrow.nesting(0.1).outer.a);
+    const Nesting looks = open(Through(1.6, 4)).nesting(0.1);
+    CHECK_FALSE(looks.outer);
+    CHECK(decided(looks));
+}
+
+TEST_CASE("a body that stands behind an opening is reported where surfaces are near, by all methods") {
+    const std::string spheres = GENERATE("medial", "shrinking");
+    CAPTURE(spheres);
+    Through through(-0.5, 4);
+    std::erase_if(through.large.triangles, [&](const Tri& t) {
+        return std::all_of(t.begin(), t.end(),
+                           [&](int v) { return through.large.vertices[std::size_t(v)].x() > 1.6; });
+    });
+    SceneModel scene = sceneOf(through, false, "0.05");
+    scene.pairs[0].settings["spheres"] = spheres;
+    bake(scene, {});
+    const Pair& pair = scene.pairs[0];
+    REQUIRE((pair.table || pair.proof));
+    const PairVerdict verdict = verifyPair(scene, pair);
+    INFO(verdict.reason);
+    CHECK(verdict.holds());
+    if (pair.table) CHECK_FALSE(query(*pair.table, std::vector{0.0}).hit());
+}
+
+TEST_CASE("a body that stays inside a closed one, surfaces apart, never collides with it") {
+    SceneModel scene = sceneOf(Through(-0.5, 0.5), false, "0.05");
+    bake(scene, {});
+    REQUIRE(scene.pairs[0].proof);
+    CHECK(scene.pairs[0].proof->clearance > 0.5);
+    CHECK(scene.pairs[0].proof->clearance < 1.2);
+}

@@ -1,0 +1,98 @@
+#include "bake/pipeline/Bake.h"
+#include "bake/pipeline/BakePair.h"
+#include "bake/pipeline/RestRule.h"
+#include "bake/search/TreePair.h"
+#include "bake/table/Query.h"
+#include "bake/verify/MeshVerify.h"
+#include "bake/verify/Verify.h"
+#include "tests/pipeline/LumpyPair.h"
+#include "tests/table/RandomTable.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tss;
+using namespace tss::test;
+
+TEST_CASE("a table with a tolerance misses no contact: it reports by as much earlier") {
+    int missedInAll = 0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        CAPTURE(seed);
+        const Motion motion = swing();
+        const SceneModel scene = lumpyPair(seed);
+        BakeOptions options;
+        options.tolerance = 0.05;
+        options.epsilon = 0.05;
+        options.atRest = AtRest::Collide;
+        const PairSpheres spheres = fillPair(scene, scene.pairs[0], motion, options);
+        PairReport report;
+        const PairTable made = tabulatePair(spheres, motion, options, report);
+        REQUIRE(made.table);
+        const Table& table = *made.table;
+        REQUIRE(table.epsilon > 0);
+        CHECK(table.boundMiss == 0);
+        CHECK(table.boundEarly <= 2 * 0.05 + table.epsilon + 1e-6);
+        const SphereTree a(spheres.a.spheres), b(spheres.b.spheres);
+        Table late = table;
+        late.restGaps.clear();
+        int touching = 0, missed = 0, lateMissed = 0;
+        double farthest = 0;
+        random_table::Random random(seed);
+        for (int i = 0; i < 2000; ++i) {
+            const std::vector<double> q = random_table::values(random, motion);
+            const double gap = smallestGap(a, b, pose(motion, q), 10);
+            const bool hit = query(table, q).hit();
+            touching += gap <= 0;
+            missed += gap <= 0 && !hit;
+            lateMissed += gap <= 0 && !query(late, q).hit();
+            if (hit) farthest = std::max(farthest, gap);
+        }
+        CHECK(touching > 100);
+        CHECK(missed == 0);
+        CHECK(farthest <= table.epsilon * (1 + 1e-9));
+        const VerifyOptions asked;
+        CHECK(verifyTable(spheres.a.spheres, spheres.b.spheres, table, motion, asked).reason.empty());
+        CHECK(verifyOnMeshes(scene.bodies[0].mesh, scene.bodies[1].mesh, table, motion).reason.empty());
+        missedInAll += lateMissed;
+    }
+    // The tolerance was used: without what the thresholds carry contact would have been missed.
+    CHECK(missedInAll > 0);
+}
+
+TEST_CASE("with a tolerance, bodies that overlap at rest are free there and nothing else is missed") {
+    int touching = 0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        CAPTURE(seed);
+        SceneModel scene = lumpyPair(seed);
+        scene.bodies[1].mesh =
+            transformed(scene.bodies[1].mesh, Eigen::Affine3d(Eigen::Translation3d(-1, 0, 0)));
+        const Motion motion = swing();
+        BakeOptions options;
+        options.tolerance = options.epsilon = 0.05;
+        const PairSpheres spheres = fillPair(scene, scene.pairs[0], motion, options);
+        const RuleAtRest ruled = ruleAtRest(spheres, motion, options);
+        REQUIRE_FALSE(ruled.rule.empty());
+        REQUIRE_FALSE(ruled.region.empty());
+        PairReport report;
+        const Table table = *tabulatePair(spheres, motion, options, report).table;
+        CHECK(table.boundMiss == 0);
+        CHECK(table.restRegion.depth == ruled.region.depth);
+        CHECK_FALSE(query(table, restValues(motion)).hit());
+        random_table::Random random(seed);
+        const SphereTree a(spheres.a.spheres), b(spheres.b.spheres);
+        for (int i = 0; i < 500; ++i) {
+            const std::vector<double> q = random_table::values(random, motion);
+            bool touches = false;
+            visitPairsWithin(a, b, pose(motion, q), 0, [&](std::uint32_t j, std::uint32_t k, double gap) {
+                touches |= ruled.rule.touches({j, k}, gap);
+            });
+            if (touches) CHECK(query(table, q).hit());
+            touching += touches;
+        }
+        VerifyOptions how;
+        how.regionA = ruled.rule.regionA();
+        how.regionB = ruled.rule.regionB();
+        how.depth = ruled.region.depth;
+        CHECK(verifyTable(spheres.a.spheres, spheres.b.spheres, table, motion, how).reason.empty());
+    }
+    CHECK(touching > 100);
+}
