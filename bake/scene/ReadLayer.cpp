@@ -162,6 +162,9 @@ Layer layerFromValue(Value root, Problems& problems) {
 }
 
 Layer parseLayer(std::string_view text, const std::string& fileName, Problems& problems) {
+    if (text.starts_with("#usda"))
+        throw InputError(Where{fileName, "", ""},
+                         "is a layer of USD; `tss convert` or `tss make` makes a scene of it, a .tss");
     Value root = looksLikeCbor(text) ? parseCbor(text, fileName) : parseJson(text, fileName);
     inlineBuffers(root, fileName, problems);
     return layerFromValue(std::move(root), problems);

@@ -17,7 +17,7 @@ TEST_CASE("every command of docs/ROBOTS.md does what it says, one after the othe
         INFO(line << "\n" << ran.out << ran.err);
         REQUIRE(ran.exit == 0);
     }
-    CHECK(commands == 9);
+    CHECK(commands == 10);
     const std::string srdf = readText(folder.path() / "arm.srdf");
     CHECK(srdf.find("reason=\"Never\"") != std::string::npos);
     CHECK(srdf.find("the meshes meet, as at ") != std::string::npos);

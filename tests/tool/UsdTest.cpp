@@ -83,6 +83,9 @@ TEST_CASE("a .usda with --srdf or as a mesh's name is refused, and a skin comes 
     CHECK(Json::parse(back.out)["skins"].size() == tss::loadScene(scene).skins.size());
     CHECK(readText(folder.path() / "lips.tss") == readText(scene));
     CHECK(runTss("make lips.usda -o x.tss --srdf lips.usda", folder.path()).exit == 2);
+    const Ran bake = runTss("bake lips.usda -o x.tss", folder.path());
+    CHECK(bake.exit == 1);
+    CHECK(bake.err.find("makes a scene of it, a .tss") != std::string::npos);
 }
 
 #endif
