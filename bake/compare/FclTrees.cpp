@@ -1,7 +1,7 @@
+#include "bake/compare/FclModel.h"
 #include "bake/compare/Methods.h"
 
 #include <chrono>
-#include <fcl/fcl.h>
 
 namespace tss::compare {
 
@@ -12,8 +12,8 @@ class FclRival final : public RivalLoop<FclRival<Volume>> {
 public:
     FclRival(const Problem& problem, const std::string& name, const std::string& remark) {
         const auto start = std::chrono::steady_clock::now();
-        fill(a_, problem.meshA);
-        fill(b_, problem.meshB);
+        fillFclModel(a_, problem.meshA);
+        fillFclModel(b_, problem.meshB);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         this->description() = {"fcl-" + name,
                                "mesh tree (FCL)",
@@ -27,34 +27,22 @@ public:
 
     bool hit(const PoseQuery& query) const override {
         fcl::CollisionResultd result;
-        return fcl::collide(&a_, fcl::Transform3d::Identity(), &b_, place(query.pose), request_, result) > 0;
+        return fcl::collide(&a_, fcl::Transform3d::Identity(), &b_, fclPlace(query.pose), request_, result) >
+               0;
     }
     std::optional<double> gap(const PoseQuery& query) const override {
         if (hit(query)) return 0;
         const fcl::DistanceRequestd request;
         fcl::DistanceResultd result;
-        return fcl::distance(&a_, fcl::Transform3d::Identity(), &b_, place(query.pose), request, result);
+        return fcl::distance(&a_, fcl::Transform3d::Identity(), &b_, fclPlace(query.pose), request, result);
     }
 
 private:
-    static fcl::Transform3d place(const Pose& pose) {
-        fcl::Transform3d transform;
-        transform.matrix() = pose.matrix();
-        return transform;
-    }
     static std::size_t bytes(const fcl::BVHModel<Volume>& model) {
         return static_cast<std::size_t>(model.getNumBVs()) * sizeof(fcl::BVNode<Volume>) +
                static_cast<std::size_t>(model.num_tris) * sizeof(fcl::Triangle) +
                static_cast<std::size_t>(model.num_vertices) * sizeof(fcl::Vector3d);
     }
-    static void fill(fcl::BVHModel<Volume>& model, const TriangleMesh& mesh) {
-        std::vector<fcl::Triangle> triangles;
-        for (const Tri& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
-        model.beginModel();
-        model.addSubModel(mesh.vertices, triangles);
-        model.endModel();
-    }
-
     fcl::BVHModel<Volume> a_, b_;
     fcl::CollisionRequestd request_{1, false};
 };

@@ -1,6 +1,7 @@
 #include "bake/compare/MeshTruth.h"
 
-#include <fcl/fcl.h>
+#include "bake/compare/FclModel.h"
+
 #include <optional>
 #include <random>
 
@@ -9,22 +10,6 @@ namespace tss::compare {
 namespace {
 
 using Model = fcl::BVHModel<fcl::OBBRSSd>;
-
-std::unique_ptr<Model> makeModel(const TriangleMesh& mesh) {
-    auto model = std::make_unique<Model>();
-    std::vector<fcl::Triangle> triangles;
-    for (const Tri& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
-    model->beginModel();
-    model->addSubModel(mesh.vertices, triangles);
-    model->endModel();
-    return model;
-}
-
-fcl::Transform3d place(const Pose& pose) {
-    fcl::Transform3d transform;
-    transform.matrix() = pose.matrix();
-    return transform;
-}
 
 double largestShare(const Motion& motion, const std::vector<double>& p, const std::vector<double>& q) {
     double most = 0;
@@ -38,27 +23,29 @@ double largestShare(const Motion& motion, const std::vector<double>& p, const st
 } // namespace
 
 struct MeshTruth::Models {
-    std::unique_ptr<Model> a, b;
+    Model a, b;
 };
 
-MeshTruth::MeshTruth(const TriangleMesh& a, const TriangleMesh& b)
-    : models_(new Models{makeModel(a), makeModel(b)}) {}
+MeshTruth::MeshTruth(const TriangleMesh& a, const TriangleMesh& b) : models_(std::make_unique<Models>()) {
+    fillFclModel(models_->a, a);
+    fillFclModel(models_->b, b);
+}
 
 MeshTruth::~MeshTruth() = default;
 
 bool MeshTruth::touches(const Pose& pose) const {
     const fcl::CollisionRequestd request(1, false);
     fcl::CollisionResultd result;
-    return fcl::collide(models_->a.get(), fcl::Transform3d::Identity(), models_->b.get(), place(pose),
-                        request, result) > 0;
+    return fcl::collide(&models_->a, fcl::Transform3d::Identity(), &models_->b, fclPlace(pose), request,
+                        result) > 0;
 }
 
 double MeshTruth::distance(const Pose& pose) const {
     if (touches(pose)) return 0;
     const fcl::DistanceRequestd request;
     fcl::DistanceResultd result;
-    return fcl::distance(models_->a.get(), fcl::Transform3d::Identity(), models_->b.get(), place(pose),
-                         request, result);
+    return fcl::distance(&models_->a, fcl::Transform3d::Identity(), &models_->b, fclPlace(pose), request,
+                         result);
 }
 
 std::vector<std::vector<double>> randomPoses(const Motion& motion, std::size_t count, std::uint64_t seed) {

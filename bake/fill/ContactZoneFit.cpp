@@ -77,7 +77,7 @@ struct Body {
         body.zone = zone;
         for (const Patch& patch : rest.patches)
             if (patch.region) body.zone.push_back(patch);
-        if (options.keepCoarse) body.fit.spheres.insert(body.fit.spheres.end(), coarse.begin(), coarse.end());
+        body.fit.spheres.insert(body.fit.spheres.end(), coarse.begin(), coarse.end());
         if (rest.region.spheres.empty()) return body;
         body.fit.region = finest.region;
         body.fit.region.resize(body.fit.spheres.size(), 0);

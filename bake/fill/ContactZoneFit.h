@@ -17,8 +17,6 @@ struct ContactZoneOptions {
     AtRest atRest = AtRest::Offset;
     int maxSpheres = 0;       ///< > 0: the finest level at which neither body takes more
     bool conservative = true; ///< else all spheres are inscribed and the zone is covered to the tolerance
-    bool keepCoarse =
-        true; ///< the inscribed spheres of coarser levels stay where the finer ones do not reach
     bool whole =
         false; ///< all of both surfaces is filled, at once to the tolerance: nothing is looked for in Q
     MedialOptions medial;

@@ -1,13 +1,13 @@
 #include "bake/fill/NestedBodies.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/base/UnionFind.h"
 #include "bake/geometry/Import.h"
 #include "bake/search/CellTools.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace tss {
@@ -44,22 +44,14 @@ Part extremes(const TriangleMesh& mesh, const std::vector<int>& vertices) {
 /// The connected parts of a surface; what stands at the same place is connected.
 std::vector<Part> partsOf(const TriangleMesh& loaded) {
     const TriangleMesh mesh = welded(loaded);
-    std::vector<int> parent(mesh.vertices.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](int v) {
-        while (parent[v] != v) v = parent[v] = parent[parent[v]];
-        return v;
-    };
+    UnionFind together(mesh.vertices.size());
     for (const Tri& t : mesh.triangles)
-        for (const int v : {t[1], t[2]}) {
-            const int a = root(t[0]), b = root(v);
-            parent[std::max(a, b)] = std::min(a, b);
-        }
+        for (const int v : {t[1], t[2]}) together.join(t[0], v);
     std::vector<std::vector<int>> members(mesh.vertices.size());
     std::vector<char> listed(mesh.vertices.size(), 0);
     for (const Tri& t : mesh.triangles)
         for (const int v : t)
-            if (!std::exchange(listed[v], 1)) members[root(v)].push_back(v);
+            if (!std::exchange(listed[v], 1)) members[together.root(v)].push_back(v);
     std::vector<Part> parts;
     for (const std::vector<int>& part : members)
         if (!part.empty()) parts.push_back(extremes(mesh, part));

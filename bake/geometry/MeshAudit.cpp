@@ -1,6 +1,7 @@
 #include "bake/geometry/MeshAudit.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/UnionFind.h"
 #include "bake/geometry/Bvh.h"
 #include "bake/geometry/TrianglePoint.h"
 
@@ -10,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -67,21 +67,16 @@ void countEdges(const TriangleMesh& mesh, MeshAudit& audit) {
 }
 
 int countComponents(const TriangleMesh& mesh) {
-    std::vector<int> parent(mesh.vertices.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](int v) {
-        while (parent[v] != v) v = parent[v] = parent[parent[v]];
-        return v;
-    };
+    UnionFind together(mesh.vertices.size());
     for (const Tri& t : mesh.triangles)
         if (inRange(mesh, t)) {
-            parent[root(t[1])] = root(t[0]);
-            parent[root(t[2])] = root(t[0]);
+            together.join(t[0], t[1]);
+            together.join(t[0], t[2]);
         }
     std::vector<char> seen(mesh.vertices.size(), 0);
     int count = 0;
     for (const Tri& t : mesh.triangles)
-        if (inRange(mesh, t) && !std::exchange(seen[root(t[0])], 1)) ++count;
+        if (inRange(mesh, t) && !std::exchange(seen[together.root(t[0])], 1)) ++count;
     return count;
 }
 

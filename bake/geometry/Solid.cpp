@@ -1,5 +1,6 @@
 #include "bake/geometry/Solid.h"
 
+#include "bake/base/UnionFind.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/TrianglePoint.h"
 
@@ -155,23 +156,15 @@ std::string describe(const TriangleMesh& mesh, std::size_t open, bool hollow) {
 
 TriangleMesh closingFans(const TriangleMesh& mesh) {
     const std::vector<OpenEdge> open = openEdges(mesh);
-    std::vector<int> parent(mesh.vertices.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](int v) {
-        while (parent[v] != v) v = parent[v] = parent[parent[v]];
-        return v;
-    };
-    for (const OpenEdge& e : open) {
-        const int a = root(e.from), b = root(e.to);
-        parent[std::max(a, b)] = std::min(a, b);
-    }
+    UnionFind together(mesh.vertices.size());
+    for (const OpenEdge& e : open) together.join(e.from, e.to);
     struct Opening {
         std::vector<int> rim;
         int apex = -1;
     };
-    std::map<int, Opening> openings; // by root, so that the order is the vertices' own
+    std::map<std::size_t, Opening> openings; // by root, so that the order is the vertices' own
     for (const OpenEdge& e : open) {
-        std::vector<int>& rim = openings[root(e.from)].rim;
+        std::vector<int>& rim = openings[together.root(e.from)].rim;
         rim.insert(rim.end(), {e.from, e.to});
     }
     TriangleMesh fans;
@@ -187,7 +180,7 @@ TriangleMesh closingFans(const TriangleMesh& mesh) {
     }
     for (const OpenEdge& e : open)
         for (int i = 0; i < e.excess; ++i)
-            fans.triangles.emplace_back(e.to, e.from, openings[root(e.from)].apex);
+            fans.triangles.emplace_back(e.to, e.from, openings[together.root(e.from)].apex);
     return fans;
 }
 

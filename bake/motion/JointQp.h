@@ -19,7 +19,6 @@ public:
     }
     /// One more, to be filled: n numbers of its normal, then its bound. There must be room.
     double* add() { return numbers_.data() + stride() * std::size_t(count_++); }
-    void dropLast() { --count_; }
 
     const double* normal(int row) const { return numbers_.data() + stride() * std::size_t(row); }
     double bound(int row) const { return normal(row)[n_]; }

@@ -44,34 +44,6 @@ Pose pose(const Motion& motion, std::span<const double> q) {
     return p * motion.base;
 }
 
-Eigen::Matrix3Xd pointJacobian(const Motion& motion, std::span<const double> q, const Vec3& x) {
-    Eigen::Matrix3Xd jacobian(3, motion.dofCount());
-    Pose prefix = Pose::Identity();
-    for (std::size_t k = 0; k < motion.dofs.size(); ++k) {
-        const Dof& dof = motion.dofs[k];
-        switch (dof.kind) {
-        case DofKind::Rotation:
-            jacobian.col(k) = (prefix.linear() * dof.axis).cross(x - prefix * dof.origin);
-            break;
-        case DofKind::Translation:
-            jacobian.col(k) = prefix.linear() * dof.axis;
-            break;
-        case DofKind::Path: {
-            const double h = 1e-6 * (dof.path.back().value - dof.path.front().value);
-            const Vec3 local =
-                dofPose(dof, q[k]).inverse(Eigen::Isometry) * (prefix.inverse(Eigen::Isometry) * x);
-            const Vec3 ahead = dofPose(dof, std::min(q[k] + h, dof.upper)) * local;
-            const Vec3 behind = dofPose(dof, std::max(q[k] - h, dof.lower)) * local;
-            const double step = std::min(q[k] + h, dof.upper) - std::max(q[k] - h, dof.lower);
-            jacobian.col(k) = step > 0 ? Vec3(prefix.linear() * (ahead - behind) / step) : Vec3::Zero();
-            break;
-        }
-        }
-        prefix = prefix * dofPose(dof, q[k]);
-    }
-    return jacobian;
-}
-
 std::vector<double> restValues(const Motion& motion) {
     std::vector<double> q;
     for (const Dof& dof : motion.dofs) q.push_back(dof.rest);

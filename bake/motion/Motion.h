@@ -56,10 +56,6 @@ Pose dofPose(const Dof& dof, double q);
 /// T(q). q: one value a DOF.
 Pose pose(const Motion& motion, std::span<const double> q);
 
-/// dT(q)x/dq for a point x given in A's frame at pose q (that is x = T(q) y): 3 by #DOFs.
-/// Path DOFs by central differences within the segment.
-Eigen::Matrix3Xd pointJacobian(const Motion& motion, std::span<const double> q, const Vec3& x);
-
 /// The rest values of all DOFs.
 std::vector<double> restValues(const Motion& motion);
 

@@ -56,8 +56,7 @@ private:
             part.cells = std::max<std::uint64_t>(
                 1, static_cast<std::uint64_t>(
                        share * double(budget_.cells - std::min(budget_.cells, result_.cells))));
-        CoverProof proof =
-            proveCover(problem_, owed, cover, {wholeProblem(problem_)}, WhenLacking::Add, part);
+        CoverProof proof = proveCover(problem_, owed, cover, {wholeProblem(problem_)}, part);
         result_.cells += proof.cells;
         // What a pose demands at a coarser epsilon it demands at the one asked for too, only of fewer pairs.
         const auto more = demandsAt(problem_, owed_, proof.facts, mostAnswers);

@@ -131,7 +131,7 @@ double Cover::gap(const Pose& pose, std::size_t first) const {
 }
 
 CoverProof proveCover(const CoverProblem& problem, const Obligation& owed, Cover& cover,
-                      std::vector<OpenCell> cells, WhenLacking whenLacking, const CoverBudget& budget) {
+                      std::vector<OpenCell> cells, const CoverBudget& budget) {
     constexpr std::size_t width = 64;
     CoverProof proof;
     ExaminerPool examiners(problem, owed, cover);
@@ -152,14 +152,8 @@ CoverProof proveCover(const CoverProblem& problem, const Obligation& owed, Cover
             proof.cells += parts[k].cells;
             for (OpenCell& cell : parts[k].left) proof.left.push_back(std::move(cell));
         }
-        for (const PartResult& part : parts) {
-            if (!part.lacking) continue;
-            if (whenLacking == WhenLacking::Stop) {
-                if (!part.lacking->pose.empty()) proof.facts.push_back(part.lacking->pose);
-                return proof;
-            }
-            additions.add(*part.lacking);
-        }
+        for (const PartResult& part : parts)
+            if (part.lacking) additions.add(*part.lacking);
     }
     proof.complete = true;
     return proof;

@@ -51,15 +51,10 @@ struct CoverProof {
     std::vector<std::vector<double>> facts; ///< poses where the cover lacked an answer
 };
 
-enum class WhenLacking {
-    Add, ///< the pair is taken into the cover
-    Stop ///< the proof has failed: it ends, with the pose in facts if one is known
-};
-
 /// Shows, cell by cell, that the cover answers all that is owed, adding what it lacks (METHOD 3.3). Rounds of
 /// many cells in parallel against a cover that stands still, then what they lack is added one by one in a
 /// fixed order: the same bits for any number of threads.
 CoverProof proveCover(const CoverProblem& problem, const Obligation& owed, Cover& cover,
-                      std::vector<OpenCell> cells, WhenLacking whenLacking, const CoverBudget& budget);
+                      std::vector<OpenCell> cells, const CoverBudget& budget);
 
 } // namespace tss

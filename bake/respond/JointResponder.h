@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/respond/JointModel.h"
-#include "bake/respond/JointResponse.h"
+#include "bake/respond/JointStatus.h"
+#include "bake/table/Table.h"
 
 namespace tss {
 

@@ -1,10 +1,10 @@
 #include "bake/robot/Robot.h"
 
+#include "bake/base/Degrees.h"
 #include "bake/base/Error.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace tss {
 
@@ -36,10 +36,10 @@ void checkForest(const Robot& robot) {
 }
 
 std::string rangeText(const Robot& robot, const Dof& dof) {
-    const double unit = dof.kind == DofKind::Rotation ? 180 / std::numbers::pi : robot.metersPerUnit;
     const auto text = [&](double value) {
         char digits[40];
-        std::snprintf(digits, sizeof digits, "%.6g", unit * value);
+        std::snprintf(digits, sizeof digits, "%.6g",
+                      dof.kind == DofKind::Rotation ? toDegrees(value) : robot.metersPerUnit * value);
         return std::string(digits);
     };
     return text(dof.lower) + " to " + text(dof.upper) + (dof.kind == DofKind::Rotation ? " degrees" : " m");

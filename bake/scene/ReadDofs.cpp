@@ -1,4 +1,4 @@
-#include "bake/scene/Degrees.h"
+#include "bake/base/Degrees.h"
 #include "bake/scene/DofToken.h"
 #include "bake/scene/SceneReading.h"
 

@@ -1,5 +1,5 @@
+#include "bake/base/Degrees.h"
 #include "bake/geometry/PartSet.h"
-#include "bake/scene/Degrees.h"
 #include "bake/scene/SceneReading.h"
 
 namespace tss {

@@ -1,7 +1,7 @@
 #include "bake/scene/StoreTables.h"
 
+#include "bake/base/Degrees.h"
 #include "bake/base/Error.h"
-#include "bake/scene/Degrees.h"
 #include "bake/scene/SceneWriting.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
+#include "bake/base/Degrees.h"
 #include "bake/base/Error.h"
-#include "bake/scene/Degrees.h"
 #include "bake/scene/DofToken.h"
 #include "bake/scene/SceneWriting.h"
 

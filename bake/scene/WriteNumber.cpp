@@ -66,10 +66,4 @@ std::string numberText(double number) {
     return text;
 }
 
-std::string floatText(double number) {
-    std::string text;
-    appendFloat(text, number);
-    return text;
-}
-
 } // namespace tss

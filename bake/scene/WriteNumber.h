@@ -7,11 +7,9 @@ namespace tss {
 /// with its sign. Not-finite numbers as the words inf, -inf, nan, without quotes.
 std::string numberText(double number);
 
-/// The same for a number that a float holds: shortest text that reads back as the same float.
-std::string floatText(double number);
-
 /// Appends without allocating.
 void appendNumber(std::string& text, double number);
+/// The same for a number that a float holds: shortest text that reads back as the same float.
 void appendFloat(std::string& text, double number);
 
 } // namespace tss

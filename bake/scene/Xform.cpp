@@ -1,6 +1,6 @@
 #include "bake/scene/Xform.h"
 
-#include "bake/scene/Degrees.h"
+#include "bake/base/Degrees.h"
 
 #include <Eigen/SVD>
 

@@ -1,9 +1,10 @@
 #include "bake/search/ContactParts.h"
 
+#include "bake/base/UnionFind.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace tss {
 
@@ -73,23 +74,17 @@ void ContactSurface::visit(const Look& look, SurfacePart part, const Corners& co
 
 std::vector<std::vector<SurfacePart>> connected(const TriangleMesh& mesh,
                                                 const std::vector<SurfacePart>& parts) {
-    std::vector<std::size_t> parent(parts.size());
-    std::iota(parent.begin(), parent.end(), std::size_t{0});
-    const auto root = [&](std::size_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
+    UnionFind together(parts.size());
     std::map<std::array<double, 3>, std::size_t> first; // the first part at each corner
     for (std::size_t i = 0; i < parts.size(); ++i)
         for (const Vec3& corner : corners(mesh, parts[i])) {
             const auto [at, fresh] = first.try_emplace({corner.x(), corner.y(), corner.z()}, i);
-            const std::size_t x = root(at->second), y = root(i);
-            parent[std::max(x, y)] = std::min(x, y);
+            together.join(at->second, i);
         }
     std::vector<std::vector<SurfacePart>> sets;
     std::vector<std::size_t> place(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        const std::size_t r = root(i);
+        const std::size_t r = together.root(i);
         if (r == i) {
             place[i] = sets.size();
             sets.emplace_back();

@@ -198,8 +198,10 @@ double skinThickness(const TriangleMesh& skin) {
     return skin.triangles.empty() ? 0 : sum / (6.0 * static_cast<double>(skin.triangles.size()));
 }
 
-SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscle>& muscles,
-                     const SkinSearchOptions& options, const Progress& progress, SkinSearchCounts* counts) {
+namespace {
+
+void checkOptions(const TriangleMesh& skin, const std::vector<SkinSearchMuscle>& muscles,
+                  const SkinSearchOptions& options) {
     if (!(options.travel >= 0) || !std::isfinite(options.travel))
         throw InputError("the travel of a skin must be a finite length of at least 0");
     if (!(options.thickness >= 0) || !std::isfinite(options.thickness))
@@ -215,6 +217,24 @@ SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscl
         for (const std::vector<Pose>& station : swing)
             if (station.size() != muscles.size())
                 throw InputError("the swings of the bones under a skin need one pose a muscle");
+}
+
+/// The negative gaps of pairs that overlap at rest.
+std::vector<double> gapsAtRest(const SphereSet& skin, const SphereSet& muscles,
+                               const std::vector<SpherePair>& pairs) {
+    std::vector<double> gaps;
+    for (const SpherePair& p : pairs) {
+        const Sphere &a = skin[p.a], &b = muscles[p.b];
+        gaps.push_back(std::min(0.0, (a.centre - b.centre).norm() - a.radius - b.radius));
+    }
+    return gaps;
+}
+
+} // namespace
+
+SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscle>& muscles,
+                     const SkinSearchOptions& options, const Progress& progress, SkinSearchCounts* counts) {
+    checkOptions(skin, muscles, options);
     SkinSearchCounts count;
     const double thickness = options.thickness > 0 ? options.thickness : skinThickness(skin);
     const std::vector<double> radii(skin.vertices.size(), thickness);
@@ -237,16 +257,11 @@ SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscl
         muscleOf.resize(muscleSpheres.size(), static_cast<std::uint32_t>(m));
     }
     std::sort(pairs.begin(), pairs.end());
-    std::vector<double> restGaps;
-    for (const SpherePair& p : pairs) {
-        const Sphere &a = skinSpheres[p.a], &b = muscleSpheres[p.b];
-        restGaps.push_back(std::min(0.0, (a.centre - b.centre).norm() - a.radius - b.radius));
-    }
 
     SkinTable result;
     std::vector<std::uint32_t> usedB;
-    result.table =
-        makeTable(skinSpheres, muscleSpheres, pairs, restGaps, Motion{}, &result.skinVertices, &usedB);
+    result.table = makeTable(skinSpheres, muscleSpheres, pairs, gapsAtRest(skinSpheres, muscleSpheres, pairs),
+                             Motion{}, &result.skinVertices, &usedB);
     // Bones and muscles that move at once may bring together what no one of them does: nothing is proven.
     result.table.certified = false;
     result.table.method =

@@ -152,8 +152,4 @@ SphereFit fitSpheres(const TriangleMesh& mesh, const SphereOptions& options, con
     return fit;
 }
 
-SphereSet generateSpheres(const TriangleMesh& mesh, const SphereOptions& options, const Progress& progress) {
-    return fitSpheres(mesh, options, progress).spheres;
-}
-
 } // namespace tss

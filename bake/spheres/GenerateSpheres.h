@@ -28,10 +28,6 @@ void checkOptions(const SphereOptions& options);
 /// Throws InputError for a mesh that cannot be used (see cleaned()) and for options out of range.
 SphereFit fitSpheres(const TriangleMesh& mesh, const SphereOptions& options, const Progress& progress = {});
 
-/// The spheres of fitSpheres() alone.
-SphereSet generateSpheres(const TriangleMesh& mesh, const SphereOptions& options,
-                          const Progress& progress = {});
-
 /// P, the protrusion to build with for a tolerance L on a body with coordinates up to `magnitude`: less than
 /// L by what rounding the spheres to float may add.
 double protrusionFor(double tolerance, double magnitude);

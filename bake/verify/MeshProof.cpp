@@ -97,6 +97,28 @@ std::vector<std::vector<double>> firstPoses(const Motion& motion) {
     return poses;
 }
 
+/// What the jobs hold, halves that share their pairs counted once.
+double bytesOf(const std::vector<Job>& jobs) {
+    double bytes = 0;
+    for (const Job& job : jobs)
+        bytes += double(job.open->pairs.size() * sizeof(PiecePair) +
+                        job.open->tests.size() * sizeof(std::uint32_t)) /
+                 2;
+    return bytes;
+}
+
+/// Looks for a plain failure at some poses.
+bool brokenAtOnce(MeshBox& box, const Motion& motion, const OpenPairs& open, const Progress& progress,
+                  MeshProofResult& result) {
+    bool broken = false;
+    for (const std::vector<double>& q : firstPoses(motion)) {
+        if (!report(progress, "verify", 0)) break;
+        if ((broken = box.breaksAt(q, open.pairs, result))) break;
+    }
+    if (!broken) result.work = box.work();
+    return broken;
+}
+
 } // namespace
 
 std::vector<MeshTest> meshTests(const Table& table) {
@@ -125,13 +147,10 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
                                               : "at a pose the meshes meet and the table does not answer";
     {
         std::unique_ptr<MeshBox> box = pool.take();
-        for (const std::vector<double>& q : firstPoses(motion)) {
-            if (!report(progress, "verify", 0)) break;
-            if (!box->breaksAt(q, open->pairs, result)) continue;
+        if (brokenAtOnce(*box, motion, *open, progress, result)) {
             result.reason = broken;
             return result;
         }
-        result.work = box->work();
         pool.give(std::move(box));
     }
     for (std::uint32_t k = 0; k < claim.tests.size(); ++k) open->tests.push_back(k);
@@ -159,12 +178,7 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
             shown += parts[k].shown;
             for (Job& job : parts[k].left) jobs.push_back(std::move(job));
         }
-        double bytes = 0;
-        for (const Job& job : jobs)
-            bytes += double(job.open->pairs.size() * sizeof(PiecePair) +
-                            job.open->tests.size() * sizeof(std::uint32_t)) /
-                     2;
-        most = std::max(most, bytes);
+        most = std::max(most, bytesOf(jobs));
         result.bytes = most;
         for (const PartOutcome& part : parts) {
             if (part.outcome == MeshBox::Outcome::Shown) continue;

@@ -210,6 +210,31 @@ std::size_t widest(const PoseBox& box, const Extremes& points) {
                        moves.begin());
 }
 
+enum class Outcome { Shown, Split, Broken, Undecided };
+
+/// What looking at a box gave.
+struct Looked {
+    Outcome outcome = Outcome::Shown;
+    std::size_t cut = 0; ///< Split: the DOF, and where
+    double at = 0;
+    std::vector<double> pose;
+};
+
+Looked lookAt(NestingBox& prover, const Motion& motion, const Box& here, double size, const Extremes& ofB) {
+    Looked looked;
+    if (!meetsPlanes(motion, here)) return looked;
+    const PoseBox box(motion, here, size);
+    if (prover.shown(box)) return looked;
+    looked.pose = box.middle();
+    looked.cut = widest(box, ofB);
+    looked.at = box.cut(looked.cut);
+    const double move = box.carry(ofB.front(), false).move;
+    looked.outcome = prover.brokenAt(box.middle())                ? Outcome::Broken
+                     : move <= 2 * box.error() || box.dofs() == 0 ? Outcome::Undecided
+                                                                  : Outcome::Split;
+    return looked;
+}
+
 } // namespace
 
 NestingResult proveNoNesting(const VerifiedBody& a, const VerifiedBody& b, const Motion& motion, double size,
@@ -219,13 +244,6 @@ NestingResult proveNoNesting(const VerifiedBody& a, const VerifiedBody& b, const
     NestingResult result;
     const Components ofA(a.mesh), ofB(b.mesh);
     std::vector<NestingBox> provers(width, NestingBox(a, b, ofA, ofB, motion, tests, early));
-    enum class Outcome { Shown, Split, Broken, Undecided };
-    struct Part {
-        Outcome outcome = Outcome::Shown;
-        std::size_t cut = 0;
-        double at = 0;
-        std::vector<double> pose;
-    };
     std::vector<Box> boxes{limitsOf(motion)};
     while (!boxes.empty()) {
         if (!report(progress, "verify", 1) || result.cells > mostCells) {
@@ -234,25 +252,14 @@ NestingResult proveNoNesting(const VerifiedBody& a, const VerifiedBody& b, const
             return result;
         }
         const std::size_t count = std::min(width, boxes.size()), first = boxes.size() - count;
-        std::vector<Part> parts(count);
+        std::vector<Looked> parts(count);
         parallelFor(count, [&](std::size_t k) {
-            const Box& here = boxes[first + k];
-            if (!meetsPlanes(motion, here)) return;
-            const PoseBox box(motion, here, size);
-            if (provers[k].shown(box)) return;
-            Part& part = parts[k];
-            part.pose = box.middle();
-            part.cut = widest(box, ofB.extremes().front());
-            part.at = box.cut(part.cut);
-            const double move = box.carry(ofB.extremes().front().front(), false).move;
-            part.outcome = provers[k].brokenAt(box.middle())            ? Outcome::Broken
-                           : move <= 2 * box.error() || box.dofs() == 0 ? Outcome::Undecided
-                                                                        : Outcome::Split;
+            parts[k] = lookAt(provers[k], motion, boxes[first + k], size, ofB.extremes().front());
         });
         std::vector<Box> halves;
         for (std::size_t k = 0; k < count; ++k) {
             ++result.cells;
-            const Part& part = parts[k];
+            const Looked& part = parts[k];
             if (part.outcome == Outcome::Shown) continue;
             if (part.outcome != Outcome::Split) {
                 result.pose = part.pose;

@@ -44,19 +44,4 @@ VerifyResult verifyTable(const SphereSet& a, const SphereSet& b, const Table& ta
     return result;
 }
 
-VerifyResult verifyNeverCollides(const SphereSet& a, const SphereSet& b, double clearance,
-                                 const Motion& motion, const VerifyOptions& options,
-                                 const Progress& progress) {
-    checkMotion(motion);
-    const Models models(a, b, motion, options);
-    const double band = bandOf(models, options);
-    Claim claim;
-    claim.margin = clearance - band;
-    VerifyResult result = proveClaim(models, claim, options.cells, progress);
-    result.band = band;
-    if (!result.reason.empty() && !result.pose.empty())
-        result.reason = "at a pose the models are nearer than the clearance";
-    return result;
-}
-
 } // namespace tss

@@ -39,9 +39,4 @@ struct VerifyResult {
 VerifyResult verifyTable(const SphereSet& a, const SphereSet& b, const Table& table, const Motion& motion,
                          const VerifyOptions& options = {}, const Progress& progress = {});
 
-/// The same for a proof that the two bodies never collide: their gap stays > clearance at every pose.
-VerifyResult verifyNeverCollides(const SphereSet& a, const SphereSet& b, double clearance,
-                                 const Motion& motion, const VerifyOptions& options = {},
-                                 const Progress& progress = {});
-
 } // namespace tss

@@ -20,12 +20,9 @@ endfunction()
 
 osgtss_install(osgTSSCore osgTSSCore)
 target_include_directories(osgTSSCore INTERFACE $<INSTALL_INTERFACE:${OSGTSS_CORE_INCLUDES}>)
-# The headers of what the library holds.
-install(FILES bake/geometry/SurfacePart.h bake/geometry/TriangleMesh.h DESTINATION ${OSGTSS_CORE_INCLUDES}/bake/geometry)
-install(FILES bake/spheres/SphereSet.h DESTINATION ${OSGTSS_CORE_INCLUDES}/bake/spheres)
-foreach(folder base motion table respond model scene play)
-    install(DIRECTORY bake/${folder} DESTINATION ${OSGTSS_CORE_INCLUDES}/bake FILES_MATCHING PATTERN "*.h")
-endforeach()
+install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}\")
+set(INCLUDES \"\${CMAKE_INSTALL_PREFIX}/${OSGTSS_CORE_INCLUDES}\")
+include(\"${CMAKE_CURRENT_LIST_DIR}/PublicHeaders.cmake\")")
 
 if(OSGTSS_NODEKIT)
     osgtss_install(osgTSS osgTSS)

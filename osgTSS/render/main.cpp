@@ -196,7 +196,7 @@ int fail(const Arguments& arguments, int code, const std::string& message) {
 int main(int argc, char** argv) {
     Arguments arguments;
     CLI::App app{"Pictures of a scene, one time code a frame, without an X server (EGL).", "tss-render"};
-    app.set_version_flag("--version", std::string("tss-render ") + osgTSS::getVersion());
+    app.set_version_flag("--version", std::string("tss-render ") + osgTSSGetVersion());
     app.add_option("scene", arguments.scene, "a .tss scene, or any file that OpenSceneGraph reads")
         ->required();
     app.add_option("-o,--output", arguments.output, "where pictures go, with %04d for the frame number")

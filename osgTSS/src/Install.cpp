@@ -1,6 +1,7 @@
 #include "AnimationPathJoint.h"
 #include "JointNodes.h"
 #include "Machines.h"
+#include "bake/base/UnionFind.h"
 
 #include <osg/NodeVisitor>
 #include <osg/Notify>
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace osgTSS {
 
@@ -23,20 +23,13 @@ namespace {
 /// Places of pairs with a table, grouped so that those that share a joint's node are together; groups and
 /// places in the scene's order.
 std::vector<std::vector<PairPlace>> grouped(const std::vector<PairPlace>& places) {
-    std::vector<std::size_t> group(places.size());
-    std::iota(group.begin(), group.end(), std::size_t(0));
+    tss::UnionFind together(places.size());
     std::map<const osg::Node*, std::size_t> firstOfNode;
-    const auto root = [&](std::size_t i) {
-        while (group[i] != i) i = group[i];
-        return i;
-    };
     for (std::size_t p = 0; p < places.size(); ++p)
-        for (const osg::Node* node : places[p].joints) {
-            const std::size_t a = root(firstOfNode.emplace(node, p).first->second), b = root(p);
-            group[std::max(a, b)] = std::min(a, b);
-        }
+        for (const osg::Node* node : places[p].joints)
+            together.join(firstOfNode.emplace(node, p).first->second, p);
     std::vector<std::vector<PairPlace>> groups(places.size());
-    for (std::size_t p = 0; p < places.size(); ++p) groups[root(p)].push_back(places[p]);
+    for (std::size_t p = 0; p < places.size(); ++p) groups[together.root(p)].push_back(places[p]);
     std::erase_if(groups, [](const auto& members) { return members.empty(); });
     return groups;
 }

@@ -1,5 +1,7 @@
 #include "SmoothNormals.h"
 
+#include "bake/base/UnionFind.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,12 +55,7 @@ struct Surface {
 /// group: one a corner, the index of the first corner of its group.
 std::vector<std::size_t> groupCorners(const Surface& surface, std::span<const Corner> corners,
                                       double minCosine) {
-    std::vector<std::size_t> group(corners.size());
-    std::iota(group.begin(), group.end(), 0);
-    const auto root = [&](std::size_t i) {
-        while (group[i] != i) i = group[i] = group[group[i]];
-        return i;
-    };
+    tss::UnionFind together(corners.size());
     // Spokes: the far end of each edge that starts here, with the corner it belongs to.
     std::vector<std::pair<int, std::size_t>> spokes;
     for (std::size_t c = 0; c < corners.size(); ++c)
@@ -72,12 +69,12 @@ std::vector<std::size_t> groupCorners(const Surface& surface, std::span<const Co
                 const Vec3& n = surface.faceNormals[corners[spokes[i].second].triangle];
                 const Vec3& m = surface.faceNormals[corners[spokes[j].second].triangle];
                 if (n.dot(m) < minCosine) continue;
-                const std::size_t a = root(spokes[i].second), b = root(spokes[j].second);
-                group[std::max(a, b)] = std::min(a, b);
+                together.join(spokes[i].second, spokes[j].second);
             }
         first = end;
     }
-    for (std::size_t c = 0; c < corners.size(); ++c) group[c] = root(c);
+    std::vector<std::size_t> group(corners.size());
+    for (std::size_t c = 0; c < corners.size(); ++c) group[c] = together.root(c);
     return group;
 }
 

@@ -1,9 +1,9 @@
 #include <osgTSS/Version>
 
-namespace osgTSS {
-
-const char* getVersion() {
+const char* osgTSSGetVersion() {
     return OSGTSS_VERSION_STRING;
 }
 
-} // namespace osgTSS
+const char* osgTSSGetLibraryName() {
+    return "OpenSceneGraph Tabulated Sphere Subset Library";
+}

@@ -49,8 +49,8 @@ int framesHeldBack(osg::Node& root) {
 
 int main(int argc, char** argv) {
     if (argc != 2) return 2;
-    if (std::strcmp(osgTSS::getVersion(), OSGTSS_VERSION_STRING) != 0) {
-        std::cerr << "headers " OSGTSS_VERSION_STRING ", library " << osgTSS::getVersion() << "\n";
+    if (std::strcmp(osgTSSGetVersion(), OSGTSS_VERSION_STRING) != 0) {
+        std::cerr << "headers " OSGTSS_VERSION_STRING ", library " << osgTSSGetVersion() << "\n";
         return 1;
     }
     osgTSS::LoadOptions options("clock=frame");
@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
     const tss::PreparedTable prepared(table);
     const tss::JointResponder responder(table);
 
-    std::cout << "osgTSS " << osgTSS::getVersion() << ": " << prepared.testCount() << " tests, "
+    std::cout << "osgTSS " << osgTSSGetVersion() << ": " << prepared.testCount() << " tests, "
               << responder.dofCount() << " DOFs, held back in " << held << " frames, by the plugin in "
               << heldByPlugin << "\n";
     return held > 0 && held == heldByPlugin ? 0 : 1;

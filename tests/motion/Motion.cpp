@@ -81,25 +81,6 @@ TEST_CASE("every pose of a random motion is rigid") {
     }
 }
 
-TEST_CASE("the Jacobian of a point is its finite differences") {
-    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-        Random random(seed);
-        CAPTURE(seed);
-        const Motion m = random_table::motion(random, 1 + int(random() % 4), 10);
-        const std::vector<double> q = random_table::values(random, m);
-        const Vec3 y = random_table::inBall(random, 10), x = pose(m, q) * y;
-        const Eigen::Matrix3Xd jacobian = pointJacobian(m, q, x);
-        REQUIRE(jacobian.cols() == Eigen::Index(q.size()));
-        for (std::size_t k = 0; k < q.size(); ++k) {
-            std::vector<double> ahead = q, behind = q;
-            ahead[k] += 1e-6;
-            behind[k] -= 1e-6;
-            const Vec3 difference = (pose(m, ahead) * y - pose(m, behind) * y) / 2e-6;
-            REQUIRE((jacobian.col(Eigen::Index(k)) - difference).norm() < 1e-4 * (1 + difference.norm()));
-        }
-    }
-}
-
 TEST_CASE("rest values are those of the DOFs") {
     Motion m;
     m.dofs = {turn(Vec3::Zero(), Vec3::UnitZ()), slideAlong(Vec3::UnitX())};

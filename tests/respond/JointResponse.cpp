@@ -1,4 +1,5 @@
-#include "bake/respond/JointResponse.h"
+#include "bake/respond/JointResponder.h"
+#include "bake/table/Query.h"
 #include "tests/respond/Walk.h"
 
 #include <catch2/catch.hpp>
@@ -14,6 +15,21 @@ double smallestGapBetween(const Table& table, std::span<const double> from, std:
                           int samples) {
     return walk::smallestGapBetween(from, to, samples,
                                     [&](const std::vector<double>& q) { return query(table, q).gap; });
+}
+
+struct Answer {
+    std::vector<double> q;
+    double gap = 0; ///< of the table at q
+    JointStatus status = JointStatus::Free;
+};
+
+Answer respond(const Table& table, const std::vector<double>& last, const std::vector<double>& asked) {
+    const JointResponder responder(table);
+    JointWorkspace workspace = responder.workspace();
+    const JointAnswer answer = responder.respond(last.data(), asked.data(), workspace);
+    std::vector<double> q(answer.q.begin(), answer.q.begin() + responder.dofCount());
+    const double gap = query(table, q).gap;
+    return {std::move(q), gap, answer.status};
 }
 
 /// A hinge about z at the origin with a bar of one sphere at x = 100 and an obstacle at `angle`.
@@ -76,7 +92,7 @@ TEST_CASE("a hinge asked to jump through an obstacle stops in front of it") {
     const std::vector<double> from{0.0}, to{1.0};
     REQUIRE(query(table, from).gap > 0);
     REQUIRE(query(table, to).gap > 0);
-    const JointResult result = respond(table, {from, to});
+    const Answer result = respond(table, from, to);
     CHECK(result.status == JointStatus::Blocked);
     // Contact is where the chord between the centres is 5.
     const double contact = 0.5 - 2 * std::asin(0.025);
@@ -87,7 +103,7 @@ TEST_CASE("a hinge asked to jump through an obstacle stops in front of it") {
 TEST_CASE("a hinge asked within the free part goes there exactly") {
     const Table table = hingeWithObstacle(0.5, -1, 1);
     const std::vector<double> from{-0.9}, to{0.3};
-    const JointResult result = respond(table, {from, to});
+    const Answer result = respond(table, from, to);
     CHECK(result.status == JointStatus::Free);
     CHECK(result.q == to);
     CHECK(result.gap == query(table, to).gap);
@@ -112,7 +128,7 @@ TEST_CASE("a wheel on a slope slides along it to the nearest pose") {
         table.epsilon = 0.001;
     }
     const std::vector<double> from{-20, 5}, to{3, 4};
-    const JointResult result = respond(table, {from, to});
+    const Answer result = respond(table, from, to);
     CHECK(result.status == JointStatus::Slid);
     // The nearest point of the circle of radius 11 to (3, 4).
     CHECK(result.q[0] == Approx(6.6).margin(0.02));
@@ -133,7 +149,7 @@ TEST_CASE("limits and couplings hold while a joint slides") {
     m.planes = {{{0.0, 1.0}, 8.0}}; // y <= 8
     const Table table = makeTable({{Vec3(0, 0, 0), 10.0}}, {{Vec3(0, 0, 0), 1.0}}, {{0, 0}}, {}, m);
     const std::vector<double> from{-20, 5}, to{-3, 30};
-    const JointResult result = respond(table, {from, to});
+    const Answer result = respond(table, from, to);
     CHECK(withinLimits(m, result.q, 1e-9));
     CHECK(result.gap > 0);
     CHECK(result.q[1] == Approx(8.0).margin(1e-3));

@@ -19,6 +19,10 @@ SphereOptions medial(double tolerance) {
     return options;
 }
 
+SphereSet spheresOf(const TriangleMesh& mesh, const SphereOptions& options) {
+    return fitSpheres(mesh, options).spheres;
+}
+
 /// The spheres hold what they promise: they contain the surface and stick out at most by the tolerance.
 void checkConservative(const TriangleMesh& mesh, const SphereFit& fit, double tolerance) {
     const FitMetrics metrics = measureFit(Solid(mesh), fit.spheres);
@@ -102,24 +106,24 @@ TEST_CASE("bad meshes are filled as well as good ones") {
 TEST_CASE("spheres of both sides of a thin plate do not reach through it") {
     // A centre in a feature thinner than the slack would leave it and grow without end.
     const TriangleMesh plate = boxMesh({0, 0, 0}, {1, 1, 1e-5});
-    for (const Sphere& s : generateSpheres(plate, medial(0.03))) CHECK(s.radius < 0.06);
+    for (const Sphere& s : spheresOf(plate, medial(0.03))) CHECK(s.radius < 0.06);
 }
 
 TEST_CASE("what is no mesh gets no spheres but a reason") {
     const FloatTrapsOff traps; // what is not a number is handed over on purpose
     TriangleMesh mesh = boxMesh({0, 0, 0}, {1, 1, 1});
-    CHECK_THROWS_AS(generateSpheres({}, medial(0.1)), InputError);
+    CHECK_THROWS_AS(spheresOf({}, medial(0.1)), InputError);
     mesh.vertices[0].x() = std::nan("");
-    CHECK_THROWS_AS(generateSpheres(mesh, medial(0.1)), InputError);
+    CHECK_THROWS_AS(spheresOf(mesh, medial(0.1)), InputError);
 }
 
 TEST_CASE("options out of range are refused") {
     const TriangleMesh mesh = boxMesh({0, 0, 0}, {1, 1, 1});
-    CHECK_THROWS_AS(generateSpheres(mesh, medial(-1)), InputError);
-    CHECK_THROWS_AS(generateSpheres(mesh, medial(std::nan(""))), InputError);
+    CHECK_THROWS_AS(spheresOf(mesh, medial(-1)), InputError);
+    CHECK_THROWS_AS(spheresOf(mesh, medial(std::nan(""))), InputError);
     SphereOptions options = medial(0.1);
     options.medial.slackFactor = 0;
-    CHECK_THROWS_AS(generateSpheres(mesh, options), InputError);
+    CHECK_THROWS_AS(spheresOf(mesh, options), InputError);
 }
 
 TEST_CASE("inscribed spheres stay inside and leave at most the tolerance uncovered") {
@@ -142,14 +146,14 @@ TEST_CASE("plain shrinking balls are conservative too, and more") {
     options.method = SphereMethod::Shrinking;
     const SphereFit fit = fitSpheres(mesh, options);
     checkConservative(mesh, fit, 0.03);
-    CHECK(fit.spheres.size() > 2 * generateSpheres(mesh, medial(0.03)).size());
+    CHECK(fit.spheres.size() > 2 * spheresOf(mesh, medial(0.03)).size());
 }
 
 TEST_CASE("a finer tolerance takes more spheres, far fewer than there are triangles to cover") {
     std::mt19937_64 random(7);
     const TriangleMesh mesh = lumpyMesh(random, 3, 0.3);
-    const std::size_t coarse = generateSpheres(mesh, medial(0.1)).size(),
-                      fine = generateSpheres(mesh, medial(0.03)).size();
+    const std::size_t coarse = spheresOf(mesh, medial(0.1)).size(),
+                      fine = spheresOf(mesh, medial(0.03)).size();
     CHECK(coarse < fine);
     CHECK(fine < 2 * mesh.triangles.size());
 }
@@ -164,8 +168,8 @@ TEST_CASE("turning, moving and scaling a body does the same to its spheres") {
     Eigen::Affine3d transform = Eigen::Affine3d::Identity();
     transform.translate(scale * Vec3(3, -5, 2)).scale(scale);
     transform.rotate(Eigen::AngleAxisd(1.1, Vec3(1, 2, 3).normalized()));
-    const SphereSet before = generateSpheres(mesh, medial(0.03));
-    const SphereSet after = generateSpheres(transformed(mesh, transform), medial(0.03 * scale));
+    const SphereSet before = spheresOf(mesh, medial(0.03));
+    const SphereSet after = spheresOf(transformed(mesh, transform), medial(0.03 * scale));
     // Halves of equal edges and equal gains may be told apart otherwise, which moves the count a little.
     CHECK(static_cast<double>(after.size()) == Approx(static_cast<double>(before.size())).epsilon(0.05));
     SphereSet back = after;
@@ -181,7 +185,7 @@ TEST_CASE("the number of threads does not change a bit") {
     const TriangleMesh mesh = lumpyMesh(random, 3, 0.3);
     const auto with = [&](int threads) {
         const ThreadLimit limit(threads);
-        return generateSpheres(mesh, medial(0.03));
+        return spheresOf(mesh, medial(0.03));
     };
     CHECK(sameBits(with(1), with(2)));
 }
@@ -216,10 +220,10 @@ TEST_CASE("surface spheres stand on the vertices and cover the surface when aske
     SphereOptions options;
     options.method = SphereMethod::Surface;
     options.surface.radius = 0.01;
-    const SphereSet covering = generateSpheres(mesh, options);
+    const SphereSet covering = spheresOf(mesh, options);
     CHECK(measureFit(Solid(mesh), covering).coverage == 0);
     options.conservative = false;
-    const SphereSet constant = generateSpheres(mesh, options);
+    const SphereSet constant = spheresOf(mesh, options);
     REQUIRE(constant.size() == mesh.vertices.size());
     for (std::size_t v = 0; v < constant.size(); ++v) {
         CHECK(constant[v].centre == mesh.vertices[v]);
@@ -227,7 +231,7 @@ TEST_CASE("surface spheres stand on the vertices and cover the surface when aske
     }
     options.surface = {0, 0.5};
     // Every edge of an octahedron is as long as the next.
-    for (const Sphere& s : generateSpheres(ballMesh({0, 0, 0}, 1, 0), options))
+    for (const Sphere& s : spheresOf(ballMesh({0, 0, 0}, 1, 0), options))
         CHECK(s.radius == Approx(std::sqrt(2.0) / 2));
 }
 

@@ -1,11 +1,11 @@
 #include "tests/adversary/judge/Surfaces.h"
 
+#include "bake/compare/FclModel.h"
 #include "bake/geometry/MeshAudit.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <fcl/fcl.h>
 
 namespace adversary {
 
@@ -14,6 +14,7 @@ using tss::MeshQuery;
 using tss::SurfacePart;
 using tss::Tri;
 using tss::Vec3;
+using tss::compare::fclPlace;
 
 namespace {
 
@@ -55,18 +56,8 @@ double areaOf(const TriangleMesh& mesh) {
 std::unique_ptr<Model> modelOf(const TriangleMesh& mesh) {
     if (mesh.triangles.empty()) return nullptr;
     auto model = std::make_unique<Model>();
-    std::vector<fcl::Triangle> triangles;
-    for (const Tri& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
-    model->beginModel();
-    model->addSubModel(mesh.vertices, triangles);
-    model->endModel();
+    tss::compare::fillFclModel(*model, mesh);
     return model;
-}
-
-fcl::Transform3d place(const Pose& pose) {
-    fcl::Transform3d transform;
-    transform.matrix() = pose.matrix();
-    return transform;
 }
 
 } // namespace
@@ -129,7 +120,7 @@ bool Surfaces::meet(const Part& a, const Part& b, const Pose& pose) const {
     if (a.model && b.model) {
         const fcl::CollisionRequestd request(1, false);
         fcl::CollisionResultd result;
-        if (fcl::collide(a.model.get(), fcl::Transform3d::Identity(), b.model.get(), place(pose), request,
+        if (fcl::collide(a.model.get(), fcl::Transform3d::Identity(), b.model.get(), fclPlace(pose), request,
                          result) > 0)
             return true;
     }
@@ -165,7 +156,7 @@ double Surfaces::distanceByFcl(const Pose& pose) const {
     const fcl::DistanceRequestd request;
     fcl::DistanceResultd result;
     return fcl::distance(a_->whole.model.get(), fcl::Transform3d::Identity(), b_->whole.model.get(),
-                         place(pose), request, result);
+                         fclPlace(pose), request, result);
 }
 
 bool Surfaces::fillingsNear(const Pose& pose, double within) const {

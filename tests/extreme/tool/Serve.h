@@ -1,7 +1,7 @@
 #pragma once
 #include "bake/check/VerifyPair.h"
 #include "bake/pipeline/Bake.h"
-#include "bake/respond/JointResponse.h"
+#include "bake/respond/JointStatus.h"
 #include "bake/table/PreparedTable.h"
 
 #include <map>

@@ -1,0 +1,30 @@
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace tss {
+
+/// Which of some things hang together (union-find, Tarjan 1975). The root of a set is its first member.
+class UnionFind {
+public:
+    explicit UnionFind(std::size_t count) : parent_(count) {
+        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    }
+
+    std::size_t root(std::size_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+
+    void join(std::size_t i, std::size_t j) {
+        const std::size_t a = root(i), b = root(j);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::size_t> parent_;
+};
+
+} // namespace tss
