@@ -14,7 +14,7 @@ packages_build=(
     liburdfdom-dev liburdfdom-headers-dev libtinyxml2-dev
 )
 packages_pictures=(openscenegraph xvfb xauth libgl1-mesa-dri libegl-mesa0)
-packages_report=(libfcl-dev libbullet-dev libcgal-dev gnuplot-nox)
+packages_report=(libfcl-dev libbullet-dev libcgal-dev libpng-dev gnuplot-nox)
 packages_tests=(catch2 libfcl-dev parallel help2man)
 packages_api=(doxygen)
 packages_fuzz=(clang libclang-rt-14-dev)

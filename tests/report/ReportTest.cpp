@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <png.h>
 #include <unistd.h>
 
 using namespace tss;
@@ -127,9 +128,14 @@ TEST_CASE(
     for (const Row& row : study.rows) CHECK(page.find('"' + row.method + '"') != std::string::npos);
     REQUIRE(report.pairPictures.at(0).size() == 3);
     for (const Picture& picture : report.pairPictures[0]) {
-        CHECK(picture.png.starts_with("\x89PNG\r\n"));
-        CHECK(std::count(picture.png.begin(), picture.png.end(), '\0') <
-              static_cast<std::ptrdiff_t>(picture.png.size() * 9 / 10)); // something is drawn
+        png_image image{};
+        image.version = PNG_IMAGE_VERSION;
+        REQUIRE(png_image_begin_read_from_memory(&image, picture.png.data(), picture.png.size()) != 0);
+        image.format = PNG_FORMAT_RGBA;
+        std::vector<std::uint32_t> pixels(std::size_t{image.width} * image.height);
+        REQUIRE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) != 0);
+        const auto clear = std::count(pixels.begin(), pixels.end(), 0u);
+        CHECK(clear < static_cast<std::ptrdiff_t>(pixels.size() * 99 / 100)); // something is drawn
     }
     const std::string csv = readWholeFile(folder.path + "/report.csv");
     CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == study.rows.size() + 1);
