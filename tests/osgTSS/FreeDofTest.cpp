@@ -1,3 +1,4 @@
+#include "Heard.h"
 #include "Nodes.h"
 
 #include <osg/ValueObject>
@@ -123,4 +124,18 @@ TEST_CASE("a joint that leaves the limits of its proof is told of once") {
     CHECK(limits->getNumWarnings() == 1);
     it.turn(0.6f);
     CHECK(limits->getNumWarnings() == 1);
+}
+
+TEST_CASE("a joint that is asked beyond the limits of its table stops at them and is told of once") {
+    Turret it(1, "rotX:0:0 rotY:0:0 rotZ:-10:10");
+    it.giveTable();
+    REQUIRE(install(*it.root, it.model).joints == 1);
+    const double limit = osg::DegreesToRadians(10.0);
+    Heard heard;
+    CHECK(it.turn(0.1f) == Approx(0.1));
+    CHECK(heard.times("beyond the limits that its tables were made for") == 0);
+    CHECK(it.turn(0.5f) == Approx(limit));
+    CHECK(it.turn(0.6f) == Approx(limit));
+    CHECK(it.turn(-0.4f) == Approx(-limit));
+    CHECK(heard.times("beyond the limits that its tables were made for") == 1);
 }
