@@ -29,6 +29,8 @@ double outside(const RobotShape& shape, const Vec3& p) {
         return std::max(p.head<2>().norm() - s[0], std::abs(p.z()) - s[1] / 2);
     case Kind::Capsule:
         return Vec3(p.x(), p.y(), std::max(0.0, std::abs(p.z()) - s[1] / 2)).norm() - s[0];
+    case Kind::Cone:
+        return std::max(p.head<2>().norm() - s[0] * (0.5 - p.z() / s[1]), std::abs(p.z()) - s[1] / 2);
     case Kind::Ellipsoid:
         return (p.cwiseQuotient(s).norm() - 1) * s.maxCoeff();
     case Kind::Mesh:
@@ -44,7 +46,7 @@ TEST_CASE("a shape's mesh is closed, turned outwards, encloses it, and stands ou
     const RobotShape shape =
         GENERATE(shapeOf(Kind::Box, {0.2, 0.3, 0.4}), shapeOf(Kind::Sphere, {0.7, 0, 0}),
                  shapeOf(Kind::Cylinder, {0.3, 1.1, 0}), shapeOf(Kind::Capsule, {0.3, 1.1, 0}),
-                 shapeOf(Kind::Ellipsoid, {0.3, 0.1, 0.9}));
+                 shapeOf(Kind::Ellipsoid, {0.3, 0.1, 0.9}), shapeOf(Kind::Cone, {0.3, 0.6, 0}));
     const TriangleMesh mesh = meshOf(shape);
     const MeshAudit audit = auditMesh(mesh);
     CHECK(audit.watertight);
