@@ -2,6 +2,7 @@
 
 #include <osg/NodeVisitor>
 #include <osg/ValueObject>
+#include <osgTSS/Convert>
 
 namespace osgTSS {
 
@@ -37,6 +38,17 @@ BodyNodes findBodyNodes(osg::Node& root) {
     FindBodyNodes visitor;
     root.accept(visitor);
     return visitor.found;
+}
+
+tss::Pose carriedSince(const osg::Matrixd& world, const osg::Matrixd& toFrame, const tss::Pose& restInverse) {
+    constexpr double rounding = 1e-12;
+    const auto now = toSimilarity(world * toFrame);
+    if (!now) return tss::Pose::Identity();
+    const tss::Pose moved = now->pose * restInverse;
+    const double size = 1 + now->pose.translation().cwiseAbs().maxCoeff();
+    const bool still =
+        (moved.matrix() - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff() <= rounding * size;
+    return still ? tss::Pose::Identity() : moved;
 }
 
 } // namespace osgTSS

@@ -11,6 +11,7 @@
 #include <osgTSS/JointCallback>
 #include <osgTSS/JointTransform>
 #include <osgTSS/LimitsCallback>
+#include <osgTSS/MuscleCallback>
 #include <osgTSS/SkinCallback>
 
 #include <algorithm>
@@ -72,6 +73,7 @@ public:
             osg::ref_ptr<osg::Callback> next = callback->getNestedCallback();
             const bool ours = dynamic_cast<JointCallback*>(callback.get()) ||
                               dynamic_cast<LimitsCallback*>(callback.get()) ||
+                              (dynamic_cast<MuscleCallback*>(callback.get()) && !node.asDrawable()) ||
                               dynamic_cast<SkinCallback*>(callback.get());
             if (ours) node.removeUpdateCallback(callback);
             callback = next;
@@ -118,8 +120,14 @@ bool canStray(const PairPlace& place) {
     });
 }
 
-/// On the root: a skin is deformed after everything else of the scene has found its place.
+/// On the root: skins, and muscles between two bones, are deformed after everything else of the scene has
+/// found its place.
 void installSkins(osg::Node& root, Scene& scene, Installed& installed) {
+    for (const tss::MuscleModel& muscle : scene.getModel().muscles) {
+        if (muscle.insertionBone < 0) continue;
+        osg::ref_ptr<MuscleCallback> callback = new MuscleCallback(&scene, muscle.path);
+        addOutermost(root, *callback);
+    }
     for (const tss::SkinModel& skin : scene.getModel().skins) {
         if (!skin.table) ++installed.unbaked; // its bones and muscles carry it all the same
         osg::ref_ptr<SkinCallback> callback = new SkinCallback(&scene, skin.path);

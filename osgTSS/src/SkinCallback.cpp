@@ -82,21 +82,14 @@ void Played::findBones(const BodyNodes& nodes) {
     }
 }
 
-/// How far each of them has been carried since rest, in the skin's frame; exactly nothing for less than
-/// rounding.
+/// How far each of them has been carried since rest, in the skin's frame.
 void Played::pose(osg::Node& owner) {
-    constexpr double rounding = 1e-12;
     poses.assign(bones.size(), tss::Pose::Identity());
     const osg::Matrixd toSkin = osg::Matrixd::inverse(frame->getWorldMatrices(&owner).at(0));
-    for (std::size_t k = 0; k < bones.size(); ++k) {
-        if (!bones[k].node.valid()) continue;
-        const auto now = toSimilarity(bones[k].node->getWorldMatrices(&owner).at(0) * toSkin);
-        if (!now) continue;
-        const tss::Pose moved = now->pose * bones[k].restInverse;
-        const double size = 1 + now->pose.translation().cwiseAbs().maxCoeff();
-        if ((moved.matrix() - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff() > rounding * size)
-            poses[k] = moved;
-    }
+    for (std::size_t k = 0; k < bones.size(); ++k)
+        if (bones[k].node.valid())
+            poses[k] =
+                carriedSince(bones[k].node->getWorldMatrices(&owner).at(0), toSkin, bones[k].restInverse);
 }
 
 void Played::update(osg::Node& owner, const Scene& scene, double time) {
