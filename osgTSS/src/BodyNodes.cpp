@@ -17,9 +17,7 @@ public:
     void apply(osg::Node& node) override {
         std::string path;
         if (auto* shape = dynamic_cast<SkinGeometry*>(&node)) found.shapes.emplace(shape->getPath(), shape);
-        double scale = 1;
-        node.getUserValue(scaleName, scale);
-        if (node.getUserValue(tagName, path)) found.frames.emplace(path, BodyFrame{&node, scale});
+        if (node.getUserValue(tagName, path)) found.frames.emplace(path, BodyFrame{&node, bodyScale(node)});
         traverse(node);
     }
 
@@ -31,6 +29,12 @@ public:
 void tagBody(osg::Node& node, const std::string& bodyPath, double scale) {
     node.setUserValue(tagName, bodyPath);
     if (scale != 1) node.setUserValue(scaleName, scale);
+}
+
+double bodyScale(const osg::Node& node) {
+    double scale = 1;
+    node.getUserValue(scaleName, scale);
+    return scale;
 }
 
 BodyNodes findBodyNodes(osg::Node& root) {

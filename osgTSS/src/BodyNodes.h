@@ -11,6 +11,9 @@ namespace osgTSS {
 /// (negative: mirrored). User values, saved and cloned with the node.
 void tagBody(osg::Node& node, const std::string& bodyPath, double scale = 1);
 
+/// The factor that a node was tagged with.
+double bodyScale(const osg::Node& node);
+
 struct BodyFrame {
     osg::Node* node = nullptr;
     double scale = 1;

@@ -1,4 +1,5 @@
 #include "AnimationPathJoint.h"
+#include "InstallSkins.h"
 #include "JointNodes.h"
 #include "Machines.h"
 #include "bake/base/UnionFind.h"
@@ -53,13 +54,6 @@ osg::Node* lowestAbove(osg::Node& root, const std::vector<osg::Node*>& nodes) {
         return dynamic_cast<osgAnimation::Skeleton*>(node);
     });
     return bones && skeleton != common.rend() ? *skeleton : common.back();
-}
-
-/// Ours runs around those that are there, so that it has the last word whatever they do after their own
-/// traverse().
-void addOutermost(osg::Node& node, osg::Callback& callback) {
-    if (osg::Callback* others = node.getUpdateCallback()) callback.addNestedCallback(others);
-    node.setUpdateCallback(&callback);
 }
 
 class RemoveCallbacks : public osg::NodeVisitor {
@@ -118,16 +112,6 @@ bool canStray(const PairPlace& place) {
     });
 }
 
-/// On the root: a skin is deformed after everything else of the scene has found its place.
-void installSkins(osg::Node& root, Scene& scene, Installed& installed) {
-    for (const tss::SkinModel& skin : scene.getModel().skins) {
-        if (!skin.table) ++installed.unbaked; // its bones and muscles carry it all the same
-        osg::ref_ptr<SkinCallback> callback = new SkinCallback(&scene, skin.path);
-        addOutermost(root, *callback);
-        ++installed.skins;
-    }
-}
-
 } // namespace
 
 Installed install(osg::Node& root, Scene& scene) {
@@ -176,6 +160,7 @@ Installed install(osg::Node& root, const tss::SceneModel& model) {
 void uninstall(osg::Node& root) {
     RemoveCallbacks visitor;
     root.accept(visitor);
+    restoreDrawables(root);
 }
 
 } // namespace osgTSS
