@@ -40,8 +40,8 @@ private:
         _drawn; ///< of mesh vertex v: _drawn[_start[v]] to _drawn[_start[v + 1]]
     std::vector<tss::Vec3> _restNormals, _drawnNormals; ///< of the mesh, and one for each of _drawn; the
                                                         ///< latter may be empty
-    std::vector<std::uint32_t> _all;   ///< vertices of the mesh
-    std::vector<std::uint32_t> _moved; ///< room for one call
+    std::vector<std::uint32_t> _all;                    ///< vertices of the mesh
+    std::vector<std::uint32_t> _moved;                  ///< room for one call
     std::vector<tss::Vec3> _positions, _normals;
 };
 
