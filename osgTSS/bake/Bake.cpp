@@ -96,9 +96,9 @@ std::shared_ptr<tss::SceneModel> extract(osg::Node& root, const BakeOptions& opt
     root.accept(visitor);
     const tss::SceneModel& found = visitor.getModel();
     auto model = std::make_shared<tss::SceneModel>(tss::readScene(tss::toLayer(found), "the graph"));
-    if (found.joints.empty()) {
+    if (found.joints.empty() && found.skins.empty()) {
         OSG_NOTICE << "osgTSS: the graph has no joints; nothing was baked" << std::endl;
-    } else if (found.pairs.empty()) {
+    } else if (found.pairs.empty() && found.skins.empty()) {
         OSG_NOTICE << "osgTSS: the graph has joints, but no pairs of bodies between them"
                    << (options.pairs == "tagged" ? ": pairs=tagged takes nodes with the user value "
                                                    "\"osgTSS:collides\", and none has it"
@@ -123,6 +123,15 @@ std::size_t takeFromCache(tss::SceneModel& model, const std::string& file) {
                 pair.table = old.table;
                 pair.proof = old.proof;
                 pair.sourceHash = old.sourceHash;
+                ++taken;
+            }
+        for (tss::SkinModel& skin : model.skins)
+            for (const tss::SkinModel& old : cached.skins) {
+                if (old.path != skin.path || !old.table || old.settings != skin.settings ||
+                    old.sourceHash != tss::sourceHash(model, skin))
+                    continue;
+                skin.table = old.table;
+                skin.sourceHash = old.sourceHash;
                 ++taken;
             }
     } catch (const std::exception& error) {
@@ -164,23 +173,25 @@ void warnOf(const tss::SceneModel& model, const tss::Pair& pair) {
     OSG_WARN << "osgTSS: " << pair.path << ": " << text.str() << std::endl;
 }
 
-/// A pair that cannot be baked is shown as it moves, and the others are kept apart all the same.
+/// A pair or skin that cannot be baked is shown as it moves, and the others are kept apart all the same.
 /// told: notes so far, of which many are about a body and come with each of its pairs.
-void bakeOne(tss::SceneModel& model, std::size_t index, const BakeOptions& options,
+void bakeOne(tss::SceneModel& model, const std::string& path, const BakeOptions& options,
              std::set<std::string>& told, const tss::Progress& progress) {
     tss::BakeRequest request;
     request.given = options.settings;
-    const std::string path = model.pairs[index].path;
     request.pairs = {path};
     try {
         for (const tss::PairReport& report : tss::bake(model, request, progress)) {
-            const tss::Pair& pair = model.pairs[index];
-            OSG_NOTICE << "osgTSS: baked " << path << " in " << report.seconds << " s: "
-                       << (pair.table ? std::to_string(pair.table->testCount()) + " tests" : "never collides")
-                       << std::endl;
+            const int pair = tss::findPair(model, path);
+            std::string made = "never collides";
+            if (pair >= 0 && model.pairs[pair].table)
+                made = std::to_string(model.pairs[pair].table->testCount()) + " tests";
+            for (const tss::SkinModel& skin : model.skins)
+                if (skin.path == path) made = std::to_string(skin.table->table.testCount()) + " tests";
+            OSG_NOTICE << "osgTSS: baked " << path << " in " << report.seconds << " s: " << made << std::endl;
             for (const std::string& note : report.notes)
                 if (told.insert(note).second) OSG_NOTICE << "osgTSS:   " << note << std::endl;
-            warnOf(model, pair);
+            if (pair >= 0) warnOf(model, model.pairs[pair]);
         }
     } catch (const tss::InputError& error) {
         OSG_WARN << "osgTSS: " << path << " is not kept apart: " << error.what() << std::endl;
@@ -204,28 +215,34 @@ osg::ref_ptr<Scene> bake(osg::Node& root, const BakeOptions& options, const Bake
     std::shared_ptr<tss::SceneModel> model = extract(root, options);
     for (tss::Pair& pair : model->pairs)
         for (const auto& [key, value] : options.settings) pair.settings[key] = value;
+    for (tss::SkinModel& skin : model->skins)
+        for (const auto& [key, value] : options.settings) skin.settings[key] = value;
     const std::string cache = options.cache == "off" ? "" : options.cache;
     std::size_t taken = takeFromCache(*model, cache), made = 0;
+    const std::size_t count = model->pairs.size() + model->skins.size();
     if (taken > 0)
-        OSG_NOTICE << "osgTSS: " << taken << " of " << model->pairs.size() << " pairs are as baked in "
-                   << cache << std::endl;
+        OSG_NOTICE << "osgTSS: " << taken << " of " << count << " pairs and skins are as baked in " << cache
+                   << std::endl;
     // Now and then, so that what a long bake has done by when it is ended is not lost.
     using Time = std::chrono::steady_clock;
     constexpr auto saveEvery = std::chrono::seconds(10);
     Time::time_point saved = Time::now();
-    const double count = static_cast<double>(model->pairs.size());
     std::set<std::string> told;
-    for (std::size_t k = 0; k < model->pairs.size(); ++k) {
-        const tss::Pair& pair = model->pairs[k];
-        const std::string path = pair.path;
-        if (progress && !progress(path, static_cast<double>(k) / count)) break;
-        if (pair.table || pair.proof) { // from the cache
-            warnOf(*model, pair);
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t skin = k - std::min(k, model->pairs.size());
+        const bool isPair = k < model->pairs.size();
+        const std::string path = isPair ? model->pairs[k].path : model->skins[skin].path;
+        const auto share = [&](double done) {
+            return (static_cast<double>(k) + done) / static_cast<double>(count);
+        };
+        if (progress && !progress(path, share(0))) break;
+        if (isPair && (model->pairs[k].table || model->pairs[k].proof)) { // from the cache
+            warnOf(*model, model->pairs[k]);
             continue;
         }
-        bakeOne(*model, k, options, told, [&](std::string_view step, double done) {
-            return !progress ||
-                   progress(path + ": " + std::string(step), (static_cast<double>(k) + done) / count);
+        if (!isPair && model->skins[skin].table) continue;
+        bakeOne(*model, path, options, told, [&](std::string_view step, double done) {
+            return !progress || progress(path + ": " + std::string(step), share(done));
         });
         ++made;
         if (Time::now() - saved < saveEvery) continue;

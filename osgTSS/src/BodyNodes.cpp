@@ -18,9 +18,7 @@ public:
     void apply(osg::Node& node) override {
         std::string path;
         if (auto* shape = dynamic_cast<SkinGeometry*>(&node)) found.shapes.emplace(shape->getPath(), shape);
-        double scale = 1;
-        node.getUserValue(scaleName, scale);
-        if (node.getUserValue(tagName, path)) found.frames.emplace(path, BodyFrame{&node, scale});
+        if (node.getUserValue(tagName, path)) found.frames.emplace(path, BodyFrame{&node, bodyScale(node)});
         traverse(node);
     }
 
@@ -34,18 +32,27 @@ void tagBody(osg::Node& node, const std::string& bodyPath, double scale) {
     if (scale != 1) node.setUserValue(scaleName, scale);
 }
 
+double bodyScale(const osg::Node& node) {
+    double scale = 1;
+    node.getUserValue(scaleName, scale);
+    return scale;
+}
+
 BodyNodes findBodyNodes(osg::Node& root) {
     FindBodyNodes visitor;
     root.accept(visitor);
     return visitor.found;
 }
 
-tss::Pose carriedSince(const osg::Matrixd& world, const osg::Matrixd& toFrame, const tss::Pose& restInverse) {
+tss::Pose carriedSince(const osg::Matrixd& world, const osg::Matrixd& toFrame, double scale,
+                       const tss::Pose& restInverse) {
     constexpr double rounding = 1e-12;
     const auto now = toSimilarity(world * toFrame);
     if (!now) return tss::Pose::Identity();
-    const tss::Pose moved = now->pose * restInverse;
-    const double size = 1 + now->pose.translation().cwiseAbs().maxCoeff();
+    tss::Pose inFrame = now->pose;
+    inFrame.translation() *= scale;
+    const tss::Pose moved = inFrame * restInverse;
+    const double size = 1 + inFrame.translation().cwiseAbs().maxCoeff();
     const bool still =
         (moved.matrix() - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff() <= rounding * size;
     return still ? tss::Pose::Identity() : moved;

@@ -14,6 +14,9 @@ namespace osgTSS {
 /// (negative: mirrored). User values, saved and cloned with the node.
 void tagBody(osg::Node& node, const std::string& bodyPath, double scale = 1);
 
+/// The factor that a node was tagged with.
+double bodyScale(const osg::Node& node);
+
 struct BodyFrame {
     osg::Node* node = nullptr;
     double scale = 1;
@@ -27,7 +30,9 @@ struct BodyNodes {
 BodyNodes findBodyNodes(osg::Node& root);
 
 /// How far a node has been carried since rest, in a frame; exactly nothing for less than rounding, and where
-/// there is no telling. world: of the node; toFrame: from the world; restInverse: frame to node, at rest.
-tss::Pose carriedSince(const osg::Matrixd& world, const osg::Matrixd& toFrame, const tss::Pose& restInverse);
+/// there is no telling. world: of the node; toFrame: from the world; scale: from the frame's lengths to the
+/// pose's; restInverse: frame to node, at rest.
+tss::Pose carriedSince(const osg::Matrixd& world, const osg::Matrixd& toFrame, double scale,
+                       const tss::Pose& restInverse);
 
 } // namespace osgTSS

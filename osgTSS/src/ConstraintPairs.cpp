@@ -1,5 +1,6 @@
 #include "AnimationChannels.h"
 #include "SkeletonMeshes.h"
+#include "SoftParts.h"
 
 #include "bake/base/Error.h"
 #include "bake/model/AddPair.h"
@@ -108,7 +109,13 @@ const tss::SceneModel& ConstraintVisitor::getModel() {
         OSG_WARN << "osgTSS: these slide without limits and are taken to stay where they are: " << _unlimited
                  << "; limits are given by the user value osgTSS:limits (\"transX:0:5\"), or by the option "
                  << "limits=NAME:transX:0:5 on loading" << std::endl;
+    _soft->finish(_model, [&](const std::string& what) {
+        if (!_quiet) OSG_WARN << "osgTSS: " << what << std::endl;
+    });
     addPairs();
+    for (const tss::MuscleModel& muscle : _model.muscles)
+        if (!muscle.activation.empty())
+            _model.endTimeCode = std::max(_model.endTimeCode, muscle.activation.times.back());
     for (const tss::Joint& joint : _model.joints)
         for (const tss::TimeSamples& drive : joint.drives)
             if (!drive.empty()) _model.endTimeCode = std::max(_model.endTimeCode, drive.times.back());

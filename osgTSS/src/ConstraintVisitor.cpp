@@ -4,6 +4,8 @@
 #include "JointNodes.h"
 #include "MovedNodes.h"
 #include "SkeletonMeshes.h"
+#include "SoftParts.h"
+#include "SoftTags.h"
 
 #include "bake/base/Error.h"
 #include "bake/model/AddPair.h"
@@ -62,7 +64,8 @@ std::vector<double> restOf(const tss::Joint& joint) {
 
 } // namespace
 
-ConstraintVisitor::ConstraintVisitor(Pairs pairs) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _pairs(pairs) {
+ConstraintVisitor::ConstraintVisitor(Pairs pairs)
+    : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _pairs(pairs), _soft(std::make_unique<SoftParts>()) {
     setNodeMaskOverride(~0u);
 }
 
@@ -87,6 +90,7 @@ void ConstraintVisitor::enter(osg::Node& node, const Place& place) {
         _place.color = material->getDiffuse(osg::Material::FRONT);
     std::string group;
     if (node.getUserValue("osgTSS:collides", group)) _groups[_place.body].insert(group);
+    if (const auto skins = tagWords(node, boneTag)) _soft->addBone(_place.body, wordsOf(*skins));
     traverse(node);
     _place = above;
 }
@@ -161,6 +165,7 @@ void ConstraintVisitor::apply(osg::Drawable& drawable) {
     if (leftOut(drawable)) return;
     const Place place = _place;
     enter(drawable, place);
+    if (addSoft(drawable)) return;
     if (auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable); rig && _skeleton)
         return addRig(*rig);
     tss::Body& body = _model.bodies[_place.body];
@@ -188,6 +193,9 @@ void ConstraintVisitor::applySkeleton(osg::Transform& node) {
     std::unique_ptr<SkeletonMeshes> outer = std::move(_skeleton);
     _skeleton = std::make_unique<SkeletonMeshes>(node);
     applyTransform(node);
+    for (const SkeletonMeshes::Skin& skin : _skeleton->skins)
+        _soft->setWeights(_model, skin.body, *skin.rig, skin.scale,
+                          [&](const std::string& bone) { return _skeleton->bodyOf(bone); });
     for (RigParts::Part& part : _skeleton->parts()) {
         tss::Body& body = _model.bodies[part.body];
         const bool first = body.mesh.empty();

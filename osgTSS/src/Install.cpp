@@ -1,4 +1,5 @@
 #include "AnimationPathJoint.h"
+#include "InstallSkins.h"
 #include "JointNodes.h"
 #include "Machines.h"
 #include "bake/base/UnionFind.h"
@@ -54,13 +55,6 @@ osg::Node* lowestAbove(osg::Node& root, const std::vector<osg::Node*>& nodes) {
         return dynamic_cast<osgAnimation::Skeleton*>(node);
     });
     return bones && skeleton != common.rend() ? *skeleton : common.back();
-}
-
-/// Ours runs around those that are there, so that it has the last word whatever they do after their own
-/// traverse().
-void addOutermost(osg::Node& node, osg::Callback& callback) {
-    if (osg::Callback* others = node.getUpdateCallback()) callback.addNestedCallback(others);
-    node.setUpdateCallback(&callback);
 }
 
 class RemoveCallbacks : public osg::NodeVisitor {
@@ -120,22 +114,6 @@ bool canStray(const PairPlace& place) {
     });
 }
 
-/// On the root: skins, and muscles between two bones, are deformed after everything else of the scene has
-/// found its place.
-void installSkins(osg::Node& root, Scene& scene, Installed& installed) {
-    for (const tss::MuscleModel& muscle : scene.getModel().muscles) {
-        if (muscle.insertionBone < 0) continue;
-        osg::ref_ptr<MuscleCallback> callback = new MuscleCallback(&scene, muscle.path);
-        addOutermost(root, *callback);
-    }
-    for (const tss::SkinModel& skin : scene.getModel().skins) {
-        if (!skin.table) ++installed.unbaked; // its bones and muscles carry it all the same
-        osg::ref_ptr<SkinCallback> callback = new SkinCallback(&scene, skin.path);
-        addOutermost(root, *callback);
-        ++installed.skins;
-    }
-}
-
 } // namespace
 
 Installed install(osg::Node& root, Scene& scene) {
@@ -184,6 +162,7 @@ Installed install(osg::Node& root, const tss::SceneModel& model) {
 void uninstall(osg::Node& root) {
     RemoveCallbacks visitor;
     root.accept(visitor);
+    restoreDrawables(root);
 }
 
 } // namespace osgTSS

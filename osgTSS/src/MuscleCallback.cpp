@@ -1,12 +1,16 @@
 #include "BodyNodes.h"
+#include "DrawnVertices.h"
 #include "PerNode.h"
 #include "SceneCache.h"
+#include "SoftParts.h"
+#include "SoftTags.h"
 
 #include "bake/base/Error.h"
 #include "bake/motion/MuscleSpan.h"
 
 #include <osg/NodeVisitor>
 #include <osg/Notify>
+#include <osg/ValueObject>
 #include <osgTSS/MuscleCallback>
 #include <osgTSS/SkinGeometry>
 
@@ -29,9 +33,11 @@ struct Shown {
     int muscle = -1;
     std::shared_ptr<const tss::MuscleDeformer> deformer; ///< null: not to be played
     tss::TriangleMesh mesh;
+    std::optional<DrawnVertices> drawn; ///< of a geometry that the muscle was made from; else one a vertex
     double activation = std::numeric_limits<double>::quiet_NaN();
 
     tss::Pose far = tss::Pose::Identity(); ///< of the insertion's bone since rest, in the surface's frame
+    double scale = 1;                      ///< from the frame's lengths to the surface's
 
     Shown(osg::Node& node, const Scene& scene, const std::string& path)
         : geometry(dynamic_cast<SkinGeometry*>(&node)), model(scene.shareModel()) {
@@ -42,6 +48,9 @@ struct Shown {
             deformer = scene.getCache().muscle(muscle);
             mesh = deformer->muscle().surface;
             if (!geometry.valid()) findNodes(node);
+            if (!geometry.valid() || !replacedBy(*geometry) || !geometry->getRestGeometry()) return;
+            drawn = DrawnVertices::of(*geometry->getRestGeometry(), mesh, bodyScale(*geometry),
+                                      tss::vertexNormals(mesh));
         } catch (const tss::InputError& error) {
             OSG_WARN << "osgTSS: muscle " << path << " does not play: " << error.what() << std::endl;
         }
@@ -56,6 +65,7 @@ struct Shown {
         if (shape == nodes.shapes.end() || at == nodes.frames.end()) return;
         geometry = shape->second;
         frame = at->second.node;
+        scale = at->second.scale;
         if (own.insertionBone < 0) return;
         const tss::Body& bone = model->bodies[own.insertionBone];
         const auto found = nodes.frames.find(bone.path);
@@ -70,7 +80,8 @@ struct Shown {
         tss::Pose moved = tss::Pose::Identity();
         if (span && frame.valid() && insertion.valid())
             moved = carriedSince(insertion->getWorldMatrices(&owner).at(0),
-                                 osg::Matrixd::inverse(frame->getWorldMatrices(&owner).at(0)), restInverse);
+                                 osg::Matrixd::inverse(frame->getWorldMatrices(&owner).at(0)), scale,
+                                 restInverse);
         if (now == activation && moved.matrix() == far.matrix()) return false;
         activation = now;
         far = moved;
@@ -79,6 +90,16 @@ struct Shown {
         return true;
     }
 };
+
+/// The number that the application has written on its own drawable; nothing where it has not.
+std::optional<double> askedOf(SkinGeometry& geometry) {
+    const osg::Drawable* own = replacedBy(geometry);
+    double wide = 0;
+    float narrow = 0;
+    if (own && own->getUserValue(activationTag, wide)) return wide;
+    if (own && own->getUserValue(activationTag, narrow)) return narrow;
+    return std::nullopt;
+}
 
 } // namespace
 
@@ -105,12 +126,18 @@ bool MuscleCallback::run(osg::Object* object, osg::Object* data) {
     Shown& shown = _states->of(
         *node, [&](const Shown*) { return std::make_unique<Shown>(*node, *_scene, _musclePath); },
         [&](const Shown& state) { return state.model == _scene->shareModel(); });
-    if (!shown.deformer || !shown.geometry.valid() || !shown.geometry->getVertices() ||
-        shown.geometry->getVertices()->size() != shown.mesh.vertices.size())
+    SkinGeometry* geometry = shown.geometry.get();
+    if (!shown.deformer || !geometry || !geometry->getVertices() ||
+        (!shown.drawn && geometry->getVertices()->size() != shown.mesh.vertices.size()))
         return result;
+    if (const auto asked = askedOf(*geometry)) _scene->setActivation(shown.muscle, *asked);
     const double time = _scene->getClock().timeCode(*visitor->getFrameStamp());
-    if (shown.change(*node, _scene->getActivation(shown.muscle, time)))
-        shown.geometry->deform(shown.mesh.vertices, tss::vertexNormals(shown.mesh));
+    if (!shown.change(*node, _scene->getActivation(shown.muscle, time))) return result;
+    const std::vector<tss::Vec3> normals = tss::vertexNormals(shown.mesh);
+    if (shown.drawn)
+        shown.drawn->deform(*geometry, shown.mesh.vertices, normals);
+    else
+        geometry->deform(shown.mesh.vertices, normals);
     return result;
 }
 

@@ -26,6 +26,12 @@ public:
         _bones[bone.getName()] = {&bone, place};
     }
 
+    /// The body that a bone is part of; -1: there is none of this name.
+    int bodyOf(const std::string& bone) const {
+        const auto found = _bones.find(bone);
+        return found != _bones.end() ? found->second.place.body : -1;
+    }
+
     /// toSkeleton: of the mesh. place: of the node that it hangs below, for vertices that no bone holds.
     void addRig(osgAnimation::RigGeometry& rig, const osg::Matrixd& toSkeleton, const InBody& place);
 

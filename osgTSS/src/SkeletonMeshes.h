@@ -35,6 +35,15 @@ struct SkeletonMeshes {
         _looks.push_back(look);
     }
 
+    /// A mesh that is a skin, which is no part of any bone.
+    struct Skin {
+        osgAnimation::RigGeometry* rig = nullptr;
+        int body = -1; ///< of the skin
+        double scale = 1;
+    };
+    std::vector<Skin> skins;
+
+    int bodyOf(const std::string& bone) const { return _parts.bodyOf(bone); }
     std::vector<RigParts::Part> parts() const { return _parts.parts(); }
     const Look& look(std::size_t rig) const { return _looks[rig]; }
 

@@ -1,6 +1,8 @@
 #include "BodyNodes.h"
+#include "DrawnVertices.h"
 #include "PerNode.h"
 #include "SceneCache.h"
+#include "SoftParts.h"
 
 #include "bake/base/Error.h"
 #include "bake/respond/SkinResponse.h"
@@ -18,6 +20,7 @@ namespace {
 struct Bone {
     int muscle = -1;                   ///< whose activation it has; -1: none
     osg::observer_ptr<osg::Node> node; ///< null: it does not move with anything
+    bool outside = false;              ///< but stands where the graph as a whole does
     tss::Pose restInverse;             ///< skin to bone, at rest
 };
 
@@ -27,6 +30,8 @@ struct Played {
     const tss::SkinModel* skin = nullptr;
     osg::observer_ptr<SkinGeometry> geometry;
     osg::observer_ptr<osg::Node> frame; ///< of the skin
+    double scale = 1;                   ///< from its lengths to the body's
+    std::optional<DrawnVertices> drawn; ///< of a geometry that the skin was made from; else one a vertex
     std::vector<Bone> bones;            ///< one a muscle or bone below the skin
     bool riding = false;                ///< some of them moves with a node
     std::unique_ptr<tss::SkinResponse> response;
@@ -58,6 +63,16 @@ Played::Played(osg::Node& owner, const Scene& scene, const std::string& path) : 
     }
     geometry = shape->second;
     frame = at->second.node;
+    scale = at->second.scale;
+    const tss::TriangleMesh& mesh = model->bodies[skin->body].mesh;
+    if (replacedBy(*geometry)) {
+        drawn = DrawnVertices::of(*geometry->getRestGeometry(), mesh, scale, tss::skinNormals(mesh));
+        if (!drawn) {
+            OSG_WARN << "osgTSS: skin " << path
+                     << " does not play: its geometry has other vertices than its mesh" << std::endl;
+            return;
+        }
+    }
     findBones(nodes);
     try {
         if (const auto rig = scene.getCache().rig(index)) response = std::make_unique<tss::SkinResponse>(rig);
@@ -73,8 +88,9 @@ void Played::findBones(const BodyNodes& nodes) {
         bone.muscle = under.muscle;
         const int body = under.bone;
         const auto found = body < 0 ? nodes.frames.end() : nodes.frames.find(model->bodies[body].path);
-        if (found != nodes.frames.end()) {
-            bone.node = found->second.node;
+        bone.outside = body >= 0 && found == nodes.frames.end() && drawn; // its root is a transform
+        if (found != nodes.frames.end()) bone.node = found->second.node;
+        if (bone.node.valid() || bone.outside) {
             bone.restInverse = (skinInverse * model->bodies[body].placement).inverse(Eigen::Isometry);
             riding = true;
         }
@@ -86,10 +102,12 @@ void Played::findBones(const BodyNodes& nodes) {
 void Played::pose(osg::Node& owner) {
     poses.assign(bones.size(), tss::Pose::Identity());
     const osg::Matrixd toSkin = osg::Matrixd::inverse(frame->getWorldMatrices(&owner).at(0));
-    for (std::size_t k = 0; k < bones.size(); ++k)
-        if (bones[k].node.valid())
-            poses[k] =
-                carriedSince(bones[k].node->getWorldMatrices(&owner).at(0), toSkin, bones[k].restInverse);
+    for (std::size_t k = 0; k < bones.size(); ++k) {
+        if (!bones[k].node.valid() && !bones[k].outside) continue;
+        const osg::Matrixd toOwner =
+            bones[k].outside ? osg::Matrixd() : bones[k].node->getWorldMatrices(&owner).at(0);
+        poses[k] = carriedSince(toOwner, toSkin, scale, bones[k].restInverse);
+    }
 }
 
 void Played::update(osg::Node& owner, const Scene& scene, double time) {
@@ -98,7 +116,10 @@ void Played::update(osg::Node& owner, const Scene& scene, double time) {
         activations.push_back(bone.muscle < 0 ? 0 : scene.getActivation(bone.muscle, time));
     if (riding) pose(owner);
     if (!response->update(activations, poses).moved) return;
-    geometry->deform(response->rig().vertices, response->positions(), response->normals());
+    if (drawn)
+        drawn->deform(*geometry, response->rig().vertices, response->positions(), response->normals());
+    else
+        geometry->deform(response->rig().vertices, response->positions(), response->normals());
 }
 
 } // namespace

@@ -20,14 +20,19 @@ private:
     const SkinGeometry& _owner; ///< outlives the geometries it owns
 };
 
-/// A geometry like the one at rest over arrays of its own.
+/// A geometry like the one at rest over arrays of its own. normals: null for those at rest, whatever they
+/// are.
 osg::ref_ptr<osg::Geometry> over(const osg::Geometry& rest, osg::Vec3Array& vertices,
-                                 osg::Vec3Array& normals) {
+                                 osg::Vec3Array* normals) {
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry(rest, osg::CopyOp::SHALLOW_COPY);
     geometry->setUpdateCallback(nullptr);
     geometry->setVertexArray(&vertices);
-    geometry->setNormalArray(&normals, osg::Array::BIND_PER_VERTEX);
+    if (normals) geometry->setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
     return geometry;
+}
+
+osg::ref_ptr<osg::Vec3Array> copyOf(const osg::Vec3Array* array) {
+    return array ? new osg::Vec3Array(*array, osg::CopyOp::DEEP_COPY_ALL) : nullptr;
 }
 
 const osg::Vec3Array* vec3Array(const osg::Array* array) {
@@ -49,27 +54,29 @@ SkinGeometry::SkinGeometry(const SkinGeometry& other, const osg::CopyOp& copyop)
     const bool deep = (copyop.getCopyFlags() & osg::CopyOp::DEEP_COPY_ARRAYS) != 0;
     setRestGeometry(deep ? osg::clone(other._rest.get(), copyop) : other._rest.get());
     *_vertices = *other._vertices;
-    *_normals = *other._normals;
+    if (_normals) *_normals = *other._normals;
     changed(other._box);
 }
 
 void SkinGeometry::setRestGeometry(osg::Geometry* geometry) {
     const osg::ref_ptr<osg::Geometry> rest = geometry;
     const osg::Vec3Array* vertices = rest ? vec3Array(rest->getVertexArray()) : nullptr;
-    const osg::Vec3Array* normals = rest ? vec3Array(rest->getNormalArray()) : nullptr;
-    if (!vertices || !normals || vertices->size() != normals->size()) return;
+    if (!vertices) return;
+    const osg::Vec3Array* normals = rest->getNormalBinding() == osg::Geometry::BIND_PER_VERTEX
+                                        ? vec3Array(rest->getNormalArray())
+                                        : nullptr;
+    if (normals && normals->size() != vertices->size()) normals = nullptr;
     _rest = rest;
-    _vertices = new osg::Vec3Array(*vertices, osg::CopyOp::DEEP_COPY_ALL);
-    _normals = new osg::Vec3Array(*normals, osg::CopyOp::DEEP_COPY_ALL);
-    _staged = over(*rest, *_vertices, *_normals);
+    _vertices = copyOf(vertices);
+    _normals = copyOf(normals);
+    _staged = over(*rest, *_vertices, _normals);
     for (osg::ref_ptr<osg::Geometry>& frame : _frames) {
-        osg::ref_ptr<osg::Vec3Array> v = new osg::Vec3Array(*vertices, osg::CopyOp::DEEP_COPY_ALL);
-        osg::ref_ptr<osg::Vec3Array> n = new osg::Vec3Array(*normals, osg::CopyOp::DEEP_COPY_ALL);
+        const osg::ref_ptr<osg::Vec3Array> v = copyOf(vertices), n = copyOf(normals);
         osg::ref_ptr<osg::VertexBufferObject> buffer = new osg::VertexBufferObject;
         buffer->setUsage(GL_DYNAMIC_DRAW_ARB);
         v->setVertexBufferObject(buffer);
-        n->setVertexBufferObject(buffer);
-        frame = over(*rest, *v, *n);
+        if (n) n->setVertexBufferObject(buffer);
+        frame = over(*rest, *v, n);
         frame->setUseDisplayList(false);
         frame->setUseVertexBufferObjects(true);
         frame->setDataVariance(STATIC); // written only while nothing draws it: no viewer need wait for it
@@ -95,7 +102,7 @@ void SkinGeometry::deform(std::span<const std::uint32_t> vertices, std::span<con
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         osg::Vec3& vertex = (*_vertices)[vertices[k]];
         vertex = osg::Vec3(toOsg(positions[k]));
-        (*_normals)[vertices[k]] = osg::Vec3(toOsg(normals[k]));
+        if (_normals) (*_normals)[vertices[k]] = osg::Vec3(toOsg(normals[k]));
         box.expandBy(vertex);
     }
     changed(box);
@@ -105,7 +112,7 @@ void SkinGeometry::deform(std::span<const tss::Vec3> positions, std::span<const 
     if (!_vertices || positions.size() != _vertices->size() || normals.size() != positions.size())
         throw std::invalid_argument("SkinGeometry::deform: expected a position and a normal a vertex");
     copyTo(*_vertices, positions);
-    copyTo(*_normals, normals);
+    if (_normals) copyTo(*_normals, normals);
     osg::BoundingBox box;
     for (const osg::Vec3& vertex : *_vertices) box.expandBy(vertex);
     changed(box);
@@ -127,11 +134,13 @@ osg::Geometry* SkinGeometry::geometryToDraw() {
         _current = 1 - _current;
         osg::Geometry& next = *_frames[_current];
         auto& vertices = static_cast<osg::Vec3Array&>(*next.getVertexArray());
-        auto& normals = static_cast<osg::Vec3Array&>(*next.getNormalArray());
         std::copy(_vertices->begin(), _vertices->end(), vertices.begin());
-        std::copy(_normals->begin(), _normals->end(), normals.begin());
         vertices.dirty();
-        normals.dirty();
+        if (_normals) {
+            auto& normals = static_cast<osg::Vec3Array&>(*next.getNormalArray());
+            std::copy(_normals->begin(), _normals->end(), normals.begin());
+            normals.dirty();
+        }
         next.dirtyGLObjects(); // a vertex array object does not look at its buffers again by itself
     }
     osg::Geometry* geometry = _frames[_current];

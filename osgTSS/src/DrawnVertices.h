@@ -1,0 +1,48 @@
+#pragma once
+#include "bake/geometry/TriangleMesh.h"
+
+#include <osg/Geometry>
+#include <osgTSS/SkinGeometry>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace osgTSS {
+
+/// Which vertices of a geometry stand for each vertex of a mesh: along a seam of texture coordinates or of
+/// normals several are at one place, and move as one. Their normals are turned as the mesh's own is since
+/// rest.
+class DrawnVertices {
+public:
+    /// scale: from the geometry's lengths to the mesh's (negative: mirrored). restNormals: of the mesh, one a
+    /// vertex. Nothing where some vertex of the mesh is not drawn, or the geometry has other vertices than
+    /// Vec3Arrays.
+    static std::optional<DrawnVertices> of(const osg::Geometry& rest, const tss::TriangleMesh& mesh,
+                                           double scale, std::vector<tss::Vec3> restNormals);
+
+    /// Those of one vertex of the mesh.
+    std::span<const std::uint32_t> of(std::size_t vertex) const {
+        return {_drawn.data() + _start[vertex], _drawn.data() + _start[vertex + 1]};
+    }
+
+    /// Moves what stands for these vertices of the mesh: three spans of one length, in the mesh's lengths.
+    void deform(SkinGeometry& shown, std::span<const std::uint32_t> vertices,
+                std::span<const tss::Vec3> positions, std::span<const tss::Vec3> normals);
+    /// All of them, one a vertex of the mesh.
+    void deform(SkinGeometry& shown, std::span<const tss::Vec3> positions,
+                std::span<const tss::Vec3> normals);
+
+private:
+    double _scale = 1;
+    std::vector<std::uint32_t> _start,
+        _drawn; ///< of mesh vertex v: _drawn[_start[v]] to _drawn[_start[v + 1]]
+    std::vector<tss::Vec3> _restNormals, _drawnNormals; ///< of the mesh, and one for each of _drawn; the
+                                                        ///< latter may be empty
+    std::vector<std::uint32_t> _all;                    ///< vertices of the mesh
+    std::vector<std::uint32_t> _moved;                  ///< room for one call
+    std::vector<tss::Vec3> _positions, _normals;
+};
+
+} // namespace osgTSS

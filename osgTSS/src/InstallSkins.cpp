@@ -1,0 +1,180 @@
+#include "InstallSkins.h"
+
+#include "BodyNodes.h"
+#include "DrawnVertices.h"
+#include "SoftParts.h"
+
+#include "bake/base/Error.h"
+#include "bake/model/SourceHash.h"
+#include "bake/scene/ReadScene.h"
+#include "bake/scene/ToLayer.h"
+
+#include <osg/NodeVisitor>
+#include <osg/Notify>
+#include <osgTSS/ConstraintVisitor>
+#include <osgTSS/MuscleCallback>
+#include <osgTSS/SkinCallback>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+
+namespace osgTSS {
+
+namespace {
+
+int find(const tss::SceneModel& scene, const std::string& skin) {
+    for (std::size_t s = 0; s < scene.skins.size(); ++s)
+        if (scene.skins[s].path == skin) return static_cast<int>(s);
+    return -1;
+}
+
+/// Shows what the drawable shows, its state and all its other arrays kept, and lets its vertices be moved.
+osg::ref_ptr<SkinGeometry> shownInsteadOf(osg::Drawable& drawable, const std::string& body, double scale) {
+    osg::Geometry& source = *restGeometryOf(drawable);
+    osg::ref_ptr<osg::Geometry> rest = new osg::Geometry(source, osg::CopyOp::SHALLOW_COPY);
+    if (rest->containsDeprecatedData()) {
+        rest = new osg::Geometry(source, osg::CopyOp::DEEP_COPY_ARRAYS | osg::CopyOp::DEEP_COPY_PRIMITIVES);
+        rest->fixDeprecatedData();
+    }
+    rest->setUserDataContainer(nullptr);
+    osg::ref_ptr<SkinGeometry> shown = new SkinGeometry;
+    shown->setRestGeometry(rest);
+    shown->setName(drawable.getName());
+    shown->setNodeMask(drawable.getNodeMask());
+    shown->setCullingActive(drawable.getCullingActive());
+    shown->setCullCallback(drawable.getCullCallback());
+    shown->setStateSet(drawable.getStateSet() ? drawable.getStateSet() : source.getStateSet());
+    if (const osg::UserDataContainer* container = drawable.getUserDataContainer())
+        shown->setUserDataContainer(osg::clone(container, osg::CopyOp::DEEP_COPY_USERDATA));
+    shown->getOrCreateUserDataContainer()->addUserObject(&drawable);
+    shown->setPath(body);
+    tagBody(*shown, body, scale);
+    return shown;
+}
+
+void replace(osg::Drawable& before, osg::Drawable& after) {
+    const osg::ref_ptr<osg::Drawable> keep = &before;
+    const osg::Node::ParentList parents = before.getParents();
+    for (osg::Group* parent : parents) parent->replaceChild(&before, &after);
+}
+
+class FindReplaced : public osg::NodeVisitor {
+public:
+    FindReplaced() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+    void apply(osg::Drawable& drawable) override {
+        if (replacedBy(drawable)) found.insert(&drawable);
+    }
+    std::set<osg::ref_ptr<osg::Drawable>> found;
+};
+
+/// A graph's own skins and muscles, as a visitor finds them.
+class OwnSkins {
+public:
+    OwnSkins(osg::Node& root, Scene& scene, bool activeOnly) : _scene(scene), _model(scene.getModel()) {
+        _visitor.setQuiet(true);
+        _visitor.setActiveOnly(activeOnly);
+        root.accept(_visitor);
+        // Rounded as what was baked is.
+        _found = tss::readScene(tss::toLayer(_visitor.getModel()), "the graph");
+    }
+
+    /// Why the graph does not hold what the skin was made from; empty: it does, and shows it from now on.
+    std::string show(int index) {
+        const tss::SkinModel& skin = _model.skins[index];
+        const int other = find(_found, skin.path);
+        if (other < 0) return "nothing in the graph is tagged as this skin";
+        tss::SkinModel now = _found.skins[other];
+        now.settings = skin.settings;
+        const std::string stored = skin.sourceHash.empty() ? tss::sourceHash(_model, skin) : skin.sourceHash;
+        if (tss::sourceHash(_found, now) != stored)
+            return "the graph holds another mesh, other bones or muscles than it was made from";
+        put(skin.body, now.body);
+        for (std::size_t k = 0; k < skin.muscles.size(); ++k) {
+            const tss::MuscleModel& muscle = _model.muscles[skin.muscles[k]];
+            const osg::ref_ptr<SkinGeometry> shown = put(muscle.body, _found.muscles[now.muscles[k]].body);
+            if (shown && !shown->getUpdateCallback() && muscle.insertionBone < 0)
+                shown->addUpdateCallback(new MuscleCallback(&_scene, muscle.path));
+        }
+        const auto under = tss::underSkin(_model, skin), here = tss::underSkin(_found, now);
+        for (std::size_t k = 0; k < under.size(); ++k) tag(under[k].bone, here[k].bone);
+        return "";
+    }
+
+private:
+    /// Null where it stands there already.
+    osg::ref_ptr<SkinGeometry> put(int body, int foundBody) {
+        const ConstraintVisitor::BodyNode at = nodeOf(foundBody);
+        auto* drawable = dynamic_cast<osg::Drawable*>(at.node);
+        if (!drawable || !_shown.insert(drawable).second) return nullptr;
+        const osg::ref_ptr<SkinGeometry> shown =
+            shownInsteadOf(*drawable, _model.bodies[body].path, at.scale);
+        replace(*drawable, *shown);
+        return shown;
+    }
+
+    void tag(int body, int foundBody) const {
+        if (body < 0 || foundBody < 0) return;
+        const ConstraintVisitor::BodyNode at = nodeOf(foundBody);
+        if (at.node) tagBody(*at.node, _model.bodies[body].path, at.scale);
+    }
+
+    /// Bodies may have been put in another order when they were rounded.
+    ConstraintVisitor::BodyNode nodeOf(int foundBody) const {
+        const auto& bodies = const_cast<ConstraintVisitor&>(_visitor).getModel().bodies;
+        for (std::size_t b = 0; b < bodies.size(); ++b)
+            if (bodies[b].path == _found.bodies[foundBody].path) return _visitor.getBodyNodes()[b];
+        return {};
+    }
+
+    Scene& _scene;
+    const tss::SceneModel& _model;
+    ConstraintVisitor _visitor;
+    tss::SceneModel _found;
+    std::set<const osg::Drawable*> _shown;
+};
+
+} // namespace
+
+void addOutermost(osg::Node& node, osg::Callback& callback) {
+    if (osg::Callback* others = node.getUpdateCallback()) callback.addNestedCallback(others);
+    node.setUpdateCallback(&callback);
+}
+
+void restoreDrawables(osg::Node& root) {
+    FindReplaced visitor;
+    root.accept(visitor);
+    for (const osg::ref_ptr<osg::Drawable>& shown : visitor.found) replace(*shown, *replacedBy(*shown));
+}
+
+/// On the root: skins, and muscles between two bones, are deformed after everything else of the scene has
+/// found its place.
+void installSkins(osg::Node& root, Scene& scene, Installed& installed) {
+    const tss::SceneModel& model = scene.getModel();
+    std::unique_ptr<OwnSkins> all, active;
+    const auto shapes = model.skins.empty() ? BodyNodes{} : findBodyNodes(root);
+    for (const tss::MuscleModel& muscle : model.muscles)
+        if (muscle.insertionBone >= 0)
+            addOutermost(root, *osg::ref_ptr<MuscleCallback>(new MuscleCallback(&scene, muscle.path)));
+    for (std::size_t s = 0; s < model.skins.size(); ++s) {
+        const tss::SkinModel& skin = model.skins[s];
+        std::string why;
+        if (!shapes.shapes.contains(model.bodies[skin.body].path)) {
+            if (!all) all = std::make_unique<OwnSkins>(root, scene, false);
+            why = all->show(static_cast<int>(s));
+            if (!why.empty() && !active) active = std::make_unique<OwnSkins>(root, scene, true);
+            if (!why.empty() && active->show(static_cast<int>(s)).empty()) why.clear();
+        }
+        if (!why.empty()) {
+            ++installed.stale;
+            OSG_WARN << "osgTSS: skin " << skin.path << " does not play: " << why << std::endl;
+            continue;
+        }
+        if (!skin.table) ++installed.unbaked; // its bones and muscles carry it all the same
+        osg::ref_ptr<SkinCallback> callback = new SkinCallback(&scene, skin.path);
+        addOutermost(root, *callback);
+        ++installed.skins;
+    }
+}
+
+} // namespace osgTSS

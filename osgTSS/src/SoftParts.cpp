@@ -1,0 +1,144 @@
+#include "SoftParts.h"
+
+#include "DrawnVertices.h"
+
+#include "bake/base/Error.h"
+#include "bake/play/FindFibre.h"
+
+#include <osg/UserDataContainer>
+
+#include <algorithm>
+#include <map>
+
+namespace osgTSS {
+
+namespace {
+
+/// A list of names that says nothing means all.
+bool means(const std::vector<std::string>& names, const std::string& name) {
+    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+tss::MuscleModel withFibre(const tss::SceneModel& scene, tss::MuscleModel model) {
+    model.muscle.surface = scene.bodies[model.body].mesh;
+    model.muscle.fibre = tss::findFibre(scene, model);
+    return model;
+}
+
+} // namespace
+
+osg::Drawable* replacedBy(osg::Drawable& drawable) {
+    osg::UserDataContainer* container =
+        dynamic_cast<SkinGeometry*>(&drawable) ? drawable.getUserDataContainer() : nullptr;
+    for (unsigned int k = 0; container && k < container->getNumUserObjects(); ++k)
+        if (auto* replaced = dynamic_cast<osg::Drawable*>(container->getUserObject(k))) return replaced;
+    return nullptr;
+}
+
+osg::Geometry* restGeometryOf(osg::Drawable& drawable) {
+    if (osg::Drawable* replaced = replacedBy(drawable)) return restGeometryOf(*replaced);
+    auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable);
+    return rig && rig->getSourceGeometry() ? rig->getSourceGeometry() : drawable.asGeometry();
+}
+
+void SoftParts::addBone(int body, std::vector<std::string> skins) {
+    _bones.push_back({body, std::move(skins)});
+}
+
+void SoftParts::addSkin(tss::SkinModel skin, std::string name, int carrier) {
+    _skins.push_back({std::move(skin), std::move(name), carrier});
+}
+
+void SoftParts::addMuscle(tss::MuscleModel muscle, std::vector<std::string> skins) {
+    _muscles.push_back({std::move(muscle), std::move(skins)});
+}
+
+/// Vertices that no bone holds move with what carries the mesh, as those do whose weights are all 0.
+void SoftParts::setWeights(tss::SceneModel& scene, int body, osgAnimation::RigGeometry& rig, double scale,
+                           const std::function<int(const std::string&)>& bodyOf) {
+    const auto skin = std::find_if(_skins.begin(), _skins.end(),
+                                   [&](const Skin& found) { return found.model.body == body; });
+    const tss::TriangleMesh& mesh = scene.bodies[body].mesh;
+    const auto drawn = DrawnVertices::of(*restGeometryOf(rig), mesh, scale, {});
+    if (skin == _skins.end() || !drawn) return;
+    skin->rigged = true;
+    std::vector<std::map<int, double>> held(restGeometryOf(rig)->getVertexArray()->getNumElements());
+    if (const auto* influences = rig.getInfluenceMap())
+        for (const auto& [name, influence] : *influences) {
+            const int bone = bodyOf(name);
+            for (const auto& [vertex, weight] : influence)
+                if (bone >= 0 && vertex < held.size() && weight > 0) held[vertex][bone] += weight;
+        }
+    tss::SkinWeights& weights = skin->model.weights;
+    std::map<int, std::uint32_t> places;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        std::map<int, double>& of = held[drawn->of(v).front()];
+        if (of.empty()) of[skin->carrier] = 1;
+        weights.influences = std::max(weights.influences, of.size());
+        for (const auto& [bone, weight] : of) places.emplace(bone, 0u);
+    }
+    for (auto& [bone, place] : places) {
+        place = static_cast<std::uint32_t>(weights.joints.size());
+        weights.joints.push_back(bone);
+        scene.bodies[bone].rigid = true; // a body, also where it has no mesh
+    }
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        const std::map<int, double>& of = held[drawn->of(v).front()];
+        double sum = 0;
+        for (const auto& [bone, weight] : of) sum += weight;
+        for (const auto& [bone, weight] : of) {
+            weights.indices.push_back(places.at(bone));
+            weights.weights.push_back(weight / sum);
+        }
+        weights.indices.resize((v + 1) * weights.influences, 0);
+        weights.weights.resize((v + 1) * weights.influences, 0);
+    }
+}
+
+/// The bodies that are tagged to be; without any tag all that have a mesh, but below a rigged mesh, which is
+/// the shape of the bones itself, none.
+std::vector<int> SoftParts::bonesOf(const tss::SceneModel& scene, const Skin& skin) const {
+    std::vector<int> bones;
+    const auto soft = [&](int body) {
+        return std::any_of(_skins.begin(), _skins.end(),
+                           [&](const Skin& other) { return other.model.body == body; }) ||
+               std::any_of(_muscles.begin(), _muscles.end(),
+                           [&](const Muscle& other) { return other.model.body == body; });
+    };
+    const auto add = [&](int body) {
+        if (!soft(body) && !scene.bodies[body].mesh.empty() &&
+            std::find(bones.begin(), bones.end(), body) == bones.end())
+            bones.push_back(body);
+    };
+    for (const Bone& bone : _bones)
+        if (means(bone.skins, skin.name)) add(bone.body);
+    if (_bones.empty() && !skin.rigged)
+        for (std::size_t body = 0; body < scene.bodies.size(); ++body) add(static_cast<int>(body));
+    return bones;
+}
+
+void SoftParts::finish(tss::SceneModel& scene, const std::function<void(const std::string&)>& tell) const {
+    std::vector<std::pair<int, const Muscle*>> muscles; ///< place in the scene
+    for (const Muscle& muscle : _muscles) {
+        try {
+            scene.muscles.push_back(withFibre(scene, muscle.model));
+            muscles.emplace_back(static_cast<int>(scene.muscles.size()) - 1, &muscle);
+        } catch (const tss::InputError& error) {
+            tell(muscle.model.path + ": it is no muscle: " + error.message);
+        }
+    }
+    for (const Skin& skin : _skins) {
+        tss::SkinModel model = skin.model;
+        model.path = scene.bodies[model.body].path;
+        model.bones = bonesOf(scene, skin);
+        for (const auto& [index, muscle] : muscles)
+            if (means(muscle->skins, skin.name)) model.muscles.push_back(index);
+        if (model.bones.empty() && model.muscles.empty() && model.weights.joints.empty()) {
+            tell(model.path + ": a skin with nothing below it stays as it is");
+            continue;
+        }
+        scene.skins.push_back(model);
+    }
+}
+
+} // namespace osgTSS

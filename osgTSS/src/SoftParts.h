@@ -1,0 +1,61 @@
+#pragma once
+#include "bake/model/SceneModel.h"
+
+#include <osgAnimation/RigGeometry>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace osgTSS {
+
+/// The geometry that a drawable shows at rest: of a rigged mesh what it is made from, of a skin or muscle
+/// that install() put in its place the one that was there. Null for a drawable that is no geometry.
+osg::Geometry* restGeometryOf(osg::Drawable& drawable);
+
+/// The drawable that install() has put this one in place of; null: none.
+osg::Drawable* replacedBy(osg::Drawable& drawable);
+
+/// What a visitor meets of skins, of muscles and of the bones below them.
+class SoftParts {
+public:
+    /// A body of the model that skins lie on. skins: their names, none: all.
+    void addBone(int body, std::vector<std::string> skins);
+    /// Its body is in the model, with its mesh. carrier: the body that its node is part of.
+    void addSkin(tss::SkinModel skin, std::string name, int carrier);
+    /// The same of a muscle, which rides on its carrier.
+    void addMuscle(tss::MuscleModel muscle, std::vector<std::string> skins);
+
+    bool empty() const { return _skins.empty() && _muscles.empty(); }
+
+    /// The weights that a rigged mesh has, for its skin. bodyOf: of a bone by its name, -1: not known.
+    void setWeights(tss::SceneModel& scene, int body, osgAnimation::RigGeometry& rig, double scale,
+                    const std::function<int(const std::string&)>& bodyOf);
+
+    /// Puts them into the model: muscles get their fibres, skins what lies below them. tell: hears what
+    /// cannot be served, with the path of its prim.
+    void finish(tss::SceneModel& scene, const std::function<void(const std::string&)>& tell) const;
+
+private:
+    struct Skin {
+        tss::SkinModel model;
+        std::string name;
+        int carrier = -1;
+        bool rigged = false;
+    };
+    struct Muscle {
+        tss::MuscleModel model;
+        std::vector<std::string> skins;
+    };
+    struct Bone {
+        int body = -1;
+        std::vector<std::string> skins;
+    };
+    std::vector<int> bonesOf(const tss::SceneModel& scene, const Skin& skin) const;
+
+    std::vector<Skin> _skins;
+    std::vector<Muscle> _muscles;
+    std::vector<Bone> _bones;
+};
+
+} // namespace osgTSS
