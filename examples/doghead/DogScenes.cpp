@@ -289,8 +289,12 @@ tss::SceneModel headScene() {
     for (const Strap& strap : faceStraps()) {
         const bool chews = strap.name == "Masseter" || strap.name == "Temporalis";
         const Knots& knots = chews ? bite : strap.name == "RetractorAnguliOculi" ? squint : snarl;
-        for (const auto& [own, side] : {std::pair(strap, "L"), std::pair(mirroredStrap(strap), "R")})
-            scene.muscles[addStrap(scene, own, side, bones.skull)].activation = sampled(knots, 2, 1);
+        for (const auto& [own, side] : {std::pair(strap, "L"), std::pair(mirroredStrap(strap), "R")}) {
+            tss::MuscleModel& muscle = scene.muscles[addStrap(scene, own, side, bones.skull)];
+            muscle.activation = sampled(knots, 2, 1);
+            if (chews) muscle.insertionBone = bones.mandible;
+            muscle.muscle.spans = chews;
+        }
     }
     addSkin(scene, skinMouthCutMesh({1, 0.4}));
     scene.skins[0].bones = {bones.skull, bones.mandible, left, right};
