@@ -14,8 +14,9 @@ namespace tss {
 
 namespace {
 
-/// Pairs of spheres that answer for themselves are no more than a query can ask.
-constexpr std::size_t mostPairsToAsk = 200'000;
+/// Pairs of spheres that answer for themselves: a query asks few of so many, in clusters, and they take some 240
+/// bytes each in memory.
+constexpr std::size_t mostPairsToAsk = 1'000'000;
 
 bool asksAll(const PairTask& task) {
     return manyDofs(task.motion, task.options) && task.options.reduce == ReduceMethod::Cover &&

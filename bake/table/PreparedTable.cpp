@@ -18,6 +18,9 @@ constexpr double farOffset = 3e37, farReach = -1e18;
 /// Cells pay for more blocks than this, where a query looks at this share of them on average, at most; of
 /// more tests than that they would be too few.
 constexpr std::uint32_t fewBlocks = 4;
+/// Clusters, over more DOFs than cells are good for, pay for more blocks than this.
+constexpr std::uint32_t fewClustered = 32;
+constexpr std::size_t mostDofsOfCells = 3;
 constexpr double mostLooked = 0.6;
 constexpr std::size_t mostTests = 1 << 16;
 
@@ -137,9 +140,9 @@ PreparedTable::Bands PreparedTable::foldBands(double u) const {
     return bands;
 }
 
-PreparedTable::Bands PreparedTable::directBands(double u) const {
+PreparedTable::Bands PreparedTable::directBands(double u, std::span<const TablePair> pairs) const {
     Bands bands;
-    for (const TablePair& p : pairs_) {
+    for (const TablePair& p : pairs) {
         const double a = (p.a - originA_).norm(), b = (p.b - originB_).norm();
         // The pose is worked out in double, whatever reads it.
         const auto posed = [&](double distance) {
@@ -184,7 +187,7 @@ void PreparedTable::choose(const PrepareOptions& options) {
         if (options.precision && (*options.precision == KernelPrecision::Float) != choice.single) continue;
         // Features are made in double: rounded to float once, but some times over in double itself.
         const double u = choice.single ? floatRoundoff : 8 * doubleRoundoff;
-        Bands here = choice.form == KernelForm::Fold ? foldBands(u) : directBands(u);
+        Bands here = choice.form == KernelForm::Fold ? foldBands(u) : directBands(u, pairs_);
         if (any && !(here.sign < bands.sign)) continue;
         any = true;
         bands = std::move(here);
@@ -200,12 +203,12 @@ void PreparedTable::choose(const PrepareOptions& options) {
 }
 
 template <class T>
-void PreparedTable::fill(std::uint32_t lanes, std::span<const std::uint32_t> order, std::vector<Chunk>& store,
-                         KernelData& data) const {
+void PreparedTable::fill(const Widened& rows, std::uint32_t lanes, std::span<const std::uint32_t> order,
+                         std::vector<Chunk>& store, KernelData& data) const {
     using Number = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
     data.columns = fold_ ? std::uint32_t(fold_->features.size()) : 0;
     const std::uint32_t columns = fold_ ? foldColumns(data.columns) : directColumns;
-    const std::size_t count = std::max<std::size_t>(1, (pairs_.size() + lanes - 1) / lanes);
+    const std::size_t count = std::max<std::size_t>(1, (rows.pairs.size() + lanes - 1) / lanes);
     const std::size_t step = std::size_t(columns) * lanes;
     store.assign((count * step * sizeof(T) + sizeof(Chunk) - 1) / sizeof(Chunk), Chunk{});
     T* blocks = reinterpret_cast<T*>(store.data());
@@ -213,34 +216,49 @@ void PreparedTable::fill(std::uint32_t lanes, std::span<const std::uint32_t> ord
     data.end = blocks + count * step;
     for (std::size_t place = 0; place < count * lanes; ++place) {
         T* block = blocks + place / lanes * step + place % lanes;
-        const bool real = place < pairs_.size();
+        const bool real = place < rows.pairs.size();
         const std::size_t i = real && !order.empty() ? order[place] : place;
-        const double reach = real ? pairs_[i].reach : farReach;
+        const double reach = real ? rows.pairs[i].reach : farReach;
         *column(block, lanes, columns - 1) = std::bit_cast<T>(real ? Number(i) : Number(-1));
         *column(block, lanes, columns - 2) = T(reach);
         if (fold_) {
             const double constant = real ? fold_->constants(Eigen::Index(i)) : 0;
-            block[0] = T(real ? constant - reach * std::abs(reach) - widening_[i] : farOffset);
+            block[0] = T(real ? constant - reach * std::abs(reach) - rows.by[i] : farOffset);
             for (std::uint32_t k = 0; k < data.columns && real; ++k)
                 *column(block, lanes, k + 1) = T(fold_->weights(Eigen::Index(i), k));
             *column(block, lanes, columns - 3) = T(constant);
             continue;
         }
         for (int k = 0; k < 3 && real; ++k) {
-            *column(block, lanes, std::uint32_t(k)) = T(pairs_[i].b[k] - originB_[k]);
-            *column(block, lanes, std::uint32_t(k) + 3) = T(pairs_[i].a[k] - originA_[k]);
+            *column(block, lanes, std::uint32_t(k)) = T(rows.pairs[i].b[k] - originB_[k]);
+            *column(block, lanes, std::uint32_t(k) + 3) = T(rows.pairs[i].a[k] - originA_[k]);
         }
-        *column(block, lanes, columns - 3) = T(real ? reach * std::abs(reach) + widening_[i] : -farOffset);
+        *column(block, lanes, columns - 3) = T(real ? reach * std::abs(reach) + rows.by[i] : -farOffset);
     }
 }
 
 void PreparedTable::makeCells(CellUse use) {
     if (use == CellUse::Never || pairs_.empty()) return;
+    const std::size_t blocks = (pairs_.size() + kernels_.lanes - 1) / kernels_.lanes;
+    if (use == CellUse::Auto && !fold_ && motion_.dofCount() > mostDofsOfCells && blocks > fewClustered) {
+        clusters_ = TableClusters(pairs_, kernels_.lanes);
+        return;
+    }
     // To look up a cell costs as much as a few blocks.
     const std::size_t least = std::size_t(fewBlocks) * kernels_.lanes;
     if (use == CellUse::Auto && (pairs_.size() <= least || pairs_.size() > mostTests)) return;
     TableCells cells(motion_, pairs_, kernels_.lanes);
     if (use == CellUse::Always || cells.looked() <= mostLooked) cells_ = std::move(cells);
+}
+
+template <class T>
+void PreparedTable::fillClusters() {
+    const double u = float_ ? floatRoundoff : 8 * doubleRoundoff;
+    const Bands bands = directBands(u, clusters_.bounds());
+    clusterBand_ = std::max(bands.sign, bands.gap);
+    const Widened bounds{clusters_.bounds(), bands.widening};
+    fill<T>(bounds, kernels_.lanes, {}, clusterStore_, clusterData_);
+    fill<T>(bounds, 1, {}, clusterRowStore_, clusterRows_);
 }
 
 template <class T>
@@ -254,13 +272,15 @@ void PreparedTable::prepareKernels(CellUse use) {
     else
         kernels_.pose = nullptr, kernels_.poses = nullptr;
     makeCells(use);
-    fill<T>(kernels_.lanes, cells_.order(), blocks_, data_);
-    fill<T>(1, {}, rowStore_, rows_);
+    const Widened tests{pairs_, widening_};
+    fill<T>(tests, kernels_.lanes, clusters_.empty() ? cells_.order() : clusters_.order(), blocks_, data_);
+    fill<T>(tests, 1, {}, rowStore_, rows_);
+    if (!clusters_.empty()) fillClusters<T>();
     room_ = std::max<std::size_t>(1, (pairs_.size() + kernels_.lanes - 1) / kernels_.lanes) * kernels_.lanes;
 }
 
 std::size_t PreparedTable::bytes() const {
-    return blocks_.size() * sizeof(Chunk) + cells_.bytes() + verdicts_.bytes();
+    return (blocks_.size() + clusterStore_.size()) * sizeof(Chunk) + cells_.bytes() + verdicts_.bytes();
 }
 
 void PreparedTable::features(const double* q, TableFeatures& out) const {
@@ -300,47 +320,6 @@ void PreparedTable::poseFeatures(const double* q, TableFeatures& out) const {
         out.doubles[0] = 0;
         for (std::size_t k = 0; k < values.size(); ++k) out.doubles[k + 1] = values[k];
     }
-}
-
-void PreparedTable::frame(const double* q, MotionFrame& out) const {
-    DofValues way;
-    way.fill(1);
-    evaluateFrame(motion_, q, way.data(), out);
-}
-
-void PreparedTable::contact(const TableFeatures& f, const MotionFrame& frame, TableContact& out) const {
-    out.test = nearest(f).test;
-    if (out.test < 0) {
-        out.gap = std::numeric_limits<double>::infinity();
-        return;
-    }
-    kernels_.contact(contactTests_[std::size_t(out.test)], frame, motion_.dofCount(), out);
-}
-
-double PreparedTable::reachOf(double margin) const {
-    // Rounding grows with the margin; twice the band at 0 and some roundoffs of the margin cover it.
-    return margin + 2 * std::max(signBand_, gapBand_) + 2e-6 * margin;
-}
-
-std::uint32_t PreparedTable::under(const TableFeatures& f, double margin, std::uint32_t* out) const {
-    const double wide = reachOf(margin);
-    if (!cells_.empty())
-        if (const std::uint8_t limit = cells_.code(margin); limit < TableCells::nearCode)
-            return kernels_.underNear(data_, f.doubles, cells_.under(f.cell, limit), wide, out);
-    return kernels_.under(data_, f.doubles, wide, out);
-}
-
-std::uint32_t PreparedTable::under(const double* q, double margin, std::uint32_t* out) const {
-    if (verdicts_.clearance(q) > reachOf(margin)) return 0;
-    TableFeatures f;
-    if (!cells_.empty()) {
-        f.cell = cells_.rowAt(q);
-        if (const std::uint8_t limit = cells_.code(margin);
-            limit < TableCells::nearCode && cells_.nearestCode(f.cell) > limit)
-            return 0;
-    }
-    poseFeatures(q, f);
-    return under(f, margin, out);
 }
 
 } // namespace tss

@@ -3,6 +3,7 @@
 #include "bake/table/Kernels.h"
 #include "bake/table/PosePlan.h"
 #include "bake/table/TableCells.h"
+#include "bake/table/TableClusters.h"
 #include "bake/table/VerdictGrid.h"
 
 #include <optional>
@@ -70,7 +71,7 @@ public:
     /// Some test touches. Never false where a gap is <= 0, and true only where one is <= signBand(): the
     /// kernels reach further by what they may round.
     bool hit(const TableFeatures& f) const {
-        if (cells_.empty()) return kernels_.hit(data_, f.doubles);
+        if (cells_.empty()) return clusters_.empty() ? kernels_.hit(data_, f.doubles) : hitInClusters(f);
         if (cells_.allTouch(f.cell)) return true;
         return kernels_.hitNear(data_, f.doubles, cells_.under(f.cell, TableCells::contactCode));
     }
@@ -113,7 +114,10 @@ public:
     std::size_t testRoom() const { return room_; }
     std::size_t dofCount() const { return motion_.dofCount(); }
     const TablePair& pair(std::size_t test) const { return pairs_[test]; }
-    const TableCells& cells() const { return cells_; }        ///< empty where they do not pay
+    const TableCells& cells() const { return cells_; } ///< empty where they do not pay
+    const TableClusters& clusters() const {
+        return clusters_;
+    } ///< empty for few tests and where there are cells
     const VerdictGrid& verdicts() const { return verdicts_; } ///< empty for more than three DOFs
 
     KernelForm form() const { return form_; }
@@ -139,6 +143,10 @@ public:
     const std::optional<Fold>& fold() const { return fold_; } ///< nothing for the direct form
     const KernelData& rows() const { return rows_; }          ///< one pair after the other
     const KernelData& blocks() const { return data_; }        ///< the same in blocks of lanes()
+    const KernelData& clusterRows() const {
+        return clusterRows_;
+    } ///< bounds of clusters, one after the other
+    const KernelData& clusterBlocks() const { return clusterData_; } ///< the same in blocks of lanes()
     std::uint32_t lanes() const { return kernels_.lanes; }
     const Vec3& originA() const { return originA_; }
     const Vec3& originB() const { return originB_; }
@@ -156,25 +164,39 @@ private:
     };
 
     KernelGap nearest(const TableFeatures& f) const {
-        if (cells_.empty()) return kernels_.gap(data_, f.doubles);
+        if (cells_.empty()) return clusters_.empty() ? kernels_.gap(data_, f.doubles) : nearestInClusters(f);
         const std::uint8_t reached = cells_.reachedCode(f.cell);
         return reached == TableCells::farCode
                    ? kernels_.gap(data_, f.doubles)
                    : kernels_.gapNear(data_, f.doubles, cells_.under(f.cell, reached));
     }
     bool hitAsked(const double* q) const;
+    KernelData blocksOf(std::uint32_t cluster) const;
+    bool hitInClusters(const TableFeatures& f) const;
+    KernelGap nearestInClusters(const TableFeatures& f) const;
+    std::uint32_t underInClusters(const TableFeatures& f, double margin, double wide,
+                                  std::uint32_t* out) const;
+    /// What the bounds of clusters are compared with where gaps of tests up to the margin are asked for.
+    double clusterReachOf(double margin) const;
     /// What tests are compared with where gaps up to the margin are asked for.
     double reachOf(double margin) const;
     void poseFeatures(const double* q, TableFeatures& out) const;
     Bands foldBands(double u) const;
-    Bands directBands(double u) const;
+    Bands directBands(double u, std::span<const TablePair> pairs) const;
     void choose(const PrepareOptions& options);
+    /// Pairs and by how much their squared reaches are widened.
+    struct Widened {
+        std::span<const TablePair> pairs;
+        std::span<const double> by;
+    };
     template <class T>
-    void fill(std::uint32_t lanes, std::span<const std::uint32_t> order, std::vector<Chunk>& store,
-              KernelData& data) const;
+    void fill(const Widened& rows, std::uint32_t lanes, std::span<const std::uint32_t> order,
+              std::vector<Chunk>& store, KernelData& data) const;
     template <class T>
     void prepareKernels(CellUse use);
     void makeCells(CellUse use);
+    template <class T>
+    void fillClusters();
 
     Motion motion_;
     std::vector<TablePair> pairs_;
@@ -195,10 +217,12 @@ private:
     std::size_t room_ = 0;
 
     // A vector's storage stays where it is when the table is moved, so the data may point into it.
-    std::vector<Chunk> blocks_, rowStore_;
+    std::vector<Chunk> blocks_, rowStore_, clusterStore_, clusterRowStore_;
     KernelSet kernels_;
-    KernelData data_, rows_;
+    KernelData data_, rows_, clusterData_, clusterRows_;
     TableCells cells_;
+    TableClusters clusters_;
+    double clusterBand_ = 0; ///< what rounding may do to the gap of a cluster's bound
     VerdictGrid verdicts_;
 };
 

@@ -5,11 +5,10 @@
 
 namespace tss::verify {
 
-PairErrors directErrors(const PreparedTable& prepared, std::size_t pair, const Exact& test, double farthest,
-                        double posed) {
+PairErrors directErrors(const PreparedTable& prepared, const StoredRow& row, const Exact& test,
+                        double farthest, double posed) {
     const bool single = prepared.precision() == KernelPrecision::Float;
     const double u = single ? 0x1p-24 : 0x1p-53;
-    const StoredRow row(prepared, pair);
     const Vec3 b = test.b - prepared.originB(), a = test.a - prepared.originA();
     const double storedA =
         (Vec3(row[3], row[4], row[5]) - a).norm() + 0x1p-52 * (test.a.norm() + prepared.originA().norm());

@@ -1,5 +1,6 @@
 #include "bake/verify/Kernel.h"
 
+#include "bake/verify/ClusterProof.h"
 #include "bake/verify/KernelCells.h"
 #include "bake/verify/KernelErrors.h"
 #include "bake/verify/VerdictProof.h"
@@ -80,9 +81,9 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
         verdict.reason = "the kernel's rotation or translation is another than the motion's";
     for (std::size_t p = 0; p < tests.size() && verdict.reason.empty(); ++p) {
         const Exact& test = tests[p];
-        const PairErrors errors =
-            fold ? foldErrors->of(p, test)
-                 : directErrors(prepared, p, test, prepared.farthestT(), direct->rounding());
+        const PairErrors errors = fold ? foldErrors->of(p, test)
+                                       : directErrors(prepared, StoredRow(prepared, p), test,
+                                                      prepared.farthestT(), direct->rounding());
         if (errors.sign.high > 0 && test.reach >= 0)
             verdict.reason =
                 fmt::format("test {} may miss a touch: its squared distance may be {:.3g} too large", p,
@@ -103,6 +104,8 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
         verdict.reason = fmt::format("its gap was off by {:.3g} at a pose, more than {:.3g}", verdict.seen,
                                      verdict.gapOff);
     if (verdict.reason.empty()) verdict.reason = refuteCells(table, prepared);
+    if (verdict.reason.empty() && direct)
+        verdict.reason = refuteClusters(prepared, tests, direct->rounding());
     if (verdict.reason.empty()) verdict.reason = refuteVerdicts(table, prepared);
     verdict.proven = verdict.reason.empty();
     return verdict;

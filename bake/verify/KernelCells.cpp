@@ -78,15 +78,16 @@ private:
     std::vector<std::uint32_t> all_;   ///< the tests
 };
 
-/// The blocks hold every row once, to the bit.
-bool blocksAreRows(const PreparedTable& prepared) {
+} // namespace
+
+bool blocksAreRows(const PreparedTable& prepared, const KernelData& blockData, const KernelData& rowData,
+                   std::size_t count, std::span<const std::uint32_t> order) {
     const std::size_t bytes = prepared.precision() == KernelPrecision::Float ? 4 : 8;
-    const std::size_t lanes = prepared.lanes(), count = prepared.testCount();
+    const std::size_t lanes = prepared.lanes();
     const std::size_t columns =
-        prepared.form() == KernelForm::Fold ? foldColumns(prepared.rows().columns) : directColumns;
-    const std::vector<std::uint32_t>& order = prepared.cells().order();
-    const auto* blocks = static_cast<const std::byte*>(prepared.blocks().blocks);
-    const auto* rows = static_cast<const std::byte*>(prepared.rows().blocks);
+        prepared.form() == KernelForm::Fold ? foldColumns(rowData.columns) : directColumns;
+    const auto* blocks = static_cast<const std::byte*>(blockData.blocks);
+    const auto* rows = static_cast<const std::byte*>(rowData.blocks);
     std::vector<bool> seen(count);
     if (!order.empty() && order.size() != count) return false;
     for (std::size_t place = 0; place < count; ++place) {
@@ -102,10 +103,10 @@ bool blocksAreRows(const PreparedTable& prepared) {
     return true;
 }
 
-} // namespace
-
 std::string refuteCells(const Table& table, const PreparedTable& prepared) {
-    if (!blocksAreRows(prepared)) return "its blocks do not hold every test once";
+    const auto& order = prepared.clusters().empty() ? prepared.cells().order() : prepared.clusters().order();
+    if (!blocksAreRows(prepared, prepared.blocks(), prepared.rows(), prepared.testCount(), order))
+        return "its blocks do not hold every test once";
     if (prepared.cells().empty()) return {};
     return Checker(table, prepared).refute();
 }

@@ -1,9 +1,14 @@
 #pragma once
 #include "bake/table/PreparedTable.h"
 
+#include <span>
 #include <string>
 
 namespace tss::verify {
+
+/// Whether blocks of lanes hold `count` rows once each, to the bit, in that order (empty: their own).
+bool blocksAreRows(const PreparedTable& prepared, const KernelData& blocks, const KernelData& rows,
+                   std::size_t count, std::span<const std::uint32_t> order);
 
 /// Proves, with the verifier's own bounds of motion, that the cells of a prepared table leave out no test
 /// that matters: in every cell, tests of a block left out of a yes-or-no query stay apart, those left out

@@ -7,10 +7,11 @@ namespace tss::verify {
 /// A row of numbers as a kernel reads it, float or double.
 class StoredRow {
 public:
-    StoredRow(const PreparedTable& prepared, std::size_t row)
-        : single_(prepared.precision() == KernelPrecision::Float), data_(prepared.rows().blocks) {
+    StoredRow(const PreparedTable& prepared, std::size_t row) : StoredRow(prepared, prepared.rows(), row) {}
+    StoredRow(const PreparedTable& prepared, const KernelData& rows, std::size_t row)
+        : single_(prepared.precision() == KernelPrecision::Float), data_(rows.blocks) {
         const bool fold = prepared.form() == KernelForm::Fold;
-        width_ = fold ? foldColumns(prepared.rows().columns) : directColumns;
+        width_ = fold ? foldColumns(rows.columns) : directColumns;
         first_ = row * width_;
     }
     double operator[](std::size_t column) const {
@@ -59,8 +60,8 @@ private:
 
 /// Errors of the direct kernel: x = R b + t - a by axes, |x|^2 - reach^2.
 /// posed: how far a point may come out of the pose that the kernel is given.
-PairErrors directErrors(const PreparedTable& prepared, std::size_t pair, const Exact& test, double farthest,
-                        double posed);
+PairErrors directErrors(const PreparedTable& prepared, const StoredRow& row, const Exact& test,
+                        double farthest, double posed);
 
 /// The direct kernel's pose at values where every DOF's polynomial is known by them: in double, because
 /// rounding to float is counted where the kernel reads. Of more DOFs, and of paths, nothing follows between

@@ -1,5 +1,6 @@
 #include "bake/verify/Kernel.h"
 #include "bake/base/Error.h"
+#include "bake/verify/ClusterProof.h"
 #include "bake/verify/KernelCells.h"
 #include "bake/verify/VerdictProof.h"
 #include "tests/table/RandomTable.h"
@@ -110,6 +111,34 @@ TEST_CASE("verdicts made for other spheres are refused, and for the right ones p
     CHECK(tried >= 15);
     CHECK(pieces >= 5);
     CHECK(divided >= 5);
+}
+
+TEST_CASE("clusters made for other spheres are refused, and for the right ones proven") {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        CAPTURE(seed);
+        random_table::Random random(seed);
+        const Motion motion = random_table::motion(random, 4 + int(seed % 3), 1, false);
+        const Table table = random_table::table(random, motion, 50, 50, 1);
+        const PreparedTable prepared(table);
+        REQUIRE_FALSE(prepared.clusters().empty());
+        const KernelVerdict verdict = verifyKernel(table, prepared);
+        CAPTURE(verdict.reason);
+        REQUIRE(verdict.proven);
+        std::vector<verify::Exact> tests = verify::exactTests(table);
+        const double posed = 0;
+        REQUIRE(verify::refuteClusters(prepared, tests, posed) == "");
+        // One that reaches farther, one that lies elsewhere, one too few.
+        const std::size_t some = tests.size() / 3;
+        std::vector<verify::Exact> larger = tests, moved = tests;
+        larger[some].reach += 1;
+        moved[some].b.x() += 1;
+        CHECK(verify::refuteClusters(prepared, larger, posed) != "");
+        CHECK(verify::refuteClusters(prepared, moved, posed) != "");
+        tests.pop_back();
+        CHECK(verify::refuteClusters(prepared, tests, posed) != "");
+        // What rounding may do is not said to be more than there is room for.
+        CHECK(verify::refuteClusters(prepared, verify::exactTests(table), 1) != "");
+    }
 }
 
 TEST_CASE("cells made for other spheres are refused, and for the right ones proven") {

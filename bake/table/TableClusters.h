@@ -1,0 +1,38 @@
+#pragma once
+#include "bake/table/TablePairs.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tss {
+
+/// The tests of a large table in clusters of equally many whole blocks, those together whose spheres lie near
+/// one another in both bodies (METHOD 4). A cluster is bounded by one pair of spheres: where these two are
+/// apart by some margin all of its tests are. For tables over many DOFs, whose limits are too wide for cells.
+class TableClusters {
+public:
+    /// At most so many, so that a query can list them without allocating.
+    static constexpr std::uint32_t most = 1024;
+
+    TableClusters() = default;
+    TableClusters(std::span<const TablePair> pairs, std::uint32_t lanes);
+
+    bool empty() const { return bounds_.empty(); }
+    std::size_t count() const { return bounds_.size(); }
+
+    /// The tests as the blocks hold them: those of cluster c stand from c * testsEach() on.
+    const std::vector<std::uint32_t>& order() const { return order_; }
+    std::size_t testsEach() const { return testsEach_; }
+
+    /// One a cluster, its radii in the reach alone: at no pose do the centres of a test of the cluster come
+    /// nearer to its own reach than those of the bound to this one.
+    std::span<const TablePair> bounds() const { return bounds_; }
+
+private:
+    std::vector<std::uint32_t> order_;
+    std::vector<TablePair> bounds_;
+    std::size_t testsEach_ = 0;
+};
+
+} // namespace tss
