@@ -7,6 +7,7 @@
 #include "bake/base/Error.h"
 
 #include <osg/ValueObject>
+#include <osgAnimation/MorphGeometry>
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/Convert>
 
@@ -18,6 +19,8 @@ namespace {
 /// A body of a shape that changes is drawn from float vertices.
 osg::Geometry& shapeOf(osg::Drawable& drawable) {
     osg::Geometry* geometry = restGeometryOf(drawable);
+    if (dynamic_cast<osgAnimation::MorphGeometry*>(geometry))
+        throw tss::InputError("expected a shape of its own, and it has morph targets");
     if (!geometry || !dynamic_cast<osg::Vec3Array*>(geometry->getVertexArray()))
         throw tss::InputError("expected a geometry of float vertices (osg::Vec3Array)");
     return *geometry;

@@ -2,6 +2,7 @@
 #include "Limb.h"
 
 #include <catch2/catch.hpp>
+#include <osgAnimation/MorphGeometry>
 #include <osgDB/ReaderWriter>
 #include <osgDB/Registry>
 #include <osgTSS/Bake>
@@ -204,6 +205,19 @@ TEST_CASE("Words that a skin does not know cost that skin, by name") {
     limb.root->accept(visitor);
     CHECK(visitor.getModel().skins.empty());
     CHECK(heard.times("Sleeve: it is no skin") == 1);
+}
+
+TEST_CASE("A mesh of morph targets stays as it is, and is told of") {
+    Limb limb;
+    osg::ref_ptr<osgAnimation::MorphGeometry> morph = new osgAnimation::MorphGeometry(*limb.skin);
+    morph->setName("Face");
+    morph->setUserValue("osgTSS:skin", true);
+    limb.place->addChild(morph);
+    const Heard heard;
+    ConstraintVisitor visitor;
+    limb.root->accept(visitor);
+    CHECK(visitor.getModel().skins.size() == 1);
+    CHECK(heard.times("Face: it is no skin: expected a shape of its own, and it has morph targets") == 1);
 }
 
 TEST_CASE("A skin whose geometry has changed since it was baked does not play, and is told of") {
