@@ -62,7 +62,9 @@ struct Pair {
 struct MuscleModel {
     std::string path;
     int body = -1; ///< index into bodies: the surface
-    int bone = -1; ///< the body it rides on, -1: none
+    int bone = -1; ///< the body it rides on, or its origin does, -1: none
+    int insertionBone =
+        -1;        ///< the body that its insertion moves with, -1: the same; Muscle::spans says so too
     Muscle muscle; ///< in the surface's frame
     TimeSamples activation;
 };
@@ -120,10 +122,12 @@ struct UnderSkin {
     int muscle = -1; ///< index into muscles; -1: a bone
     int body = -1;   ///< whose surface it has; -1: none, a body that the skin's own weights name
     int bone = -1;   ///< the body that it moves with; -1: with the skin
+    int insertion =
+        -1; ///< of a muscle between two bones, which of what is below the skin moves with the other
 };
 
 /// What is below a skin, in the order that its table knows: its muscles, then its bones; then the other
-/// bodies that its own weights name.
+/// bodies that its own weights name, and those that its muscles' insertions move with.
 std::vector<UnderSkin> underSkin(const SceneModel& scene, const SkinModel& skin);
 
 /// The motion of a pair: its chain of joints composed, B-local to A-local. The DOFs are the joints' in chain

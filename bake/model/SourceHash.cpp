@@ -81,10 +81,13 @@ void addBones(const SceneModel& scene, const SkinModel& skin, PartHash& meshes, 
     const Pose toSkin = scene.bodies[skin.body].placement.inverse();
     for (int bone : skin.bones)
         meshes.add(Pose(toSkin * scene.bodies[bone].placement)).add(scene.bodies[bone].mesh);
-    if (skin.bones.empty() && skin.weights.joints.empty()) return;
     std::vector<bool> above(scene.bodies.size(), false), seen(scene.joints.size(), false);
-    for (const UnderSkin& under : underSkin(scene, skin))
+    bool spans = false;
+    for (const UnderSkin& under : underSkin(scene, skin)) {
+        spans = spans || under.insertion >= 0;
         if (under.bone >= 0) above[under.bone] = true;
+    }
+    if (skin.bones.empty() && skin.weights.joints.empty() && !spans) return;
     for (bool again = true; again;) {
         again = false;
         for (std::size_t j = 0; j < scene.joints.size(); ++j) {
@@ -146,6 +149,10 @@ std::string sourceHash(const SceneModel& scene, const SkinModel& skin) {
         for (const Vec3& point : muscle.fibre) forms.add(point);
         forms.add(std::uint64_t(muscle.form)).add(muscle.anchor).add(muscle.maxContraction);
         travel.add(muscle.activationLower).add(muscle.activationUpper);
+        if (model.insertionBone >= 0)
+            for (const int bone : {model.bone, model.insertionBone})
+                travel.add(bone < 0 ? Pose::Identity()
+                                    : Pose(body.placement.inverse() * scene.bodies[bone].placement));
     }
     travel.add(skin.thickness).add(skin.travel);
     addBones(scene, skin, meshes, travel);

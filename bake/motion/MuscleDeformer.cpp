@@ -2,22 +2,19 @@
 
 #include "bake/base/Error.h"
 #include "bake/motion/MuscleMedial.h"
+#include "bake/motion/MuscleVolume.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 namespace tss {
 namespace {
 
 /// Shortest local length, as a share of that at rest, that a muscle may be given.
 constexpr double leastStretch = 0.05;
-
-/// det of three columns, the six-fold volume of a tetrahedron at the origin.
-double det(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return a.dot(b.cross(c));
-}
 
 /// The muscle again when its surface is one that a volume and queries can be had of.
 Muscle checked(Muscle muscle) {
@@ -47,30 +44,7 @@ Muscle checked(Muscle muscle) {
     return muscle;
 }
 
-/// Root of c0 + c1 k + c2 k^2 + c3 k^3 next to k = 1.
-double rootNearOne(const double (&c)[4], double scale) {
-    double k = 1;
-    for (int i = 0; i < 30; ++i) {
-        const double f = c[0] + k * (c[1] + k * (c[2] + k * c[3]));
-        const double slope = c[1] + k * (2 * c[2] + k * 3 * c[3]);
-        // Next to activation 0 nothing thickens and any k will do.
-        if (!(std::abs(slope) > 1e-9 * scale)) return 1;
-        const double step = std::clamp(f / slope, -0.5, 0.5);
-        k -= step;
-        if (std::abs(step) <= 1e-15 * std::abs(k)) break;
-    }
-    return k;
-}
-
 } // namespace
-
-double enclosedVolume(const std::vector<Vec3>& vertices, const std::vector<Tri>& triangles) {
-    if (vertices.empty()) return 0;
-    const Vec3& o = vertices.front();
-    double sum = 0;
-    for (const Tri& t : triangles) sum += det(vertices[t[0]] - o, vertices[t[1]] - o, vertices[t[2]] - o);
-    return sum / 6;
-}
 
 MuscleDeformer::MuscleDeformer(Muscle muscle)
     : muscle_(checked(std::move(muscle))),
@@ -92,6 +66,8 @@ MuscleDeformer::MuscleDeformer(Muscle muscle)
         throw InputError("a muscle may shorten by at most " + std::to_string((1 - leastStretch) / peak) +
                          " of its " + (ring_ ? "length" : "chord") + " within its activation range");
     anchorIntegral_ = contractionIntegral(muscle_.anchor);
+    if (!muscle_.insertionShares.empty() && muscle_.insertionShares.size() != mesh.vertices.size())
+        throw InputError("a muscle between two bones needs one share a vertex");
 
     normals_ = vertexNormals(mesh);
     const std::vector<Vec3> medial = muscle_.form == MuscleForm::Sheet && !rigid()
@@ -103,6 +79,9 @@ MuscleDeformer::MuscleDeformer(Muscle muscle)
         const double s = parameter(x);
         const Vec3 offset = medial.empty() ? Vec3(x - linePoint(s)) : medial[v];
         points_.push_back({x, s, offset, normals_[v], 0});
+        shares_.push_back(!muscle_.insertionShares.empty() ? muscle_.insertionShares[v]
+                          : ring_                          ? (1 - std::cos(2 * std::numbers::pi * s)) / 2
+                                                           : contractionIntegral(s));
     }
 }
 
@@ -117,6 +96,15 @@ Vec3 MuscleDeformer::slide(double s, double activation) const {
     return shift == 0 ? Vec3(Vec3::Zero()) : Vec3(fibre_.point(s + shift) - fibre_.point(s));
 }
 
+double MuscleDeformer::insertionShare(const Vec3& rest) const {
+    const NearestPoint near = locator_.nearest(rest, std::numeric_limits<double>::infinity());
+    if (near.triangle < 0) return 0;
+    double share = 0;
+    for (int k = 0; k < 3; ++k)
+        share += near.weights[k] * shares_[muscle_.surface.triangles[near.triangle][k]];
+    return share;
+}
+
 double MuscleDeformer::thickness(double s, const MuscleState& state) const {
     return 1 + state.thickening * gain(s, state.activation);
 }
@@ -126,7 +114,7 @@ MuscleState MuscleDeformer::state(double activation) const {
     MuscleState state{std::clamp(activation, muscle_.activationLower, muscle_.activationUpper), 1};
     if (state.activation == 0) return state;
 
-    // The vertices are p + k q, so the volume is a cubic in k.
+    // The vertices are p + k q. Next to activation 0 nothing thickens and any k will do.
     const Vec3 centre = points_.front().rest;
     std::vector<Vec3> p(points_.size()), q(points_.size());
     for (std::size_t v = 0; v < p.size(); ++v) {
@@ -134,16 +122,7 @@ MuscleState MuscleDeformer::state(double activation) const {
         p[v] = x.rest - centre + slide(x.s, state.activation);
         q[v] = gain(x.s, state.activation) * x.offset;
     }
-    double c[4] = {-6 * volume_, 0, 0, 0};
-    for (const Tri& t : muscle_.surface.triangles) {
-        const Vec3 &p0 = p[t[0]], &p1 = p[t[1]], &p2 = p[t[2]], &q0 = q[t[0]], &q1 = q[t[1]], &q2 = q[t[2]];
-        const Vec3 p01 = p0.cross(p1), q01 = q0.cross(q1), mixed = p0.cross(q1) + q0.cross(p1);
-        c[0] += p01.dot(p2);
-        c[1] += p01.dot(q2) + mixed.dot(p2);
-        c[2] += mixed.dot(q2) + q01.dot(p2);
-        c[3] += q01.dot(q2);
-    }
-    state.thickening = rootNearOne(c, volume_);
+    state.thickening = swellingFor(volume_, swollenVolume(volume_, p, q, muscle_.surface.triangles), 1);
     return state;
 }
 

@@ -23,8 +23,10 @@ struct MuscleState {
     double thickening = 1; ///< factor on the local thickening that keeps the volume of the mesh; near 1
 };
 
-/// A muscle that never contracts is a bone: its surface may be any mesh, its fibre is not looked at.
+/// A muscle that never contracts and lies on one bone is a bone: its surface may be any mesh, its fibre is
+/// not looked at.
 inline bool isRigid(const Muscle& muscle) {
+    if (muscle.spans) return false;
     return muscle.maxContraction == 0 || (muscle.activationLower == 0 && muscle.activationUpper == 0);
 }
 
@@ -67,6 +69,10 @@ public:
     /// Local factor of the thickness at a fibre parameter: what the radius of a sphere inside grows by.
     double thickness(double s, const MuscleState& state) const;
 
+    /// Which share of a point's motion is that of the insertion's bone: of the nearest point of the surface.
+    double insertionShare(const Vec3& rest) const;
+    const std::vector<double>& insertionShares() const { return shares_; } ///< #V
+
 private:
     double parameter(const Vec3& x) const { return ring_ ? ring_->parameter(x) : fibre_.parameter(x); }
     Vec3 linePoint(double s) const { return ring_ ? ring_->point(s) : fibre_.point(s); }
@@ -79,11 +85,9 @@ private:
     MuscleLocator locator_;
     std::vector<Vec3> normals_;       ///< #V
     std::vector<MusclePoint> points_; ///< #V
+    std::vector<double> shares_;      ///< #V, see Muscle::insertionShares
     double anchorIntegral_ = 0;
     double volume_ = 0;
 };
-
-/// The volume enclosed by a closed mesh, positive when it is outward oriented.
-double enclosedVolume(const std::vector<Vec3>& vertices, const std::vector<Tri>& triangles);
 
 } // namespace tss

@@ -60,8 +60,8 @@ public:
     /// The nearest point nearer than `range`. Of equally near triangles the first met answers.
     NearestPoint nearest(const Vec3& x, double range) const;
 
-    /// Nearest among the triangles whose normal n has n . facing > 0. first: a triangle that is probably near,
-    /// looked at before all others, -1: none; it changes how long the search takes, not what it finds.
+    /// Nearest among the triangles whose normal n has n . facing > 0. first: a triangle that is probably
+    /// near, looked at before all others, -1: none; it changes how long the search takes, not what it finds.
     NearestPoint nearestFacing(const Vec3& x, double range, const Vec3& facing, int first = -1) const;
 
     /// A triangle through whose front the straight way from one place to another goes in, -1: none.

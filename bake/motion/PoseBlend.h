@@ -51,4 +51,12 @@ private:
     double left_ = 1;
 };
 
+/// Part of the way from one motion to another. A share of 0 is the first bit for bit.
+inline Pose blendBetween(const Pose& from, const Pose& to, double share) {
+    if (share == 0 || from.matrix() == to.matrix()) return from;
+    PoseBlend blend;
+    blend.add(share, DualPose(from.inverse(Eigen::Isometry) * to));
+    return from * blend.pose();
+}
+
 } // namespace tss

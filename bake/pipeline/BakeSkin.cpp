@@ -42,6 +42,7 @@ void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, Pa
     search.stray = std::move(moves.stray);
     search.shares = std::move(moves.shares);
     search.swings = parameters.swings;
+    search.insertions = parameters.insertions;
     SkinSearchCounts counts;
     auto table = std::make_shared<SkinTable>(searchSkin(mesh, filled.searched, search, progress, &counts));
     if (counts.stopped) throw InputError("stopped before the table was complete");

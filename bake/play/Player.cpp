@@ -59,12 +59,18 @@ std::vector<double> Player::clamped(const std::vector<double>& asked) const {
     return values;
 }
 
+Pose Player::farOf(const Skin& skin, std::size_t m) {
+    const int insertion = skin.response.rig().bodies[m].insertion;
+    if (insertion < 0 || skin.poses.empty()) return Pose::Identity();
+    return between(skin.poses[m], skin.poses[static_cast<std::size_t>(insertion)]);
+}
+
 std::vector<double> Player::depths(const Skin& skin, std::span<const Vec3> positions) const {
     std::vector<double> deepest(positions.size(), 0.0);
     for (std::size_t m = 0; m < skin.muscles.size(); ++m) {
         const MuscleDeformer& deformer = *skin.muscles[m];
         if (deformer.muscle().surface.empty()) continue;
-        std::vector<Vec3> places = deformer.vertices(skin.activations[m]);
+        std::vector<Vec3> places = verticesBetween(deformer, skin.activations[m], farOf(skin, m));
         if (!skin.poses.empty())
             for (Vec3& v : places) v = skin.poses[m] * v;
         const Solid solid({std::move(places), deformer.muscle().surface.triangles});
@@ -137,7 +143,7 @@ std::vector<TriangleMesh> Player::worldMeshes() const {
             const int body = scene_.muscles[model.muscles[m]].body;
             const Pose toBody =
                 scene_.bodies[body].placement.inverse(Eigen::Isometry) * scene_.bodies[model.body].placement;
-            meshes[body].vertices = skin.muscles[m]->vertices(skin.activations[m]);
+            meshes[body].vertices = verticesBetween(*skin.muscles[m], skin.activations[m], farOf(skin, m));
             for (Vec3& v : meshes[body].vertices) v = toBody * v;
         }
     }

@@ -43,6 +43,8 @@ private:
     };
 
     std::vector<double> clamped(const std::vector<double>& asked) const;
+    /// Of the bone at a muscle's insertion against that at its origin, since rest.
+    static Pose farOf(const Skin& skin, std::size_t m);
     std::vector<double> depths(const Skin& skin, std::span<const Vec3> positions) const;
 
     const SceneModel& scene_;

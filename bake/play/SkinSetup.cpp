@@ -2,6 +2,7 @@
 
 #include "bake/base/Error.h"
 #include "bake/model/Kinematics.h"
+#include "bake/respond/MuscleShares.h"
 
 #include <algorithm>
 #include <array>
@@ -56,13 +57,17 @@ std::vector<BoneSwing> swingsOf(const SceneModel& scene, const SkinModel& skin) 
     return swings;
 }
 
-/// What each body under a skin moves with: one frame a bone.
+/// What each body under a skin moves with: one frame a bone. What only an insertion moves with carries no
+/// skin.
 std::vector<int> framesOf(const SceneModel& scene, const SkinModel& skin) {
     std::vector<int> bones, frames;
+    const std::vector<int>& joints = skin.weights.joints;
     for (const UnderSkin& under : underSkin(scene, skin)) {
+        const bool carries =
+            under.body >= 0 || std::find(joints.begin(), joints.end(), under.bone) != joints.end();
         const auto known = std::find(bones.begin(), bones.end(), under.bone);
-        frames.push_back(under.bone < 0 ? -1 : static_cast<int>(known - bones.begin()));
-        if (under.bone >= 0 && known == bones.end()) bones.push_back(under.bone);
+        frames.push_back(under.bone < 0 || !carries ? -1 : static_cast<int>(known - bones.begin()));
+        if (frames.back() >= 0 && known == bones.end()) bones.push_back(under.bone);
     }
     return frames;
 }
@@ -99,6 +104,21 @@ Muscle bone(const TriangleMesh& mesh) {
 
 } // namespace
 
+Muscle muscleOf(const SceneModel& scene, const MuscleModel& model) {
+    Muscle muscle = model.muscle;
+    muscle.spans = model.insertionBone >= 0;
+    if (!muscle.spans || model.bone < 0) return muscle;
+    const Pose toSurface = scene.bodies[model.body].placement.inverse(Eigen::Isometry);
+    const auto bone = [&](int body) {
+        TriangleMesh mesh = scene.bodies[body].mesh;
+        const Pose pose = toSurface * scene.bodies[body].placement;
+        for (Vec3& v : mesh.vertices) v = pose * v;
+        return mesh;
+    };
+    muscle.insertionShares = insertionShares(muscle.surface, bone(model.bone), bone(model.insertionBone));
+    return muscle;
+}
+
 std::vector<std::shared_ptr<const MuscleDeformer>> skinMuscles(const SceneModel& scene,
                                                                const SkinModel& skin) {
     meshOf(scene, skin);
@@ -106,7 +126,7 @@ std::vector<std::shared_ptr<const MuscleDeformer>> skinMuscles(const SceneModel&
     const Pose toSkin = scene.bodies[skin.body].placement.inverse();
     for (const UnderSkin& under : underSkin(scene, skin)) {
         const TriangleMesh empty;
-        Muscle muscle = under.muscle >= 0 ? scene.muscles[under.muscle].muscle
+        Muscle muscle = under.muscle >= 0 ? muscleOf(scene, scene.muscles[under.muscle])
                                           : bone(under.body >= 0 ? scene.bodies[under.body].mesh : empty);
         const Pose pose = under.body >= 0 ? Pose(toSkin * scene.bodies[under.body].placement) : toSkin;
         // A muscle modelled in the skin's own frame keeps its bits.
@@ -132,6 +152,7 @@ SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin) {
     parameters.bendCompliance = skin.bendCompliance;
     parameters.selfContact = skin.selfContact;
     parameters.frames = framesOf(scene, skin);
+    for (const UnderSkin& under : underSkin(scene, skin)) parameters.insertions.push_back(under.insertion);
     parameters.shares = sharesOf(scene, skin, parameters.frames);
     parameters.swings = swingsOf(scene, skin);
     parameters.tether = skin.tether;

@@ -7,6 +7,9 @@ namespace tss {
 /// From the scene's skin to what the run time and the search work with. Shared by baking, `tss play` and the
 /// node kit.
 
+/// A muscle of the scene in its surface's frame; one between two bones knows where it lies on them.
+Muscle muscleOf(const SceneModel& scene, const MuscleModel& model);
+
 /// What is below a skin, in the order of underSkin(), moved into the skin's frame as modelled; a body that
 /// only the skin's weights name has no surface. Throws InputError that names the prim.
 std::vector<std::shared_ptr<const MuscleDeformer>> skinMuscles(const SceneModel& scene,

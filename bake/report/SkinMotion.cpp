@@ -2,6 +2,7 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/geometry/Solid.h"
+#include "bake/motion/MuscleVolume.h"
 #include "bake/play/SkinSetup.h"
 #include "bake/report/Timing.h"
 #include "bake/respond/SkinResponse.h"

@@ -99,7 +99,10 @@ std::vector<std::vector<double>> frameShares(const SkinGround& ground, const Ski
     std::vector<SkinHolder> holders;
     for (int f = 0; f < count; ++f) holders.push_back(holderOf(ground, frames, f));
     const std::vector<bool> moves = movingFrames(p, frames, holders.size());
-    if (std::find(frames.begin(), frames.end(), -1) != frames.end()) {
+    bool onSkin = false; // something moves with the skin itself
+    for (std::size_t m = 0; m < frames.size(); ++m)
+        onSkin |= frames[m] < 0 && !ground.bodies[m]->muscle().surface.empty();
+    if (onSkin) {
         holders.push_back(holderOf(ground, frames, -1));
         holders.back().size = infinite;
     } else if (std::find(moves.begin(), moves.end(), false) == moves.end()) {

@@ -1,16 +1,29 @@
 #include "bake/respond/SkinFaithful.h"
 
+#include "bake/motion/PoseBlend.h"
+
+#include <algorithm>
+
 namespace tss {
 namespace {
 
 constexpr int pushRounds = 8; ///< spheres that one vertex leaves in an update, at most
 
+/// What a sphere moves with: its body, of a muscle between two bones the blend of both.
+Pose poseOf(const SkinSpheres& spheres, std::span<const Pose> poses, std::size_t s) {
+    const std::uint32_t m = spheres.body[s];
+    if (spheres.insertion[m] < 0) return poses[m];
+    return blendBetween(poses[m], poses[static_cast<std::size_t>(spheres.insertion[m])], spheres.share[s]);
+}
+
 } // namespace
 
 SkinSpheres skinSpheres(const SkinTable& table,
                         const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
-                        const std::vector<std::uint32_t>& indexOf) {
+                        std::span<const int> insertions, const std::vector<std::uint32_t>& indexOf) {
     SkinSpheres spheres;
+    spheres.insertion.assign(bodies.size(), -1);
+    std::copy(insertions.begin(), insertions.end(), spheres.insertion.begin());
     const Table& t = table.table;
     std::vector<std::vector<MusclePoint>> points(bodies.size());
     for (std::size_t b = 0; b < t.b.size(); ++b) {
@@ -18,6 +31,7 @@ SkinSpheres skinSpheres(const SkinTable& table,
         spheres.body.push_back(table.muscleOf[b]);
         spheres.at.push_back(static_cast<std::uint32_t>(own.size()));
         spheres.radius.push_back(t.b[b].radius);
+        spheres.share.push_back(bodies[table.muscleOf[b]]->insertionShare(t.b[b].centre));
         own.push_back(bodies[table.muscleOf[b]]->bind(t.b[b].centre));
     }
     for (std::size_t m = 0; m < bodies.size(); ++m) {
@@ -40,7 +54,7 @@ std::size_t pushOut(const SkinSpheres& spheres, std::span<const double> activati
     for (std::size_t s = 0; s < spheres.body.size(); ++s) {
         const MuscleTrack& track = spheres.tracks[spheres.body[s]];
         const TrackPlace at = locate(track.nodes, activations[spheres.body[s]]);
-        now.push_back({poses[spheres.body[s]] * trackPosition(track, at, spheres.at[s]),
+        now.push_back({poseOf(spheres, poses, s) * trackPosition(track, at, spheres.at[s]),
                        spheres.radius[s] * trackThickness(track, at, spheres.at[s])});
     }
     std::size_t pushed = 0;

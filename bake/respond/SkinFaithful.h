@@ -3,6 +3,7 @@
 #include "bake/table/SkinTable.h"
 
 #include <memory>
+#include <span>
 
 namespace tss {
 
@@ -19,12 +20,14 @@ struct SkinSpheres {
     std::vector<MuscleTrack> tracks;     ///< one a body
     std::vector<std::uint32_t> body, at; ///< #spheres: its body, and which point of its track it is
     std::vector<double> radius;          ///< #spheres, at activation 0
+    std::vector<int> insertion;          ///< #bodies: see SkinParameters::insertions
+    std::vector<double> share;           ///< #spheres: of the motion of the insertion's bone
 };
 
 /// indexOf: of each skin vertex among the touched ones.
 SkinSpheres skinSpheres(const SkinTable& table,
                         const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
-                        const std::vector<std::uint32_t>& indexOf);
+                        std::span<const int> insertions, const std::vector<std::uint32_t>& indexOf);
 
 /// Each skin sphere leaves the sphere that it is deepest in, until it is in none. poses: one a body, in the
 /// skin's frame. places: of the touched vertices, at rest, pushed; normals: theirs at rest. Returns how many

@@ -12,8 +12,8 @@ constexpr float giveWay = 0.003f;
 constexpr int sweepsBetween = 3, stepsBetween = 8;
 /// In sizes of the skin: the sweeps end when no place changes by more.
 constexpr float settled = 1e-5f;
-/// Of what is lacking at the planes around: how far a push may move its own place. Planes that ask for
-/// opposite things would push without bounds.
+/// Of what is lacking at the planes around: how far a push may move any place. Planes that ask for opposite
+/// things would push without bounds.
 constexpr float mostPush = 15;
 /// A step against the limits of the pushes is halved until it helps, down to this share of it.
 constexpr float leastShare = 0.1f;
@@ -73,8 +73,12 @@ void SkinPushes::couple() {
         return sum;
     };
     for (std::size_t r = self_.size(); r < count; ++r) {
-        for (std::uint32_t e = columnStart_[r]; e < columnStart_[r + 1]; ++e)
+        float peak = 0;
+        for (std::uint32_t e = columnStart_[r]; e < columnStart_[r + 1]; ++e) {
             dense_[column_[e].index] = column_[e].value;
+            peak = std::max(peak, std::abs(column_[e].value));
+        }
+        peak_.push_back(peak);
         for (std::size_t s = 0; s < r; ++s) before_.push_back(dot(s));
         self_.push_back(dot(r));
         for (std::uint32_t e = columnStart_[r]; e < columnStart_[r + 1]; ++e) dense_[column_[e].index] = 0;
@@ -98,6 +102,7 @@ void SkinPushes::clear() {
     own_.clear();
     column_.clear();
     self_.clear();
+    peak_.clear();
     before_.clear();
 }
 
@@ -115,13 +120,14 @@ void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base
         for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
             matrix_[e] = coupling_[e].value * planes[r].normal.dot(planes[coupling_[e].index].normal);
     }
-    // No push moves its own place by more than a few times what is lacking around it.
+    // No push moves any place by more than a few times what is lacking around its own, which may give way
+    // less than those beside it.
     most_.resize(count);
     for (std::size_t r = 0; r < count; ++r) {
         float asked = std::max(asked_[r], 0.0f);
         for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
             asked = std::max(asked, asked_[coupling_[e].index]);
-        most_[r] = self_[r] > 0 ? mostPush * asked / self_[r] : 0;
+        most_[r] = self_[r] > 0 ? mostPush * asked / std::max(self_[r], peak_[r]) : 0;
         planes[r].push = std::min(planes[r].push, most_[r]);
         if (planes[r].push > 0) spread(r, planes[r].push);
     }

@@ -102,7 +102,8 @@ void addTriangles(SkinRig& rig, const TriangleMesh& skin, const std::vector<std:
     for (const Vec3& x : rig.border) rig.borderPlaces.push_back(placeOf(rig, x));
 }
 
-SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, std::uint32_t first) {
+SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, int insertion,
+                std::uint32_t first) {
     const Muscle& muscle = deformer.muscle();
     SkinBody body;
     body.first = first;
@@ -111,21 +112,15 @@ SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, s
     body.across = trianglesAcross(body.triangles);
     body.nodes = activationNodes(muscle.activationLower, muscle.activationUpper, bodySteps);
     body.frame = frame;
+    body.insertion = insertion;
+    if (insertion >= 0) body.span = std::make_shared<const MuscleSpan>(deformer, rig.size);
     for (const Vec3& x : muscle.surface.vertices) body.rest.push_back(placeOf(rig, x));
     TriangleMesh mesh = muscle.surface;
     for (const double node : body.nodes) {
         mesh.vertices = deformer.vertices(node);
         for (const Vec3& x : mesh.vertices) body.places.push_back(placeOf(rig, x));
         for (const Vec3& n : vertexNormals(mesh)) body.normals.push_back(toMove(n));
-        const Move* now = body.places.data() + body.places.size() - body.count;
-        float most = 0;
-        for (const Tri& t : body.triangles)
-            for (int k = 0; k < 3; ++k) {
-                const int i = t[k], j = t[(k + 1) % 3];
-                const Move edge = body.rest[i] - body.rest[j], change = now[i] - now[j] - edge;
-                if (edge.norm() > 0) most = std::max(most, change.norm() / edge.norm());
-            }
-        body.strain.push_back(most);
+        body.strain.push_back(body.strainOf(body.places.data() + body.places.size() - body.count));
     }
     if (deformer.rigid()) {
         mesh.vertices.clear();
@@ -144,7 +139,8 @@ void addBodies(SkinRig& rig, const SkinGround& ground, const std::vector<int>& f
         first += static_cast<std::uint32_t>(ground.bodies[m]->muscle().surface.vertices.size());
     }
     parallelFor(rig.bodies.size(), [&](std::size_t m) {
-        rig.bodies[m] = bodyOf(rig, *ground.bodies[m], frames[m], rig.bodies[m].first);
+        rig.bodies[m] =
+            bodyOf(rig, *ground.bodies[m], frames[m], insertionOf(rig.parameters, m), rig.bodies[m].first);
     });
     rig.bodyVertices = first;
 }
@@ -177,6 +173,19 @@ double largestRadius(const Table& table) {
     return radius;
 }
 
+/// What a muscle between two bones swells by while these swing, on top of what its vertices move by: #V.
+void addSwelling(const MuscleDeformer& muscle, int insertion, std::size_t m,
+                 const std::vector<BoneSwing>& swings, std::vector<double>& most) {
+    if (insertion < 0) return;
+    const MuscleSpan span(muscle);
+    double swell = 0;
+    for (const BoneSwing& swing : swings)
+        for (const std::vector<Pose>& station : swing)
+            swell = std::max(swell, std::abs(span.swell(between(station[m], station[insertion]),
+                                                        muscle.muscle().surface.vertices)));
+    for (std::size_t v = 0; v < most.size(); ++v) most[v] += swell * span.swelling()[v].norm();
+}
+
 } // namespace
 
 void checkSkin(const TriangleMesh& skin, std::size_t bodies, const SkinParameters& p) {
@@ -193,6 +202,11 @@ void checkSkin(const TriangleMesh& skin, std::size_t bodies, const SkinParameter
     for (const int frame : p.frames)
         if (frame < -1 || frame >= static_cast<int>(bodies))
             throw InputError("a frame of a skin is numbered from 0 and fewer than its bodies");
+    if (!p.insertions.empty() && p.insertions.size() != bodies)
+        throw InputError("a skin needs one insertion a muscle or bone below it");
+    for (const int insertion : p.insertions)
+        if (insertion < -1 || insertion >= static_cast<int>(bodies))
+            throw InputError("the insertion of a muscle under a skin is one of the bodies below it");
     for (const std::vector<double>& list : p.shares) {
         if (list.size() != skin.vertices.size())
             throw InputError("the shares of a skin need one value a vertex");
@@ -204,6 +218,17 @@ void checkSkin(const TriangleMesh& skin, std::size_t bodies, const SkinParameter
             if (station.size() != bodies)
                 throw InputError("the swings of the bones under a skin need one pose a muscle or bone");
     if (p.iterations < 1) throw InputError("a skin needs at least one iteration");
+}
+
+float SkinBody::strainOf(const Move* now) const {
+    float most = 0;
+    for (const Tri& t : triangles)
+        for (int k = 0; k < 3; ++k) {
+            const int i = t[k], j = t[(k + 1) % 3];
+            const Move edge = rest[i] - rest[j], change = now[i] - now[j] - edge;
+            if (edge.norm() > 0) most = std::max(most, change.norm() / edge.norm());
+        }
+    return most;
 }
 
 Pose SkinRig::local(const Pose& pose) const {
@@ -261,6 +286,7 @@ SkinMoves skinMoves(const TriangleMesh& skin,
             for (std::size_t v = 0; v < most.size(); ++v)
                 most[v] = std::max(most[v], (now[v] - muscle.surface.vertices[v]).norm());
         }
+        addSwelling(*bodies[m], insertionOf(parameters, m), m, parameters.swings, most);
         for (std::size_t v = 0; v < skin.vertices.size(); ++v) {
             if (!(carriage.muscles[m][v] > 0)) continue;
             double moved = 0;
@@ -300,7 +326,7 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     addBodies(rig, ground, framesOf(ground, parameters));
     addShares(rig, carriage);
     if (parameters.faithful) {
-        rig.spheres = skinSpheres(table, bodies, indexOf);
+        rig.spheres = skinSpheres(table, bodies, parameters.insertions, indexOf);
         return result;
     }
     if (rig.rest.empty()) return result;

@@ -1,5 +1,6 @@
 #pragma once
 #include "bake/motion/BoneSwing.h"
+#include "bake/motion/MuscleSpan.h"
 #include "bake/motion/MuscleTrack.h"
 #include "bake/motion/PoseBlend.h"
 #include "bake/respond/SkinFaithful.h"
@@ -17,6 +18,9 @@ struct SkinParameters {
     /// #bodies: what each moves with, -1: with the skin itself. Bodies of one frame move together. Empty: a
     /// bone with itself alone, a muscle with the skin.
     std::vector<int> frames;
+    /// #bodies: of a muscle between two bones a body that moves with the one at its insertion, else -1; it
+    /// moves with the one at its origin. Empty: no muscle lies between two.
+    std::vector<int> insertions;
     /// #frames of #V in [0,1], the shares of frames in each vertex; empty: found from where the bones lie
     std::vector<std::vector<double>> shares;
     std::vector<BoneSwing> swings; ///< of the bodies: which of them move at all, and where skin meets what
@@ -26,6 +30,10 @@ struct SkinParameters {
     int iterations = 60; ///< most sweeps over the contacts that push, for each time they are looked up, >= 1
     bool faithful = false; ///< [paper] spheres push spheres out, no elastic sheet
 };
+
+inline int insertionOf(const SkinParameters& parameters, std::size_t body) {
+    return parameters.insertions.empty() ? -1 : parameters.insertions[body];
+}
 
 /// Run-time lengths are floats in sizes of the skin, from its middle.
 using Move = Eigen::Vector4f;
@@ -39,10 +47,14 @@ struct SkinBody {
     std::vector<Move> places, normals;  ///< #nodes blocks of #count
     std::vector<float> strain;          ///< #nodes: most that an edge has changed, of its length at rest
     int frame = -1;                     ///< that it moves with
+    int insertion = -1;                 ///< body that its far end moves with, -1: all of it moves with one
+    std::shared_ptr<const MuscleSpan> span;   ///< in run-time lengths; null where insertion is -1
     std::shared_ptr<const TriangleMesh> mesh; ///< of a bone, in run-time lengths; null: a muscle
     std::shared_ptr<const MuscleLocator> locator;
 
     bool bone() const { return mesh != nullptr; }
+    /// The most that an edge has changed, of its length at rest. now: #count places.
+    float strainOf(const Move* now) const;
 };
 
 /// A vertex of a muscle that moves a vertex of the skin by a share of its own move.

@@ -7,9 +7,28 @@ bool isIdentity(const Pose& pose) {
     return pose.matrix() == Pose::Identity().matrix();
 }
 
-void placeSurface(const SkinBody& body, double activation, SkinScene::Placed& placed, SkinScene& scene) {
-    if (placed.activation == activation) return;
+/// The far end goes with the insertion's bone, and what muscles move by swells with the belly.
+void placeFar(const SkinBody& body, const Pose& far, SkinScene::Placed& placed, SkinScene& scene) {
+    std::vector<Vec3> places(body.count), normals(body.count);
+    for (std::uint32_t v = 0; v < body.count; ++v) {
+        places[v] = scene.surface[body.first + v].head<3>().cast<double>();
+        normals[v] = scene.normals[body.first + v].head<3>().cast<double>();
+    }
+    const double swell = body.span->carry(far, places, normals);
+    for (std::uint32_t v = 0; v < body.count; ++v) {
+        scene.surface[body.first + v].head<3>() = places[v].cast<float>();
+        scene.normals[body.first + v].head<3>() = normals[v].cast<float>();
+        scene.moves[body.first + v].head<3>() += (swell * body.span->swelling()[v]).cast<float>();
+    }
+    placed.strain = std::max(placed.strain, body.strainOf(scene.surface.data() + body.first));
+}
+
+/// far: of the insertion's bone against the origin's, run-time lengths.
+void placeSurface(const SkinBody& body, double activation, const Pose& far, SkinScene::Placed& placed,
+                  SkinScene& scene) {
+    if (placed.activation == activation && placed.far.matrix() == far.matrix()) return;
     placed.activation = activation;
+    placed.far = far;
     const TrackPlace at = locate(body.nodes, activation);
     const float t = static_cast<float>(at.t);
     const std::size_t from = at.node * body.count, to = at.t == 0 ? from : from + body.count;
@@ -22,6 +41,7 @@ void placeSurface(const SkinBody& body, double activation, SkinScene::Placed& pl
     }
     placed.strain = body.strain[at.node];
     if (at.t != 0) placed.strain = std::max(placed.strain, body.strain[at.node + 1]);
+    if (!isIdentity(far)) placeFar(body, far, placed, scene);
 }
 
 /// Turns what muscles have displaced, and the normals, by the frames' shares.
@@ -64,7 +84,9 @@ void placeBodies(const SkinRig& rig, std::span<const double> activations, std::s
     for (std::size_t m = 0; m < rig.bodies.size(); ++m) {
         const SkinBody& body = rig.bodies[m];
         SkinScene::Placed& placed = scene.bodies[m];
-        placeSurface(body, activations[m], placed, scene);
+        const Pose far = body.insertion < 0 ? Pose::Identity()
+                                            : between(rig.local(poses[m]), rig.local(poses[body.insertion]));
+        placeSurface(body, activations[m], far, placed, scene);
         placed.moved = !isIdentity(poses[m]);
         if (!placed.moved) continue;
         const Pose local = rig.local(poses[m]);

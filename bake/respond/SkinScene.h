@@ -11,7 +11,8 @@ struct SkinScene {
         double activation = std::numeric_limits<double>::quiet_NaN(); ///< NaN: not placed yet
         Eigen::Matrix3f turn = Eigen::Matrix3f::Identity();           ///< body to skin
         Eigen::Vector3f shift = Eigen::Vector3f::Zero();
-        bool moved = false; ///< the two are not the identity
+        bool moved = false;          ///< the two are not the identity
+        Pose far = Pose::Identity(); ///< of a muscle's insertion against its origin, run-time lengths
         float strain = 0;
 
         Eigen::Vector3f toSkin(const Eigen::Vector3f& x) const { return moved ? turn * x + shift : x; }
@@ -23,7 +24,7 @@ struct SkinScene {
     std::vector<DualPose> frames;              ///< #frames, of those that are not still
     std::vector<bool> still;                   ///< #frames
     std::vector<Move> surface, normals, moves; ///< of the vertices of all bodies, in the bodies' rest frames;
-                                               ///< moves: since rest
+                                               ///< moves: since rest, of muscles by contraction and swelling
     std::vector<Move> base;        ///< #touched: displacement of the skin as it is carried, without contact
     std::vector<Move> skin;        ///< #touched: its places, with what contacts have added
     std::vector<Move> skinNormals; ///< #touched: those at rest, turned by the bones; empty: none has turned

@@ -10,8 +10,8 @@ namespace {
 std::set<std::string> namedBodies(const SceneReading& reading) {
     std::set<std::string> named;
     for (std::size_t i = 0; i < reading.index.entries.size(); ++i) {
-        for (const char* relationship :
-             {schema::body0, schema::body1, schema::bodies, schema::bone, schema::bones}) {
+        for (const char* relationship : {schema::body0, schema::body1, schema::bodies, schema::bone,
+                                         schema::originBone, schema::insertionBone, schema::bones}) {
             const Property* property = reading.index.entries[i].prim->property(relationship);
             if (property && property->isRelationship())
                 for (const std::string& path : listItems(*property->targetPaths)) named.insert(path);

@@ -50,11 +50,24 @@ std::vector<Vec3> readRing(const PrimReader& prim) {
     return fibre;
 }
 
+/// One bone, or one at either end.
+void readBonesOf(const SceneReading& reading, const PrimReader& prim, MuscleModel& model) {
+    const std::string one = prim.target(schema::bone), origin = prim.target(schema::originBone),
+                      insertion = prim.target(schema::insertionBone);
+    if (!one.empty() && !(origin.empty() && insertion.empty()))
+        prim.problem("expected either tss:bone or tss:originBone and tss:insertionBone, found both");
+    const char* name = one.empty() ? schema::originBone : schema::bone;
+    model.bone = reading.body(prim, name, one.empty() ? origin : one);
+    model.insertionBone = reading.body(prim, schema::insertionBone, insertion);
+    if (model.insertionBone == model.bone) model.insertionBone = -1;
+    model.muscle.spans = model.insertionBone >= 0;
+}
+
 MuscleModel readMuscle(const SceneReading& reading, const PrimReader& prim) {
     MuscleModel model;
     model.path = prim.place().path;
     model.body = readSurface(reading, prim);
-    model.bone = reading.body(prim, schema::bone, prim.target(schema::bone));
+    readBonesOf(reading, prim, model);
     Muscle& muscle = model.muscle;
     if (model.body >= 0) muscle.surface = reading.scene.bodies[model.body].mesh;
     muscle.form = readForm(prim);

@@ -111,6 +111,8 @@ inline constexpr std::pair<Attribute, double FitRecord::*> fitFigures[] = {
 // TssMuscle
 inline constexpr const char* surface = "tss:surface";
 inline constexpr const char* bone = "tss:bone";
+inline constexpr const char* originBone = "tss:originBone";
+inline constexpr const char* insertionBone = "tss:insertionBone";
 inline constexpr Attribute origin{"tss:origin", "point3f", true};
 inline constexpr Attribute insertion{"tss:insertion", "point3f", true};
 inline constexpr Attribute fibre{"tss:fibre", "point3f[]", true};

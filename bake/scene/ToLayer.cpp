@@ -54,13 +54,26 @@ const char* formText(MuscleForm form) {
     return form == MuscleForm::Ring ? "ring" : form == MuscleForm::Sheet ? "sheet" : "tube";
 }
 
+/// One bone, or one at either end; by the names that the prim has for them already.
+void writeBonesOf(PrimWriter& prim, const SceneModel& scene, const MuscleModel& model) {
+    const bool both = model.insertionBone >= 0 || prim.prim().property(schema::originBone) ||
+                      prim.prim().property(schema::insertionBone);
+    const int insertion = model.insertionBone >= 0                      ? model.insertionBone
+                          : prim.prim().property(schema::insertionBone) ? model.bone
+                                                                        : -1;
+    for (const char* name : {schema::bone, schema::originBone, schema::insertionBone}) prim.remove(name);
+    if (model.bone >= 0)
+        prim.setTargets(both ? schema::originBone : schema::bone, pathsOf(scene.bodies, {model.bone}));
+    if (insertion >= 0) prim.setTargets(schema::insertionBone, pathsOf(scene.bodies, {insertion}));
+}
+
 void writeMuscles(Layer& layer, const SceneModel& scene) {
     const Muscle plain;
     for (const MuscleModel& model : scene.muscles) {
         PrimWriter prim(makePrim(layer, model.path, "TssMuscle"));
         const Muscle& muscle = model.muscle;
         prim.setTargets(schema::surface, pathsOf(scene.bodies, {model.body}));
-        if (model.bone >= 0) prim.setTargets(schema::bone, pathsOf(scene.bodies, {model.bone}));
+        writeBonesOf(prim, scene, model);
         if (muscle.form == MuscleForm::Ring) {
             prim.set(schema::fibre, muscle.fibre);
         } else {

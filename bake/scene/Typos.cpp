@@ -14,9 +14,8 @@ namespace {
 const std::vector<std::string>& knownNames() {
     static const std::vector<std::string> names = [] {
         using namespace schema;
-        std::vector<std::string> all = {body0,    body1,    bodies,           table,
-                                        spheres0, spheres1, surface,          bone,
-                                        bones,    muscles,  "tss:originBone", "tss:insertionBone"};
+        std::vector<std::string> all = {body0,   body1, bodies, table,   spheres0,   spheres1,
+                                        surface, bone,  bones,  muscles, originBone, insertionBone};
         for (const Attribute& attribute : {localPos0,
                                            localPos1,
                                            localRot0,

@@ -24,8 +24,9 @@ double squaredDistanceToSegment(const Vec3& x, const Vec3& a, const Vec3& b) {
 /// The moving spheres of one muscle, and the skin carried by it.
 struct Reach {
     MuscleTrack spheres;
-    std::vector<double> radii; ///< #nodes blocks of #spheres
-    MuscleTrack skin;          ///< where it carries each skin vertex; no points when skin is sought at rest
+    std::vector<double> radii;  ///< #nodes blocks of #spheres
+    std::vector<double> shares; ///< #spheres: of the motion of the insertion's bone
+    MuscleTrack skin;           ///< where it carries each skin vertex; no points when skin is sought at rest
 };
 
 Reach makeReach(const SkinSearchMuscle& muscle, const TriangleMesh& skin, SkinPath path) {
@@ -33,7 +34,8 @@ Reach makeReach(const SkinSearchMuscle& muscle, const TriangleMesh& skin, SkinPa
     const std::vector<double> nodes = activationNodes(m.activationLower, m.activationUpper);
     std::vector<MusclePoint> points;
     for (const Sphere& s : muscle.spheres) points.push_back(muscle.deformer->bind(s.centre));
-    Reach reach{makeTrack(*muscle.deformer, points, nodes), {}, {}};
+    Reach reach{makeTrack(*muscle.deformer, points, nodes), {}, {}, {}};
+    for (const Sphere& s : muscle.spheres) reach.shares.push_back(muscle.deformer->insertionShare(s.centre));
     for (std::size_t i = 0; i < reach.spheres.thicknesses.size(); ++i)
         reach.radii.push_back(reach.spheres.thicknesses[i] * muscle.spheres[i % points.size()].radius);
     points.clear();
@@ -68,11 +70,16 @@ bool reaches(const Reach& reach, std::size_t j, const Vec3& rest, std::size_t v,
     return false;
 }
 
+int insertionOf(const SkinSearchOptions& options, std::size_t m) {
+    return options.insertions.empty() ? -1 : options.insertions[m];
+}
+
 /// Where a skin vertex is, seen from the bone of muscle m, at each station of each swing; rest where it does
-/// not move against it.
+/// not move against it. share: between two bones, from what the muscle moves with there.
 using SwungPaths = std::vector<std::vector<Vec3>>;
 
-SwungPaths swungPaths(const SkinSearchOptions& options, std::size_t m, const Vec3& x, std::size_t v) {
+SwungPaths swungPaths(const SkinSearchOptions& options, std::size_t m, double share, const Vec3& x,
+                      std::size_t v) {
     SwungPaths paths;
     for (const BoneSwing& swing : options.swings) {
         std::vector<Vec3> path{x};
@@ -86,7 +93,10 @@ SwungPaths swungPaths(const SkinSearchOptions& options, std::size_t m, const Vec
                     carried = true;
                 }
             const Vec3 y = carried ? blend.pose() * x : x;
-            path.push_back(station[m].inverse() * y);
+            const Pose& origin = station[m];
+            const int insertion = insertionOf(options, m);
+            path.push_back(
+                (insertion < 0 ? origin : blendBetween(origin, station[insertion], share)).inverse() * y);
             moves = moves || path.back() != x;
         }
         if (moves) paths.push_back(std::move(path));
@@ -95,6 +105,26 @@ SwungPaths swungPaths(const SkinSearchOptions& options, std::size_t m, const Vec
 }
 
 constexpr double stepSlack = 0.1; ///< of a step between stations: how far the true path may leave the chord
+
+/// Between two bones paths are seen from so many places along the muscle, each for the spheres next to it.
+constexpr int spanStops = 9;
+
+int stopOf(double share) {
+    return static_cast<int>(std::lround(share * (spanStops - 1)));
+}
+
+/// How far a vertex may be elsewhere, seen from half way to the next stop.
+double betweenStops(const SkinSearchOptions& options, std::size_t m, int stop, const Vec3& x, std::size_t v,
+                    const SwungPaths& paths) {
+    if (insertionOf(options, m) < 0 || paths.empty()) return 0;
+    const double side = stop + 1 < spanStops ? 0.5 : -0.5;
+    const SwungPaths beside = swungPaths(options, m, (stop + side) / (spanStops - 1), x, v);
+    double most = 0;
+    for (std::size_t k = 0; k < std::min(paths.size(), beside.size()); ++k)
+        for (std::size_t s = 0; s < paths[k].size(); ++s)
+            most = std::max(most, (paths[k][s] - beside[k][s]).norm());
+    return (1 + stepSlack) * most;
+}
 
 /// The same while the bones swing. carried: how far muscle j's own contraction may carry the vertex
 /// meanwhile.
@@ -136,7 +166,7 @@ Box pathBox(const Reach& reach, const Vec3& rest, std::size_t v) {
 
 std::vector<SpherePair> pairsOfMuscle(const Reach& reach, const SphereSet& spheres, const TriangleMesh& skin,
                                       const std::vector<Vec3>& normals, const std::vector<double>& radii,
-                                      const SkinSearchOptions& options, std::size_t muscle) {
+                                      const SkinSearchOptions& options, std::size_t muscle, int stop) {
     const std::span<const double> stray =
         options.stray.empty() ? std::span<const double>() : std::span<const double>(options.stray[muscle]);
     const auto near = [&](std::uint32_t v) {
@@ -151,7 +181,9 @@ std::vector<SpherePair> pairsOfMuscle(const Reach& reach, const SphereSet& spher
         boxes[v] = pathBox(reach, skin.vertices[v], v);
         carried[v] =
             std::max((boxes[v].max() - skin.vertices[v]).norm(), (boxes[v].min() - skin.vertices[v]).norm());
-        swung[v] = swungPaths(options, muscle, skin.vertices[v], v);
+        swung[v] =
+            swungPaths(options, muscle, static_cast<double>(stop) / (spanStops - 1), skin.vertices[v], v);
+        carried[v] += betweenStops(options, muscle, stop, skin.vertices[v], v, swung[v]);
         double slack = 0;
         for (const std::vector<Vec3>& path : swung[v])
             for (std::size_t s = 0; s + 1 < path.size(); ++s) {
@@ -171,6 +203,7 @@ std::vector<SpherePair> pairsOfMuscle(const Reach& reach, const SphereSet& spher
 
     std::vector<std::vector<SpherePair>> found(spheres.size());
     parallelFor(spheres.size(), [&](std::size_t j) {
+        if (insertionOf(options, muscle) >= 0 && stopOf(reach.shares[j]) != stop) return;
         const Box swept = sweptBox(reach, j);
         auto it = std::lower_bound(order.begin(), order.end(), swept.min()[0] - widest,
                                    [&](std::uint32_t v, double x) { return boxes[v].min()[0] < x; });
@@ -213,6 +246,8 @@ void checkOptions(const TriangleMesh& skin, const std::vector<SkinSearchMuscle>&
             if (list.size() != skin.vertices.size())
                 throw InputError("stray and shares of a skin need one value a vertex");
     }
+    if (!options.insertions.empty() && options.insertions.size() != muscles.size())
+        throw InputError("the search under a skin needs one insertion a muscle");
     for (const BoneSwing& swing : options.swings)
         for (const std::vector<Pose>& station : swing)
             if (station.size() != muscles.size())
@@ -251,8 +286,10 @@ SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscl
         }
         const Reach reach = makeReach(muscles[m], skin, options.path);
         const auto first = static_cast<std::uint32_t>(muscleSpheres.size());
-        for (SpherePair p : pairsOfMuscle(reach, muscles[m].spheres, skin, normals, radii, options, m))
-            pairs.push_back({p.a, p.b + first});
+        for (int stop = 0; stop < (insertionOf(options, m) < 0 ? 1 : spanStops); ++stop)
+            for (SpherePair p :
+                 pairsOfMuscle(reach, muscles[m].spheres, skin, normals, radii, options, m, stop))
+                pairs.push_back({p.a, p.b + first});
         muscleSpheres.insert(muscleSpheres.end(), muscles[m].spheres.begin(), muscles[m].spheres.end());
         muscleOf.resize(muscleSpheres.size(), static_cast<std::uint32_t>(m));
     }

@@ -28,6 +28,8 @@ struct SkinSearchOptions {
     std::vector<std::vector<double>>
         shares; ///< #muscles of #V in [0, 1]: of a bone's motion that a vertex makes; empty: none
     std::vector<BoneSwing> swings; ///< of the bones that the muscles ride on
+    std::vector<int> insertions;   ///< #muscles: of one between two bones a muscle that moves with the other
+                                   ///< bone, else -1; empty: none
     bool facingOnly =
         false; ///< leave out spheres that lie wholly outside the skin, before the vertex's normal
 };

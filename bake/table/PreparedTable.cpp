@@ -269,6 +269,7 @@ void PreparedTable::features(const double* q, TableFeatures& out) const {
 }
 
 bool PreparedTable::hitAsked(const double* q) const {
+    if (const Verdict known = verdicts_.within(q); known != Verdict::Ask) return known == Verdict::Touch;
     std::uint32_t cell = 0;
     if (!cells_.empty()) {
         cell = cells_.rowAt(q);
@@ -330,7 +331,7 @@ std::uint32_t PreparedTable::under(const TableFeatures& f, double margin, std::u
 }
 
 std::uint32_t PreparedTable::under(const double* q, double margin, std::uint32_t* out) const {
-    if (!verdicts_.empty() && verdicts_.clearance(q) > reachOf(margin)) return 0;
+    if (verdicts_.clearance(q) > reachOf(margin)) return 0;
     TableFeatures f;
     if (!cells_.empty()) {
         f.cell = cells_.rowAt(q);

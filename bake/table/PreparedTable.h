@@ -77,9 +77,7 @@ public:
 
     /// The same from the values themselves: most poses are in a cell that has the answer, without features.
     bool hit(const double* q) const {
-        if (!verdicts_.empty())
-            if (const Verdict verdict = verdicts_.verdict(q); verdict != Verdict::Ask)
-                return verdict == Verdict::Touch;
+        if (const Verdict known = verdicts_.atOnce(q); known != Verdict::Ask) return known == Verdict::Touch;
         return hitAsked(q);
     }
 

@@ -10,9 +10,10 @@ namespace tss {
 
 namespace {
 
-/// Cells for one, two and three DOFs, about: what stays in the first level of a processor's cache, and in the
-/// second for three.
-constexpr std::uint32_t mostCells[] = {512, 1u << 15, 1u << 16};
+/// Cells for one, two and three DOFs: half of what stays in the first level of a processor's cache, or all of
+/// it. So many open ones are divided, 64 bytes each, at most: 64 and 256 kB.
+constexpr std::uint32_t mostCells[] = {512, 1u << 14, 1u << 15};
+constexpr std::size_t mostDivided[] = {0, 1 << 10, 1 << 12};
 /// Tables of more tests than this would take long to load.
 constexpr std::size_t mostTests = 1 << 16;
 /// A clearance is known well enough where the cell's own motion is this share of it.
@@ -40,19 +41,21 @@ public:
 
     void make() {
         cut();
-        Piece3 limits;
-        for (std::size_t k = 0; k < grid_.dofs_; ++k) limits.size[k] = grid_.axes_[k].cells;
+        Block limits;
+        double parts = 1;
+        for (std::size_t k = 0; k < grid_.dofs_; ++k) {
+            limits.size[k] = grid_.axes_[k].cells << grid_.axes_[k].halvings;
+            parts *= limits.size[k];
+        }
         halve(limits, all_, 0);
         if (grid_.dofs_ == 1) findPieces();
-        const double cells =
-            std::accumulate(grid_.axes_.begin(), grid_.axes_.begin() + std::ptrdiff_t(grid_.dofs_), 1.0,
-                            [](double n, const Axis& axis) { return n * axis.cells; });
-        grid_.asked_ = grid_.pieces_.empty() ? asked_ / cells : 0;
+        grid_.asked_ = grid_.pieces_.empty() ? asked_ / parts : 0;
     }
 
 private:
-    struct Piece3 {
-        std::array<std::uint32_t, 3> first{}, size{1, 1, 1};
+    /// Some parts of cells.
+    struct Block {
+        Place first{}, size{1, 1, 1};
     };
 
     /// Always across the DOF that moves most within a cell.
@@ -61,15 +64,20 @@ private:
         std::array<double, 3> move{};
         for (std::size_t k = 0; k < dofs; ++k)
             move[k] = ranges_.weight(k) * (motion_.dofs[k].upper - motion_.dofs[k].lower);
-        std::array<std::uint32_t, 3> cells{1, 1, 1};
-        for (std::uint32_t count = 1; count < mostCells[dofs - 1]; count *= 2) {
+        std::array<std::uint32_t, 3> cells{1, 1, 1}, halvings{};
+        const auto halveWidest = [&] {
             const auto k =
                 static_cast<std::size_t>(std::max_element(move.begin(), move.end()) - move.begin());
             move[k] /= 2;
-            cells[k] *= 2;
             order_.push_back(k);
-        }
-        std::uint32_t stride = 1;
+            return k;
+        };
+        for (std::uint32_t count = 1; count < mostCells[dofs - 1]; count *= 2) cells[halveWidest()] *= 2;
+        cellHalvings_ = order_.size();
+        grid_.unit_ = unitOf * std::accumulate(move.begin(), move.end(), 0.0);
+        if (mostDivided[dofs - 1] > 0)
+            for (std::uint32_t i = 0; i < partHalvings; ++i) ++halvings[halveWidest()];
+        std::uint32_t stride = 1, shift = 0;
         grid_.dofs_ = dofs;
         for (std::size_t k = 0; k < dofs; ++k) {
             const Dof& dof = motion_.dofs[k];
@@ -87,9 +95,12 @@ private:
             axis.before = axis.lower - axis.width;
             axis.stride = stride;
             stride *= cells[k] + 2;
+            axis.halvings = halvings[k];
+            axis.shift = shift;
+            shift += halvings[k];
         }
-        grid_.codes_.assign(stride, askCode);
-        grid_.unit_ = unitOf * std::accumulate(move.begin(), move.end(), 0.0);
+        grid_.cells_.assign(stride, askCode);
+        if (mostDivided[dofs - 1] > 0) grid_.partsOf_.assign(stride, undivided);
     }
 
     /// The least and the most that the smallest gap can be over a box; `near` receives the tests that may
@@ -114,13 +125,13 @@ private:
         return least;
     }
 
-    void halve(const Piece3& piece, std::span<const std::uint32_t> list, std::size_t depth) {
+    void halve(const Block& block, std::span<const std::uint32_t> list, std::size_t depth) {
+        const Box box = grid_.box(block.first, block.size);
         DofValues centre{}, half{};
         double move = 0;
         for (std::size_t k = 0; k < grid_.dofs_; ++k) {
-            const Axis& axis = grid_.axes_[k];
-            centre[k] = axis.lower + axis.width * (piece.first[k] + 0.5 * piece.size[k]);
-            half[k] = 0.5 * axis.width * piece.size[k] * (1 + GapRanges::wider);
+            centre[k] = box.lower[k] + 0.5 * (box.upper[k] - box.lower[k]);
+            half[k] = 0.5 * (box.upper[k] - box.lower[k]) * (1 + GapRanges::wider);
             move += ranges_.weight(k) * half[k];
         }
         std::vector<std::uint32_t> near;
@@ -129,24 +140,55 @@ private:
         const double told =
             gap.low > 0 ? std::min(freeCode + std::floor(gap.low / grid_.unit_), mostCode) : 0;
         const bool enough = gap.low > 0 && (told == mostCode || move <= enoughOf * gap.low);
-        if (gap.high <= 0) return write(piece, touchCode);
-        if (enough || depth == order_.size()) return write(piece, static_cast<std::uint8_t>(told));
+        if (gap.high <= band_) return write(block, depth, touchCode);
+        const bool cell = depth == cellHalvings_;
+        if (enough || depth == order_.size() || (cell && (told > 0 || !divide(block.first))))
+            return write(block, depth, static_cast<std::uint8_t>(told));
         const std::size_t k = order_[depth];
-        Piece3 lower = piece, upper = piece;
-        lower.size[k] = upper.size[k] = piece.size[k] / 2;
+        Block lower = block, upper = block;
+        lower.size[k] = upper.size[k] = block.size[k] / 2;
         upper.first[k] += lower.size[k];
         halve(lower, near, depth + 1);
         halve(upper, near, depth + 1);
+        if (cell) dropUseless(block.first);
     }
 
-    void write(const Piece3& piece, std::uint8_t code) {
-        if (code == askCode) asked_ += 1;
-        std::array<std::uint32_t, 3> at{};
-        for (at[2] = 0; at[2] < piece.size[2]; ++at[2])
-            for (at[1] = 0; at[1] < piece.size[1]; ++at[1])
-                for (at[0] = 0; at[0] < piece.size[0]; ++at[0])
-                    grid_.codes_[grid_.cellOf(
-                        {piece.first[0] + at[0], piece.first[1] + at[1], piece.first[2] + at[2]})] = code;
+    /// Gives the cell parts, all open. False: there are none left.
+    bool divide(const Place& first) {
+        const std::size_t divided = grid_.parts_.size() >> partHalvings;
+        if (divided >= mostDivided[grid_.dofs_ - 1]) return false;
+        grid_.partsOf_[grid_.cellOf(first)] = static_cast<std::uint16_t>(divided);
+        grid_.parts_.resize((divided + 1) << partHalvings, askCode);
+        return true;
+    }
+
+    /// Takes the parts of the cell that was divided last away again where all of them are open.
+    void dropUseless(const Place& first) {
+        const auto begin = grid_.parts_.end() - (std::ptrdiff_t(1) << partHalvings);
+        if (std::any_of(begin, grid_.parts_.end(), [](std::uint8_t code) { return code != askCode; })) return;
+        grid_.parts_.erase(begin, grid_.parts_.end());
+        grid_.partsOf_[grid_.cellOf(first)] = undivided;
+    }
+
+    void write(const Block& block, std::size_t depth, std::uint8_t code) {
+        if (code == askCode) asked_ += double(block.size[0]) * block.size[1] * block.size[2];
+        if (depth > cellHalvings_)
+            eachOf(block, {1, 1, 1}, [&](const Place& part) {
+                grid_.parts_[(std::size_t(grid_.partsOf_[grid_.cellOf(part)]) << partHalvings) +
+                             grid_.partOf(part)] = code;
+            });
+        else
+            eachOf(block, {grid_.partsPerCell(0), grid_.partsPerCell(1), grid_.partsPerCell(2)},
+                   [&](const Place& part) { grid_.cells_[grid_.cellOf(part)] = code; });
+    }
+
+    template <class Each>
+    static void eachOf(const Block& block, const Place& step, Each each) {
+        Place at = block.first;
+        for (at[2] = block.first[2]; at[2] < block.first[2] + block.size[2]; at[2] += step[2])
+            for (at[1] = block.first[1]; at[1] < block.first[1] + block.size[1]; at[1] += step[1])
+                for (at[0] = block.first[0]; at[0] < block.first[0] + block.size[0]; at[0] += step[0])
+                    each(at);
     }
 
     /// Where contact begins and ends within the cells that say Ask.
@@ -154,7 +196,7 @@ private:
         std::vector<Piece> pieces;
         const Axis& axis = grid_.axes_[0];
         for (std::uint32_t i = 0; i < axis.cells; ++i) {
-            if (grid_.codes_[grid_.cellOf({i, 0, 0})] != askCode) continue;
+            if (grid_.cells_[grid_.cellOf({i, 0, 0})] != askCode) continue;
             const double from = axis.lower + axis.width * i, hair = axis.width * GapRanges::wider;
             add(pieces, from - hair, Verdict::Ask);
             looks_ = 0;
@@ -192,8 +234,9 @@ private:
     GapRanges ranges_;
     double band_;
     std::vector<std::uint32_t> all_;
-    std::vector<std::size_t> order_; ///< which DOF each halving cuts
-    double asked_ = 0;               ///< cells that say Ask
+    std::vector<std::size_t> order_; ///< which DOF each halving cuts, of the limits and then of a cell
+    std::size_t cellHalvings_ = 0;   ///< of the limits
+    double asked_ = 0;               ///< parts of cells that are open
     int looks_ = 0;                  ///< for pieces of one cell
 };
 
@@ -203,38 +246,59 @@ VerdictGrid::VerdictGrid(const Motion& motion, std::span<const TablePair> pairs,
     if (maker.moves()) maker.make();
 }
 
-std::uint32_t VerdictGrid::cellOf(const std::array<std::uint32_t, 3>& cell) const {
+std::uint32_t VerdictGrid::cellOf(const Place& part) const {
     std::uint32_t at = 0;
-    for (std::size_t k = 0; k < dofs_; ++k) at += (cell[k] + 1) * axes_[k].stride;
+    for (std::size_t k = 0; k < dofs_; ++k) at += ((part[k] >> axes_[k].halvings) + 1) * axes_[k].stride;
     return at;
 }
 
-Verdict VerdictGrid::pieceAt(double q) const {
+std::uint32_t VerdictGrid::partOf(const Place& part) const {
+    std::uint32_t at = 0;
+    for (std::size_t k = 0; k < dofs_; ++k) at += (part[k] & (partsPerCell(k) - 1)) << axes_[k].shift;
+    return at;
+}
+
+bool VerdictGrid::divided(const Place& part) const {
+    return !partsOf_.empty() && partsOf_[cellOf(part)] != undivided;
+}
+
+std::uint8_t VerdictGrid::codeOf(const Place& part) const {
+    const std::uint32_t cell = cellOf(part);
+    if (!divided(part)) return cells_[cell];
+    return parts_[(std::size_t(partsOf_[cell]) << partHalvings) + partOf(part)];
+}
+
+std::uint8_t VerdictGrid::codeWithin(const double* q) const {
+    std::uint32_t cell = 0, part = 0;
+    for (std::size_t k = 0; k < dofs_; ++k) {
+        const Axis& axis = axes_[k];
+        const double x = cellsInto(axis, q[k]) * partsPerCell(k); // a power of two: in the same cell again
+        const auto at = static_cast<std::uint32_t>(static_cast<std::int32_t>(x));
+        cell += (at >> axis.halvings) * axis.stride;
+        part += (at & (partsPerCell(k) - 1)) << axis.shift;
+    }
+    if (partsOf_.empty() || partsOf_[cell] == undivided) return cells_[cell];
+    return parts_[(std::size_t(partsOf_[cell]) << partHalvings) + part];
+}
+
+Verdict VerdictGrid::within(const double* q) const {
+    if (dofs_ > 1) return verdictOf(codeWithin(q));
     Verdict verdict = Verdict::Ask;
     for (const Piece& piece : pieces_) {
-        if (!(piece.from <= q)) break;
+        if (!(piece.from <= q[0])) break;
         verdict = piece.verdict;
     }
     return verdict;
 }
 
-VerdictGrid::Box VerdictGrid::box(const std::array<std::uint32_t, 3>& cell) const {
+VerdictGrid::Box VerdictGrid::box(const Place& first, const Place& size) const {
     Box found;
     for (std::size_t k = 0; k < dofs_; ++k) {
-        found.lower[k] = axes_[k].lower + axes_[k].width * cell[k];
-        found.upper[k] = axes_[k].lower + axes_[k].width * (cell[k] + 1.0);
+        const double width = axes_[k].width / partsPerCell(k);
+        found.lower[k] = axes_[k].lower + width * first[k];
+        found.upper[k] = axes_[k].lower + width * (double(first[k]) + size[k]);
     }
     return found;
-}
-
-Verdict VerdictGrid::verdictOf(const std::array<std::uint32_t, 3>& cell) const {
-    const std::uint8_t code = codes_[cellOf(cell)];
-    return code == askCode ? Verdict::Ask : code == touchCode ? Verdict::Touch : Verdict::Free;
-}
-
-double VerdictGrid::clearanceOf(const std::array<std::uint32_t, 3>& cell) const {
-    const std::uint8_t code = codes_[cellOf(cell)];
-    return code < freeCode ? 0 : (code - freeCode) * unit_;
 }
 
 } // namespace tss

@@ -79,11 +79,12 @@ Json regionOf(const RestRegion& region, const SceneModel& scene, const Pair& pai
 /// verdict.
 void addKernel(Json& json, const Table& table) {
     const PreparedTable prepared(table);
-    json["kernel"] = {{"form", name(prepared.form())},
-                      {"precision", name(prepared.precision())},
-                      {"features", prepared.featureCount()},
-                      {"condition", prepared.condition()},
-                      {"band", prepared.signBand()}};
+    json["kernel"] = {{"form", name(prepared.form())},       {"precision", name(prepared.precision())},
+                      {"features", prepared.featureCount()}, {"condition", prepared.condition()},
+                      {"band", prepared.signBand()},         {"bytes", prepared.bytes()}};
+    if (!prepared.verdicts().empty())
+        json["kernel"]["verdicts"] = {{"asked", prepared.verdicts().asked()},
+                                      {"bytes", prepared.verdicts().bytes()}};
 }
 
 /// What the meshes do where the table says contact already.
@@ -171,6 +172,18 @@ std::string butForRegion(const Json& item, double metersPerUnit) {
                        ignored ? " and are left out"
                                : ": contact where they go deeper, spheres by " +
                                      lengthText(region["depth"].get<double>(), metersPerUnit));
+}
+
+/// How the table is asked, and what a query finds by the values of the joint alone.
+std::string kernelText(const Json& kernel, double metersPerUnit) {
+    std::string text = fmt::format("  query        {} in {}, condition {:.3g}, verdicts right beyond {}\n",
+                                   kernel["form"].get<std::string>(), kernel["precision"].get<std::string>(),
+                                   kernel["condition"].get<double>(), length(kernel["band"], metersPerUnit));
+    if (kernel.contains("verdicts"))
+        text +=
+            fmt::format("  verdicts     tests are asked in {:.2g} % of the limits; {} bytes\n",
+                        100 * kernel["verdicts"]["asked"].get<double>(), kernel["verdicts"]["bytes"].dump());
+    return text;
 }
 
 } // namespace
@@ -291,11 +304,7 @@ std::string describe(const Json& scene) {
                         butForRegion(item, metersPerUnit));
                 if (item.contains("earlyContact")) text += describeEarlyContact(item, metersPerUnit);
             }
-            if (item.contains("kernel"))
-                text += fmt::format(
-                    "  query        {} in {}, condition {:.3g}, verdicts right beyond {}\n",
-                    item["kernel"]["form"].get<std::string>(), item["kernel"]["precision"].get<std::string>(),
-                    item["kernel"]["condition"].get<double>(), length(item["kernel"]["band"], metersPerUnit));
+            if (item.contains("kernel")) text += kernelText(item["kernel"], metersPerUnit);
             text += fmt::format("  made by      {}, {} bytes", item["method"].get<std::string>(),
                                 item["bytes"].dump());
             if (!item["seconds"].is_null()) text += fmt::format(", {:.2f} s", item["seconds"].get<double>());

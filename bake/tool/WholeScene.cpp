@@ -117,7 +117,6 @@ public:
         const std::string option = "--muscle " + text;
         const std::vector<std::string> parts = split(text, ',');
         MuscleModel model;
-        int to = -1;
         for (std::size_t k = 1; k < parts.size(); ++k) {
             const auto sign = parts[k].find('=');
             const std::string key = parts[k].substr(0, sign),
@@ -127,7 +126,7 @@ public:
             else if (parts[k] == "ring")
                 model.muscle.form = MuscleForm::Ring;
             else if (key == "from" || key == "to")
-                (key == "from" ? model.bone : to) = linkCalled(robot_, value, option);
+                (key == "from" ? model.bone : model.insertionBone) = linkCalled(robot_, value, option);
             else if (key == "contract")
                 model.muscle.maxContraction = parseNumber(value, option);
             else
@@ -146,11 +145,13 @@ public:
         if (!auditMesh(mesh).watertight)
             note(named.name + " is not closed; a muscle's volume is that of a closed surface");
         model.muscle.surface = mesh;
+        if (model.insertionBone == model.bone) model.insertionBone = -1;
+        model.muscle.spans = model.insertionBone >= 0;
         if (model.muscle.form == MuscleForm::Ring) {
             model.muscle.fibre = ringLine(mesh);
         } else {
             model.muscle.fibre = fibreLine(mesh);
-            orient(model, to, placement);
+            orient(model, placement);
         }
         scene_.muscles.push_back(model);
         sayMuscle(named.name, model);
@@ -205,37 +206,44 @@ private:
         return static_cast<int>(scene_.bodies.size()) - 1;
     }
 
+    /// How much nearer a muscle's points lie to the bone of its insertion than to that of its origin.
+    std::vector<double> towardsInsertion(const MuscleModel& model, const Pose& placement) const {
+        std::vector<double> nearer(model.muscle.fibre.size(), 0);
+        for (const auto& [bone, side] : {std::pair(model.bone, 1.0), std::pair(model.insertionBone, -1.0)}) {
+            if (bone < 0 || scene_.bodies[bone].mesh.empty()) continue;
+            const Pose toBone = scene_.bodies[bone].placement.inverse(Eigen::Isometry) * placement;
+            const MeshQuery query(scene_.bodies[bone].mesh);
+            for (std::size_t k = 0; k < nearer.size(); ++k)
+                nearer[k] += side * query.distance(toBone * model.muscle.fibre[k]);
+        }
+        return nearer;
+    }
+
     /// The end that stays comes first: the one nearer to its bone, or the one farther from where it goes to.
-    void orient(MuscleModel& model, int to, const Pose& placement) const {
-        std::vector<Vec3>& fibre = model.muscle.fibre;
-        const auto distance = [&](const Vec3& p, int bone) {
-            const Pose& of = scene_.bodies[bone].placement;
-            return MeshQuery(scene_.bodies[bone].mesh)
-                .distance(of.inverse(Eigen::Isometry) * (placement * p));
-        };
-        double asItIs = 0, turned = 0;
-        if (model.bone >= 0)
-            asItIs += distance(fibre.front(), model.bone), turned += distance(fibre.back(), model.bone);
-        if (to >= 0) asItIs += distance(fibre.back(), to), turned += distance(fibre.front(), to);
-        if (turned < asItIs) std::reverse(fibre.begin(), fibre.end());
+    void orient(MuscleModel& model, const Pose& placement) const {
+        const std::vector<double> nearer = towardsInsertion(model, placement);
+        if (nearer.front() > nearer.back())
+            std::reverse(model.muscle.fibre.begin(), model.muscle.fibre.end());
     }
 
     void sayMuscle(const std::string& name, const MuscleModel& model) const {
         const auto point = [](const Vec3& p) {
             return fmt::format("{:.4g},{:.4g},{:.4g}", p.x(), p.y(), p.z());
         };
+        const auto onBone = [&](int bone) {
+            return bone >= 0 ? " (on " + robot_.links[bone].name + ")" : "";
+        };
         const std::vector<Vec3>& fibre = model.muscle.fibre;
         if (model.muscle.form == MuscleForm::Ring)
             return console_.say(fmt::format("{}: a ring of {} points from {} round, narrows by {:.3g}", name,
                                             fibre.size(), point(fibre.front()), model.muscle.maxContraction));
-        console_.say(fmt::format("{}: a {} of {} points from {}{} to {}, shortens by {:.3g} of its length",
+        console_.say(fmt::format("{}: a {} of {} points from {}{} to {}{}, shortens by {:.3g} of its length",
                                  name, model.muscle.form == MuscleForm::Sheet ? "sheet" : "tube",
-                                 fibre.size(), point(fibre.front()),
-                                 model.bone >= 0 ? " (on " + robot_.links[model.bone].name + ")" : "",
-                                 point(fibre.back()), model.muscle.maxContraction));
+                                 fibre.size(), point(fibre.front()), onBone(model.bone), point(fibre.back()),
+                                 onBone(model.insertionBone), model.muscle.maxContraction));
     }
 
-    /// A muscle moves with one bone; skin on another one is pushed by what of the muscle lies there.
+    /// A muscle moves with its bones; skin on another one is pushed by what of the muscle lies there.
     void remarkMuscle(const std::string& name, const MuscleModel& model) {
         constexpr double most = 0.25; // of its vertices
         if (model.bone < 0) return;
@@ -254,7 +262,8 @@ private:
         }
         for (int k = 0; k < static_cast<int>(robot_.links.size()); ++k) {
             const auto count = static_cast<double>(std::count(whose.begin(), whose.end(), k));
-            if (k != model.bone && count > most * static_cast<double>(vertices.size()))
+            if (k != model.bone && k != model.insertionBone &&
+                count > most * static_cast<double>(vertices.size()))
                 note(
                     fmt::format("{:.0f} % of the muscle {} lie nearer to {} than to {}, which it moves with: "
                                 "where the two move against each other it pushes the skin of the other",

@@ -32,9 +32,9 @@ public:
     }
 
     std::string refute() {
-        Cells cells;
-        for (std::size_t k = 0; k < dofs_; ++k) cells.size[k] = grid_.cellCount(k);
-        std::string reason = refuteCells(cells, all_);
+        Block limits;
+        for (std::size_t k = 0; k < dofs_; ++k) limits.size[k] = grid_.cellCount(k) * grid_.partsPerCell(k);
+        std::string reason = refuteBlock(limits, all_);
         const auto& pieces = grid_.pieces();
         for (std::size_t i = 0; i + 1 < pieces.size() && reason.empty(); ++i) {
             if (pieces[i].verdict == Verdict::Ask) continue;
@@ -49,64 +49,84 @@ public:
     }
 
 private:
-    struct Cells {
-        std::array<std::uint32_t, 3> first{}, size{1, 1, 1};
-        std::uint32_t count() const { return size[0] * size[1] * size[2]; }
-    };
+    using Place = VerdictGrid::Place;
 
-    Box boxOf(const Cells& cells) const {
-        std::array<std::uint32_t, 3> last = cells.first;
-        for (std::size_t k = 0; k < dofs_; ++k) last[k] += cells.size[k] - 1;
-        const VerdictGrid::Box from = grid_.box(cells.first), to = grid_.box(last);
+    /// Some whole cells, or some parts of one.
+    struct Block {
+        Place first{}, size{1, 1, 1};
+    };
+    /// How many cells of the block lie along DOF k; less than 1 within a cell.
+    double cellsAlong(const Block& block, std::size_t k) const {
+        return double(block.size[k]) / grid_.partsPerCell(k);
+    }
+    bool withinCell(const Block& block) const {
+        for (std::size_t k = 0; k < dofs_; ++k)
+            if (cellsAlong(block, k) > 1) return false;
+        return true;
+    }
+
+    Box boxOf(const Block& block) const {
+        const VerdictGrid::Box values = grid_.box(block.first, block.size);
         Box box;
         for (std::size_t k = 0; k < dofs_; ++k) {
-            const double hair = wider * (from.upper[k] - from.lower[k]);
-            box.lower.push_back(from.lower[k] - hair);
-            box.upper.push_back(to.upper[k] + hair);
+            const double hair = wider * (values.upper[k] - values.lower[k]);
+            box.lower.push_back(values.lower[k] - hair);
+            box.upper.push_back(values.upper[k] + hair);
         }
         return box;
     }
 
-    /// What all the cells have in common: Ask where they say nothing, and nothing in common where they
+    /// What all of the block have in common: Ask where they say nothing, and nothing in common where they
     /// differ.
-    std::optional<Verdict> common(const Cells& cells, double& clearance) const {
+    std::optional<Verdict> common(const Block& block, double& clearance) const {
+        const bool cell = withinCell(block);
+        if (cell && !grid_.divided(block.first)) {
+            clearance = grid_.clearanceOf(block.first);
+            return grid_.verdictOf(block.first);
+        }
+        Place step{1, 1, 1};
+        for (std::size_t k = 0; k < dofs_ && !cell; ++k) step[k] = grid_.partsPerCell(k);
         std::optional<Verdict> all;
-        std::array<std::uint32_t, 3> at{};
+        Place at{};
         clearance = 0;
-        for (at[2] = 0; at[2] < cells.size[2]; ++at[2])
-            for (at[1] = 0; at[1] < cells.size[1]; ++at[1])
-                for (at[0] = 0; at[0] < cells.size[0]; ++at[0]) {
-                    const std::array<std::uint32_t, 3> cell{cells.first[0] + at[0], cells.first[1] + at[1],
-                                                            cells.first[2] + at[2]};
-                    const Verdict verdict = grid_.verdictOf(cell);
+        for (at[2] = 0; at[2] < block.size[2]; at[2] += step[2])
+            for (at[1] = 0; at[1] < block.size[1]; at[1] += step[1])
+                for (at[0] = 0; at[0] < block.size[0]; at[0] += step[0]) {
+                    const Place part{block.first[0] + at[0], block.first[1] + at[1], block.first[2] + at[2]};
+                    if (!cell && grid_.divided(part)) return std::nullopt;
+                    const Verdict verdict = grid_.verdictOf(part);
                     if (all && *all != verdict) return std::nullopt;
                     all = verdict;
-                    clearance = std::max(clearance, grid_.clearanceOf(cell));
+                    clearance = std::max(clearance, grid_.clearanceOf(part));
                 }
         return all;
     }
 
-    /// Many cells at once where one bound shows what all of them say.
-    std::string refuteCells(const Cells& cells, const List& list) {
+    /// Much at once where one bound shows what all of it says.
+    std::string refuteBlock(const Block& block, const List& list) {
         double clearance = 0;
-        const std::optional<Verdict> verdict = common(cells, clearance);
+        const std::optional<Verdict> verdict = common(block, clearance);
         if (verdict == Verdict::Ask) return {};
-        const Box box = boxOf(cells);
-        const bool single = cells.count() == 1;
+        const Box box = boxOf(block);
+        const bool single =
+            block.size == Place{1, 1, 1} || (withinCell(block) && !grid_.divided(block.first));
         if (verdict && holds(box, *verdict, clearance, list, single ? 0 : mostHalvings)) return {};
         if (single)
-            return fmt::format("the verdict of cell {}, {}, {} is not what the tests say", cells.first[0],
-                               cells.first[1], cells.first[2]);
+            return fmt::format("the verdict of the cell from part {}, {}, {} is not what the tests say",
+                               block.first[0], block.first[1], block.first[2]);
         const List near = nearest(box, list);
+        // Down to whole cells first.
+        const bool cell = withinCell(block);
+        const auto along = [&](std::size_t k) { return cell ? block.size[k] : cellsAlong(block, k); };
         std::size_t k = 0;
         for (std::size_t l = 1; l < dofs_; ++l)
-            if (cells.size[l] > cells.size[k]) k = l;
-        Cells lower = cells, upper = cells;
-        lower.size[k] = cells.size[k] / 2;
-        upper.size[k] = cells.size[k] - lower.size[k];
+            if (along(l) > along(k)) k = l;
+        Block lower = block, upper = block;
+        lower.size[k] = block.size[k] / 2;
+        upper.size[k] = block.size[k] - lower.size[k];
         upper.first[k] += lower.size[k];
-        std::string reason = refuteCells(lower, near);
-        return reason.empty() ? refuteCells(upper, near) : reason;
+        std::string reason = refuteBlock(lower, near);
+        return reason.empty() ? refuteBlock(upper, near) : reason;
     }
 
     /// The tests that may have the smallest gap somewhere in the box.

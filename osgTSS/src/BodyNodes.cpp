@@ -2,6 +2,7 @@
 
 #include <osg/NodeVisitor>
 #include <osg/ValueObject>
+#include <osgTSS/Convert>
 
 namespace osgTSS {
 
@@ -41,6 +42,20 @@ BodyNodes findBodyNodes(osg::Node& root) {
     FindBodyNodes visitor;
     root.accept(visitor);
     return visitor.found;
+}
+
+tss::Pose carriedSince(const osg::Matrixd& world, const osg::Matrixd& toFrame, double scale,
+                       const tss::Pose& restInverse) {
+    constexpr double rounding = 1e-12;
+    const auto now = toSimilarity(world * toFrame);
+    if (!now) return tss::Pose::Identity();
+    tss::Pose inFrame = now->pose;
+    inFrame.translation() *= scale;
+    const tss::Pose moved = inFrame * restInverse;
+    const double size = 1 + inFrame.translation().cwiseAbs().maxCoeff();
+    const bool still =
+        (moved.matrix() - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff() <= rounding * size;
+    return still ? tss::Pose::Identity() : moved;
 }
 
 } // namespace osgTSS

@@ -1,4 +1,7 @@
 #pragma once
+#include "bake/motion/Motion.h"
+
+#include <osg/Matrixd>
 #include <osg/Node>
 #include <osgTSS/SkinGeometry>
 
@@ -25,5 +28,11 @@ struct BodyNodes {
     std::map<std::string, SkinGeometry*> shapes;
 };
 BodyNodes findBodyNodes(osg::Node& root);
+
+/// How far a node has been carried since rest, in a frame; exactly nothing for less than rounding, and where
+/// there is no telling. world: of the node; toFrame: from the world; scale: from the frame's lengths to the
+/// pose's; restInverse: frame to node, at rest.
+tss::Pose carriedSince(const osg::Matrixd& world, const osg::Matrixd& toFrame, double scale,
+                       const tss::Pose& restInverse);
 
 } // namespace osgTSS

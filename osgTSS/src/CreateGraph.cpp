@@ -102,8 +102,10 @@ private:
         const tss::Body& model = _model.bodies[body];
         if (!_deforms[body]) return makeBodyNode(model);
         osg::ref_ptr<SkinGeometry> skin = makeDeformingNode(model);
-        if (_muscle[body] >= 0)
-            skin->addUpdateCallback(new MuscleCallback(&_scene, _model.muscles[_muscle[body]].path));
+        if (_muscle[body] < 0) return skin;
+        const tss::MuscleModel& muscle = _model.muscles[_muscle[body]];
+        if (muscle.insertionBone < 0) // else see install()
+            skin->addUpdateCallback(new MuscleCallback(&_scene, muscle.path));
         return skin;
     }
 

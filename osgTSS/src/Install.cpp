@@ -12,6 +12,7 @@
 #include <osgTSS/JointCallback>
 #include <osgTSS/JointTransform>
 #include <osgTSS/LimitsCallback>
+#include <osgTSS/MuscleCallback>
 #include <osgTSS/SkinCallback>
 
 #include <algorithm>
@@ -66,6 +67,7 @@ public:
             osg::ref_ptr<osg::Callback> next = callback->getNestedCallback();
             const bool ours = dynamic_cast<JointCallback*>(callback.get()) ||
                               dynamic_cast<LimitsCallback*>(callback.get()) ||
+                              (dynamic_cast<MuscleCallback*>(callback.get()) && !node.asDrawable()) ||
                               dynamic_cast<SkinCallback*>(callback.get());
             if (ours) node.removeUpdateCallback(callback);
             callback = next;

@@ -93,7 +93,7 @@ public:
         for (std::size_t k = 0; k < skin.muscles.size(); ++k) {
             const tss::MuscleModel& muscle = _model.muscles[skin.muscles[k]];
             const osg::ref_ptr<SkinGeometry> shown = put(muscle.body, _found.muscles[now.muscles[k]].body);
-            if (shown && !shown->getUpdateCallback())
+            if (shown && !shown->getUpdateCallback() && muscle.insertionBone < 0)
                 shown->addUpdateCallback(new MuscleCallback(&_scene, muscle.path));
         }
         const auto under = tss::underSkin(_model, skin), here = tss::underSkin(_found, now);
@@ -147,11 +147,15 @@ void restoreDrawables(osg::Node& root) {
     for (const osg::ref_ptr<osg::Drawable>& shown : visitor.found) replace(*shown, *replacedBy(*shown));
 }
 
-/// On the root: a skin is deformed after everything else of the scene has found its place.
+/// On the root: skins, and muscles between two bones, are deformed after everything else of the scene has
+/// found its place.
 void installSkins(osg::Node& root, Scene& scene, Installed& installed) {
     const tss::SceneModel& model = scene.getModel();
     std::unique_ptr<OwnSkins> all, active;
     const auto shapes = model.skins.empty() ? BodyNodes{} : findBodyNodes(root);
+    for (const tss::MuscleModel& muscle : model.muscles)
+        if (muscle.insertionBone >= 0)
+            addOutermost(root, *osg::ref_ptr<MuscleCallback>(new MuscleCallback(&scene, muscle.path)));
     for (std::size_t s = 0; s < model.skins.size(); ++s) {
         const tss::SkinModel& skin = model.skins[s];
         std::string why;

@@ -6,6 +6,7 @@
 #include "SoftTags.h"
 
 #include "bake/base/Error.h"
+#include "bake/motion/MuscleSpan.h"
 
 #include <osg/NodeVisitor>
 #include <osg/Notify>
@@ -15,6 +16,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace osgTSS {
 
@@ -22,6 +24,11 @@ namespace {
 
 /// A muscle as one drawable shows it.
 struct Shown {
+    osg::observer_ptr<SkinGeometry> geometry;
+    osg::observer_ptr<osg::Node> frame,
+        insertion; ///< of the surface, and of the insertion's bone; may be null
+    tss::Pose restInverse = tss::Pose::Identity(); ///< surface to that bone, at rest
+    std::optional<tss::MuscleSpan> span;
     std::shared_ptr<const tss::SceneModel> model;
     int muscle = -1;
     std::shared_ptr<const tss::MuscleDeformer> deformer; ///< null: not to be played
@@ -29,19 +36,58 @@ struct Shown {
     std::optional<DrawnVertices> drawn; ///< of a geometry that the muscle was made from; else one a vertex
     double activation = std::numeric_limits<double>::quiet_NaN();
 
-    Shown(SkinGeometry& geometry, const Scene& scene, const std::string& path) : model(scene.shareModel()) {
+    tss::Pose far = tss::Pose::Identity(); ///< of the insertion's bone since rest, in the surface's frame
+    double scale = 1;                      ///< from the frame's lengths to the surface's
+
+    Shown(osg::Node& node, const Scene& scene, const std::string& path)
+        : geometry(dynamic_cast<SkinGeometry*>(&node)), model(scene.shareModel()) {
         for (std::size_t m = 0; m < model->muscles.size(); ++m)
             if (model->muscles[m].path == path) muscle = static_cast<int>(m);
         if (muscle < 0) return;
         try {
             deformer = scene.getCache().muscle(muscle);
             mesh = deformer->muscle().surface;
-            if (!replacedBy(geometry) || !geometry.getRestGeometry()) return;
-            drawn = DrawnVertices::of(*geometry.getRestGeometry(), mesh, bodyScale(geometry),
+            if (!geometry.valid()) findNodes(node);
+            if (!geometry.valid() || !replacedBy(*geometry) || !geometry->getRestGeometry()) return;
+            drawn = DrawnVertices::of(*geometry->getRestGeometry(), mesh, bodyScale(*geometry),
                                       tss::vertexNormals(mesh));
         } catch (const tss::InputError& error) {
             OSG_WARN << "osgTSS: muscle " << path << " does not play: " << error.what() << std::endl;
         }
+    }
+
+    void findNodes(osg::Node& owner) {
+        const BodyNodes nodes = findBodyNodes(owner);
+        const tss::MuscleModel& own = model->muscles[muscle];
+        const tss::Body& body = model->bodies[own.body];
+        const auto shape = nodes.shapes.find(body.path);
+        const auto at = nodes.frames.find(body.path);
+        if (shape == nodes.shapes.end() || at == nodes.frames.end()) return;
+        geometry = shape->second;
+        frame = at->second.node;
+        scale = at->second.scale;
+        if (own.insertionBone < 0) return;
+        const tss::Body& bone = model->bodies[own.insertionBone];
+        const auto found = nodes.frames.find(bone.path);
+        if (found == nodes.frames.end()) return;
+        insertion = found->second.node;
+        restInverse = bone.placement.inverse(Eigen::Isometry) * body.placement;
+        span.emplace(*deformer);
+    }
+
+    /// Whether it looks otherwise than in the last update.
+    bool change(osg::Node& owner, double now) {
+        tss::Pose moved = tss::Pose::Identity();
+        if (span && frame.valid() && insertion.valid())
+            moved = carriedSince(insertion->getWorldMatrices(&owner).at(0),
+                                 osg::Matrixd::inverse(frame->getWorldMatrices(&owner).at(0)), scale,
+                                 restInverse);
+        if (now == activation && moved.matrix() == far.matrix()) return false;
+        activation = now;
+        far = moved;
+        mesh.vertices = deformer->vertices(activation);
+        if (span) span->carry(far, mesh.vertices);
+        return true;
     }
 };
 
@@ -73,22 +119,20 @@ MuscleCallback::MuscleCallback(const MuscleCallback& other, const osg::CopyOp& c
 
 bool MuscleCallback::run(osg::Object* object, osg::Object* data) {
     const bool result = traverse(object, data);
-    auto* geometry = dynamic_cast<SkinGeometry*>(object);
+    osg::Node* node = object ? object->asNode() : nullptr;
     osg::NodeVisitor* visitor = data ? data->asNodeVisitor() : nullptr;
-    if (!geometry || !visitor || !visitor->getFrameStamp() || !_scene) return result;
+    if (!node || !visitor || !visitor->getFrameStamp() || !_scene) return result;
     const MeasureUpdate measure(_scene->getCache().updateTime);
     Shown& shown = _states->of(
-        *geometry, [&](const Shown*) { return std::make_unique<Shown>(*geometry, *_scene, _musclePath); },
+        *node, [&](const Shown*) { return std::make_unique<Shown>(*node, *_scene, _musclePath); },
         [&](const Shown& state) { return state.model == _scene->shareModel(); });
-    if (!shown.deformer || !geometry->getVertices() ||
+    SkinGeometry* geometry = shown.geometry.get();
+    if (!shown.deformer || !geometry || !geometry->getVertices() ||
         (!shown.drawn && geometry->getVertices()->size() != shown.mesh.vertices.size()))
         return result;
     if (const auto asked = askedOf(*geometry)) _scene->setActivation(shown.muscle, *asked);
     const double time = _scene->getClock().timeCode(*visitor->getFrameStamp());
-    const double activation = _scene->getActivation(shown.muscle, time);
-    if (activation == shown.activation) return result;
-    shown.activation = activation;
-    shown.mesh.vertices = shown.deformer->vertices(activation);
+    if (!shown.change(*node, _scene->getActivation(shown.muscle, time))) return result;
     const std::vector<tss::Vec3> normals = tss::vertexNormals(shown.mesh);
     if (shown.drawn)
         shown.drawn->deform(*geometry, shown.mesh.vertices, normals);

@@ -36,7 +36,8 @@ std::shared_ptr<SharedPlan> Scene::Cache::plan(const std::vector<std::string>& p
 std::shared_ptr<const tss::MuscleDeformer> Scene::Cache::muscle(int index) {
     const std::lock_guard lock(mutex);
     std::shared_ptr<const tss::MuscleDeformer>& muscle = muscles[index];
-    if (!muscle) muscle = std::make_shared<const tss::MuscleDeformer>(model->muscles[index].muscle);
+    if (!muscle)
+        muscle = std::make_shared<const tss::MuscleDeformer>(tss::muscleOf(*model, model->muscles[index]));
     return muscle;
 }
 

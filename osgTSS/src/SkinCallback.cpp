@@ -98,24 +98,15 @@ void Played::findBones(const BodyNodes& nodes) {
     }
 }
 
-/// How far each of them has been carried since rest, in the skin's frame; exactly nothing for less than
-/// rounding.
+/// How far each of them has been carried since rest, in the skin's frame.
 void Played::pose(osg::Node& owner) {
-    constexpr double rounding = 1e-12;
     poses.assign(bones.size(), tss::Pose::Identity());
     const osg::Matrixd toSkin = osg::Matrixd::inverse(frame->getWorldMatrices(&owner).at(0));
     for (std::size_t k = 0; k < bones.size(); ++k) {
         if (!bones[k].node.valid() && !bones[k].outside) continue;
         const osg::Matrixd toOwner =
             bones[k].outside ? osg::Matrixd() : bones[k].node->getWorldMatrices(&owner).at(0);
-        const auto now = toSimilarity(toOwner * toSkin);
-        if (!now) continue;
-        tss::Pose inSkin = now->pose;
-        inSkin.translation() *= scale;
-        const tss::Pose moved = inSkin * bones[k].restInverse;
-        const double size = 1 + inSkin.translation().cwiseAbs().maxCoeff();
-        if ((moved.matrix() - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff() > rounding * size)
-            poses[k] = moved;
+        poses[k] = carriedSince(toOwner, toSkin, scale, bones[k].restInverse);
     }
 }
 

@@ -2,6 +2,7 @@
 #include "bake/base/Error.h"
 #include "bake/motion/MuscleEllipsoid.h"
 #include "bake/motion/MuscleTrack.h"
+#include "bake/motion/MuscleVolume.h"
 #include "tests/FloatTraps.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,7 @@
 #include "bake/base/Error.h"
 #include "bake/geometry/FibreLine.h"
 #include "bake/motion/MuscleDeformer.h"
+#include "bake/motion/MuscleVolume.h"
 #include "tests/FloatTraps.h"
 
 #include <catch2/catch.hpp>

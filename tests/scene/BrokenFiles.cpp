@@ -274,6 +274,8 @@ const std::vector<Broken> files = {
      "/properties/tss:activationRange/default", "expected the lower activation first"},
     {muscle, "/properties/tss:activation/timeSamples/0/1", "\"inf\"", "=", "expected a finite number"},
     {muscle, "/properties/tss:bone/targetPaths", "[\"/Scene/Gone\"]", "=", "expected the path of a prim"},
+    {muscle, "/properties/tss:insertionBone", "{\"targetPaths\": [\"/Scene/Skin\"]}", "",
+     "expected either tss:bone or tss:originBone and tss:insertionBone"},
     {skin, "/typeName", "\"Xform\"", "", "expected TssSkinAPI on a Mesh"},
     {skin, "/properties/tss:muscles/targetPaths", "[\"/Scene/A\"]", "=", "expected the path of a TssMuscle"},
     {skin, "/properties/tss:thickness/default", "-1", "=", "at least 0"},

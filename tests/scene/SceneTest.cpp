@@ -101,6 +101,24 @@ TEST_CASE("spheres that a file cannot hold exactly are not stored") {
     CHECK_THROWS_AS(layerOf(scene), std::logic_error);
 }
 
+TEST_CASE("a muscle between two bones comes back with both, by the names that it had") {
+    SceneModel scene = samples::brow();
+    scene.muscles[0].insertionBone = 0;
+    const SceneModel back = samples::fromFile(scene);
+    CHECK(back.bodies[back.muscles[0].bone].path == "/Scene/Bone");
+    REQUIRE(back.muscles[0].insertionBone == 0);
+    CHECK(back.muscles[0].muscle.spans);
+    const Layer& layer = *back.layer;
+    CHECK(writeJson(layer) == writeJson(layerOf(back)));
+
+    scene = back; // and then it moves with one again: both names stay
+    scene.muscles[0].insertionBone = -1;
+    const SceneModel one = samples::fromFile(scene);
+    CHECK(one.muscles[0].bone == back.muscles[0].bone);
+    CHECK(one.muscles[0].insertionBone == -1);
+    CHECK_FALSE(one.muscles[0].muscle.spans);
+}
+
 TEST_CASE("muscles and skins come back as they were") {
     const SceneModel scene = samples::brow();
     const SceneModel back = samples::fromFile(scene);

@@ -43,7 +43,12 @@ TEST_CASE("the dog's head of the documentation is made by one command from its m
     CHECK(scene.skins[0].muscles.size() == 11);
     REQUIRE(scene.joints.size() == 1);
     CHECK(scene.pairs.size() == 1);
-    for (const tss::MuscleModel& muscle : scene.muscles) CHECK(muscle.bone == 0);
+    int between = 0;
+    for (const tss::MuscleModel& muscle : scene.muscles) {
+        CHECK(muscle.bone == 0);
+        between += muscle.insertionBone == 1;
+    }
+    CHECK(between == 6);
 }
 
 TEST_CASE("the dog's head of the documentation is baked by one command", "[.long]") {

@@ -30,7 +30,7 @@ TEST_CASE("bodies, joints, a muscle and a skin are a scene that moves") {
     const Folder folder;
     writeLimb(folder);
     const Ran ran = runTss("make -o limb.tss " + limb +
-                               "--muscle calf.obj,from=upper,to=shank,contract=0.3 --skin hide.obj --json",
+                               "--muscle calf.obj,from=upper,contract=0.3 --skin hide.obj --json",
                            folder.path());
     INFO(ran.err);
     REQUIRE(ran.exit == 0);
@@ -59,6 +59,26 @@ TEST_CASE("bodies, joints, a muscle and a skin are a scene that moves") {
     CHECK(some.pairs.size() == 2);
     REQUIRE(some.skins[0].bones.size() == 1);
     CHECK(some.bodies[some.skins[0].bones[0]].path == "/some/shank");
+}
+
+TEST_CASE("a muscle from one body to another lies between both") {
+    const Folder folder;
+    writeLimb(folder);
+    const Ran ran = runTss("make -o limb.tss " + limb +
+                               "--muscle calf.obj,from=upper,to=shank,contract=0.3 --skin hide.obj",
+                           folder.path());
+    INFO(ran.err);
+    REQUIRE(ran.exit == 0);
+    CHECK(ran.err.find("of the muscle calf lie nearer") == std::string::npos);
+    const tss::SceneModel scene = tss::loadScene(folder / "limb.tss");
+    const tss::MuscleModel& muscle = scene.muscles.at(0);
+    CHECK(scene.bodies[muscle.bone].path == "/limb/upper");
+    REQUIRE(muscle.insertionBone >= 0);
+    CHECK(scene.bodies[muscle.insertionBone].path == "/limb/shank");
+    CHECK(muscle.muscle.spans);
+    const Ran played = runTss("play limb.tss -o limb.csv", folder.path());
+    INFO(played.err);
+    CHECK(played.exit == 0);
 }
 
 TEST_CASE("the same hinge is the same motion whichever way it is made") {

@@ -71,8 +71,24 @@ TEST_CASE("a kernel made from other spheres or another axis is refused") {
     CHECK(tried >= 4 * 20);
 }
 
+namespace {
+
+/// Whether some cell is divided.
+bool hasParts(const VerdictGrid& grid) {
+    std::array<std::uint32_t, 3> step{1, 1, 1}, end{1, 1, 1};
+    for (std::size_t k = 0; k < 3; ++k) step[k] = grid.partsPerCell(k), end[k] = grid.cellCount(k) * step[k];
+    VerdictGrid::Place at{};
+    for (at[2] = 0; at[2] < end[2]; at[2] += step[2])
+        for (at[1] = 0; at[1] < end[1]; at[1] += step[1])
+            for (at[0] = 0; at[0] < end[0]; at[0] += step[0])
+                if (grid.divided(at)) return true;
+    return false;
+}
+
+} // namespace
+
 TEST_CASE("verdicts made for other spheres are refused, and for the right ones proven") {
-    int tried = 0, pieces = 0;
+    int tried = 0, pieces = 0, divided = 0;
     for (std::uint64_t seed = 1; seed <= 30; ++seed) {
         CAPTURE(seed);
         const Table table = baked(scenes::randomScene(seed, 1 + int(seed % 3), 30, false));
@@ -81,6 +97,7 @@ TEST_CASE("verdicts made for other spheres are refused, and for the right ones p
         if (prepared.verdicts().empty()) continue;
         REQUIRE(verify::refuteVerdicts(table, prepared) == "");
         pieces += !prepared.verdicts().pieces().empty();
+        divided += hasParts(prepared.verdicts());
         double radius = 0;
         for (const Sphere& s : table.a) radius = std::max(radius, s.radius);
         Table larger = table, smaller = table;
@@ -92,6 +109,7 @@ TEST_CASE("verdicts made for other spheres are refused, and for the right ones p
     }
     CHECK(tried >= 15);
     CHECK(pieces >= 5);
+    CHECK(divided >= 5);
 }
 
 TEST_CASE("cells made for other spheres are refused, and for the right ones proven") {

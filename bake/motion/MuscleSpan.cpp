@@ -1,0 +1,106 @@
+#include "bake/motion/MuscleSpan.h"
+
+#include "bake/motion/MuscleVolume.h"
+
+#include <algorithm>
+
+namespace tss {
+namespace {
+
+bool isRest(const Pose& pose) {
+    return pose.matrix() == Pose::Identity().matrix();
+}
+
+Pose blended(double share, const DualPose& far) {
+    PoseBlend blend;
+    blend.add(share, far);
+    return blend.pose();
+}
+
+} // namespace
+
+MuscleSpan::MuscleSpan(const MuscleDeformer& muscle, double unit)
+    : triangles_(muscle.muscle().surface.triangles), shares_(muscle.insertionShares()),
+      gradients_(shares_.size(), Vec3::Zero()) {
+    const std::vector<MusclePoint>& points = muscle.surfacePoints();
+    for (std::size_t v = 0; v < points.size(); ++v)
+        swelling_.push_back(4 * shares_[v] * (1 - shares_[v]) / unit * points[v].offset);
+    // The mean of the gradients in the triangles around, by area.
+    std::vector<double> area(shares_.size(), 0);
+    for (const Tri& t : triangles_) {
+        const Vec3& a = points[t[0]].rest;
+        const Vec3 u = points[t[1]].rest - a, v = points[t[2]].rest - a, n = u.cross(v);
+        const double twice = n.norm();
+        if (!(twice > 0)) continue;
+        const Vec3 slope =
+            ((shares_[t[1]] - shares_[t[0]]) * v.cross(n) - (shares_[t[2]] - shares_[t[0]]) * u.cross(n)) /
+            twice; // by twice the area
+        for (const int corner : t) {
+            gradients_[corner] += unit * slope;
+            area[corner] += twice;
+        }
+    }
+    for (std::size_t v = 0; v < gradients_.size(); ++v)
+        if (area[v] > 0) gradients_[v] /= area[v];
+}
+
+std::vector<Pose> MuscleSpan::posesAt(const Pose& far) const {
+    const DualPose dual(far);
+    std::vector<Pose> poses;
+    poses.reserve(shares_.size());
+    for (const double share : shares_)
+        poses.push_back(share == 0 ? Pose::Identity() : share == 1 ? far : blended(share, dual));
+    return poses;
+}
+
+double MuscleSpan::swell(const std::vector<Pose>& poses, std::span<const Vec3> places) const {
+    constexpr double least = -0.9, most = 4; // what is asked beyond cannot be given by swelling
+    if (places.empty()) return 0;
+    const Vec3 middle = places.front();
+    std::vector<Vec3> now(places.size()), out(places.size());
+    const std::vector<Vec3> none(places.size(), Vec3::Zero());
+    for (std::size_t v = 0; v < places.size(); ++v) now[v] = places[v] - middle;
+    const double wanted = swollenVolume(0, now, none, triangles_)[0] / 6;
+    for (std::size_t v = 0; v < places.size(); ++v) {
+        now[v] = poses[v] * places[v] - middle;
+        out[v] = poses[v].linear() * swelling_[v];
+    }
+    return std::clamp(swellingFor(wanted, swollenVolume(wanted, now, out, triangles_), 0), least, most);
+}
+
+double MuscleSpan::swell(const Pose& far, std::span<const Vec3> places) const {
+    return isRest(far) ? 0 : swell(posesAt(far), places);
+}
+
+double MuscleSpan::carry(const Pose& far, std::span<Vec3> places, std::span<Vec3> normals) const {
+    constexpr double side = 1e-3;         // of shares to either side: what a surface is bent by
+    constexpr double leastStretch = 0.05; // of its length, for normals alone
+    if (isRest(far)) return 0;
+    const std::vector<Pose> poses = posesAt(far);
+    const double factor = swell(poses, places);
+    const DualPose dual(far);
+    for (std::size_t v = 0; v < places.size(); ++v) {
+        if (!normals.empty()) {
+            // The place moves by share and place, so its gradient is R (1 + u g^T), u along the blend.
+            Vec3& normal = normals[v];
+            if (!gradients_[v].isZero()) {
+                const Vec3 along = blended(shares_[v] + side, dual) * places[v] -
+                                   blended(shares_[v] - side, dual) * places[v];
+                const Vec3 u = poses[v].linear().transpose() * along / (2 * side);
+                normal -= gradients_[v] * (u.dot(normal) / std::max(1 + u.dot(gradients_[v]), leastStretch));
+                if (normal.squaredNorm() > 0) normal.normalize();
+            }
+            normal = poses[v].linear() * normal;
+        }
+        places[v] = poses[v] * (places[v] + factor * swelling_[v]);
+    }
+    return factor;
+}
+
+std::vector<Vec3> verticesBetween(const MuscleDeformer& muscle, double activation, const Pose& far) {
+    std::vector<Vec3> places = muscle.vertices(activation);
+    if (muscle.muscle().spans && !isRest(far)) MuscleSpan(muscle).carry(far, places);
+    return places;
+}
+
+} // namespace tss

@@ -1,0 +1,42 @@
+#pragma once
+#include "bake/motion/MuscleDeformer.h"
+#include "bake/motion/PoseBlend.h"
+
+#include <span>
+
+namespace tss {
+
+/// A muscle between two bones (METHOD 6.1): each point moves with the blend of their motions by its
+/// MuscleDeformer::insertionShare(). What that changes of the volume is made up for where it is changed: what
+/// moves with both bones swells by one factor, what moves with one of them stays as it is.
+class MuscleSpan {
+public:
+    /// unit: scene units per length of what carry() is given.
+    explicit MuscleSpan(const MuscleDeformer& muscle, double unit = 1);
+
+    /// How much it swells: the factor on swelling(). places: #V, as the muscle's activation has them,
+    /// in the frame of the origin's bone. far: the motion of the insertion's bone since rest, in that frame.
+    double swell(const Pose& far, std::span<const Vec3> places) const;
+
+    /// Moves the places, and turns their normals with them. Returns swell(). far at rest: nothing, bit for
+    /// bit.
+    double carry(const Pose& far, std::span<Vec3> places, std::span<Vec3> normals = {}) const;
+
+    /// #V: away from the fibre line or the medial surface.
+    const std::vector<Vec3>& swelling() const { return swelling_; }
+
+private:
+    std::vector<Pose> posesAt(const Pose& far) const;
+    double swell(const std::vector<Pose>& poses, std::span<const Vec3> places) const;
+
+    std::vector<Tri> triangles_;
+    std::vector<double> shares_;  ///< #V, of the insertion's bone
+    std::vector<Vec3> gradients_; ///< #V, of the shares along the surface, per length
+    std::vector<Vec3> swelling_;
+};
+
+/// The vertices of a muscle, in the frame of its origin's bone. far: see MuscleSpan::carry(); of a muscle
+/// that does not span, nothing.
+std::vector<Vec3> verticesBetween(const MuscleDeformer& muscle, double activation, const Pose& far);
+
+} // namespace tss

@@ -1,0 +1,45 @@
+#include "bake/motion/MuscleVolume.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tss {
+
+double enclosedVolume(const std::vector<Vec3>& vertices, const std::vector<Tri>& triangles) {
+    if (vertices.empty()) return 0;
+    const Vec3& o = vertices.front();
+    double sum = 0;
+    for (const Tri& t : triangles)
+        sum += (vertices[t[0]] - o).dot((vertices[t[1]] - o).cross(vertices[t[2]] - o));
+    return sum / 6;
+}
+
+std::array<double, 4> swollenVolume(double wanted, std::span<const Vec3> places,
+                                    std::span<const Vec3> swelling, const std::vector<Tri>& triangles) {
+    std::array<double, 4> c{-6 * wanted, 0, 0, 0};
+    for (const Tri& t : triangles) {
+        const Vec3 &p0 = places[t[0]], &p1 = places[t[1]], &p2 = places[t[2]];
+        const Vec3 &q0 = swelling[t[0]], &q1 = swelling[t[1]], &q2 = swelling[t[2]];
+        const Vec3 p01 = p0.cross(p1), q01 = q0.cross(q1), mixed = p0.cross(q1) + q0.cross(p1);
+        c[0] += p01.dot(p2);
+        c[1] += p01.dot(q2) + mixed.dot(p2);
+        c[2] += mixed.dot(q2) + q01.dot(p2);
+        c[3] += q01.dot(q2);
+    }
+    return c;
+}
+
+double swellingFor(double wanted, const std::array<double, 4>& c, double start) {
+    double k = start;
+    for (int i = 0; i < 30; ++i) {
+        const double f = c[0] + k * (c[1] + k * (c[2] + k * c[3]));
+        const double slope = c[1] + k * (2 * c[2] + k * 3 * c[3]);
+        if (!(std::abs(slope) > 1e-9 * wanted)) return start;
+        const double step = std::clamp(f / slope, -0.5, 0.5);
+        k -= step;
+        if (std::abs(step) <= 1e-15 * std::abs(k)) break;
+    }
+    return k;
+}
+
+} // namespace tss

@@ -1,0 +1,21 @@
+#pragma once
+#include "bake/geometry/TriangleMesh.h"
+
+#include <array>
+#include <span>
+
+namespace tss {
+
+/// The volume enclosed by a closed mesh, positive when it is outward oriented.
+double enclosedVolume(const std::vector<Vec3>& vertices, const std::vector<Tri>& triangles);
+
+/// Six times the volume of a closed mesh whose vertices are places + k swelling, less six times `wanted`: a
+/// cubic in k, c[0] + c[1] k + c[2] k^2 + c[3] k^3. Places should lie near the origin, or rounding is large.
+std::array<double, 4> swollenVolume(double wanted, std::span<const Vec3> places,
+                                    std::span<const Vec3> swelling, const std::vector<Tri>& triangles);
+
+/// The root of such a cubic next to `start`. Where the volume hardly changes with k, by less than a billionth
+/// of `wanted`, any k will do: start.
+double swellingFor(double wanted, const std::array<double, 4>& cubic, double start);
+
+} // namespace tss
