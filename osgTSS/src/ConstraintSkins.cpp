@@ -66,8 +66,8 @@ bool ConstraintVisitor::addSoft(osg::Drawable& drawable) {
             return true;
         }
         tss::MuscleModel model;
-        std::vector<std::string> skins;
-        model.muscle = parseMuscle(*muscle, skins);
+        const MuscleTag tag = parseMuscle(*muscle);
+        model.muscle = tag.muscle;
         osg::Drawable* own = replacedBy(drawable);
         if (std::string words; (own ? *own : drawable).getUserValue(activationTag, words))
             model.activation = parseActivation(words, _model.timeCodesPerSecond);
@@ -75,7 +75,7 @@ bool ConstraintVisitor::addSoft(osg::Drawable& drawable) {
         model.body = static_cast<int>(_model.bodies.size()) - 1;
         model.bone = carrier;
         model.path = freePath(drawable.getName().empty() ? "Muscle" : drawable.getName());
-        _soft->addMuscle(model, skins);
+        _soft->addMuscle(model, tag.skins, tag.to);
     } catch (const tss::InputError& error) {
         warn(std::string(skin ? "it is no skin: " : "it is no muscle: ") + error.message);
     }
