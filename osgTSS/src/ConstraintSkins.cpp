@@ -7,6 +7,7 @@
 #include "bake/base/Error.h"
 
 #include <osg/ValueObject>
+#include <osgAnimation/MorphGeometry>
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/Convert>
 
@@ -18,6 +19,8 @@ namespace {
 /// A body of a shape that changes is drawn from float vertices.
 osg::Geometry& shapeOf(osg::Drawable& drawable) {
     osg::Geometry* geometry = restGeometryOf(drawable);
+    if (dynamic_cast<osgAnimation::MorphGeometry*>(geometry))
+        throw tss::InputError("expected a shape of its own, and it has morph targets");
     if (!geometry || !dynamic_cast<osg::Vec3Array*>(geometry->getVertexArray()))
         throw tss::InputError("expected a geometry of float vertices (osg::Vec3Array)");
     return *geometry;
@@ -63,8 +66,8 @@ bool ConstraintVisitor::addSoft(osg::Drawable& drawable) {
             return true;
         }
         tss::MuscleModel model;
-        std::vector<std::string> skins;
-        model.muscle = parseMuscle(*muscle, skins);
+        const MuscleTag tag = parseMuscle(*muscle);
+        model.muscle = tag.muscle;
         osg::Drawable* own = replacedBy(drawable);
         if (std::string words; (own ? *own : drawable).getUserValue(activationTag, words))
             model.activation = parseActivation(words, _model.timeCodesPerSecond);
@@ -72,7 +75,7 @@ bool ConstraintVisitor::addSoft(osg::Drawable& drawable) {
         model.body = static_cast<int>(_model.bodies.size()) - 1;
         model.bone = carrier;
         model.path = freePath(drawable.getName().empty() ? "Muscle" : drawable.getName());
-        _soft->addMuscle(model, skins);
+        _soft->addMuscle(model, tag.skins, tag.to);
     } catch (const tss::InputError& error) {
         warn(std::string(skin ? "it is no skin: " : "it is no muscle: ") + error.message);
     }

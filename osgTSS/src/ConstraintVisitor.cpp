@@ -90,7 +90,8 @@ void ConstraintVisitor::enter(osg::Node& node, const Place& place) {
         _place.color = material->getDiffuse(osg::Material::FRONT);
     std::string group;
     if (node.getUserValue("osgTSS:collides", group)) _groups[_place.body].insert(group);
-    if (const auto skins = tagWords(node, boneTag)) _soft->addBone(_place.body, wordsOf(*skins));
+    if (const auto skins = tagWords(node, boneTag))
+        _soft->addBone(_place.body, node.getName(), wordsOf(*skins));
     traverse(node);
     _place = above;
 }

@@ -19,12 +19,6 @@ bool means(const std::vector<std::string>& names, const std::string& name) {
     return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
 }
 
-tss::MuscleModel withFibre(const tss::SceneModel& scene, tss::MuscleModel model) {
-    model.muscle.surface = scene.bodies[model.body].mesh;
-    model.muscle.fibre = tss::findFibre(scene, model);
-    return model;
-}
-
 } // namespace
 
 osg::Drawable* replacedBy(osg::Drawable& drawable) {
@@ -41,16 +35,29 @@ osg::Geometry* restGeometryOf(osg::Drawable& drawable) {
     return rig && rig->getSourceGeometry() ? rig->getSourceGeometry() : drawable.asGeometry();
 }
 
-void SoftParts::addBone(int body, std::vector<std::string> skins) {
-    _bones.push_back({body, std::move(skins)});
+void SoftParts::addBone(int body, std::string name, std::vector<std::string> skins) {
+    _bones.push_back({body, std::move(name), std::move(skins)});
 }
 
 void SoftParts::addSkin(tss::SkinModel skin, std::string name, int carrier) {
     _skins.push_back({std::move(skin), std::move(name), carrier});
 }
 
-void SoftParts::addMuscle(tss::MuscleModel muscle, std::vector<std::string> skins) {
-    _muscles.push_back({std::move(muscle), std::move(skins)});
+void SoftParts::addMuscle(tss::MuscleModel muscle, std::vector<std::string> skins, std::string to) {
+    _muscles.push_back({std::move(muscle), std::move(skins), std::move(to)});
+}
+
+tss::MuscleModel SoftParts::finished(const tss::SceneModel& scene, const Muscle& muscle) const {
+    tss::MuscleModel model = muscle.model;
+    model.muscle.surface = scene.bodies[model.body].mesh;
+    model.muscle.fibre = tss::findFibre(scene, model);
+    if (muscle.to.empty()) return model;
+    const auto bone =
+        std::find_if(_bones.begin(), _bones.end(), [&](const Bone& b) { return b.name == muscle.to; });
+    if (bone == _bones.end())
+        throw tss::InputError("no node that is tagged as a bone is called \"" + muscle.to + "\"");
+    if (bone->body != model.bone) model.insertionBone = bone->body;
+    return model;
 }
 
 /// Vertices that no bone holds move with what carries the mesh, as those do whose weights are all 0.
@@ -121,7 +128,7 @@ void SoftParts::finish(tss::SceneModel& scene, const std::function<void(const st
     std::vector<std::pair<int, const Muscle*>> muscles; ///< place in the scene
     for (const Muscle& muscle : _muscles) {
         try {
-            scene.muscles.push_back(withFibre(scene, muscle.model));
+            scene.muscles.push_back(finished(scene, muscle));
             muscles.emplace_back(static_cast<int>(scene.muscles.size()) - 1, &muscle);
         } catch (const tss::InputError& error) {
             tell(muscle.model.path + ": it is no muscle: " + error.message);

@@ -19,12 +19,13 @@ osg::Drawable* replacedBy(osg::Drawable& drawable);
 /// What a visitor meets of skins, of muscles and of the bones below them.
 class SoftParts {
 public:
-    /// A body of the model that skins lie on. skins: their names, none: all.
-    void addBone(int body, std::vector<std::string> skins);
+    /// A body of the model that skins lie on, by the node that was tagged. skins: their names, none: all.
+    void addBone(int body, std::string name, std::vector<std::string> skins);
     /// Its body is in the model, with its mesh. carrier: the body that its node is part of.
     void addSkin(tss::SkinModel skin, std::string name, int carrier);
     /// The same of a muscle, which rides on its carrier.
-    void addMuscle(tss::MuscleModel muscle, std::vector<std::string> skins);
+    /// to: the name of the bone that its insertion moves with.
+    void addMuscle(tss::MuscleModel muscle, std::vector<std::string> skins, std::string to);
 
     bool empty() const { return _skins.empty() && _muscles.empty(); }
 
@@ -46,11 +47,14 @@ private:
     struct Muscle {
         tss::MuscleModel model;
         std::vector<std::string> skins;
+        std::string to;
     };
     struct Bone {
         int body = -1;
+        std::string name;
         std::vector<std::string> skins;
     };
+    tss::MuscleModel finished(const tss::SceneModel& scene, const Muscle& muscle) const;
     std::vector<int> bonesOf(const tss::SceneModel& scene, const Skin& skin) const;
 
     std::vector<Skin> _skins;

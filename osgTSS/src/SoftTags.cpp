@@ -72,28 +72,31 @@ tss::SkinModel parseSkin(const std::string& words) {
     return skin;
 }
 
-tss::Muscle parseMuscle(const std::string& words, std::vector<std::string>& skins) {
-    tss::Muscle muscle;
+MuscleTag parseMuscle(const std::string& words) {
+    MuscleTag tag;
     for (const std::string& text : wordsOf(words)) {
         const Word word = split(text);
         if (text == "tube")
-            muscle.form = tss::MuscleForm::Tube;
+            tag.muscle.form = tss::MuscleForm::Tube;
         else if (text == "sheet")
-            muscle.form = tss::MuscleForm::Sheet;
+            tag.muscle.form = tss::MuscleForm::Sheet;
         else if (text == "ring")
-            muscle.form = tss::MuscleForm::Ring;
+            tag.muscle.form = tss::MuscleForm::Ring;
         else if (word.key == "contract")
-            muscle.maxContraction = numberOf(word, muscleTag, 0, std::nextafter(1.0, 0.0));
+            tag.muscle.maxContraction = numberOf(word, muscleTag, 0, std::nextafter(1.0, 0.0));
         else if (word.key == "anchor")
-            muscle.anchor = numberOf(word, muscleTag, 0, 1);
+            tag.muscle.anchor = numberOf(word, muscleTag, 0, 1);
         else if (word.key == "skin" && !word.value.empty())
-            skins.push_back(word.value);
+            tag.skins.push_back(word.value);
+        else if (word.key == "to" && !word.value.empty())
+            tag.to = word.value;
         else
             throw tss::InputError(std::string(muscleTag) +
-                                  ": expected tube, sheet, ring, contract=, anchor= or skin=NAME, found \"" +
+                                  ": expected tube, sheet, ring, contract=, anchor=, skin=NAME or to=NAME, "
+                                  "found \"" +
                                   text + "\"");
     }
-    return muscle;
+    return tag;
 }
 
 tss::TimeSamples parseActivation(const std::string& words, double timeCodesPerSecond) {

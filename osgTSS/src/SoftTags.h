@@ -25,9 +25,15 @@ std::vector<std::string> wordsOf(const std::string& text);
 /// muscles. Throws tss::InputError.
 tss::SkinModel parseSkin(const std::string& words);
 
-/// "sheet contract=0.15 anchor=0.5 skin=NAME": a muscle without a surface and a fibre. `skins`: the names of
-/// those that it pushes; none: all. Throws tss::InputError.
-tss::Muscle parseMuscle(const std::string& words, std::vector<std::string>& skins);
+/// A muscle as its words say: without a surface and a fibre.
+struct MuscleTag {
+    tss::Muscle muscle;
+    std::vector<std::string> skins; ///< the names of those that it pushes; none: all
+    std::string to; ///< the name of the bone that its insertion moves with; empty: as its origin
+};
+
+/// "sheet contract=0.15 anchor=0.5 skin=NAME to=NAME". Throws tss::InputError.
+MuscleTag parseMuscle(const std::string& words);
 
 /// "0:0 1:1 2:0": activations over seconds, as samples over time codes. Throws tss::InputError.
 tss::TimeSamples parseActivation(const std::string& words, double timeCodesPerSecond);

@@ -23,7 +23,8 @@ public:
     static constexpr int rings = 33, sides = 16;
     static constexpr float length = 4, radius = 0.5f;
 
-    explicit Limb(const osg::Matrixd& matrix = osg::Matrixd()) {
+    /// across: the muscle goes over the elbow to the other bone.
+    explicit Limb(const osg::Matrixd& matrix = osg::Matrixd(), bool across = false) {
         place->setMatrix(matrix);
         root->addChild(place);
         hinge->setName("Hinge");
@@ -35,13 +36,13 @@ public:
         hinge->setPutMatrix(osg::Matrixd::inverse(elbow)); // to the hinge
         hinge->setInversePutMatrix(elbow);
         hinge->setAnimationOn(false);
-        place->addChild(bone(tube(0.2f, 1.9f, 9, 8, 0.15f, false)));
-        hinge->addChild(bone(tube(2.1f, 3.8f, 9, 8, 0.15f, false)));
+        place->addChild(bone("Humerus", tube(0.2f, 1.9f, 9, 8, 0.15f, false)));
+        hinge->addChild(bone("Ulna", tube(2.1f, 3.8f, 9, 8, 0.15f, false)));
         place->addChild(hinge);
 
-        muscle = tube(0.4f, 1.6f, 13, 12, 0.0f, false);
+        muscle = tube(0.4f, across ? 2.8f : 1.6f, 13, 12, 0.0f, false);
         muscle->setName("Biceps");
-        muscle->setUserValue("osgTSS:muscle", std::string("contract=0.2"));
+        muscle->setUserValue("osgTSS:muscle", std::string(across ? "contract=0.2 to=Ulna" : "contract=0.2"));
         muscleGeode->addDrawable(muscle);
         place->addChild(muscleGeode);
 
@@ -110,8 +111,9 @@ public:
     }
 
 private:
-    osg::ref_ptr<osg::Geode> bone(const osg::ref_ptr<osg::Geometry>& shape) {
+    osg::ref_ptr<osg::Geode> bone(const char* name, const osg::ref_ptr<osg::Geometry>& shape) {
         osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+        geode->setName(name);
         geode->addDrawable(shape);
         geode->setUserValue("osgTSS:bone", true);
         return geode;

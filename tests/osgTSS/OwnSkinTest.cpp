@@ -2,6 +2,7 @@
 #include "Limb.h"
 
 #include <catch2/catch.hpp>
+#include <osgAnimation/MorphGeometry>
 #include <osgDB/ReaderWriter>
 #include <osgDB/Registry>
 #include <osgTSS/Bake>
@@ -131,6 +132,30 @@ TEST_CASE("A muscle that is told to shorten by a user value bulges the skin over
     CHECK(played.shown().getVertices()->asVector() == rest.asVector());
 }
 
+TEST_CASE("A muscle that goes to another bone is drawn from the one to the other in the same frame") {
+    Limb limb(osg::Matrixd::scale(0.5, 0.5, 0.5), true);
+    Played played(limb);
+    CHECK(played.scene->getModel().muscles.at(0).insertionBone >= 0);
+    limb.bend(40);
+    played.frame();
+    const auto* belly = dynamic_cast<const SkinGeometry*>(limb.muscleGeode->getDrawable(0));
+    REQUIRE(belly);
+    const osg::Vec3Array& now = *belly->getVertices();
+    const osg::Vec3Array& rest = verticesOf(*limb.muscle);
+    const std::size_t last = rest.size() - 1, first = last - 1; // the middles of its ends
+    CHECK((now[first] - rest[first]).length() < 0.05);
+    CHECK((now[last] - rest[last]).length() > 0.4);
+    CHECK((now[last] - turned(limb, rest[last])).length() < 0.1);
+
+    Limb other;
+    other.muscle->setUserValue("osgTSS:muscle", std::string("to=Radius"));
+    const Heard heard;
+    ConstraintVisitor visitor;
+    other.root->accept(visitor);
+    CHECK(visitor.getModel().muscles.empty());
+    CHECK(heard.times("no node that is tagged as a bone is called \"Radius\"") == 1);
+}
+
 TEST_CASE("Samples in the file move a muscle without any application") {
     Limb limb;
     limb.muscle->setUserValue("osgTSS:activation", std::string("0:0 0.5:1 1:0"));
@@ -204,6 +229,19 @@ TEST_CASE("Words that a skin does not know cost that skin, by name") {
     limb.root->accept(visitor);
     CHECK(visitor.getModel().skins.empty());
     CHECK(heard.times("Sleeve: it is no skin") == 1);
+}
+
+TEST_CASE("A mesh of morph targets stays as it is, and is told of") {
+    Limb limb;
+    osg::ref_ptr<osgAnimation::MorphGeometry> morph = new osgAnimation::MorphGeometry(*limb.skin);
+    morph->setName("Face");
+    morph->setUserValue("osgTSS:skin", true);
+    limb.place->addChild(morph);
+    const Heard heard;
+    ConstraintVisitor visitor;
+    limb.root->accept(visitor);
+    CHECK(visitor.getModel().skins.size() == 1);
+    CHECK(heard.times("Face: it is no skin: expected a shape of its own, and it has morph targets") == 1);
 }
 
 TEST_CASE("A skin whose geometry has changed since it was baked does not play, and is told of") {
