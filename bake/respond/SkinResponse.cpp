@@ -78,7 +78,7 @@ void SkinResponse::toRest() {
 }
 
 /// What a row that lacks nothing keeps until contacts have moved the skin there. Where nothing faced it, any
-/// move may change that.
+/// move may change that, but those that no look-up would notice.
 SkinResponse::Seen SkinResponse::seen(const SkinRow& row, const SkinPlane& plane) const {
     Seen seen{plane, {}, 0};
     if (plane.found()) {
@@ -94,6 +94,7 @@ SkinResponse::Seen SkinResponse::seen(const SkinRow& row, const SkinPlane& plane
         seen.plane.vertex[0] = row.vertex;
         seen.plane.weight[0] = 1;
     }
+    seen.free = std::max(seen.free, settled);
     seen.place = placeOf(scene_, seen.plane);
     return seen;
 }
@@ -102,6 +103,29 @@ bool SkinResponse::mayPush(std::uint32_t r) const {
     if (seenOf_[r] == 0) return mayMeet(*rig_, scene_, rig_->rows[r]);
     const Seen& seen = seen_[seenOf_[r] - 1];
     return (placeOf(scene_, seen.plane) - seen.place).squaredNorm() > seen.free * seen.free;
+}
+
+/// Which vertices contacts have moved from where they were carried to.
+void SkinResponse::findStirred() {
+    constexpr float still = settled * settled;
+    for (std::size_t v = 0; v < start_.size(); ++v)
+        stirred_[v] = (scene_.skin[v] - start_[v]).squaredNorm() > still;
+}
+
+/// Whether that is so of any that a row depends on.
+bool SkinResponse::stirred(std::uint32_t r) const {
+    if (lacking_[r]) return true;
+    bool any = false;
+    if (seenOf_[r] > 0) {
+        const SkinPlane& plane = seen_[seenOf_[r] - 1].plane;
+        for (int k = 0; k < plane.vertices; ++k) any = any || stirred_[plane.vertex[k]];
+        return any;
+    }
+    const SkinRow& row = rig_->rows[r];
+    if (row.meeting != SkinMeeting::BodyOnSkin) any = stirred_[row.vertex];
+    if (row.meeting != SkinMeeting::SkinOnBody)
+        for (const int corner : row.corners) any = any || stirred_[corner];
+    return any;
 }
 
 /// Where a plane is found for the choice of the deepest: the node that bears most on it, and what meets.
@@ -139,6 +163,8 @@ void SkinResponse::resist() {
     pushes_.clear();
     residual_ = 0;
     contacts_ = 0;
+    stirred_.resize(start_.size());
+    lacking_.assign(rig_->rows.size(), 0);
     for (int round = 0; round < lookUps; ++round) {
         bool open = false;
         for (std::uint32_t r = 0; r < rig_->rows.size(); ++r) {
@@ -149,9 +175,10 @@ void SkinResponse::resist() {
                 open = open || plane.gap < -settled;
                 continue;
             }
-            if (!mayPush(r)) continue;
+            if ((round > 0 && !stirred(r)) || !mayPush(r)) continue;
             const SkinPlane plane = lookUp(*rig_, scene_, row);
-            if (!plane.found() || !(plane.gap < 0)) {
+            lacking_[r] = plane.found() && plane.gap < 0;
+            if (!lacking_[r]) {
                 if (seenOf_[r] == 0) {
                     seenRows_.push_back(r);
                     seenOf_[r] = static_cast<std::uint32_t>(seenRows_.size());
@@ -169,6 +196,7 @@ void SkinResponse::resist() {
             rig_->size * static_cast<double>(pushes_.solve(planes_, start_, rig_->parameters.iterations));
         scene_.skin = start_;
         contacts_ = pushes_.apply(planes_, scene_.skin);
+        findStirred();
     }
 }
 

@@ -58,6 +58,8 @@ private:
     std::uint64_t placeOfChoice(const SkinRow& row, const SkinPlane& plane) const;
     Seen seen(const SkinRow& row, const SkinPlane& plane) const;
     bool mayPush(std::uint32_t r) const;
+    void findStirred();
+    bool stirred(std::uint32_t r) const;
     void toRest();
     void addDeepest();
     void resist();
@@ -74,6 +76,8 @@ private:
     std::vector<std::uint32_t> seenRows_; ///< of seen_
     std::vector<std::uint32_t> seenOf_;   ///< #rows: 1 + its place in seen_, 0: none
     std::vector<Move> start_;             ///< the skin as it is carried
+    std::vector<char> stirred_;           ///< #touched: contacts have moved it
+    std::vector<char> lacking_;           ///< #rows: when last looked up, another one was chosen
     std::vector<Vec3> positions_, normals_;
     std::vector<Move> normalSums_;
     std::vector<double> activations_;
