@@ -254,11 +254,15 @@ void PreparedTable::makeCells(CellUse use) {
 template <class T>
 void PreparedTable::fillClusters() {
     const double u = float_ ? floatRoundoff : 8 * doubleRoundoff;
-    const Bands bands = directBands(u, clusters_.bounds());
-    clusterBand_ = std::max(bands.sign, bands.gap);
-    const Widened bounds{clusters_.bounds(), bands.widening};
-    fill<T>(bounds, kernels_.lanes, {}, clusterStore_, clusterData_);
-    fill<T>(bounds, 1, {}, clusterRowStore_, clusterRows_);
+    const auto fillBounds = [&](std::span<const TablePair> pairs, std::vector<Chunk>& store, KernelData& data,
+                                std::vector<Chunk>& rowStore, KernelData& rows) {
+        const Bands bands = directBands(u, pairs);
+        clusterBand_ = std::max({clusterBand_, bands.sign, bands.gap});
+        fill<T>({pairs, bands.widening}, kernels_.lanes, {}, store, data);
+        fill<T>({pairs, bands.widening}, 1, {}, rowStore, rows);
+    };
+    fillBounds(clusters_.bounds(), clusterStore_, clusterData_, clusterRowStore_, clusterRows_);
+    fillBounds(clusters_.groups(), groupStore_, groupData_, groupRowStore_, groupRows_);
 }
 
 template <class T>
@@ -280,7 +284,8 @@ void PreparedTable::prepareKernels(CellUse use) {
 }
 
 std::size_t PreparedTable::bytes() const {
-    return (blocks_.size() + clusterStore_.size()) * sizeof(Chunk) + cells_.bytes() + verdicts_.bytes();
+    return (blocks_.size() + clusterStore_.size() + groupStore_.size()) * sizeof(Chunk) + cells_.bytes() +
+           verdicts_.bytes();
 }
 
 void PreparedTable::features(const double* q, TableFeatures& out) const {

@@ -143,10 +143,12 @@ public:
     const std::optional<Fold>& fold() const { return fold_; } ///< nothing for the direct form
     const KernelData& rows() const { return rows_; }          ///< one pair after the other
     const KernelData& blocks() const { return data_; }        ///< the same in blocks of lanes()
-    const KernelData& clusterRows() const {
-        return clusterRows_;
-    } ///< bounds of clusters, one after the other
-    const KernelData& clusterBlocks() const { return clusterData_; } ///< the same in blocks of lanes()
+    /// Bounds of clusters and of groups of clusters, one after the other and in blocks of lanes().
+    struct BoundRows {
+        const KernelData &rows, &blocks;
+    };
+    BoundRows clusterBounds() const { return {clusterRows_, clusterData_}; }
+    BoundRows groupBounds() const { return {groupRows_, groupData_}; }
     std::uint32_t lanes() const { return kernels_.lanes; }
     const Vec3& originA() const { return originA_; }
     const Vec3& originB() const { return originB_; }
@@ -171,7 +173,14 @@ private:
                    : kernels_.gapNear(data_, f.doubles, cells_.under(f.cell, reached));
     }
     bool hitAsked(const double* q) const;
-    KernelData blocksOf(std::uint32_t cluster) const;
+    /// Some whole blocks of rows.
+    KernelData blocksOf(const KernelData& data, std::size_t rowsEach, std::uint32_t part) const;
+    KernelData clustersOf(std::uint32_t group) const;
+    KernelData testsOf(std::uint32_t cluster) const;
+    /// Calls take(cluster) for each that may have a test under the margin, until it returns true. The margin
+    /// may become smaller in between.
+    template <class Take>
+    void eachNearCluster(const TableFeatures& f, const double& margin, Take take) const;
     bool hitInClusters(const TableFeatures& f) const;
     KernelGap nearestInClusters(const TableFeatures& f) const;
     std::uint32_t underInClusters(const TableFeatures& f, double margin, double wide,
@@ -217,9 +226,9 @@ private:
     std::size_t room_ = 0;
 
     // A vector's storage stays where it is when the table is moved, so the data may point into it.
-    std::vector<Chunk> blocks_, rowStore_, clusterStore_, clusterRowStore_;
+    std::vector<Chunk> blocks_, rowStore_, clusterStore_, clusterRowStore_, groupStore_, groupRowStore_;
     KernelSet kernels_;
-    KernelData data_, rows_, clusterData_, clusterRows_;
+    KernelData data_, rows_, clusterData_, clusterRows_, groupData_, groupRows_;
     TableCells cells_;
     TableClusters clusters_;
     double clusterBand_ = 0; ///< what rounding may do to the gap of a cluster's bound

@@ -1,7 +1,6 @@
 #include "bake/table/TableClusters.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -33,20 +32,22 @@ Bounds boundsOf(std::span<const TablePair> pairs, std::span<const std::uint32_t>
     return bounds;
 }
 
-/// Halves the tests where they are spread most, into whole clusters.
-void sortIntoClusters(std::span<const TablePair> pairs, std::span<std::uint32_t> tests, std::size_t each) {
-    if (tests.size() <= each) return;
+/// Halves the tests where they are spread most, into whole groups and then into whole clusters.
+void sortIntoClusters(std::span<const TablePair> pairs, std::span<std::uint32_t> tests, std::size_t cluster,
+                      std::size_t group) {
+    if (tests.size() <= cluster) return;
     const Bounds bounds = boundsOf(pairs, tests);
     Eigen::Index k = 0;
     (bounds.upper - bounds.lower).maxCoeff(&k);
-    const std::size_t clusters = (tests.size() + each - 1) / each, half = clusters / 2 * each;
+    const std::size_t unit = tests.size() > group ? group : cluster;
+    const std::size_t half = (tests.size() + unit - 1) / unit / 2 * unit;
     const auto along = [&](std::uint32_t test) { return k < 3 ? pairs[test].a[k] : pairs[test].b[k - 3]; };
     std::nth_element(tests.begin(), tests.begin() + std::ptrdiff_t(half), tests.end(),
                      [&](std::uint32_t x, std::uint32_t y) {
                          return along(x) < along(y) || (along(x) == along(y) && x < y);
                      });
-    sortIntoClusters(pairs, tests.first(half), each);
-    sortIntoClusters(pairs, tests.subspan(half), each);
+    sortIntoClusters(pairs, tests.first(half), cluster, group);
+    sortIntoClusters(pairs, tests.subspan(half), cluster, group);
 }
 
 TablePair boundOf(std::span<const TablePair> pairs, std::span<const std::uint32_t> tests) {
@@ -67,19 +68,29 @@ TablePair boundOf(std::span<const TablePair> pairs, std::span<const std::uint32_
     return bound;
 }
 
+std::vector<TablePair> boundsOfEach(std::span<const TablePair> pairs, std::span<const std::uint32_t> order,
+                                    std::size_t each) {
+    std::vector<TablePair> bounds;
+    for (std::size_t first = 0; first < order.size(); first += each)
+        bounds.push_back(boundOf(pairs, order.subspan(first, std::min(each, order.size() - first))));
+    return bounds;
+}
+
 } // namespace
 
 TableClusters::TableClusters(std::span<const TablePair> pairs, std::uint32_t lanes) {
-    const double blocks = std::ceil(double(pairs.size()) / lanes);
-    // A query looks at all bounds, and then into few clusters.
-    const double each = std::max(std::ceil(blocks / most), std::ceil(std::sqrt(blocks) / 8));
-    testsEach_ = std::size_t(each) * lanes;
+    const std::size_t blocks = (pairs.size() + lanes - 1) / lanes;
+    // One block would be bounded best, but to ask a cluster takes as long as some blocks.
+    constexpr std::size_t fewBlocks = 3;
+    testsEach_ = std::max((blocks + most - 1) / most, fewBlocks) * lanes;
+    clustersEach_ = std::size_t((mostOfGroup + lanes - 1) / lanes) * lanes;
     order_.resize(pairs.size());
     std::iota(order_.begin(), order_.end(), 0u);
-    sortIntoClusters(pairs, order_, testsEach_);
-    for (std::size_t first = 0; first < order_.size(); first += testsEach_)
-        bounds_.push_back(boundOf(pairs, std::span<const std::uint32_t>(order_).subspan(
-                                             first, std::min(testsEach_, order_.size() - first))));
+    sortIntoClusters(pairs, order_, testsEach_, testsEach_ * clustersEach_);
+    bounds_ = boundsOfEach(pairs, order_, testsEach_);
+    std::vector<std::uint32_t> clusters(bounds_.size());
+    std::iota(clusters.begin(), clusters.end(), 0u);
+    groups_ = boundsOfEach(bounds_, clusters, clustersEach_);
 }
 
 } // namespace tss

@@ -7,13 +7,15 @@
 
 namespace tss {
 
-/// The tests of a large table in clusters of equally many whole blocks, those together whose spheres lie near
-/// one another in both bodies (METHOD 4). A cluster is bounded by one pair of spheres: where these two are
-/// apart by some margin all of its tests are. For tables over many DOFs, whose limits are too wide for cells.
+/// The tests of a large table in clusters of equally many whole blocks, those together whose spheres lie
+/// near one another in both bodies, and clusters in groups (METHOD 4). Each is bounded by one pair of
+/// spheres: where these two are apart by some margin all of its tests are. For tables over many DOFs, whose
+/// limits are too wide for cells.
 class TableClusters {
 public:
-    /// At most so many, so that a query can list them without allocating.
-    static constexpr std::uint32_t most = 1024;
+    /// At most so many clusters, and so many in a group unless a vector has more lanes: a query lists groups,
+    /// and the clusters of one, without allocating.
+    static constexpr std::uint32_t most = 4096, mostOfGroup = 16;
 
     TableClusters() = default;
     TableClusters(std::span<const TablePair> pairs, std::uint32_t lanes);
@@ -29,10 +31,14 @@ public:
     /// nearer to its own reach than those of the bound to this one.
     std::span<const TablePair> bounds() const { return bounds_; }
 
+    /// Group g is the clusters from g * clustersEach() on, whole blocks of them too; bounded likewise.
+    std::size_t clustersEach() const { return clustersEach_; }
+    std::span<const TablePair> groups() const { return groups_; }
+
 private:
     std::vector<std::uint32_t> order_;
-    std::vector<TablePair> bounds_;
-    std::size_t testsEach_ = 0;
+    std::vector<TablePair> bounds_, groups_;
+    std::size_t testsEach_ = 0, clustersEach_ = 0;
 };
 
 } // namespace tss

@@ -9,51 +9,75 @@ namespace tss {
 
 namespace {
 
-/// Room for the numbers of all clusters, to the end of the last vector.
-using ClusterList = std::array<std::uint32_t, TableClusters::most + 64>;
+/// Room for the numbers of all groups, or of the clusters of one, to the end of the last vector.
+constexpr std::size_t mostLanes = 64;
+using GroupList = std::array<std::uint32_t, TableClusters::most / TableClusters::mostOfGroup + mostLanes>;
+using ClusterList = std::array<std::uint32_t, TableClusters::mostOfGroup + mostLanes>;
 
 } // namespace
 
-KernelData PreparedTable::blocksOf(std::uint32_t cluster) const {
+KernelData PreparedTable::blocksOf(const KernelData& data, std::size_t rowsEach, std::uint32_t part) const {
     const std::size_t number = float_ ? sizeof(float) : sizeof(double);
-    const std::size_t step = clusters_.testsEach() * directColumns * number;
-    const auto* begin = static_cast<const std::byte*>(data_.blocks) + cluster * step;
-    const auto* end = static_cast<const std::byte*>(data_.end);
-    return {begin, static_cast<std::size_t>(end - begin) > step ? begin + step : end, data_.columns};
+    const std::size_t step = rowsEach * directColumns * number;
+    const auto* begin = static_cast<const std::byte*>(data.blocks) + part * step;
+    const auto* end = static_cast<const std::byte*>(data.end);
+    return {begin, static_cast<std::size_t>(end - begin) > step ? begin + step : end, data.columns};
+}
+
+KernelData PreparedTable::clustersOf(std::uint32_t group) const {
+    return blocksOf(clusterData_, clusters_.clustersEach(), group);
+}
+
+KernelData PreparedTable::testsOf(std::uint32_t cluster) const {
+    return blocksOf(data_, clusters_.testsEach(), cluster);
+}
+
+template <class Take>
+void PreparedTable::eachNearCluster(const TableFeatures& f, const double& margin, Take take) const {
+    GroupList groups;
+    ClusterList clusters;
+    const std::uint32_t count = kernels_.under(groupData_, f.doubles, margin, groups.data());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t near = kernels_.under(clustersOf(groups[i]), f.doubles, margin, clusters.data());
+        for (std::uint32_t k = 0; k < near; ++k)
+            if (take(clusters[k])) return;
+    }
 }
 
 bool PreparedTable::hitInClusters(const TableFeatures& f) const {
-    ClusterList near;
-    const std::uint32_t count = kernels_.under(clusterData_, f.doubles, 0, near.data());
-    for (std::uint32_t i = 0; i < count; ++i)
-        if (kernels_.hit(blocksOf(near[i]), f.doubles)) return true;
-    return false;
+    bool hit = false;
+    eachNearCluster(f, 0,
+                    [&](std::uint32_t cluster) { return hit = kernels_.hit(testsOf(cluster), f.doubles); });
+    return hit;
 }
 
 KernelGap PreparedTable::nearestInClusters(const TableFeatures& f) const {
-    const KernelGap first = kernels_.gap(clusterData_, f.doubles);
-    // Of a pose that is not a number no cluster is the nearest.
-    if (first.test < 0) return kernels_.gap(data_, f.doubles);
-    KernelGap least = kernels_.gap(blocksOf(static_cast<std::uint32_t>(first.test)), f.doubles);
-    ClusterList near;
-    const std::uint32_t count =
-        kernels_.under(clusterData_, f.doubles, clusterReachOf(std::max(0.0, least.gap)), near.data());
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (near[i] == static_cast<std::uint32_t>(first.test)) continue;
-        const KernelGap other = kernels_.gap(blocksOf(near[i]), f.doubles);
-        if (other.gap < least.gap) least = other;
-    }
+    const std::int32_t group = kernels_.gap(groupData_, f.doubles).test;
+    // Of a pose that is not a number none is the nearest.
+    if (group < 0) return kernels_.gap(data_, f.doubles);
+    const auto first = static_cast<std::uint32_t>(
+        kernels_.gap(clustersOf(static_cast<std::uint32_t>(group)), f.doubles).test);
+    KernelGap least = kernels_.gap(testsOf(first), f.doubles);
+    double margin = clusterReachOf(std::max(0.0, least.gap));
+    eachNearCluster(f, margin, [&](std::uint32_t cluster) {
+        if (cluster == first) return false;
+        const KernelGap other = kernels_.gap(testsOf(cluster), f.doubles);
+        if (other.gap < least.gap) {
+            least = other;
+            margin = clusterReachOf(std::max(0.0, least.gap));
+        }
+        return false;
+    });
     return least;
 }
 
 std::uint32_t PreparedTable::underInClusters(const TableFeatures& f, double margin, double wide,
                                              std::uint32_t* out) const {
-    ClusterList near;
-    const std::uint32_t clusters =
-        kernels_.under(clusterData_, f.doubles, clusterReachOf(margin), near.data());
     std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < clusters; ++i)
-        count += kernels_.under(blocksOf(near[i]), f.doubles, wide, out + count);
+    eachNearCluster(f, clusterReachOf(margin), [&](std::uint32_t cluster) {
+        count += kernels_.under(testsOf(cluster), f.doubles, wide, out + count);
+        return false;
+    });
     return count;
 }
 

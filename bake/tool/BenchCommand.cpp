@@ -16,7 +16,11 @@ struct BenchArguments {
     std::uint64_t queries = 10'000'000;
 };
 
-std::string cellText(const TableCells& cells) {
+std::string cellText(const PreparedTable& table) {
+    const TableCells& cells = table.cells();
+    if (!table.clusters().empty())
+        return fmt::format("; {} clusters in {} groups", table.clusters().count(),
+                           table.clusters().groups().size());
     if (cells.empty()) return "";
     return fmt::format("; {} cells, in which it looks at {:.2g} % of the tests", cells.rowCount() - 1,
                        100 * cells.looked());
@@ -40,7 +44,7 @@ void runBench(const BenchArguments& arguments, const Console& console) {
     const char* precision = table.precision() == KernelPrecision::Float ? "float" : "double";
     console.say(fmt::format("{}: {}, {} bytes; {} {} of {} features, {}{}", pair.path,
                             counted(table.testCount(), "test"), table.bytes(), precision, form,
-                            table.featureCount(), name(table.target()), cellText(table.cells())));
+                            table.featureCount(), name(table.target()), cellText(table)));
     console.say(fmt::format("{} queries ({}): {:.2f} ns each, features of a pose {:.2f} ns{}; {} hits",
                             arguments.queries, arguments.with, result.nanoseconds, result.featureNanoseconds,
                             with == BenchWith::Pose ? "" : " more", result.hits));
@@ -56,6 +60,7 @@ void runBench(const BenchArguments& arguments, const Console& console) {
                    {"features", table.featureCount()},
                    {"cells", table.cells().empty() ? 0 : table.cells().rowCount() - 1},
                    {"looked", table.cells().looked()},
+                   {"clusters", table.clusters().count()},
                    {"with", arguments.with},
                    {"queries", arguments.queries},
                    {"ns", result.nanoseconds},

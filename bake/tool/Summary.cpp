@@ -82,6 +82,10 @@ void addKernel(Json& json, const Table& table) {
     json["kernel"] = {{"form", name(prepared.form())},       {"precision", name(prepared.precision())},
                       {"features", prepared.featureCount()}, {"condition", prepared.condition()},
                       {"band", prepared.signBand()},         {"bytes", prepared.bytes()}};
+    if (!prepared.clusters().empty())
+        json["kernel"]["clusters"] = {{"count", prepared.clusters().count()},
+                                      {"groups", prepared.clusters().groups().size()},
+                                      {"tests", prepared.clusters().testsEach()}};
     if (!prepared.verdicts().empty())
         json["kernel"]["verdicts"] = {{"asked", prepared.verdicts().asked()},
                                       {"bytes", prepared.verdicts().bytes()}};
@@ -179,6 +183,10 @@ std::string kernelText(const Json& kernel, double metersPerUnit) {
     std::string text = fmt::format("  query        {} in {}, condition {:.3g}, verdicts right beyond {}\n",
                                    kernel["form"].get<std::string>(), kernel["precision"].get<std::string>(),
                                    kernel["condition"].get<double>(), length(kernel["band"], metersPerUnit));
+    if (kernel.contains("clusters"))
+        text +=
+            fmt::format("  clusters     {} of {} tests, in {} groups\n", kernel["clusters"]["count"].dump(),
+                        kernel["clusters"]["tests"].dump(), kernel["clusters"]["groups"].dump());
     if (kernel.contains("verdicts"))
         text +=
             fmt::format("  verdicts     tests are asked in {:.2g} % of the limits; {} bytes\n",

@@ -6,34 +6,54 @@
 
 namespace tss::verify {
 
-std::string refuteClusters(const PreparedTable& prepared, const std::vector<Exact>& tests, double posed) {
-    const TableClusters& clusters = prepared.clusters();
-    if (clusters.empty()) return {};
-    const std::vector<std::uint32_t>& order = clusters.order();
-    const std::size_t each = clusters.testsEach();
-    if (each == 0 || each % prepared.lanes() != 0 || order.size() != tests.size() ||
-        clusters.count() != (tests.size() + each - 1) / each || clusters.count() > TableClusters::most)
+namespace {
+
+/// Whether each of some pairs, `each` after the other in that order, is within its bound, and the kernel's
+/// rounding about the bound hides none of them.
+std::string refuteBounds(const PreparedTable& prepared, const std::vector<Exact>& pairs,
+                         std::span<const std::uint32_t> order, std::size_t each,
+                         std::span<const TablePair> bounds, const PreparedTable::BoundRows& stored,
+                         double posed) {
+    if (each == 0 || each % prepared.lanes() != 0 || bounds.size() != (pairs.size() + each - 1) / each)
         return "its clusters do not hold every test once";
-    if (!blocksAreRows(prepared, prepared.clusterBlocks(), prepared.clusterRows(), clusters.count(), {}))
-        return "its blocks do not hold every cluster once";
-    for (std::size_t place = 0; place < order.size(); ++place) {
-        const TablePair& bound = clusters.bounds()[place / each];
-        const Exact& test = tests[order[place]];
-        const Real off = (test.a.cast<Real>() - bound.a.cast<Real>()).norm() +
-                         (test.b.cast<Real>() - bound.b.cast<Real>()).norm();
-        if (off + Real(test.reach) > Real(bound.reach))
-            return fmt::format("cluster {} has test {}, which its bound does not hold", place / each,
-                               order[place]);
+    if (!blocksAreRows(prepared, stored.blocks, stored.rows, bounds.size(), {}))
+        return "its blocks do not hold every bound of a cluster once";
+    for (std::size_t place = 0; place < pairs.size(); ++place) {
+        const TablePair& bound = bounds[place / each];
+        const std::size_t number = order.empty() ? place : order[place];
+        const Exact& pair = pairs[number];
+        const Real off = (pair.a.cast<Real>() - bound.a.cast<Real>()).norm() +
+                         (pair.b.cast<Real>() - bound.b.cast<Real>()).norm();
+        if (off + Real(pair.reach) > Real(bound.reach))
+            return fmt::format("cluster {} has number {}, which its bound does not hold", place / each,
+                               number);
     }
-    for (std::size_t c = 0; c < clusters.count(); ++c) {
-        const TablePair& bound = clusters.bounds()[c];
-        const Exact pair{bound.a, bound.b, bound.reach};
-        const PairErrors errors = directErrors(prepared, StoredRow(prepared, prepared.clusterRows(), c), pair,
-                                               prepared.farthestT(), posed);
+    for (std::size_t c = 0; c < bounds.size(); ++c) {
+        const Exact bound{bounds[c].a, bounds[c].b, bounds[c].reach};
+        const PairErrors errors =
+            directErrors(prepared, StoredRow(prepared, stored.rows, c), bound, prepared.farthestT(), posed);
         if (errors.sign.high > 0 && bound.reach >= 0)
             return fmt::format("cluster {} may be passed over where a test of it touches", c);
     }
     return {};
+}
+
+} // namespace
+
+std::string refuteClusters(const PreparedTable& prepared, const std::vector<Exact>& tests, double posed) {
+    const TableClusters& clusters = prepared.clusters();
+    if (clusters.empty()) return {};
+    const std::vector<std::uint32_t>& order = clusters.order();
+    if (order.size() != tests.size() || clusters.count() > TableClusters::most)
+        return "its clusters do not hold every test once";
+    std::string reason = refuteBounds(prepared, tests, order, clusters.testsEach(), clusters.bounds(),
+                                      prepared.clusterBounds(), posed);
+    if (!reason.empty()) return reason;
+    std::vector<Exact> bounds;
+    for (const TablePair& bound : clusters.bounds()) bounds.push_back({bound.a, bound.b, bound.reach});
+    reason = refuteBounds(prepared, bounds, {}, clusters.clustersEach(), clusters.groups(),
+                          prepared.groupBounds(), posed);
+    return reason.empty() ? reason : "of a group of clusters: " + reason;
 }
 
 } // namespace tss::verify
