@@ -137,6 +137,7 @@ TEST_CASE(
     slide->addChild(box(osg::Vec3(1.02f, 0, 0), 0.5f)); // 0.02 apart at rest
     root->addChild(slide);
     const std::string file = (files::scratch() / "pushing.tss").string();
+    std::filesystem::remove(file);
     const BakeOptions options("tolerance=0.02 cache=" + file);
     const osg::ref_ptr<Scene> fine = bake(*root, options);
     CHECK(install(*root, *fine).joints == 1);
