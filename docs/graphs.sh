@@ -30,6 +30,7 @@ row() { # FILE OPTIONS
     same=differ
     picture "$file" "$work/plain.png" "" && picture "$file.tss" "$work/tss.png" "$options cache=$work/cache.tss" &&
         cmp -s "$work/plain.png" "$work/tss.png" && same=same
+    [ -s "$work/tss.png" ] || same="not drawn"
     [ -s "$work/plain.png" ] || same="not drawn by itself"
     joints=$(grep -oE '"typeName": ?"Physics[A-Za-z]*Joint"' "$work/out.tss" | wc -l)
     "$root/build/bin/tss" info --json "$work/out.tss" 2>/dev/null | python3 -c '

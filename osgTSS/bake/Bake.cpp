@@ -6,6 +6,7 @@
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/ToLayer.h"
+#include "bake/table/Query.h"
 
 #include <osg/NodeVisitor>
 #include <osg/Notify>
@@ -173,6 +174,24 @@ void warnOf(const tss::SceneModel& model, const tss::Pair& pair) {
     OSG_WARN << "osgTSS: " << pair.path << ": " << text.str() << std::endl;
 }
 
+/// A table whose budget ended early, or whose tolerance is coarse, may say contact where the joint rests,
+/// though nothing touches there: it would push the joint from where the graph has it. It stays in the cache.
+void dropThoseThatPush(tss::SceneModel& model) {
+    for (tss::Pair& pair : model.pairs) {
+        if (!pair.table || pair.table->testCount() == 0) continue;
+        double size = 0;
+        for (const tss::Sphere& sphere : pair.table->a) size = std::max(size, sphere.radius);
+        // What overlaps at rest counts from there, and is at 0 but for rounding.
+        if (tss::query(*pair.table, tss::restValues(pair.table->motion)).gap >= -1e-6 * size) continue;
+        pair.table = nullptr;
+        pair.sourceHash.clear();
+        OSG_WARN << "osgTSS: " << pair.path
+                 << " is not kept apart: its table says contact where the joint rests; it takes a finer "
+                    "tolerance, or a larger budget"
+                 << std::endl;
+    }
+}
+
 /// A pair or skin that cannot be baked is shown as it moves, and the others are kept apart all the same.
 /// told: notes so far, of which many are about a body and come with each of its pairs.
 void bakeOne(tss::SceneModel& model, const std::string& path, const BakeOptions& options,
@@ -250,6 +269,7 @@ osg::ref_ptr<Scene> bake(osg::Node& root, const BakeOptions& options, const Bake
         saved = Time::now();
     }
     if (made > 0) keep(*model, cache);
+    dropThoseThatPush(*model);
     return new Scene(model);
 }
 

@@ -1,7 +1,10 @@
+#include "Files.h"
+#include "Heard.h"
 #include "Nodes.h"
 
 #include <osg/AnimationPath>
 #include <osg/ValueObject>
+#include <osgTSS/Bake>
 
 using namespace osgTSS;
 using namespace nodes;
@@ -122,4 +125,32 @@ TEST_CASE("a DOFTransform with a scale of 0 costs itself alone") {
     const tss::SceneModel model = extract(*root);
     CHECK(model.joints.size() == 1);
     CHECK(model.pairs.size() == 1);
+}
+
+TEST_CASE(
+    "a table that says contact where its joint rests is named and not used: the joint stays where it is") {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(box(osg::Vec3(0, 0, 0), 0.5f));
+    const auto slide = dof("Slide");
+    slide->setMinTranslate(osg::Vec3(-0.5f, 0, 0));
+    slide->setMaxTranslate(osg::Vec3(3, 0, 0));
+    slide->addChild(box(osg::Vec3(1.02f, 0, 0), 0.5f)); // 0.02 apart at rest
+    root->addChild(slide);
+    const std::string file = (files::scratch() / "pushing.tss").string();
+    std::filesystem::remove(file);
+    const BakeOptions options("tolerance=0.02 cache=" + file);
+    const osg::ref_ptr<Scene> fine = bake(*root, options);
+    CHECK(install(*root, *fine).joints == 1);
+    tss::SceneModel kept = tss::loadScene(file); // as a budget that ends early leaves it
+    auto coarse = std::make_shared<tss::Table>(*kept.pairs.at(0).table);
+    for (tss::Sphere& sphere : coarse->a) sphere.radius = static_cast<float>(sphere.radius + 0.5);
+    kept.pairs[0].table = coarse;
+    tss::saveScene(kept, file);
+    const Heard heard;
+    const osg::ref_ptr<Scene> pushing = bake(*root, options);
+    CHECK(heard.times("Slide is not kept apart: its table says contact where the joint rests") == 1);
+    CHECK(install(*root, *pushing).joints == 0);
+    Playback playback;
+    playback.frame(*root, 0);
+    CHECK(slide->getCurrentTranslate() == osg::Vec3());
 }
