@@ -81,7 +81,7 @@ private:
 
     struct Axis {
         double before = 0, perWidth = 0; ///< a cell's width before the first cell; cells per unit
-        double beyond = 1;               ///< cells and one
+        double rim = 0, beyond = 1;      ///< the first place and the last: 0, and cells and one
         std::uint32_t stride = 1;
         std::uint32_t cells = 1;
         std::uint32_t halvings = 0, shift = 0; ///< of a cell into its parts; of their places within a cell
@@ -96,20 +96,20 @@ private:
 
     /// About the cells lies a rim of one cell, which says Ask; what is no number is in it too.
     static double cellsInto(const Axis& axis, double q) {
-        // In this order, and without std::min and std::max, compilers make no branches of it.
+        // Without std::min, std::max and constants, of which compilers make branches.
         const double x = (q - axis.before) * axis.perWidth, most = x < axis.beyond ? x : axis.beyond;
-        return most > 0 ? most : 0;
+        return most > axis.rim ? most : axis.rim;
     }
-    static std::uint32_t along(const Axis& axis, double q) {
-        return static_cast<std::uint32_t>(static_cast<std::int32_t>(cellsInto(axis, q)));
+    static std::size_t along(const Axis& axis, double q) {
+        return static_cast<std::size_t>(static_cast<std::int64_t>(cellsInto(axis, q)));
     }
     /// Written out for each number of DOFs: a loop over them would take as long again.
-    std::uint32_t cellAt(const double* q) const {
+    std::size_t cellAt(const double* q) const {
         if (dofs_ == 1) [[likely]]
             return along(axes_[0], q[0]);
         if (dofs_ == 0) [[unlikely]]
             return 0;
-        const std::uint32_t two = along(axes_[0], q[0]) + along(axes_[1], q[1]) * axes_[1].stride;
+        const std::size_t two = along(axes_[0], q[0]) + along(axes_[1], q[1]) * axes_[1].stride;
         return dofs_ == 2 ? two : two + along(axes_[2], q[2]) * axes_[2].stride;
     }
     std::uint32_t cellOf(const Place& part) const;
