@@ -58,7 +58,7 @@ TEST_CASE("a shape's mesh is closed, turned outwards, encloses it, and stands ou
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> unit(0, 1);
     int within = 0, lost = 0;
-    for (int k = 0; k < 3000; ++k) {
+    for (int k = 0; k < 6000; ++k) {
         const Vec3 along(unit(random), unit(random), unit(random));
         const Vec3 p = bounds(mesh).min() + along.cwiseProduct(Vec3(bounds(mesh).sizes()));
         if (outside(shape, p) > 0) continue;
