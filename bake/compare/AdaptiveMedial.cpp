@@ -158,7 +158,7 @@ BallTree buildAdaptiveMedial(const TriangleMesh& mesh, const Solid& solid, int l
     return tree;
 }
 
-std::unique_ptr<Rival> makeAdaptiveMedial(const Problem& problem, int levels) {
+std::unique_ptr<CollisionMethod> makeAdaptiveMedial(const Problem& problem, int levels) {
     const auto start = std::chrono::steady_clock::now();
     const Solid solidA(problem.meshA), solidB(problem.meshB);
     MeshTrees trees{buildAdaptiveMedial(problem.meshA, solidA, levels),
@@ -174,7 +174,7 @@ std::unique_ptr<Rival> makeAdaptiveMedial(const Problem& problem, int levels) {
         {0, leafProtrusion(trees.a, solidA) + leafProtrusion(trees.b, solidB)},
         trees.a.bytes() + trees.b.bytes(),
         seconds.count()};
-    return makeMeshTreeRival(std::move(trees), std::move(description));
+    return makeMeshTreeMethod(std::move(trees), std::move(description));
 }
 
 } // namespace tss::compare

@@ -8,7 +8,7 @@ namespace tss::compare {
 
 namespace {
 
-class AllPairs final : public RivalLoop<AllPairs> {
+class AllPairs final : public CollisionMethodLoop<AllPairs> {
 public:
     explicit AllPairs(const Problem& problem) : problem_(problem) {
         description() = {"all-pairs",
@@ -53,7 +53,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<Rival> makeAllPairs(const Problem& problem) {
+std::unique_ptr<CollisionMethod> makeAllPairs(const Problem& problem) {
     return std::make_unique<AllPairs>(problem);
 }
 

@@ -37,7 +37,7 @@ namespace {
 
 constexpr std::size_t padding = 16;
 
-class AllPairsSimd final : public RivalLoop<AllPairsSimd> {
+class AllPairsSimd final : public CollisionMethodLoop<AllPairsSimd> {
 public:
     explicit AllPairsSimd(const Problem& problem) : problem_(problem) {
         const std::size_t count = (problem.b.size() + padding - 1) / padding * padding;
@@ -96,7 +96,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<Rival> makeAllPairsSimd(const Problem& problem) {
+std::unique_ptr<CollisionMethod> makeAllPairsSimd(const Problem& problem) {
     return std::make_unique<AllPairsSimd>(problem);
 }
 

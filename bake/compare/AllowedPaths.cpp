@@ -15,7 +15,7 @@ struct Stretch {
     double lower, upper;
 };
 
-class AllowedPaths final : public RivalLoop<AllowedPaths> {
+class AllowedPaths final : public CollisionMethodLoop<AllowedPaths> {
 public:
     AllowedPaths(const Problem& problem, const Oracle& oracle, int paths, int steps)
         : leading_(leadingDof(problem)) {
@@ -111,7 +111,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<Rival> makeAllowedPaths(const Problem& problem, const Oracle& oracle, int paths, int steps) {
+std::unique_ptr<CollisionMethod> makeAllowedPaths(const Problem& problem, const Oracle& oracle, int paths,
+                                                  int steps) {
     return std::make_unique<AllowedPaths>(problem, oracle, paths, steps);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
+#include "bake/compare/CollisionMethod.h"
 #include "bake/compare/MinBall.h"
-#include "bake/compare/Rival.h"
 
 #include <limits>
 

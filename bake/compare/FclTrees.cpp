@@ -8,9 +8,9 @@ namespace tss::compare {
 namespace {
 
 template <class Volume>
-class FclRival final : public RivalLoop<FclRival<Volume>> {
+class FclMethod final : public CollisionMethodLoop<FclMethod<Volume>> {
 public:
-    FclRival(const Problem& problem, const std::string& name, const std::string& remark) {
+    FclMethod(const Problem& problem, const std::string& name, const std::string& remark) {
         const auto start = std::chrono::steady_clock::now();
         fillFclModel(a_, problem.meshA);
         fillFclModel(b_, problem.meshB);
@@ -49,17 +49,17 @@ private:
 
 } // namespace
 
-std::unique_ptr<Rival> makeFcl(const Problem& problem, FclTree tree) {
+std::unique_ptr<CollisionMethod> makeFcl(const Problem& problem, FclTree tree) {
     switch (tree) {
     case FclTree::Obb:
-        return std::make_unique<FclRival<fcl::OBBd>>(problem, "obb", "");
+        return std::make_unique<FclMethod<fcl::OBBd>>(problem, "obb", "");
     case FclTree::Aabb:
-        return std::make_unique<FclRival<fcl::AABBd>>(
+        return std::make_unique<FclMethod<fcl::AABBd>>(
             problem, "aabb", "; FCL copies, moves and refits the moving tree in each query");
     case FclTree::Obbrss:
         break;
     }
-    return std::make_unique<FclRival<fcl::OBBRSSd>>(problem, "obbrss", "");
+    return std::make_unique<FclMethod<fcl::OBBRSSd>>(problem, "obbrss", "");
 }
 
 } // namespace tss::compare

@@ -51,7 +51,7 @@ double speedOf(const Problem& problem, std::size_t k) {
 }
 
 template <int D>
-class GapGrid final : public RivalLoop<GapGrid<D>> {
+class GapGrid final : public CollisionMethodLoop<GapGrid<D>> {
 public:
     GapGrid(const Problem& problem, const GapOracle& oracle, int points, const StatedError& ofOracle) {
         const auto start = std::chrono::steady_clock::now();
@@ -130,8 +130,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<Rival> makeGapGrid(const Problem& problem, const GapOracle& oracle, int points,
-                                   const StatedError& ofOracle) {
+std::unique_ptr<CollisionMethod> makeGapGrid(const Problem& problem, const GapOracle& oracle, int points,
+                                             const StatedError& ofOracle) {
     if (points < 2) throw InputError("a grid of gaps: expected at least 2 points a DOF");
     switch (problem.motion.dofCount()) {
     case 1:

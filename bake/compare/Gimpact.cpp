@@ -48,7 +48,7 @@ struct AnyContact : btManifoldResult {
     bool touched = false;
 };
 
-class Gimpact final : public RivalLoop<Gimpact> {
+class Gimpact final : public CollisionMethodLoop<Gimpact> {
 public:
     explicit Gimpact(const Problem& problem) {
         const auto start = std::chrono::steady_clock::now();
@@ -112,7 +112,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<Rival> makeGimpact(const Problem& problem) {
+std::unique_ptr<CollisionMethod> makeGimpact(const Problem& problem) {
     return std::make_unique<Gimpact>(problem);
 }
 

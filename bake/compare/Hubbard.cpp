@@ -185,7 +185,7 @@ BallTree buildHubbard(const TriangleMesh& mesh, const Solid& solid, int levels) 
     return tree;
 }
 
-std::unique_ptr<Rival> makeHubbard(const Problem& problem, int levels) {
+std::unique_ptr<CollisionMethod> makeHubbard(const Problem& problem, int levels) {
     const auto start = std::chrono::steady_clock::now();
     const Solid solidA(problem.meshA), solidB(problem.meshB);
     MeshTrees trees{buildHubbard(problem.meshA, solidA, levels), buildHubbard(problem.meshB, solidB, levels)};
@@ -198,7 +198,7 @@ std::unique_ptr<Rival> makeHubbard(const Problem& problem, int levels) {
                             {0, leafProtrusion(trees.a, solidA) + leafProtrusion(trees.b, solidB)},
                             trees.a.bytes() + trees.b.bytes(),
                             seconds.count()};
-    return makeMeshTreeRival(std::move(trees), std::move(description));
+    return makeMeshTreeMethod(std::move(trees), std::move(description));
 }
 
 } // namespace tss::compare

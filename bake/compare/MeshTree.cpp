@@ -10,9 +10,9 @@ namespace tss::compare {
 
 namespace {
 
-class MeshTreeRival final : public RivalLoop<MeshTreeRival> {
+class MeshTreeMethod final : public CollisionMethodLoop<MeshTreeMethod> {
 public:
-    MeshTreeRival(MeshTrees trees, Description about) : trees_(std::move(trees)) {
+    MeshTreeMethod(MeshTrees trees, Description about) : trees_(std::move(trees)) {
         description() = std::move(about);
     }
     bool hit(const PoseQuery& query) const override {
@@ -86,8 +86,8 @@ double reach(const Vec3& centre, const Element& element) {
 
 } // namespace
 
-std::unique_ptr<Rival> makeMeshTreeRival(MeshTrees trees, Description description) {
-    return std::make_unique<MeshTreeRival>(std::move(trees), std::move(description));
+std::unique_ptr<CollisionMethod> makeMeshTreeMethod(MeshTrees trees, Description description) {
+    return std::make_unique<MeshTreeMethod>(std::move(trees), std::move(description));
 }
 
 double leafProtrusion(const BallTree& tree, const Solid& solid) {

@@ -23,7 +23,7 @@ struct MeshTrees {
     BallTree a, b;
 };
 
-std::unique_ptr<Rival> makeMeshTreeRival(MeshTrees trees, Description description);
+std::unique_ptr<CollisionMethod> makeMeshTreeMethod(MeshTrees trees, Description description);
 
 inline std::size_t leafCount(const BallTree& tree) {
     std::size_t leaves = 0;

@@ -70,7 +70,7 @@ BallTree buildOctree(const TriangleMesh& mesh, int levels) {
     return tree;
 }
 
-std::unique_ptr<Rival> makeOctree(const Problem& problem, int levels) {
+std::unique_ptr<CollisionMethod> makeOctree(const Problem& problem, int levels) {
     const auto start = std::chrono::steady_clock::now();
     MeshTrees trees{buildOctree(problem.meshA, levels), buildOctree(problem.meshB, levels)};
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -90,7 +90,7 @@ std::unique_ptr<Rival> makeOctree(const Problem& problem, int levels) {
                             {0, early},
                             trees.a.bytes() + trees.b.bytes(),
                             seconds.count()};
-    return makeMeshTreeRival(std::move(trees), std::move(description));
+    return makeMeshTreeMethod(std::move(trees), std::move(description));
 }
 
 } // namespace tss::compare

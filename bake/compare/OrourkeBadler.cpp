@@ -79,7 +79,7 @@ SphereSet keepLargest(const TriangleMesh& mesh, const SphereSet& resting, double
 
 } // namespace
 
-std::unique_ptr<Rival> makeOrourkeBadler(const Problem& problem) {
+std::unique_ptr<CollisionMethod> makeOrourkeBadler(const Problem& problem) {
     const auto start = std::chrono::steady_clock::now();
     const Solid solidA(problem.meshA), solidB(problem.meshB);
     const SphereSet a =
@@ -101,7 +101,7 @@ std::unique_ptr<Rival> makeOrourkeBadler(const Problem& problem) {
         {miss, leafProtrusion(trees.a, solidA) + leafProtrusion(trees.b, solidB)},
         trees.a.bytes() + trees.b.bytes(),
         seconds.count()};
-    return makeMeshTreeRival(std::move(trees), std::move(description));
+    return makeMeshTreeMethod(std::move(trees), std::move(description));
 }
 
 } // namespace tss::compare

@@ -55,7 +55,7 @@ Bins makeBins(const Problem& problem, const Oracle& oracle, int bins, int sample
     return result;
 }
 
-class AngularRegion final : public RivalLoop<AngularRegion> {
+class AngularRegion final : public CollisionMethodLoop<AngularRegion> {
 public:
     AngularRegion(const Problem& problem, const Oracle& oracle, int bins, int samples, std::uint64_t seed) {
         const auto start = std::chrono::steady_clock::now();
@@ -93,10 +93,10 @@ private:
     std::vector<std::pair<double, double>> stretches_;
 };
 
-class MixedRegion final : public RivalLoop<MixedRegion> {
+class MixedRegion final : public CollisionMethodLoop<MixedRegion> {
 public:
     MixedRegion(const Problem& problem, const Oracle& oracle, int bins, int samples, std::uint64_t seed,
-                std::shared_ptr<const Rival> inside)
+                std::shared_ptr<const CollisionMethod> inside)
         : inside_(std::move(inside)) {
         const auto start = std::chrono::steady_clock::now();
         bins_ = makeBins(problem, oracle, bins, samples, seed);
@@ -124,7 +124,7 @@ public:
 
 private:
     Bins bins_;
-    std::shared_ptr<const Rival> inside_;
+    std::shared_ptr<const CollisionMethod> inside_;
 };
 
 } // namespace
@@ -153,13 +153,14 @@ std::size_t leadingDof(const Problem& problem) {
     return leading;
 }
 
-std::unique_ptr<Rival> makeAngularRegion(const Problem& problem, const Oracle& oracle, int bins, int samples,
-                                         std::uint64_t seed) {
+std::unique_ptr<CollisionMethod> makeAngularRegion(const Problem& problem, const Oracle& oracle, int bins,
+                                                   int samples, std::uint64_t seed) {
     return std::make_unique<AngularRegion>(problem, oracle, bins, samples, seed);
 }
 
-std::unique_ptr<Rival> makeMixedRegion(const Problem& problem, const Oracle& oracle, int bins, int samples,
-                                       std::uint64_t seed, std::shared_ptr<const Rival> inside) {
+std::unique_ptr<CollisionMethod> makeMixedRegion(const Problem& problem, const Oracle& oracle, int bins,
+                                                 int samples, std::uint64_t seed,
+                                                 std::shared_ptr<const CollisionMethod> inside) {
     return std::make_unique<MixedRegion>(problem, oracle, bins, samples, seed, std::move(inside));
 }
 

@@ -21,9 +21,9 @@ std::string enclosureName(Enclosure enclosure) {
     return "coreset";
 }
 
-class SphereTreeRival final : public RivalLoop<SphereTreeRival> {
+class SphereTreeMethod final : public CollisionMethodLoop<SphereTreeMethod> {
 public:
-    SphereTreeRival(const Problem& problem, TreeOf of, int arity, Enclosure enclosure) {
+    SphereTreeMethod(const Problem& problem, TreeOf of, int arity, Enclosure enclosure) {
         const auto start = std::chrono::steady_clock::now();
         const bool all = of == TreeOf::All;
         a_ = buildBallTree(all ? problem.a : problem.table.a, arity, enclosure);
@@ -62,8 +62,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<Rival> makeSphereTree(const Problem& problem, TreeOf of, int arity, Enclosure enclosure) {
-    return std::make_unique<SphereTreeRival>(problem, of, arity, enclosure);
+std::unique_ptr<CollisionMethod> makeSphereTree(const Problem& problem, TreeOf of, int arity,
+                                                Enclosure enclosure) {
+    return std::make_unique<SphereTreeMethod>(problem, of, arity, enclosure);
 }
 
 } // namespace tss::compare

@@ -3,7 +3,7 @@
 #include "bake/base/Parallel.h"
 #include "bake/base/Poll.h"
 #include "bake/search/ExploredPoses.h"
-#include "bake/search/TreePair.h"
+#include "bake/search/NodePairs.h"
 #include "bake/table/Table.h"
 
 #include <algorithm>

@@ -137,7 +137,7 @@ bool nearestOf(std::index_sequence<N...>, const QpRows& rows, double tolerance, 
 
 } // namespace
 
-bool nearestToOrigin(const QpRows& rows, double tolerance, JointValues& y, QpActive* active) {
+bool nearestToOrigin(const QpRows& rows, double tolerance, DofValues& y, QpActive* active) {
     y.fill(0);
     if (active) active->count = 0;
     if (rows.unknowns() > 0)

@@ -3,8 +3,6 @@
 
 namespace tss {
 
-using JointValues = DofValues;
-
 /// Linear demands normal . y >= bound on n unknowns, the normals of unit length; one after the other without
 /// gaps, since hundreds of them are gone through again and again.
 class QpRows {
@@ -41,6 +39,6 @@ struct QpActive {
 /// The point nearest to the origin that meets every row: the dual active-set method of Goldfarb and Idnani
 /// (Mathematical Programming 27, 1983) for an identity Hessian. A row counts as met within `tolerance`.
 /// Returns false where no point meets them all; y is then of no use. Allocates nothing.
-bool nearestToOrigin(const QpRows& rows, double tolerance, JointValues& y, QpActive* active = nullptr);
+bool nearestToOrigin(const QpRows& rows, double tolerance, DofValues& y, QpActive* active = nullptr);
 
 } // namespace tss

@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/geometry/TriangleMesh.h"
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,6 +40,12 @@ struct LimitPlane {
     std::vector<double> coefficients; ///< one a DOF
     double bound = 0;
 };
+
+/// The longest chain that is served.
+inline constexpr std::size_t maxDofs = 12;
+
+/// Values or changes of DOFs, room for the longest chain.
+using DofValues = std::array<double, maxDofs>;
 
 /// How body B may move against body A: T(q) = D1(q1) ... Dd(qd) T0, B-local to A-local (METHOD 0).
 /// Q is the box of the DOFs' limits cut by the planes.

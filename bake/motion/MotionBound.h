@@ -1,12 +1,7 @@
 #pragma once
 #include "bake/motion/Motion.h"
 
-#include <array>
-
 namespace tss {
-
-/// The longest chain that bounds are made for.
-constexpr std::size_t maxDofs = 12;
 
 /// A box of DOF values, one cell of Q: lower[k] <= q[k] <= upper[k], k < #DOFs.
 struct Cell {

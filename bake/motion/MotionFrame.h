@@ -1,10 +1,7 @@
 #pragma once
-#include "bake/motion/MotionBound.h"
+#include "bake/motion/Motion.h"
 
 namespace tss {
-
-/// Values or changes of DOFs, room for the longest chain.
-using DofValues = std::array<double, maxDofs>;
 
 /// How one DOF moves a point x of A's frame, per unit of its value: x' = turn x x + slide.
 struct DofTwist {

@@ -1,7 +1,7 @@
 #pragma once
+#include "bake/motion/ClosestPointQuery.h"
 #include "bake/motion/Muscle.h"
 #include "bake/motion/MuscleFibre.h"
-#include "bake/motion/MuscleLocator.h"
 #include "bake/motion/MuscleRing.h"
 
 #include <optional>
@@ -82,7 +82,7 @@ private:
     Muscle muscle_;
     std::optional<MuscleRing> ring_;
     MuscleFibre fibre_;
-    MuscleLocator locator_;
+    ClosestPointQuery locator_;
     std::vector<Vec3> normals_;       ///< #V
     std::vector<MusclePoint> points_; ///< #V
     std::vector<double> shares_;      ///< #V, see Muscle::insertionShares

@@ -11,7 +11,7 @@ constexpr int bisections = 30;
 
 /// Largest r with dist(x - r n, mesh) >= r - slack: monotone in r.
 double touchingBall(const Vec3& x, const Vec3& n, double largest, double slack,
-                    const MuscleLocator& locator) {
+                    const ClosestPointQuery& locator) {
     double lower = 0, upper = largest;
     for (int i = 0; i < bisections; ++i) {
         const double r = (lower + upper) / 2;
@@ -51,7 +51,7 @@ void smooth(std::vector<T>& values, const std::vector<std::vector<int>>& rings) 
 
 } // namespace
 
-std::vector<Vec3> medialOffsets(const TriangleMesh& mesh, const MuscleLocator& locator,
+std::vector<Vec3> medialOffsets(const TriangleMesh& mesh, const ClosestPointQuery& locator,
                                 const std::vector<Vec3>& normals) {
     double edges = 0;
     for (const Tri& t : mesh.triangles)

@@ -1,9 +1,11 @@
 #include "bake/pipeline/CheckBake.h"
 
-#include "bake/pipeline/FillPair.h"
-#include "bake/play/SkinSetup.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/motion/MotionBound.h"
+#include "bake/motion/MuscleDeformer.h"
+#include "bake/pipeline/FillPair.h"
+#include "bake/play/SkinSetup.h"
+#include "bake/respond/SkinRig.h"
 
 #include <cmath>
 #include <fmt/format.h>

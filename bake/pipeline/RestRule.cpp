@@ -1,7 +1,7 @@
 #include "bake/pipeline/RestRule.h"
 
 #include "bake/base/Error.h"
-#include "bake/search/TreePair.h"
+#include "bake/search/NodePairs.h"
 
 #include <algorithm>
 #include <fmt/format.h>

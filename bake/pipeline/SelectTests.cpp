@@ -14,8 +14,8 @@ namespace tss {
 
 namespace {
 
-/// Pairs of spheres that answer for themselves: a query asks few of so many, in clusters, and they take some 240
-/// bytes each in memory.
+/// Pairs of spheres that answer for themselves: a query asks few of so many, in clusters, and they take some
+/// 240 bytes each in memory.
 constexpr std::size_t mostPairsToAsk = 1'000'000;
 
 bool asksAll(const PairTask& task) {
@@ -74,8 +74,8 @@ Selection selectCover(const PairTask& task, const CandidatePairs& candidates, st
     if (selection.certified && result.complete && result.pairs.empty())
         selection.proof = NeverCollides{result.clearance, result.cells, {}, {}, {}};
     if (!result.complete)
-        notes.push_back(fmt::format("the budget ended first: epsilon {} scene units was reached, not {}", result.epsilon,
-                                    task.options.epsilon));
+        notes.push_back(fmt::format("the budget ended first: epsilon {} scene units was reached, not {}",
+                                    result.epsilon, task.options.epsilon));
     return selection;
 }
 

@@ -145,8 +145,8 @@ namespace {
 
 std::vector<int> heldOf(const JointAnswer& answer, const JointWorkspace& workspace) {
     std::vector<int> held;
-    for (std::size_t k = 0; answer.status != JointStatus::Free && k < workspace.held.size(); ++k)
-        if (workspace.held[k]) held.push_back(static_cast<int>(k));
+    for (std::size_t k = 0; answer.status != JointStatus::Free && k < workspace.held().size(); ++k)
+        if (workspace.held()[k]) held.push_back(static_cast<int>(k));
     return held;
 }
 
@@ -161,7 +161,7 @@ std::vector<GroupAnswer> resolve(const JointPlan& plan, const std::vector<double
         settled = true;
         for (std::size_t g = 0; g < plan.groups.size(); ++g) {
             const JointPlan::Group& group = plan.groups[g];
-            JointValues from{}, asked{};
+            DofValues from{}, asked{};
             for (std::size_t k = 0; k < group.slots.size(); ++k) {
                 from[k] = last[group.slots[k]];
                 asked[k] = q[group.slots[k]];

@@ -4,7 +4,13 @@
 #include "bake/geometry/Solid.h"
 #include "bake/model/Kinematics.h"
 #include "bake/model/PairDofs.h"
+#include "bake/motion/MuscleDeformer.h"
+#include "bake/motion/MuscleSpan.h"
+#include "bake/play/JointPlan.h"
 #include "bake/play/SkinSetup.h"
+#include "bake/respond/SkinFollowing.h"
+#include "bake/respond/SkinResponse.h"
+#include "bake/respond/SkinRig.h"
 #include "bake/table/Query.h"
 
 #include <algorithm>
@@ -22,7 +28,38 @@ std::vector<std::size_t> firstValues(const SceneModel& scene) {
 
 } // namespace
 
-Player::Player(const SceneModel& scene, std::vector<std::string>& warnings) : scene_(scene) {
+class Player::State {
+public:
+    State(const SceneModel& scene, std::vector<std::string>& warnings);
+    std::vector<SkinFollowing> following() const;
+    Step step(const std::vector<double>& asked, double timeCode);
+    std::vector<TriangleMesh> worldMeshes() const;
+
+private:
+    struct Skin {
+        int index = 0; ///< of the scene
+        std::vector<std::shared_ptr<const MuscleDeformer>> muscles;
+        SkinResponse response;
+        std::vector<double> activations;
+        std::vector<Pose> poses;        ///< of the muscles' bones since rest; empty: none moves
+        std::vector<double> restDepths; ///< one a touched vertex
+        SkinFollowMeasure follow;
+    };
+
+    std::vector<double> clamped(const std::vector<double>& asked) const;
+    /// Of the bone at a muscle's insertion against that at its origin, since rest.
+    static Pose farOf(const Skin& skin, std::size_t m);
+    std::vector<double> depths(const Skin& skin, std::span<const Vec3> positions) const;
+
+    const SceneModel& scene_;
+    std::shared_ptr<const JointPlan> plan_;
+    std::vector<JointWorkspace> workspaces_;
+    std::vector<std::size_t> places_; ///< of each value of the plan, among all joints' values
+    std::vector<double> values_;
+    std::vector<Skin> skins_;
+};
+
+Player::State::State(const SceneModel& scene, std::vector<std::string>& warnings) : scene_(scene) {
     std::vector<std::string> paths;
     for (const Pair& pair : scene.pairs) paths.push_back(pair.path);
     plan_ = makeJointPlan(scene, paths, &warnings);
@@ -45,7 +82,7 @@ Player::Player(const SceneModel& scene, std::vector<std::string>& warnings) : sc
     }
 }
 
-std::vector<double> Player::clamped(const std::vector<double>& asked) const {
+std::vector<double> Player::State::clamped(const std::vector<double>& asked) const {
     std::vector<double> values;
     std::size_t next = 0;
     for (const Joint& joint : scene_.joints) {
@@ -59,13 +96,13 @@ std::vector<double> Player::clamped(const std::vector<double>& asked) const {
     return values;
 }
 
-Pose Player::farOf(const Skin& skin, std::size_t m) {
+Pose Player::State::farOf(const Skin& skin, std::size_t m) {
     const int insertion = skin.response.rig().bodies[m].insertion;
     if (insertion < 0 || skin.poses.empty()) return Pose::Identity();
     return between(skin.poses[m], skin.poses[static_cast<std::size_t>(insertion)]);
 }
 
-std::vector<double> Player::depths(const Skin& skin, std::span<const Vec3> positions) const {
+std::vector<double> Player::State::depths(const Skin& skin, std::span<const Vec3> positions) const {
     std::vector<double> deepest(positions.size(), 0.0);
     for (std::size_t m = 0; m < skin.muscles.size(); ++m) {
         const MuscleDeformer& deformer = *skin.muscles[m];
@@ -81,7 +118,7 @@ std::vector<double> Player::depths(const Skin& skin, std::span<const Vec3> posit
     return deepest;
 }
 
-Player::Step Player::step(const std::vector<double>& asked, double timeCode) {
+Player::Step Player::State::step(const std::vector<double>& asked, double timeCode) {
     Step result;
     const std::vector<double> goal = clamped(asked);
     std::vector<double> last, wanted;
@@ -123,13 +160,13 @@ Player::Step Player::step(const std::vector<double>& asked, double timeCode) {
     return result;
 }
 
-std::vector<SkinFollowing> Player::following() const {
+std::vector<SkinFollowing> Player::State::following() const {
     std::vector<SkinFollowing> result;
     for (const Skin& skin : skins_) result.push_back(skin.follow.at(skin.response.positions(), skin.poses));
     return result;
 }
 
-std::vector<TriangleMesh> Player::worldMeshes() const {
+std::vector<TriangleMesh> Player::State::worldMeshes() const {
     const std::vector<Pose> placements = posedBodies(scene_, values_);
     std::vector<TriangleMesh> meshes;
     for (const Body& body : scene_.bodies) meshes.push_back(body.mesh);
@@ -137,7 +174,7 @@ std::vector<TriangleMesh> Player::worldMeshes() const {
         const SkinModel& model = scene_.skins[skin.index];
         const auto positions = skin.response.positions();
         for (std::size_t k = 0; k < positions.size(); ++k)
-            meshes[model.body].vertices[skin.response.rig().vertices[k]] = positions[k];
+            meshes[model.body].vertices[skin.response.vertices()[k]] = positions[k];
         for (std::size_t m = 0; m < model.muscles.size(); ++m) {
             if (skin.muscles[m]->rigid()) continue;
             const int body = scene_.muscles[model.muscles[m]].body;
@@ -150,6 +187,24 @@ std::vector<TriangleMesh> Player::worldMeshes() const {
     for (std::size_t k = 0; k < meshes.size(); ++k)
         for (Vec3& v : meshes[k].vertices) v = placements[k] * v;
     return meshes;
+}
+
+Player::Player(const SceneModel& scene, std::vector<std::string>& warnings)
+    : state_(std::make_unique<State>(scene, warnings)) {}
+Player::Player(Player&&) noexcept = default;
+Player& Player::operator=(Player&&) noexcept = default;
+Player::~Player() = default;
+
+std::vector<SkinFollowing> Player::following() const {
+    return state_->following();
+}
+
+Player::Step Player::step(const std::vector<double>& asked, double timeCode) {
+    return state_->step(asked, timeCode);
+}
+
+std::vector<TriangleMesh> Player::worldMeshes() const {
+    return state_->worldMeshes();
 }
 
 } // namespace tss

@@ -1,17 +1,23 @@
 #pragma once
 #include "bake/model/SceneModel.h"
-#include "bake/play/JointPlan.h"
-#include "bake/respond/SkinFollowing.h"
-#include "bake/respond/SkinResponse.h"
+#include "bake/respond/JointStatus.h"
+
+#include <memory>
 
 namespace tss {
+
+struct SkinFollowing;
 
 /// A scene in motion: the joints kept out of collision, the skins deformed, as the node kit does it, step by
 /// step.
 class Player {
 public:
     /// warnings: pairs that cannot be served. Throws InputError for a skin whose table does not fit.
+    /// Keeps a reference to the scene.
     Player(const SceneModel& scene, std::vector<std::string>& warnings);
+    Player(Player&&) noexcept;
+    Player& operator=(Player&&) noexcept;
+    ~Player();
 
     /// What came of one step.
     struct Step {
@@ -32,27 +38,8 @@ public:
     std::vector<TriangleMesh> worldMeshes() const;
 
 private:
-    struct Skin {
-        int index = 0; ///< of the scene
-        std::vector<std::shared_ptr<const MuscleDeformer>> muscles;
-        SkinResponse response;
-        std::vector<double> activations;
-        std::vector<Pose> poses;        ///< of the muscles' bones since rest; empty: none moves
-        std::vector<double> restDepths; ///< one a touched vertex
-        SkinFollowMeasure follow;
-    };
-
-    std::vector<double> clamped(const std::vector<double>& asked) const;
-    /// Of the bone at a muscle's insertion against that at its origin, since rest.
-    static Pose farOf(const Skin& skin, std::size_t m);
-    std::vector<double> depths(const Skin& skin, std::span<const Vec3> positions) const;
-
-    const SceneModel& scene_;
-    std::shared_ptr<const JointPlan> plan_;
-    std::vector<JointWorkspace> workspaces_;
-    std::vector<std::size_t> places_; ///< of each value of the plan, among all joints' values
-    std::vector<double> values_;
-    std::vector<Skin> skins_;
+    class State;
+    std::unique_ptr<State> state_;
 };
 
 } // namespace tss

@@ -2,7 +2,9 @@
 
 #include "bake/base/Error.h"
 #include "bake/model/Kinematics.h"
+#include "bake/motion/MuscleDeformer.h"
 #include "bake/respond/MuscleShares.h"
+#include "bake/respond/SkinRig.h"
 
 #include <algorithm>
 #include <array>

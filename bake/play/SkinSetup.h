@@ -1,8 +1,13 @@
 #pragma once
 #include "bake/model/SceneModel.h"
-#include "bake/respond/SkinRig.h"
+
+#include <memory>
 
 namespace tss {
+
+class MuscleDeformer;
+struct SkinParameters;
+struct SkinRig;
 
 /// From the scene's skin to what the run time and the search work with. Shared by baking, `tss play` and the
 /// node kit.

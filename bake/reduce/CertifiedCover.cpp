@@ -41,14 +41,14 @@ public:
             result_.epsilon = owed_.epsilon;
             makeSmaller();
         } else {
-            result_.epsilon = std::min(epsilonLeft(first.left), climbDown());
+            result_.epsilon = std::min(epsilonLeft(first.left), relaxEpsilon());
         }
         return finish();
     }
 
 private:
     /// A proof over all of Q within a share of the budget that is left.
-    CoverProof prove(const Obligation& owed, Cover& cover, double share) {
+    CoverProof prove(const ErrorContract& owed, Cover& cover, double share) {
         CoverBudget part = budget_;
         const std::chrono::duration<double> used = std::chrono::steady_clock::now() - budget_.start;
         if (budget_.seconds > 0) part.seconds = used.count() + share * (budget_.seconds - used.count());
@@ -59,7 +59,7 @@ private:
         CoverProof proof = proveCover(problem_, owed, cover, {wholeProblem(problem_)}, part);
         result_.cells += proof.cells;
         // What a pose demands at a coarser epsilon it demands at the one asked for too, only of fewer pairs.
-        const auto more = demandsAt(problem_, owed_, proof.facts, mostAnswers);
+        const auto more = constraintsAt(problem_, owed_, proof.facts, mostAnswers);
         demands_.insert(demands_.end(), more.begin(), more.end());
         return proof;
     }
@@ -68,7 +68,7 @@ private:
     /// the poses that this list still misses, until it misses none or is as small as its bound nearly.
     void makeSmaller() {
         for (int round = 0; round < options_.rounds; ++round) {
-            const DemandCover smallest = coverDemands(demands_);
+            const ConstraintCover smallest = coverConstraints(demands_);
             if (double(cover_.members().size()) <= 1.02 * smallest.lowerBound) return;
             Cover next(problem_);
             for (const SpherePair& pair : smallest.pairs) {
@@ -110,10 +110,10 @@ private:
 
     /// The budget did not reach for the epsilon asked for: proves coarser ones, each half of the last, as far
     /// as it does reach.
-    double climbDown() {
+    double relaxEpsilon() {
         double reached = epsilonAnywhere();
         for (double epsilon = problem_.size; epsilon > owed_.epsilon; epsilon *= 0.5) {
-            Obligation coarser = owed_;
+            ErrorContract coarser = owed_;
             coarser.epsilon = epsilon;
             if (!prove(coarser, cover_, 1).complete) break;
             reached = std::min(reached, epsilon);
@@ -131,16 +131,16 @@ private:
         result_.restGaps = problem_.rule.thresholds(chosen.pairs);
         result_.spheresA = chosen.spheresA;
         result_.spheresB = chosen.spheresB;
-        result_.lowerBound = coverDemands(demands_).lowerBound;
+        result_.lowerBound = coverConstraints(demands_).lowerBound;
         return result_;
     }
 
     const CoverProblem& problem_;
-    const Obligation owed_;
+    const ErrorContract owed_;
     const CoverOptions& options_;
     CoverBudget budget_;
     Cover cover_;
-    std::vector<Demand> demands_;
+    std::vector<PoseConstraint> demands_;
     CoverResult result_;
 };
 

@@ -3,6 +3,7 @@
 #include "bake/search/CellTools.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tss {
@@ -11,14 +12,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-bool deeper(const PairHere& x, const PairHere& y) {
+bool deeper(const PairInCell& x, const PairInCell& y) {
     return x.gap != y.gap ? x.gap < y.gap : x.reachPair.pair < y.reachPair.pair;
 }
 
 /// The offset from the centre, in the cell, that by the slopes makes (gap of k - weight * gap of p) largest
 /// while the gap of p is <= level: a linear program with one row, solved by turning the DOFs that cost least.
 /// k null: where p is deepest. answer: what the value must exceed to matter.
-std::array<double, maxDofs> extremeOffset(const CellMotion& motion, const PairHere* k, const PairHere& p,
+std::array<double, maxDofs> extremeOffset(const CellMotion& motion, const PairInCell* k, const PairInCell& p,
                                           double weight, double level, double answer) {
     std::array<double, maxDofs> offset{}, price{};
     std::array<std::size_t, maxDofs> turn{};
@@ -75,12 +76,12 @@ CellVerdict CellExaminer::examine(const OpenCell& whole) {
     dropAnswered(motion);
     if (here_.empty() && nodes_.empty()) return {};
 
-    if (auto lacking = lackingAtCentre(motion)) return {std::move(lacking), {}};
+    if (auto lacking = counterexampleAtCentre(motion)) return {std::move(lacking), {}};
     if (nodes_.empty()) {
-        if (auto lacking = lackingElsewhere(motion)) return {std::move(lacking), {}};
+        if (auto lacking = counterexampleElsewhere(motion)) return {std::move(lacking), {}};
         double widest = 0;
-        for (const PairHere& pair : here_) widest = std::max(widest, pair.move);
-        if (widest < p_.floor) return {Lacking{here_.front().reachPair, {}}, {}};
+        for (const PairInCell& pair : here_) widest = std::max(widest, pair.move);
+        if (widest < p_.floor) return {Counterexample{here_.front().reachPair, {}}, {}};
     }
     return split(cell, motion, seen);
 }
@@ -97,7 +98,7 @@ bool CellExaminer::weighMembers(const CellMotion& motion, const CellLists& lists
             bestMember_ = std::min(bestMember_, distance - pair.reach);
             return false;
         }
-        PairHere here(motion, b.x, b.reach, p_.a[pair.pair.a].centre, pair);
+        PairInCell here(motion, b.x, b.reach, p_.a[pair.pair.a].centre, pair);
         here.member = k;
         bestMember_ = std::min(bestMember_, here.gap);
         if (here.staysBelow(pair.reach - owed_.depth + owed_.epsilon, p_.band)) return true;
@@ -126,7 +127,7 @@ void CellExaminer::weigh(const CellMotion& motion, const ReachPair& pair) {
     if (inCover_.contains(pair.pair)) return;
     const Moved& b = moved(motion, p_.treeB.leafOf(pair.pair.b));
     if ((b.x - p_.a[pair.pair.a].centre).norm() - b.reach.move > pair.reach + owed_.margin + p_.band) return;
-    const PairHere here(motion, b.x, b.reach, p_.a[pair.pair.a].centre, pair);
+    const PairInCell here(motion, b.x, b.reach, p_.a[pair.pair.a].centre, pair);
     if (!here.staysAbove(pair.reach + owed_.margin, p_.band)) here_.push_back(here);
 }
 
@@ -134,29 +135,20 @@ void CellExaminer::weigh(const CellMotion& motion, const ReachPair& pair) {
 void CellExaminer::openNodes(const CellMotion& motion, const std::vector<NodePair>& nodes) {
     nodes_.clear();
     stack_ = nodes;
-    while (!stack_.empty()) {
-        const NodePair pair = stack_.back();
-        stack_.pop_back();
-        const SphereTree::Node &na = p_.treeA[pair.a], &nb = p_.treeB[pair.b];
-        if (na.leaf() && nb.leaf()) {
-            ReachPair spheres;
-            if (p_.admit({na.sphere, nb.sphere}, spheres)) weigh(motion, spheres);
-            continue;
-        }
-        const Moved& b = moved(motion, pair.b);
-        const double move = b.reach.move;
-        const double sum = na.radius + nb.radius;
-        if ((b.x - na.centre).norm() - move > sum + owed_.margin + p_.band) continue;
-        if (sum < 2 * move && move > p_.floor) {
-            nodes_.push_back(pair);
-        } else if (!na.leaf() && (nb.leaf() || na.radius >= nb.radius)) {
-            stack_.push_back({na.right, pair.b});
-            stack_.push_back({pair.a + 1, pair.b});
-        } else {
-            stack_.push_back({pair.a, nb.right});
-            stack_.push_back({pair.a, pair.b + 1});
-        }
-    }
+    descend(p_.treeA, p_.treeB, stack_,
+            [&](NodePair pair, const SphereTree::Node& na, const SphereTree::Node& nb) {
+                if (na.leaf() && nb.leaf()) {
+                    ReachPair spheres;
+                    if (p_.admit({na.sphere, nb.sphere}, spheres)) weigh(motion, spheres);
+                    return false;
+                }
+                const Moved& b = moved(motion, pair.b);
+                const double move = b.reach.move, sum = na.radius + nb.radius;
+                if ((b.x - na.centre).norm() - move > sum + owed_.margin + p_.band) return false;
+                const bool blurred = sum < 2 * move && move > p_.floor;
+                if (blurred) nodes_.push_back(pair);
+                return !blurred;
+            });
 }
 
 /// Drops the pairs that a member answers for, then those that some deeper pair still open makes superfluous:
@@ -166,7 +158,7 @@ void CellExaminer::dropAnswered(const CellMotion& motion) {
     for (std::uint32_t k = 0; k < near_.size(); ++k) ranks_.emplace_back(answerRank(near_[k], owed_), k);
     std::sort(ranks_.begin(), ranks_.end());
     std::uint32_t recent = 0;
-    const auto answered = [&](const PairHere& p) {
+    const auto answered = [&](const PairInCell& p) {
         if (recent < near_.size() && dominates(motion, near_[recent], p, owed_, p_.band)) return true;
         const double needed = rankNeeded(p, owed_);
         for (const auto& [rank, k] : ranks_) {
@@ -180,23 +172,23 @@ void CellExaminer::dropAnswered(const CellMotion& motion) {
     };
     std::erase_if(here_, answered);
 
-    Obligation exact = owed_;
+    ErrorContract exact = owed_;
     exact.epsilon = 0;
     constexpr std::size_t leaders = 4;
     for (std::size_t lead = 0; lead < std::min(leaders, here_.size()); ++lead) {
         const auto place = here_.begin() + static_cast<std::ptrdiff_t>(lead);
         std::iter_swap(place, std::min_element(place, here_.end(), deeper));
-        const PairHere leader = *place;
+        const PairInCell leader = *place;
         const auto first = place + 1;
         here_.erase(
             std::remove_if(first, here_.end(),
-                           [&](const PairHere& p) { return dominates(motion, leader, p, exact, p_.band); }),
+                           [&](const PairInCell& p) { return dominates(motion, leader, p, exact, p_.band); }),
             here_.end());
     }
 }
 
 /// Where the models touch at the centre of the cell and no member answers: the deepest pair there.
-std::optional<Lacking> CellExaminer::lackingAtCentre(const CellMotion& motion) const {
+std::optional<Counterexample> CellExaminer::counterexampleAtCentre(const CellMotion& motion) const {
     if (bestMember_ <= owed_.answer(-infinity)) return {};
     ReachPair best;
     double gap = infinity;
@@ -207,26 +199,26 @@ std::optional<Lacking> CellExaminer::lackingAtCentre(const CellMotion& motion) c
     if (!nodes_.empty()) deepestBelow(motion, best, gap);
     if (gap > owed_.margin || bestMember_ <= owed_.answer(gap)) return {};
     if (!withinLimits(p_.motion, motion.centre())) return {};
-    return Lacking{best, {motion.centre().begin(), motion.centre().end()}};
+    return Counterexample{best, {motion.centre().begin(), motion.centre().end()}};
 }
 
 /// The same away from the centre, where an answer is most likely to lack: where the deepest open pair is
 /// deepest, and where it just owes an answer and the member that answers there is farthest. A region without
 /// an answer that only just clips the cell would be chased down to the smallest cells otherwise.
-std::optional<Lacking> CellExaminer::lackingElsewhere(const CellMotion& motion) const {
-    const PairHere& pair = here_.front();
-    const PairHere* answering = nullptr;
-    if (auto found = lackingAt(motion, extremeOffset(motion, nullptr, pair, 0, 0, 0), answering))
+std::optional<Counterexample> CellExaminer::counterexampleElsewhere(const CellMotion& motion) const {
+    const PairInCell& pair = here_.front();
+    const PairInCell* answering = nullptr;
+    if (auto found = counterexampleAt(motion, extremeOffset(motion, nullptr, pair, 0, 0, 0), answering))
         return found;
     const double owedFrom = owed_.yesNo() ? 0 : -owed_.depth;
     for (int round = 0; round < 3 && answering; ++round) {
-        const PairHere& member = *answering;
-        if (auto found =
-                lackingAt(motion, extremeOffset(motion, &member, pair, 0, owedFrom, owed_.answer(-infinity)),
-                          answering))
+        const PairInCell& member = *answering;
+        if (auto found = counterexampleAt(
+                motion, extremeOffset(motion, &member, pair, 0, owedFrom, owed_.answer(-infinity)),
+                answering))
             return found;
         if (owed_.yesNo()) continue;
-        if (auto found = lackingAt(
+        if (auto found = counterexampleAt(
                 motion, extremeOffset(motion, &member, pair, 1, owed_.margin, owed_.epsilon), answering))
             return found;
     }
@@ -235,9 +227,9 @@ std::optional<Lacking> CellExaminer::lackingElsewhere(const CellMotion& motion) 
 
 /// Whether the models touch at an offset from the centre and no member answers there; else the member that
 /// answers best.
-std::optional<Lacking> CellExaminer::lackingAt(const CellMotion& motion,
-                                               const std::array<double, maxDofs>& offset,
-                                               const PairHere*& answering) const {
+std::optional<Counterexample> CellExaminer::counterexampleAt(const CellMotion& motion,
+                                                             const std::array<double, maxDofs>& offset,
+                                                             const PairInCell*& answering) const {
     std::vector<double> q(motion.dofs());
     for (std::size_t k = 0; k < q.size(); ++k)
         q[k] = std::clamp(motion.centre()[k] + offset[k], p_.motion.dofs[k].lower, p_.motion.dofs[k].upper);
@@ -245,56 +237,36 @@ std::optional<Lacking> CellExaminer::lackingAt(const CellMotion& motion,
     if (!withinLimits(p_.motion, q)) return {};
     const Pose at = pose(p_.motion, q);
     double member = infinity;
-    for (const PairHere& pair : near_)
+    for (const PairInCell& pair : near_)
         if (const double own = p_.gap(pair.reachPair, at); own < member) {
             member = own;
             answering = &pair;
         }
     ReachPair best;
     double gap = infinity;
-    for (const PairHere& pair : here_)
+    for (const PairInCell& pair : here_)
         if (const double own = p_.gap(pair.reachPair, at); own < gap) {
             gap = own;
             best = pair.reachPair;
         }
     if (gap > owed_.margin || member <= owed_.answer(gap)) return {};
-    return Lacking{best, q};
+    return Counterexample{best, q};
 }
 
 /// The deepest pair at the centre below the nodes not opened, when deeper than the one given.
 void CellExaminer::deepestBelow(const CellMotion& motion, ReachPair& best, double& gap) const {
-    struct Item {
-        NodePair nodes;
-        double lower;
-    };
-    const auto item = [&](std::uint32_t a, std::uint32_t b) {
-        const SphereTree::Node &na = p_.treeA[a], &nb = p_.treeB[b];
-        return Item{{a, b}, (motion.centrePose() * nb.centre - na.centre).norm() - na.radius - nb.radius};
-    };
-    std::vector<Item> stack;
-    for (const NodePair& pair : nodes_) stack.push_back(item(pair.a, pair.b));
-    while (!stack.empty()) {
-        const Item at = stack.back();
-        stack.pop_back();
-        if (at.lower >= gap || at.lower > owed_.margin) continue;
-        const SphereTree::Node &na = p_.treeA[at.nodes.a], &nb = p_.treeB[at.nodes.b];
-        if (na.leaf() && nb.leaf()) {
-            ReachPair pair;
-            if (!p_.admit({na.sphere, nb.sphere}, pair)) continue;
-            const double own = p_.gap(pair, motion.centrePose());
-            if (own < gap) {
-                gap = own;
-                best = pair;
-            }
-            continue;
-        }
-        const bool openA = !na.leaf() && (nb.leaf() || na.radius >= nb.radius);
-        Item near = openA ? item(at.nodes.a + 1, at.nodes.b) : item(at.nodes.a, at.nodes.b + 1);
-        Item far = openA ? item(na.right, at.nodes.b) : item(at.nodes.a, nb.right);
-        if (near.lower > far.lower) std::swap(near, far);
-        stack.push_back(far);
-        stack.push_back(near);
-    }
+    const double atMost = std::min(gap, std::nextafter(owed_.margin, infinity));
+    leastBelow(p_.treeA, p_.treeB, motion.centrePose(), nodes_, atMost,
+               [&](std::uint32_t i, std::uint32_t j) {
+                   ReachPair pair;
+                   if (!p_.admit({i, j}, pair)) return infinity;
+                   const double own = p_.gap(pair, motion.centrePose());
+                   if (own < gap) {
+                       gap = own;
+                       best = pair;
+                   }
+                   return own;
+               });
 }
 
 /// The DOF that moves the deepest pair most; another pair when that one hardly moves at all.
@@ -316,9 +288,9 @@ CellVerdict CellExaminer::split(const OpenCell& cell, const CellMotion& motion, 
     auto lists = std::make_shared<CellLists>();
     lists->nodes = nodes_;
     lists->open.reserve(here_.size());
-    for (const PairHere& pair : here_) lists->open.push_back(pair.reachPair);
+    for (const PairInCell& pair : here_) lists->open.push_back(pair.reachPair);
     lists->members.reserve(near_.size());
-    for (const PairHere& pair : near_) lists->members.push_back(pair.member);
+    for (const PairInCell& pair : near_) lists->members.push_back(pair.member);
     lists->membersSeen = seen;
 
     const std::size_t widest = widestDof(motion);
@@ -342,7 +314,7 @@ double CellExaminer::epsilonOver(const OpenCell& whole) {
     openNodes(motion, cell.lists->nodes);
     dropAnswered(motion);
     double models = infinity;
-    for (const PairHere& pair : here_) models = std::min(models, pair.gap - pair.move);
+    for (const PairInCell& pair : here_) models = std::min(models, pair.gap - pair.move);
     for (const NodePair& pair : nodes_) {
         const SphereTree::Node &na = p_.treeA[pair.a], &nb = p_.treeB[pair.b];
         const Vec3 x = motion.centrePose() * nb.centre;

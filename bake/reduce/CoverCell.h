@@ -1,15 +1,11 @@
 #pragma once
 #include "bake/reduce/Domination.h"
+#include "bake/search/NodePairs.h"
 
 #include <memory>
 #include <optional>
 
 namespace tss {
-
-/// A pair of nodes of the two sphere trees.
-struct NodePair {
-    std::uint32_t a = 0, b = 0;
-};
 
 /// What a cell inherits from its parent: what may still owe an answer in it, and who may give it.
 struct CellLists {
@@ -27,7 +23,7 @@ struct OpenCell {
 
 /// A pair that the cover lacks. With a pose it is a fact: there the models touch and the cover does not
 /// answer. Without one the cell is too small to split further and the pair is taken to end the search.
-struct Lacking {
+struct Counterexample {
     ReachPair pair;
     std::vector<double> pose;
 };
@@ -35,7 +31,7 @@ struct Lacking {
 /// What looking at a cell gave: answered all over (neither member below is set), a pair that the cover lacks,
 /// or two halves that inherit what is left.
 struct CellVerdict {
-    std::optional<Lacking> lacking;
+    std::optional<Counterexample> lacking;
     std::vector<OpenCell> halves;
 };
 
@@ -43,8 +39,8 @@ struct CellVerdict {
 class CellExaminer {
 public:
     /// members: the cover; inCover: the same as a set. Neither changes while this lives.
-    CellExaminer(const CoverProblem& problem, const Obligation& owed, const std::vector<ReachPair>& members,
-                 const PairBits& inCover)
+    CellExaminer(const CoverProblem& problem, const ErrorContract& owed,
+                 const std::vector<ReachPair>& members, const ConcurrentPairs& inCover)
         : p_(problem), owed_(owed), members_(members), inCover_(inCover), moved_(problem.treeB.size()) {}
 
     CellVerdict examine(const OpenCell& cell);
@@ -58,21 +54,22 @@ private:
     void openNodes(const CellMotion& motion, const std::vector<NodePair>& nodes);
     void weigh(const CellMotion& motion, const ReachPair& pair);
     void dropAnswered(const CellMotion& motion);
-    std::optional<Lacking> lackingAtCentre(const CellMotion& motion) const;
-    std::optional<Lacking> lackingElsewhere(const CellMotion& motion) const;
-    std::optional<Lacking> lackingAt(const CellMotion& motion, const std::array<double, maxDofs>& offset,
-                                     const PairHere*& answering) const;
+    std::optional<Counterexample> counterexampleAtCentre(const CellMotion& motion) const;
+    std::optional<Counterexample> counterexampleElsewhere(const CellMotion& motion) const;
+    std::optional<Counterexample> counterexampleAt(const CellMotion& motion,
+                                                   const std::array<double, maxDofs>& offset,
+                                                   const PairInCell*& answering) const;
     void deepestBelow(const CellMotion& motion, ReachPair& best, double& gap) const;
     std::size_t widestDof(const CellMotion& motion) const;
     CellVerdict split(const OpenCell& cell, const CellMotion& motion, std::uint32_t seen) const;
 
     const CoverProblem& p_;
-    const Obligation owed_;
+    const ErrorContract owed_;
     const std::vector<ReachPair>& members_;
-    const PairBits& inCover_;
+    const ConcurrentPairs& inCover_;
 
-    std::vector<PairHere> near_; ///< members
-    std::vector<PairHere> here_; ///< open pairs
+    std::vector<PairInCell> near_; ///< members
+    std::vector<PairInCell> here_; ///< open pairs
     std::vector<NodePair> nodes_, stack_;
     std::vector<std::pair<double, std::uint32_t>> ranks_; ///< of near_, the best first
     double bestMember_ = 0;                               ///< smallest gap of a member at the centre

@@ -43,7 +43,7 @@ CoverProblem::CoverProblem(const SphereSet& a, const SphereSet& b, const Motion&
     holderA_ = holders(a, treeA);
     holderB_ = holders(b, treeB);
     if (!candidates) return;
-    candidates_ = std::make_unique<PairBits>(a.size(), b.size());
+    candidates_ = std::make_unique<ConcurrentPairs>(a.size(), b.size());
     for (const SpherePair& pair : *candidates) candidates_->insert(pair);
 }
 

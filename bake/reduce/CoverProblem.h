@@ -1,7 +1,7 @@
 #pragma once
 #include "bake/motion/MotionBound.h"
 #include "bake/search/CandidatePairs.h"
-#include "bake/search/PairBits.h"
+#include "bake/search/ConcurrentPairs.h"
 #include "bake/search/SphereTree.h"
 
 #include <memory>
@@ -10,7 +10,7 @@ namespace tss {
 
 /// What a table owes the whole models (METHOD 3.3, 3.4): wherever their gap is <= margin, the table's gap is
 /// <= max(gap, -depth) + epsilon. depth = margin = 0: a yes/no table.
-struct Obligation {
+struct ErrorContract {
     double epsilon = 0, depth = 0, margin = 0;
     bool yesNo() const { return depth == 0 && margin == 0; }
     /// The largest gap of the table that still answers a gap of the models.
@@ -40,7 +40,7 @@ public:
     double band = 0;  ///< rounding error that distances may carry
     double floor = 0; ///< cells whose motion is smaller are not split further
 
-    /// The pair with its reach; nothing when it carries no obligation: it is ignored at rest, not a
+    /// The pair with its reach; nothing when it carries no contract: it is ignored at rest, not a
     /// candidate, or one of its spheres lies inside another that does the same.
     bool admit(SpherePair pair, ReachPair& out) const;
 
@@ -55,7 +55,7 @@ public:
 private:
     bool counts(SpherePair pair) const { return !candidates_ || candidates_->contains(pair); }
 
-    std::unique_ptr<PairBits> candidates_;
+    std::unique_ptr<ConcurrentPairs> candidates_;
     std::vector<std::int32_t> holderA_, holderB_; ///< a sphere that holds this one whole, or -1
 };
 

@@ -14,7 +14,7 @@ namespace {
 /// What one part of a round did with its cell: the cells it left, and the pair it found lacking.
 struct PartResult {
     std::vector<OpenCell> left;
-    std::optional<Lacking> lacking;
+    std::optional<Counterexample> lacking;
     std::uint64_t cells = 0;
 };
 
@@ -39,7 +39,7 @@ PartResult runPart(CellExaminer& examiner, const OpenCell& cell, std::uint64_t s
 /// Examiners to be used again, as many as threads want at once. Which one is used makes no difference.
 class ExaminerPool {
 public:
-    ExaminerPool(const CoverProblem& problem, const Obligation& owed, const Cover& cover)
+    ExaminerPool(const CoverProblem& problem, const ErrorContract& owed, const Cover& cover)
         : make_([&problem, owed, &cover] {
               return std::make_unique<CellExaminer>(problem, owed, cover.members(), cover.set());
           }) {}
@@ -75,10 +75,10 @@ private:
 /// Adds what a round found lacking, unless what was added before in the same round answers it.
 class Additions {
 public:
-    Additions(const CoverProblem& problem, const Obligation& owed, Cover& cover, CoverProof& proof)
+    Additions(const CoverProblem& problem, const ErrorContract& owed, Cover& cover, CoverProof& proof)
         : problem_(problem), owed_(owed), cover_(cover), proof_(proof), first_(cover.members().size()) {}
 
-    void add(const Lacking& lacking) {
+    void add(const Counterexample& lacking) {
         if (cover_.set().contains(lacking.pair.pair)) return;
         if (lacking.pose.empty()) {
             if (cover_.members().size() > first_) return; // look again at what the new members do first
@@ -93,7 +93,7 @@ public:
 
 private:
     const CoverProblem& problem_;
-    const Obligation& owed_;
+    const ErrorContract& owed_;
     Cover& cover_;
     CoverProof& proof_;
     std::size_t first_;
@@ -130,7 +130,7 @@ double Cover::gap(const Pose& pose, std::size_t first) const {
     return best;
 }
 
-CoverProof proveCover(const CoverProblem& problem, const Obligation& owed, Cover& cover,
+CoverProof proveCover(const CoverProblem& problem, const ErrorContract& owed, Cover& cover,
                       std::vector<OpenCell> cells, const CoverBudget& budget) {
     constexpr std::size_t width = 64;
     CoverProof proof;

@@ -21,13 +21,13 @@ struct CoverBudget {
 class Cover {
 public:
     explicit Cover(const CoverProblem& problem)
-        : problem_(&problem), set_(std::make_unique<PairBits>(problem.a.size(), problem.b.size())) {}
+        : problem_(&problem), set_(std::make_unique<ConcurrentPairs>(problem.a.size(), problem.b.size())) {}
     Cover(const CoverProblem& problem, const std::vector<ReachPair>& members) : Cover(problem) {
         for (const ReachPair& pair : members) add(pair);
     }
 
     const std::vector<ReachPair>& members() const { return members_; }
-    const PairBits& set() const { return *set_; }
+    const ConcurrentPairs& set() const { return *set_; }
     void add(const ReachPair& pair) {
         members_.push_back(pair);
         set_->insert(pair.pair);
@@ -39,7 +39,7 @@ public:
 private:
     const CoverProblem* problem_;
     std::vector<ReachPair> members_;
-    std::unique_ptr<PairBits> set_;
+    std::unique_ptr<ConcurrentPairs> set_;
 };
 
 /// How a proof went.
@@ -54,7 +54,7 @@ struct CoverProof {
 /// Shows, cell by cell, that the cover answers all that is owed, adding what it lacks (METHOD 3.3). Rounds of
 /// many cells in parallel against a cover that stands still, then what they lack is added one by one in a
 /// fixed order: the same bits for any number of threads.
-CoverProof proveCover(const CoverProblem& problem, const Obligation& owed, Cover& cover,
+CoverProof proveCover(const CoverProblem& problem, const ErrorContract& owed, Cover& cover,
                       std::vector<OpenCell> cells, const CoverBudget& budget);
 
 } // namespace tss

@@ -12,7 +12,7 @@ constexpr double largestLambda = 10; ///< that is tried
 /// How much the comparison of k with p can grow over the cell against its value at the centre. With D the
 /// moves of the two centres: 2 y_k . D_k - 2 beta y_p . D_p + |D_k|^2 - lambda |D_p|^2. Gives up, above
 /// stopAt, early.
-double change(const CellMotion& cell, const PairHere& k, const PairHere& p, double beta, double lambda,
+double change(const CellMotion& cell, const PairInCell& k, const PairInCell& p, double beta, double lambda,
               double stopAt) {
     double bound = 0;
     for (std::size_t l = 0; l < cell.dofs(); ++l)
@@ -28,7 +28,7 @@ double change(const CellMotion& cell, const PairHere& k, const PairHere& p, doub
 
 /// Yes/no: |y_p| <= R_p implies |y_k| <= limit, shown by |y_k|^2 - limit^2 <= lambda (|y_p|^2 - R_p^2) for
 /// some lambda >= 0. The best lambda makes the slopes agree.
-bool firesWith(const CellMotion& cell, const PairHere& k, const PairHere& p, double limit, double slack) {
+bool firesWith(const CellMotion& cell, const PairInCell& k, const PairInCell& p, double limit, double slack) {
     double kp = 0, pp = 0;
     for (std::size_t l = 0; l < cell.dofs(); ++l) {
         const double h2 = cell.half(l) * cell.half(l);
@@ -47,7 +47,8 @@ bool firesWith(const CellMotion& cell, const PairHere& k, const PairHere& p, dou
 
 /// |y_k| <= |y_p| + extra all over the cell. With extra < 0 the root is bounded by its tangent parabola, with
 /// extra >= 0 by its tangent plane; both have the slope beta.
-bool staysNearer(const CellMotion& cell, const PairHere& k, const PairHere& p, double extra, double slack) {
+bool staysNearer(const CellMotion& cell, const PairInCell& k, const PairInCell& p, double extra,
+                 double slack) {
     if (p.distance <= 0 || p.distance + extra <= 0) return false;
     if (extra < 0 && p.distance - p.move + extra < 0) return false;
     const double beta = 1 + extra / p.distance;
@@ -58,19 +59,19 @@ bool staysNearer(const CellMotion& cell, const PairHere& k, const PairHere& p, d
 
 } // namespace
 
-bool dominates(const CellMotion& cell, const PairHere& k, const PairHere& p, const Obligation& owed,
+bool dominates(const CellMotion& cell, const PairInCell& k, const PairInCell& p, const ErrorContract& owed,
                double band) {
     const double slack = 16 * (k.distance + p.distance + k.move + p.move + band) * band;
     if (owed.yesNo()) return firesWith(cell, k, p, k.reachPair.reach + owed.epsilon, slack);
     return staysNearer(cell, k, p, k.reachPair.reach - p.reachPair.reach + owed.epsilon, slack);
 }
 
-double answerRank(const PairHere& k, const Obligation& owed) {
+double answerRank(const PairInCell& k, const ErrorContract& owed) {
     const double limit = k.reachPair.reach + owed.epsilon;
     return owed.yesNo() ? k.squared - limit * limit : k.gap;
 }
 
-double rankNeeded(const PairHere& p, const Obligation& owed) {
+double rankNeeded(const PairInCell& p, const ErrorContract& owed) {
     if (!owed.yesNo()) return p.gap + owed.epsilon;
     return largestLambda * std::max(0.0, p.squared - p.reachPair.reach * p.reachPair.reach);
 }

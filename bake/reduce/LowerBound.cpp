@@ -1,7 +1,7 @@
 #include "bake/reduce/LowerBound.h"
 
 #include "bake/base/Parallel.h"
-#include "bake/search/TreePair.h"
+#include "bake/search/NodePairs.h"
 
 #include <algorithm>
 #include <limits>
@@ -12,7 +12,7 @@ namespace tss {
 namespace {
 
 /// The pairs that answer at a pose; none when nothing is owed there.
-std::vector<SpherePair> answersAt(const CoverProblem& problem, const Obligation& owed, const Pose& at) {
+std::vector<SpherePair> answersAt(const CoverProblem& problem, const ErrorContract& owed, const Pose& at) {
     double models = std::numeric_limits<double>::infinity();
     std::vector<std::pair<double, SpherePair>> near;
     // Gaps count from where contact begins, which at rest overlaps is deeper: none is missed by looking
@@ -35,19 +35,19 @@ std::vector<SpherePair> answersAt(const CoverProblem& problem, const Obligation&
 
 } // namespace
 
-std::vector<Demand> demandsAt(const CoverProblem& problem, const Obligation& owed,
-                              const std::vector<std::vector<double>>& poses, std::size_t most) {
-    std::vector<Demand> demands(poses.size());
+std::vector<PoseConstraint> constraintsAt(const CoverProblem& problem, const ErrorContract& owed,
+                                          const std::vector<std::vector<double>>& poses, std::size_t most) {
+    std::vector<PoseConstraint> demands(poses.size());
     parallelFor(poses.size(), [&](std::size_t k) {
         demands[k] = {poses[k], answersAt(problem, owed, pose(problem.motion, poses[k]))};
     });
-    std::erase_if(demands, [&](const Demand& d) { return d.pairs.empty() || d.pairs.size() > most; });
+    std::erase_if(demands, [&](const PoseConstraint& d) { return d.pairs.empty() || d.pairs.size() > most; });
     return demands;
 }
 
-DemandCover coverDemands(const std::vector<Demand>& demands) {
+ConstraintCover coverConstraints(const std::vector<PoseConstraint>& demands) {
     std::map<SpherePair, std::uint32_t> number;
-    for (const Demand& demand : demands)
+    for (const PoseConstraint& demand : demands)
         for (const SpherePair& pair : demand.pairs) number.emplace(pair, 0);
     std::vector<SpherePair> pairs;
     for (auto& [pair, n] : number) {
@@ -55,12 +55,12 @@ DemandCover coverDemands(const std::vector<Demand>& demands) {
         pairs.push_back(pair);
     }
     std::vector<std::vector<std::uint32_t>> rows;
-    for (const Demand& demand : demands) {
+    for (const PoseConstraint& demand : demands) {
         rows.emplace_back();
         for (const SpherePair& pair : demand.pairs) rows.back().push_back(number[pair]);
     }
     const SetCover cover = coverRows(std::move(rows));
-    DemandCover result;
+    ConstraintCover result;
     result.lowerBound = cover.lowerBound;
     for (std::uint32_t c : cover.chosen) result.pairs.push_back(pairs[c]);
     return result;

@@ -4,7 +4,7 @@
 #include "bake/base/Parallel.h"
 #include "bake/reduce/SetCover.h"
 #include "bake/search/ExploredPoses.h"
-#include "bake/search/TreePair.h"
+#include "bake/search/NodePairs.h"
 
 #include <algorithm>
 #include <map>

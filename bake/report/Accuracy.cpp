@@ -140,13 +140,13 @@ double JudgedPoses::depth(std::size_t pose) const {
     return known_[pose];
 }
 
-ErrorFigures measureError(const compare::Rival& rival, const JudgedPoses& poses, std::size_t count,
+ErrorFigures measureError(const compare::CollisionMethod& method, const JudgedPoses& poses, std::size_t count,
                           std::size_t most) {
     ErrorFigures figures;
     std::vector<std::size_t> missed, early;
     figures.poses = std::min(count, poses.queries().size());
     for (std::size_t i = 0; i < figures.poses; ++i) {
-        const bool hit = rival.hit(poses.queries()[i]);
+        const bool hit = method.hit(poses.queries()[i]);
         figures.touching += poses.touches(i) ? 1 : 0;
         if (poses.touches(i) && !hit) missed.push_back(i);
         if (!poses.touches(i) && hit) early.push_back(i);
@@ -185,14 +185,14 @@ std::vector<ClosingMotion> closingMotions(const compare::Problem& problem, const
     return motions;
 }
 
-FirstContact measureFirstContact(const compare::Problem& problem, const compare::Rival& rival,
+FirstContact measureFirstContact(const compare::Problem& problem, const compare::CollisionMethod& method,
                                  std::span<const ClosingMotion> motions, int steps) {
     FirstContact result;
     const std::size_t leading = compare::leadingDof(problem);
     for (const ClosingMotion& motion : motions) {
         const double contact = firstTouch(steps, [&](double share) {
             const std::vector<double> q = along(motion, share);
-            return rival.hit({q, pose(problem.motion, q)});
+            return method.hit({q, pose(problem.motion, q)});
         });
         ++result.motions;
         if (contact > 1) {

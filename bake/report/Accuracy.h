@@ -1,7 +1,7 @@
 #pragma once
+#include "bake/compare/CollisionMethod.h"
 #include "bake/compare/MeshTruth.h"
 #include "bake/compare/Problem.h"
-#include "bake/compare/Rival.h"
 #include "bake/geometry/Solid.h"
 
 namespace tss::reporting {
@@ -54,7 +54,7 @@ struct ErrorFigures {
 };
 
 /// count: how many of the poses, from the first on. most: of how many misses the depth is measured at most.
-ErrorFigures measureError(const compare::Rival& rival, const JudgedPoses& poses, std::size_t count,
+ErrorFigures measureError(const compare::CollisionMethod& method, const JudgedPoses& poses, std::size_t count,
                           std::size_t most);
 
 /// Where contact begins along a way from a free pose to a touching one, by the meshes and by a method.
@@ -77,7 +77,7 @@ struct FirstContact {
     double worstLength = 0;          ///< how far the farthest point of B moves in between, scene units
     double earliest = 0, latest = 0; ///< signed lengths: early and late by so much
 };
-FirstContact measureFirstContact(const compare::Problem& problem, const compare::Rival& rival,
+FirstContact measureFirstContact(const compare::Problem& problem, const compare::CollisionMethod& method,
                                  std::span<const ClosingMotion> motions, int steps);
 
 } // namespace tss::reporting

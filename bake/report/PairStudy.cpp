@@ -32,11 +32,11 @@ Sizes sizesFor(bool quick) {
 }
 
 /// A model with the methods that were made for it.
-struct Entrant {
+struct StudiedModel {
     std::unique_ptr<Model> model;
     std::string about;
     Field field;
-    Contestants contestants;
+    MethodSet methods;
 };
 
 std::string inMillimetres(double length, double millimetres) {
@@ -60,12 +60,12 @@ BakeOptions baseOptions(const SceneModel& scene, const Pair& pair, const Triangl
     return options;
 }
 
-BakePoint bakePoint(const Entrant& entrant) {
-    const Model& model = *entrant.model;
+BakePoint bakePoint(const StudiedModel& studied) {
+    const Model& model = *studied.model;
     const Table& table = model.problem.table;
     BakePoint point;
     point.name = model.recipe.name;
-    point.about = entrant.about;
+    point.about = studied.about;
     point.tolerance = *model.recipe.options.tolerance;
     point.epsilon = model.recipe.options.epsilon;
     const auto sticksOut = [](const FitRecord& fit, const SphereSet& spheres, const TriangleMesh& mesh) {
@@ -87,10 +87,10 @@ BakePoint bakePoint(const Entrant& entrant) {
     return point;
 }
 
-void fillWork(Row& row, const Rival& rival, std::span<const PoseQuery> queries) {
+void fillWork(Row& row, const CollisionMethod& method, std::span<const PoseQuery> queries) {
     double tests = 0, products = 0;
     for (const PoseQuery& query : queries) {
-        const auto work = rival.work(query);
+        const auto work = method.work(query);
         if (!work) return;
         tests += static_cast<double>(work->tests);
         products += static_cast<double>(work->products);
@@ -106,7 +106,7 @@ bool onSpheres(const std::string& family) {
 }
 
 /// FCL without the interface that all methods share: what that costs shows in the difference.
-class FclDirectly final : public RivalLoop<FclDirectly> {
+class FclDirectly final : public CollisionMethodLoop<FclDirectly> {
 public:
     explicit FclDirectly(const MeshTruth& truth) : truth_(truth) {}
     bool hit(const PoseQuery& query) const override { return truth_.touches(query.pose); }
@@ -115,15 +115,15 @@ private:
     const MeshTruth& truth_;
 };
 
-void measureRows(PairStudy& study, const std::vector<Entrant>& field, const MeshTruth& truth,
+void measureRows(PairStudy& study, const std::vector<StudiedModel>& field, const MeshTruth& truth,
                  const JudgedPoses& uniform, const JudgedPoses& near,
                  const std::vector<ClosingMotion>& motions, const Sizes& sizes, const Progress& progress) {
-    std::vector<const Rival*> rivals;
+    std::vector<const CollisionMethod*> methods;
     std::vector<const Model*> models;
-    for (const Entrant& entrant : field)
-        for (const auto& rival : entrant.contestants.rivals) {
-            rivals.push_back(rival.get());
-            models.push_back(entrant.model.get());
+    for (const StudiedModel& studied : field)
+        for (const auto& method : studied.methods.all) {
+            methods.push_back(method.get());
+            models.push_back(studied.model.get());
         }
     // Random poses: any first part of them hits and misses as Q does.
     const std::span<const PoseQuery> timed(uniform.queries().data(),
@@ -131,15 +131,15 @@ void measureRows(PairStudy& study, const std::vector<Entrant>& field, const Mesh
     study.timedPoses = timed.size();
     report(progress, study.path + ": timing methods", 0);
     const FclDirectly directly(truth);
-    rivals.push_back(&directly);
-    const std::vector<Times> times = timeMethods(rivals, timed, sizes.timing);
+    methods.push_back(&directly);
+    const std::vector<Times> times = timeMethods(methods, timed, sizes.timing);
     study.fclDirectly = times.back();
-    rivals.pop_back();
-    for (std::size_t r = 0; r < rivals.size(); ++r) {
+    methods.pop_back();
+    for (std::size_t r = 0; r < methods.size(); ++r) {
         report(progress, study.path + ": judging methods",
-               static_cast<double>(r) / static_cast<double>(rivals.size()));
+               static_cast<double>(r) / static_cast<double>(methods.size()));
         Row row;
-        row.about = rivals[r]->description();
+        row.about = methods[r]->description();
         row.method = row.about.name;
         if (onSpheres(row.about.family)) {
             row.setting = models[r]->recipe.name;
@@ -149,12 +149,12 @@ void measureRows(PairStudy& study, const std::vector<Entrant>& field, const Mesh
         row.times = times[r];
         // By kind and not by the clock, so that every run judges at the same poses.
         const std::size_t part = row.about.slow ? slowPart : 1;
-        row.uniform = measureError(*rivals[r], uniform, uniform.queries().size() / part, sizes.depths);
-        row.near = measureError(*rivals[r], near, near.queries().size() / part, sizes.depths);
+        row.uniform = measureError(*methods[r], uniform, uniform.queries().size() / part, sizes.depths);
+        row.near = measureError(*methods[r], near, near.queries().size() / part, sizes.depths);
         const std::size_t ways = std::min(motions.size(), std::max<std::size_t>(2, motions.size() / part));
-        row.firstContact =
-            measureFirstContact(models[r]->problem, *rivals[r], std::span(motions).first(ways), closingSteps);
-        fillWork(row, *rivals[r], timed.first(std::min<std::size_t>(timed.size(), 500)));
+        row.firstContact = measureFirstContact(models[r]->problem, *methods[r],
+                                               std::span(motions).first(ways), closingSteps);
+        fillWork(row, *methods[r], timed.first(std::min<std::size_t>(timed.size(), 500)));
         study.rows.push_back(std::move(row));
     }
 }
@@ -181,15 +181,16 @@ double Row::worst() const {
 }
 
 /// Other tables and other spheres at the base's tolerance: what the paper does, and what is lost or won.
-std::vector<Entrant> otherRecipes(const SceneModel& scene, const Pair& pair, const Model& base, bool quick) {
+std::vector<StudiedModel> otherRecipes(const SceneModel& scene, const Pair& pair, const Model& base,
+                                       bool quick) {
     const auto with = [&](const std::string& name, const auto& change) {
         Recipe recipe{name, base.recipe.options};
         change(recipe.options);
         return recipe;
     };
-    std::vector<Entrant> entrants;
+    std::vector<StudiedModel> models;
     const auto fill = [&](const Recipe& recipe, const std::string& about) {
-        entrants.push_back({makeModel(scene, pair, recipe), about, Field::Model, {}});
+        models.push_back({makeModel(scene, pair, recipe), about, Field::Model, {}});
     };
     fill(with("paper",
               [&](BakeOptions& o) {
@@ -203,21 +204,21 @@ std::vector<Entrant> otherRecipes(const SceneModel& scene, const Pair& pair, con
     fill(with("growth, certified", [](BakeOptions& o) { o.spheres = SphereMethod::Growth; }),
          "the paper's spheres by growth, with the certified search and cover");
     if (!quick) {
-        entrants.push_back({wholeBodies(base, with("whole bodies", [](BakeOptions&) {})),
-                            "our spheres over the whole surfaces, not only where the two can meet",
-                            Field::Model,
-                            {}});
+        models.push_back({wholeBodies(base, with("whole bodies", [](BakeOptions&) {})),
+                          "our spheres over the whole surfaces, not only where the two can meet",
+                          Field::Model,
+                          {}});
         fill(with("inscribed", [](BakeOptions& o) { o.conservative = false; }),
              "spheres inside the bodies instead of about their surface (`--no-conservative`)");
-        entrants.push_back({makeModel(base, with("paper's reduction",
-                                                 [](BakeOptions& o) {
-                                                     o.search = SearchMethod::Sampled;
-                                                     o.reduce = ReduceMethod::Cooccurrence;
-                                                 })),
-                            "our spheres, the paper's sampled search and its reduction by co-occurrence",
-                            Field::Table,
-                            {}});
-        entrants.push_back(
+        models.push_back({makeModel(base, with("paper's reduction",
+                                               [](BakeOptions& o) {
+                                                   o.search = SearchMethod::Sampled;
+                                                   o.reduce = ReduceMethod::Cooccurrence;
+                                               })),
+                          "our spheres, the paper's sampled search and its reduction by co-occurrence",
+                          Field::Table,
+                          {}});
+        models.push_back(
             {makeModel(base, with("minimal over samples",
                                   [](BakeOptions& o) {
                                       o.search = SearchMethod::Sampled;
@@ -231,7 +232,7 @@ std::vector<Entrant> otherRecipes(const SceneModel& scene, const Pair& pair, con
     if (!ruleOfSpheres(base.problem.a, base.problem.b, base.problem.motion, AtRest::Ignore).empty())
         fill(offset,
              "what `tss bake` stores: the region that overlaps at rest touches only where it goes deeper");
-    return entrants;
+    return models;
 }
 
 std::vector<const Row*> paretoFront(const std::vector<Row>& rows, const std::function<double(const Row&)>& x,
@@ -265,7 +266,7 @@ PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptio
     study.trianglesB = b.triangles.size();
 
     const BakeOptions asked = baseOptions(scene, pair, a, b);
-    std::vector<Entrant> field;
+    std::vector<StudiedModel> field;
     std::size_t base = 0;
     for (const double factor :
          options.quick ? std::vector{1.0, 0.5} : std::vector{4.0, 2.0, 1.0, 0.5, 0.25, 0.125}) {
@@ -296,12 +297,12 @@ PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptio
         study.epsilons.push_back(bakePoint(field.back()));
     }
     report(progress, study.path + ": other recipes", 0);
-    for (Entrant& entrant : otherRecipes(scene, pair, model, options.quick)) {
-        study.recipes.push_back(bakePoint(entrant));
-        field.push_back(std::move(entrant));
+    for (StudiedModel& studied : otherRecipes(scene, pair, model, options.quick)) {
+        study.recipes.push_back(bakePoint(studied));
+        field.push_back(std::move(studied));
     }
     std::erase_if(field,
-                  [](const Entrant& entrant) { return entrant.model->problem.table.testCount() == 0; });
+                  [](const StudiedModel& studied) { return studied.model->problem.table.testCount() == 0; });
 
     report(progress, study.path + ": poses", 0);
     const MeshTruth truth(a, b);
@@ -315,11 +316,11 @@ PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptio
     study.leftOut = uniform.leftOut() + near.leftOut();
     study.earlyBound = model.problem.table.boundEarly;
     if (study.earlyBound > 0) study.freeWithinBound = uniform.freeWithin(study.earlyBound);
-    for (Entrant& entrant : field) {
-        report(progress, study.path + ": building methods, " + entrant.model->recipe.name, 0);
-        entrant.contestants =
-            makeContestants(*entrant.model, entrant.field, options.quick, options.methods, options.seed + 3);
-        if (entrant.field == Field::Whole) study.notRun = entrant.contestants.notRun;
+    for (StudiedModel& studied : field) {
+        report(progress, study.path + ": building methods, " + studied.model->recipe.name, 0);
+        studied.methods =
+            makeMethods(*studied.model, studied.field, options.quick, options.methods, options.seed + 3);
+        if (studied.field == Field::Whole) study.notRun = studied.methods.notRun;
     }
     measureRows(study, field, truth, uniform, near, motions, sizes, progress);
 

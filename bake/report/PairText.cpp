@@ -104,8 +104,8 @@ std::string frontText(const PairStudy& study) {
     return text + ".\n\n";
 }
 
-/// One line a model: what the table costs and errs, and how its rivals over the same spheres or on the meshes
-/// compare.
+/// One line a model: what the table costs and errs, and how its methods over the same spheres or on the
+/// meshes compare.
 std::string ratioTable(const PairStudy& study) {
     const Row* fcl = findMeshRow(study, "fcl-obbrss");
     const Row* bullet = findMeshRow(study, "bullet-gimpact");
@@ -197,8 +197,7 @@ std::string advice(const PairStudy& study) {
             ? "\nWhere only yes or no is wanted, memory is no matter and no bound is needed, take the **grid "
               "of gaps** here: its time does not depend on the shape. It knows no contact point, its memory "
               "grows with the power of the DOFs, and what it promises between its points is little.\n\n"
-            : "\nA **grid of gaps** does not win here by the figures above. Over one or two DOFs, where "
-              "memory is cheap and only yes or no is wanted, it often does.\n\n";
+            : "\nA **grid of gaps** does not win here by the figures above.\n\n";
     return text + "Take the **table** where the motion is constrained and known when baking, every frame "
                   "asks, and it "
                   "must be known how wrong an answer can be; it also gives gap, contact point, normal and "

@@ -2,7 +2,7 @@
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
-#include "bake/report/Contestants.h"
+#include "bake/report/MethodSet.h"
 #include "bake/report/Page.h"
 
 #include <algorithm>

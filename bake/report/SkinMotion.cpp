@@ -94,7 +94,7 @@ double areaOf(std::span<const Vec3> positions, const std::vector<Tri>& triangles
 std::vector<Vec3> placesOf(const SkinResponse& response, const TriangleMesh& mesh, const SkinRig& rig) {
     std::vector<Vec3> all = mesh.vertices;
     const auto positions = response.positions();
-    for (std::size_t k = 0; k < positions.size(); ++k) all[response.rig().vertices[k]] = positions[k];
+    for (std::size_t k = 0; k < positions.size(); ++k) all[response.vertices()[k]] = positions[k];
     std::vector<Vec3> places;
     for (const std::uint32_t v : rig.vertices) places.push_back(all[v]);
     return places;

@@ -1,8 +1,8 @@
 #pragma once
 #include "bake/base/Progress.h"
 #include "bake/report/Accuracy.h"
-#include "bake/report/Contestants.h"
 #include "bake/report/Machine.h"
+#include "bake/report/MethodSet.h"
 #include "bake/report/Timing.h"
 
 #include <functional>

@@ -84,7 +84,8 @@ RegionCurve regionOf(const Motion& motion, std::size_t leading, int bins, int sa
 }
 
 /// Share of the queries at which the whole model collides and the table does not.
-double missedShare(const Rival& whole, const Rival& table, const std::vector<PoseQuery>& queries) {
+double missedShare(const CollisionMethod& whole, const CollisionMethod& table,
+                   const std::vector<PoseQuery>& queries) {
     std::size_t hits = 0, missed = 0;
     for (const PoseQuery& query : queries) {
         if (!whole.hit(query)) continue;
@@ -118,7 +119,7 @@ void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, con
         study.steps.inRegion.push_back(study.region.spheres.contains(value));
         study.steps.inMeshRegion += study.region.meshes.contains(value) ? 1 : 0;
     }
-    std::vector<std::pair<std::string, std::unique_ptr<Rival>>> methods;
+    std::vector<std::pair<std::string, std::unique_ptr<CollisionMethod>>> methods;
     methods.emplace_back("all pairs, until the first hit", makeAllPairs(problem));
     methods.emplace_back("sphere tree, all spheres (case 1)",
                          makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls));
@@ -127,10 +128,10 @@ void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, con
     methods.emplace_back("medial sphere tree", makeAdaptiveMedial(problem, 3));
     methods.emplace_back("octree sphere tree", makeOctree(problem, 6));
     methods.emplace_back("TSS", makePairList(problem));
-    for (const auto& [name, rival] : methods) {
+    for (const auto& [name, method] : methods) {
         StepSeries series{name, {}};
         for (const PoseQuery& query : queries)
-            series.tests.push_back(static_cast<double>(rival->work(query)->tests));
+            series.tests.push_back(static_cast<double>(method->work(query)->tests));
         study.steps.series.push_back(std::move(series));
     }
     StepSeries mixed{"TSS in the angular region only", {}};

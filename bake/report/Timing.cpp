@@ -14,10 +14,10 @@ struct Plan {
     std::vector<double> nanoseconds;
 };
 
-double secondsOf(const compare::Rival& rival, std::span<const compare::PoseQuery> queries,
+double secondsOf(const compare::CollisionMethod& method, std::span<const compare::PoseQuery> queries,
                  std::size_t repeats, std::size_t& hits) {
     const double start = threadSeconds();
-    for (std::size_t k = 0; k < repeats; ++k) hits += rival.countHits(queries);
+    for (std::size_t k = 0; k < repeats; ++k) hits += method.countHits(queries);
     return threadSeconds() - start;
 }
 
@@ -27,18 +27,18 @@ double at(const std::vector<double>& sorted, double share) {
 
 } // namespace
 
-std::vector<Times> timeMethods(const std::vector<const compare::Rival*>& rivals,
+std::vector<Times> timeMethods(const std::vector<const compare::CollisionMethod*>& methods,
                                std::span<const compare::PoseQuery> queries, const TimingOptions& options) {
-    std::vector<Times> times(rivals.size());
+    std::vector<Times> times(methods.size());
     if (queries.empty()) return times;
-    std::vector<Plan> plans(rivals.size());
+    std::vector<Plan> plans(methods.size());
     std::size_t hits = 0;
     int most = 0;
-    for (std::size_t m = 0; m < rivals.size(); ++m) {
+    for (std::size_t m = 0; m < methods.size(); ++m) {
         const auto few = queries.first(std::min<std::size_t>(queries.size(), 100));
-        secondsOf(*rivals[m], few, 1, hits); // caches, page faults, clock speed
+        secondsOf(*methods[m], few, 1, hits); // caches, page faults, clock speed
         const double each =
-            std::max(1e-9, secondsOf(*rivals[m], few, 1, hits)) / static_cast<double>(few.size());
+            std::max(1e-9, secondsOf(*methods[m], few, 1, hits)) / static_cast<double>(few.size());
         const double fitting = std::clamp(options.secondsPass / each, static_cast<double>(few.size()),
                                           static_cast<double>(queries.size()));
         plans[m].queries = queries.first(static_cast<std::size_t>(fitting));
@@ -50,15 +50,15 @@ std::vector<Times> timeMethods(const std::vector<const compare::Rival*>& rivals,
         most = std::max(most, plans[m].rounds);
     }
     for (int round = 0; round < most; ++round)
-        for (std::size_t m = 0; m < rivals.size(); ++m) {
+        for (std::size_t m = 0; m < methods.size(); ++m) {
             Plan& plan = plans[m];
             if (round >= plan.rounds) continue;
-            const double seconds = secondsOf(*rivals[m], plan.queries, plan.repeats, hits);
+            const double seconds = secondsOf(*methods[m], plan.queries, plan.repeats, hits);
             plan.nanoseconds.push_back(1e9 * seconds /
                                        static_cast<double>(plan.repeats * plan.queries.size()));
         }
     [[maybe_unused]] volatile std::size_t sink = hits; // so that no loop is left out
-    for (std::size_t m = 0; m < rivals.size(); ++m) {
+    for (std::size_t m = 0; m < methods.size(); ++m) {
         std::vector<double>& sorted = plans[m].nanoseconds;
         std::sort(sorted.begin(), sorted.end());
         times[m] = {at(sorted, 0.5), at(sorted, 0.1), at(sorted, 0.9), plans[m].rounds,

@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/base/ThreadTime.h"
-#include "bake/compare/Rival.h"
+#include "bake/compare/CollisionMethod.h"
 
 namespace tss::reporting {
 
@@ -21,7 +21,7 @@ struct TimingOptions {
 /// Times the loop over the same poses for every method, in one process on one thread: a warm-up, then rounds
 /// in which all methods take turns, so that what disturbs the machine disturbs all of them. queries: in
 /// random order, so that a slow method's first part stands for all.
-std::vector<Times> timeMethods(const std::vector<const compare::Rival*>& rivals,
+std::vector<Times> timeMethods(const std::vector<const compare::CollisionMethod*>& methods,
                                std::span<const compare::PoseQuery> queries, const TimingOptions& options);
 
 } // namespace tss::reporting

@@ -9,7 +9,7 @@ namespace {
 
 /// A rate of the gap that holds until the row just ahead of some paths and beyond it: of each DOF what closes
 /// it more.
-double slowestRate(const JointModel::Group& group, const MotionFrame& frame, const JointValues& way,
+double slowestRate(const JointModel::Group& group, const MotionFrame& frame, const DofValues& way,
                    const Vec3& normal, const Vec3& centre) {
     double rate = 0;
     for (std::size_t k = 0; k < group.dofs.size(); ++k)
@@ -19,8 +19,8 @@ double slowestRate(const JointModel::Group& group, const MotionFrame& frame, con
 }
 
 /// Gap and rate of every active pair at q; thresholds rise as pairs free themselves.
-void observe(const JointModel& model, const JointValues& q, const JointValues& way, std::size_t activeCount,
-             JointWorkspace& ws) {
+void observe(const JointModel& model, const DofValues& q, const DofValues& way, std::size_t activeCount,
+             ResponseRoom& ws) {
     placeGroups(model, q, way, ws);
     std::uint32_t at = ~0u;
     DofTwist whole;
@@ -41,7 +41,7 @@ void observe(const JointModel& model, const JointValues& q, const JointValues& w
         near.gap = pairGap(pair, frame.pose, centre, normal);
         near.rate = normal.dot(whole.velocity(centre));
         if (frame.rowAhead) near.rate = slowestRate(model.groups[at], frame, way, normal, centre);
-        if (!ws.common) near.threshold = std::max(near.threshold, std::min(pair.off, near.gap));
+        if (!ws.common) near.threshold = std::max(near.threshold, std::min(pair.contactOffset, near.gap));
     }
 }
 
@@ -55,7 +55,7 @@ double closingTime(double g, double rate, double acceleration) {
 }
 
 /// Time until some path DOF reaches its next row, where its rate jumps.
-double timeToRow(const JointModel::Group& group, const JointValues& q, const JointValues& way) {
+double timeToRow(const JointModel::Group& group, const DofValues& q, const DofValues& way) {
     double time = HUGE_VAL;
     if (!group.paths) return time;
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
@@ -67,8 +67,8 @@ double timeToRow(const JointModel::Group& group, const JointValues& q, const Joi
 }
 
 /// The time for which no near pair can reach its threshold, 0 when one is there.
-double freeTime(const JointModel& model, const JointValues& q, const JointValues& way, double left,
-                std::size_t activeCount, JointWorkspace& ws) {
+double freeTime(const JointModel& model, const DofValues& q, const DofValues& way, double left,
+                std::size_t activeCount, ResponseRoom& ws) {
     double time = left;
     std::uint32_t at = ~0u;
     double row = HUGE_VAL;
@@ -77,7 +77,7 @@ double freeTime(const JointModel& model, const JointValues& q, const JointValues
         const double room = near.gap - near.threshold;
         if (time > 0 && near.speed * time < room) continue;
         const JointModel::Pair& pair = model.pairs[near.pair];
-        if (near.rate < 0 && room < 0.05 * pair.off) {
+        if (near.rate < 0 && room < 0.05 * pair.contactOffset) {
             ws.held[pair.group] |= stoppedWay;
             time = 0; // the others are looked at too: several may hold
         }
@@ -96,7 +96,7 @@ double freeTime(const JointModel& model, const JointValues& q, const JointValues
 
 } // namespace
 
-void MotionBounds::bound(const JointModel& model, const JointValues& way, NearPair& near) {
+void MotionBounds::bound(const JointModel& model, const DofValues& way, NearPair& near) {
     if (const std::uint32_t index = model.pairs[near.pair].group; index != group_) {
         group_ = index;
         const JointModel::Group& group = model.groups[index];
@@ -118,8 +118,8 @@ void MotionBounds::bound(const JointModel& model, const JointValues& way, NearPa
     }
 }
 
-double advance(const JointModel& model, const JointValues& way, JointValues& q, JointWorkspace& ws) {
-    const JointValues start = q;
+double advance(const JointModel& model, const DofValues& way, DofValues& q, ResponseRoom& ws) {
+    const DofValues start = q;
     std::size_t activeCount = 0;
     MotionBounds bounds;
     for (std::size_t i = 0; i < ws.nearCount; ++i) {

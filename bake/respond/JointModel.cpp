@@ -32,7 +32,7 @@ void addPairs(const Table& table, std::uint32_t group, JointModel& model) {
         const double rest = table.restGaps.empty() ? 0 : table.restGaps[k];
         model.pairs.push_back(
             {a.centre, b.centre, a.radius, b.radius, rest, a.radius + b.radius + rest, group, k, 0, 0});
-        JointValues own;
+        DofValues own;
         speedBounds(table.motion, b.centre, own.data());
         const std::size_t row = model.speeds.size();
         model.speeds.resize(row + model.dofCount, 0.0);
@@ -43,9 +43,9 @@ void addPairs(const Table& table, std::uint32_t group, JointModel& model) {
     }
 }
 
-/// off = 1.5 epsilon (METHOD 5.3), of each table its own: a coarse one keeps its own bodies apart by more,
-/// and no others. For a lossless table a distance far above the rounding of a gap and far below anything
-/// seen.
+/// contactOffset = 1.5 epsilon (METHOD 5.3), of each table its own: a coarse one keeps its own bodies apart
+/// by more, and no others. For a lossless table a distance far above the rounding of a gap and far below
+/// anything seen.
 double keptGap(const JointModel& model, const JointModel::Group& group, double epsilon) {
     double size = 0, coordinate = group.motion.base.translation().norm();
     for (std::uint32_t i = group.firstPair; i < group.lastPair; ++i) {
@@ -81,8 +81,9 @@ void addTable(const TableOnJoint& entry, int index, JointModel& model) {
     addPairs(*entry.table, static_cast<std::uint32_t>(model.groups.size() - 1), model);
     JointModel::Group& added = model.groups.back();
     added.lastPair = static_cast<std::uint32_t>(model.pairs.size());
-    added.off = keptGap(model, added, entry.table->epsilon);
-    for (std::uint32_t p = added.firstPair; p < added.lastPair; ++p) model.pairs[p].off = added.off;
+    added.contactOffset = keptGap(model, added, entry.table->epsilon);
+    for (std::uint32_t p = added.firstPair; p < added.lastPair; ++p)
+        model.pairs[p].contactOffset = added.contactOffset;
 }
 
 /// Values whose tables all know the whole turn, and that nothing else limits.
@@ -118,14 +119,14 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
     model.dofCount = dofCount;
     model.lower.fill(-std::numeric_limits<double>::infinity());
     model.upper.fill(std::numeric_limits<double>::infinity());
-    model.leastOff = std::numeric_limits<double>::infinity();
+    model.leastContactOffset = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < tables.size(); ++i) {
         checkFit(tables[i], dofCount);
         addTable(tables[i], static_cast<int>(i), model);
         if (prepare) model.groups.back().prepared = std::make_shared<PreparedTable>(*tables[i].table);
-        model.leastOff = std::min(model.leastOff, model.groups.back().off);
+        model.leastContactOffset = std::min(model.leastContactOffset, model.groups.back().contactOffset);
     }
-    if (model.groups.empty()) model.leastOff = std::numeric_limits<double>::min();
+    if (model.groups.empty()) model.leastContactOffset = std::numeric_limits<double>::min();
     for (int l = 0; l < dofCount; ++l)
         if (!(model.lower[l] <= model.upper[l]))
             throw InputError("joint: expected limits of its tables that overlap");
@@ -143,15 +144,15 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
         }
         model.pairs[p].lever = std::sqrt(squared);
     }
-    model.scale = weightedDistance(model, model.range, JointValues{});
+    model.scale = weightedDistance(model, model.range, DofValues{});
     return model;
 }
 
-void placeGroup(const JointModel& model, std::size_t g, const JointValues& q, const JointValues& way,
-                JointWorkspace& ws) {
+void placeGroup(const JointModel& model, std::size_t g, const DofValues& q, const DofValues& way,
+                ResponseRoom& ws) {
     const JointModel::Group& group = model.groups[g];
     PlacedGroup& placed = ws.groups[g];
-    JointValues direction;
+    DofValues direction;
     bool same = placed.known && !group.paths; // a path's twist depends on the way
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
         const double value = q[group.dofs[k]];
@@ -164,32 +165,32 @@ void placeGroup(const JointModel& model, std::size_t g, const JointValues& q, co
     evaluateFrame(group.motion, placed.at.data(), direction.data(), placed.frame);
 }
 
-void placeGroups(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws) {
+void placeGroups(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws) {
     for (std::size_t g = 0; g < model.groups.size(); ++g) placeGroup(model, g, q, way, ws);
 }
 
 namespace {
 
 /// Takes a pair into the near list where its gap can fall to its threshold within reach.
-void takeIfNear(const JointModel& model, std::uint32_t p, const Pose& pose, const JointValues& reach,
-                JointWorkspace& ws) {
+void takeIfNear(const JointModel& model, std::uint32_t p, const Pose& pose, const DofValues& reach,
+                ResponseRoom& ws) {
     const JointModel::Pair& pair = model.pairs[p];
     const double* speed = model.speed(p);
-    double far = pair.reach + 2 * pair.off;
+    double far = pair.reach + 2 * pair.contactOffset;
     for (int l = 0; l < model.dofCount; ++l) far += speed[l] * reach[l];
     const double squared = (pose * pair.b - pair.a).squaredNorm();
     if (far < 0 || squared > far * far) return;
     NearPair& near = ws.near[ws.nearCount++];
     near.pair = p;
     near.gap = std::sqrt(squared) - pair.reach;
-    near.threshold = std::min(pair.off, near.gap);
+    near.threshold = std::min(pair.contactOffset, near.gap);
 }
 
 /// The tests of a group that a vector query finds under the margin that its fastest pair needs.
-std::uint32_t findUnder(const JointModel& model, const JointModel::Group& group, const JointValues& q,
-                        const JointValues& reach, JointWorkspace& ws) {
-    JointValues own;
-    double margin = 2 * group.off;
+std::uint32_t findUnder(const JointModel& model, const JointModel::Group& group, const DofValues& q,
+                        const DofValues& reach, ResponseRoom& ws) {
+    DofValues own;
+    double margin = 2 * group.contactOffset;
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
         own[k] = q[group.dofs[k]];
         if (model.round[group.dofs[k]]) // the table's cells end at its limits
@@ -201,7 +202,7 @@ std::uint32_t findUnder(const JointModel& model, const JointModel::Group& group,
 
 } // namespace
 
-void cull(const JointModel& model, const JointValues& q, const JointValues& reach, JointWorkspace& ws) {
+void cull(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws) {
     ws.nearCount = 0;
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
         const JointModel::Group& group = model.groups[g];
@@ -219,7 +220,7 @@ void cull(const JointModel& model, const JointValues& q, const JointValues& reac
     }
 }
 
-void narrow(const JointModel& model, double distance, JointWorkspace& ws) {
+void narrow(const JointModel& model, double distance, ResponseRoom& ws) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < ws.nearCount; ++i) {
         const NearPair& near = ws.near[i];
@@ -230,7 +231,7 @@ void narrow(const JointModel& model, double distance, JointWorkspace& ws) {
     ws.nearCount = kept;
 }
 
-void linearise(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws) {
+void linearise(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws) {
     placeGroups(model, q, way, ws);
     for (std::size_t i = 0; i < ws.nearCount; ++i) {
         NearPair& near = ws.near[i];
@@ -246,18 +247,18 @@ void linearise(const JointModel& model, const JointValues& q, const JointValues&
     }
 }
 
-double smallestLevel(const JointModel& model, const JointValues& q, JointWorkspace& ws) {
+double smallestLevel(const JointModel& model, const DofValues& q, ResponseRoom& ws) {
     placeGroups(model, q, q, ws);
     double smallest = std::numeric_limits<double>::infinity();
     Vec3 centre, normal;
     for (const JointModel::Pair& pair : model.pairs)
         smallest =
-            std::min(smallest, levelOf(model, pair.off,
+            std::min(smallest, levelOf(model, pair.contactOffset,
                                        pairGap(pair, ws.groups[pair.group].frame.pose, centre, normal)));
     return smallest;
 }
 
-void addLimits(const JointModel& model, const JointValues& q, double trust, const JointValues& goal,
+void addLimits(const JointModel& model, const DofValues& q, double trust, const DofValues& goal,
                QpRows& rows) {
     const int n = model.dofCount;
     for (int l = 0; l < n; ++l) {
@@ -285,9 +286,9 @@ void addLimits(const JointModel& model, const JointValues& q, double trust, cons
     }
 }
 
-JointValues clampToLimits(const JointModel& model, const double* asked, JointWorkspace& ws) {
+DofValues clampToLimits(const JointModel& model, const double* asked, ResponseRoom& ws) {
     const int n = model.dofCount;
-    JointValues q{};
+    DofValues q{};
     for (int l = 0; l < n; ++l) q[l] = std::clamp(asked[l], model.lower[l], model.upper[l]);
     const auto within = [&](const LimitPlane& plane) {
         double sum = -plane.bound;
@@ -297,20 +298,20 @@ JointValues clampToLimits(const JointModel& model, const double* asked, JointWor
     if (std::all_of(model.planes.begin(), model.planes.end(), within)) return q;
     ws.rows.clear(n);
     addLimits(model, q, 1, q, ws.rows);
-    JointValues y;
+    DofValues y;
     if (!nearestToOrigin(ws.rows, 1e-12 * model.scale, y)) return q;
     for (int l = 0; l < n; ++l)
         q[l] = std::clamp(q[l] + y[l] / model.weights[l], model.lower[l], model.upper[l]);
     return q;
 }
 
-void wrapTurns(const JointModel& model, JointValues& q) {
+void wrapTurns(const JointModel& model, DofValues& q) {
     for (int l = 0; l < model.dofCount; ++l)
         if (model.round[l] && (q[l] < model.first[l] || q[l] > model.first[l] + model.range[l]))
             q[l] = nearestTurn(q[l], model.first[l] + 0.5 * model.range[l]);
 }
 
-double weightedDistance(const JointModel& model, const JointValues& x, const JointValues& y) {
+double weightedDistance(const JointModel& model, const DofValues& x, const DofValues& y) {
     double sum = 0;
     for (int l = 0; l < model.dofCount; ++l) {
         const double d = model.weights[l] * (x[l] - y[l]);

@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/motion/JointQp.h"
 #include "bake/motion/MotionFrame.h"
+#include "bake/respond/JointResponder.h"
 #include "bake/table/PreparedTable.h"
 
 #include <memory>
@@ -10,13 +11,6 @@ namespace tss {
 /// Moves by more than this share of a DOF's range are made in parts, so that few pairs are near each.
 inline constexpr double farMove = 1.0 / 8;
 
-/// A table that bears on a joint: dofs[k] is the place of DOF k of the table's motion among the joint's
-/// values. Several tables may share a joint (a mandible against a skull, a tooth guard against both).
-struct TableOnJoint {
-    const Table* table = nullptr;
-    std::vector<int> dofs;
-};
-
 /// What the response needs to know of the tables on one joint. Immutable; shared between threads.
 struct JointModel {
     struct Group {
@@ -24,7 +18,7 @@ struct JointModel {
         std::vector<int> dofs;         ///< place of each DOF of the motion among the joint's values
         std::vector<double> turnRates; ///< turnBound of each
         bool paths = false;            ///< some DOF is a path, whose rate jumps at its rows
-        double off =
+        double contactOffset =
             0; ///< gap that its pairs are kept at: above its own epsilon, so that the models are free
         std::uint32_t firstPair = 0, lastPair = 0;
         int table = 0;
@@ -35,23 +29,23 @@ struct JointModel {
         double radiusA = 0, radiusB = 0, rest = 0;
         double reach = 0; ///< radiusA + radiusB + rest: the distance of the centres at contact
         std::uint32_t group = 0;
-        std::uint32_t test = 0; ///< index in its table
-        double lever = 0;       ///< its gap changes by at most lever * |w (q - q')|
-        double off = 0;         ///< its group's
+        std::uint32_t test = 0;   ///< index in its table
+        double lever = 0;         ///< its gap changes by at most lever * |w (q - q')|
+        double contactOffset = 0; ///< its group's
     };
 
     int dofCount = 0;
-    JointValues lower{}, upper{};      ///< of a DOF of a whole turn a turn beyond the tables' on both sides
-    JointValues first{}, range{};      ///< lower limit and extent of the tables'
+    DofValues lower{}, upper{};        ///< of a DOF of a whole turn a turn beyond the tables' on both sides
+    DofValues first{}, range{};        ///< lower limit and extent of the tables'
     std::array<bool, maxDofs> round{}; ///< a whole turn, which goes on where its limits meet
-    JointValues weights{}; ///< largest lever of each DOF, scene units a unit of the DOF: z = w q (METHOD 5.4)
-    JointValues perWeight{}; ///< 1 / weights
+    DofValues weights{};   ///< largest lever of each DOF, scene units a unit of the DOF: z = w q (METHOD 5.4)
+    DofValues perWeight{}; ///< 1 / weights
     std::vector<LimitPlane> planes;
     std::vector<Group> groups;
-    std::vector<Pair> pairs;    ///< by group
-    std::vector<double> speeds; ///< #pairs by dofCount: speed bound per unit of each value of the joint
-    double scale = 0;           ///< length of the limits' diagonal in the weighted metric, scene units
-    double leastOff = 0;        ///< of the groups
+    std::vector<Pair> pairs;       ///< by group
+    std::vector<double> speeds;    ///< #pairs by dofCount: speed bound per unit of each value of the joint
+    double scale = 0;              ///< length of the limits' diagonal in the weighted metric, scene units
+    double leastContactOffset = 0; ///< of the groups
 
     const double* speed(std::uint32_t pair) const {
         return speeds.data() + std::size_t(pair) * std::size_t(dofCount);
@@ -72,7 +66,7 @@ struct NearPair {
     double speed = 0;        ///< bound of |rate| on the way
     double acceleration = 0; ///< bound of -rate' on the way
     double lift = 0;         ///< what a slide asks above the threshold, room for the bend of its way
-    JointValues gradient;    ///< of the gap, set by `linearise`
+    DofValues gradient;      ///< of the gap, set by `linearise`
     int row = -1;            ///< of the slide's rows, -1: not among them; a demand d has the bound ...
     double rowScale = 0, rowOffset = 0; ///< ... rowScale * d + rowOffset there
 };
@@ -81,19 +75,19 @@ struct NearPair {
 /// at once.
 struct PlacedGroup {
     MotionFrame frame;
-    JointValues at;
+    DofValues at;
     bool known = false;
 };
 
-/// Bits of JointWorkspace::held.
+/// Bits of JointWorkspace::held().
 enum : std::uint8_t {
     stoppedWay = 1,     ///< a way ended at this table's contact, and the joint stayed there
     touchedAtStart = 2, ///< the joint stood in its contact before
     passedBy = 4 ///< its contact ended the straight way, and the joint came to what was asked around it
 };
 
-/// Room for one response, made once per thread by JointResponder::workspace.
-struct JointWorkspace {
+/// What a JointWorkspace holds.
+struct ResponseRoom {
     std::vector<NearPair> near;
     std::size_t nearCount = 0;
     bool common =
@@ -107,9 +101,9 @@ struct JointWorkspace {
 };
 
 /// Places one group, or every group, at q (values of the joint) into ws.groups.
-void placeGroup(const JointModel& model, std::size_t group, const JointValues& q, const JointValues& way,
-                JointWorkspace& ws);
-void placeGroups(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws);
+void placeGroup(const JointModel& model, std::size_t group, const DofValues& q, const DofValues& way,
+                ResponseRoom& ws);
+void placeGroups(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws);
 
 /// Gap of a pair with the group's pose; normal (unit or less, from A to B) and the centre of B in A's frame.
 inline double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& centre, Vec3& normal) {
@@ -121,43 +115,43 @@ inline double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& cent
 }
 
 /// Fills ws.near with the pairs whose gap can fall to their threshold when each DOF changes by at most
-/// reach[l] from q. Thresholds are min(off, gap at q), each of its own table.
-void cull(const JointModel& model, const JointValues& q, const JointValues& reach, JointWorkspace& ws);
+/// reach[l] from q. Thresholds are min(contactOffset, gap at q), each of its own table.
+void cull(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws);
 
 /// Leaves out near pairs that stay above their threshold wherever |w (q - q')| is at most `distance`; gaps
 /// must be those at q.
-void narrow(const JointModel& model, double distance, JointWorkspace& ws);
+void narrow(const JointModel& model, double distance, ResponseRoom& ws);
 
 /// Gap and gradient of every near pair at q, one-sided towards `way` at rows of paths. Thresholds above the
 /// gap fall to it, unless they are common.
-void linearise(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws);
+void linearise(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws);
 
 /// A gap on the scale that tables of one joint share: above contact as a share of what its own table keeps,
 /// in units of the least of them; in contact as it is. Monotone, and positive where the gap is.
-inline double levelOf(const JointModel& model, double off, double gap) {
-    return gap > 0 ? gap * (model.leastOff / off) : gap;
+inline double levelOf(const JointModel& model, double contactOffset, double gap) {
+    return gap > 0 ? gap * (model.leastContactOffset / contactOffset) : gap;
 }
 /// And back.
-inline double gapOf(const JointModel& model, double off, double level) {
-    return level > 0 ? level * (off / model.leastOff) : level;
+inline double gapOf(const JointModel& model, double contactOffset, double level) {
+    return level > 0 ? level * (contactOffset / model.leastContactOffset) : level;
 }
 
 /// Smallest level of all pairs of the model at q; infinity where there are none.
-double smallestLevel(const JointModel& model, const JointValues& q, JointWorkspace& ws);
+double smallestLevel(const JointModel& model, const DofValues& q, ResponseRoom& ws);
 
 /// Adds limits and planes as rows about the goal, y = w (q + way - goal), each DOF staying within `trust` of
 /// its range from q.
-void addLimits(const JointModel& model, const JointValues& q, double trust, const JointValues& goal,
+void addLimits(const JointModel& model, const DofValues& q, double trust, const DofValues& goal,
                QpRows& rows);
 
 /// Clamps into the box of limits, then, where a plane is broken, to the nearest point inside in the weighted
 /// metric (planes hold to 1e-12 of the range).
-JointValues clampToLimits(const JointModel& model, const double* asked, JointWorkspace& ws);
+DofValues clampToLimits(const JointModel& model, const double* asked, ResponseRoom& ws);
 
 /// Takes the values of whole turns into the tables' limits; others stay.
-void wrapTurns(const JointModel& model, JointValues& q);
+void wrapTurns(const JointModel& model, DofValues& q);
 
 /// |w (x - y)|.
-double weightedDistance(const JointModel& model, const JointValues& x, const JointValues& y);
+double weightedDistance(const JointModel& model, const DofValues& x, const DofValues& y);
 
 } // namespace tss

@@ -1,6 +1,7 @@
 #include "bake/respond/JointResponder.h"
 
 #include "bake/motion/WholeTurn.h"
+#include "bake/respond/JointModel.h"
 #include "bake/respond/JointSlide.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ TableOnJoint wholeJoint(const Table& table) {
 }
 
 /// Into how many legs a way is parted, so that few pairs are near each.
-int legsOf(const JointModel& model, const JointValues& start, const JointValues& goal) {
+int legsOf(const JointModel& model, const DofValues& start, const DofValues& goal) {
     double legs = 1;
     for (int l = 0; l < model.dofCount; ++l) {
         const double most = farMove * model.range[l];
@@ -32,17 +33,16 @@ int legsOf(const JointModel& model, const JointValues& start, const JointValues&
 }
 
 /// Culls for the first of so many legs from q to the goal.
-void cullLeg(const JointModel& model, const JointValues& q, const JointValues& goal, int legs,
-             JointWorkspace& ws) {
-    JointValues reach{};
+void cullLeg(const JointModel& model, const DofValues& q, const DofValues& goal, int legs, ResponseRoom& ws) {
+    DofValues reach{};
     for (int l = 0; l < model.dofCount; ++l) reach[l] = std::abs(goal[l] - q[l]) / legs;
     cull(model, q, reach, ws);
 }
 
 /// Goes from q to the goal as far as the way is free, in legs; the near pairs must be those of the first one,
 /// and are those of the last one gone. False where it is not free to the end.
-bool walk(const JointModel& model, const JointValues& goal, int legs, JointValues& q, JointWorkspace& ws) {
-    JointValues way{};
+bool walk(const JointModel& model, const DofValues& goal, int legs, DofValues& q, ResponseRoom& ws) {
+    DofValues way{};
     for (; legs > 0; --legs) {
         for (int l = 0; l < model.dofCount; ++l) way[l] = (goal[l] - q[l]) / legs;
         if (advance(model, way, q, ws) < 1) return false;
@@ -60,14 +60,34 @@ double queryGap(const JointModel::Pair& pair, const Pose& inverse) {
 
 } // namespace
 
-JointResponder::JointResponder(const Table& table, Preparation preparation)
-    : JointResponder(std::vector<TableOnJoint>{wholeJoint(table)}, static_cast<int>(table.motion.dofCount()),
-                     preparation) {}
+/// What a responder is made of: the tables as the response wants them.
+class JointResponder::Prepared {
+public:
+    Prepared(std::span<const TableOnJoint> tables, int dofCount, Preparation preparation);
+    ResponseRoom room() const;
+    JointAnswer respond(const double* last, const double* asked, ResponseRoom& ws) const;
+    const JointModel& model() const { return model_; }
+    const DofValues* freePose() const { return hasFreePose_ ? &freePose_ : nullptr; }
 
-JointResponder::JointResponder(std::span<const TableOnJoint> tables, int dofCount, Preparation preparation)
+private:
+    void findFreePose(const DofValues& rest);
+    JointAnswer within(const DofValues& start, const DofValues& goal, ResponseRoom& ws) const;
+    JointAnswer fromFree(const DofValues& start, const DofValues& goal, int legs, ResponseRoom& ws) const;
+    JointAnswer fromCollision(const DofValues& start, const DofValues& goal, double depth,
+                              ResponseRoom& ws) const;
+    JointAnswer judged(const DofValues& q, JointStatus status, ResponseRoom& ws) const;
+
+    JointModel model_;
+    DofValues freePose_{};
+    bool hasFreePose_ = false;
+    double knownDepth_ = 0; ///< least gapDepth of the tables
+};
+
+JointResponder::Prepared::Prepared(std::span<const TableOnJoint> tables, int dofCount,
+                                   Preparation preparation)
     : model_(makeJointModel(tables, dofCount, preparation == Preparation::Fully)) {
     knownDepth_ = std::numeric_limits<double>::infinity();
-    JointValues rest{};
+    DofValues rest{};
     for (const TableOnJoint& entry : tables) {
         knownDepth_ = std::min(knownDepth_, entry.table->gapDepth);
         for (std::size_t k = 0; k < entry.dofs.size(); ++k)
@@ -76,8 +96,8 @@ JointResponder::JointResponder(std::span<const TableOnJoint> tables, int dofCoun
     if (preparation == Preparation::Fully) findFreePose(rest);
 }
 
-JointWorkspace JointResponder::workspace() const {
-    JointWorkspace ws;
+ResponseRoom JointResponder::Prepared::room() const {
+    ResponseRoom ws;
     ws.near.resize(model_.pairs.size());
     ws.active.resize(model_.pairs.size());
     std::size_t room = 0;
@@ -91,8 +111,8 @@ JointWorkspace JointResponder::workspace() const {
     return ws;
 }
 
-void JointResponder::findFreePose(const JointValues& rest) {
-    JointWorkspace ws = workspace();
+void JointResponder::Prepared::findFreePose(const DofValues& rest) {
+    ResponseRoom ws = room();
     freePose_ = clampToLimits(model_, rest.data(), ws);
     double best = smallestLevel(model_, freePose_, ws);
     // A grid of some thousand poses at most, inner points and borders alike.
@@ -100,8 +120,8 @@ void JointResponder::findFreePose(const JointValues& rest) {
     const int side = n == 0 ? 1 : std::max(2, static_cast<int>(std::pow(1000.0, 1.0 / n)));
     long count = 1;
     for (int l = 0; l < n && count < 5000; ++l) count *= side;
-    for (long i = 0; i < count && best <= 2 * model_.leastOff; ++i) {
-        JointValues q{};
+    for (long i = 0; i < count && best <= 2 * model_.leastContactOffset; ++i) {
+        DofValues q{};
         long rest_ = i;
         for (int l = 0; l < n; ++l, rest_ /= side)
             q[l] = model_.first[l] + model_.range[l] * double(rest_ % side) / std::max(1, side - 1);
@@ -115,7 +135,7 @@ void JointResponder::findFreePose(const JointValues& rest) {
     hasFreePose_ = best > 0;
 }
 
-JointAnswer JointResponder::judged(const JointValues& q, JointStatus status, JointWorkspace& ws) const {
+JointAnswer JointResponder::Prepared::judged(const DofValues& q, JointStatus status, ResponseRoom& ws) const {
     JointAnswer answer;
     answer.q = q;
     answer.status = status;
@@ -139,9 +159,9 @@ JointAnswer JointResponder::judged(const JointValues& q, JointStatus status, Joi
     return answer;
 }
 
-JointAnswer JointResponder::fromFree(const JointValues& start, const JointValues& goal, int legs,
-                                     JointWorkspace& ws) const {
-    JointValues q = start;
+JointAnswer JointResponder::Prepared::fromFree(const DofValues& start, const DofValues& goal, int legs,
+                                               ResponseRoom& ws) const {
+    DofValues q = start;
     if (walk(model_, goal, legs, q, ws)) {
         const JointAnswer free = judged(q, JointStatus::Free, ws);
         if (free.gap > 0) return free;
@@ -162,9 +182,9 @@ JointAnswer JointResponder::fromFree(const JointValues& start, const JointValues
     return answer;
 }
 
-JointAnswer JointResponder::fromCollision(const JointValues& start, const JointValues& goal, double depth,
-                                          JointWorkspace& ws) const {
-    JointValues q = start;
+JointAnswer JointResponder::Prepared::fromCollision(const DofValues& start, const DofValues& goal,
+                                                    double depth, ResponseRoom& ws) const {
+    DofValues q = start;
     const bool deep = knownDepth_ > 0 && depth < -knownDepth_ && hasFreePose_;
     const double pushed = deep ? depth : pushOut(model_, q, ws);
     if (pushed > 0) {
@@ -176,10 +196,10 @@ JointAnswer JointResponder::fromCollision(const JointValues& start, const JointV
     }
     // Less than this is rounding, not a way out.
     JointStatus status =
-        pushed > depth + 1e-3 * model_.leastOff ? JointStatus::Separated : JointStatus::Stuck;
+        pushed > depth + 1e-3 * model_.leastContactOffset ? JointStatus::Separated : JointStatus::Stuck;
     if (hasFreePose_) {
         // From the start, not from where pushes ended: the next response would be pushed back there.
-        JointValues free = freePose_;
+        DofValues free = freePose_;
         for (int l = 0; l < model_.dofCount; ++l)
             if (model_.round[l]) free[l] = nearestTurn(free[l], start[l]);
         const double far = weightedDistance(model_, start, free);
@@ -194,10 +214,11 @@ JointAnswer JointResponder::fromCollision(const JointValues& start, const JointV
     return answer;
 }
 
-JointAnswer JointResponder::respond(const double* last, const double* asked, JointWorkspace& ws) const {
+JointAnswer JointResponder::Prepared::respond(const double* last, const double* asked,
+                                              ResponseRoom& ws) const {
     for (PlacedGroup& group : ws.groups) group.known = false; // it may have served another joint
     std::fill(ws.held.begin(), ws.held.end(), std::uint8_t(0));
-    JointValues from{}, to{};
+    DofValues from{}, to{};
     std::copy_n(last, model_.dofCount, from.begin());
     std::copy_n(asked, model_.dofCount, to.begin());
     wrapTurns(model_, from);
@@ -209,8 +230,8 @@ JointAnswer JointResponder::respond(const double* last, const double* asked, Joi
     return answer;
 }
 
-JointAnswer JointResponder::within(const JointValues& start, const JointValues& goal,
-                                   JointWorkspace& ws) const {
+JointAnswer JointResponder::Prepared::within(const DofValues& start, const DofValues& goal,
+                                             ResponseRoom& ws) const {
     const int legs = legsOf(model_, start, goal);
     ws.common = false;
     cullLeg(model_, start, goal, legs, ws);
@@ -224,11 +245,56 @@ JointAnswer JointResponder::within(const JointValues& start, const JointValues& 
     for (std::size_t i = 0; i < ws.nearCount; ++i) gap = std::min(gap, ws.near[i].gap);
     // Nearer to 0 than any rounding, only the exact query's own arithmetic can tell.
     const double deepest = std::max(gap, 0.0);
-    if (std::abs(gap) < 0.5 * model_.leastOff) gap = judged(start, JointStatus::Free, ws).gap;
+    if (std::abs(gap) < 0.5 * model_.leastContactOffset) gap = judged(start, JointStatus::Free, ws).gap;
     if (gap > 0) return fromFree(start, goal, legs, ws);
     for (std::size_t i = 0; i < ws.nearCount; ++i)
         if (ws.near[i].gap <= deepest) ws.held[model_.pairs[ws.near[i].pair].group] = touchedAtStart;
     return fromCollision(start, goal, gap, ws);
+}
+
+JointWorkspace::JointWorkspace(std::unique_ptr<ResponseRoom> room) : room_(std::move(room)) {}
+JointWorkspace::JointWorkspace(JointWorkspace&&) noexcept = default;
+JointWorkspace& JointWorkspace::operator=(JointWorkspace&&) noexcept = default;
+JointWorkspace::~JointWorkspace() = default;
+
+std::span<const std::uint8_t> JointWorkspace::held() const {
+    return room_->held;
+}
+
+JointResponder::JointResponder(const Table& table, Preparation preparation)
+    : JointResponder(std::vector<TableOnJoint>{wholeJoint(table)}, static_cast<int>(table.motion.dofCount()),
+                     preparation) {}
+
+JointResponder::JointResponder(std::span<const TableOnJoint> tables, int dofCount, Preparation preparation)
+    : prepared_(std::make_unique<const Prepared>(tables, dofCount, preparation)) {}
+
+JointResponder::JointResponder(JointResponder&&) noexcept = default;
+JointResponder& JointResponder::operator=(JointResponder&&) noexcept = default;
+JointResponder::~JointResponder() = default;
+
+JointWorkspace JointResponder::workspace() const {
+    return JointWorkspace(std::make_unique<ResponseRoom>(prepared_->room()));
+}
+
+JointAnswer JointResponder::respond(const double* last, const double* asked,
+                                    JointWorkspace& workspace) const {
+    return prepared_->respond(last, asked, *workspace.room_);
+}
+
+int JointResponder::dofCount() const {
+    return prepared_->model().dofCount;
+}
+
+const DofValues& JointResponder::weights() const {
+    return prepared_->model().weights;
+}
+
+double JointResponder::keptGap(std::size_t table) const {
+    return prepared_->model().groups[table].contactOffset;
+}
+
+const DofValues* JointResponder::freePose() const {
+    return prepared_->freePose();
 }
 
 } // namespace tss

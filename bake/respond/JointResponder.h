@@ -1,17 +1,44 @@
 #pragma once
-#include "bake/respond/JointModel.h"
 #include "bake/respond/JointStatus.h"
 #include "bake/table/Table.h"
 
+#include <cstdint>
+#include <memory>
+
 namespace tss {
 
-/// A resolved pose. Only the first dofCount values of q mean anything.
+struct ResponseRoom;
+
+/// A table that bears on a joint: dofs[k] is the place of DOF k of the table's motion among the joint's
+/// values. Several tables may share a joint (a mandible against a skull, a tooth guard against both).
+struct TableOnJoint {
+    const Table* table = nullptr;
+    std::vector<int> dofs;
+};
+
+/// A resolved pose. Of q the first dofCount values mean anything.
 struct JointAnswer {
-    JointValues q{};
+    DofValues q{};
     JointStatus status = JointStatus::Free;
     double gap = 0; ///< smallest gap at q of the pairs that were near; infinity when none was
     int table = -1; ///< index of the table of that pair, -1 when none was near
     int test = -1;  ///< its test in that table
+};
+
+/// Room for one response, made once per thread by JointResponder::workspace.
+class JointWorkspace {
+public:
+    explicit JointWorkspace(std::unique_ptr<ResponseRoom> room);
+    JointWorkspace(JointWorkspace&&) noexcept;
+    JointWorkspace& operator=(JointWorkspace&&) noexcept;
+    ~JointWorkspace();
+
+    /// One a table: 0, or that it held the joint in the last response.
+    std::span<const std::uint8_t> held() const;
+
+private:
+    friend class JointResponder;
+    std::unique_ptr<ResponseRoom> room_;
 };
 
 /// What keeps a joint out of collision at run time: everything a response needs, prepared once from the
@@ -35,32 +62,26 @@ public:
     JointResponder(std::span<const TableOnJoint> tables, int dofCount,
                    Preparation preparation = Preparation::Fully);
 
+    JointResponder(JointResponder&&) noexcept;
+    JointResponder& operator=(JointResponder&&) noexcept;
+    ~JointResponder();
+
     JointWorkspace workspace() const;
 
-    /// last, asked: dofCount values each, finite. Both are clamped into the limits first. workspace.held then
-    /// says of each table whether it held the joint: of a joint that is not Free at least one did.
+    /// last, asked: dofCount values each, finite. Both are clamped into the limits first. workspace.held()
+    /// then says of each table whether it held the joint: of a joint that is not Free at least one did.
     JointAnswer respond(const double* last, const double* asked, JointWorkspace& workspace) const;
 
-    int dofCount() const { return model_.dofCount; }
-    const JointValues& weights() const { return model_.weights; }
+    int dofCount() const;
+    const DofValues& weights() const;
     /// The gap that one table is kept at: 1.5 of its own epsilon, or a millionth of its largest spheres.
-    double keptGap(std::size_t table = 0) const { return model_.groups[table].off; }
+    double keptGap(std::size_t table = 0) const;
     /// A pose known to be free, towards which a joint returns from deeper than the tables know.
-    const JointValues* freePose() const { return hasFreePose_ ? &freePose_ : nullptr; }
+    const DofValues* freePose() const;
 
 private:
-    void findFreePose(const JointValues& rest);
-    JointAnswer within(const JointValues& start, const JointValues& goal, JointWorkspace& ws) const;
-    JointAnswer fromFree(const JointValues& start, const JointValues& goal, int legs,
-                         JointWorkspace& ws) const;
-    JointAnswer fromCollision(const JointValues& start, const JointValues& goal, double depth,
-                              JointWorkspace& ws) const;
-    JointAnswer judged(const JointValues& q, JointStatus status, JointWorkspace& ws) const;
-
-    JointModel model_;
-    JointValues freePose_{};
-    bool hasFreePose_ = false;
-    double knownDepth_ = 0; ///< least gapDepth of the tables
+    class Prepared;
+    std::unique_ptr<const Prepared> prepared_;
 };
 
 } // namespace tss

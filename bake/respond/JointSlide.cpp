@@ -8,9 +8,10 @@ namespace tss {
 
 namespace {
 
-/// Room kept above a threshold where a move ends, as a share of a pair's off: `advance` stops at a twentieth.
+/// Room kept above a threshold where a move ends, as a share of a pair's contact offset: `advance` stops at a
+/// twentieth.
 constexpr double endRoom = 0.1;
-/// Less than so much of a pair's off too little room is no reason to look for a way again.
+/// Less than so much of a pair's contact offset too little room is no reason to look for a way again.
 constexpr double liftSlack = 0.04;
 /// The first round of a slide goes no farther than this share of a range.
 constexpr double firstMove = 1.0 / 128;
@@ -22,10 +23,10 @@ constexpr double liftKept = 0.25;
 /// set. A pair that no way in question can bring to its threshold has no row.
 class SlideRows {
 public:
-    SlideRows(const JointModel& model, const JointValues& q, const JointValues& goal, double trust,
-              JointWorkspace& ws)
+    SlideRows(const JointModel& model, const DofValues& q, const DofValues& goal, double trust,
+              ResponseRoom& ws)
         : model_(model), q_(q), goal_(goal), ws_(ws),
-          least_(-1.5 * weightedDistance(model, q, goal) - model.leastOff) {
+          least_(-1.5 * weightedDistance(model, q, goal) - model.leastContactOffset) {
         ws.rows.clear(model.dofCount);
         addLimits(model, q, trust, goal, ws.rows);
         for (std::size_t i = 0; i < ws.nearCount; ++i) {
@@ -45,8 +46,8 @@ public:
 
     /// The way from q to the pose nearest to the goal where every near pair's linearised gap is at least
     /// demand(near). False where there is none. Marks the groups whose gaps bound the way in ws.held.
-    template <class Demand>
-    bool nearest(Demand demand, JointValues& way) {
+    template <class PoseConstraint>
+    bool nearest(PoseConstraint demand, DofValues& way) {
         for (std::size_t i = 0; i < ws_.nearCount; ++i) {
             NearPair& near = ws_.near[i];
             if (near.rowScale == 0) continue;
@@ -55,8 +56,8 @@ public:
             if (near.row < 0) addRow(near);
             ws_.rows.setBound(near.row, bound);
         }
-        JointValues y;
-        const double tolerance = 1e-13 * model_.scale + 1e-3 * endRoom * model_.leastOff;
+        DofValues y;
+        const double tolerance = 1e-13 * model_.scale + 1e-3 * endRoom * model_.leastContactOffset;
         QpActive active;
         if (!nearestToOrigin(ws_.rows, tolerance, y, &active)) return false;
         mark(active);
@@ -86,19 +87,19 @@ private:
     }
 
     const JointModel& model_;
-    const JointValues &q_, &goal_;
-    JointWorkspace& ws_;
+    const DofValues &q_, &goal_;
+    ResponseRoom& ws_;
     double least_; ///< bounds below it cannot matter
 };
 
-double weightedLength(const JointModel& model, const JointValues& way) {
+double weightedLength(const JointModel& model, const DofValues& way) {
     double sum = 0;
     for (int l = 0; l < model.dofCount; ++l) sum += model.weights[l] * way[l] * model.weights[l] * way[l];
     return std::sqrt(sum);
 }
 
 /// Largest share of its range that any DOF goes.
-double shareOfRange(const JointModel& model, const JointValues& way) {
+double shareOfRange(const JointModel& model, const DofValues& way) {
     double share = 0;
     for (int l = 0; l < model.dofCount; ++l)
         if (model.range[l] > 0) share = std::max(share, std::abs(way[l]) / model.range[l]);
@@ -108,10 +109,10 @@ double shareOfRange(const JointModel& model, const JointValues& way) {
 /// What each near pair needs above its threshold at the end of a way so that the bend of its gap does not
 /// block the way: what the gap there lacks against the linear guess, and room for the bound that `advance`
 /// must assume. Returns whether any demand that the way was found with was too low.
-bool findLifts(const JointModel& model, const JointValues& q, const JointValues& way, JointWorkspace& ws) {
+bool findLifts(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws) {
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
         const JointModel::Group& group = model.groups[g];
-        JointValues end;
+        DofValues end;
         for (std::size_t k = 0; k < group.dofs.size(); ++k) end[k] = q[group.dofs[k]] + way[group.dofs[k]];
         ws.ends[g] = pose(group.motion, {end.data(), group.dofs.size()});
     }
@@ -125,40 +126,39 @@ bool findLifts(const JointModel& model, const JointValues& q, const JointValues&
         for (int l = 0; l < model.dofCount; ++l) guess += near.gradient[l] * way[l];
         const double real = pairGap(pair, ws.ends[pair.group], centre, normal);
         bounds.bound(model, way, near);
-        near.lift = endRoom * pair.off + near.acceleration / 8 + std::max(0.0, guess - real);
-        short_ = short_ || guess < near.threshold + near.lift - liftSlack * pair.off;
+        near.lift = endRoom * pair.contactOffset + near.acceleration / 8 + std::max(0.0, guess - real);
+        short_ = short_ || guess < near.threshold + near.lift - liftSlack * pair.contactOffset;
     }
     return short_;
 }
 
 /// The way of one round of a slide; false where none goes on. corner: whether the joint is known to be where
 /// no way lifts all pairs; set here.
-bool slideWay(const JointModel& model, const JointValues& q, const JointValues& goal, double trust,
-              JointWorkspace& ws, bool& corner, JointValues& way) {
+bool slideWay(const JointModel& model, const DofValues& q, const DofValues& goal, double trust,
+              ResponseRoom& ws, bool& corner, DofValues& way) {
     const auto lifted = [](const NearPair& near) { return near.threshold + near.lift; };
     // In a corner the lift cannot be had: where the pair is now is always feasible.
     const auto held = [](const NearPair& near) {
         return std::min(near.threshold + near.lift, std::max(near.threshold, near.gap));
     };
     SlideRows rows(model, q, goal, trust, ws);
-    const auto find = [&](JointValues& found) {
+    const auto find = [&](DofValues& found) {
         if (!corner && rows.nearest(lifted, found)) return true;
         corner = true;
         return rows.nearest(held, found);
     };
     if (!find(way)) return false;
     if (!findLifts(model, q, way, ws)) return true;
-    JointValues second;
+    DofValues second;
     if (find(second)) way = second;
     return true;
 }
 
 /// Culls for a round at q, `distance` from the goal. Returns whether for all that follow, too, none of which
 /// is farther from the goal. Else for moves of no more than `trust` of each range.
-bool cullRound(const JointModel& model, const JointValues& q, double distance, double trust,
-               JointWorkspace& ws) {
+bool cullRound(const JointModel& model, const DofValues& q, double distance, double trust, ResponseRoom& ws) {
     bool all = true;
-    JointValues reach{};
+    DofValues reach{};
     for (int l = 0; l < model.dofCount; ++l) {
         const double most = trust * model.range[l];
         reach[l] = 2 * distance * model.perWeight[l];
@@ -173,12 +173,14 @@ bool cullRound(const JointModel& model, const JointValues& q, double distance, d
 
 } // namespace
 
-void slide(const JointModel& model, const JointValues& goal, JointValues& q, JointWorkspace& ws) {
+void slide(const JointModel& model, const DofValues& goal, DofValues& q, ResponseRoom& ws) {
     double trust = firstMove;
     double distance = weightedDistance(model, q, goal);
     const double least = std::clamp(1e-3 * distance, 1e-7 * model.scale, 1e-5 * model.scale);
     bool corner = false, complete = false;
-    const auto leastLift = [&](const NearPair& near) { return endRoom * model.pairs[near.pair].off; };
+    const auto leastLift = [&](const NearPair& near) {
+        return endRoom * model.pairs[near.pair].contactOffset;
+    };
     for (int round = 0, far = 0; round < 20 && far < 40 && distance > least; ++(complete ? round : far)) {
         if (!complete) {
             trust = std::min(trust, farMove);
@@ -191,7 +193,7 @@ void slide(const JointModel& model, const JointValues& goal, JointValues& q, Joi
                 near.lift = leastLift(near) + liftKept * (near.lift - leastLift(near));
             }
         }
-        JointValues way{};
+        DofValues way{};
         for (int l = 0; l < model.dofCount; ++l) way[l] = goal[l] - q[l];
         linearise(model, q, way, ws);
         // No pose from here on is farther from the goal than this one, so from this one than twice that.
@@ -199,7 +201,7 @@ void slide(const JointModel& model, const JointValues& goal, JointValues& q, Joi
         if (!slideWay(model, q, goal, trust, ws, corner, way)) return;
         if (weightedLength(model, way) < least) return;
         // Pairs are known to be near only where a pose is no farther from the goal than this one.
-        JointValues end = q, next = q;
+        DofValues end = q, next = q;
         for (int l = 0; l < model.dofCount; ++l) end[l] += way[l];
         if (weightedDistance(model, end, goal) < distance) advance(model, way, next, ws);
         const double reached = weightedDistance(model, next, goal);
@@ -214,21 +216,21 @@ void slide(const JointModel& model, const JointValues& goal, JointValues& q, Joi
     }
 }
 
-double pushOut(const JointModel& model, JointValues& q, JointWorkspace& ws) {
+double pushOut(const JointModel& model, DofValues& q, ResponseRoom& ws) {
     constexpr double trust = 0.25;
-    JointValues reach{};
+    DofValues reach{};
     for (int l = 0; l < model.dofCount; ++l) reach[l] = trust * model.range[l];
     double depth = smallestLevel(model, q, ws);
     const auto gapAt = [&](const NearPair& near, double level) {
-        return gapOf(model, model.pairs[near.pair].off, level);
+        return gapOf(model, model.pairs[near.pair].contactOffset, level);
     };
     ws.common = true;
-    for (int round = 0; round < 40 && depth < 0.5 * model.leastOff; ++round) {
+    for (int round = 0; round < 40 && depth < 0.5 * model.leastContactOffset; ++round) {
         cull(model, q, reach, ws);
-        JointValues way{};
+        DofValues way{};
         linearise(model, q, way, ws);
         double share = 1;
-        const double missing = (1 + endRoom) * model.leastOff - depth;
+        const double missing = (1 + endRoom) * model.leastContactOffset - depth;
         SlideRows rows(model, q, q, trust, ws);
         while (
             !rows.nearest([&](const NearPair& near) { return gapAt(near, depth + share * missing); }, way)) {
@@ -237,8 +239,8 @@ double pushOut(const JointModel& model, JointValues& q, JointWorkspace& ws) {
         }
         if (share < 1e-4) break;
         for (std::size_t i = 0; i < ws.nearCount; ++i)
-            ws.near[i].threshold = gapAt(ws.near[i], std::min(depth, model.leastOff));
-        JointValues end = q;
+            ws.near[i].threshold = gapAt(ws.near[i], std::min(depth, model.leastContactOffset));
+        DofValues end = q;
         double t = advance(model, way, end, ws);
         // The far end of the free way need not be the shallowest pose on it.
         double there = smallestLevel(model, end, ws);

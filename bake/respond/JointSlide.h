@@ -8,11 +8,11 @@ namespace tss {
 /// more of moves of farMove while the goal is farther. q comes never farther from the goal in the weighted
 /// metric. The result is a local optimum: a bay of the obstacle keeps the joint although there may be a
 /// nearer pose around it. Leaves in ws.near what is near at q.
-void slide(const JointModel& model, const JointValues& goal, JointValues& q, JointWorkspace& ws);
+void slide(const JointModel& model, const DofValues& goal, DofValues& q, ResponseRoom& ws);
 
 /// Leads a joint out of collision by the shortest moves (METHOD 5.6): one common threshold, the deepest gap,
 /// which each move raises (above contact a share of what each table keeps, levelOf()); demands are shortened
 /// where they cannot all be met. Returns the smallest level at q then; > 0: it is out.
-double pushOut(const JointModel& model, JointValues& q, JointWorkspace& ws);
+double pushOut(const JointModel& model, DofValues& q, ResponseRoom& ws);
 
 } // namespace tss

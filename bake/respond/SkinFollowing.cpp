@@ -64,7 +64,7 @@ SkinFollowMeasure::SkinFollowMeasure(const TriangleMesh& skin,
     std::vector<std::vector<double>> distances(bodies.size());
     for (std::size_t m = 0; m < bodies.size(); ++m) {
         if (!isBone(m)) continue;
-        const MuscleLocator locator(bodies[m]->muscle().surface);
+        const ClosestPointQuery locator(bodies[m]->muscle().surface);
         distances[m].assign(skin.vertices.size(), far * size_);
         parallelFor(skin.vertices.size(), [&](std::size_t v) {
             const NearestPoint point = locator.nearest(skin.vertices[v], far * size_);

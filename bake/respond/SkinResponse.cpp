@@ -1,5 +1,7 @@
 #include "bake/respond/SkinResponse.h"
 
+#include "bake/respond/SkinPushes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -20,14 +22,69 @@ double activationOf(std::span<const double> activations, const SkinBody& body, s
 
 } // namespace
 
-SkinResponse::SkinResponse(std::shared_ptr<const SkinRig> rig)
+/// All of a response: its rig, and what the last update left.
+class SkinResponse::State {
+public:
+    explicit State(std::shared_ptr<const SkinRig> rig);
+    SkinUpdate update(std::span<const double> activations, std::span<const Pose> poses);
+    std::span<const Vec3> positions() const { return positions_; }
+    std::span<const Vec3> normals() const { return normals_; }
+    const SkinRig& rig() const { return *rig_; }
+    double residual() const { return residual_; }
+
+private:
+    /// A row that was looked up in this update and lacks nothing: not before it has come nearer by this much.
+    struct Seen {
+        SkinPlane plane;
+        Eigen::Vector3f place; ///< of what the plane holds, then
+        float free = 0;
+    };
+    /// A row that lacks something, and where: of each place the deepest is chosen.
+    struct Found {
+        std::uint64_t place = 0;
+        std::uint32_t row = 0;
+        SkinPlane plane;
+    };
+    std::uint64_t placeOfChoice(const SkinRow& row, const SkinPlane& plane) const;
+    Seen seen(const SkinRow& row, const SkinPlane& plane) const;
+    bool mayPush(std::uint32_t r) const;
+    void findStirred();
+    bool stirred(std::uint32_t r) const;
+    void toRest();
+    void addDeepest();
+    void resist();
+    void findNormals();
+
+    std::shared_ptr<const SkinRig> rig_;
+    SkinScene scene_;
+    SkinPushes pushes_;
+    std::vector<SkinPlane> planes_;
+    std::vector<std::uint32_t> rows_;    ///< of planes_
+    std::vector<std::uint32_t> planeOf_; ///< #rows: 1 + its place in planes_, 0: none
+    std::vector<Found> found_;
+    std::vector<Seen> seen_;
+    std::vector<std::uint32_t> seenRows_; ///< of seen_
+    std::vector<std::uint32_t> seenOf_;   ///< #rows: 1 + its place in seen_, 0: none
+    std::vector<Move> start_;             ///< the skin as it is carried
+    std::vector<char> stirred_;           ///< #touched: contacts have moved it
+    std::vector<char> lacking_;           ///< #rows: when last looked up, another one was chosen
+    std::vector<Vec3> positions_, normals_;
+    std::vector<Move> normalSums_;
+    std::vector<double> activations_;
+    std::vector<Pose> poses_;
+    double residual_ = 0;
+    std::size_t contacts_ = 0;
+    bool atRest_ = true;
+};
+
+SkinResponse::State::State(std::shared_ptr<const SkinRig> rig)
     : rig_(std::move(rig)), pushes_(rig_->foundation), planeOf_(rig_->rows.size(), 0),
       seenOf_(rig_->rows.size(), 0), positions_(rig_->rest), normals_(rig_->restNormals),
       activations_(rig_->bodies.size(), 0), poses_(rig_->bodies.size(), Pose::Identity()) {
     normalSums_.resize(rig_->rest.size() + rig_->border.size());
 }
 
-SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<const Pose> poses) {
+SkinUpdate SkinResponse::State::update(std::span<const double> activations, std::span<const Pose> poses) {
     bool same = true, rest = true;
     for (std::size_t m = 0; m < rig_->bodies.size(); ++m) {
         const double a = activationOf(activations, rig_->bodies[m], m);
@@ -69,7 +126,7 @@ SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<c
     return result;
 }
 
-void SkinResponse::toRest() {
+void SkinResponse::State::toRest() {
     positions_ = rig_->rest;
     normals_ = rig_->restNormals;
     residual_ = 0;
@@ -79,7 +136,7 @@ void SkinResponse::toRest() {
 
 /// What a row that lacks nothing keeps until contacts have moved the skin there. Where nothing faced it, any
 /// move may change that, but those that no look-up would notice.
-SkinResponse::Seen SkinResponse::seen(const SkinRow& row, const SkinPlane& plane) const {
+SkinResponse::State::Seen SkinResponse::State::seen(const SkinRow& row, const SkinPlane& plane) const {
     Seen seen{plane, {}, 0};
     if (plane.found()) {
         seen.free = std::max(std::min(plane.gap, plane.distance - row.offset), 0.0f) / 2;
@@ -99,21 +156,21 @@ SkinResponse::Seen SkinResponse::seen(const SkinRow& row, const SkinPlane& plane
     return seen;
 }
 
-bool SkinResponse::mayPush(std::uint32_t r) const {
+bool SkinResponse::State::mayPush(std::uint32_t r) const {
     if (seenOf_[r] == 0) return mayMeet(*rig_, scene_, rig_->rows[r]);
     const Seen& seen = seen_[seenOf_[r] - 1];
     return (placeOf(scene_, seen.plane) - seen.place).squaredNorm() > seen.free * seen.free;
 }
 
 /// Which vertices contacts have moved from where they were carried to.
-void SkinResponse::findStirred() {
+void SkinResponse::State::findStirred() {
     constexpr float still = settled * settled;
     for (std::size_t v = 0; v < start_.size(); ++v)
         stirred_[v] = (scene_.skin[v] - start_[v]).squaredNorm() > still;
 }
 
 /// Whether that is so of any that a row depends on.
-bool SkinResponse::stirred(std::uint32_t r) const {
+bool SkinResponse::State::stirred(std::uint32_t r) const {
     if (lacking_[r]) return true;
     bool any = false;
     if (seenOf_[r] > 0) {
@@ -129,7 +186,7 @@ bool SkinResponse::stirred(std::uint32_t r) const {
 }
 
 /// Where a plane is found for the choice of the deepest: the node that bears most on it, and what meets.
-std::uint64_t SkinResponse::placeOfChoice(const SkinRow& row, const SkinPlane& plane) const {
+std::uint64_t SkinResponse::State::placeOfChoice(const SkinRow& row, const SkinPlane& plane) const {
     const SkinFoundation& f = rig_->foundation;
     const std::uint32_t first = f.start[plane.vertex[0]], last = f.start[plane.vertex[0] + 1];
     const auto most = std::max_element(f.weight.begin() + first, f.weight.begin() + last);
@@ -139,7 +196,7 @@ std::uint64_t SkinResponse::placeOfChoice(const SkinRow& row, const SkinPlane& p
 
 /// Of the planes that were found, the deepest at each node and body: pushes act through nodes, so that most
 /// of the others are met by it, and what is not is found again at the next look-up.
-void SkinResponse::addDeepest() {
+void SkinResponse::State::addDeepest() {
     std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
         return std::tie(a.place, a.plane.gap, a.row) < std::tie(b.place, b.plane.gap, b.row);
     });
@@ -153,7 +210,7 @@ void SkinResponse::addDeepest() {
 }
 
 /// The skin leaves what it is carried into.
-void SkinResponse::resist() {
+void SkinResponse::State::resist() {
     for (const std::uint32_t r : rows_) planeOf_[r] = 0;
     for (const std::uint32_t r : seenRows_) seenOf_[r] = 0;
     rows_.clear();
@@ -200,7 +257,7 @@ void SkinResponse::resist() {
     }
 }
 
-void SkinResponse::findNormals() {
+void SkinResponse::State::findNormals() {
     std::fill(normalSums_.begin(), normalSums_.end(), Move::Zero());
     const std::size_t inside = positions_.size();
     const auto add = [&](const Tri& t, const Move& a, const Move& b, const Move& c) {
@@ -219,6 +276,36 @@ void SkinResponse::findNormals() {
         normals_[v] = squared > 0 ? Vec3((normalSums_[v].head<3>() / std::sqrt(squared)).cast<double>())
                                   : rig_->restNormals[v];
     }
+}
+
+SkinResponse::SkinResponse(std::shared_ptr<const SkinRig> rig)
+    : state_(std::make_unique<State>(std::move(rig))) {}
+SkinResponse::SkinResponse(SkinResponse&&) noexcept = default;
+SkinResponse& SkinResponse::operator=(SkinResponse&&) noexcept = default;
+SkinResponse::~SkinResponse() = default;
+
+SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<const Pose> poses) {
+    return state_->update(activations, poses);
+}
+
+std::span<const std::uint32_t> SkinResponse::vertices() const {
+    return state_->rig().vertices;
+}
+
+std::span<const Vec3> SkinResponse::positions() const {
+    return state_->positions();
+}
+
+std::span<const Vec3> SkinResponse::normals() const {
+    return state_->normals();
+}
+
+const SkinRig& SkinResponse::rig() const {
+    return state_->rig();
+}
+
+double SkinResponse::residual() const {
+    return state_->residual();
 }
 
 } // namespace tss

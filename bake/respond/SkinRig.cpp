@@ -126,7 +126,7 @@ SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, i
         mesh.vertices.clear();
         for (const Move& x : body.rest) mesh.vertices.push_back(x.head<3>().cast<double>());
         body.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
-        body.locator = std::make_shared<const MuscleLocator>(*body.mesh);
+        body.locator = std::make_shared<const ClosestPointQuery>(*body.mesh);
     }
     return body;
 }

@@ -50,7 +50,7 @@ struct SkinBody {
     int insertion = -1;                 ///< body that its far end moves with, -1: all of it moves with one
     std::shared_ptr<const MuscleSpan> span;   ///< in run-time lengths; null where insertion is -1
     std::shared_ptr<const TriangleMesh> mesh; ///< of a bone, in run-time lengths; null: a muscle
-    std::shared_ptr<const MuscleLocator> locator;
+    std::shared_ptr<const ClosestPointQuery> locator;
 
     bool bone() const { return mesh != nullptr; }
     /// The most that an edge has changed, of its length at rest. now: #count places.

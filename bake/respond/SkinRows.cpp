@@ -66,7 +66,7 @@ void meet(Met& met, std::size_t what, int triangle) {
 
 /// Body vertices that the skin comes to lie on.
 void meetBodies(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& skin,
-                const MuscleLocator& locator, bool atRest, Met& met) {
+                const ClosestPointQuery& locator, bool atRest, Met& met) {
     const double reach = seenReach * static_cast<double>(rig.radius);
     Eigen::AlignedBox3d box = bounds(skin);
     for (std::size_t m = 0; m < rig.bodies.size(); ++m) {
@@ -96,7 +96,7 @@ void meetBodies(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& 
 
 /// Skin vertices that come before another part of the skin.
 void meetFolds(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& skin,
-               const MuscleLocator& locator, Met& met) {
+               const ClosestPointQuery& locator, Met& met) {
     const double reach = seenReach * static_cast<double>(rig.radius),
                  depth = enterDepth * static_cast<double>(rig.radius);
     parallelFor(skin.vertices.size(), [&](std::size_t v) {
@@ -169,7 +169,7 @@ std::vector<SkinBefore> skinBefore(const SkinGround& ground, const SkinTable& ta
     parallelFor(result.size(), [&](std::size_t k) {
         SkinBefore& before = result[k];
         const Vec3 &x = ground.skin.vertices[before.vertex], &own = ground.normals[before.vertex];
-        const MuscleLocator& locator = ground.locators[before.body];
+        const ClosestPointQuery& locator = ground.locators[before.body];
         before.inside = !ground.inside[before.body].empty() && ground.inside[before.body][before.vertex];
         const MuscleDeformer& body = *ground.bodies[before.body];
         before.near =
@@ -212,7 +212,7 @@ std::vector<bool> addRows(SkinRig& rig, const std::vector<SkinBefore>& before,
     for (const Station& station : stationsOf(rig)) {
         placeBodies(rig, station.activations, station.poses, scene);
         const TriangleMesh skin = skinAt(rig, scene);
-        const MuscleLocator locator(skin);
+        const ClosestPointQuery locator(skin);
         meetBodies(rig, scene, skin, locator, atRest, bodies);
         atRest = false;
         if (rig.parameters.selfContact) meetFolds(rig, scene, skin, locator, folds);

@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/motion/MuscleLocator.h"
+#include "bake/motion/ClosestPointQuery.h"
 
 #include <limits>
 #include <map>

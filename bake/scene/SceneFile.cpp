@@ -1,45 +1,12 @@
 #include "bake/scene/SceneFile.h"
 
-#include "bake/base/AtomicFile.h"
-#include "bake/model/SourceHash.h"
-#include "bake/scene/PrimIndex.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/StoreTables.h"
 #include "bake/scene/ToLayer.h"
-#include "bake/scene/Typos.h"
 #include "bake/scene/WriteLayer.h"
 
 namespace tss {
-
-namespace {
-
-/// Stale tables, and what `more` finds.
-void addFaults(const SceneModel& scene, Problems& problems,
-               const std::function<std::vector<InputError>(const SceneModel&)>& more) {
-    const PrimIndex index(*scene.layer, problems);
-    const auto add = [&](const std::string& path, const std::string& why) {
-        const int entry = index.find(path);
-        if (!why.empty()) problems.add(entry < 0 ? Place{"", path} : index.entries[entry].place, why);
-    };
-    for (const Pair& pair : scene.pairs) add(pair.path, staleness(scene, pair));
-    for (const SkinModel& skin : scene.skins) add(skin.path, staleness(scene, skin));
-    if (!more) return;
-    for (const InputError& error : more(scene)) add(error.where.path, error.message);
-}
-
-std::vector<LocatedError> located(const std::vector<InputError>& errors, std::string_view text) {
-    std::vector<std::string> pointers;
-    pointers.reserve(errors.size());
-    for (const InputError& error : errors) pointers.push_back(error.where.pointer);
-    std::vector<TextPosition> positions(errors.size());
-    if (!text.empty() && !looksLikeCbor(text)) positions = locateJson(text, pointers);
-    std::vector<LocatedError> all;
-    for (std::size_t i = 0; i < errors.size(); ++i) all.emplace_back(errors[i], positions[i]);
-    return all;
-}
-
-} // namespace
 
 SceneModel loadScene(const std::string& file) {
     return readScene(std::make_shared<const Layer>(readLayer(file)), file);
@@ -59,26 +26,6 @@ void saveScene(const SceneModel& scene, const std::string& file) {
         if (!error.where.file.empty()) throw;
         throw InputError({file, error.where.pointer, error.where.path}, error.message);
     }
-}
-
-std::vector<LocatedError>
-validateScene(const std::string& file, std::vector<LocatedError>* warnings,
-              const std::function<std::vector<InputError>(const SceneModel&)>& more) {
-    Problems problems(file, Problems::Mode::Collect);
-    std::string text;
-    try {
-        text = readWholeFile(file);
-        const auto layer = std::make_shared<const Layer>(parseLayer(text, file, problems));
-        remarkTypos(*layer, problems);
-        const SceneModel scene = readScene(layer, problems);
-        if (problems.empty()) addFaults(scene, problems, more);
-    } catch (const LocatedError& error) { // the text itself cannot be read on
-        return {error};
-    } catch (const InputError& error) {
-        problems.errors.push_back(error);
-    }
-    if (warnings) *warnings = located(problems.warnings, text);
-    return located(problems.errors, text);
 }
 
 } // namespace tss

@@ -1,6 +1,6 @@
 #include "bake/search/AtRest.h"
 
-#include "bake/search/TreePair.h"
+#include "bake/search/NodePairs.h"
 
 #include <algorithm>
 #include <limits>

@@ -3,11 +3,11 @@
 #include "bake/base/Parallel.h"
 #include "bake/base/Poll.h"
 #include "bake/search/CellTools.h"
+#include "bake/search/ConcurrentPairs.h"
 #include "bake/search/ExploredPoses.h"
-#include "bake/search/PairAt.h"
-#include "bake/search/PairBits.h"
+#include "bake/search/NodePairs.h"
+#include "bake/search/PairDistanceBounds.h"
 #include "bake/search/SampledSearch.h"
-#include "bake/search/TreePair.h"
 
 #include <algorithm>
 #include <atomic>
@@ -18,10 +18,6 @@ namespace tss {
 
 namespace {
 
-struct NodePair {
-    std::uint32_t a, b;
-};
-
 /// What every part of one search shares and none writes.
 struct Problem {
     const SphereSet &a, &b;
@@ -29,9 +25,9 @@ struct Problem {
     const MotionRates& rates;
     const ContactRule& rule;
     double margin, tolerance;
-    const PairBits& known; ///< pairs found before, by sampling
-    bool firstOnly;        ///< one pair is enough
-    std::uint64_t effort;  ///< looks that each part has; 0: no limit
+    const ConcurrentPairs& known; ///< pairs found before, by sampling
+    bool firstOnly;               ///< one pair is enough
+    std::uint64_t effort;         ///< looks that each part has; 0: no limit
     double rounding = coordinateRounding(rates.motion(), treeA.extent(), treeB.extent());
 };
 
@@ -69,7 +65,7 @@ public:
         run(upper, left);
     }
 
-    const PairBits& found() const { return found_; }
+    const ConcurrentPairs& found() const { return found_; }
     bool any() const { return any_; }
     std::uint64_t cells() const { return cells_; }
     bool spent() const { return p_.effort > 0 && looks_ >= p_.effort; }
@@ -80,33 +76,23 @@ private:
     /// Returns the pairs that only smaller cells can tell of.
     std::vector<NodePair> judgeAll(const CellMotion& motion, const std::vector<NodePair>& open) {
         std::vector<NodePair> left, stack(open);
-        while (!stack.empty()) {
-            const NodePair pair = stack.back();
-            stack.pop_back();
-            ++looks_;
-            judge(motion, pair, stack, left);
-        }
+        descend(p_.treeA, p_.treeB, stack,
+                [&](NodePair pair, const SphereTree::Node& na, const SphereTree::Node& nb) {
+                    ++looks_;
+                    const Vec3 x = motion.centrePose() * nb.centre;
+                    const CellMotion::Reach reach = motion.reach(x);
+                    const double sum = na.radius + nb.radius;
+                    if (na.leaf() && nb.leaf()) {
+                        judgeSpheres(motion, pair, x, reach, left);
+                        return false;
+                    }
+                    if ((x - na.centre).norm() - reach.move > sum + p_.margin + p_.rounding) return false;
+                    // Smaller balls do not help where the motion is what blurs the answer.
+                    const bool blurred = sum < reach.move && reach.move > p_.tolerance && !finest_;
+                    if (blurred) left.push_back(pair);
+                    return !blurred;
+                });
         return left;
-    }
-
-    void judge(const CellMotion& motion, NodePair pair, std::vector<NodePair>& stack,
-               std::vector<NodePair>& left) {
-        const SphereTree::Node &na = p_.treeA[pair.a], &nb = p_.treeB[pair.b];
-        const Vec3 x = motion.centrePose() * nb.centre;
-        const CellMotion::Reach reach = motion.reach(x);
-        const double sum = na.radius + nb.radius;
-        if (na.leaf() && nb.leaf()) return judgeSpheres(motion, pair, x, reach, left);
-        if ((x - na.centre).norm() - reach.move > sum + p_.margin + p_.rounding) return;
-        // Smaller balls do not help where the motion is what blurs the answer.
-        if (sum < reach.move && reach.move > p_.tolerance && !finest_) {
-            left.push_back(pair);
-        } else if (!na.leaf() && (nb.leaf() || na.radius >= nb.radius)) {
-            stack.push_back({na.right, pair.b});
-            stack.push_back({pair.a + 1, pair.b});
-        } else {
-            stack.push_back({pair.a, nb.right});
-            stack.push_back({pair.a, pair.b + 1});
-        }
     }
 
     void judgeSpheres(const CellMotion& motion, NodePair nodes, const Vec3& x, const CellMotion::Reach& reach,
@@ -115,7 +101,7 @@ private:
         const Sphere &sa = p_.a[pair.a], &sb = p_.b[pair.b];
         const double limit = sa.radius + sb.radius + p_.rule.threshold(pair) + p_.margin;
         if (limit < -p_.rounding || found_.contains(pair) || p_.known.contains(pair)) return;
-        const PairAt at(motion, x, reach, sa.centre);
+        const PairDistanceBounds at(motion, x, reach, sa.centre);
         if (at.staysAbove(std::max(limit, 0.0), p_.rounding)) return;
         if (reach.move <= p_.tolerance || finest_ ||
             (at.distance <= limit && withinLimits(p_.rates.motion(), motion.centre()))) {
@@ -128,7 +114,7 @@ private:
 
     const Problem& p_;
     const std::atomic<bool>& stop_;
-    PairBits found_;
+    ConcurrentPairs found_;
     bool any_ = false, finest_ = false;
     std::uint64_t cells_ = 0, looks_ = 0;
 };
@@ -160,7 +146,7 @@ struct Found {
 Found search(const Problem& problem, const Progress& progress) {
     Found result;
     const auto cells = parts(problem.rates, partCount);
-    PairBits all(problem.a.size(), problem.b.size());
+    ConcurrentPairs all(problem.a.size(), problem.b.size());
     all.insertAll(problem.known);
     std::atomic<bool> stop{false};
     constexpr std::size_t batch = 8;
@@ -221,7 +207,7 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
         result.certified = false;
         return result;
     }
-    PairBits known(a.size(), b.size());
+    ConcurrentPairs known(a.size(), b.size());
     if (options.sampleFirst) {
         SampledSearchOptions sampling;
         sampling.samples = 1024;
@@ -259,7 +245,7 @@ double provenClearance(const SphereSet& a, const SphereSet& b, const Motion& mot
     const auto stop = [&] { return poll.stopped(); };
     const SphereTree treeA(a, stop), treeB(b, stop);
     if (poll.stopped()) return 0;
-    const PairBits none(a.size(), b.size());
+    const ConcurrentPairs none(a.size(), b.size());
     Problem problem{a, b, treeA, treeB, rates, rule, 0, 0, none, true, effortOfPart(effort)};
     const double seen = smallestGapSeen(problem);
     if (!(seen > 0) || !std::isfinite(seen)) return 0;

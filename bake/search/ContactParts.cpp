@@ -8,7 +8,7 @@
 
 namespace tss {
 
-struct ContactSurface::Look {
+struct ContactSurface::Probe {
     const ContactSurface& other;
     const Pose& toOther;
     double reach, size;
@@ -28,48 +28,48 @@ ContactSurface::ContactSurface(const Solid& solid, const MeshQuery& surface)
 std::vector<SurfacePart> ContactSurface::meeting(const ContactSurface& other, const Pose& toOther,
                                                  double reach, double size, const PartSet& known) const {
     std::vector<SurfacePart> found;
-    if (!tree_.empty()) visit(Look{other, toOther, reach, size, known}, 0, found);
+    if (!tree_.empty()) visit(Probe{other, toOther, reach, size, known}, 0, found);
     std::sort(found.begin(), found.end());
     return found;
 }
 
-void ContactSurface::visit(const Look& look, std::uint32_t node, std::vector<SurfacePart>& found) const {
+void ContactSurface::visit(const Probe& probe, std::uint32_t node, std::vector<SurfacePart>& found) const {
     const Bvh::Node& at = tree_.nodes[node];
-    const Vec3 centre = look.toOther * Vec3(0.5 * (at.lower + at.upper));
+    const Vec3 centre = probe.toOther * Vec3(0.5 * (at.lower + at.upper));
     const double radius = 0.5 * (at.upper - at.lower).norm() * (1 + 1e-12);
     // Where the boundary is farther away, all of it is on one side.
-    const bool near = look.other.solid_.boundary().comesWithin(centre, radius + look.reach);
-    if (!near && !look.other.inside(centre)) return;
+    const bool near = probe.other.solid_.boundary().comesWithin(centre, radius + probe.reach);
+    if (!near && !probe.other.inside(centre)) return;
     if (at.count == 0) {
-        visit(look, at.first, found);
-        visit(look, at.first + 1, found);
+        visit(probe, at.first, found);
+        visit(probe, at.first + 1, found);
         return;
     }
     for (std::uint32_t i = 0; i < at.count; ++i) {
         const SurfacePart whole{tree_.items[at.first + i], 1};
-        visit(look, whole, corners(mesh(), whole), found);
+        visit(probe, whole, corners(mesh(), whole), found);
     }
 }
 
-void ContactSurface::visit(const Look& look, SurfacePart part, const Corners& corners,
+void ContactSurface::visit(const Probe& probe, SurfacePart part, const Corners& corners,
                            std::vector<SurfacePart>& found) const {
-    if (look.known.contains(part)) return;
-    const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3, centre = look.toOther * middle;
+    if (probe.known.contains(part)) return;
+    const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3, centre = probe.toOther * middle;
     double radius = 0;
     for (const Vec3& corner : corners) radius = std::max(radius, (corner - middle).norm() * (1 + 1e-12));
-    const double distance = look.other.solid_.boundary().distance(centre, radius + look.reach);
+    const double distance = probe.other.solid_.boundary().distance(centre, radius + probe.reach);
     if (!std::isfinite(distance)) {
-        if (look.other.inside(centre)) found.push_back(part);
+        if (probe.other.inside(centre)) found.push_back(part);
         return;
     }
-    const bool whole = distance + radius <= look.reach && !look.known.reaches(part);
-    if (whole || radius <= look.size || part.cuts >> (mostCuts - 1)) {
+    const bool whole = distance + radius <= probe.reach && !probe.known.reaches(part);
+    if (whole || radius <= probe.size || part.cuts >> (mostCuts - 1)) {
         found.push_back(part);
         return;
     }
     const std::array<SurfacePart, 2> parts = halves(part);
     const std::array<Corners, 2> both = halves(corners);
-    for (int k = 0; k < 2; ++k) visit(look, parts[k], both[k], found);
+    for (int k = 0; k < 2; ++k) visit(probe, parts[k], both[k], found);
 }
 
 std::vector<std::vector<SurfacePart>> connected(const TriangleMesh& mesh,

@@ -22,9 +22,9 @@ public:
                                      double size, const PartSet& known) const;
 
 private:
-    struct Look;
-    void visit(const Look& look, std::uint32_t node, std::vector<SurfacePart>& found) const;
-    void visit(const Look& look, SurfacePart part, const Corners& corners,
+    struct Probe;
+    void visit(const Probe& probe, std::uint32_t node, std::vector<SurfacePart>& found) const;
+    void visit(const Probe& probe, SurfacePart part, const Corners& corners,
                std::vector<SurfacePart>& found) const;
     bool inside(const Vec3& x) const { return bounds_.contains(x) && solid_.inside(x); }
 

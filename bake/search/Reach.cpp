@@ -64,12 +64,12 @@ void buildTree(Problem& p, std::span<const Patch> patches) {
 
 /// How far from the other mesh, at the cell's centre pose, a ball may be and still come within the margin
 /// somewhere in the cell.
-struct Look {
+struct Probe {
     Vec3 centre; ///< of the ball, in the other mesh's frame
     double move; ///< of its points against the other mesh in the cell
 };
 
-Look look(const Problem& p, const CellMotion& motion, const Pose& inverse, const Ball& ball) {
+Probe probe(const Problem& p, const CellMotion& motion, const Pose& inverse, const Ball& ball) {
     const double spread = motion.relativeMove() * ball.radius;
     if (p.side == Side::B) {
         const Vec3 x = motion.centrePose() * ball.centre;
@@ -105,7 +105,7 @@ public:
             if (p_.reached[n].load(std::memory_order_relaxed)) continue;
             ++tests_;
             const Ball& ball = p_.balls[n];
-            const Look at = look(p_, motion, inverse, ball);
+            const Probe at = probe(p_, motion, inverse, ball);
             const double within = (ball.radius + at.move + p_.margin) * (1 + 1e-9) + p_.rounding;
             if (std::isfinite(within) && !p_.other.comesWithin(at.centre, within)) continue;
             const Bvh::Node& node = p_.tree.nodes[n];

@@ -3,9 +3,9 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/base/Poll.h"
+#include "bake/search/ConcurrentPairs.h"
 #include "bake/search/ExploredPoses.h"
-#include "bake/search/PairBits.h"
-#include "bake/search/TreePair.h"
+#include "bake/search/NodePairs.h"
 
 #include <algorithm>
 
@@ -23,7 +23,7 @@ CandidatePairs searchSampled(const SphereSet& a, const SphereSet& b, const Motio
     if (poll.stopped()) return result;
     const auto poses = exploredPoses(motion, options.samples, options.seed);
     std::vector<char> hit(poses.size(), 0);
-    PairBits found(a.size(), b.size());
+    ConcurrentPairs found(a.size(), b.size());
     constexpr std::size_t batch = 256;
     for (std::size_t first = 0; first < poses.size(); first += batch) {
         if (!report(progress, "sampled search", double(first) / double(poses.size()))) break;

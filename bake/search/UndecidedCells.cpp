@@ -3,7 +3,7 @@
 #include "bake/base/Parallel.h"
 #include "bake/base/Poll.h"
 #include "bake/search/CellTools.h"
-#include "bake/search/SphereTree.h"
+#include "bake/search/NodePairs.h"
 
 #include <algorithm>
 #include <atomic>
@@ -11,10 +11,6 @@
 namespace tss {
 
 namespace {
-
-struct NodePair {
-    std::uint32_t a, b;
-};
 
 enum class Verdict { Hit, Free, Open };
 
@@ -44,32 +40,24 @@ bool firesEverywhere(const Problem& p, std::uint32_t i, std::uint32_t j, double 
 Verdict judge(const Problem& p, const CellMotion& motion, const std::vector<NodePair>& inherited,
               std::vector<NodePair>& open, double& largestMove) {
     std::vector<NodePair> stack(inherited);
-    while (!stack.empty()) {
-        const NodePair pair = stack.back();
-        stack.pop_back();
-        const SphereTree::Node &na = p.treeA[pair.a], &nb = p.treeB[pair.b];
-        const Vec3 x = motion.centrePose() * nb.centre;
-        const double move = motion.reach(x).move, sum = na.radius + nb.radius;
-        const double distance = (x - na.centre).norm();
-        if (distance - move > sum + p.options.margin + p.rounding) continue;
-        if (na.leaf() && nb.leaf()) {
-            if (p.excepted(na.sphere, nb.sphere)) continue;
-            if (firesEverywhere(p, na.sphere, nb.sphere, distance, move)) return Verdict::Hit;
-            open.push_back(pair);
-            largestMove = std::max(largestMove, move);
-        } else if (sum < move && move > p.options.resolution) {
-            // Smaller balls do not help where the motion is what blurs the answer.
-            open.push_back(pair);
-            largestMove = std::max(largestMove, move);
-        } else if (!na.leaf() && (nb.leaf() || na.radius >= nb.radius)) {
-            stack.push_back({na.right, pair.b});
-            stack.push_back({pair.a + 1, pair.b});
-        } else {
-            stack.push_back({pair.a, nb.right});
-            stack.push_back({pair.a, pair.b + 1});
-        }
-    }
-    return open.empty() ? Verdict::Free : Verdict::Open;
+    bool hit = false;
+    descend(p.treeA, p.treeB, stack,
+            [&](NodePair pair, const SphereTree::Node& na, const SphereTree::Node& nb) {
+                if (hit) return false;
+                const Vec3 x = motion.centrePose() * nb.centre;
+                const double move = motion.reach(x).move, sum = na.radius + nb.radius;
+                const double distance = (x - na.centre).norm();
+                if (distance - move > sum + p.options.margin + p.rounding) return false;
+                const bool leaves = na.leaf() && nb.leaf();
+                if (leaves && p.excepted(na.sphere, nb.sphere)) return false;
+                hit = leaves && firesEverywhere(p, na.sphere, nb.sphere, distance, move);
+                // Smaller balls do not help where the motion is what blurs the answer.
+                if (!leaves && !(sum < move && move > p.options.resolution)) return true;
+                open.push_back(pair);
+                largestMove = std::max(largestMove, move);
+                return false;
+            });
+    return hit ? Verdict::Hit : open.empty() ? Verdict::Free : Verdict::Open;
 }
 
 class Decider {

@@ -14,12 +14,12 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// What one look at a patch tells of the largest distance from it to the union.
-struct Look {
+struct Probe {
     double lower; ///< reached at the centre
     double upper; ///< of all its points
 };
 
-Look look(const SphereQuery& tree, const Patch& patch) {
+Probe probe(const SphereQuery& tree, const Patch& patch) {
     const Vec3 centre = patch.centre();
     const double radius = patch.radius();
     // A sphere that holds the ball about the patch holds the patch: no need to know the nearest one.
@@ -39,16 +39,16 @@ Look look(const SphereQuery& tree, const Patch& patch) {
 
 /// The bound for one patch, halved until it is within 2 % of the largest value known.
 double refined(const SphereQuery& tree, const Patch& patch, double known) {
-    constexpr int budget = 20000; // looks; what is left then keeps the bound it has
+    constexpr int budget = 20000; // probes; what is left then keeps the bound it has
     const double settled = 1e-6 * patch.radius();
     std::vector<Patch> stack{patch};
     double bound = 0;
-    for (int looks = 0; !stack.empty(); ++looks) {
+    for (int probes = 0; !stack.empty(); ++probes) {
         const Patch top = stack.back();
         stack.pop_back();
-        const Look l = look(tree, top);
+        const Probe l = probe(tree, top);
         known = std::max(known, l.lower);
-        if (l.upper <= std::max(1.02 * known, 0.0) || looks >= budget || top.radius() < settled) {
+        if (l.upper <= std::max(1.02 * known, 0.0) || probes >= budget || top.radius() < settled) {
             bound = std::max(bound, l.upper);
         } else {
             for (const Patch& half : halves(top)) stack.push_back(half);
@@ -141,13 +141,13 @@ double coverageBound(std::span<const Sphere> spheres, std::span<const Patch> pat
     if (patches.empty()) return 0;
     if (spheres.empty()) return infinity;
     const SphereQuery tree(spheres);
-    std::vector<Look> looks(patches.size());
-    parallelFor(patches.size(), [&](std::size_t i) { looks[i] = look(tree, patches[i]); });
+    std::vector<Probe> probes(patches.size());
+    parallelFor(patches.size(), [&](std::size_t i) { probes[i] = probe(tree, patches[i]); });
     double known = 0;
-    for (const Look& l : looks) known = std::max(known, l.lower);
+    for (const Probe& l : probes) known = std::max(known, l.lower);
     std::vector<double> bounds(patches.size());
     parallelFor(patches.size(), [&](std::size_t i) {
-        bounds[i] = looks[i].upper <= 1.02 * known ? looks[i].upper : refined(tree, patches[i], known);
+        bounds[i] = probes[i].upper <= 1.02 * known ? probes[i].upper : refined(tree, patches[i], known);
     });
     double bound = 0;
     for (const double b : bounds) bound = std::max(bound, b);

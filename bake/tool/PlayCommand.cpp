@@ -3,6 +3,7 @@
 #include "bake/model/SourceHash.h"
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/play/Player.h"
+#include "bake/respond/SkinFollowing.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/Csv.h"

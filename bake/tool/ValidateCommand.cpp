@@ -1,5 +1,5 @@
 #include "bake/pipeline/CheckBake.h"
-#include "bake/scene/SceneFile.h"
+#include "bake/scene/ValidateScene.h"
 #include "bake/tool/Command.h"
 
 #include <fmt/format.h>

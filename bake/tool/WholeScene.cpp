@@ -9,6 +9,7 @@
 #include "bake/model/ShowMotion.h"
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/robot/RobotScene.h"
+#include "bake/scene/Layer.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/DofSpec.h"
 #include "bake/tool/OwnMotion.h"

@@ -138,11 +138,11 @@ private:
         return {verify::outside(b_, inB), box.carry(inB, false).move};
     }
 
-    template <typename Look>
-    bool someOutside(const Extremes& extremes, std::size_t& last, Look&& look) const {
+    template <typename Probe>
+    bool someOutside(const Extremes& extremes, std::size_t& last, Probe&& probe) const {
         for (std::size_t k = 0; k < extremes.size(); ++k) {
             const std::size_t n = (last + k) % extremes.size();
-            const Side side = look(extremes[n]);
+            const Side side = probe(extremes[n]);
             if (side.outside - side.move < -early_) continue;
             last = n;
             return true;
@@ -164,15 +164,15 @@ private:
     /// the box, or a point that stays as near to it as `early`.
     bool cross(const PoseBox& box, const MeshTest& deepest) const {
         const auto crosses = [&](const VerifiedBody& body, const Components& components, const Vec3& place,
-                                 auto&& look) {
+                                 auto&& probe) {
             const int triangle = body.surface.closest(place).triangle;
             for (int k = 0; k < 3 && triangle >= 0; ++k) {
                 const int vertex = body.mesh.triangles[std::size_t(triangle)][k];
-                const Side in = look(body.mesh.vertices[std::size_t(vertex)]);
+                const Side in = probe(body.mesh.vertices[std::size_t(vertex)]);
                 if (std::abs(in.outside) + in.move <= early_) return true;
                 if (in.outside + in.move >= 0) continue;
                 for (const Vec3& p : components.extremes()[components.of(vertex)])
-                    if (const Side out = look(p); out.outside - out.move > 0) return true;
+                    if (const Side out = probe(p); out.outside - out.move > 0) return true;
             }
             return false;
         };

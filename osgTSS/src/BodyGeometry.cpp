@@ -2,7 +2,7 @@
 
 #include "SmoothNormals.h"
 
-#include "bake/motion/MuscleLocator.h"
+#include "bake/motion/ClosestPointQuery.h"
 
 #include <osg/LightModel>
 #include <osg/Material>

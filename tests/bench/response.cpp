@@ -9,7 +9,7 @@ using namespace tss;
 namespace {
 
 struct Step {
-    JointValues last{}, asked{};
+    DofValues last{}, asked{};
 };
 
 enum class Kind { Free, Slides, Jump };

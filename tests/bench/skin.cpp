@@ -4,6 +4,7 @@
 #include "bake/pipeline/Bake.h"
 #include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinResponse.h"
+#include "bake/respond/SkinRig.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/ToLayer.h"

@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
                 q[k] = std::uniform_real_distribution<double>(problem.motion.dofs[k].lower,
                                                               problem.motion.dofs[k].upper)(random);
         const std::vector<PoseQuery> queries = poseQueries(problem.motion, values);
-        std::vector<std::unique_ptr<Rival>> rivals;
+        std::vector<std::unique_ptr<CollisionMethod>> rivals;
         rivals.push_back(makeKernelTable(problem));
         const GapOracle gap = [&](const PoseQuery& query) {
             TableFeatures f;
@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
         };
         const std::vector<std::vector<int>> points = {{65, 1025}, {17, 65, 257}, {17, 33, 65}};
         for (const int n : points[dofs - 1]) rivals.push_back(makeGapGrid(problem, gap, n, {}));
-        std::vector<const Rival*> field;
+        std::vector<const CollisionMethod*> field;
         for (const auto& rival : rivals) field.push_back(rival.get());
         const std::vector<reporting::Times> times =
             reporting::timeMethods(field, queries, {31, 2.0, 2e-3, 0.05});

@@ -32,18 +32,18 @@ Judged judge(const Problem& problem, std::size_t count) {
 }
 
 /// The method's verdicts keep what it states. `slack`: of FCL's distance itself.
-void checkStated(const Rival& rival, const Judged& judged, double slack) {
-    INFO(rival.description().name << ": " << rival.description().about);
-    const StatedError stated = rival.description().stated;
+void checkStated(const CollisionMethod& method, const Judged& judged, double slack) {
+    INFO(method.description().name << ": " << method.description().about);
+    const StatedError stated = method.description().stated;
     std::size_t missed = 0, hits = 0;
     double earliest = 0;
     for (std::size_t i = 0; i < judged.queries.size(); ++i) {
-        const bool hit = rival.hit(judged.queries[i]);
+        const bool hit = method.hit(judged.queries[i]);
         hits += hit;
         missed += judged.hits[i] && !hit;
         if (hit && !judged.hits[i]) earliest = std::max(earliest, judged.distances[i]);
     }
-    CHECK(rival.countHits(judged.queries) == hits);
+    CHECK(method.countHits(judged.queries) == hits);
     if (stated.miss == 0) CHECK(missed == 0);
     if (stated.early >= 0) CHECK(earliest <= stated.early + slack);
     CHECK(hits > 0);
@@ -57,38 +57,38 @@ TEST_CASE("each method's verdicts agree with the meshes within its own stated er
     const Judged judged = judge(problem, 300);
     REQUIRE(judged.free > 50);
     REQUIRE(judged.touching > 50);
-    std::vector<std::unique_ptr<Rival>> rivals;
-    rivals.push_back(makeAllPairs(problem));
-    rivals.push_back(makeAllPairsSimd(problem));
-    rivals.push_back(makePairList(problem));
-    rivals.push_back(makePlainTable(problem));
-    rivals.push_back(makeKernelTable(problem));
-    if (auto inFloat = makeFloatTable(problem)) rivals.push_back(std::move(inFloat));
+    std::vector<std::unique_ptr<CollisionMethod>> methods;
+    methods.push_back(makeAllPairs(problem));
+    methods.push_back(makeAllPairsSimd(problem));
+    methods.push_back(makePairList(problem));
+    methods.push_back(makePlainTable(problem));
+    methods.push_back(makeKernelTable(problem));
+    if (auto inFloat = makeFloatTable(problem)) methods.push_back(std::move(inFloat));
     for (const TreeOf of : {TreeOf::All, TreeOf::Used})
         for (const Enclosure enclosure :
              {Enclosure::Box, Enclosure::Points, Enclosure::Balls, Enclosure::CoreSet})
-            rivals.push_back(makeSphereTree(problem, of, 8, enclosure));
-    rivals.push_back(makeSphereTree(problem, TreeOf::All, 2, Enclosure::Balls));
-    rivals.push_back(makeOctree(problem, 5));
-    rivals.push_back(makeHubbard(problem, 3));
-    rivals.push_back(makeAdaptiveMedial(problem, 3));
-    rivals.push_back(makeOrourkeBadler(problem));
+            methods.push_back(makeSphereTree(problem, of, 8, enclosure));
+    methods.push_back(makeSphereTree(problem, TreeOf::All, 2, Enclosure::Balls));
+    methods.push_back(makeOctree(problem, 5));
+    methods.push_back(makeHubbard(problem, 3));
+    methods.push_back(makeAdaptiveMedial(problem, 3));
+    methods.push_back(makeOrourkeBadler(problem));
     for (const FclTree tree : {FclTree::Obbrss, FclTree::Obb, FclTree::Aabb})
-        rivals.push_back(makeFcl(problem, tree));
-    rivals.push_back(makeGimpact(problem));
+        methods.push_back(makeFcl(problem, tree));
+    methods.push_back(makeGimpact(problem));
     const BallTree a = buildBallTree(problem.a, 8, Enclosure::Balls),
                    b = buildBallTree(problem.b, 8, Enclosure::Balls);
-    rivals.push_back(makeGapGrid(problem, [&](const PoseQuery& query) { return treesGap(a, b, query.pose); },
-                                 65,
-                                 {missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)}));
-    for (const auto& rival : rivals) checkStated(*rival, judged, 1e-9);
+    methods.push_back(makeGapGrid(problem, [&](const PoseQuery& query) { return treesGap(a, b, query.pose); },
+                                  65,
+                                  {missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)}));
+    for (const auto& method : methods) checkStated(*method, judged, 1e-9);
 }
 
 TEST_CASE("methods over the same spheres give one verdict and one gap") {
     const Problem problem = lidOverBall();
     const auto queries = poseQueries(problem.motion, randomPoses(problem.motion, 200, 5));
     const auto reference = makeAllPairs(problem);
-    std::vector<std::unique_ptr<Rival>> same;
+    std::vector<std::unique_ptr<CollisionMethod>> same;
     same.push_back(makePairList(problem));
     same.push_back(makePlainTable(problem));
     for (const int arity : {2, 4, 8})
@@ -98,10 +98,10 @@ TEST_CASE("methods over the same spheres give one verdict and one gap") {
     for (const PoseQuery& query : queries) {
         const double gap = *reference->gap(query);
         CHECK(reference->hit(query) == (gap <= 0));
-        for (const auto& rival : same) {
-            INFO(rival->description().name);
-            CHECK(rival->hit(query) == (gap <= 0));
-            if (const auto other = rival->gap(query)) CHECK(*other == Approx(gap).margin(1e-12));
+        for (const auto& method : same) {
+            INFO(method->description().name);
+            CHECK(method->hit(query) == (gap <= 0));
+            if (const auto other = method->gap(query)) CHECK(*other == Approx(gap).margin(1e-12));
         }
     }
 }
@@ -126,8 +126,8 @@ TEST_CASE("a method that only knows the leading DOF is right for a hinge but for
     const Oracle oracle = [&](const PoseQuery& query) { return model->hit(query); };
     const int bins = 128;
     const auto region = makeAngularRegion(problem, oracle, bins, 9, 3);
-    const auto mixed =
-        makeMixedRegion(problem, oracle, bins, 9, 3, std::shared_ptr<const Rival>(makePairList(problem)));
+    const auto mixed = makeMixedRegion(problem, oracle, bins, 9, 3,
+                                       std::shared_ptr<const CollisionMethod>(makePairList(problem)));
     const auto paths = makeAllowedPaths(problem, oracle, 1, 200);
     const double slice = (problem.motion.dofs[0].upper - problem.motion.dofs[0].lower) / bins;
     int judged = 0;
@@ -147,8 +147,8 @@ TEST_CASE("mixed regions ask for spheres only where the leading DOF leaves it op
     const Problem problem = lidOverBall();
     const auto model = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
     const Oracle oracle = [&](const PoseQuery& query) { return model->hit(query); };
-    const auto mixed =
-        makeMixedRegion(problem, oracle, 64, 40, 3, std::shared_ptr<const Rival>(makePairList(problem)));
+    const auto mixed = makeMixedRegion(problem, oracle, 64, 40, 3,
+                                       std::shared_ptr<const CollisionMethod>(makePairList(problem)));
     int asked = 0, wrong = 0;
     const auto queries = poseQueries(problem.motion, randomPoses(problem.motion, 400, 9));
     for (const PoseQuery& query : queries) {

@@ -1,4 +1,4 @@
-#include "bake/motion/MuscleLocator.h"
+#include "bake/motion/ClosestPointQuery.h"
 #include "bake/play/Player.h"
 #include "bake/scene/SceneFile.h"
 
@@ -13,7 +13,7 @@ constexpr double reach = 4; // millimetres: how far the other lip is looked for
 
 /// How far each vertex is above the part of the skin that it faces; `reach` where there is none.
 std::vector<double> heights(const TriangleMesh& skin) {
-    const MuscleLocator locator(skin);
+    const ClosestPointQuery locator(skin);
     const std::vector<Vec3> normals = vertexNormals(skin);
     std::vector<double> result(skin.vertices.size(), reach);
     for (std::size_t v = 0; v < result.size(); ++v) {

@@ -1,5 +1,6 @@
 #include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinResponse.h"
+#include "bake/respond/SkinRig.h"
 #include "tests/extreme/Served.h"
 #include "tests/extreme/tool/LongRun.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/fill/ContactZoneFit.h"
-#include "bake/search/TreePair.h"
+#include "bake/search/NodePairs.h"
 #include "bake/spheres/RoundToFloat.h"
 #include "tests/GroundTruth.h"
 #include "tests/Joints.h"

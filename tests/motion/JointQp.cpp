@@ -33,13 +33,13 @@ QpRows inPlane(std::initializer_list<std::array<double, 3>> demands) {
     return rows;
 }
 
-double excess(const QpRows& rows, int row, const JointValues& y) {
+double excess(const QpRows& rows, int row, const DofValues& y) {
     double sum = -rows.bound(row);
     for (int l = 0; l < rows.unknowns(); ++l) sum += rows.normal(row)[l] * y[l];
     return sum;
 }
 
-double leastExcess(const QpRows& rows, const JointValues& y) {
+double leastExcess(const QpRows& rows, const DofValues& y) {
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < rows.count(); ++i) least = std::min(least, excess(rows, i, y));
     return least;
@@ -60,7 +60,7 @@ double leastLength(const QpRows& rows) {
             normals.row(k) = Eigen::Map<const Eigen::RowVectorXd>(rows.normal(i), n);
             bounds(k++) = rows.bound(i);
         }
-        JointValues y{};
+        DofValues y{};
         if (count > 0)
             Eigen::Map<Eigen::VectorXd>(y.data(), n) =
                 normals.completeOrthogonalDecomposition().solve(bounds);
@@ -80,7 +80,7 @@ TEST_CASE("the nearest point under linear demands is the nearest of all corners,
         const int n = 1 + int(random() % 5);
         const QpRows rows = randomRows(random, n, 1 + int(random() % 9));
         const double least = leastLength(rows);
-        JointValues y;
+        DofValues y;
         if (!nearestToOrigin(rows, 1e-12, y)) {
             REQUIRE(least == std::numeric_limits<double>::infinity());
             ++refused;
@@ -97,7 +97,7 @@ TEST_CASE("the nearest point under linear demands is the nearest of all corners,
 }
 
 TEST_CASE("demands that contradict each other are told") {
-    JointValues y;
+    DofValues y;
     CHECK_FALSE(nearestToOrigin(inPlane({{0, 1, 3}, {1, 0, 1}, {-1, 0, 1}}), 1e-12, y));
     CHECK(nearestToOrigin(inPlane({{0, 1, 3}, {1, 0, 1}}), 1e-12, y));
     CHECK(y[0] == Approx(1));
@@ -106,7 +106,7 @@ TEST_CASE("demands that contradict each other are told") {
 
 TEST_CASE("the same demand many times over is one demand") {
     const std::array<double, 3> same{0.6, 0.8, 2};
-    JointValues y;
+    DofValues y;
     REQUIRE(nearestToOrigin(inPlane({same, same, same, same, same, same}), 1e-12, y));
     CHECK(y[0] == Approx(1.2));
     CHECK(y[1] == Approx(1.6));

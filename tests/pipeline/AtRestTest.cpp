@@ -3,7 +3,7 @@
 #include "bake/geometry/PartSet.h"
 #include "bake/pipeline/Bake.h"
 #include "bake/pipeline/BakePair.h"
-#include "bake/search/TreePair.h"
+#include "bake/search/NodePairs.h"
 #include "bake/table/Query.h"
 #include "tests/GroundTruth.h"
 #include "tests/pipeline/LumpyPair.h"

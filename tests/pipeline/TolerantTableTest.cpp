@@ -1,7 +1,7 @@
 #include "bake/pipeline/Bake.h"
 #include "bake/pipeline/BakePair.h"
 #include "bake/pipeline/RestRule.h"
-#include "bake/search/TreePair.h"
+#include "bake/search/NodePairs.h"
 #include "bake/table/Query.h"
 #include "bake/verify/MeshVerify.h"
 #include "bake/verify/Verify.h"

@@ -8,7 +8,7 @@ using namespace tss::reporting;
 namespace {
 
 /// Takes note of how often it is asked, in which order.
-class Noting : public compare::Rival {
+class Noting : public compare::CollisionMethod {
 public:
     Noting(std::string& order, char letter) : order_(order), letter_(letter) {}
     bool hit(const compare::PoseQuery&) const override { return false; }

@@ -84,7 +84,7 @@ TEST_CASE("of a joint that is not free some table held it, of a free one none") 
             for (std::size_t k = 0; k < q.size(); ++k) asked[k] += 0.1 * (hand[k] - q[k]);
             const JointAnswer answer = responder.respond(q.data(), asked.data(), ws);
             std::copy_n(answer.q.begin(), q.size(), q.begin());
-            const bool held = ws.held[0] || ws.held[1];
+            const bool held = ws.held()[0] || ws.held()[1];
             CAPTURE(seed, step, name(answer.status), answer.gap, responder.keptGap(0));
             if (answer.status == JointStatus::Free) continue;
             ++stopped;

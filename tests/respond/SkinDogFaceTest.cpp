@@ -137,7 +137,7 @@ TEST_CASE("the frontal mask slides under the skin of the dog's head and the skin
         skin.update(a);
         spheres.update(a);
         if (f % 20 != 0) continue;
-        SkinResponse converged = skin;
+        SkinResponse converged(couple.rig());
         for (int k = 0; k < 200; ++k) converged.update(a);
         const TriangleMesh solid{muscle.vertices(a[0]), mask.surface.triangles};
         double slide = 0;

@@ -27,7 +27,7 @@ inline std::vector<double> depths(const std::vector<tss::Vec3>& points, const ts
 /// How far each point that starts under an open sheet has come through it, 0 for the others.
 inline std::vector<double> poking(const std::vector<tss::Vec3>& points, const tss::TriangleMesh& sheet,
                                   double range) {
-    const tss::MuscleLocator locator(sheet);
+    const tss::ClosestPointQuery locator(sheet);
     const std::vector<tss::Vec3> normals = tss::vertexNormals(sheet);
     std::vector<double> result(points.size(), 0);
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -60,8 +60,8 @@ TEST_CASE("skin keeps the distance to the muscle that it had at rest, up to its 
     run(response, 1, 200);
     const MuscleDeformer& muscle = *couple.muscles[0];
     const TriangleMesh tight{muscle.vertices(1), muscle.muscle().surface.triangles};
-    const MuscleLocator before(muscle.muscle().surface), after(tight);
-    const auto height = [](const MuscleLocator& locator, const TriangleMesh& mesh, const Vec3& x) {
+    const ClosestPointQuery before(muscle.muscle().surface), after(tight);
+    const auto height = [](const ClosestPointQuery& locator, const TriangleMesh& mesh, const Vec3& x) {
         const NearestPoint p = locator.nearest(x, 1e9);
         const Vec3 n = (mesh.corner(p.triangle, 1) - mesh.corner(p.triangle, 0))
                            .cross(mesh.corner(p.triangle, 2) - mesh.corner(p.triangle, 0));

@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/motion/MuscleEllipsoid.h"
 #include "bake/respond/SkinResponse.h"
+#include "bake/respond/SkinRig.h"
 #include "bake/search/SkinSearch.h"
 
 #include <cmath>

@@ -1,6 +1,7 @@
 #ifdef OSGTSS_HAVE_MJCF
 #include "bake/geometry/MeshAudit.h"
 #include "bake/robot/ReadMjcf.h"
+#include "bake/scene/Layer.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
 #include "tests/robot/Robots.h"

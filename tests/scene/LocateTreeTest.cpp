@@ -1,6 +1,6 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/scene/ReadTree.h"
-#include "bake/scene/SceneFile.h"
+#include "bake/scene/ValidateScene.h"
 #include "bake/scene/WriteLayer.h"
 #include "tests/scene/RandomLayer.h"
 

@@ -2,6 +2,7 @@
 #include "bake/base/Error.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/SceneFile.h"
+#include "bake/scene/ValidateScene.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteNumber.h"
 #include "tests/scene/RandomLayer.h"

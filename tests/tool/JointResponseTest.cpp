@@ -1,6 +1,6 @@
 // The response on baked joints, judged by their full sphere models and by fine search.
 #include "bake/scene/SceneFile.h"
-#include "bake/search/TreePair.h"
+#include "bake/search/NodePairs.h"
 #include "tests/SharedMeshes.h"
 #include "tests/respond/Walk.h"
 #include "tests/tool/Shell.h"

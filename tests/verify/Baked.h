@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/reduce/CertifiedCover.h"
-#include "bake/search/TreePair.h"
+#include "bake/search/NodePairs.h"
 #include "bake/verify/Verify.h"
 #include "tests/search/Scenes.h"
 

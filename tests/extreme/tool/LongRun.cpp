@@ -3,6 +3,7 @@
 #include "bake/play/SkinSetup.h"
 #include "bake/respond/JointResponder.h"
 #include "bake/respond/SkinResponse.h"
+#include "bake/respond/SkinRig.h"
 
 #include <algorithm>
 #include <cmath>

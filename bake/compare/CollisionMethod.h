@@ -44,10 +44,10 @@ struct Description {
 };
 
 /// Another way to ask whether two bodies touch at a pose. Immutable once made; threads may share one unless
-/// `about` says otherwise. A problem that a rival was made from must outlive it.
-class Rival {
+/// `about` says otherwise. A problem that a method was made from must outlive it.
+class CollisionMethod {
 public:
-    virtual ~Rival() = default;
+    virtual ~CollisionMethod() = default;
     virtual bool hit(const PoseQuery& query) const = 0;
 
     /// Number of hits: the loop that is timed, free of virtual calls inside.
@@ -66,9 +66,9 @@ private:
     Description description_;
 };
 
-/// Gives a rival its loop. Method has `bool hit(const PoseQuery&) const`, marked final.
+/// Gives a method its loop. Method has `bool hit(const PoseQuery&) const`, marked final.
 template <class Method>
-class RivalLoop : public Rival {
+class CollisionMethodLoop : public CollisionMethod {
 public:
     std::size_t countHits(std::span<const PoseQuery> queries) const final {
         const Method& method = static_cast<const Method&>(*this);

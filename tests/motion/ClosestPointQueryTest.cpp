@@ -1,4 +1,4 @@
-#include "bake/motion/MuscleLocator.h"
+#include "bake/motion/ClosestPointQuery.h"
 #include "tests/Shapes.h"
 
 #include <catch2/catch.hpp>
@@ -8,7 +8,7 @@ using namespace tss;
 
 TEST_CASE("a way has entered a ball where it goes from outside of it to inside or beyond") {
     const TriangleMesh ball = ballMesh(Vec3(0.3, -0.2, 0.1), 1, 2);
-    const MuscleLocator locator(ball);
+    const ClosestPointQuery locator(ball);
     // A convex surface: inside is behind all triangles.
     const auto outside = [&](const Vec3& x) {
         for (const Tri& t : ball.triangles) {
@@ -45,5 +45,5 @@ TEST_CASE("a way has entered a ball where it goes from outside of it to inside o
     CHECK(out > 300);
     CHECK(locator.entered(Vec3(3, 0, 0), Vec3(3, 0, 0)) == -1);
     const TriangleMesh nothing;
-    CHECK(MuscleLocator(nothing).entered(Vec3(3, 0, 0), Vec3(-3, 0, 0)) == -1);
+    CHECK(ClosestPointQuery(nothing).entered(Vec3(3, 0, 0), Vec3(-3, 0, 0)) == -1);
 }

@@ -1,14 +1,14 @@
-#include "bake/search/PairBits.h"
+#include "bake/search/ConcurrentPairs.h"
 
 #include <bit>
 
 namespace tss {
 
-PairBits::~PairBits() {
+ConcurrentPairs::~ConcurrentPairs() {
     for (auto& row : rows_) delete[] row.load();
 }
 
-PairBits::Word* PairBits::row(std::uint32_t i) {
+ConcurrentPairs::Word* ConcurrentPairs::row(std::uint32_t i) {
     Word* at = rows_[i].load(std::memory_order_acquire);
     if (at) return at;
     Word* fresh = new Word[words_]();
@@ -17,18 +17,18 @@ PairBits::Word* PairBits::row(std::uint32_t i) {
     return at;
 }
 
-void PairBits::insert(SpherePair pair) {
+void ConcurrentPairs::insert(SpherePair pair) {
     const std::uint64_t bit = std::uint64_t{1} << (pair.b % 64);
     Word& word = row(pair.a)[pair.b / 64];
     if (!(word.load(std::memory_order_relaxed) & bit)) word.fetch_or(bit, std::memory_order_relaxed);
 }
 
-bool PairBits::contains(SpherePair pair) const {
+bool ConcurrentPairs::contains(SpherePair pair) const {
     const Word* at = rows_[pair.a].load(std::memory_order_acquire);
     return at && (at[pair.b / 64].load(std::memory_order_relaxed) >> (pair.b % 64) & 1);
 }
 
-void PairBits::insertAll(const PairBits& other) {
+void ConcurrentPairs::insertAll(const ConcurrentPairs& other) {
     for (std::uint32_t i = 0; i < rows_.size(); ++i) {
         const Word* from = other.rows_[i].load();
         if (!from) continue;
@@ -37,7 +37,7 @@ void PairBits::insertAll(const PairBits& other) {
     }
 }
 
-std::vector<SpherePair> PairBits::sorted() const {
+std::vector<SpherePair> ConcurrentPairs::sorted() const {
     std::vector<SpherePair> pairs;
     for (std::uint32_t i = 0; i < rows_.size(); ++i) {
         const Word* at = rows_[i].load();

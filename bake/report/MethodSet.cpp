@@ -1,4 +1,4 @@
-#include "bake/report/Contestants.h"
+#include "bake/report/MethodSet.h"
 
 #include "bake/base/Error.h"
 
@@ -36,8 +36,7 @@ constexpr const char* names[] = {"tss",
 /// Builds what is wanted and takes note of what cannot be.
 class Entry {
 public:
-    Entry(Contestants& contestants, const std::vector<std::string>& only)
-        : contestants_(contestants), only_(only) {}
+    Entry(MethodSet& methods, const std::vector<std::string>& only) : methods_(methods), only_(only) {}
 
     template <class Make>
     void add(const std::string& name, const Make& make) {
@@ -45,13 +44,13 @@ public:
             throw std::logic_error(name + " is not among the names of the methods");
         if (!wanted(name)) return;
         try {
-            if (auto rival = make()) contestants_.rivals.push_back(std::move(rival));
+            if (auto method = make()) methods_.all.push_back(std::move(method));
         } catch (const InputError& error) {
-            contestants_.notRun.push_back({name, error.what()});
+            methods_.notRun.push_back({name, error.what()});
         }
     }
     void skip(const std::string& name, const std::string& reason) {
-        if (wanted(name)) contestants_.notRun.push_back({name, reason});
+        if (wanted(name)) methods_.notRun.push_back({name, reason});
     }
 
 private:
@@ -60,7 +59,7 @@ private:
                    return name.find(part) != std::string::npos;
                });
     }
-    Contestants& contestants_;
+    MethodSet& methods_;
     const std::vector<std::string>& only_;
 };
 
@@ -156,20 +155,20 @@ std::span<const char* const> methodNames() {
     return names;
 }
 
-Contestants makeContestants(const Model& model, Field field, bool quick, const std::vector<std::string>& only,
-                            std::uint64_t seed) {
-    Contestants contestants;
-    Entry entry(contestants, only);
+MethodSet makeMethods(const Model& model, Field field, bool quick, const std::vector<std::string>& only,
+                      std::uint64_t seed) {
+    MethodSet methods;
+    Entry entry(methods, only);
     const Problem& problem = model.problem;
     addTables(entry, problem);
-    if (field == Field::Table) return contestants;
+    if (field == Field::Table) return methods;
     if (field == Field::Model) {
         entry.add("tree-all", [&] { return makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls); });
         entry.add("tree-used", [&] { return makeSphereTree(problem, TreeOf::Used, 8, Enclosure::Balls); });
         entry.add("all-pairs-simd", [&] { return makeAllPairsSimd(problem); });
         if (problem.motion.dofCount() <= 2)
             addGrid(entry, problem, Asked(problem), gridPoints(problem.motion.dofCount(), quick).back());
-        return contestants;
+        return methods;
     }
     entry.add("tss-plain", [&] { return makePlainTable(problem); });
     entry.add("all-pairs", [&] { return makeAllPairs(problem); });
@@ -180,7 +179,7 @@ Contestants makeContestants(const Model& model, Field field, bool quick, const s
     addMeshMethods(entry, problem);
     entry.skip("bent ellipsoid", "stands for a muscle under a skin; a rigid pair of meshes has none");
     if (quick) entry.skip("finer octrees, medial trees, paths and grids", "left out by --quick");
-    return contestants;
+    return methods;
 }
 
 } // namespace tss::reporting

@@ -1,4 +1,4 @@
-#include "bake/compare/Rival.h"
+#include "bake/compare/CollisionMethod.h"
 
 namespace tss::compare {
 

@@ -9,14 +9,15 @@ namespace tss {
 /// of the sphere of B in A's frame; with y = x - c_i:
 ///   |y| - move                               <= |y(q)| <= |y| + move
 ///   |y|^2 - 2|slope|.h - 2|y| remainder      <= |y(q)|^2 <= |y|^2 + 2|slope|.h + 2|y| remainder + move^2
-struct PairAt {
+struct PairDistanceBounds {
     Vec3 x, y;
     double squared, distance; ///< |y|^2 and |y|
     double move, remainder;
     double tilt;                       ///< |slope| . h
     std::array<double, maxDofs> slope; ///< y . J: half the slope of |y|^2
 
-    PairAt(const CellMotion& cell, const Vec3& x, const CellMotion::Reach& reach, const Vec3& centreA)
+    PairDistanceBounds(const CellMotion& cell, const Vec3& x, const CellMotion::Reach& reach,
+                       const Vec3& centreA)
         : x(x), y(x - centreA), squared(y.squaredNorm()), distance(std::sqrt(squared)), move(reach.move),
           remainder(reach.remainder), tilt(0) {
         cell.slope(x, y, slope.data());

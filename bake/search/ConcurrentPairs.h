@@ -6,16 +6,17 @@
 namespace tss {
 
 /// A set of sphere pairs that threads fill at once: one bit a pair, rows made when first touched.
-class PairBits {
+class ConcurrentPairs {
 public:
-    PairBits(std::size_t spheresA, std::size_t spheresB) : rows_(spheresA), words_((spheresB + 63) / 64) {}
-    ~PairBits();
-    PairBits(const PairBits&) = delete;
-    PairBits& operator=(const PairBits&) = delete;
+    ConcurrentPairs(std::size_t spheresA, std::size_t spheresB)
+        : rows_(spheresA), words_((spheresB + 63) / 64) {}
+    ~ConcurrentPairs();
+    ConcurrentPairs(const ConcurrentPairs&) = delete;
+    ConcurrentPairs& operator=(const ConcurrentPairs&) = delete;
 
     void insert(SpherePair pair);
     bool contains(SpherePair pair) const;
-    void insertAll(const PairBits& other);
+    void insertAll(const ConcurrentPairs& other);
     std::vector<SpherePair> sorted() const;
 
 private:

@@ -53,9 +53,9 @@ std::vector<Vec3> vertexNormals(const TriangleMesh& mesh);
 
 /// Nearest-point queries that know where on the triangle they end and can be told which triangles to see.
 /// Keeps a reference to the mesh, which must have no index out of range.
-class MuscleLocator {
+class ClosestPointQuery {
 public:
-    explicit MuscleLocator(const TriangleMesh& mesh);
+    explicit ClosestPointQuery(const TriangleMesh& mesh);
 
     /// The nearest point nearer than `range`. Of equally near triangles the first met answers.
     NearestPoint nearest(const Vec3& x, double range) const;

@@ -1,4 +1,4 @@
-#include "bake/motion/MuscleLocator.h"
+#include "bake/motion/ClosestPointQuery.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ std::vector<Vec3> vertexNormals(const TriangleMesh& mesh) {
     return normals;
 }
 
-MuscleLocator::MuscleLocator(const TriangleMesh& mesh) : mesh_(mesh) {
+ClosestPointQuery::ClosestPointQuery(const TriangleMesh& mesh) : mesh_(mesh) {
     std::vector<Eigen::AlignedBox3d> boxes(mesh.triangles.size());
     for (std::size_t t = 0; t < boxes.size(); ++t)
         for (int k = 0; k < 3; ++k) boxes[t].extend(mesh.corner(t, k));
@@ -29,7 +29,7 @@ MuscleLocator::MuscleLocator(const TriangleMesh& mesh) : mesh_(mesh) {
 }
 
 template <class Accept>
-NearestPoint MuscleLocator::search(const Vec3& x, double range, int first, const Accept& accept) const {
+NearestPoint ClosestPointQuery::search(const Vec3& x, double range, int first, const Accept& accept) const {
     NearestPoint best;
     double bound = range * range;
     const auto look = [&](std::uint32_t t) {
@@ -47,18 +47,19 @@ NearestPoint MuscleLocator::search(const Vec3& x, double range, int first, const
     return best;
 }
 
-NearestPoint MuscleLocator::nearest(const Vec3& x, double range) const {
+NearestPoint ClosestPointQuery::nearest(const Vec3& x, double range) const {
     return search(x, range, -1, [](std::uint32_t) { return true; });
 }
 
-NearestPoint MuscleLocator::nearestFacing(const Vec3& x, double range, const Vec3& facing, int first) const {
+NearestPoint ClosestPointQuery::nearestFacing(const Vec3& x, double range, const Vec3& facing,
+                                              int first) const {
     return search(x, range, first, [&](std::uint32_t t) {
         const Vec3& a = mesh_.corner(t, 0);
         return (mesh_.corner(t, 1) - a).cross(mesh_.corner(t, 2) - a).dot(facing) > 0;
     });
 }
 
-int MuscleLocator::entered(const Vec3& from, const Vec3& to) const {
+int ClosestPointQuery::entered(const Vec3& from, const Vec3& to) const {
     if (bvh_.empty()) return -1;
     const Vec3 way = to - from;
     const Vec3 perWay = (way.array() == 0).select(Vec3::Zero(), way.array().inverse());

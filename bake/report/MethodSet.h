@@ -12,8 +12,9 @@ struct NotRun {
     std::string method, reason;
 };
 
-struct Contestants {
-    std::vector<std::shared_ptr<const compare::Rival>> rivals;
+/// The methods that a model is asked with, and those that could not be.
+struct MethodSet {
+    std::vector<std::shared_ptr<const compare::CollisionMethod>> all;
     std::vector<NotRun> notRun;
 };
 
@@ -28,7 +29,7 @@ std::span<const char* const> methodNames();
 
 /// Makes the methods for a model. quick: smaller settings of those that take long to build. only: parts of
 /// names or families wanted, empty: all. seed: of the sampled ones.
-Contestants makeContestants(const Model& model, Field field, bool quick, const std::vector<std::string>& only,
-                            std::uint64_t seed);
+MethodSet makeMethods(const Model& model, Field field, bool quick, const std::vector<std::string>& only,
+                      std::uint64_t seed);
 
 } // namespace tss::reporting
