@@ -174,6 +174,38 @@ void describe(PairStudy& study, const SceneModel& scene, const Pair& pair, const
     }
 }
 
+/// Tables of ever finer spheres; returns the place of the one as asked for.
+std::size_t addTolerances(PairStudy& study, const SceneModel& scene, const Pair& pair,
+                          const BakeOptions& asked, bool quick, const Progress& progress,
+                          std::vector<StudiedModel>& field) {
+    std::size_t base = 0;
+    for (const double factor : quick ? std::vector{1.0, 0.5} : std::vector{4.0, 2.0, 1.0, 0.5, 0.25, 0.125}) {
+        BakeOptions changed = asked;
+        changed.tolerance = factor * *asked.tolerance;
+        const Recipe recipe = named(changed, study.millimetres);
+        report(progress, study.path + ": spheres and table, " + recipe.name, 0);
+        if (factor == 1) base = field.size();
+        field.push_back({makeModel(scene, pair, recipe), "", factor == 1 ? Field::Whole : Field::Model, {}});
+        study.tolerances.push_back(bakePoint(field.back()));
+    }
+    study.base = study.tolerances[base];
+    return base;
+}
+
+/// Tables of the same spheres for other epsilons.
+void addEpsilons(PairStudy& study, const Model& model, const BakeOptions& asked, bool quick,
+                 const Progress& progress, std::vector<StudiedModel>& field) {
+    study.epsilons.push_back(study.base);
+    for (const double factor : quick ? std::vector{0.1, 1.0} : std::vector{0.01, 0.03, 0.1, 0.3, 1.0, 3.0}) {
+        BakeOptions changed = asked;
+        changed.epsilon = factor * *asked.tolerance;
+        const Recipe recipe = named(changed, study.millimetres);
+        report(progress, study.path + ": table, " + recipe.name, 0);
+        field.push_back({makeModel(model, recipe), "", Field::Table, {}});
+        study.epsilons.push_back(bakePoint(field.back()));
+    }
+}
+
 } // namespace
 
 double Row::worst() const {
@@ -267,35 +299,15 @@ PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptio
 
     const BakeOptions asked = baseOptions(scene, pair, a, b);
     std::vector<StudiedModel> field;
-    std::size_t base = 0;
-    for (const double factor :
-         options.quick ? std::vector{1.0, 0.5} : std::vector{4.0, 2.0, 1.0, 0.5, 0.25, 0.125}) {
-        BakeOptions changed = asked;
-        changed.tolerance = factor * *asked.tolerance;
-        const Recipe recipe = named(changed, study.millimetres);
-        report(progress, study.path + ": spheres and table, " + recipe.name, 0);
-        if (factor == 1) base = field.size();
-        field.push_back({makeModel(scene, pair, recipe), "", factor == 1 ? Field::Whole : Field::Model, {}});
-        study.tolerances.push_back(bakePoint(field.back()));
-    }
+    const std::size_t base = addTolerances(study, scene, pair, asked, options.quick, progress, field);
     const Model& model = *field[base].model;
-    study.base = study.tolerances[base];
     if (model.proof) {
         study.neverCollides = true;
         study.clearance = model.proof->clearance;
         finish();
         return study;
     }
-    study.epsilons.push_back(study.base);
-    for (const double factor :
-         options.quick ? std::vector{0.1, 1.0} : std::vector{0.01, 0.03, 0.1, 0.3, 1.0, 3.0}) {
-        BakeOptions changed = asked;
-        changed.epsilon = factor * *asked.tolerance;
-        const Recipe recipe = named(changed, study.millimetres);
-        report(progress, study.path + ": table, " + recipe.name, 0);
-        field.push_back({makeModel(model, recipe), "", Field::Table, {}});
-        study.epsilons.push_back(bakePoint(field.back()));
-    }
+    addEpsilons(study, model, asked, options.quick, progress, field);
     report(progress, study.path + ": other recipes", 0);
     for (StudiedModel& studied : otherRecipes(scene, pair, model, options.quick)) {
         study.recipes.push_back(bakePoint(studied));

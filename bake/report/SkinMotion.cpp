@@ -115,6 +115,68 @@ std::vector<std::vector<Vec3>> convergedSteps(const SceneModel& scene, const Ski
     return steps;
 }
 
+/// A skin in motion: what each step asks, and the truth about it.
+struct Played {
+    const TriangleMesh& mesh;
+    const SkinRig& rig;
+    const std::vector<Activations>& asked;
+    std::vector<double> rest; ///< #touched: depths at rest
+    std::vector<Truth> truths;
+    std::vector<std::vector<Vec3>> converged;
+    double restArea = 0;
+};
+
+/// What a step asks, and what would be left at it untouched and converged.
+void studyStep(SkinMotionStudy& study, const Played& played, const Muscles& muscles, std::size_t s) {
+    const Activations& asked = played.asked[s];
+    double mean = 0;
+    for (const double a : asked) mean += a / static_cast<double>(asked.size());
+    study.perStepAsked.push_back(mean);
+    const Truth& truth = played.truths[s];
+    study.perStepUntouched.push_back(deepestBeyond(truth.depths(played.rig.rest), played.rest));
+    study.untouched = std::max(study.untouched, study.perStepUntouched.back());
+    const std::vector<Vec3>& converged = played.converged[s];
+    study.converged = std::max(study.converged, deepestBeyond(truth.depths(converged), played.rest));
+    for (std::size_t v = 0; v < study.touched; ++v)
+        study.farthestMove = std::max(study.farthestMove, (converged[v] - played.rig.rest[v]).norm());
+    for (std::size_t m = 0; m < muscles.size(); ++m) {
+        if (muscles[m]->rigid()) continue;
+        const auto& triangles = muscles[m]->muscle().surface.triangles;
+        const double volume = enclosedVolume(muscles[m]->vertices(asked[m]), triangles);
+        study.muscleVolume = std::max(study.muscleVolume, std::abs(volume / muscles[m]->restVolume() - 1));
+    }
+}
+
+/// The whole motion with one setting of the solver.
+SkinAnswer answerOf(const Played& played, std::shared_ptr<const SkinRig> rig, std::vector<double>& perStep) {
+    SkinAnswer answer;
+    SkinResponse response(std::move(rig));
+    std::vector<double> times;
+    double squares = 0;
+    const double steps = static_cast<double>(played.asked.size());
+    for (std::size_t s = 0; s < played.asked.size(); ++s) {
+        const double before = threadSeconds();
+        const bool moved = response.update(played.asked[s]).moved;
+        if (moved) times.push_back(1e9 * (threadSeconds() - before));
+        const std::vector<Vec3> positions = placesOf(response, played.mesh, played.rig);
+        perStep.push_back(deepestBeyond(played.truths[s].depths(positions), played.rest));
+        answer.deepest = std::max(answer.deepest, perStep.back());
+        answer.meanDepth += perStep.back() / steps;
+        for (std::size_t v = 0; v < positions.size(); ++v) {
+            const double away = (positions[v] - played.converged[s][v]).norm();
+            answer.farthest = std::max(answer.farthest, away);
+            squares += away * away;
+        }
+        if (played.restArea > 0)
+            answer.areaChange = std::max(
+                answer.areaChange, std::abs(areaOf(positions, played.rig.triangles) / played.restArea - 1));
+    }
+    answer.rms = std::sqrt(squares / (steps * static_cast<double>(played.rig.vertices.size())));
+    std::sort(times.begin(), times.end());
+    if (!times.empty()) answer.nanoseconds = times[times.size() / 2];
+    return answer;
+}
+
 } // namespace
 
 SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, const Muscles& muscles,
@@ -133,59 +195,25 @@ SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, 
     const auto rig = rigOf(usual);
     study.touched = rig->vertices.size();
     if (study.touched == 0) return study;
-    const std::vector<double> rest = truthAt(muscles, Activations(muscles.size(), 0.0)).depths(rig->rest);
-    const auto converged = convergedSteps(scene, skin, muscles, asked);
-    std::vector<Truth> truths;
+    Played played{mesh,
+                  *rig,
+                  asked,
+                  truthAt(muscles, Activations(muscles.size(), 0.0)).depths(rig->rest),
+                  {},
+                  convergedSteps(scene, skin, muscles, asked),
+                  areaOf(rig->rest, rig->triangles)};
     for (std::size_t s = 0; s < asked.size(); ++s) {
-        truths.push_back(truthAt(muscles, asked[s]));
-        double mean = 0;
-        for (const double a : asked[s]) mean += a / static_cast<double>(asked[s].size());
-        study.perStepAsked.push_back(mean);
-        study.perStepUntouched.push_back(deepestBeyond(truths[s].depths(rig->rest), rest));
-        study.untouched = std::max(study.untouched, study.perStepUntouched.back());
-        study.converged = std::max(study.converged, deepestBeyond(truths[s].depths(converged[s]), rest));
-        for (std::size_t v = 0; v < study.touched; ++v)
-            study.farthestMove = std::max(study.farthestMove, (converged[s][v] - rig->rest[v]).norm());
-        for (std::size_t m = 0; m < muscles.size(); ++m) {
-            if (muscles[m]->rigid()) continue;
-            const auto& triangles = muscles[m]->muscle().surface.triangles;
-            const double volume = enclosedVolume(muscles[m]->vertices(asked[s][m]), triangles);
-            study.muscleVolume =
-                std::max(study.muscleVolume, std::abs(volume / muscles[m]->restVolume() - 1));
-        }
+        played.truths.push_back(truthAt(muscles, asked[s]));
+        studyStep(study, played, muscles, s);
     }
-    const double restArea = areaOf(rig->rest, rig->triangles);
     std::vector<int> settings{0, 1, 2, 4, 8, 16, 32, 64, 128};
     if (std::find(settings.begin(), settings.end(), usual) == settings.end()) settings.push_back(usual);
     for (const int sweeps : settings) {
-        SkinAnswer answer;
-        answer.sweeps = sweeps;
-        answer.usual = sweeps == usual;
-        SkinResponse response(rigOf(sweeps));
-        std::vector<double> times;
-        double squares = 0;
-        for (std::size_t s = 0; s < asked.size(); ++s) {
-            const double before = threadSeconds();
-            const bool moved = response.update(asked[s]).moved;
-            if (moved) times.push_back(1e9 * (threadSeconds() - before));
-            const std::vector<Vec3> positions = placesOf(response, mesh, *rig);
-            const double deepest = deepestBeyond(truths[s].depths(positions), rest);
-            answer.deepest = std::max(answer.deepest, deepest);
-            answer.meanDepth += deepest / static_cast<double>(asked.size());
-            if (answer.usual) study.perStepUsual.push_back(deepest);
-            for (std::size_t v = 0; v < positions.size(); ++v) {
-                const double away = (positions[v] - converged[s][v]).norm();
-                answer.farthest = std::max(answer.farthest, away);
-                squares += away * away;
-            }
-            if (restArea > 0)
-                answer.areaChange =
-                    std::max(answer.areaChange, std::abs(areaOf(positions, rig->triangles) / restArea - 1));
-        }
-        answer.rms = std::sqrt(squares / static_cast<double>(asked.size() * study.touched));
-        std::sort(times.begin(), times.end());
-        if (!times.empty()) answer.nanoseconds = times[times.size() / 2];
-        study.answers.push_back(answer);
+        std::vector<double> perStep;
+        study.answers.push_back(answerOf(played, rigOf(sweeps), perStep));
+        study.answers.back().sweeps = sweeps;
+        study.answers.back().usual = sweeps == usual;
+        if (sweeps == usual) study.perStepUsual = std::move(perStep);
     }
     return study;
 }

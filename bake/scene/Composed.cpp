@@ -19,17 +19,6 @@ bool isInstanceable(const Prim& prim) {
     return flag && *flag;
 }
 
-std::size_t numbersIn(const Property& property) {
-    const auto count = [](const Value& value) {
-        const Numbers* numbers = value.as<Numbers>();
-        const auto* array = value.as<Value::Array>();
-        return numbers ? numbers->values.size() : array ? array->size() : 1;
-    };
-    std::size_t sum = property.defaultValue ? count(*property.defaultValue) : 0;
-    for (const Property::Sample& sample : property.timeSamples) sum += count(sample.value);
-    return sum;
-}
-
 /// A path at or below one prim as the same below another; any other path stays.
 void moveBelow(std::string& path, const std::string& from, const std::string& to) {
     if (path.starts_with(from) &&

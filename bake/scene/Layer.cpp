@@ -125,6 +125,17 @@ void addApi(Prim& prim, const std::string& api) {
     list.as<Value::Array>()->emplace_back(api);
 }
 
+std::size_t numbersIn(const Property& property) {
+    const auto count = [](const Value& value) {
+        const Numbers* numbers = value.as<Numbers>();
+        const auto* array = value.as<Value::Array>();
+        return numbers ? numbers->values.size() : array ? array->size() : 1;
+    };
+    std::size_t sum = property.defaultValue ? count(*property.defaultValue) : 0;
+    for (const Property::Sample& sample : property.timeSamples) sum += count(sample.value);
+    return sum;
+}
+
 bool isPrimName(std::string_view name) {
     const auto letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; };
     if (name.empty() || !letter(name[0])) return false;

@@ -71,6 +71,9 @@ bool hasApi(const Prim& prim, std::string_view api);
 /// Prepends the schema to the prim's list unless it has it.
 void addApi(Prim& prim, const std::string& api);
 
+/// How many numbers, or other single values, the property has in all.
+std::size_t numbersIn(const Property& property);
+
 /// A name that USD accepts: [A-Za-z_][A-Za-z0-9_]*
 bool isPrimName(std::string_view name);
 

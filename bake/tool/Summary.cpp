@@ -251,73 +251,80 @@ Json summary(const SceneModel& scene) {
     return json;
 }
 
+namespace {
+
+/// The lines of a pair or skin that has a table.
+std::string describeTable(const Json& item, double metersPerUnit) {
+    std::string text;
+    text += fmt::format("  used         {} + {}\n  tests a step {} ({} products)\n", item["usedA"].dump(),
+                        item["usedB"].dump(), item["tests"].dump(), item["products"].dump());
+    const Json& met = item["candidatePairs"];
+    text += fmt::format(
+        "  can meet     {}{}\n", met.is_null() ? "uncounted pairs" : counted(met.get<std::size_t>(), "pair"),
+        item["lowerBound"].is_null()
+            ? ""
+            : "; no table has fewer than " + counted(item["lowerBound"].get<std::size_t>(), "test"));
+    if (item["tests"] == 0 && !item["certified"].get<bool>() && !item.contains("travel"))
+        text += "  no contact   at any sampled pose: no proof that the bodies never meet\n";
+    const double travel = item.value("travel", 0.0);
+    if (travel > 0)
+        text += fmt::format("  good         while skin strays no farther than {} from where "
+                            "muscles and bones carry it\n",
+                            lengthText(travel, metersPerUnit));
+    if (item.contains("travel") && !item["certified"].get<bool>())
+        text += "  explored     each muscle and each joint value by itself: where several move at "
+                "once nothing is proven\n";
+    if (item.contains("residual"))
+        text += fmt::format("  residual     {} at most: so deep it goes into what is below it, "
+                            "beyond its depth at rest, in {} steps\n"
+                            "               of the scene's own motion\n",
+                            length(item["residual"], metersPerUnit), item["residualSteps"].dump());
+    if (!item.contains("travel")) // a skin's table has no bound of depth
+        text += fmt::format("  bounds       miss {}, early {}, epsilon {}, {}{}\n",
+                            length(item["boundMiss"], metersPerUnit),
+                            length(item["boundEarly"], metersPerUnit), length(item["epsilon"], metersPerUnit),
+                            item["certified"].get<bool>() ? "certified for every pose" : "sampled poses only",
+                            butForRegion(item, metersPerUnit));
+    if (item.contains("earlyContact")) text += describeEarlyContact(item, metersPerUnit);
+    return text;
+}
+
+std::string describeItem(const Json& item, double metersPerUnit) {
+    std::string text;
+    text += item["path"].get<std::string>() + "\n";
+    if (item.contains("joint")) text += "  joint        " + item["joint"].get<std::string>() + "\n";
+    for (const char* under : {"muscles", "bones"})
+        if (!item.value(under, Json::array()).empty())
+            text += fmt::format("  {:<12} {}\n", under,
+                                fmt::join(item[under].get<std::vector<std::string>>(), ", "));
+    if (!item["baked"].get<bool>()) {
+        text += "  not baked yet\n";
+        return text;
+    }
+    if (const auto stale = item["stale"].get<std::string>(); !stale.empty())
+        text += "  stale        " + stale + ": bake it again\n";
+    text += fmt::format("  spheres      {} + {}\n", item["spheresA"].dump(), item["spheresB"].dump());
+    if (item.value("neverCollides", false)) {
+        text += fmt::format("  never collide: the surfaces stay {} apart over the whole motion{}; no "
+                            "table, no callback\n",
+                            length(item["clearance"], metersPerUnit), butForRegion(item, metersPerUnit));
+    } else {
+        text += describeTable(item, metersPerUnit);
+    }
+    if (item.contains("kernel")) text += kernelText(item["kernel"], metersPerUnit);
+    text +=
+        fmt::format("  made by      {}, {} bytes", item["method"].get<std::string>(), item["bytes"].dump());
+    if (!item["seconds"].is_null()) text += fmt::format(", {:.2f} s", item["seconds"].get<double>());
+    text += "\n";
+    return text;
+}
+
+} // namespace
+
 std::string describe(const Json& scene) {
-    const auto metersPerUnit = scene["metersPerUnit"].get<double>();
     std::string text;
     for (const char* kind : {"pairs", "skins"})
-        for (const Json& item : scene[kind]) {
-            text += item["path"].get<std::string>() + "\n";
-            if (item.contains("joint")) text += "  joint        " + item["joint"].get<std::string>() + "\n";
-            for (const char* under : {"muscles", "bones"})
-                if (!item.value(under, Json::array()).empty())
-                    text += fmt::format("  {:<12} {}\n", under,
-                                        fmt::join(item[under].get<std::vector<std::string>>(), ", "));
-            if (!item["baked"].get<bool>()) {
-                text += "  not baked yet\n";
-                continue;
-            }
-            if (const auto stale = item["stale"].get<std::string>(); !stale.empty())
-                text += "  stale        " + stale + ": bake it again\n";
-            text += fmt::format("  spheres      {} + {}\n", item["spheresA"].dump(), item["spheresB"].dump());
-            if (item.value("neverCollides", false)) {
-                text +=
-                    fmt::format("  never collide: the surfaces stay {} apart over the whole motion{}; no "
-                                "table, no callback\n",
-                                length(item["clearance"], metersPerUnit), butForRegion(item, metersPerUnit));
-            } else {
-                text += fmt::format("  used         {} + {}\n  tests a step {} ({} products)\n",
-                                    item["usedA"].dump(), item["usedB"].dump(), item["tests"].dump(),
-                                    item["products"].dump());
-                const Json& met = item["candidatePairs"];
-                text +=
-                    fmt::format("  can meet     {}{}\n",
-                                met.is_null() ? "uncounted pairs" : counted(met.get<std::size_t>(), "pair"),
-                                item["lowerBound"].is_null()
-                                    ? ""
-                                    : "; no table has fewer than " +
-                                          counted(item["lowerBound"].get<std::size_t>(), "test"));
-                if (item["tests"] == 0 && !item["certified"].get<bool>() && !item.contains("travel"))
-                    text += "  no contact   at any sampled pose: no proof that the bodies never meet\n";
-                const double travel = item.value("travel", 0.0);
-                if (travel > 0)
-                    text += fmt::format("  good         while skin strays no farther than {} from where "
-                                        "muscles and bones carry it\n",
-                                        lengthText(travel, metersPerUnit));
-                if (item.contains("travel") && !item["certified"].get<bool>())
-                    text +=
-                        "  explored     each muscle and each joint value by itself: where several move at "
-                        "once nothing is proven\n";
-                if (item.contains("residual"))
-                    text +=
-                        fmt::format("  residual     {} at most: so deep it goes into what is below it, "
-                                    "beyond its depth at rest, in {} steps\n"
-                                    "               of the scene's own motion\n",
-                                    length(item["residual"], metersPerUnit), item["residualSteps"].dump());
-                if (!item.contains("travel")) // a skin's table has no bound of depth
-                    text += fmt::format(
-                        "  bounds       miss {}, early {}, epsilon {}, {}{}\n",
-                        length(item["boundMiss"], metersPerUnit), length(item["boundEarly"], metersPerUnit),
-                        length(item["epsilon"], metersPerUnit),
-                        item["certified"].get<bool>() ? "certified for every pose" : "sampled poses only",
-                        butForRegion(item, metersPerUnit));
-                if (item.contains("earlyContact")) text += describeEarlyContact(item, metersPerUnit);
-            }
-            if (item.contains("kernel")) text += kernelText(item["kernel"], metersPerUnit);
-            text += fmt::format("  made by      {}, {} bytes", item["method"].get<std::string>(),
-                                item["bytes"].dump());
-            if (!item["seconds"].is_null()) text += fmt::format(", {:.2f} s", item["seconds"].get<double>());
-            text += "\n";
-        }
+        for (const Json& item : scene[kind]) text += describeItem(item, scene["metersPerUnit"].get<double>());
     return text.empty() ? "no pairs and no skins in this scene\n" : text;
 }
 

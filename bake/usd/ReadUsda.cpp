@@ -27,23 +27,6 @@ constexpr std::array<std::pair<const char*, const char*>, 6> lists = {{{"apiSche
                                                                        {"specializes", "specializes"},
                                                                        {"variantSets", "variantSets"}}};
 
-/// What old layers call some types.
-std::string todaysType(const std::string& type) {
-    static const std::map<std::string, std::string> names = {
-        {"Vec2i", "int2"},         {"Vec3i", "int3"},           {"Vec4i", "int4"},
-        {"Vec2h", "half2"},        {"Vec3h", "half3"},          {"Vec4h", "half4"},
-        {"Vec2f", "float2"},       {"Vec3f", "float3"},         {"Vec4f", "float4"},
-        {"Vec2d", "double2"},      {"Vec3d", "double3"},        {"Vec4d", "double4"},
-        {"Quath", "quath"},        {"Quatf", "quatf"},          {"Quatd", "quatd"},
-        {"Matrix2d", "matrix2d"},  {"Matrix3d", "matrix3d"},    {"Matrix4d", "matrix4d"},
-        {"Transform", "matrix4d"}, {"Frame", "frame4d"},        {"Point", "point3d"},
-        {"PointFloat", "point3f"}, {"Normal", "normal3d"},      {"NormalFloat", "normal3f"},
-        {"Vector", "vector3d"},    {"VectorFloat", "vector3f"}, {"Color", "color3d"},
-        {"ColorFloat", "color3f"}};
-    const auto found = names.find(type);
-    return found == names.end() ? type : found->second;
-}
-
 bool isName(const std::string& name) {
     std::string ascii = name;
     for (char& c : ascii)
@@ -176,7 +159,7 @@ private:
         std::string arc;
         if (files && cursor_.peek() == '@') arc = "@" + anchored(cursor_.asset()) + "@";
         if (cursor_.peek() == '<') {
-            const std::string path = absolute(cursor_.path());
+            const std::string path = cursor_.absolutePath();
             arc += arc.empty() ? path : path.empty() ? "" : "<" + path + ">";
         } else if (arc.empty()) {
             cursor_.refuseFound(files ? "a file between @, or a path between < and >"
@@ -201,24 +184,6 @@ private:
         if (asset.empty() || asset[0] == '/' || asset.find("://") != asset.npos || folder_.empty())
             return asset;
         return (std::filesystem::path(folder_) / asset).lexically_normal().generic_string();
-    }
-
-    /// A path as it is seen from the open prim.
-    std::string absolute(const std::string& path) const {
-        if (path.find('{') != path.npos)
-            cursor_.refuse("paths into variants are not read, found <" + path + ">");
-        if (path.empty() || path[0] == '/') return path;
-        std::string at = cursor_.openPath();
-        at = at.substr(0, at.find('.'));
-        std::string_view rest = path;
-        while (rest == ".." || rest.starts_with("../")) {
-            if (at.empty()) cursor_.refuse("expected a path within the layer, found <" + path + ">");
-            at.resize(at.rfind('/'));
-            rest.remove_prefix(std::min<std::size_t>(3, rest.size()));
-        }
-        if (rest.starts_with("./")) rest.remove_prefix(2);
-        if (rest.empty() || rest == ".") return at;
-        return at + (rest[0] == '.' ? "" : "/") + std::string(rest);
     }
 
     void note(const std::string& text) {
@@ -305,7 +270,7 @@ private:
         if (cursor_.takeWord("custom")) other["custom"] = Value(true);
         if (cursor_.takeWord("uniform")) other["variability"] = Value("uniform");
         if (!cursor_.takeWord("varying")) static_cast<void>(cursor_.takeWord("config"));
-        std::string type = todaysType(cursor_.word("a property, a prim or \"}\"", true));
+        std::string type = todaysUsdType(cursor_.word("a property, a prim or \"}\"", true));
         if (cursor_.take('[')) cursor_.expect(']'), type += "[]";
         const std::string name = cursor_.word("the name of a property", true);
         cursor_.spend(sizeof(Property) + 160 + name.size());
@@ -334,7 +299,7 @@ private:
         Value::Array paths;
         const auto one = [&] {
             cursor_.spend(sizeof(Value));
-            paths.emplace_back(absolute(cursor_.path()));
+            paths.emplace_back(cursor_.absolutePath());
         };
         if (cursor_.takeWord("None")) return paths;
         if (!cursor_.take('[')) return one(), paths;

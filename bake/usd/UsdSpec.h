@@ -21,6 +21,19 @@ struct UsdVariantSet {
     std::vector<UsdSpec> variants; ///< by prim.name
 };
 
+/// About what a prim, or a spec with all below it, takes in memory, in bytes.
+std::size_t costOf(const Prim& prim);
+std::size_t costOf(const UsdSpec& spec);
+
+/// The items of a list op in the prim's metadata, the strongest first.
+std::vector<std::string> arcsOf(const Prim& prim, const char* key);
+
+/// One stack of layers as one: those of the weaker first, as USD has them.
+void mergeSpecs(std::vector<UsdSpec>& stronger, std::vector<UsdSpec> weaker);
+
+/// Whether a prim, or one below it, has more to it than one layer says: variants, arcs, other files.
+bool needsComposition(const UsdSpec& spec);
+
 /// One file as it stands there.
 struct UsdLayer {
     std::string file;                   ///< its name for messages

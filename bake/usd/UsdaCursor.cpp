@@ -182,6 +182,23 @@ std::string UsdaCursor::path() {
     return out;
 }
 
+std::string UsdaCursor::absolutePath() {
+    const std::string path = this->path();
+    if (path.find('{') != path.npos) refuse("paths into variants are not read, found <" + path + ">");
+    if (path.empty() || path[0] == '/') return path;
+    std::string at = path_;
+    at = at.substr(0, at.find('.'));
+    std::string_view rest = path;
+    while (rest == ".." || rest.starts_with("../")) {
+        if (at.empty()) refuse("expected a path within the layer, found <" + path + ">");
+        at.resize(at.rfind('/'));
+        rest.remove_prefix(std::min<std::size_t>(3, rest.size()));
+    }
+    if (rest.starts_with("./")) rest.remove_prefix(2);
+    if (rest.empty() || rest == ".") return at;
+    return at + (rest[0] == '.' ? "" : "/") + std::string(rest);
+}
+
 std::string_view UsdaCursor::numberText() {
     skip();
     std::size_t end = at_;

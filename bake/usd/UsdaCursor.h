@@ -44,6 +44,8 @@ public:
     std::string asset();
     /// What stands between < and >.
     std::string path();
+    /// The same, as it is seen from the open prim.
+    std::string absolutePath();
     /// A number, or inf, -inf, nan; false with nothing taken where there is none.
     bool number(double& value);
     /// Digits alone, with their sign; false with nothing taken where a number has more than these.

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <map>
 
 namespace tss {
 
@@ -166,6 +167,22 @@ Value::Object parseUsdaDictionary(UsdaCursor& cursor, int level) {
         }
     }
     return dictionary;
+}
+
+std::string todaysUsdType(const std::string& type) {
+    static const std::map<std::string, std::string> names = {
+        {"Vec2i", "int2"},         {"Vec3i", "int3"},           {"Vec4i", "int4"},
+        {"Vec2h", "half2"},        {"Vec3h", "half3"},          {"Vec4h", "half4"},
+        {"Vec2f", "float2"},       {"Vec3f", "float3"},         {"Vec4f", "float4"},
+        {"Vec2d", "double2"},      {"Vec3d", "double3"},        {"Vec4d", "double4"},
+        {"Quath", "quath"},        {"Quatf", "quatf"},          {"Quatd", "quatd"},
+        {"Matrix2d", "matrix2d"},  {"Matrix3d", "matrix3d"},    {"Matrix4d", "matrix4d"},
+        {"Transform", "matrix4d"}, {"Frame", "frame4d"},        {"Point", "point3d"},
+        {"PointFloat", "point3f"}, {"Normal", "normal3d"},      {"NormalFloat", "normal3f"},
+        {"Vector", "vector3d"},    {"VectorFloat", "vector3f"}, {"Color", "color3d"},
+        {"ColorFloat", "color3f"}};
+    const auto found = names.find(type);
+    return found == names.end() ? type : found->second;
 }
 
 } // namespace tss

@@ -15,6 +15,9 @@ Value parseUsdaValue(UsdaCursor& cursor, int level);
 /// written as. A type that USD does not have is kept as it stands there.
 Value parseUsdaValue(UsdaCursor& cursor, const std::string& typeName, int level);
 
+/// A type as it is called today; old layers have other names for some.
+std::string todaysUsdType(const std::string& type);
+
 /// What stands between { and }.
 Value::Object parseUsdaDictionary(UsdaCursor& cursor, int level);
 

@@ -1,0 +1,222 @@
+#include "bake/report/SkinMethods.h"
+
+#include "bake/base/ThreadTime.h"
+#include "bake/compare/BallTree.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <tuple>
+
+namespace tss::reporting {
+
+namespace {
+
+using namespace compare;
+
+using Found = std::vector<char>; ///< one a skin vertex
+
+/// One method: marks the skin spheres that touch, says the work.
+using Method = std::function<Work(const SkinStep&, Found&)>;
+
+bool overlap(const Sphere& a, const Sphere& b) {
+    const double sum = a.radius + b.radius;
+    return (a.centre - b.centre).squaredNorm() <= sum * sum;
+}
+
+Work allPairs(const SkinSetting& setting, const SkinStep& step, Found& found) {
+    for (std::size_t i = 0; i < setting.skin.size(); ++i)
+        for (const Sphere& sphere : step.muscle)
+            found[i] = found[i] | (overlap(setting.skin[i], sphere) ? 1 : 0);
+    const std::uint64_t tests = setting.skin.size() * step.muscle.size();
+    return {tests, tests * productsPerSphereTest};
+}
+
+Work byTable(const SkinSetting& setting, const SkinStep& step, Found& found) {
+    const Table& table = setting.table;
+    for (std::size_t row = 0; row + 1 < table.rowOffsets.size(); ++row) {
+        const Sphere& sphere = setting.skin[setting.rowVertex[row]];
+        for (std::uint32_t k = table.rowOffsets[row]; k < table.rowOffsets[row + 1]; ++k)
+            if (overlap(sphere, step.muscle[table.columns[k]])) found[setting.rowVertex[row]] = 1;
+    }
+    return {table.testCount(), table.testCount() * productsPerSphereTest};
+}
+
+/// A tree over spheres that move: the shape of the tree stays, its balls follow each step.
+struct RefittedTree {
+    BallTree tree;
+    std::vector<std::uint32_t> leafOf; ///< sphere of each leaf node
+
+    RefittedTree(const SphereSet& spheres, int arity) : tree(buildBallTree(spheres, arity, Enclosure::Box)) {
+        // Leaves are copies of the spheres: found again by their place.
+        std::vector<std::uint32_t> order(spheres.size());
+        std::iota(order.begin(), order.end(), 0u);
+        const auto less = [](const Sphere& a, const Sphere& b) {
+            return std::tuple(a.centre.x(), a.centre.y(), a.centre.z(), a.radius) <
+                   std::tuple(b.centre.x(), b.centre.y(), b.centre.z(), b.radius);
+        };
+        std::sort(order.begin(), order.end(),
+                  [&](std::uint32_t i, std::uint32_t j) { return less(spheres[i], spheres[j]); });
+        std::vector<char> taken(spheres.size(), 0);
+        leafOf.assign(tree.nodes.size(), 0);
+        for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
+            if (tree.nodes[n].count > 0) continue;
+            const Sphere leaf{tree.nodes[n].centre, tree.nodes[n].radius};
+            auto at = std::lower_bound(order.begin(), order.end(), leaf,
+                                       [&](std::uint32_t i, const Sphere& s) { return less(spheres[i], s); });
+            while (taken[*at]) ++at; // equal spheres: each leaf takes its own
+            taken[*at] = 1;
+            leafOf[n] = *at;
+        }
+    }
+    void refit(const SphereSet& spheres) {
+        for (std::size_t n = tree.nodes.size(); n-- > 0;) {
+            BallTree::Node& node = tree.nodes[n];
+            if (node.count == 0) {
+                node.centre = spheres[leafOf[n]].centre;
+                node.radius = spheres[leafOf[n]].radius;
+                continue;
+            }
+            node.centre = Vec3::Zero();
+            for (std::uint32_t k = node.first; k < node.first + node.count; ++k)
+                node.centre += tree.nodes[k].centre;
+            node.centre /= node.count;
+            node.radius = 0;
+            for (std::uint32_t k = node.first; k < node.first + node.count; ++k)
+                node.radius =
+                    std::max(node.radius, (tree.nodes[k].centre - node.centre).norm() + tree.nodes[k].radius);
+        }
+    }
+};
+
+/// Both trees together; every leaf pair that overlaps is found, for a skin needs all its contacts.
+Work byTrees(const RefittedTree& skin, const std::vector<std::uint32_t>& vertexOf, RefittedTree& muscle,
+             const SphereSet& spheres, Found& found) {
+    muscle.refit(spheres);
+    CountWork counter;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> stack;
+    const auto test = [&](std::uint32_t a, std::uint32_t b) {
+        counter.sphereTest();
+        const BallTree::Node &na = skin.tree.nodes[a], &nb = muscle.tree.nodes[b];
+        if (!overlap({na.centre, na.radius}, {nb.centre, nb.radius})) return;
+        if (na.count == 0 && nb.count == 0) {
+            found[vertexOf[skin.leafOf[a]]] = 1;
+        } else {
+            stack.emplace_back(a, b);
+        }
+    };
+    if (!skin.tree.nodes.empty() && !muscle.tree.nodes.empty()) test(0, 0);
+    while (!stack.empty()) {
+        const auto [a, b] = stack.back();
+        stack.pop_back();
+        const BallTree::Node &na = skin.tree.nodes[a], &nb = muscle.tree.nodes[b];
+        const bool openA = nb.count == 0 || (na.count > 0 && na.radius >= nb.radius);
+        const BallTree::Node& opened = openA ? na : nb;
+        for (std::uint32_t k = opened.first; k < opened.first + opened.count; ++k)
+            openA ? test(k, b) : test(a, k);
+    }
+    return counter.work;
+}
+
+Work byEllipsoids(const SkinSetting& setting, const std::vector<std::uint32_t>& vertices,
+                  const SkinStep& step, Found& found, bool count) {
+    Work work;
+    for (const std::uint32_t v : vertices)
+        for (const BentEllipsoid& ellipsoid : step.ellipsoids) {
+            ++work.tests;
+            if (touches(ellipsoid, setting.skin[v], count ? &work.products : nullptr)) found[v] = 1;
+        }
+    return work;
+}
+
+void judge(SkinMethod& method, const SkinSetting& setting, const Method& run) {
+    std::vector<double> times;
+    for (const SkinStep& step : setting.steps) {
+        Found found(setting.skin.size(), 0);
+        const Work work = run(step, found);
+        method.perStep.push_back(static_cast<double>(work.tests));
+        method.tests += static_cast<double>(work.tests) / setting.steps.size();
+        method.products += static_cast<double>(work.products) / setting.steps.size();
+        for (std::size_t v = 0; v < found.size(); ++v) {
+            const double beyond = step.distances[v] - setting.skin[v].radius;
+            if (beyond <= 0 && !found[v]) {
+                ++method.missed;
+                method.deepestMiss = std::max(method.deepestMiss, -beyond);
+            }
+            if (beyond > 0 && found[v]) {
+                ++method.early;
+                method.farthestEarly = std::max(method.farthestEarly, beyond);
+            }
+        }
+        std::vector<double> rounds;
+        for (int round = 0; round < 5; ++round) {
+            const double start = threadSeconds();
+            run(step, found);
+            rounds.push_back(1e9 * (threadSeconds() - start));
+        }
+        std::sort(rounds.begin(), rounds.end());
+        times.push_back(rounds[2]);
+    }
+    std::sort(times.begin(), times.end());
+    method.nanoseconds = times[times.size() / 2];
+}
+
+void addMethod(SkinStudy& study, const SkinSetting& setting, const std::string& name,
+               const std::string& about, const Method& run) {
+    SkinMethod method;
+    method.name = name;
+    method.about = about;
+    judge(method, setting, run);
+    study.methods.push_back(std::move(method));
+}
+
+/// Bent ellipsoids, against some of the skin's vertices; their products are counted apart from their time.
+void addEllipsoids(SkinStudy& study, const SkinSetting& setting, const std::vector<std::uint32_t>& vertices,
+                   const std::string& name, const std::string& against) {
+    addMethod(study, setting, name,
+              "one bent ellipsoid a muscle, refitted each step (not timed; a test ends early where the "
+              "sphere's centre is inside), against " +
+                  against,
+              [&](const SkinStep& step, Found& found) {
+                  return byEllipsoids(setting, vertices, step, found, false);
+              });
+    Work work;
+    for (const SkinStep& step : setting.steps) {
+        Found found(setting.skin.size(), 0);
+        const Work one = byEllipsoids(setting, vertices, step, found, true);
+        work.tests += one.tests;
+        work.products += one.products;
+    }
+    study.methods.back().products = static_cast<double>(work.products) / setting.steps.size();
+    if (work.tests > 0)
+        study.productsEllipsoid = static_cast<double>(work.products) / static_cast<double>(work.tests);
+}
+
+} // namespace
+
+void runSkinMethods(const SkinSetting& setting, SkinStudy& study) {
+    std::vector<std::uint32_t> every(setting.skin.size());
+    std::iota(every.begin(), every.end(), 0u);
+    SphereSet inRows;
+    for (const std::uint32_t v : setting.rowVertex) inRows.push_back(setting.skin[v]);
+    const RefittedTree skinAll(setting.skin, 8), skinUsed(inRows, 8);
+    RefittedTree muscleAll(setting.steps[0].muscle, 8);
+    addMethod(study, setting, "tss", "the table's tests, skin at its rest place (the paper's way)",
+              [&](const SkinStep& step, Found& found) { return byTable(setting, step, found); });
+    addMethod(study, setting, "all-pairs", "every skin sphere against every muscle sphere",
+              [&](const SkinStep& step, Found& found) { return allPairs(setting, step, found); });
+    addMethod(study, setting, "tree-all-8",
+              "trees over all skin and all muscle spheres, the muscle's refitted each step (case 1)",
+              [&](const SkinStep& step, Found& found) {
+                  return byTrees(skinAll, every, muscleAll, step.muscle, found);
+              });
+    addMethod(study, setting, "tree-used-8",
+              "trees over the table's skin spheres and all muscle spheres (case 2)",
+              [&](const SkinStep& step, Found& found) {
+                  return byTrees(skinUsed, setting.rowVertex, muscleAll, step.muscle, found);
+              });
+    addEllipsoids(study, setting, setting.rowVertex, "ellipsoid-used", "the table's skin spheres");
+    addEllipsoids(study, setting, every, "ellipsoid-all", "all skin spheres");
+}
+
+} // namespace tss::reporting
