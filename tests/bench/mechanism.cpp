@@ -2,6 +2,7 @@
 // process, and whether any contact is missed. usage: bench_mechanism BAKED.tss [CONFIGURATIONS [NEAR]]
 #include "bake/compare/MeshTruth.h"
 #include "bake/model/Kinematics.h"
+#include "bake/play/JointPlan.h"
 #include "bake/play/MechanismQuery.h"
 #include "bake/scene/SceneFile.h"
 
@@ -78,12 +79,59 @@ private:
     std::vector<std::pair<double, double>> limits_;
 };
 
+/// Small steps towards one configuration after another, now and then a jump.
+void drive(const SceneModel& scene, const MechanismQuery& query, std::size_t steps) {
+    std::vector<std::string> paths, warnings;
+    for (const Pair& pair : scene.pairs) paths.push_back(pair.path);
+    const auto plan = makeJointPlan(scene, paths, &warnings);
+    for (const std::string& warning : warnings) fmt::print("{}\n", warning);
+    std::vector<JointWorkspace> rooms = workspaces(*plan);
+    MechanismWorkspace ws = query.workspace();
+    std::vector<std::size_t> place; // of the plan's values among all
+    for (const int joint : plan->joints) {
+        std::size_t first = 0;
+        for (int k = 0; k < joint; ++k) first += scene.joints[k].dofs.size();
+        for (std::size_t k = 0; k < scene.joints[joint].dofs.size(); ++k) place.push_back(first + k);
+    }
+    Configurations draw(scene);
+    std::vector<double> all(draw.values()), hand(draw.values()), q(place.size()), asked(place.size());
+    do draw.next(all.data());
+    while (query.ask(all.data(), ws).verdict != Answer::Free);
+    for (std::size_t k = 0; k < place.size(); ++k) q[k] = all[place[k]];
+    std::vector<std::vector<double>> times(6);
+    std::size_t through = 0;
+    for (std::size_t i = 0; i < steps; ++i) {
+        if (i % 80 == 0) draw.next(hand.data());
+        const double share = i % 500 == 499 ? 1 : 0.02;
+        for (std::size_t k = 0; k < place.size(); ++k) asked[k] = q[k] + share * (hand[place[k]] - q[k]);
+        JointStatus worst = JointStatus::Free;
+        const auto start = std::chrono::steady_clock::now();
+        for (const GroupAnswer& answer : resolve(*plan, q, asked, rooms))
+            worst = std::max(worst, answer.status);
+        const std::chrono::duration<double, std::micro> spent = std::chrono::steady_clock::now() - start;
+        times[static_cast<std::size_t>(worst)].push_back(spent.count());
+        q = asked;
+        for (std::size_t k = 0; k < place.size(); ++k) all[place[k]] = q[k];
+        through += query.ask(all.data(), ws).verdict == Answer::Contact;
+    }
+    fmt::print("{} steps, {} end in contact\n", steps, through);
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        if (times[k].empty()) continue;
+        std::sort(times[k].begin(), times[k].end());
+        fmt::print("  {}: {} steps, median {:.1f} us, 95 % below {:.1f} us\n",
+                   name(static_cast<JointStatus>(k)), times[k].size(), times[k][times[k].size() / 2],
+                   times[k][times[k].size() * 19 / 20]);
+    }
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc < 2) return std::fputs("usage: bench_mechanism BAKED.tss [CONFIGURATIONS [NEAR]]\n", stderr), 2;
+    if (argc < 2)
+        return std::fputs("usage: bench_mechanism BAKED.tss [CONFIGURATIONS [NEAR [STEPS]]]\n", stderr), 2;
     const std::size_t configurations = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 10000;
     const std::size_t near = argc > 3 ? std::strtoul(argv[3], nullptr, 10) : 0;
+    const std::size_t steps = argc > 4 ? std::strtoul(argv[4], nullptr, 10) : 0;
     const SceneModel scene = loadScene(argv[1]);
     const auto start = std::chrono::steady_clock::now();
     const MechanismQuery query(scene);
@@ -153,4 +201,5 @@ int main(int argc, char** argv) {
         ++made;
     }
     if (near > 0) fmt::print("{} configurations that just touch: {} contacts missed\n", made, missed);
+    if (steps > 0) drive(scene, query, steps);
 }
