@@ -89,6 +89,25 @@ bool withinLimits(const Motion& motion, std::span<const double> q, double slack)
                        [&](const LimitPlane& plane) { return excess(plane, q) <= slack; });
 }
 
+bool beyondLimits(const Motion& motion, std::span<const double> q) {
+    constexpr double share = 1e-6; // of a range
+    for (std::size_t k = 0; k < q.size(); ++k) {
+        const Dof& dof = motion.dofs[k];
+        const double hair = share * (dof.upper - dof.lower) + 1e-12 * std::abs(q[k]);
+        if (!(q[k] >= dof.lower - hair && q[k] <= dof.upper + hair)) return true;
+    }
+    return std::any_of(motion.planes.begin(), motion.planes.end(), [&](const LimitPlane& plane) {
+        double excess = -plane.bound, hair = 1e-12 * std::abs(plane.bound);
+        for (std::size_t k = 0; k < q.size(); ++k) {
+            const Dof& dof = motion.dofs[k];
+            excess += plane.coefficients[k] * q[k];
+            hair +=
+                std::abs(plane.coefficients[k]) * (share * (dof.upper - dof.lower) + 1e-12 * std::abs(q[k]));
+        }
+        return !(excess <= hair);
+    });
+}
+
 std::vector<double> clampToLimits(const Motion& motion, std::span<const double> asked) {
     std::vector<double> q(asked.begin(), asked.end());
     const auto clampBox = [&] {

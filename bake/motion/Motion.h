@@ -69,6 +69,9 @@ std::vector<double> restValues(const Motion& motion);
 /// Every limit and every plane holds at q, with a slack in the DOF's own unit.
 bool withinLimits(const Motion& motion, std::span<const double> q, double slack = 0);
 
+/// Some value is outside of its limits or a plane by more than files round, or is no number.
+bool beyondLimits(const Motion& motion, std::span<const double> q);
+
 /// Clamps each DOF into its limits, then pulls q back into the planes by cyclic projection (at most 10000
 /// rounds; the result is inside for a non-empty Q up to 1e-12 of the range).
 std::vector<double> clampToLimits(const Motion& motion, std::span<const double> q);

@@ -87,7 +87,7 @@ PreparedTable::PreparedTable(const Table& table, const PrepareOptions& options)
     recipe_ = PoseRecipe(motion_, originA_, originB_);
     double reach = std::max(originA_.norm(), originB_.norm());
     for (const TablePair& p : pairs_) reach = std::max({reach, p.a.norm(), p.b.norm()});
-    poseError_ = poseError(motion_, doubleRoundoff, reach);
+    poseError_ = std::max(poseError(motion_, doubleRoundoff, reach), options.poseError);
 
     if (options.form != KernelForm::Direct) {
         fold_ = makeFold(motion_, pairs_, contacts);
@@ -293,6 +293,14 @@ void PreparedTable::features(const double* q, TableFeatures& out) const {
     poseFeatures(q, out);
 }
 
+void PreparedTable::features(const PoseRecipe::Matrix& pose, TableFeatures& out) const {
+    PoseRecipe::Matrix moved = pose;
+    for (int r = 0; r < 3; ++r)
+        moved[4 * r + 3] += pose[4 * r] * originB_.x() + pose[4 * r + 1] * originB_.y() +
+                            pose[4 * r + 2] * originB_.z() - originA_[r];
+    storePose(moved, out);
+}
+
 bool PreparedTable::hitAsked(const double* q) const {
     if (const Verdict known = verdicts_.within(q); known != Verdict::Ask) return known == Verdict::Touch;
     std::uint32_t cell = 0;
@@ -318,12 +326,16 @@ void PreparedTable::poseFeatures(const double* q, TableFeatures& out) const {
     }
     PoseRecipe::Matrix values;
     recipe_.evaluate(q, values.data());
+    storePose(values, out);
+}
+
+void PreparedTable::storePose(const PoseRecipe::Matrix& pose, TableFeatures& out) const {
     if (float_) {
         out.floats[0] = 0;
-        for (std::size_t k = 0; k < values.size(); ++k) out.floats[k + 1] = float(values[k]);
+        for (std::size_t k = 0; k < pose.size(); ++k) out.floats[k + 1] = float(pose[k]);
     } else {
         out.doubles[0] = 0;
-        for (std::size_t k = 0; k < values.size(); ++k) out.doubles[k + 1] = values[k];
+        for (std::size_t k = 0; k < pose.size(); ++k) out.doubles[k + 1] = pose[k];
     }
 }
 

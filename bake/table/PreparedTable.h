@@ -27,6 +27,7 @@ struct PrepareOptions {
     std::optional<KernelForm> form;           ///< Fold is not to be had for every motion
     std::optional<KernelPrecision> precision;
     CellUse cells = CellUse::Auto; ///< where nothing moves there are none
+    double poseError = 0; ///< how far poses that are given may be off at the spheres' centres, scene units
 };
 
 /// A pose as the kernels want it. Made by PreparedTable::features, good for that table only.
@@ -67,6 +68,9 @@ public:
 
     /// Features of a pose. q: one finite value a DOF, within the limits.
     void features(const double* q, TableFeatures& out) const;
+    /// The same from the pose, B to A, 3 by 4, row-major, rotation first: of the direct form without cells
+    /// only.
+    void features(const PoseRecipe::Matrix& pose, TableFeatures& out) const;
 
     /// Some test touches. Never false where a gap is <= 0, and true only where one is <= signBand(): the
     /// kernels reach further by what they may round.
@@ -190,6 +194,7 @@ private:
     /// What tests are compared with where gaps up to the margin are asked for.
     double reachOf(double margin) const;
     void poseFeatures(const double* q, TableFeatures& out) const;
+    void storePose(const PoseRecipe::Matrix& pose, TableFeatures& out) const;
     Bands foldBands(double u) const;
     Bands directBands(double u, std::span<const TablePair> pairs) const;
     void choose(const PrepareOptions& options);
@@ -214,7 +219,8 @@ private:
     Vec3 originA_ = Vec3::Zero(), originB_ = Vec3::Zero();
     std::vector<double> widening_;
     double farthestT_ = 0; ///< bound of |T(q) originB - originA|
-    double poseError_ = 0; ///< what rounding may do to T(q) y on its way to the direct kernel
+    double poseError_ =
+        0; ///< what rounding, or whoever gives the pose, may do to T(q) y on its way to the direct kernel
     std::optional<Fold> fold_;
     PoseRecipe recipe_;
     PosePlan plan_; ///< of the form that was chosen; empty for the direct one of a path or of no DOF

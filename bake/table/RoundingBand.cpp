@@ -38,18 +38,14 @@ double directError(double u, double a, double b, double t, double distance, doub
     return room * (2 * distance * vector + vector * vector + squares);
 }
 
-double poseError(const Motion& motion, double u, double reach) {
-    double size = 2 * reach + motion.base.translation().norm(), off = 0;
+double motionSize(const Motion& motion) {
+    double size = motion.base.translation().norm();
     for (const Dof& dof : motion.dofs) {
         double far = 0;
-        for (const PathRow& row : dof.path) {
-            far = std::max(far, row.translation.norm());
-            off += std::abs(row.rotation.norm() - 1);
-        }
+        for (const PathRow& row : dof.path) far = std::max(far, row.translation.norm());
         switch (dof.kind) {
         case DofKind::Rotation:
             size += 2 * dof.origin.norm();
-            off += std::abs(dof.axis.norm() - 1);
             break;
         case DofKind::Translation:
             size += dof.axis.norm() * std::max(std::abs(dof.lower), std::abs(dof.upper));
@@ -59,7 +55,18 @@ double poseError(const Motion& motion, double u, double reach) {
             break;
         }
     }
-    // Per DOF a rotation from sines and cosines and some dozens of products and sums of numbers up to `size`.
+    return size;
+}
+
+double poseError(const Motion& motion, double u, double reach) {
+    double off = 0;
+    for (const Dof& dof : motion.dofs) {
+        for (const PathRow& row : dof.path) off += std::abs(row.rotation.norm() - 1);
+        if (dof.kind == DofKind::Rotation) off += std::abs(dof.axis.norm() - 1);
+    }
+    // Per DOF a rotation from sines and cosines and some dozens of products and sums of numbers up to that
+    // size.
+    const double size = 2 * reach + motionSize(motion);
     return (128 * double(motion.dofCount() + 2) * u + 8 * off) * size * room;
 }
 

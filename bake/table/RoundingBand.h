@@ -18,6 +18,9 @@ double sumError(double u, double constant, std::span<const double> products, dou
 /// lengths of a, b and t as given, for squared distances up to distance^2.
 double directError(double u, double a, double b, double t, double distance, double reach);
 
+/// T(q) takes no point, anywhere in the limits, farther from A's origin than this and its distance from B's.
+double motionSize(const Motion& motion);
+
 /// How far T(q) y may come out from where it is when it is worked out with roundoff u, whichever way the
 /// DOFs' matrices are multiplied: axes far away leave their roundoffs behind. reach: no point y of B is
 /// farther from B's origin, and no origin that coordinates are taken from is farther from its body's.

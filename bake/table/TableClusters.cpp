@@ -68,6 +68,12 @@ TablePair boundOf(std::span<const TablePair> pairs, std::span<const std::uint32_
     return bound;
 }
 
+std::vector<std::uint32_t> allOf(std::size_t count) {
+    std::vector<std::uint32_t> all(count);
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
+}
+
 std::vector<TablePair> boundsOfEach(std::span<const TablePair> pairs, std::span<const std::uint32_t> order,
                                     std::size_t each) {
     std::vector<TablePair> bounds;
@@ -78,19 +84,20 @@ std::vector<TablePair> boundsOfEach(std::span<const TablePair> pairs, std::span<
 
 } // namespace
 
+TablePair boundOf(std::span<const TablePair> pairs) {
+    return boundOf(pairs, allOf(pairs.size()));
+}
+
 TableClusters::TableClusters(std::span<const TablePair> pairs, std::uint32_t lanes) {
     const std::size_t blocks = (pairs.size() + lanes - 1) / lanes;
     // One block would be bounded best, but to ask a cluster takes as long as some blocks.
     constexpr std::size_t fewBlocks = 3;
     testsEach_ = std::max((blocks + most - 1) / most, fewBlocks) * lanes;
     clustersEach_ = std::size_t((mostOfGroup + lanes - 1) / lanes) * lanes;
-    order_.resize(pairs.size());
-    std::iota(order_.begin(), order_.end(), 0u);
+    order_ = allOf(pairs.size());
     sortIntoClusters(pairs, order_, testsEach_, testsEach_ * clustersEach_);
     bounds_ = boundsOfEach(pairs, order_, testsEach_);
-    std::vector<std::uint32_t> clusters(bounds_.size());
-    std::iota(clusters.begin(), clusters.end(), 0u);
-    groups_ = boundsOfEach(bounds_, clusters, clustersEach_);
+    groups_ = boundsOfEach(bounds_, allOf(bounds_.size()), clustersEach_);
 }
 
 } // namespace tss

@@ -7,6 +7,10 @@
 
 namespace tss {
 
+/// One pair of spheres, its radii in the reach alone: at no pose do the centres of one of these pairs come
+/// nearer to its own reach than those of the bound to this one.
+TablePair boundOf(std::span<const TablePair> pairs);
+
 /// The tests of a large table in clusters of equally many whole blocks, those together whose spheres lie
 /// near one another in both bodies, and clusters in groups (METHOD 4). Each is bounded by one pair of
 /// spheres: where these two are apart by some margin all of its tests are. For tables over many DOFs, whose

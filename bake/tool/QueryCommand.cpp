@@ -1,6 +1,8 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshQuery.h"
+#include "bake/model/SourceHash.h"
+#include "bake/play/MechanismQuery.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/table/Query.h"
 #include "bake/tool/ChoosePair.h"
@@ -23,27 +25,8 @@ constexpr std::size_t mostRowsNamed = 1000;
 struct QueryArguments {
     std::string scene, pair, poses, output;
     bool distance = false; ///< of the meshes themselves, too
+    bool allPairs = false;
 };
-
-/// The values lie outside the limits or planes that the table was made for, by more than files round.
-bool beyond(const Motion& motion, const std::vector<double>& q) {
-    constexpr double share = 1e-6; // of a range
-    for (std::size_t k = 0; k < q.size(); ++k) {
-        const Dof& dof = motion.dofs[k];
-        const double hair = share * (dof.upper - dof.lower) + 1e-12 * std::abs(q[k]);
-        if (!(q[k] >= dof.lower - hair && q[k] <= dof.upper + hair)) return true;
-    }
-    return std::any_of(motion.planes.begin(), motion.planes.end(), [&](const LimitPlane& plane) {
-        double excess = -plane.bound, hair = 1e-12 * std::abs(plane.bound);
-        for (std::size_t k = 0; k < q.size(); ++k) {
-            const Dof& dof = motion.dofs[k];
-            excess += plane.coefficients[k] * q[k];
-            hair +=
-                std::abs(plane.coefficients[k]) * (share * (dof.upper - dof.lower) + 1e-12 * std::abs(q[k]));
-        }
-        return !(excess <= hair);
-    });
-}
 
 /// The two bodies as they are, to ask for their distance.
 struct Meshes {
@@ -52,7 +35,63 @@ struct Meshes {
     MeshQuery a, b;
 };
 
+void report(const QueryArguments& arguments, const Console& console, std::size_t poses, std::size_t hits,
+            const Json& outsideRows, std::size_t outside, const std::string& madeFor) {
+    console.say(fmt::format("{} poses, {} hits, wrote {}", poses, hits, arguments.output));
+    if (outside > 0)
+        console.say(
+            fmt::format("{} poses, the first in row {}, lie outside the limits that the {} made for: no "
+                        "bound holds there, and they are not among the hits",
+                        outside, outsideRows[0].get<std::size_t>() + 1, madeFor));
+    console.print({{"poses", poses},
+                   {"hits", hits},
+                   {"outsideLimits", outside},
+                   {"outsideRows", outsideRows},
+                   {"output", arguments.output}});
+}
+
+/// Every pair at once, from the values of all joints.
+void runAllPairs(const QueryArguments& arguments, const Console& console) {
+    using Verdict = MechanismAnswer::Verdict;
+    const SceneModel scene = loadScene(arguments.scene);
+    requireFresh(scene, arguments.scene);
+    std::vector<const Dof*> dofs;
+    std::vector<std::string> names;
+    for (const Joint& joint : scene.joints)
+        for (const Dof& dof : joint.dofs) {
+            dofs.push_back(&dof);
+            names.push_back(dof.name);
+        }
+    const MechanismQuery mechanism(scene);
+    if (!mechanism.unanswered().empty())
+        throw InputError(Where{arguments.scene, "", scene.pairs[mechanism.unanswered().front()].path},
+                         fmt::format("has no table, as {}; expected a scene written by tss bake",
+                                     counted(mechanism.unanswered().size(), "pair")));
+    const Csv poses = readCsv(arguments.poses, dofs.size());
+    checkColumns(poses, names, arguments.poses);
+    std::vector<double> values(dofs.size());
+    MechanismWorkspace workspace = mechanism.workspace();
+    std::string text = "hit,pair\n";
+    std::size_t hits = 0, outside = 0;
+    Json outsideRows = Json::array();
+    for (std::size_t row = 0; row < poses.rows.size(); ++row) {
+        for (std::size_t k = 0; k < values.size(); ++k) values[k] = fromUser(*dofs[k], poses.rows[row][k]);
+        const MechanismAnswer answer = mechanism.ask(values.data(), workspace);
+        if (answer.verdict == Verdict::Beyond && ++outside <= mostRowsNamed) outsideRows.push_back(row);
+        hits += answer.verdict == Verdict::Contact;
+        text += answer.verdict == Verdict::Beyond ? "nan,\n"
+                : answer.pair < 0                 ? "0,\n"
+                                                  : "1," + scene.pairs[answer.pair].path + "\n";
+    }
+    writeFileAtomically(arguments.output, text);
+    report(arguments, console, poses.rows.size(), hits, outsideRows, outside, "tables and proofs were");
+}
+
 void runQuery(const QueryArguments& arguments, const Console& console) {
+    if (arguments.allPairs) {
+        refuseOverwriting(arguments.output, {arguments.scene, arguments.poses});
+        return runAllPairs(arguments, console);
+    }
     refuseOverwriting(arguments.output, {arguments.scene, arguments.poses});
     const SceneModel scene = loadScene(arguments.scene);
     const Pair& pair = chooseFreshPair(scene, arguments.pair, arguments.scene);
@@ -74,7 +113,7 @@ void runQuery(const QueryArguments& arguments, const Console& console) {
     for (std::size_t row = 0; row < poses.rows.size(); ++row) {
         std::vector<double> q = poses.rows[row];
         for (std::size_t k = 0; k < q.size(); ++k) q[k] = fromUser(motion.dofs[k], q[k]);
-        const bool out = beyond(motion, q);
+        const bool out = beyondLimits(motion, q);
         if (out && ++outside <= mostRowsNamed) outsideRows.push_back(row);
         if (pair.proof) { // within the limits they never meet: no test is made; beyond nothing is known
             text += out ? "nan,0,-1,,,,,," : fmt::format("{},0,-1,,,,,,", pair.proof->clearance);
@@ -87,17 +126,8 @@ void runQuery(const QueryArguments& arguments, const Console& console) {
         text += meshes ? fmt::format(",{}\n", meshes->a.distanceTo(meshes->b, pose(motion, q))) : "\n";
     }
     writeFileAtomically(arguments.output, text);
-    console.say(fmt::format("{} poses, {} hits, wrote {}", poses.rows.size(), hits, arguments.output));
-    if (outside > 0)
-        console.say(
-            fmt::format("{} poses, the first in row {}, lie outside the limits that the {} was made for: no "
-                        "bound holds there, and they are not among the hits",
-                        outside, outsideRows[0].get<std::size_t>() + 1, pair.proof ? "proof" : "table"));
-    console.print({{"poses", poses.rows.size()},
-                   {"hits", hits},
-                   {"outsideLimits", outside},
-                   {"outsideRows", outsideRows},
-                   {"output", arguments.output}});
+    report(arguments, console, poses.rows.size(), hits, outsideRows, outside,
+           pair.proof ? "proof was" : "table was");
 }
 
 } // namespace
@@ -120,6 +150,14 @@ void addQuery(Options& app, Console& console) {
     command->add_flag(
         "--distance", arguments->distance,
         "a last column, distance: that of the meshes themselves, 0 where they touch or overlap; slow");
+    command
+        ->add_flag("--all-pairs", arguments->allPairs,
+                   "whether any pair of the scene touches: one column for each DOF of all joints, in the "
+                   "order of the "
+                   "file; CSV: hit,pair, the pair found first. Nan: outside the limits of some pair, and no "
+                   "other one touches")
+        ->excludes(command->get_option("--pair"))
+        ->excludes(command->get_option("--distance"));
     command->callback([arguments, &console] { runQuery(*arguments, console); });
 }
 

@@ -1,0 +1,212 @@
+#include "bake/play/MechanismQuery.h"
+
+#include "bake/base/Error.h"
+#include "bake/model/PairDofs.h"
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+namespace tss {
+
+namespace {
+
+/// What asking a table costs, in units of a look-up in its verdicts: estimates that only order the pairs.
+double costOf(const PreparedTable& table, bool placed) {
+    constexpr double pose = 20, placedPose = 4, tests = 10;
+    const double asked = (placed ? placedPose : pose) + tests;
+    return table.verdicts().empty() ? asked : 1 + table.verdicts().asked() * asked;
+}
+
+/// A value spread evenly, the same on every machine.
+double between(std::mt19937_64& random, double lower, double upper) {
+    return lower + (upper - lower) * (static_cast<double>(random() >> 11) * 0x1p-53);
+}
+
+} // namespace
+
+MechanismQuery::MechanismQuery(const SceneModel& scene, const std::vector<int>& order)
+    : bodyCount_(scene.bodies.size()) {
+    std::vector<int> chained, withTable;
+    for (int k = 0; k < static_cast<int>(scene.pairs.size()); ++k) {
+        const Pair& pair = scene.pairs[k];
+        if (!pair.table && !pair.proof) {
+            unanswered_.push_back(k);
+        } else if (pair.table) {
+            withTable.push_back(k);
+            if (pair.table->motion.dofCount() > 3) chained.push_back(k);
+        }
+    }
+    chain_ = ChainPoses(scene, chained);
+    std::size_t count = 0;
+    for (const Joint& joint : scene.joints) count += joint.dofs.size();
+    lower_.assign(count, -std::numeric_limits<double>::infinity());
+    upper_.assign(count, std::numeric_limits<double>::infinity());
+
+    if (!order.empty()) {
+        std::vector<int> sorted = order;
+        std::sort(sorted.begin(), sorted.end());
+        if (sorted != withTable) throw InputError("order: expected each pair that has a table, once");
+        withTable = order;
+    }
+    for (const int k : withTable) {
+        parts_.push_back(partOf(scene, k));
+        addTable(scene, static_cast<std::uint32_t>(parts_.size() - 1));
+    }
+    for (int k = 0; k < static_cast<int>(scene.pairs.size()); ++k)
+        if (!scene.pairs[k].table && scene.pairs[k].proof) parts_.push_back(partOf(scene, k));
+    for (const Part& part : parts_) {
+        planes_ = planes_ || !part.motion.planes.empty();
+        for (std::size_t k = 0; k < part.values.size(); ++k) {
+            const Dof& dof = part.motion.dofs[k];
+            const double hair = 1e-6 * (dof.upper - dof.lower); // within beyondLimits()'s own
+            lower_[part.values[k]] = std::max(lower_[part.values[k]], dof.lower - hair);
+            upper_[part.values[k]] = std::min(upper_[part.values[k]], dof.upper + hair);
+        }
+    }
+    if (order.empty()) findOrder();
+}
+
+MechanismQuery::Part MechanismQuery::partOf(const SceneModel& scene, int pair) const {
+    const Pair& of = scene.pairs[pair];
+    std::vector<std::uint32_t> first{0};
+    for (const Joint& joint : scene.joints)
+        first.push_back(first.back() + static_cast<std::uint32_t>(joint.dofs.size()));
+    Part part{pair, of.table ? of.table->motion : pairMotion(scene, of), {}, true};
+    for (const JointDof& dof : pairDofs(scene, of))
+        part.values.push_back(first[dof.joint] + static_cast<std::uint32_t>(dof.dof));
+    if (part.values.size() != part.motion.dofCount())
+        throw InputError(Where{"", "", of.path}, "its joints have other degrees of freedom than its table");
+    for (std::size_t k = 1; k < part.values.size(); ++k)
+        part.inARow = part.inARow && part.values[k] == part.values[0] + k;
+    return part;
+}
+
+void MechanismQuery::addTable(const SceneModel& scene, std::uint32_t part) {
+    const Pair& pair = scene.pairs[parts_[part].pair];
+    const bool linked = pair.table->motion.dofCount() > Fold::maxDofs && chain_.links(pair);
+    const std::vector<TablePair> tests = tablePairs(*pair.table);
+    double reach = 0;
+    for (const TablePair& test : tests) reach = std::max({reach, test.a.norm(), test.b.norm()});
+    PrepareOptions options;
+    if (linked) options.poseError = chain_.error(pair, reach);
+    Asked asked{part, PreparedTable(*pair.table, options), linked, pair.bodyA, pair.bodyB, {}, {}, 0};
+    asked.placed = linked && asked.table.form() == KernelForm::Direct;
+    if (asked.placed && !tests.empty()) {
+        const TablePair bound = boundOf(tests);
+        asked.a = bound.a;
+        asked.b = bound.b;
+        // What the table itself would count as touching by its rounding stays with the table.
+        const double far = bound.reach + 2 * (asked.table.signBand() + options.poseError);
+        asked.farSquared = far > 0 ? far * far : 0;
+    }
+    tables_.push_back(std::move(asked));
+}
+
+void MechanismQuery::findOrder() {
+    constexpr std::size_t samples = 2048;
+    std::mt19937_64 random(1);
+    MechanismWorkspace ws = workspace();
+    std::vector<std::vector<bool>> touching(tables_.size(), std::vector<bool>(samples));
+    std::vector<double> values(valueCount());
+    for (std::size_t i = 0; i < samples; ++i) {
+        for (std::size_t k = 0; k < values.size(); ++k)
+            values[k] = std::isfinite(lower_[k]) ? between(random, lower_[k], upper_[k]) : 0;
+        chain_.evaluate(values.data(), ws.places.data());
+        for (std::size_t t = 0; t < tables_.size(); ++t)
+            touching[t][i] = touches(tables_[t], values.data(), ws.places.data());
+    }
+    // Always the one that ends most of the configurations that are still open for what it costs.
+    std::vector<bool> open(samples, true);
+    for (auto next = tables_.begin(); next != tables_.end(); ++next) {
+        auto best = next;
+        double most = -1;
+        for (auto t = next; t != tables_.end(); ++t) {
+            std::size_t ended = 0;
+            const std::vector<bool>& its = touching[static_cast<std::size_t>(t - tables_.begin())];
+            for (std::size_t i = 0; i < samples; ++i) ended += open[i] && its[i];
+            const double gain = (static_cast<double>(ended) + 1e-3) / costOf(t->table, t->placed);
+            if (gain > most) most = gain, best = t;
+        }
+        const auto at = [&](auto t) { return touching.begin() + (t - tables_.begin()); };
+        std::rotate(next, best, best + 1);
+        std::rotate(at(next), at(best), at(best) + 1);
+        for (std::size_t i = 0; i < samples; ++i) open[i] = open[i] && !(*at(next))[i];
+    }
+}
+
+std::vector<int> MechanismQuery::order() const {
+    std::vector<int> pairs;
+    for (const Asked& asked : tables_) pairs.push_back(parts_[asked.part].pair);
+    return pairs;
+}
+
+MechanismWorkspace MechanismQuery::workspace() const {
+    return {std::vector<ChainPoses::Matrix>(bodyCount_), std::vector<double>(valueCount())};
+}
+
+bool MechanismQuery::within(const double* values) const {
+    for (std::size_t k = 0; k < lower_.size(); ++k)
+        if (!(values[k] >= lower_[k] && values[k] <= upper_[k]) && std::isfinite(lower_[k])) return false;
+    if (!planes_) return true;
+    return std::none_of(parts_.begin(), parts_.end(), [&](const Part& part) {
+        return !part.motion.planes.empty() && beyond(part, values);
+    });
+}
+
+const double* MechanismQuery::ownValues(const Part& part, const double* values, double* room) const {
+    if (part.inARow) return part.values.empty() ? values : values + part.values[0];
+    for (std::size_t k = 0; k < part.values.size(); ++k) room[k] = values[part.values[k]];
+    return room;
+}
+
+bool MechanismQuery::beyond(const Part& part, const double* values) const {
+    DofValues room;
+    return beyondLimits(part.motion, {ownValues(part, values, room.data()), part.values.size()});
+}
+
+bool MechanismQuery::touches(const Asked& asked, const double* values,
+                             const ChainPoses::Matrix* places) const {
+    if (!asked.placed) {
+        DofValues room;
+        return asked.table.hit(ownValues(parts_[asked.part], values, room.data()));
+    }
+    const ChainPoses::Matrix &a = places[asked.bodyA], &b = places[asked.bodyB];
+    if (ChainPoses::squaredDistance(a, asked.a, b, asked.b) > asked.farSquared) return false;
+    ChainPoses::Matrix between;
+    ChainPoses::between(a, b, between);
+    TableFeatures features;
+    asked.table.features(between, features);
+    return asked.table.hit(features);
+}
+
+const double* MechanismQuery::limited(const double* values, MechanismWorkspace& ws) const {
+    for (std::size_t k = 0; k < lower_.size(); ++k)
+        ws.limited[k] = values[k] >= lower_[k] && values[k] <= upper_[k] ? values[k]
+                        : std::isfinite(lower_[k])                       ? lower_[k]
+                                                                         : 0;
+    return ws.limited.data();
+}
+
+MechanismAnswer MechanismQuery::untouched(const double* values, bool within) const {
+    const bool out = !within && std::any_of(parts_.begin(), parts_.end(),
+                                            [&](const Part& part) { return beyond(part, values); });
+    return {out ? MechanismAnswer::Verdict::Beyond : MechanismAnswer::Verdict::Free, -1};
+}
+
+MechanismAnswer MechanismQuery::ask(const double* values, MechanismWorkspace& ws) const {
+    const bool inside = within(values);
+    bool placed = false;
+    for (const Asked& asked : tables_) {
+        if (!inside && beyond(parts_[asked.part], values)) continue;
+        if (asked.placed && !placed) {
+            chain_.evaluate(inside ? values : limited(values, ws), ws.places.data());
+            placed = true;
+        }
+        if (touches(asked, values, ws.places.data()))
+            return {MechanismAnswer::Verdict::Contact, parts_[asked.part].pair};
+    }
+    return untouched(values, inside);
+}
+
+} // namespace tss
