@@ -46,7 +46,8 @@ public:
         : unit_(scene.metersPerUnit), pair_(pair), console_(console), motion_(pairMotion(scene, pair)) {
         // What `tss make` has made: B has the axes of A, moved by --b-offset.
         const Pose atZero = pose(motion_, std::vector<double>(motion_.dofCount(), 0.0));
-        plain_ = pair.joints.size() == 1 && (atZero.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-6;
+        plain_ = pair.joints.size() == scene.joints.size() &&
+                 (atZero.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-6;
         already_ = plain_ ? Vec3(atZero.translation()) : Vec3(Vec3::Zero());
         dofs_ = plain_ && std::none_of(motion_.dofs.begin(), motion_.dofs.end(),
                                        [](const Dof& dof) { return dof.kind == DofKind::Path; });
