@@ -1,6 +1,7 @@
 #include "bake/model/AddPair.h"
 
 #include "bake/base/Error.h"
+#include "bake/motion/TurnBetween.h"
 
 #include <array>
 #include <cctype>
@@ -37,7 +38,7 @@ std::optional<Eigen::Matrix3d> completeFrame(const std::array<std::optional<Vec3
             frame((first + 1) % 3, (first + 1) % 3) = 1;
             return frame;
         }
-        return Eigen::Quaterniond::FromTwoVectors(unit, *columns[first]).toRotationMatrix();
+        return turnBetween(unit, *columns[first]).toRotationMatrix();
     }
     for (int k = 0; k < 3; ++k)
         for (int l = k + 1; l < 3; ++l)

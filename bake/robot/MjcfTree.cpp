@@ -1,5 +1,6 @@
 #include "bake/robot/MjcfTree.h"
 
+#include "bake/motion/TurnBetween.h"
 #include "bake/robot/Xml.h"
 
 #include <algorithm>
@@ -249,7 +250,7 @@ Pose placeOfElement(const XMLElement& element, const std::string& file, const Mj
         nonZero(vector(xy).cross(vector(xy, 3)));
         turn = axesTurn(vector(xy), vector(xy, 3));
     } else if (const auto z = given("zaxis", 3); !z.empty()) {
-        turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), nonZero(vector(z)));
+        turn = turnBetween(Vec3::UnitZ(), nonZero(vector(z)));
     } else if (const auto e = given("euler", 3); !e.empty()) {
         turn = eulerTurn(e, compiler);
     }

@@ -1,5 +1,6 @@
 #include "bake/robot/ReadMjcf.h"
 
+#include "bake/motion/TurnBetween.h"
 #include "bake/robot/MjcfTree.h"
 #include "bake/robot/Xml.h"
 
@@ -102,8 +103,7 @@ private:
         if (!(length > 0)) throw InputError(placeOf(file_, element), "fromto: expected two points");
         shape.place = Pose::Identity();
         shape.place.translation() = (from + to) / 2;
-        shape.place.linear() =
-            Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), to - from).toRotationMatrix();
+        shape.place.linear() = turnBetween(Vec3::UnitZ(), to - from).toRotationMatrix();
         shape.size[twoSizes ? 1 : 2] = length / 2;
     }
 

@@ -71,7 +71,8 @@ public:
 
 private:
     Parts meeting(const Side& side, const Side& other, const Pose& toOther) const {
-        return side.own.meeting(other.own, toOther, options_.reach, options_.reach / 2, side.parts);
+        return side.own.meeting(other.own, toOther, options_.reach,
+                                options_.size > 0 ? options_.size : options_.reach / 2, side.parts);
     }
 
     void atRest() {

@@ -21,6 +21,7 @@ struct RestContactOptions {
                       ///< touches nothing, >= 0
     double near = 0;  ///< where surfaces touch at all, others this near at rest count as touching too, >= 0
     int poses = 1000; ///< of Q that are looked at, about
+    double size = 0;  ///< parts of this radius are cut no further, scene units; 0: half of `reach`
 };
 
 /// Decides by the surfaces. Apart: no region. Otherwise the region is what is inside the other body or within

@@ -148,7 +148,7 @@ void runBake(BakeArguments& arguments, Console& console) {
                 arguments.output);
     for (std::size_t k = 0; k < scene.pairs.size(); ++k)
         if (hasNoRoom(result["pairs"][k]))
-            result["pairs"][k]["freeingShifts"] = adviseShifts(scene, scene.pairs[k], console);
+            result["pairs"][k]["freeingMoves"] = adviseMoves(scene, scene.pairs[k], console);
     console.print(result);
 }
 

@@ -1,8 +1,9 @@
 #include "bake/tool/FreeingAdvice.h"
 
-#include "bake/pipeline/BakeOptions.h"
-#include "bake/pipeline/FreeingShift.h"
 #include "bake/geometry/MeshAudit.h"
+#include "bake/pipeline/BakeOptions.h"
+#include "bake/pipeline/FreeingMove.h"
+#include "bake/tool/DofSpec.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,60 +20,120 @@ std::string roundedText(double length, double metersPerUnit) {
     return text;
 }
 
-/// The first that frees the rest pose, and the one with the most room.
-std::vector<FreeingShift> worthSaying(const std::vector<FreeingShift>& all) {
-    std::vector<FreeingShift> some;
-    const auto first =
-        std::find_if(all.begin(), all.end(), [](const FreeingShift& s) { return s.freeAtRest; });
-    if (first != all.end()) some.push_back(*first);
-    if (!all.empty() && (first == all.end() || first + 1 != all.end())) some.push_back(all.back());
-    return some;
+/// As an option of `tss make` has it; what is nothing beside `size` is 0.
+std::string vectorText(const Vec3& v, double size) {
+    const auto coordinate = [&](double x) { return std::abs(x) < 1e-6 * size ? 0.0 : x; };
+    return fmt::format("{:.7g},{:.7g},{:.7g}", coordinate(v.x()), coordinate(v.y()), coordinate(v.z()));
 }
+
+std::string dofOption(const Dof& dof, double size) {
+    const std::string limits = fmt::format("{:.7g}:{:.7g}", toUser(dof, dof.lower), toUser(dof, dof.upper));
+    if (dof.kind == DofKind::Translation)
+        return fmt::format("--dof trans:{}:{}", vectorText(dof.axis, dof.axis.norm()), limits);
+    return fmt::format("--dof rot:{}:{}:{}", vectorText(dof.origin, size), vectorText(dof.axis, 1), limits);
+}
+
+std::string dofOptions(const Motion& motion, double size) {
+    std::string text;
+    for (const Dof& dof : motion.dofs)
+        text += fmt::format("{}{}", text.empty() ? "" : " ", dofOption(dof, size));
+    return text;
+}
+
+class Adviser {
+public:
+    Adviser(const SceneModel& scene, const Pair& pair, const Console& console)
+        : unit_(scene.metersPerUnit), pair_(pair), console_(console), motion_(pairMotion(scene, pair)) {
+        // What `tss make` has made: B has the axes of A, moved by --b-offset.
+        const Pose atZero = pose(motion_, std::vector<double>(motion_.dofCount(), 0.0));
+        plain_ = pair.joints.size() == scene.joints.size() &&
+                 (atZero.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-6;
+        already_ = plain_ ? Vec3(atZero.translation()) : Vec3(Vec3::Zero());
+        dofs_ = plain_ && std::none_of(motion_.dofs.begin(), motion_.dofs.end(),
+                                       [](const Dof& dof) { return dof.kind == DofKind::Path; });
+    }
+
+    Json say(const TriangleMesh& a, const TriangleMesh& b) {
+        Json advice = Json::array();
+        const std::vector<FreeingMove> moves = freeingMoves(a, b, motion_, {dofs_});
+        if (moves.empty()) return advice;
+        size_ = std::min(bounds(a).diagonal().norm(), bounds(b).diagonal().norm());
+        console_.say(fmt::format(
+            "{}: the meshes overlap where the joint rests. {}, found by trying, the best first:", pair_.path,
+            plain_ ? "Options of tss make, in place of those given, that move B out of A"
+                   : "Shifts of B that move it out of A, such as by --b-offset"));
+        for (const FreeingMove& move : moves) advice.push_back(sayMove(move));
+        return advice;
+    }
+
+private:
+    std::string length(double value) const { return lengthText(value, unit_); }
+
+    Json sayMove(const FreeingMove& move) const {
+        const std::string shift = fmt::format("--b-offset={}", vectorText(already_ + move.shift, size_));
+        std::string option = shift;
+        if (move.axes.norm() > 1e-6 * size_) option += fmt::format(" {}", dofOptions(move.motion, size_));
+        std::string text = fmt::format("  {}\n    B lies {} elsewhere, free at {} of {} poses", option,
+                                       length(move.moved), move.free, move.poses);
+        if (move.freeAtRest) text += fmt::format(", {} apart at rest", length(move.atRest));
+        if (move.free > 0) text += fmt::format(", {} where it is closest", length(move.least));
+        if (move.stops > 0) text += fmt::format("; stopped by contact at {}, as before", move.stops);
+        std::string tolerance;
+        // Spheres of both bodies stick out: together they are to leave some of the room.
+        if (move.free > 0 && 0.3 * move.least < size_ / 500) tolerance = roundedText(0.3 * move.least, unit_);
+        if (!tolerance.empty()) text += fmt::format("; then bake with --tolerance {}", tolerance);
+        console_.say(text);
+        return {{"option", option},
+                {"shift", {move.shift.x(), move.shift.y(), move.shift.z()}},
+                {"axes", {move.axes.x(), move.axes.y(), move.axes.z()}},
+                {"moved", move.moved},
+                {"freePoses", move.free},
+                {"stops", move.stops},
+                {"poses", move.poses},
+                {"apartAtRest", move.atRest},
+                {"least", move.least},
+                {"tolerance", tolerance},
+                {"beyond", sayBeyond(move, shift)}};
+    }
+
+    /// What it would meet if it went on, and limits that let it.
+    Json sayBeyond(const FreeingMove& move, const std::string& shift) const {
+        if (move.beyond.empty()) return nullptr;
+        std::string where;
+        Motion wider = move.motion;
+        for (const StopBeyond& stop : move.beyond) {
+            const Dof& dof = motion_.dofs[stop.dof];
+            where += fmt::format("{}at {:.4g}{} of {}", where.empty() ? "" : " and ", toUser(dof, stop.value),
+                                 dof.kind == DofKind::Rotation ? " degrees" : "", dof.name);
+            // A little farther, so that it is contact that stops it.
+            const double more = 0.05 * (dof.upper - dof.lower);
+            Dof& widened = wider.dofs[stop.dof];
+            if (stop.value < dof.lower)
+                widened.lower = stop.value - more;
+            else
+                widened.upper = stop.value + more;
+        }
+        const std::string option = dofs_ ? fmt::format("{} {}", shift, dofOptions(wider, size_)) : "";
+        console_.say(fmt::format("    B meets nothing within these limits then; it would {}{}{}", where,
+                                 dofs_ ? ". For limits that end at contact:\n    " : "", option));
+        return {{"where", where}, {"option", option}};
+    }
+
+    const double unit_;
+    const Pair& pair_;
+    const Console& console_;
+    const Motion motion_;
+    bool plain_ = false, dofs_ = false;
+    Vec3 already_;
+    double size_ = 0;
+};
 
 } // namespace
 
-Json adviseShifts(const SceneModel& scene, const Pair& pair, const Console& console) {
-    const TriangleMesh &meshA = scene.bodies[pair.bodyA].mesh, &meshB = scene.bodies[pair.bodyB].mesh;
-    const Motion motion = pairMotion(scene, pair);
-    Json advice = Json::array();
-    if (meshA.empty() || meshB.empty()) return advice;
-    const TriangleMesh a = cleaned(meshA), b = cleaned(meshB);
-    const std::vector<FreeingShift> shifts = worthSaying(freeingShifts(a, b, motion));
-    if (shifts.empty()) return advice;
-    // What `tss make` has moved B by already.
-    const Pose atZero = pose(motion, std::vector<double>(motion.dofCount(), 0.0));
-    const bool plain = pair.joints.size() == 1 && (atZero.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-6;
-    const Vec3 already = plain ? Vec3(atZero.translation()) : Vec3(Vec3::Zero());
-    const double size = std::min(bounds(a).diagonal().norm(), bounds(b).diagonal().norm());
-    console.say(
-        fmt::format("{}: the meshes overlap where the joint rests. {} of tss make, found by trying, that "
-                    "moves B out of A:",
-                    pair.path, plain ? "An option" : "A shift of B, such as by --b-offset"));
-    for (const FreeingShift& shift : shifts) {
-        const Vec3 offset = already + shift.shift;
-        const auto coordinate = [&](double x) { return std::abs(x) < 1e-6 * size ? 0.0 : x; };
-        const std::string option = fmt::format("--b-offset={:.5g},{:.5g},{:.5g}", coordinate(offset.x()),
-                                               coordinate(offset.y()), coordinate(offset.z()));
-        std::string text =
-            fmt::format("  {}   ({} from here) free at {} of {} poses", option,
-                        lengthText(shift.shift.norm(), scene.metersPerUnit), shift.free, shift.poses);
-        if (shift.freeAtRest)
-            text += fmt::format(", {} apart at rest", lengthText(shift.atRest, scene.metersPerUnit));
-        std::string tolerance;
-        // Spheres of both bodies stick out: together they are to leave some of the room.
-        if (shift.free > 0 && 0.3 * shift.least < size / 500)
-            tolerance = roundedText(0.3 * shift.least, scene.metersPerUnit);
-        if (!tolerance.empty()) text += "; then bake with --tolerance " + tolerance;
-        console.say(text);
-        advice.push_back({{"option", option},
-                          {"shift", {shift.shift.x(), shift.shift.y(), shift.shift.z()}},
-                          {"freePoses", shift.free},
-                          {"poses", shift.poses},
-                          {"apartAtRest", shift.atRest},
-                          {"least", shift.least},
-                          {"tolerance", tolerance}});
-    }
-    return advice;
+Json adviseMoves(const SceneModel& scene, const Pair& pair, const Console& console) {
+    const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;
+    if (a.empty() || b.empty()) return Json::array();
+    return Adviser(scene, pair, console).say(cleaned(a), cleaned(b));
 }
 
 } // namespace tss::tool

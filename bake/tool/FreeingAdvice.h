@@ -4,9 +4,9 @@
 
 namespace tss::tool {
 
-/// Where the meshes of a pair overlap at rest: looks for small shifts of B that give the joint room and says
-/// them as options of `tss make` to paste, with the clearance that each gives. Returns them as data; empty
-/// where the meshes do not overlap there, or the joint has room all the same.
-Json adviseShifts(const SceneModel& scene, const Pair& pair, const Console& console);
+/// Where the meshes of a pair overlap at rest: looks for small moves of B and of the joint's axes that give
+/// it room and says them as options of `tss make` to paste, with the clearance that each gives. Returns them
+/// as data; empty where the meshes do not overlap there, or the joint has room all the same.
+Json adviseMoves(const SceneModel& scene, const Pair& pair, const Console& console);
 
 } // namespace tss::tool

@@ -189,11 +189,11 @@ void make(MakeArguments& arguments, const Console& console) {
     remarkRadians(motion, console);
     remarkFarAxes(motion, scene, console);
     console.say("wrote " + arguments.output + "; next: tss bake " + arguments.output + " -o BAKED.tss");
-    const Json shifts = adviseShifts(scene, scene.pairs[pair], console);
+    const Json shifts = adviseMoves(scene, scene.pairs[pair], console);
     console.print({{"output", arguments.output},
                    {"pair", scene.pairs[pair].path},
                    {"meshes", audits},
-                   {"freeingShifts", shifts}});
+                   {"freeingMoves", shifts}});
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "Turns.h"
 
 #include "bake/base/Error.h"
+#include "bake/motion/TurnBetween.h"
 
 #include <osgAnimation/StackedQuaternionElement>
 #include <osgAnimation/StackedRotateAxisElement>
@@ -113,8 +114,7 @@ std::vector<MovedAxis> movedAboutAxis(const StackedRotateAxisElement& element,
     for (int k = 0; k < 3; ++k)
         if (axis == tss::Vec3(tss::Vec3::Unit(k))) along = k;
     MovedAxis moved = spanning(element.getName(), tss::DofKind::Rotation, along, keys, rate);
-    if (axis != tss::Vec3(tss::Vec3::Unit(along)))
-        moved.axes = Eigen::Quaterniond::FromTwoVectors(tss::Vec3::UnitX(), axis);
+    if (axis != tss::Vec3(tss::Vec3::Unit(along))) moved.axes = tss::turnBetween(tss::Vec3::UnitX(), axis);
     return {moved};
 }
 

@@ -4,6 +4,7 @@
 #include "tests/SharedMeshes.h"
 #include "tests/tool/Shell.h"
 
+#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -101,4 +102,50 @@ TEST_CASE("the real dog's jaw stops before its teeth meet when it closes") {
     CHECK(touching == 0);
     CHECK(open < -17);   // it does close ...
     CHECK(open > -21.5); // ... and stops where the canines meet, between -20 and -21 degrees
+}
+
+TEST_CASE(
+    "a jaw that overlaps its skull where it rests bites and opens by the first advice that make prints") {
+    REQUIRE_SHARED_MESHES();
+    // The hinge as published, whose condyles overlap, with the jaw moved farther into the skull, metres.
+    for (const char* into : {"0", "0.0005", "0.003"}) {
+        INFO("moved by " << into << " m");
+        const Folder folder;
+        const std::string meshes = "make -o jaw.tss --a '" + sharedMesh("dog_jaw/skull.obj") + "' --b '" +
+                                   sharedMesh("dog_jaw/mandible.obj") + "' ";
+        const std::string hinge = "--dof rot:0.31299,0,0.68249:0,1,0:-15:20";
+        const Ran first = runTss(meshes + hinge + " --b-offset=0,0," + into + " --json", folder.path());
+        REQUIRE(first.exit == 0);
+        const Json advice = Json::parse(first.out)["freeingMoves"][0];
+        CHECK(advice["stops"].get<int>() + advice["freePoses"].get<int>() == advice["poses"].get<int>());
+        // Where it would meet nothing, make prints limits that end at contact.
+        std::string option = advice["option"];
+        if (!advice["beyond"].is_null()) option = advice["beyond"]["option"];
+        if (option.find("--dof") == std::string::npos) option += " " + hinge;
+        const Ran made = runTss(meshes + option + " --json", folder.path());
+        INFO(option);
+        REQUIRE(made.exit == 0);
+        CHECK(Json::parse(made.out)["freeingMoves"].empty());
+        std::string tolerance = advice["tolerance"];
+        if (!tolerance.empty()) tolerance = " --tolerance " + tolerance;
+        REQUIRE(runTss("bake jaw.tss -o baked.tss --quiet" + tolerance, folder.path()).exit == 0);
+        REQUIRE(runTss("play baked.tss -o played.csv --quiet", folder.path()).exit ==
+                0); // through its limits
+        std::istringstream rows(readText(folder.path() / "played.csv"));
+        std::string row;
+        std::getline(rows, row);
+        CHECK(row.rfind("step,asked_Joint:rot,Joint:rot,", 0) == 0);
+        double askedLow = 0, askedHigh = 0, low = 0, high = 0;
+        while (std::getline(rows, row)) {
+            double asked = 0, value = 0;
+            REQUIRE(std::sscanf(row.c_str(), "%*d,%lf,%lf", &asked, &value) == 2);
+            askedLow = std::min(askedLow, asked), askedHigh = std::max(askedHigh, asked);
+            low = std::min(low, value), high = std::max(high, value);
+        }
+        std::cout << "dog jaw, " << into << " m into the skull: " << option << ", limits " << askedLow
+                  << " to " << askedHigh << ", goes from " << low << " to " << high << " degrees\n";
+        CHECK(low > askedLow + 0.1); // teeth stop it
+        CHECK(low < -10);
+        CHECK(high > 19.9);
+    }
 }

@@ -1,0 +1,142 @@
+#include "bake/pipeline/FreeingMove.h"
+
+#include "bake/pipeline/FreeingTrial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace tss {
+
+namespace {
+
+/// Of the smaller body's diagonal: the first shift that is tried, and the last.
+constexpr double firstShare = 1e-3, lastShare = 0.1;
+constexpr double growth = 1.3; ///< from one length to the next
+
+/// To the faces, edges and corners of a cube.
+std::vector<JointMove> directions() {
+    std::vector<JointMove> all;
+    for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+            for (int z = -1; z <= 1; ++z)
+                if (x || y || z) {
+                    JointMove move = JointMove::Zero();
+                    move.head<3>() = Vec3(x, y, z).normalized();
+                    all.push_back(move);
+                }
+    return all;
+}
+
+/// The first shift, of growing lengths, that frees all that is wanted; where none does, the one that frees
+/// most of it.
+JointMove firstShift(const FreeingTrial& trial, const std::vector<char>& wanted, bool& all) {
+    const auto count = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), char{1}));
+    JointMove best = JointMove::Zero();
+    std::size_t reached = trial.freeOf(best, wanted);
+    for (double length = firstShare * trial.size(); length <= lastShare * trial.size() && reached < count;
+         length *= growth) {
+        JointMove now = JointMove::Zero();
+        for (const JointMove& direction : directions()) {
+            const std::size_t free = trial.freeOf(length * direction, wanted);
+            if (free > reached) reached = free, now = length * direction;
+        }
+        if (!now.isZero()) best = now;
+    }
+    all = reached == count;
+    return best;
+}
+
+/// Makes a move free more of what is wanted, and be smaller, by steps at random that become shorter where
+/// they do not help. axes: these move too, which is a move as far as it puts B elsewhere. all: it frees
+/// everything.
+JointMove better(FreeingTrial& trial, const std::vector<char>& wanted, const JointMove& first, bool axes,
+                 bool& all) {
+    constexpr int tries = 400;
+    constexpr double ofAxes = 0.1; // an axis that is moved is a move too
+    const auto cost = [&](const JointMove& move) {
+        return std::hypot(trial.moved(move), ofAxes * move.tail<3>().norm());
+    };
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    const auto count = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), char{1}));
+    JointMove best = first;
+    std::size_t reached = all ? count : trial.freeOf(first, wanted);
+    double least = cost(best), step = 0.3 * std::max(first.head<3>().norm(), firstShare * trial.size());
+    const double finest = 1e-3 * step, farthest = lastShare * trial.size();
+    for (int k = 0; k < tries && step > finest; ++k) {
+        JointMove move = best;
+        // A step, and all of it a little shorter.
+        for (int i = 0; i < 3; ++i) move[i] += step * normal(random);
+        if (axes)
+            for (int i = 3; i < 6; ++i) move[i] += 2 * step * normal(random);
+        else
+            move *= 1 - 0.05 * std::abs(normal(random));
+        if (cost(move) > farthest || (reached == count && cost(move) >= least)) continue;
+        std::size_t free = reached;
+        const bool better = reached == count ? trial.frees(move, wanted)
+                                             : (free = trial.freeOf(move, wanted)) > reached ||
+                                                   (free == reached && cost(move) < least);
+        if (better) {
+            best = move;
+            least = cost(best);
+            reached = free;
+            step *= 1.5;
+        } else {
+            step *= 0.95;
+        }
+    }
+    all = reached == count;
+    return best;
+}
+
+/// The same move as long as it must be to free what is wanted.
+bool lengthened(FreeingTrial& trial, const std::vector<char>& wanted, JointMove& move) {
+    for (const double factor : {1.0, 1.02, 1.05, 1.1, 1.2, 1.4}) {
+        if (!trial.frees(factor * move, wanted)) continue;
+        move *= factor;
+        return true;
+    }
+    return false;
+}
+
+/// A small move that frees what is wanted also between the poses that are tried. first: one that frees much
+/// of it, or nothing.
+JointMove smallMove(FreeingTrial& trial, std::vector<char>& wanted, JointMove move, bool axes) {
+    constexpr int rounds = 3;
+    for (int round = 0; round < rounds; ++round) {
+        bool all = !move.isZero() && lengthened(trial, wanted, move);
+        if (!all && !axes) move = firstShift(trial, wanted, all);
+        if (all || axes) move = better(trial, wanted, move, axes, all);
+        if (!all || trial.addMissed(move, wanted) == 0) break;
+    }
+    return move;
+}
+
+} // namespace
+
+std::vector<FreeingMove> freeingMoves(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
+                                      const FreeingOptions& options) {
+    std::vector<FreeingMove> found;
+    FreeingTrial trial(a, b, motion);
+    if (!trial.overlapsAtRest()) return found;
+    std::vector<char> wanted;
+    for (const char stop : trial.stops()) wanted.push_back(!stop);
+    JointMove move = smallMove(trial, wanted, JointMove::Zero(), false);
+    if (move.isZero()) return found;
+    found.push_back(trial.measured(move));
+    if (options.axes) {
+        move = smallMove(trial, wanted, move, true);
+        // Where it helps little the axes stay.
+        const FreeingMove turned = trial.measured(move);
+        if (turned.free > found.front().free || turned.moved < 0.9 * found.front().moved)
+            found.push_back(turned);
+    }
+    std::erase_if(found, [](const FreeingMove& m) { return m.free == 0; });
+    std::sort(found.begin(), found.end(), [](const FreeingMove& x, const FreeingMove& y) {
+        return x.free + x.stops != y.free + y.stops ? x.free + x.stops > y.free + y.stops : x.moved < y.moved;
+    });
+    return found;
+}
+
+} // namespace tss

@@ -1,0 +1,44 @@
+#pragma once
+#include "bake/geometry/TriangleMesh.h"
+#include "bake/motion/Motion.h"
+
+#include <vector>
+
+namespace tss {
+
+/// Where a joint meets something when it goes on beyond one of its limits.
+struct StopBeyond {
+    std::size_t dof = 0;
+    double value = 0; ///< of that DOF, the others at rest
+};
+
+/// A move of B that gives a joint room: x' = D(x + shift), the axes of D moved by `axes`.
+struct FreeingMove {
+    Vec3 shift = Vec3::Zero(); ///< in B's frame, scene units
+    Vec3 axes = Vec3::Zero();  ///< of the origins of all turns, in A's frame, scene units
+    Motion motion;             ///< with both
+    double moved = 0; ///< by how much B lies elsewhere than before, over the limits: root of the mean square
+    std::size_t free = 0;  ///< of the poses tried, those where the surfaces are apart by the margin
+    std::size_t poses = 0; ///< tried: rest and others spread over the limits
+    std::size_t stops = 0; ///< of the poses tried, those where contact elsewhere than at rest is kept
+    bool freeAtRest = false;
+    double atRest = 0; ///< distance of the surfaces there, scene units
+    double least = 0;  ///< of the free poses
+    std::vector<StopBeyond>
+        beyond; ///< where nothing is met within the limits: what is met not far beyond them
+};
+
+struct FreeingOptions {
+    bool axes = false; ///< axes may be moved too
+};
+
+/// Small moves for surfaces that overlap where the joint rests: first the one that frees most, of such the
+/// smallest; none where they do not overlap, or where no shift of up to a tenth of the smaller body gives the
+/// joint any room. A pose at which the bodies meet elsewhere than where they overlap at rest (teeth that
+/// bite, METHOD 2.4) is a stop of the joint and need not be freed; all others are, where that is found. They
+/// are found by trying, with the meshes alone: small, not proven to be the smallest. The same for any number
+/// of threads.
+std::vector<FreeingMove> freeingMoves(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
+                                      const FreeingOptions& options = {});
+
+} // namespace tss

@@ -1,0 +1,205 @@
+#include "bake/pipeline/FreeingTrial.h"
+
+#include "bake/base/Parallel.h"
+#include "bake/geometry/PartSet.h"
+#include "bake/geometry/Solid.h"
+#include "bake/search/ExploredPoses.h"
+#include "bake/search/RestContact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tss {
+
+namespace {
+
+constexpr double marginShare = 1e-3; ///< of the smaller body's diagonal: what counts as apart
+constexpr int steps = 16;            ///< of each DOF through its limits
+
+double diagonal(const TriangleMesh& mesh) {
+    return bounds(mesh).diagonal().norm();
+}
+
+/// The triangles of which no part is in the region.
+TriangleMesh without(const TriangleMesh& mesh, const std::vector<SurfacePart>& region) {
+    PartSet parts;
+    for (const SurfacePart& part : region) parts.insert(part);
+    TriangleMesh rest;
+    rest.vertices = mesh.vertices;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        if (!parts.reaches({t, 1})) rest.triangles.push_back(mesh.triangles[t]);
+    return rest;
+}
+
+} // namespace
+
+FreeingTrial::FreeingTrial(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion)
+    : a_(a), b_(b), motion_(motion), size_(std::min(diagonal(a), diagonal(b))), margin_(marginShare * size_) {
+    values_.push_back(restValues(motion));
+    addSweeps(steps, values_);
+    if (motion.dofCount() > 1)
+        for (std::vector<double>& q : exploredPoses(motion, 20, 1)) values_.push_back(std::move(q));
+    for (const std::vector<double>& q : values_) unmoved_.push_back(pose(motion, q));
+    lookedAt_ = values_.size();
+    order_.resize(values_.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    if (overlapsAtRest()) findStops(a, b);
+}
+
+void FreeingTrial::addSweeps(int count, std::vector<std::vector<double>>& into) const {
+    const std::vector<double> rest = restValues(motion_);
+    for (std::size_t k = 0; k < rest.size(); ++k)
+        for (int step = 0; step <= count; ++step) {
+            std::vector<double> q = rest;
+            const Dof& dof = motion_.dofs[k];
+            q[k] = dof.lower + (dof.upper - dof.lower) * step / count;
+            if (withinLimits(motion_, q, 0)) into.push_back(std::move(q));
+        }
+}
+
+bool FreeingTrial::overlapsAtRest() const {
+    return a_.distanceTo(b_, unmoved_.front(), 1e-6 * size_) < 1e-6 * size_;
+}
+
+void FreeingTrial::findStops(const TriangleMesh& a, const TriangleMesh& b) {
+    const Solid solidA(a), solidB(b);
+    const ContactSurface surfaceA(solidA, a_), surfaceB(solidB, b_);
+    RestContactOptions options;
+    options.reach = margin_;
+    options.close = options.near = margin_ / 2;
+    options.size = size_ / 200;
+    options.poses = 200;
+    const RestRegion region =
+        findRestContact(surfaceA, surfaceB, motion_, touchingDistance(a, b, motion_), options).region;
+    const MeshQuery elsewhereA(without(a, region.a)), elsewhereB(without(b, region.b));
+    stops_.assign(values_.size(), 0);
+    parallelFor(values_.size(), [&](std::size_t k) {
+        const double touching = 1e-6 * size_;
+        stops_[k] = k > 0 && (elsewhereA.distanceTo(b_, unmoved_[k], touching) < touching ||
+                              a_.distanceTo(elsewhereB, unmoved_[k], touching) < touching);
+    });
+}
+
+Motion FreeingTrial::moveMotion(const JointMove& move) const {
+    Motion motion = motion_;
+    motion.base = Pose(motion.base * Eigen::Translation3d(move.head<3>()));
+    for (Dof& dof : motion.dofs)
+        if (dof.kind == DofKind::Rotation) dof.origin += move.tail<3>();
+    return motion;
+}
+
+double FreeingTrial::moved(const JointMove& move) const {
+    // Axes are moved without being turned, so that all of B lies elsewhere by the same.
+    const Motion motion = moveMotion(move);
+    double sum = 0;
+    for (std::size_t k = 0; k < lookedAt_; ++k)
+        sum += (pose(motion, values_[k]) * Vec3::Zero() - unmoved_[k] * Vec3::Zero()).squaredNorm();
+    return std::sqrt(sum / static_cast<double>(lookedAt_));
+}
+
+bool FreeingTrial::frees(const JointMove& move, const std::vector<char>& wanted) {
+    const Motion motion = moveMotion(move);
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        const std::size_t k = order_[i];
+        if (!wanted[k] || a_.apart(b_, pose(motion, values_[k]), margin_)) continue;
+        std::rotate(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(i),
+                    order_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+        return false;
+    }
+    return true;
+}
+
+std::size_t FreeingTrial::freeOf(const JointMove& move, const std::vector<char>& wanted) const {
+    const Motion motion = moveMotion(move);
+    std::vector<char> free(values_.size(), 0);
+    parallelFor(values_.size(), [&](std::size_t k) {
+        free[k] = wanted[k] && a_.apart(b_, pose(motion, values_[k]), margin_);
+    });
+    return static_cast<std::size_t>(std::count(free.begin(), free.end(), char{1}));
+}
+
+std::size_t FreeingTrial::addMissed(const JointMove& move, std::vector<char>& wanted) {
+    const Motion motion = moveMotion(move);
+    std::vector<std::vector<double>> more;
+    addSweeps(4 * steps, more);
+    std::vector<char> blocked(more.size(), 0);
+    parallelFor(more.size(),
+                [&](std::size_t i) { blocked[i] = !a_.apart(b_, pose(motion, more[i]), margin_); });
+    const auto nearest = [&](const std::vector<double>& q) {
+        std::size_t best = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < lookedAt_; ++k) {
+            double away = 0;
+            for (std::size_t d = 0; d < q.size(); ++d)
+                away += std::abs(q[d] - values_[k][d]) /
+                        std::max(motion_.dofs[d].upper - motion_.dofs[d].lower, 1e-300);
+            if (away < least) least = away, best = k;
+        }
+        return best;
+    };
+    std::size_t added = 0;
+    for (std::size_t i = 0; i < more.size(); ++i) {
+        if (!blocked[i] || !wanted[nearest(more[i])]) continue;
+        // Next to a stop contact begins somewhere between.
+        const std::size_t near = nearest(more[i]);
+        const bool besideStop = (near > 1 && stops_[near - 1]) || (near + 1 < lookedAt_ && stops_[near + 1]);
+        if (besideStop) continue;
+        order_.push_back(values_.size());
+        unmoved_.push_back(pose(motion_, more[i]));
+        values_.push_back(std::move(more[i]));
+        stops_.push_back(0);
+        wanted.push_back(1);
+        ++added;
+    }
+    return added;
+}
+
+std::vector<StopBeyond> FreeingTrial::stopsBeyond(const Motion& motion) const {
+    constexpr double farthest = 0.5; // of the range
+    std::vector<StopBeyond> found;
+    for (std::size_t k = 0; k < motion.dofCount(); ++k) {
+        const Dof& dof = motion.dofs[k];
+        const double range = dof.upper - dof.lower;
+        if (dof.kind == DofKind::Path || range <= 0) continue;
+        for (const int side : {-1, 1})
+            for (int step = 1; step <= 2 * steps; ++step) {
+                const double beyond = farthest * step / (2 * steps) * range;
+                if (dof.kind == DofKind::Rotation && range + beyond > 2 * M_PI) break;
+                std::vector<double> q = restValues(motion);
+                q[k] = side < 0 ? dof.lower - beyond : dof.upper + beyond;
+                if (a_.apart(b_, pose(motion, q), 1e-6 * size_)) continue;
+                found.push_back({k, q[k]});
+                break;
+            }
+    }
+    return found;
+}
+
+FreeingMove FreeingTrial::measured(const JointMove& move) const {
+    FreeingMove found;
+    found.shift = move.head<3>();
+    found.axes = move.tail<3>();
+    found.motion = moveMotion(move);
+    found.moved = moved(move);
+    found.poses = lookedAt_;
+    std::vector<double> distances(lookedAt_);
+    parallelFor(lookedAt_, [&](std::size_t k) {
+        distances[k] = a_.distanceTo(b_, pose(found.motion, values_[k]), size_);
+    });
+    found.atRest = std::min(distances.front(), size_);
+    found.freeAtRest = distances.front() > margin_;
+    found.least = size_;
+    bool meets = false;
+    for (std::size_t k = 0; k < lookedAt_; ++k) {
+        meets |= distances[k] <= 0;
+        found.stops += stops_[k] && distances[k] <= 0;
+        if (distances[k] <= margin_) continue;
+        ++found.free;
+        found.least = std::min(found.least, distances[k]);
+    }
+    if (!meets) found.beyond = stopsBeyond(found.motion);
+    return found;
+}
+
+} // namespace tss

@@ -1,0 +1,89 @@
+#include "bake/pipeline/FreeingMove.h"
+#include "tests/Shapes.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tss;
+
+namespace {
+
+/// B turns about the Y axis between two walls' worth of angle.
+Motion hinge(double lower, double upper) {
+    Motion motion;
+    Dof dof;
+    dof.name = "turn";
+    dof.axis = Vec3::UnitY();
+    dof.lower = lower;
+    dof.upper = upper;
+    motion.dofs = {dof};
+    return motion;
+}
+
+TriangleMesh together(TriangleMesh mesh, const TriangleMesh& other) {
+    const int first = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (const Tri& t : other.triangles) mesh.triangles.push_back(t + Tri::Constant(first));
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("a body that overlaps at rest is freed by a shift a little larger than the overlap") {
+    for (const double depth : {0.05, 0.3}) {
+        INFO("overlap " << depth);
+        const TriangleMesh a = boxMesh({-5, -1, -2}, {5, 1, 0}), b = boxMesh({-1, -1, -depth}, {1, 1, 2});
+        const auto shifts = freeingMoves(a, b, hinge(-0.01, 0.01));
+        REQUIRE_FALSE(shifts.empty());
+        const FreeingMove& last = shifts.back();
+        CHECK(last.freeAtRest);
+        CHECK(last.free == last.poses);
+        CHECK(last.shift.norm() > depth);
+        CHECK(last.shift.norm() < depth + 0.02); // the margin, and what turning adds
+        CHECK(last.shift.z() > depth);           // up, out of the plate
+        CHECK(last.least > 0);
+        CHECK(last.least <= last.atRest);
+    }
+}
+
+TEST_CASE("bodies that are apart at rest need no shift, and those that nothing frees get none") {
+    const TriangleMesh plate = boxMesh({-5, -1, -2}, {5, 1, 0});
+    CHECK(freeingMoves(plate, boxMesh({-1, -1, 0.1}, {1, 1, 2}), hinge(-1, 1)).empty());
+    // Through the middle of a plate a hundred times as large.
+    const TriangleMesh wall = boxMesh({-100, -100, -1}, {100, 100, 1}),
+                       pin = boxMesh({-1, -1, -20}, {1, 1, 20});
+    CHECK(freeingMoves(wall, pin, hinge(-0.1, 0.1)).empty());
+}
+
+TEST_CASE("a joint that overlaps at rest is freed as far as what stops it elsewhere") {
+    // A lever on a block that it is sunk into at one end, with a post near its other end: turning down it
+    // meets the post.
+    const TriangleMesh a = together(boxMesh({-1, -1, -2}, {1, 1, 0}), boxMesh({9, -1, -4}, {10, 1, -1}));
+    const TriangleMesh lever = boxMesh({0, -0.5, -0.2}, {11, 0.5, 0.5});
+    Motion motion = hinge(-0.4, 0.25); // up and down
+    motion.dofs[0].origin = Vec3(-1, 0, 0.5);
+    const auto moves = freeingMoves(a, lever, motion);
+    REQUIRE(moves.size() == 1);
+    const FreeingMove& move = moves.front();
+    CHECK(move.freeAtRest);
+    CHECK(move.stops > 0);
+    CHECK(move.free + move.stops + 1 >= move.poses); // all, but where contact begins
+    CHECK(move.beyond.empty());
+    CHECK(move.shift.norm() < 1);
+}
+
+TEST_CASE("a joint whose axis is off is freed by a smaller move of its axis than of its body") {
+    // A bar that lies in a U with little room; the axis passes beside its middle, so that turning it sweeps
+    // it into the walls.
+    const TriangleMesh a = together(boxMesh({-2, -1, -1}, {-1, 1, 1}), boxMesh({1, -1, -1}, {2, 1, 1}));
+    const TriangleMesh bar = boxMesh({-0.8, -0.5, -0.1}, {1.01, 0.5, 0.1});
+    Motion motion = hinge(-0.5, 0.5);
+    motion.dofs[0].origin = Vec3(0, 0, 0.4);
+    FreeingOptions axes;
+    axes.axes = true;
+    const auto moves = freeingMoves(a, bar, motion, axes);
+    REQUIRE_FALSE(moves.empty());
+    CHECK(moves.front().axes.norm() > 0.1);
+    CHECK(moves.front().free == moves.front().poses);
+    for (std::size_t k = 1; k < moves.size(); ++k) CHECK(moves[k].moved > moves[k - 1].moved);
+    CHECK(moves.front().motion.dofs[0].origin.isApprox(motion.dofs[0].origin + moves.front().axes));
+}
