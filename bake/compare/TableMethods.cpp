@@ -1,7 +1,7 @@
 #include "bake/compare/Methods.h"
 
-#include "bake/table/PreparedTable.h"
 #include "bake/table/Query.h"
+#include "bake/table/TableKernels.h"
 
 #include <cmath>
 
@@ -83,8 +83,9 @@ public:
             "TSS",
             std::string("the prepared table, ") + tss::name(prepared_.form()) + " kernel in " +
                 tss::name(prepared_.precision()) +
-                (prepared_.cells().empty() ? ", features made from q each time"
-                                           : ", asked from q: cell, features where it leaves tests, tests"),
+                (prepared_.kernels().cells().empty()
+                     ? ", features made from q each time"
+                     : ", asked from q: cell, features where it leaves tests, tests"),
             {stated.miss, stated.early < 0 ? -1 : stated.early + band}, // rounding misses nothing
             prepared_.bytes(),
             0};

@@ -2,6 +2,8 @@
 
 #include "bake/base/Error.h"
 #include "bake/model/PairDofs.h"
+#include "bake/play/ChainPoses.h"
+#include "bake/table/TableKernels.h"
 
 #include <algorithm>
 #include <limits>
@@ -25,7 +27,56 @@ double between(std::mt19937_64& random, double lower, double upper) {
 
 } // namespace
 
-MechanismQuery::MechanismQuery(const SceneModel& scene, const std::vector<int>& order)
+class MechanismQuery::Prepared {
+public:
+    Prepared(const SceneModel& scene, const std::vector<int>& order);
+    std::size_t valueCount() const { return lower_.size(); }
+    const std::vector<int>& unanswered() const { return unanswered_; }
+    std::vector<int> order() const;
+    std::size_t provenCount() const { return parts_.size() - tables_.size(); }
+    MechanismWorkspace workspace() const;
+    MechanismAnswer ask(const double* values, MechanismWorkspace& ws) const;
+
+private:
+    /// The values of one pair, and the limits that its table or proof was made for.
+    struct Part {
+        int pair = -1;
+        Motion motion;
+        std::vector<std::uint32_t> values; ///< of each DOF, its place among all values
+        bool inARow = false;               ///< these places are one after the other
+    };
+    struct Asked {
+        std::uint32_t part = 0;
+        PreparedTable table;
+        bool placed = false; ///< the pose is had from the bodies' places
+        int bodyA = -1, bodyB = -1;
+        Vec3 a, b; ///< where these centres, each in its own body's frame, are farther apart than ...
+        double farSquared = 0; ///< ... its root, no test touches
+    };
+
+    Part partOf(const SceneModel& scene, int pair) const;
+    void addTable(const SceneModel& scene, std::uint32_t part);
+    void findOrder();
+    bool within(const double* values) const;
+    const double* ownValues(const Part& part, const double* values, double* room) const;
+    bool beyond(const Part& part, const double* values) const;
+    bool touches(const Asked& asked, const double* values, const ChainPoses::Matrix* places) const;
+    /// The values, those beyond the limits replaced: for places, of which the pairs that have such a value
+    /// make no use.
+    const double* limited(const double* values, MechanismWorkspace& ws) const;
+    /// Of one that no table within its limits touches.
+    MechanismAnswer untouched(const double* values, bool within) const;
+
+    std::size_t bodyCount_ = 0;
+    std::vector<double> lower_, upper_; ///< per value: of the joints that some pair has; infinite of others
+    bool planes_ = false;
+    std::vector<Part> parts_; ///< of all tables and proofs
+    ChainPoses chain_;
+    std::vector<Asked> tables_; ///< in the order in which they are asked
+    std::vector<int> unanswered_;
+};
+
+MechanismQuery::Prepared::Prepared(const SceneModel& scene, const std::vector<int>& order)
     : bodyCount_(scene.bodies.size()) {
     std::vector<int> chained, withTable;
     for (int k = 0; k < static_cast<int>(scene.pairs.size()); ++k) {
@@ -67,7 +118,7 @@ MechanismQuery::MechanismQuery(const SceneModel& scene, const std::vector<int>& 
     if (order.empty()) findOrder();
 }
 
-MechanismQuery::Part MechanismQuery::partOf(const SceneModel& scene, int pair) const {
+MechanismQuery::Prepared::Part MechanismQuery::Prepared::partOf(const SceneModel& scene, int pair) const {
     const Pair& of = scene.pairs[pair];
     std::vector<std::uint32_t> first{0};
     for (const Joint& joint : scene.joints)
@@ -82,9 +133,9 @@ MechanismQuery::Part MechanismQuery::partOf(const SceneModel& scene, int pair) c
     return part;
 }
 
-void MechanismQuery::addTable(const SceneModel& scene, std::uint32_t part) {
+void MechanismQuery::Prepared::addTable(const SceneModel& scene, std::uint32_t part) {
     const Pair& pair = scene.pairs[parts_[part].pair];
-    const bool linked = pair.table->motion.dofCount() > Fold::maxDofs && chain_.links(pair);
+    const bool linked = pair.table->motion.dofCount() > FeatureForm::maxDofs && chain_.links(pair);
     const std::vector<TablePair> tests = tablePairs(*pair.table);
     double reach = 0;
     for (const TablePair& test : tests) reach = std::max({reach, test.a.norm(), test.b.norm()});
@@ -103,7 +154,7 @@ void MechanismQuery::addTable(const SceneModel& scene, std::uint32_t part) {
     tables_.push_back(std::move(asked));
 }
 
-void MechanismQuery::findOrder() {
+void MechanismQuery::Prepared::findOrder() {
     constexpr std::size_t samples = 2048;
     std::mt19937_64 random(1);
     MechanismWorkspace ws = workspace();
@@ -135,17 +186,17 @@ void MechanismQuery::findOrder() {
     }
 }
 
-std::vector<int> MechanismQuery::order() const {
+std::vector<int> MechanismQuery::Prepared::order() const {
     std::vector<int> pairs;
     for (const Asked& asked : tables_) pairs.push_back(parts_[asked.part].pair);
     return pairs;
 }
 
-MechanismWorkspace MechanismQuery::workspace() const {
+MechanismWorkspace MechanismQuery::Prepared::workspace() const {
     return {std::vector<ChainPoses::Matrix>(bodyCount_), std::vector<double>(valueCount())};
 }
 
-bool MechanismQuery::within(const double* values) const {
+bool MechanismQuery::Prepared::within(const double* values) const {
     for (std::size_t k = 0; k < lower_.size(); ++k)
         if (!(values[k] >= lower_[k] && values[k] <= upper_[k]) && std::isfinite(lower_[k])) return false;
     if (!planes_) return true;
@@ -154,19 +205,20 @@ bool MechanismQuery::within(const double* values) const {
     });
 }
 
-const double* MechanismQuery::ownValues(const Part& part, const double* values, double* room) const {
+const double* MechanismQuery::Prepared::ownValues(const Part& part, const double* values,
+                                                  double* room) const {
     if (part.inARow) return part.values.empty() ? values : values + part.values[0];
     for (std::size_t k = 0; k < part.values.size(); ++k) room[k] = values[part.values[k]];
     return room;
 }
 
-bool MechanismQuery::beyond(const Part& part, const double* values) const {
+bool MechanismQuery::Prepared::beyond(const Part& part, const double* values) const {
     DofValues room;
     return beyondLimits(part.motion, {ownValues(part, values, room.data()), part.values.size()});
 }
 
-bool MechanismQuery::touches(const Asked& asked, const double* values,
-                             const ChainPoses::Matrix* places) const {
+bool MechanismQuery::Prepared::touches(const Asked& asked, const double* values,
+                                       const ChainPoses::Matrix* places) const {
     if (!asked.placed) {
         DofValues room;
         return asked.table.hit(ownValues(parts_[asked.part], values, room.data()));
@@ -180,7 +232,7 @@ bool MechanismQuery::touches(const Asked& asked, const double* values,
     return asked.table.hit(features);
 }
 
-const double* MechanismQuery::limited(const double* values, MechanismWorkspace& ws) const {
+const double* MechanismQuery::Prepared::limited(const double* values, MechanismWorkspace& ws) const {
     for (std::size_t k = 0; k < lower_.size(); ++k)
         ws.limited[k] = values[k] >= lower_[k] && values[k] <= upper_[k] ? values[k]
                         : std::isfinite(lower_[k])                       ? lower_[k]
@@ -188,13 +240,13 @@ const double* MechanismQuery::limited(const double* values, MechanismWorkspace& 
     return ws.limited.data();
 }
 
-MechanismAnswer MechanismQuery::untouched(const double* values, bool within) const {
+MechanismAnswer MechanismQuery::Prepared::untouched(const double* values, bool within) const {
     const bool out = !within && std::any_of(parts_.begin(), parts_.end(),
                                             [&](const Part& part) { return beyond(part, values); });
     return {out ? MechanismAnswer::Verdict::Beyond : MechanismAnswer::Verdict::Free, -1};
 }
 
-MechanismAnswer MechanismQuery::ask(const double* values, MechanismWorkspace& ws) const {
+MechanismAnswer MechanismQuery::Prepared::ask(const double* values, MechanismWorkspace& ws) const {
     const bool inside = within(values);
     bool placed = false;
     for (const Asked& asked : tables_) {
@@ -207,6 +259,36 @@ MechanismAnswer MechanismQuery::ask(const double* values, MechanismWorkspace& ws
             return {MechanismAnswer::Verdict::Contact, parts_[asked.part].pair};
     }
     return untouched(values, inside);
+}
+
+MechanismQuery::MechanismQuery(const SceneModel& scene, const std::vector<int>& order)
+    : prepared_(std::make_unique<const Prepared>(scene, order)) {}
+MechanismQuery::MechanismQuery(MechanismQuery&&) noexcept = default;
+MechanismQuery& MechanismQuery::operator=(MechanismQuery&&) noexcept = default;
+MechanismQuery::~MechanismQuery() = default;
+
+std::size_t MechanismQuery::valueCount() const {
+    return prepared_->valueCount();
+}
+
+const std::vector<int>& MechanismQuery::unanswered() const {
+    return prepared_->unanswered();
+}
+
+std::vector<int> MechanismQuery::order() const {
+    return prepared_->order();
+}
+
+std::size_t MechanismQuery::provenCount() const {
+    return prepared_->provenCount();
+}
+
+MechanismWorkspace MechanismQuery::workspace() const {
+    return prepared_->workspace();
+}
+
+MechanismAnswer MechanismQuery::ask(const double* values, MechanismWorkspace& ws) const {
+    return prepared_->ask(values, ws);
 }
 
 } // namespace tss

@@ -197,7 +197,7 @@ std::uint32_t findUnder(const JointModel& model, const JointModel::Group& group,
             own[k] = nearestTurn(own[k], group.motion.dofs[k].lower + std::numbers::pi);
         margin += model.weights[group.dofs[k]] * reach[group.dofs[k]];
     }
-    return group.prepared->under(own.data(), margin, ws.found.data());
+    return group.prepared->testsWithin(own.data(), margin, ws.found.data());
 }
 
 } // namespace

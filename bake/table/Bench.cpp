@@ -1,4 +1,6 @@
 #include "bake/table/Bench.h"
+#include "bake/table/Contact.h"
+#include "bake/table/TablePairs.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,8 @@
 #pragma once
+#include "bake/table/KernelTarget.h"
+
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
 
 namespace tss {
 
@@ -9,21 +10,6 @@ struct ContactTest;
 struct MotionFrame;
 struct PosePlan;
 struct TableContact;
-
-/// Which instructions the query kernels use. Best: the widest that this processor has.
-enum class KernelTarget { Best, Scalar, Sse2, Avx2, Avx512, Neon };
-
-/// "scalar", "sse2", ... ; sse2 stands for vectors of 128 bits, which also take SSSE3.
-const char* name(KernelTarget target);
-
-/// The target of that name ("best" too), and whether there is one.
-bool kernelTarget(std::string_view name, KernelTarget& target);
-
-/// Whether this processor can run it and this build has it.
-bool available(KernelTarget target);
-
-/// The widest available one.
-KernelTarget bestTarget();
 
 /// Pairs as the kernels read them, floats or doubles. Blocks of `lanes` pairs, each column of a block
 /// contiguous:
@@ -80,9 +66,9 @@ struct KernelSet {
     void (*gaps)(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count,
                  float* gap, std::int32_t* test) = nullptr;
 
-    /// What Fold::evaluate (PoseRecipe::evaluate after a 0, for direct) makes of a plan for it (PosePlan.h).
-    /// q: one value a DOF. pose: room for TableFeatures::room values. Null in the scalar kernels and where
-    /// vectors are too short for it.
+    /// What FeatureForm::evaluate (PoseRecipe::evaluate after a 0, for direct) makes of a plan for it
+    /// (PosePlan.h). q: one value a DOF. pose: room for TableFeatures::room values. Null in the scalar
+    /// kernels and where vectors are too short for it.
     void (*pose)(const PosePlan& plan, const double* q, void* pose) = nullptr;
     /// The same of many poses at once. q: count rows of one value a DOF; value k of pose i goes to
     /// poses[k * stride + i], stride count rounded up to 16. Null in the scalar kernels.

@@ -79,7 +79,7 @@ template <class T>
 void foldPoses(const PosePlan& plan, const double* q, std::uint32_t count, std::uint32_t stride,
                void* poses) {
     const Doubles d;
-    V u[Fold::maxDofs][3];
+    V u[FeatureForm::maxDofs][3];
     for (auto& ofDof : u) ofDof[2] = hn::Set(d, 1);
     const auto product = [&](const PosePlan::Products& products, std::size_t lane) {
         V value = hn::Set(d, 1);

@@ -4,7 +4,7 @@ namespace tss {
 
 namespace {
 
-std::vector<PosePlan::Products> inFours(const std::vector<Fold::Feature>& features, std::size_t dofs,
+std::vector<PosePlan::Products> inFours(const std::vector<FeatureForm::Feature>& features, std::size_t dofs,
                                         const std::vector<double>& weights) {
     constexpr std::size_t lanes = PosePlan::lanes;
     constexpr std::int32_t place[3] = {2, 0, 1};
@@ -15,7 +15,7 @@ std::vector<PosePlan::Products> inFours(const std::vector<Fold::Feature>& featur
         const bool real = i < features.size();
         products.centre[lane] = real ? features[i].centre : 0;
         products.weight[lane] = real && i < weights.size() ? weights[i] : 0;
-        for (std::size_t k = 0; k < Fold::maxDofs; ++k) {
+        for (std::size_t k = 0; k < FeatureForm::maxDofs; ++k) {
             const std::int32_t at = place[real && k < dofs ? features[i].factor[k] : 0];
             products.factor[k][2 * lane] = 2 * at;
             products.factor[k][2 * lane + 1] = 2 * at + 1;
@@ -35,7 +35,7 @@ void PosePlan::take(std::span<const DofFactor> factors) {
     }
 }
 
-PosePlan::PosePlan(const Fold& fold) : featureCount(fold.features.size()) {
+PosePlan::PosePlan(const FeatureForm& fold) : featureCount(fold.features.size()) {
     take(fold.factors);
     features = inFours(fold.features, dofs, {});
     shared = inFours(fold.sharedFeatures, dofs, fold.sharedWeights);

@@ -1,11 +1,11 @@
 #pragma once
-#include "bake/table/Fold.h"
+#include "bake/table/FeatureForm.h"
 #include "bake/table/PoseRecipe.h"
 
 namespace tss {
 
-/// How the values of the DOFs become what a query reads of a pose (Fold::evaluate, PoseRecipe::evaluate),
-/// laid out for vectors of four doubles.
+/// How the values of the DOFs become what a query reads of a pose (FeatureForm::evaluate,
+/// PoseRecipe::evaluate), laid out for vectors of four doubles.
 struct PosePlan {
     static constexpr std::size_t lanes = 4;
     static constexpr std::size_t room = (maxDofs + lanes - 1) / lanes * lanes;
@@ -13,7 +13,7 @@ struct PosePlan {
     /// Four features of a fold. factor: per DOF and feature two halves of a number of 64 bits, 0 and 1 for
     /// the first factor, 2 and 3 for the second, 4 and 5 for 1.
     struct alignas(32) Products {
-        std::int32_t factor[Fold::maxDofs][2 * lanes];
+        std::int32_t factor[FeatureForm::maxDofs][2 * lanes];
         double centre[lanes];
         double weight[lanes]; ///< of a shared feature; those beyond the last weigh 0
     };
@@ -32,7 +32,7 @@ struct PosePlan {
     std::vector<Step> steps;                ///< of the direct transform, one a DOF
 
     PosePlan() = default;
-    explicit PosePlan(const Fold& fold);
+    explicit PosePlan(const FeatureForm& fold);
     /// Of a recipe without paths, of one DOF at least.
     explicit PosePlan(const PoseRecipe& recipe);
 

@@ -1,6 +1,6 @@
 // How a table in clusters is asked: first the pairs of spheres that bound them, then the tests of those that
 // are near.
-#include "bake/table/PreparedTable.h"
+#include "bake/table/TableKernels.h"
 
 #include <algorithm>
 #include <limits>
@@ -16,7 +16,7 @@ using ClusterList = std::array<std::uint32_t, TableClusters::mostOfGroup + mostL
 
 } // namespace
 
-KernelData PreparedTable::blocksOf(const KernelData& data, std::size_t rowsEach, std::uint32_t part) const {
+KernelData TableKernels::blocksOf(const KernelData& data, std::size_t rowsEach, std::uint32_t part) const {
     const std::size_t number = float_ ? sizeof(float) : sizeof(double);
     const std::size_t step = rowsEach * directColumns * number;
     const auto* begin = static_cast<const std::byte*>(data.blocks) + part * step;
@@ -24,16 +24,16 @@ KernelData PreparedTable::blocksOf(const KernelData& data, std::size_t rowsEach,
     return {begin, static_cast<std::size_t>(end - begin) > step ? begin + step : end, data.columns};
 }
 
-KernelData PreparedTable::clustersOf(std::uint32_t group) const {
+KernelData TableKernels::clustersOf(std::uint32_t group) const {
     return blocksOf(clusterData_, clusters_.clustersEach(), group);
 }
 
-KernelData PreparedTable::testsOf(std::uint32_t cluster) const {
+KernelData TableKernels::testsOf(std::uint32_t cluster) const {
     return blocksOf(data_, clusters_.testsEach(), cluster);
 }
 
 template <class Take>
-void PreparedTable::eachNearCluster(const TableFeatures& f, const double& margin, Take take) const {
+void TableKernels::eachNearCluster(const TableFeatures& f, const double& margin, Take take) const {
     GroupList groups;
     ClusterList clusters;
     const std::uint32_t count = kernels_.under(groupData_, f.doubles, margin, groups.data());
@@ -44,14 +44,14 @@ void PreparedTable::eachNearCluster(const TableFeatures& f, const double& margin
     }
 }
 
-bool PreparedTable::hitInClusters(const TableFeatures& f) const {
+bool TableKernels::hitInClusters(const TableFeatures& f) const {
     bool hit = false;
     eachNearCluster(f, 0,
                     [&](std::uint32_t cluster) { return hit = kernels_.hit(testsOf(cluster), f.doubles); });
     return hit;
 }
 
-KernelGap PreparedTable::nearestInClusters(const TableFeatures& f) const {
+KernelGap TableKernels::nearestInClusters(const TableFeatures& f) const {
     const std::int32_t group = kernels_.gap(groupData_, f.doubles).test;
     // Of a pose that is not a number none is the nearest.
     if (group < 0) return kernels_.gap(data_, f.doubles);
@@ -71,8 +71,8 @@ KernelGap PreparedTable::nearestInClusters(const TableFeatures& f) const {
     return least;
 }
 
-std::uint32_t PreparedTable::underInClusters(const TableFeatures& f, double margin, double wide,
-                                             std::uint32_t* out) const {
+std::uint32_t TableKernels::testsInClusters(const TableFeatures& f, double margin, double wide,
+                                            std::uint32_t* out) const {
     std::uint32_t count = 0;
     eachNearCluster(f, clusterReachOf(margin), [&](std::uint32_t cluster) {
         count += kernels_.under(testsOf(cluster), f.doubles, wide, out + count);
@@ -81,17 +81,17 @@ std::uint32_t PreparedTable::underInClusters(const TableFeatures& f, double marg
     return count;
 }
 
-double PreparedTable::clusterReachOf(double margin) const {
+double TableKernels::clusterReachOf(double margin) const {
     return reachOf(margin) + 2 * clusterBand_;
 }
 
-void PreparedTable::frame(const double* q, MotionFrame& out) const {
+void TableKernels::frame(const double* q, MotionFrame& out) const {
     DofValues way;
     way.fill(1);
     evaluateFrame(motion_, q, way.data(), out);
 }
 
-void PreparedTable::contact(const TableFeatures& f, const MotionFrame& frame, TableContact& out) const {
+void TableKernels::contact(const TableFeatures& f, const MotionFrame& frame, TableContact& out) const {
     out.test = nearest(f).test;
     if (out.test < 0) {
         out.gap = std::numeric_limits<double>::infinity();
@@ -100,22 +100,21 @@ void PreparedTable::contact(const TableFeatures& f, const MotionFrame& frame, Ta
     kernels_.contact(contactTests_[std::size_t(out.test)], frame, motion_.dofCount(), out);
 }
 
-double PreparedTable::reachOf(double margin) const {
+double TableKernels::reachOf(double margin) const {
     // Rounding grows with the margin; twice the band at 0 and some roundoffs of the margin cover it.
     return margin + 2 * std::max(signBand_, gapBand_) + 2e-6 * margin;
 }
 
-std::uint32_t PreparedTable::under(const TableFeatures& f, double margin, std::uint32_t* out) const {
+std::uint32_t TableKernels::testsWithin(const TableFeatures& f, double margin, std::uint32_t* out) const {
     const double wide = reachOf(margin);
-    if (!clusters_.empty()) return underInClusters(f, margin, wide, out);
+    if (!clusters_.empty()) return testsInClusters(f, margin, wide, out);
     if (!cells_.empty())
         if (const std::uint8_t limit = cells_.code(margin); limit < TableCells::nearCode)
             return kernels_.underNear(data_, f.doubles, cells_.under(f.cell, limit), wide, out);
     return kernels_.under(data_, f.doubles, wide, out);
 }
 
-std::uint32_t PreparedTable::under(const double* q, double margin, std::uint32_t* out) const {
-    if (verdicts_.clearance(q) > reachOf(margin)) return 0;
+std::uint32_t TableKernels::testsWithin(const double* q, double margin, std::uint32_t* out) const {
     TableFeatures f;
     if (!cells_.empty()) {
         f.cell = cells_.rowAt(q);
@@ -124,7 +123,7 @@ std::uint32_t PreparedTable::under(const double* q, double margin, std::uint32_t
             return 0;
     }
     poseFeatures(q, f);
-    return under(f, margin, out);
+    return testsWithin(f, margin, out);
 }
 
 } // namespace tss

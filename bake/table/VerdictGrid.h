@@ -1,6 +1,5 @@
 #pragma once
-#include "bake/motion/MotionFrame.h"
-#include "bake/table/TablePairs.h"
+#include "bake/motion/Motion.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +8,8 @@
 #include <vector>
 
 namespace tss {
+
+struct TablePair;
 
 enum class Verdict : std::uint8_t { Ask, Touch, Free };
 

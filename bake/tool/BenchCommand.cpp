@@ -2,6 +2,7 @@
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/table/Bench.h"
+#include "bake/table/TableKernels.h"
 #include "bake/tool/ChoosePair.h"
 #include "bake/tool/Command.h"
 
@@ -17,10 +18,10 @@ struct BenchArguments {
 };
 
 std::string cellText(const PreparedTable& table) {
-    const TableCells& cells = table.cells();
-    if (!table.clusters().empty())
-        return fmt::format("; {} clusters in {} groups", table.clusters().count(),
-                           table.clusters().groups().size());
+    const TableCells& cells = table.kernels().cells();
+    if (!table.kernels().clusters().empty())
+        return fmt::format("; {} clusters in {} groups", table.kernels().clusters().count(),
+                           table.kernels().clusters().groups().size());
     if (cells.empty()) return "";
     return fmt::format("; {} cells, in which it looks at {:.2g} % of the tests", cells.rowCount() - 1,
                        100 * cells.looked());
@@ -44,7 +45,7 @@ void runBench(const BenchArguments& arguments, const Console& console) {
     const char* precision = table.precision() == KernelPrecision::Float ? "float" : "double";
     console.say(fmt::format("{}: {}, {} bytes; {} {} of {} features, {}{}", pair.path,
                             counted(table.testCount(), "test"), table.bytes(), precision, form,
-                            table.featureCount(), name(table.target()), cellText(table)));
+                            table.kernels().featureCount(), name(table.target()), cellText(table)));
     console.say(fmt::format("{} queries ({}): {:.2f} ns each, features of a pose {:.2f} ns{}; {} hits",
                             arguments.queries, arguments.with, result.nanoseconds, result.featureNanoseconds,
                             with == BenchWith::Pose ? "" : " more", result.hits));
@@ -57,10 +58,10 @@ void runBench(const BenchArguments& arguments, const Console& console) {
                    {"kernel", name(table.target())},
                    {"form", form},
                    {"precision", precision},
-                   {"features", table.featureCount()},
-                   {"cells", table.cells().empty() ? 0 : table.cells().rowCount() - 1},
-                   {"looked", table.cells().looked()},
-                   {"clusters", table.clusters().count()},
+                   {"features", table.kernels().featureCount()},
+                   {"cells", table.kernels().cells().empty() ? 0 : table.kernels().cells().rowCount() - 1},
+                   {"looked", table.kernels().cells().looked()},
+                   {"clusters", table.kernels().clusters().count()},
                    {"with", arguments.with},
                    {"queries", arguments.queries},
                    {"ns", result.nanoseconds},

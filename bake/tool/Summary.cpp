@@ -4,7 +4,7 @@
 #include "bake/geometry/PartSet.h"
 #include "bake/model/SourceHash.h"
 #include "bake/pipeline/BakeOptions.h"
-#include "bake/table/PreparedTable.h"
+#include "bake/table/TableKernels.h"
 #include "bake/tool/DofSpec.h"
 
 #include <algorithm>
@@ -79,13 +79,16 @@ Json regionOf(const RestRegion& region, const SceneModel& scene, const Pair& pai
 /// verdict.
 void addKernel(Json& json, const Table& table) {
     const PreparedTable prepared(table);
-    json["kernel"] = {{"form", name(prepared.form())},       {"precision", name(prepared.precision())},
-                      {"features", prepared.featureCount()}, {"condition", prepared.condition()},
-                      {"band", prepared.signBand()},         {"bytes", prepared.bytes()}};
-    if (!prepared.clusters().empty())
-        json["kernel"]["clusters"] = {{"count", prepared.clusters().count()},
-                                      {"groups", prepared.clusters().groups().size()},
-                                      {"tests", prepared.clusters().testsEach()}};
+    json["kernel"] = {{"form", name(prepared.form())},
+                      {"precision", name(prepared.precision())},
+                      {"features", prepared.kernels().featureCount()},
+                      {"condition", prepared.kernels().condition()},
+                      {"band", prepared.signBand()},
+                      {"bytes", prepared.bytes()}};
+    if (!prepared.kernels().clusters().empty())
+        json["kernel"]["clusters"] = {{"count", prepared.kernels().clusters().count()},
+                                      {"groups", prepared.kernels().clusters().groups().size()},
+                                      {"tests", prepared.kernels().clusters().testsEach()}};
     if (!prepared.verdicts().empty())
         json["kernel"]["verdicts"] = {{"asked", prepared.verdicts().asked()},
                                       {"bytes", prepared.verdicts().bytes()}};

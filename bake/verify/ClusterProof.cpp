@@ -1,5 +1,6 @@
 #include "bake/verify/ClusterProof.h"
 
+#include "bake/table/TableKernels.h"
 #include "bake/verify/KernelCells.h"
 
 #include <fmt/format.h>
@@ -12,9 +13,10 @@ namespace {
 /// rounding about the bound hides none of them.
 std::string refuteBounds(const PreparedTable& prepared, const std::vector<Exact>& pairs,
                          std::span<const std::uint32_t> order, std::size_t each,
-                         std::span<const TablePair> bounds, const PreparedTable::BoundRows& stored,
+                         std::span<const TablePair> bounds, const TableKernels::BoundRows& stored,
                          double posed) {
-    if (each == 0 || each % prepared.lanes() != 0 || bounds.size() != (pairs.size() + each - 1) / each)
+    if (each == 0 || each % prepared.kernels().lanes() != 0 ||
+        bounds.size() != (pairs.size() + each - 1) / each)
         return "its clusters do not hold every test once";
     if (!blocksAreRows(prepared, stored.blocks, stored.rows, bounds.size(), {}))
         return "its blocks do not hold every bound of a cluster once";
@@ -30,8 +32,8 @@ std::string refuteBounds(const PreparedTable& prepared, const std::vector<Exact>
     }
     for (std::size_t c = 0; c < bounds.size(); ++c) {
         const Exact bound{bounds[c].a, bounds[c].b, bounds[c].reach};
-        const PairErrors errors =
-            directErrors(prepared, StoredRow(prepared, stored.rows, c), bound, prepared.farthestT(), posed);
+        const PairErrors errors = directErrors(prepared, StoredRow(prepared, stored.rows, c), bound,
+                                               prepared.kernels().farthestT(), posed);
         if (errors.sign.high > 0 && bound.reach >= 0)
             return fmt::format("cluster {} may be passed over where a test of it touches", c);
     }
@@ -41,18 +43,18 @@ std::string refuteBounds(const PreparedTable& prepared, const std::vector<Exact>
 } // namespace
 
 std::string refuteClusters(const PreparedTable& prepared, const std::vector<Exact>& tests, double posed) {
-    const TableClusters& clusters = prepared.clusters();
+    const TableClusters& clusters = prepared.kernels().clusters();
     if (clusters.empty()) return {};
     const std::vector<std::uint32_t>& order = clusters.order();
     if (order.size() != tests.size() || clusters.count() > TableClusters::most)
         return "its clusters do not hold every test once";
     std::string reason = refuteBounds(prepared, tests, order, clusters.testsEach(), clusters.bounds(),
-                                      prepared.clusterBounds(), posed);
+                                      prepared.kernels().clusterBounds(), posed);
     if (!reason.empty()) return reason;
     std::vector<Exact> bounds;
     for (const TablePair& bound : clusters.bounds()) bounds.push_back({bound.a, bound.b, bound.reach});
     reason = refuteBounds(prepared, bounds, {}, clusters.clustersEach(), clusters.groups(),
-                          prepared.groupBounds(), posed);
+                          prepared.kernels().groupBounds(), posed);
     return reason.empty() ? reason : "of a group of clusters: " + reason;
 }
 

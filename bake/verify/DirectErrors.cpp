@@ -1,3 +1,4 @@
+#include "bake/table/TableKernels.h"
 #include "bake/verify/KernelErrors.h"
 
 #include <algorithm>
@@ -9,11 +10,11 @@ PairErrors directErrors(const PreparedTable& prepared, const StoredRow& row, con
                         double farthest, double posed) {
     const bool single = prepared.precision() == KernelPrecision::Float;
     const double u = single ? 0x1p-24 : 0x1p-53;
-    const Vec3 b = test.b - prepared.originB(), a = test.a - prepared.originA();
-    const double storedA =
-        (Vec3(row[3], row[4], row[5]) - a).norm() + 0x1p-52 * (test.a.norm() + prepared.originA().norm());
-    const double storedB =
-        (Vec3(row[0], row[1], row[2]) - b).norm() + 0x1p-52 * (test.b.norm() + prepared.originB().norm());
+    const Vec3 b = test.b - prepared.kernels().originB(), a = test.a - prepared.kernels().originA();
+    const double storedA = (Vec3(row[3], row[4], row[5]) - a).norm() +
+                           0x1p-52 * (test.a.norm() + prepared.kernels().originA().norm());
+    const double storedB = (Vec3(row[0], row[1], row[2]) - b).norm() +
+                           0x1p-52 * (test.b.norm() + prepared.kernels().originB().norm());
     const auto squareError = [&](double distance) {
         const double t = std::min(farthest, a.norm() + b.norm() + distance);
         // The numbers of R and t, each rounded; t - a; three products and their sums, each rounded.
@@ -25,7 +26,7 @@ PairErrors directErrors(const PreparedTable& prepared, const StoredRow& row, con
     const double reach2 = test.reach * std::abs(test.reach);
     const double off = reach2 - row.fromEnd(3);
     const double error = squareError(std::abs(test.reach) * (1 + 1e-6)) + 2 * u * std::abs(row.fromEnd(3));
-    return {{off - error, off + error}, squareError(std::max(0.0, test.reach + prepared.margin()))};
+    return {{off - error, off + error}, squareError(std::max(0.0, test.reach + prepared.kernels().margin()))};
 }
 
 namespace {
@@ -34,7 +35,7 @@ namespace {
 /// the two origins: points of B no farther than `reach` from its origin come out no farther off.
 double poseOff(const PreparedTable& prepared, const ExactPose& at, const TableFeatures& f, double reach) {
     const bool single = prepared.precision() == KernelPrecision::Float;
-    const Vector shift = at.at(prepared.originB()) - prepared.originA().cast<Real>();
+    const Vector shift = at.at(prepared.kernels().originB()) - prepared.kernels().originA().cast<Real>();
     Real turned = 0, shifted = 0;
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 4; ++column) {
@@ -56,8 +57,8 @@ DirectPose::DirectPose(const Table& table, const PreparedTable& prepared, const 
     options.precision = KernelPrecision::Double;
     options.cells = CellUse::Never;
     const PreparedTable plain(table, options);
-    for (const Exact& t : tests) reach_ = std::max(reach_, (t.b - plain.originB()).norm());
-    const double size = pathSize(motion_, tests) + plain.originA().norm() + 2 * plain.originB().norm();
+    for (const Exact& t : tests) reach_ = std::max(reach_, (t.b - plain.kernels().originB()).norm());
+    const double size = pathSize(motion_, tests) + plain.kernels().originA().norm() + 2 * plain.kernels().originB().norm();
     rounding_ = poseRounding(motion_, size, 0x1p-53);
     const bool paths = std::any_of(motion_.dofs.begin(), motion_.dofs.end(),
                                    [](const Dof& dof) { return dof.kind == DofKind::Path; });
@@ -85,7 +86,7 @@ DirectPose::DirectPose(const Table& table, const PreparedTable& prepared, const 
 bool DirectPose::agreesAt(const PreparedTable& prepared, const ExactPose& at, const TableFeatures& f) const {
     const double u = prepared.precision() == KernelPrecision::Float ? 0x1p-24 : 0;
     return poseOff(prepared, at, f, reach_) <=
-           rounding_ + 2 * u * (reach_ + prepared.farthestT()) * (1 + 1e-6) + 1e-300;
+           rounding_ + 2 * u * (reach_ + prepared.kernels().farthestT()) * (1 + 1e-6) + 1e-300;
 }
 
 } // namespace tss::verify

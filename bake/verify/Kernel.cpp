@@ -1,5 +1,6 @@
 #include "bake/verify/Kernel.h"
 
+#include "bake/table/TableKernels.h"
 #include "bake/verify/ClusterProof.h"
 #include "bake/verify/KernelCells.h"
 #include "bake/verify/KernelErrors.h"
@@ -50,7 +51,7 @@ double tried(const Table& table, const PreparedTable& prepared, const std::vecto
         const double own = double(gap), answer = prepared.gap(f).gap;
         if ((own <= 0 && !prepared.hit(f)) || (own > prepared.signBand() && prepared.hit(f)))
             reason = fmt::format("at a pose the gap is {:.6g} and the kernel's verdict is wrong", own);
-        if (own > prepared.margin() || own < -prepared.depth()) continue;
+        if (own > prepared.kernels().margin() || own < -prepared.kernels().depth()) continue;
         worst = std::max(worst, std::abs(answer - own));
     }
     return worst;
@@ -71,7 +72,7 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
     }
     const bool fold = prepared.form() == KernelForm::Fold;
     const double u = prepared.precision() == KernelPrecision::Float ? 0x1p-24 : 0x1p-53;
-    std::optional<FoldErrors> foldErrors;
+    std::optional<FeatureFormErrors> foldErrors;
     std::optional<DirectPose> direct;
     if (fold)
         foldErrors.emplace(table, prepared, tests);
@@ -83,7 +84,7 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
         const Exact& test = tests[p];
         const PairErrors errors = fold ? foldErrors->of(p, test)
                                        : directErrors(prepared, StoredRow(prepared, p), test,
-                                                      prepared.farthestT(), direct->rounding());
+                                                      prepared.kernels().farthestT(), direct->rounding());
         if (errors.sign.high > 0 && test.reach >= 0)
             verdict.reason =
                 fmt::format("test {} may miss a touch: its squared distance may be {:.3g} too large", p,
@@ -92,7 +93,7 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
         const double reach = std::max(0.0, test.reach);
         verdict.early =
             std::max(verdict.early, std::sqrt(reach * reach - std::min(0.0, errors.sign.low)) - reach);
-        for (double gap : {-prepared.depth(), 0.0, prepared.margin()})
+        for (double gap : {-prepared.kernels().depth(), 0.0, prepared.kernels().margin()})
             verdict.gapOff = std::max(verdict.gapOff, gapError(u, errors.square, test.reach, gap));
     }
     if (verdict.reason.empty() && verdict.early > prepared.signBand() * (1 + 1e-6))

@@ -1,5 +1,6 @@
 #include "bake/verify/KernelCells.h"
 
+#include "bake/table/TableKernels.h"
 #include "bake/verify/GapBox.h"
 
 #include <algorithm>
@@ -17,11 +18,11 @@ constexpr int mostHalvings = 12;
 class Checker {
 public:
     Checker(const Table& table, const PreparedTable& prepared)
-        : table_(table), cells_(prepared.cells()), gaps_(table), block_(gaps_.testCount()),
+        : table_(table), cells_(prepared.kernels().cells()), gaps_(table), block_(gaps_.testCount()),
           all_(gaps_.testCount()) {
         std::iota(all_.begin(), all_.end(), 0u);
         for (std::size_t i = 0; i < block_.size(); ++i)
-            block_[cells_.order()[i]] = static_cast<std::uint32_t>(i / prepared.lanes());
+            block_[cells_.order()[i]] = static_cast<std::uint32_t>(i / prepared.kernels().lanes());
     }
 
     std::string refute() {
@@ -83,7 +84,7 @@ private:
 bool blocksAreRows(const PreparedTable& prepared, const KernelData& blockData, const KernelData& rowData,
                    std::size_t count, std::span<const std::uint32_t> order) {
     const std::size_t bytes = prepared.precision() == KernelPrecision::Float ? 4 : 8;
-    const std::size_t lanes = prepared.lanes();
+    const std::size_t lanes = prepared.kernels().lanes();
     const std::size_t columns =
         prepared.form() == KernelForm::Fold ? foldColumns(rowData.columns) : directColumns;
     const auto* blocks = static_cast<const std::byte*>(blockData.blocks);
@@ -104,10 +105,12 @@ bool blocksAreRows(const PreparedTable& prepared, const KernelData& blockData, c
 }
 
 std::string refuteCells(const Table& table, const PreparedTable& prepared) {
-    const auto& order = prepared.clusters().empty() ? prepared.cells().order() : prepared.clusters().order();
-    if (!blocksAreRows(prepared, prepared.blocks(), prepared.rows(), prepared.testCount(), order))
+    const auto& order = prepared.kernels().clusters().empty() ? prepared.kernels().cells().order()
+                                                              : prepared.kernels().clusters().order();
+    if (!blocksAreRows(prepared, prepared.kernels().blocks(), prepared.kernels().rows(), prepared.testCount(),
+                       order))
         return "its blocks do not hold every test once";
-    if (prepared.cells().empty()) return {};
+    if (prepared.kernels().cells().empty()) return {};
     return Checker(table, prepared).refute();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/table/PreparedTable.h"
+#include "bake/table/TableKernels.h"
 
 #include <span>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/table/PreparedTable.h"
+#include "bake/table/TableKernels.h"
 #include "bake/verify/ExactPose.h"
 
 namespace tss::verify {
@@ -7,7 +7,8 @@ namespace tss::verify {
 /// A row of numbers as a kernel reads it, float or double.
 class StoredRow {
 public:
-    StoredRow(const PreparedTable& prepared, std::size_t row) : StoredRow(prepared, prepared.rows(), row) {}
+    StoredRow(const PreparedTable& prepared, std::size_t row)
+        : StoredRow(prepared, prepared.kernels().rows(), row) {}
     StoredRow(const PreparedTable& prepared, const KernelData& rows, std::size_t row)
         : single_(prepared.precision() == KernelPrecision::Float), data_(rows.blocks) {
         const bool fold = prepared.form() == KernelForm::Fold;
@@ -39,9 +40,9 @@ struct PairErrors {
 };
 
 /// Errors of the fold, pair by pair.
-class FoldErrors {
+class FeatureFormErrors {
 public:
-    FoldErrors(const Table& table, const PreparedTable& prepared, const std::vector<Exact>& tests);
+    FeatureFormErrors(const Table& table, const PreparedTable& prepared, const std::vector<Exact>& tests);
 
     PairErrors of(std::size_t pair, const Exact& test) const;
 
@@ -49,7 +50,7 @@ private:
     double rounding(double constant, const std::vector<double>& products, double shared, double result) const;
 
     const PreparedTable& prepared_;
-    const Fold& fold_;
+    const FeatureForm& fold_;
     double u_;
     std::vector<Real> farthest_; ///< of the squared distances that `exact_` was made from, one a test
     std::vector<std::vector<Real>> exact_;

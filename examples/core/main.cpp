@@ -2,6 +2,7 @@
 // get on its way there? Arguments: the scene, then a value a degree of freedom (radians, or scene units).
 #include "bake/respond/JointResponder.h"
 #include "bake/scene/SceneFile.h"
+#include "bake/table/Contact.h"
 #include "bake/table/PreparedTable.h"
 
 #include <cstdlib>

@@ -9,11 +9,13 @@ set(open
     bake/model/SceneModel.h
     bake/model/SourceHash.h
     bake/play/JointPlan.h
+    bake/play/MechanismQuery.h
     bake/play/Player.h
     bake/play/SkinSetup.h
     bake/respond/JointResponder.h
     bake/respond/SkinResponse.h
     bake/scene/SceneFile.h
+    bake/table/Contact.h
     bake/table/PreparedTable.h
     bake/table/Query.h)
 set(known "")

@@ -1,6 +1,7 @@
 // N queries of one kind on one jaw-like table, for callgrind (instructions.sh):
 // bench_queries MOTION PAIRS KERNEL WITH N, MOTION one of hinge, hinge-slide, two-hinges, general.
 #include "bake/table/Bench.h"
+#include "bake/table/TableKernels.h"
 #include "tests/bench/JawLike.h"
 
 #include <cstdio>
@@ -28,5 +29,5 @@ int main(int argc, char** argv) {
     const BenchResult result =
         benchQueries(prepared, table.motion, std::strtoull(argv[5], nullptr, 10), with);
     std::printf("%s %s %zu features, %llu hits\n", name(prepared.precision()), name(prepared.form()),
-                prepared.featureCount(), static_cast<unsigned long long>(result.hits));
+                prepared.kernels().featureCount(), static_cast<unsigned long long>(result.hits));
 }

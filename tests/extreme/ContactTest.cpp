@@ -1,3 +1,4 @@
+#include "bake/table/Contact.h"
 #include "bake/respond/JointResponder.h"
 #include "bake/table/Query.h"
 #include "tests/extreme/Served.h"

@@ -1,5 +1,6 @@
 #include "bake/play/MechanismQuery.h"
 #include "bake/base/Error.h"
+#include "bake/table/PreparedTable.h"
 #include "tests/play/Mechanisms.h"
 #include "tests/table/ExactGap.h"
 

@@ -1,5 +1,5 @@
-#include "bake/table/PreparedTable.h"
 #include "bake/base/Error.h"
+#include "bake/table/TableKernels.h"
 #include "tests/Joints.h"
 #include "tests/table/ExactGap.h"
 #include "tests/table/RandomTable.h"
@@ -34,7 +34,7 @@ std::vector<PreparedTable> allPreparations(const Table& table) {
 
 std::string describe(const PreparedTable& t) {
     return std::string(name(t.target())) + " " + name(t.form()) + " " + name(t.precision()) +
-           (t.cells().empty() ? "" : " with cells");
+           (t.kernels().cells().empty() ? "" : " with cells");
 }
 
 Dof hinge(const Vec3& origin, const Vec3& axis, double lower = -0.4, double upper = 0.6) {
@@ -122,9 +122,9 @@ TEST_CASE("all tests under a margin are found, and none far above it") {
                 const std::vector<double> q = random_table::values(random, table.motion);
                 TableFeatures f;
                 t.features(q.data(), f);
-                const std::uint32_t count = t.under(f, margin, found.data());
+                const std::uint32_t count = t.testsWithin(f, margin, found.data());
                 std::vector<std::uint32_t> same(t.testRoom());
-                REQUIRE(t.under(q.data(), margin, same.data()) == count);
+                REQUIRE(t.testsWithin(q.data(), margin, same.data()) == count);
                 REQUIRE(std::equal(same.begin(), same.begin() + count, found.begin()));
                 std::vector<bool> in(pairs.size());
                 for (std::uint32_t i = 0; i < count; ++i) {
@@ -234,8 +234,8 @@ TEST_CASE("the fold finds the span of a motion by itself") {
     for (const Case& c : cases) {
         CAPTURE(c.name);
         const PreparedTable t(tableOver(c.dofs), {KernelTarget::Best, KernelForm::Fold, {}});
-        CHECK(t.featureCount() == c.features);
-        CHECK(t.hasShared() == c.shared);
+        CHECK(t.kernels().featureCount() == c.features);
+        CHECK(t.kernels().hasShared() == c.shared);
     }
 }
 
@@ -244,7 +244,7 @@ TEST_CASE("a chain of many features takes the direct kernel") {
     const PreparedTable t(
         tableOver({hinge(Vec3(1, 2, 3), x), hinge(Vec3(4, 0, 1), z), hinge(Vec3(0, 1, 0), Vec3::UnitY())}));
     CHECK(t.form() == KernelForm::Direct);
-    CHECK(t.featureCount() == 12);
+    CHECK(t.kernels().featureCount() == 12);
 }
 
 TEST_CASE("float is taken where its band is within a tenth of epsilon, double below") {
@@ -269,7 +269,7 @@ TEST_CASE("the kernels of an empty table never hit") {
         CHECK(t.gap(f).gap > 1e17);
         CHECK(t.gap(f).test == -1);
         std::vector<std::uint32_t> found(t.testRoom());
-        CHECK(t.under(f, 1e3, found.data()) == 0);
+        CHECK(t.testsWithin(f, 1e3, found.data()) == 0);
     }
 }
 

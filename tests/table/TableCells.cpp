@@ -1,4 +1,4 @@
-#include "bake/table/PreparedTable.h"
+#include "bake/table/TableKernels.h"
 #include "tests/table/ExactGap.h"
 #include "tests/table/RandomTable.h"
 
@@ -118,10 +118,10 @@ TEST_CASE("tests that no DOF moves have no cells, and all under a margin are fou
         PrepareOptions options;
         options.cells = use;
         const PreparedTable prepared(table, options);
-        CHECK(prepared.cells().empty());
+        CHECK(prepared.kernels().cells().empty());
         std::vector<std::uint32_t> found(prepared.testRoom());
         const double q = 0.5;
-        CHECK(prepared.under(&q, 2.5, found.data()) == 100);
+        CHECK(prepared.testsWithin(&q, 2.5, found.data()) == 100);
         CHECK_FALSE(prepared.hit(&q));
     }
 }

@@ -1,4 +1,4 @@
-#include "bake/table/PreparedTable.h"
+#include "bake/table/TableKernels.h"
 #include "tests/table/ExactGap.h"
 #include "tests/table/RandomTable.h"
 
@@ -21,7 +21,7 @@ Table clustered(Random& random, std::uint64_t seed) {
 
 std::vector<std::uint32_t> under(const PreparedTable& table, const TableFeatures& f, double margin) {
     std::vector<std::uint32_t> tests(table.testRoom());
-    tests.resize(table.under(f, margin, tests.data()));
+    tests.resize(table.testsWithin(f, margin, tests.data()));
     std::sort(tests.begin(), tests.end());
     return tests;
 }
@@ -42,8 +42,8 @@ TEST_CASE("a table in clusters answers as without them, to the bit, and misses n
             whole.target = apart.target = target;
             whole.cells = CellUse::Never;
             const PreparedTable with(table, apart), without(table, whole);
-            REQUIRE_FALSE(with.clusters().empty());
-            REQUIRE(without.clusters().empty());
+            REQUIRE_FALSE(with.kernels().clusters().empty());
+            REQUIRE(without.kernels().clusters().empty());
             for (int i = 0; i < 150; ++i) {
                 const std::vector<double> q = random_table::values(random, table.motion);
                 TableFeatures f, g;

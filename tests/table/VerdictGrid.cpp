@@ -111,8 +111,8 @@ TEST_CASE("tests under a margin are found whether or not the verdicts already ex
         for (int i = 0; i < 200; ++i) {
             const std::vector<double> q = random_table::values(random, table.motion);
             const double margin = random_table::between(random, 0, 2) * size;
-            const std::uint32_t n = with.under(q.data(), margin, x.data());
-            const std::uint32_t m = without.under(q.data(), margin, y.data());
+            const std::uint32_t n = with.testsWithin(q.data(), margin, x.data());
+            const std::uint32_t m = without.testsWithin(q.data(), margin, y.data());
             none += n == 0;
             some += n > 0;
             // Both may report what is a little beyond; none may leave out what is within.

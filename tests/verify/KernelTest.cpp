@@ -1,5 +1,6 @@
 #include "bake/verify/Kernel.h"
 #include "bake/base/Error.h"
+#include "bake/table/TableKernels.h"
 #include "bake/verify/ClusterProof.h"
 #include "bake/verify/KernelCells.h"
 #include "bake/verify/VerdictProof.h"
@@ -120,7 +121,7 @@ TEST_CASE("clusters made for other spheres are refused, and for the right ones p
         const Motion motion = random_table::motion(random, 4 + int(seed % 3), 1, false);
         const Table table = random_table::table(random, motion, 50, 50, 1);
         const PreparedTable prepared(table);
-        REQUIRE_FALSE(prepared.clusters().empty());
+        REQUIRE_FALSE(prepared.kernels().clusters().empty());
         const KernelVerdict verdict = verifyKernel(table, prepared);
         CAPTURE(verdict.reason);
         REQUIRE(verdict.proven);
@@ -150,9 +151,9 @@ TEST_CASE("cells made for other spheres are refused, and for the right ones prov
         PrepareOptions withCells;
         withCells.cells = CellUse::Always;
         const PreparedTable prepared(table, withCells);
-        if (prepared.cells().empty()) continue;
+        if (prepared.kernels().cells().empty()) continue;
         REQUIRE(verify::refuteCells(table, prepared) == "");
-        const TableCells& cells = prepared.cells();
+        const TableCells& cells = prepared.kernels().cells();
         // As large as some ball on the joint moves within a cell: some cell's word must break.
         double move = 0;
         DofValues speeds{};

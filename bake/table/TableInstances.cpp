@@ -1,4 +1,4 @@
-#include "bake/table/PreparedTable.h"
+#include "bake/table/TableKernels.h"
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@ const T* from(const std::vector<T>& values, std::uint32_t first) {
 
 } // namespace
 
-void PreparedTable::instanceFeatures(const double* q, std::uint32_t count, InstanceFeatures& out) const {
+void TableKernels::instanceFeatures(const double* q, std::uint32_t count, InstanceFeatures& out) const {
     // What is beyond the count is computed and not looked at.
     out.count = count;
     out.stride = (count + vectorRoom - 1) / vectorRoom * vectorRoom;
@@ -41,7 +41,7 @@ void PreparedTable::instanceFeatures(const double* q, std::uint32_t count, Insta
     }
 }
 
-void PreparedTable::hits(const InstanceFeatures& f, std::uint8_t* hit) const {
+void TableKernels::hits(const InstanceFeatures& f, std::uint8_t* hit) const {
     const std::uint32_t whole = f.count / vectorRoom * vectorRoom, rest = f.count - whole;
     const auto run = [&](std::uint32_t first, std::uint32_t count, std::uint8_t* out) {
         if (count == 0) return;
@@ -54,7 +54,7 @@ void PreparedTable::hits(const InstanceFeatures& f, std::uint8_t* hit) const {
     std::copy_n(last, rest, hit + whole);
 }
 
-void PreparedTable::gaps(const InstanceFeatures& f, float* gap, std::int32_t* test) const {
+void TableKernels::gaps(const InstanceFeatures& f, float* gap, std::int32_t* test) const {
     const std::uint32_t whole = f.count / vectorRoom * vectorRoom, rest = f.count - whole;
     const auto run = [&](std::uint32_t first, std::uint32_t count, float* outGap, std::int32_t* outTest) {
         if (count == 0) return;

@@ -10,7 +10,7 @@ namespace tss {
 /// (METHOD 4): d^2 = constants + weights * features + shared. Features are products of one factor a DOF
 /// (DofFactor), less their values where the bodies are near contact; a feature that weighs the same in every
 /// pair (|t|^2 of a slide) is in `shared`.
-struct Fold {
+struct FeatureForm {
     static constexpr int maxDofs = 3;      ///< 3^d products: beyond, the direct kernel is the cheaper one
     static constexpr int maxFeatures = 10; ///< likewise (METHOD 4, two kernels)
 
@@ -44,12 +44,12 @@ struct Fold {
 
 /// The fold of pairs over a motion, or nothing where there is none that pays: paths, too many DOFs, more
 /// than maxFeatures features. `contacts`: poses near contact, to centre features at; may be empty.
-std::optional<Fold> makeFold(const Motion& motion, std::span<const TablePair> pairs,
-                             std::span<const std::vector<double>> contacts);
+std::optional<FeatureForm> makeFeatureForm(const Motion& motion, std::span<const TablePair> pairs,
+                                           std::span<const std::vector<double>> contacts);
 
 /// The largest difference of the fold's squared distances from T(q)'s over some poses (METHOD 4: check
 /// against T(q)).
-double foldMismatch(const Fold& fold, const Motion& motion, std::span<const TablePair> pairs,
+double foldMismatch(const FeatureForm& fold, const Motion& motion, std::span<const TablePair> pairs,
                     std::span<const std::vector<double>> poses);
 
 } // namespace tss

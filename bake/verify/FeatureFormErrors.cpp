@@ -1,3 +1,4 @@
+#include "bake/table/TableKernels.h"
 #include "bake/verify/KernelErrors.h"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ std::pair<Real, Real> factorRange(const Dof& dof, int which) {
 }
 
 /// Which of the 3^#DOFs products of factors a feature is.
-std::size_t productOf(const Fold::Feature& feature, std::size_t dofs) {
+std::size_t productOf(const FeatureForm::Feature& feature, std::size_t dofs) {
     std::size_t index = 0;
     for (std::size_t k = dofs; k-- > 0;) index = 3 * index + feature.factor[k];
     return index;
@@ -77,8 +78,9 @@ std::vector<std::vector<Real>> exactProducts(const Motion& motion, const std::ve
 
 } // namespace
 
-FoldErrors::FoldErrors(const Table& table, const PreparedTable& prepared, const std::vector<Exact>& tests)
-    : prepared_(prepared), fold_(*prepared.fold()),
+FeatureFormErrors::FeatureFormErrors(const Table& table, const PreparedTable& prepared,
+                                     const std::vector<Exact>& tests)
+    : prepared_(prepared), fold_(*prepared.kernels().fold()),
       u_(prepared.precision() == KernelPrecision::Float ? 0x1p-24 : 0x1p-53),
       exact_(exactProducts(table.motion, tests, farthest_)) {
     const std::size_t dofs = table.motion.dofCount();
@@ -93,11 +95,11 @@ FoldErrors::FoldErrors(const Table& table, const PreparedTable& prepared, const 
         }
         ranges_.push_back(range);
     }
-    for (const Fold::Feature& f : fold_.features) columns_.push_back(productOf(f, dofs));
-    for (const Fold::Feature& f : fold_.sharedFeatures) sharedColumns_.push_back(productOf(f, dofs));
+    for (const FeatureForm::Feature& f : fold_.features) columns_.push_back(productOf(f, dofs));
+    for (const FeatureForm::Feature& f : fold_.sharedFeatures) sharedColumns_.push_back(productOf(f, dofs));
 }
 
-PairErrors FoldErrors::of(std::size_t pair, const Exact& test) const {
+PairErrors FeatureFormErrors::of(std::size_t pair, const Exact& test) const {
     const StoredRow row(prepared_, pair);
     std::vector<Real> left = exact_[pair]; // the exact weights less what is stored
     Real constant = left[0];               // the exact constant where features count from their centres
@@ -106,7 +108,7 @@ PairErrors FoldErrors::of(std::size_t pair, const Exact& test) const {
     // Features are made in double from factors good to a few units in the last place.
     constexpr Real make = 16 * 0x1p-53L;
     Real making = 0;
-    const auto use = [&](const Fold::Feature& f, std::size_t column, double weight) {
+    const auto use = [&](const FeatureForm::Feature& f, std::size_t column, double weight) {
         const Real centre = f.centre;
         const Real range = std::max(ranges_[column].second - centre, centre - ranges_[column].first);
         constant += left[column] * centre;
@@ -135,7 +137,7 @@ PairErrors FoldErrors::of(std::size_t pair, const Exact& test) const {
     const double fixed = double((away + making) * (1 + 1e-9L));
     double sum = rounding(row[0], products, shared, 0);
     sum = rounding(row[0], products, shared, 2 * (sum + std::abs(off) + fixed));
-    const double farthest = test.reach + prepared_.margin();
+    const double farthest = test.reach + prepared_.kernels().margin();
     const double whole = std::abs(double(Real(row.fromEnd(3)) - constant)) + fixed +
                          rounding(row.fromEnd(3), products, shared, farthest * farthest);
     return {{off - fixed - sum, off + fixed + sum}, whole};
@@ -144,8 +146,8 @@ PairErrors FoldErrors::of(std::size_t pair, const Exact& test) const {
 /// Rounding of constant + sum of products, compared with the shared term, where the exact result is at
 /// most `result`: each feature rounds once, each product once, each sum once; no partial sum is larger
 /// than what was added before, nor than the result and what is still to come.
-double FoldErrors::rounding(double constant, const std::vector<double>& products, double shared,
-                            double result) const {
+double FeatureFormErrors::rounding(double constant, const std::vector<double>& products, double shared,
+                                   double result) const {
     double after = shared;
     for (double p : products) after += p;
     double error = 0, before = std::abs(constant);

@@ -1,4 +1,4 @@
-#include "bake/table/Fold.h"
+#include "bake/table/FeatureForm.h"
 
 #include "bake/table/RoundingBand.h"
 
@@ -54,7 +54,7 @@ RealPoint moved(const Motion& motion, const std::vector<Real>& q, const Vec3& y)
 /// All products of factors, their weights in every pair, found from 3 poses a DOF: d^2 is linear in each
 /// DOF's (1, first, second) with the others held.
 struct Products {
-    std::vector<Fold::Feature> features;
+    std::vector<FeatureForm::Feature> features;
     std::vector<Interval> ranges;
     Eigen::MatrixXd weights; ///< #pairs by #features, the first of them the constant
     Eigen::VectorXd off;     ///< #pairs: by how much all of them together may be off
@@ -93,7 +93,7 @@ Products allProducts(const Motion& motion, std::span<const TablePair> pairs,
                                                                 count);
     for (int i = 0; i < count; ++i) {
         std::vector<Real> q;
-        Fold::Feature feature;
+        FeatureForm::Feature feature;
         Interval range;
         for (int k = 0, rest = i; k < d; ++k, rest /= 3) {
             const int which = rest % 3;
@@ -132,7 +132,7 @@ Products allProducts(const Motion& motion, std::span<const TablePair> pairs,
 
 /// The value of a product of factors of D DOFs.
 template <std::size_t D>
-double product(const Fold::Feature& feature, const double (*u)[3]) {
+double product(const FeatureForm::Feature& feature, const double (*u)[3]) {
     if constexpr (D == 0) return 1;
     double value = u[0][feature.factor[0]];
     for (std::size_t k = 1; k < D; ++k) value *= u[k][feature.factor[k]];
@@ -147,14 +147,14 @@ void factorsAt(const std::vector<DofFactor>& factors, const double* q, double (*
 }
 
 /// Moves the features' zero to their mean over the contact poses.
-void centre(Fold& fold, const std::vector<Interval>& ranges, const std::vector<Interval>& sharedRanges,
+void centre(FeatureForm& fold, const std::vector<Interval>& ranges, const std::vector<Interval>& sharedRanges,
             std::span<const std::vector<double>> contacts) {
-    double u[Fold::maxDofs][3] = {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}};
-    const auto settle = [&](Fold::Feature& f, const Interval& range) {
+    double u[FeatureForm::maxDofs][3] = {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}};
+    const auto settle = [&](FeatureForm::Feature& f, const Interval& range) {
         double sum = 0;
         for (const std::vector<double>& q : contacts) {
             factorsAt(fold.factors, q.data(), u);
-            sum += product<Fold::maxDofs>(f, u);
+            sum += product<FeatureForm::maxDofs>(f, u);
         }
         f.centre = contacts.empty() ? 0 : std::clamp(sum / double(contacts.size()), range.low, range.high);
         f.range = std::max(range.high - f.centre, f.centre - range.low);
@@ -170,7 +170,7 @@ void centre(Fold& fold, const std::vector<Interval>& ranges, const std::vector<I
 }
 
 /// The constants are sums in double, and lose the squared reach.
-void addConstantErrors(Fold& fold, std::span<const TablePair> pairs) {
+void addConstantErrors(FeatureForm& fold, std::span<const TablePair> pairs) {
     for (Eigen::Index p = 0; p < fold.constants.size(); ++p) {
         double sum = std::abs(fold.constants[p]) + pairs[std::size_t(p)].reach * pairs[std::size_t(p)].reach;
         for (std::size_t k = 0; k < fold.features.size(); ++k)
@@ -182,7 +182,7 @@ void addConstantErrors(Fold& fold, std::span<const TablePair> pairs) {
     }
 }
 
-std::vector<double> products(const Fold& fold, Eigen::Index pair) {
+std::vector<double> products(const FeatureForm& fold, Eigen::Index pair) {
     std::vector<double> c;
     for (Eigen::Index k = 0; k < fold.weights.cols(); ++k)
         c.push_back(std::abs(fold.weights(pair, k)) * fold.features[std::size_t(k)].range);
@@ -192,7 +192,7 @@ std::vector<double> products(const Fold& fold, Eigen::Index pair) {
 
 } // namespace
 
-double Fold::sharedRange() const {
+double FeatureForm::sharedRange() const {
     double range = 0;
     for (std::size_t k = 0; k < sharedFeatures.size(); ++k)
         range += std::abs(sharedWeights[k]) * sharedFeatures[k].range;
@@ -200,7 +200,7 @@ double Fold::sharedRange() const {
 }
 
 template <class T>
-void Fold::evaluate(const double* q, T* out) const {
+void FeatureForm::evaluate(const double* q, T* out) const {
     double u[maxDofs][3];
     factorsAt(factors, q, u);
     // Numbers of DOFs are few: a loop of known length for each.
@@ -224,26 +224,26 @@ void Fold::evaluate(const double* q, T* out) const {
         return fill(std::integral_constant<std::size_t, 3>());
     }
 }
-template void Fold::evaluate(const double*, float*) const;
-template void Fold::evaluate(const double*, double*) const;
+template void FeatureForm::evaluate(const double*, float*) const;
+template void FeatureForm::evaluate(const double*, double*) const;
 
-double Fold::signError(double u, Eigen::Index pair, double reach) const {
+double FeatureForm::signError(double u, Eigen::Index pair, double reach) const {
     const double constant = constants(pair) - reach * std::abs(reach);
     const std::vector<double> c = products(*this, pair);
     const double error = sumError(u, constant, c, 0);
     return sumError(u, constant, c, 4 * error) + dropped(pair);
 }
 
-double Fold::squareError(double u, Eigen::Index pair, double distance) const {
+double FeatureForm::squareError(double u, Eigen::Index pair, double distance) const {
     return sumError(u, constants(pair), products(*this, pair), distance * distance) + dropped(pair);
 }
 
-std::optional<Fold> makeFold(const Motion& motion, std::span<const TablePair> pairs,
-                             std::span<const std::vector<double>> contacts) {
-    if (motion.dofCount() > Fold::maxDofs) return std::nullopt;
+std::optional<FeatureForm> makeFeatureForm(const Motion& motion, std::span<const TablePair> pairs,
+                                           std::span<const std::vector<double>> contacts) {
+    if (motion.dofCount() > FeatureForm::maxDofs) return std::nullopt;
     for (const Dof& dof : motion.dofs)
         if (dof.kind == DofKind::Path) return std::nullopt;
-    Fold fold;
+    FeatureForm fold;
     for (const Dof& dof : motion.dofs) fold.factors.push_back(dofFactor(dof));
     const Products all = allProducts(motion, pairs, fold.factors);
     fold.constants = all.weights.col(0);
@@ -282,7 +282,7 @@ std::optional<Fold> makeFold(const Motion& motion, std::span<const TablePair> pa
         fold.features.push_back(all.features[std::size_t(k)]);
         ranges.push_back(all.ranges[std::size_t(k)]);
     }
-    if (static_cast<int>(columns.size()) > Fold::maxFeatures) return std::nullopt;
+    if (static_cast<int>(columns.size()) > FeatureForm::maxFeatures) return std::nullopt;
     fold.weights.resize(fold.constants.size(), Eigen::Index(columns.size()));
     for (std::size_t k = 0; k < columns.size(); ++k)
         fold.weights.col(Eigen::Index(k)) = all.weights.col(columns[k]);
@@ -291,7 +291,7 @@ std::optional<Fold> makeFold(const Motion& motion, std::span<const TablePair> pa
     return fold;
 }
 
-double foldMismatch(const Fold& fold, const Motion& motion, std::span<const TablePair> pairs,
+double foldMismatch(const FeatureForm& fold, const Motion& motion, std::span<const TablePair> pairs,
                     std::span<const std::vector<double>> poses) {
     double most = 0;
     Eigen::VectorXd values(Eigen::Index(fold.features.size()) + 1);

@@ -1,0 +1,332 @@
+#include "bake/table/TableKernels.h"
+
+#include "bake/base/Error.h"
+#include "bake/table/RoundingBand.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace tss {
+
+namespace {
+
+/// What stands for a pair that is none: never under a margin, farther than any other.
+constexpr double farOffset = 3e37, farReach = -1e18;
+
+/// Cells pay for more blocks than this, where a query looks at this share of them on average, at most; of
+/// more tests than that they would be too few.
+constexpr std::uint32_t fewBlocks = 4;
+/// Clusters, over more DOFs than cells are good for, pay for more blocks than this.
+constexpr std::uint32_t fewClustered = 32;
+constexpr std::size_t mostDofsOfCells = 3;
+constexpr double mostLooked = 0.6;
+constexpr std::size_t mostTests = 1 << 16;
+
+/// Poses at which the bodies are nearest to touching: a twentieth of a lattice over the limits.
+std::vector<std::vector<double>> nearContact(const Motion& motion, const std::vector<TablePair>& pairs) {
+    const int count = std::clamp(static_cast<int>(1000000 / (pairs.size() + 1)), 64, 2000);
+    const std::vector<std::vector<double>> poses = latticePoses(motion, count);
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const Pose at = pose(motion, poses[i]);
+        double least = std::numeric_limits<double>::infinity();
+        for (const TablePair& p : pairs) least = std::min(least, centreDistance(p, at) - p.reach);
+        order.push_back({std::abs(least), i});
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<std::vector<double>> contacts;
+    for (std::size_t i = 0; i < order.size() / 20 + 1; ++i) contacts.push_back(poses[order[i].second]);
+    return contacts;
+}
+
+/// Error of a squared distance as roundoffs of the squared reach.
+double conditionOf(double u, double error, double reach) {
+    return reach != 0 ? error / (u * reach * reach) : std::numeric_limits<double>::infinity();
+}
+
+template <class T>
+T* column(T* block, std::uint32_t lanes, std::uint32_t k) {
+    return block + std::size_t(k) * lanes;
+}
+
+} // namespace
+
+TableKernels::TableKernels(const Table& table, const PrepareOptions& options)
+    : motion_(table.motion), pairs_(tablePairs(table)), epsilon_(table.epsilon), depth_(table.gapDepth),
+      margin_(table.gapMargin), early_(table.boundEarly) {
+    if (!available(options.target))
+        throw InputError("kernel '" + std::string(name(options.target)) +
+                         "': expected one that this build and this processor have");
+    target_ = options.target == KernelTarget::Best ? bestTarget() : options.target;
+    if (motion_.dofCount() > maxDofs)
+        throw InputError("table: expected at most " + std::to_string(maxDofs) + " DOFs");
+
+    const std::vector<std::vector<double>> contacts = nearContact(motion_, pairs_);
+    // Both origins where the touching is, so that t and the centres are small there.
+    for (const TablePair& p : pairs_) originB_ += p.b / double(pairs_.size());
+    for (const std::vector<double>& q : contacts)
+        originA_ += pose(motion_, q) * originB_ / double(contacts.size());
+    MotionFrame middle;
+    DofValues q{}, speeds{}, way{};
+    for (std::size_t k = 0; k < motion_.dofCount(); ++k)
+        q[k] = motion_.dofs[k].lower + 0.5 * (motion_.dofs[k].upper - motion_.dofs[k].lower);
+    evaluateFrame(motion_, q.data(), way.data(), middle);
+    speedBounds(motion_, originB_, speeds.data());
+    farthestT_ = (middle.pose * originB_ - originA_).norm();
+    for (std::size_t k = 0; k < motion_.dofCount(); ++k)
+        farthestT_ += 0.5 * speeds[k] * (motion_.dofs[k].upper - motion_.dofs[k].lower);
+    recipe_ = PoseRecipe(motion_, originA_, originB_);
+    double reach = std::max(originA_.norm(), originB_.norm());
+    for (const TablePair& p : pairs_) reach = std::max({reach, p.a.norm(), p.b.norm()});
+    poseError_ = std::max(poseError(motion_, doubleRoundoff, reach), options.poseError);
+
+    if (options.form != KernelForm::Direct) {
+        fold_ = makeFeatureForm(motion_, pairs_, contacts);
+        if (fold_ && !pairs_.empty()) {
+            // Features centred near contact round better, unless that leaves their far end too far away.
+            const double centred = foldBands(floatRoundoff).sign;
+            std::optional<FeatureForm> plain = makeFeatureForm(motion_, pairs_, {});
+            std::swap(fold_, plain);
+            if (foldBands(floatRoundoff).sign >= centred) std::swap(fold_, plain);
+            double largest = 0;
+            const std::vector<std::vector<double>> poses = latticePoses(motion_, 50);
+            for (const std::vector<double>& at : poses) {
+                const Pose p = pose(motion_, at);
+                for (const TablePair& pair : pairs_)
+                    largest = std::max(largest, (p * pair.b - pair.a).squaredNorm());
+            }
+            if (!(foldMismatch(*fold_, motion_, pairs_, poses) <= 1e-11 * largest)) fold_.reset();
+        }
+    }
+    for (const TablePair& p : pairs_)
+        contactTests_.push_back({{p.a.x(), p.a.y(), p.a.z(), 1},
+                                 {p.b.x(), p.b.y(), p.b.z(), 1},
+                                 p.reach,
+                                 0.5 * (p.radiusA - p.radiusB)});
+    choose(options);
+    if (float_)
+        prepareKernels<float>(options.cells);
+    else
+        prepareKernels<double>(options.cells);
+}
+
+void TableKernels::Bands::widen(double u, double error, double reach) {
+    // A little more, for the rounding of the widened constant itself.
+    widening.push_back(1.001 * error);
+    sign = std::max(sign, tss::signBand(2.002 * error, reach));
+    condition = std::max(condition, conditionOf(u, error, reach));
+}
+
+TableKernels::Bands TableKernels::foldBands(double u) const {
+    Bands bands;
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+        const double reach = pairs_[p].reach;
+        bands.widen(u, fold_->signError(u, Eigen::Index(p), reach), reach);
+        for (double gap : {-depth_, 0.0, margin_}) {
+            const double error = fold_->squareError(u, Eigen::Index(p), std::max(0.0, reach + gap));
+            bands.gap = std::max(bands.gap, tss::gapBand(u, error, reach, gap));
+        }
+    }
+    return bands;
+}
+
+TableKernels::Bands TableKernels::directBands(double u, std::span<const TablePair> pairs) const {
+    Bands bands;
+    for (const TablePair& p : pairs) {
+        const double a = (p.a - originA_).norm(), b = (p.b - originB_).norm();
+        // The pose is worked out in double, whatever reads it.
+        const auto posed = [&](double distance) {
+            return (2 * (distance + poseError_) + poseError_) * poseError_;
+        };
+        const double sign =
+            directError(u, a, b, farthestT_, std::abs(p.reach), p.reach) + posed(std::abs(p.reach));
+        bands.widen(u, sign, p.reach);
+        for (double gap : {-depth_, 0.0, margin_}) {
+            const double distance = std::max(0.0, p.reach + gap);
+            const double error = directError(u, a, b, farthestT_, distance, p.reach) + posed(distance);
+            bands.gap = std::max(bands.gap, tss::gapBand(u, error, p.reach, gap));
+        }
+    }
+    return bands;
+}
+
+void TableKernels::choose(const PrepareOptions& options) {
+    if (options.form == KernelForm::Fold && !fold_)
+        throw InputError("kernel: expected a motion that folds: no path, at most 3 DOFs, few features");
+    // A lossless table has no epsilon to hide rounding in. Rounding misses nothing (Bands::widen), and
+    // reports early by a band that is stated and kept far below what the spheres themselves are early by.
+    double allowed = 0.1 * epsilon_;
+    if (epsilon_ == 0) {
+        allowed = std::numeric_limits<double>::infinity();
+        for (const TablePair& p : pairs_) allowed = std::min(allowed, 1e-4 * (p.radiusA + p.radiusB));
+        allowed = std::max(allowed, 0.01 * early_);
+    }
+    struct Choice {
+        KernelForm form;
+        bool single;
+    };
+    const Choice order[] = {{KernelForm::Fold, true},
+                            {KernelForm::Direct, true},
+                            {KernelForm::Fold, false},
+                            {KernelForm::Direct, false}};
+    bool any = false;
+    Bands bands;
+    for (const Choice& choice : order) {
+        if (choice.form == KernelForm::Fold && !fold_) continue;
+        if (options.form && *options.form != choice.form) continue;
+        if (options.precision && (*options.precision == KernelPrecision::Float) != choice.single) continue;
+        // Features are made in double: rounded to float once, but some times over in double itself.
+        const double u = choice.single ? floatRoundoff : 8 * doubleRoundoff;
+        Bands here = choice.form == KernelForm::Fold ? foldBands(u) : directBands(u, pairs_);
+        if (any && !(here.sign < bands.sign)) continue;
+        any = true;
+        bands = std::move(here);
+        form_ = choice.form;
+        float_ = choice.single;
+        if (std::max(bands.sign, bands.gap) <= allowed) break;
+    }
+    signBand_ = bands.sign;
+    gapBand_ = bands.gap;
+    condition_ = bands.condition;
+    widening_ = std::move(bands.widening);
+    if (form_ == KernelForm::Direct) fold_.reset();
+}
+
+template <class T>
+void TableKernels::fill(const Widened& rows, std::uint32_t lanes, std::span<const std::uint32_t> order,
+                        std::vector<Chunk>& store, KernelData& data) const {
+    using Number = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+    data.columns = fold_ ? std::uint32_t(fold_->features.size()) : 0;
+    const std::uint32_t columns = fold_ ? foldColumns(data.columns) : directColumns;
+    const std::size_t count = std::max<std::size_t>(1, (rows.pairs.size() + lanes - 1) / lanes);
+    const std::size_t step = std::size_t(columns) * lanes;
+    store.assign((count * step * sizeof(T) + sizeof(Chunk) - 1) / sizeof(Chunk), Chunk{});
+    T* blocks = reinterpret_cast<T*>(store.data());
+    data.blocks = blocks;
+    data.end = blocks + count * step;
+    for (std::size_t place = 0; place < count * lanes; ++place) {
+        T* block = blocks + place / lanes * step + place % lanes;
+        const bool real = place < rows.pairs.size();
+        const std::size_t i = real && !order.empty() ? order[place] : place;
+        const double reach = real ? rows.pairs[i].reach : farReach;
+        *column(block, lanes, columns - 1) = std::bit_cast<T>(real ? Number(i) : Number(-1));
+        *column(block, lanes, columns - 2) = T(reach);
+        if (fold_) {
+            const double constant = real ? fold_->constants(Eigen::Index(i)) : 0;
+            block[0] = T(real ? constant - reach * std::abs(reach) - rows.by[i] : farOffset);
+            for (std::uint32_t k = 0; k < data.columns && real; ++k)
+                *column(block, lanes, k + 1) = T(fold_->weights(Eigen::Index(i), k));
+            *column(block, lanes, columns - 3) = T(constant);
+            continue;
+        }
+        for (int k = 0; k < 3 && real; ++k) {
+            *column(block, lanes, std::uint32_t(k)) = T(rows.pairs[i].b[k] - originB_[k]);
+            *column(block, lanes, std::uint32_t(k) + 3) = T(rows.pairs[i].a[k] - originA_[k]);
+        }
+        *column(block, lanes, columns - 3) = T(real ? reach * std::abs(reach) + rows.by[i] : -farOffset);
+    }
+}
+
+void TableKernels::makeCells(CellUse use) {
+    if (use == CellUse::Never || pairs_.empty()) return;
+    const std::size_t blocks = (pairs_.size() + kernels_.lanes - 1) / kernels_.lanes;
+    if (use == CellUse::Auto && !fold_ && motion_.dofCount() > mostDofsOfCells && blocks > fewClustered) {
+        clusters_ = TableClusters(pairs_, kernels_.lanes);
+        return;
+    }
+    // To look up a cell costs as much as a few blocks.
+    const std::size_t least = std::size_t(fewBlocks) * kernels_.lanes;
+    if (use == CellUse::Auto && (pairs_.size() <= least || pairs_.size() > mostTests)) return;
+    TableCells cells(motion_, pairs_, kernels_.lanes);
+    if (use == CellUse::Always || cells.looked() <= mostLooked) cells_ = std::move(cells);
+}
+
+template <class T>
+void TableKernels::fillClusters() {
+    const double u = float_ ? floatRoundoff : 8 * doubleRoundoff;
+    const auto fillBounds = [&](std::span<const TablePair> pairs, std::vector<Chunk>& store, KernelData& data,
+                                std::vector<Chunk>& rowStore, KernelData& rows) {
+        const Bands bands = directBands(u, pairs);
+        clusterBand_ = std::max({clusterBand_, bands.sign, bands.gap});
+        fill<T>({pairs, bands.widening}, kernels_.lanes, {}, store, data);
+        fill<T>({pairs, bands.widening}, 1, {}, rowStore, rows);
+    };
+    fillBounds(clusters_.bounds(), clusterStore_, clusterData_, clusterRowStore_, clusterRows_);
+    fillBounds(clusters_.groups(), groupStore_, groupData_, groupRowStore_, groupRows_);
+}
+
+template <class T>
+void TableKernels::prepareKernels(CellUse use) {
+    kernels_ = fold_ ? foldKernels<T>(target_, std::uint32_t(fold_->features.size()), motion_.dofCount())
+                     : directKernels<T>(target_);
+    if (fold_)
+        plan_ = PosePlan(*fold_);
+    else if (recipe_.affine())
+        plan_ = PosePlan(recipe_);
+    else
+        kernels_.pose = nullptr, kernels_.poses = nullptr;
+    makeCells(use);
+    const Widened tests{pairs_, widening_};
+    fill<T>(tests, kernels_.lanes, clusters_.empty() ? cells_.order() : clusters_.order(), blocks_, data_);
+    fill<T>(tests, 1, {}, rowStore_, rows_);
+    if (!clusters_.empty()) fillClusters<T>();
+    room_ = std::max<std::size_t>(1, (pairs_.size() + kernels_.lanes - 1) / kernels_.lanes) * kernels_.lanes;
+}
+
+std::size_t TableKernels::bytes() const {
+    return (blocks_.size() + clusterStore_.size() + groupStore_.size()) * sizeof(Chunk) + cells_.bytes();
+}
+
+void TableKernels::features(const double* q, TableFeatures& out) const {
+    if (!cells_.empty()) out.cell = cells_.rowAt(q);
+    poseFeatures(q, out);
+}
+
+void TableKernels::features(const PoseRecipe::Matrix& pose, TableFeatures& out) const {
+    PoseRecipe::Matrix moved = pose;
+    for (int r = 0; r < 3; ++r)
+        moved[4 * r + 3] += pose[4 * r] * originB_.x() + pose[4 * r + 1] * originB_.y() +
+                            pose[4 * r + 2] * originB_.z() - originA_[r];
+    storePose(moved, out);
+}
+
+bool TableKernels::hit(const double* q) const {
+    std::uint32_t cell = 0;
+    if (!cells_.empty()) {
+        cell = cells_.rowAt(q);
+        const bool all = cells_.allTouch(cell);
+        if (static_cast<int>(all) | static_cast<int>(cells_.noneTouches(cell))) return all;
+    }
+    TableFeatures f;
+    f.cell = cell;
+    poseFeatures(q, f);
+    return hit(f);
+}
+
+void TableKernels::poseFeatures(const double* q, TableFeatures& out) const {
+    if (kernels_.pose) return kernels_.pose(plan_, q, out.doubles);
+    if (fold_) {
+        if (float_)
+            fold_->evaluate(q, out.floats);
+        else
+            fold_->evaluate(q, out.doubles);
+        return;
+    }
+    PoseRecipe::Matrix values;
+    recipe_.evaluate(q, values.data());
+    storePose(values, out);
+}
+
+void TableKernels::storePose(const PoseRecipe::Matrix& pose, TableFeatures& out) const {
+    if (float_) {
+        out.floats[0] = 0;
+        for (std::size_t k = 0; k < pose.size(); ++k) out.floats[k + 1] = float(pose[k]);
+    } else {
+        out.doubles[0] = 0;
+        for (std::size_t k = 0; k < pose.size(); ++k) out.doubles[k + 1] = pose[k];
+    }
+}
+
+} // namespace tss

@@ -1,0 +1,193 @@
+#pragma once
+#include "bake/table/Contact.h"
+#include "bake/table/Kernels.h"
+#include "bake/table/PosePlan.h"
+#include "bake/table/PreparedTable.h"
+#include "bake/table/TableCells.h"
+#include "bake/table/TableClusters.h"
+
+#include <optional>
+
+namespace tss {
+
+/// What a PreparedTable asks where the values of the DOFs alone do not tell: the tests as the kernels read
+/// them, how rounding was answered for, and what leaves tests out. Its queries are those of PreparedTable,
+/// which says what they promise.
+class TableKernels {
+public:
+    /// Throws InputError where the options ask for what this table, build or processor does not have.
+    TableKernels(const Table& table, const PrepareOptions& options);
+    TableKernels(const TableKernels&) = delete;
+    TableKernels& operator=(const TableKernels&) = delete;
+
+    /// Features of a pose. q: one finite value a DOF, within the limits.
+    void features(const double* q, TableFeatures& out) const;
+    /// The same from the pose, B to A, 3 by 4, row-major, rotation first: of the direct form without cells
+    /// only.
+    void features(const PoseRecipe::Matrix& pose, TableFeatures& out) const;
+
+    /// Some test touches. Never false where a gap is <= 0, and true only where one is <= signBand(): the
+    /// kernels reach further by what they may round.
+    bool hit(const TableFeatures& f) const {
+        if (cells_.empty()) return clusters_.empty() ? kernels_.hit(data_, f.doubles) : hitInClusters(f);
+        if (cells_.allTouch(f.cell)) return true;
+        return kernels_.hitNear(data_, f.doubles, cells_.under(f.cell, TableCells::contactCode));
+    }
+
+    /// The same from the values themselves, where the verdict cells do not tell.
+    bool hit(const double* q) const;
+
+    /// The smallest gap, within gapBand() for gaps up to the table's margin, and its test.
+    TableGap gap(const TableFeatures& f) const {
+        const KernelGap g = nearest(f);
+        return {g.gap, g.test};
+    }
+
+    /// The smallest gap with point, normal and gradient; `frame` is frame(q) of the same pose. Of the
+    /// gradient dofCount() values are written. For an empty table only gap (infinity) and test (-1) mean
+    /// anything.
+    void contact(const TableFeatures& f, const MotionFrame& frame, TableContact& out) const;
+
+    /// T(q) and how each DOF moves B from there, for `contact`.
+    void frame(const double* q, MotionFrame& out) const;
+
+    /// Numbers of all tests whose gap may be at most margin (>= 0; none is missed within the band), always in
+    /// the same order. out: room for testRoom() numbers. Returns how many.
+    std::uint32_t testsWithin(const TableFeatures& f, double margin, std::uint32_t* out) const;
+
+    /// The same from the values themselves, without features where the cell of q has no test to be asked.
+    std::uint32_t testsWithin(const double* q, double margin, std::uint32_t* out) const;
+
+    /// Many instances at once. q: count rows of one value a DOF. Allocates when `out` has to grow.
+    void instanceFeatures(const double* q, std::uint32_t count, InstanceFeatures& out) const;
+    /// hit[i] = 1 where instance i touches, else 0. hit: room for f.count.
+    void hits(const InstanceFeatures& f, std::uint8_t* hit) const;
+    /// Smallest gap and its test of every instance.
+    void gaps(const InstanceFeatures& f, float* gap, std::int32_t* test) const;
+
+    /// What tests are compared with where gaps up to the margin are asked for.
+    double reachOf(double margin) const;
+
+    std::size_t testCount() const { return pairs_.size(); }
+    std::size_t testRoom() const { return room_; }
+    std::size_t dofCount() const { return motion_.dofCount(); }
+    const Motion& motion() const { return motion_; }
+    std::span<const TablePair> pairs() const { return pairs_; }
+    const TableCells& cells() const { return cells_; } ///< empty where they do not pay
+    const TableClusters& clusters() const {
+        return clusters_;
+    } ///< empty for few tests and where there are cells
+
+    KernelForm form() const { return form_; }
+    KernelPrecision precision() const { return float_ ? KernelPrecision::Float : KernelPrecision::Double; }
+    KernelTarget target() const { return target_; }
+    /// Features a pose has: columns without the constant and the shared term; 12 for direct.
+    std::size_t featureCount() const { return fold_ ? fold_->features.size() : 12; }
+    bool hasShared() const { return fold_ && !fold_->sharedFeatures.empty(); }
+    std::size_t bytes() const; ///< of what a query reads
+
+    /// `hit` is false wherever the table's gap is larger than this, scene units, and true wherever it is <=
+    /// 0.
+    double signBand() const { return signBand_; }
+    /// `gap` is off by no more than this for gaps down to -depth and up to margin of the table.
+    double gapBand() const { return gapBand_; }
+    /// Condition of the worst test with this form of kernel: by how many roundoffs of its squared reach the
+    /// squared distance may be off near contact. Infinite where a reach is 0.
+    double condition() const { return condition_; }
+
+    /// For those who check it (verify): the band in which gaps are right, and what the kernels read.
+    double depth() const { return depth_; }
+    double margin() const { return margin_; }
+    const std::optional<FeatureForm>& fold() const { return fold_; } ///< nothing for the direct form
+    const KernelData& rows() const { return rows_; }                 ///< one pair after the other
+    const KernelData& blocks() const { return data_; }               ///< the same in blocks of lanes()
+    /// Bounds of clusters and of groups of clusters, one after the other and in blocks of lanes().
+    struct BoundRows {
+        const KernelData &rows, &blocks;
+    };
+    BoundRows clusterBounds() const { return {clusterRows_, clusterData_}; }
+    BoundRows groupBounds() const { return {groupRows_, groupData_}; }
+    std::uint32_t lanes() const { return kernels_.lanes; }
+    const Vec3& originA() const { return originA_; }
+    const Vec3& originB() const { return originB_; }
+    double farthestT() const { return farthestT_; } ///< bound of |T(q) originB - originA|
+
+private:
+    struct alignas(64) Chunk {
+        std::array<std::byte, 64> bytes;
+    };
+    struct Bands {
+        double sign = 0, gap = 0, condition = 0;
+        std::vector<double>
+            widening; ///< per test: what its squared reach gains, so that rounding misses nothing
+        void widen(double u, double error, double reach);
+    };
+
+    KernelGap nearest(const TableFeatures& f) const {
+        if (cells_.empty()) return clusters_.empty() ? kernels_.gap(data_, f.doubles) : nearestInClusters(f);
+        const std::uint8_t reached = cells_.reachedCode(f.cell);
+        return reached == TableCells::farCode
+                   ? kernels_.gap(data_, f.doubles)
+                   : kernels_.gapNear(data_, f.doubles, cells_.under(f.cell, reached));
+    }
+    /// Some whole blocks of rows.
+    KernelData blocksOf(const KernelData& data, std::size_t rowsEach, std::uint32_t part) const;
+    KernelData clustersOf(std::uint32_t group) const;
+    KernelData testsOf(std::uint32_t cluster) const;
+    /// Calls take(cluster) for each that may have a test under the margin, until it returns true. The margin
+    /// may become smaller in between.
+    template <class Take>
+    void eachNearCluster(const TableFeatures& f, const double& margin, Take take) const;
+    bool hitInClusters(const TableFeatures& f) const;
+    KernelGap nearestInClusters(const TableFeatures& f) const;
+    std::uint32_t testsInClusters(const TableFeatures& f, double margin, double wide,
+                                  std::uint32_t* out) const;
+    /// What the bounds of clusters are compared with where gaps of tests up to the margin are asked for.
+    double clusterReachOf(double margin) const;
+    void poseFeatures(const double* q, TableFeatures& out) const;
+    void storePose(const PoseRecipe::Matrix& pose, TableFeatures& out) const;
+    Bands foldBands(double u) const;
+    Bands directBands(double u, std::span<const TablePair> pairs) const;
+    void choose(const PrepareOptions& options);
+    /// Pairs and by how much their squared reaches are widened.
+    struct Widened {
+        std::span<const TablePair> pairs;
+        std::span<const double> by;
+    };
+    template <class T>
+    void fill(const Widened& rows, std::uint32_t lanes, std::span<const std::uint32_t> order,
+              std::vector<Chunk>& store, KernelData& data) const;
+    template <class T>
+    void prepareKernels(CellUse use);
+    void makeCells(CellUse use);
+    template <class T>
+    void fillClusters();
+
+    Motion motion_;
+    std::vector<TablePair> pairs_;
+    std::vector<ContactTest> contactTests_;
+    double epsilon_ = 0, depth_ = 0, margin_ = 0, early_ = 0;
+    Vec3 originA_ = Vec3::Zero(), originB_ = Vec3::Zero();
+    std::vector<double> widening_;
+    double farthestT_ = 0; ///< bound of |T(q) originB - originA|
+    double poseError_ =
+        0; ///< what rounding, or whoever gives the pose, may do to T(q) y on its way to the direct kernel
+    std::optional<FeatureForm> fold_;
+    PoseRecipe recipe_;
+    PosePlan plan_; ///< of the form that was chosen; empty for the direct one of a path or of no DOF
+
+    KernelForm form_ = KernelForm::Direct;
+    KernelTarget target_ = KernelTarget::Scalar;
+    bool float_ = true;
+    double signBand_ = 0, gapBand_ = 0, condition_ = 0;
+    std::size_t room_ = 0;
+
+    std::vector<Chunk> blocks_, rowStore_, clusterStore_, clusterRowStore_, groupStore_, groupRowStore_;
+    KernelSet kernels_;
+    KernelData data_, rows_, clusterData_, clusterRows_, groupData_, groupRows_;
+    TableCells cells_;
+    TableClusters clusters_;
+    double clusterBand_ = 0; ///< what rounding may do to the gap of a cluster's bound
+};
+
+} // namespace tss
