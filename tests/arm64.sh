@@ -38,7 +38,6 @@ END
     APT_CONFIG=$apt/apt.conf apt-get update -q
     APT_CONFIG=$apt/apt.conf apt-get install -y -q --no-install-recommends --download-only "${libraries[@]}"
     for package in "$apt"/cache/archives/*.deb; do dpkg-deb -x "$package" "$root"; done
-    # Debian's libraries link each other by absolute names, and its C library's own are the cross compiler's.
     touch "$root/complete"
 }
 
