@@ -106,6 +106,7 @@ void directPoses(const PosePlan& plan, const double* q, std::uint32_t count, std
     const Doubles d;
     for (std::uint32_t i = 0; i < count; i += static_cast<std::uint32_t>(hn::Lanes(d))) {
         V whole[12];
+        std::fill_n(whole, 12, hn::Zero(d)); // which compilers cannot see to be overwritten
         for (std::size_t k = plan.dofs; k-- > 0;) {
             V first, second, own[12];
             factorsOf(plan, k, q, i, count, first, second);

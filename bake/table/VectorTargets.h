@@ -2,7 +2,8 @@
 // For sources that Highway compiles once for each kind of vectors (foreach_target): which kinds, and the way
 // to the one that was asked for. To be included before Highway; between HWY_BEFORE_NAMESPACE and
 // HWY_AFTER_NAMESPACE such a source is seen several times, below HWY_ONCE once.
-#define HWY_DISABLED_TARGETS (HWY_SSE4 | HWY_AVX3_DL)
+// SVE's vectors have no size that a compiler knows, and the kernels keep theirs in arrays.
+#define HWY_DISABLED_TARGETS (HWY_SSE4 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #include <hwy/detect_targets.h>
 
 // TSS_TARGETS(call): returns `call` of the namespace that `target` names. Each namespace exists only where

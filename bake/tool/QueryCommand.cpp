@@ -63,10 +63,10 @@ void runAllPairs(const QueryArguments& arguments, const Console& console) {
             names.push_back(dof.name);
         }
     const MechanismQuery mechanism(scene);
-    if (!mechanism.unanswered().empty())
-        throw InputError(Where{arguments.scene, "", scene.pairs[mechanism.unanswered().front()].path},
-                         fmt::format("has no table, as {}; expected a scene written by tss bake",
-                                     counted(mechanism.unanswered().size(), "pair")));
+    if (const std::vector<int>& bare = mechanism.unanswered(); !bare.empty())
+        throw InputError(Where{arguments.scene, "", scene.pairs[bare.front()].path},
+                         fmt::format("{} without a table; expected a scene written by tss bake",
+                                     counted(bare.size(), "pair")));
     const Csv poses = readCsv(arguments.poses, dofs.size());
     checkColumns(poses, names, arguments.poses);
     std::vector<double> values(dofs.size());

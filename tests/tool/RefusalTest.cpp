@@ -2,6 +2,7 @@
 #include "tests/tool/Swing.h"
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 using Json = nlohmann::json;
 
@@ -268,4 +269,38 @@ TEST_CASE("a query beyond the limits says so, and claims nothing there") {
     const Json table = asked("-0.3:3");
     CHECK(table["outsideRows"] == Json::array({1, 4}));
     CHECK(table["hits"] == 0); // the one beyond the limits is none of the table's
+}
+
+TEST_CASE("all pairs are asked at once from the values of all joints, and beyond limits nothing is claimed") {
+    const Folder folder;
+    writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
+    writeObj(boxMesh({1.1, -1, -1}, {2, 1, 1}), folder / "b.obj");
+    writeObj(boxMesh({-1, 2.5, -1}, {1, 4, 1}), folder / "c.obj");
+    REQUIRE(runTss("make -o in.tss --pairs all --body a.obj --body b.obj --body c.obj --joint "
+                   "X=a,b:trans:1,0,0:-0.3:3 "
+                   "--joint Y=b,c:trans:0,1,0:-2:3",
+                   folder.path())
+                .exit == 0);
+    REQUIRE(runTss("bake in.tss -o baked.tss --tolerance 0.1", folder.path()).exit == 0);
+    // Free; a and b meet; a and c do; the second joint is beyond its limits; it is, and a and b meet.
+    writeText(folder / "q.csv", "0.5,0\n-0.25,0\n0.5,-2\n0.5,4\n-0.25,4\n");
+    const Ran said = runTss("query baked.tss --all-pairs --poses q.csv -o r.csv --json", folder.path());
+    INFO(said.err);
+    REQUIRE(said.exit == 0);
+    const Json found = Json::parse(said.out);
+    CHECK(found["poses"] == 5);
+    CHECK(found["hits"] == 3);
+    CHECK(found["outsideRows"] == Json::array({3}));
+    std::istringstream rows(readText(folder / "r.csv"));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(rows, line);) lines.push_back(line);
+    REQUIRE(lines.size() == 6);
+    CHECK(lines[0] == "hit,pair");
+    CHECK(lines[1] == "0,");
+    CHECK(lines[2].substr(0, 3) == "1,/");
+    CHECK(lines[3].substr(0, 3) == "1,/");
+    CHECK(lines[4] == "nan,");
+    CHECK(lines[5] == lines[2]);
+    // A scene with a pair that is not baked has no answer.
+    CHECK(runTss("query in.tss --all-pairs --poses q.csv -o r.csv", folder.path()).exit != 0);
 }
