@@ -1,5 +1,7 @@
 // The query kernels alone, by target, motion and size: features given, features made, and many at once.
+#include "bake/table/Contact.h"
 #include "bake/table/PreparedTable.h"
+#include "bake/table/TablePairs.h"
 #include "tests/bench/JawLike.h"
 
 #include <benchmark/benchmark.h>

@@ -7,6 +7,8 @@
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/table/Query.h"
+#include "bake/table/TableKernels.h"
+#include "bake/table/TablePairs.h"
 #include "tests/extreme/scenes/ExtremeScene.h"
 
 #include <algorithm>
@@ -80,7 +82,7 @@ private:
         const PreparedTable best(table);
         figures.form = best.form();
         figures.precision = best.precision();
-        figures.condition = best.condition();
+        figures.condition = best.kernels().condition();
         figures.band = best.signBand();
         PrepareOptions single;
         single.precision = KernelPrecision::Float;
