@@ -6,6 +6,7 @@
 #else
 #include "bake/robot/ReadUrdf.h"
 #endif
+#include "bake/scene/Layer.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
 
