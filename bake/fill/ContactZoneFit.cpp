@@ -110,12 +110,13 @@ public:
         for (std::size_t i = 0; i < levels.size(); ++i) {
             if (!narrow(levels[i])) break;
             if (i == 0) levels = coarsened(std::move(levels));
+            if (whole_) levels.resize(1); // a finer level would need poses that this one decides
             if (!fit(levels[i])) {
                 if (i > 0 && note_.empty()) fitBetween(levels[i - 1], levels[i]);
                 break;
             }
             if ((entered_ = entered(2 * levels[i]))) return {};
-            if (!decide(levels[i], levels[i] <= finest)) break;
+            if (!decide(levels[i], i + 1 == levels.size())) break;
         }
         if (!decided_ && note_.empty() && result_.levels.back().tolerance > finest * (1 + 1e-9))
             note_ = fmt::format("tolerance {:.4g} instead of {:.4g} scene units: {} spheres do not suffice",

@@ -6,7 +6,6 @@
 #include "bake/search/NodePairs.h"
 
 #include <algorithm>
-#include <atomic>
 
 namespace tss {
 
@@ -62,13 +61,13 @@ Verdict judge(const Problem& p, const CellMotion& motion, const std::vector<Node
 
 class Decider {
 public:
-    Decider(const Problem& problem, const std::atomic<bool>& stop) : p_(problem), stop_(stop) {}
+    Decider(const Problem& problem, Poll& poll) : p_(problem), poll_(poll) {}
 
     /// What is left of the tree, or nothing.
     std::optional<CellTree> decide(const CellTree& tree, const std::vector<NodePair>& inherited) {
         CellTree left{tree.cell, {}};
         if (!shrinkToPlanes(p_.motion(), left.cell)) return std::nullopt;
-        if (stop_) return tree;
+        if (poll_.stopped()) return tree;
         const CellMotion motion(p_.rates, left.cell);
         std::vector<NodePair> open;
         double move = 0;
@@ -92,7 +91,7 @@ private:
     }
 
     const Problem& p_;
-    const std::atomic<bool>& stop_;
+    Poll& poll_;
 };
 
 /// The tree cut into about `count` parts of it, each of its own.
@@ -141,20 +140,15 @@ Undecided undecidedCells(const LevelSpheres& a, const LevelSpheres& b, const Mot
     const auto asked = [&] { return poll.stopped(); };
     const Problem problem{
         a, b, SphereTree(a.spheres, asked), SphereTree(b.spheres, asked), MotionRates(motion), options};
-    if (poll.stopped()) return {from, false};
+    if (poll.stopped() || !report(progress, "undecided cells", 0)) return {from, false};
     const std::vector<CellTree> parts = pieces(problem, from, 64);
     std::vector<std::optional<CellTree>> kept(parts.size());
     std::vector<char> hits(parts.size(), 0);
-    std::atomic<bool> stop{false};
-    constexpr std::size_t batch = 8;
-    for (std::size_t first = 0; first < parts.size(); first += batch) {
-        if (!report(progress, "undecided cells", double(first) / double(parts.size()))) stop = true;
-        parallelFor(std::min(batch, parts.size() - first), [&](std::size_t k) {
-            Decider decider(problem, stop);
-            kept[first + k] = decider.decide(parts[first + k], {{0, 0}});
-            hits[first + k] = decider.hits;
-        });
-    }
+    parallelFor(parts.size(), [&](std::size_t k) {
+        Decider decider(problem, poll);
+        kept[k] = decider.decide(parts[k], {{0, 0}});
+        hits[k] = decider.hits;
+    });
     Undecided result;
     result.hits = std::count(hits.begin(), hits.end(), 1) > 0;
     CellTree left{from.cell, {}};

@@ -145,6 +145,24 @@ TEST_CASE("a limit on spheres keeps the finest level that fits and says so") {
     checkVerdicts(scene.a, scene.b, scene.motion, fit, fit.levels.back().tolerance, 1000);
 }
 
+TEST_CASE("of many degrees of freedom no cells are decided, under a limit on spheres neither") {
+    Scene scene = lumpyPair(6);
+    ContactZoneOptions options = tolerance(0.004);
+    options.maxSpheres = 150;
+    options.whole = true;
+    bool cells = false;
+    const ContactZoneFit fit =
+        fitContactZone(scene.a, scene.b, scene.motion, options, [&](auto step, double) {
+            cells |= step == "undecided cells";
+            return true;
+        });
+    CHECK_FALSE(cells);
+    CHECK(fit.levels.size() == 1);
+    CHECK(fit.a.fit.note.find("150 spheres do not suffice") != std::string::npos);
+    CHECK(fit.a.fit.spheres.size() <= 150);
+    checkVerdicts(scene.a, scene.b, scene.motion, fit, fit.levels.back().tolerance, 1000);
+}
+
 TEST_CASE("a work stopped early is coarser and misses nothing") {
     const Scene scene = lumpyPair(7);
     const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.0005),
