@@ -187,24 +187,29 @@ private:
         }
     }
 
+    /// How many spheres a body may take. What overlaps at rest has its own, whatever the level; where these
+    /// are more than half of the limit, the zone may have as many.
+    std::size_t most(const Body& body) const {
+        return std::max(static_cast<std::size_t>(options_.maxSpheres), 2 * body.rest.region.spheres.size());
+    }
+
     bool few(double tolerance) {
-        const auto limit = static_cast<std::size_t>(options_.maxSpheres);
-        const MedialOptions trial = forTrial(options_.medial, limit);
         try {
-            a_.fit(tolerance, trial, progress_);
-            b_.fit(tolerance, trial, progress_);
+            for (Body* body : {&a_, &b_})
+                body->fit(tolerance, forTrial(options_.medial, most(*body)), progress_);
         } catch (const TooFine&) {
             return false;
         }
-        return std::max(a_.count(), b_.count()) <= limit;
+        return a_.count() <= most(a_) && b_.count() <= most(b_);
     }
 
     /// The levels from the finest tolerance on with which no body takes too many spheres.
     std::vector<double> coarsened(std::vector<double> levels) {
         if (options_.maxSpheres <= 0) return levels;
-        int doubled = 0;
-        for (; doubled < 20 && !few(levels[0]); ++doubled) levels.insert(levels.begin(), 2 * levels[0]);
-        if (doubled == 0) return levels;
+        const std::size_t planned = levels.size();
+        const double widest = std::min(a_.solid.diagonal(), b_.solid.diagonal());
+        while (!few(levels[0]) && levels[0] < widest) levels.insert(levels.begin(), 2 * levels[0]);
+        if (levels.size() == planned) return levels;
         double good = levels[0], bad = levels[1];
         for (int round = 0; round < 3; ++round) {
             const double middle = std::sqrt(good * bad);
@@ -265,9 +270,9 @@ private:
                 throw InputError(error.message);
             }
         }
-        const auto limit = static_cast<std::size_t>(options_.maxSpheres);
         for (const Body* body : bodies)
-            if (limit > 0 && !result_.levels.empty() && body->count() + body->coarse.size() > limit)
+            if (options_.maxSpheres > 0 && !result_.levels.empty() &&
+                body->count() + body->coarse.size() > most(*body))
                 return backToLast();
         result_.levels.push_back({tolerance, a_.count(), b_.count(), area(a_.zone), area(b_.zone), 0});
         return true;

@@ -15,7 +15,8 @@ struct ContactZoneOptions {
     double depth = 0;     ///< gap-true tables: poses in a contact less deep than this are refined too, >= 0
     double epsilon = 0;   ///< of the table: at rest spheres are kept farther apart than that, >= 0
     AtRest atRest = AtRest::Offset;
-    int maxSpheres = 0;       ///< > 0: the finest level at which neither body takes more
+    int maxSpheres = 0;       ///< > 0: the finest level at which neither body takes more, nor more than twice
+                              ///< what its region that overlaps at rest takes
     bool conservative = true; ///< else all spheres are inscribed and the zone is covered to the tolerance
     bool whole =
         false; ///< all of both surfaces is filled, at once to the tolerance: nothing is looked for in Q

@@ -163,6 +163,23 @@ TEST_CASE("of many degrees of freedom no cells are decided, under a limit on sph
     checkVerdicts(scene.a, scene.b, scene.motion, fit, fit.levels.back().tolerance, 1000);
 }
 
+TEST_CASE("a limit on spheres that what overlaps at rest takes alone leaves the zone as many") {
+    Scene scene = lumpyPair(6);
+    scene.b = transformed(scene.b, Eigen::Affine3d(Eigen::Translation3d(-0.6, 0, 0)));
+    ContactZoneOptions options = tolerance(0.01);
+    options.atRest = AtRest::Offset;
+    options.maxSpheres = 20;
+    options.whole = true;
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, options);
+    REQUIRE_FALSE(fit.a.fit.region.empty());
+    const auto region =
+        static_cast<std::size_t>(std::count(fit.a.fit.region.begin(), fit.a.fit.region.end(), 1));
+    REQUIRE(region > 20);
+    CHECK(fit.a.fit.spheres.size() > region);
+    CHECK(fit.a.fit.spheres.size() <= 2 * region);
+    CHECK(fit.a.fit.protrusion < 0.5);
+}
+
 TEST_CASE("a work stopped early is coarser and misses nothing") {
     const Scene scene = lumpyPair(7);
     const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.0005),
