@@ -28,6 +28,9 @@ struct BakeOptions {
     bool conservative = true; ///< spheres contain the surface; otherwise they are inscribed
     bool keepSpheres = false; ///< store all generated spheres too
     double budget = 0;        ///< seconds for each pair's cover; 0: no limit
+    /// As many pairs of spheres a table asks at most where no cover of them is found: few of them in a query,
+    /// in clusters, but each takes some 240 bytes in memory.
+    std::size_t mostPairs = 1'000'000;
 };
 
 /// Sets one option by its name on the command line, without dashes, from its text. Lengths may carry a unit.

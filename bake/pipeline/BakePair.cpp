@@ -8,10 +8,14 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
+#include <limits>
 
 namespace tss {
 
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 FitRecord recorded(FitRecord figures, const SphereFit& fit) {
     figures.coverage = boundOrUnknown(fit.coverage);
@@ -60,6 +64,65 @@ void noteExempt(const Body& body, const std::vector<SurfacePart>& parts, std::ve
                                     body.path, 100 * share));
 }
 
+/// A pair's table from one set of spheres.
+struct Attempt {
+    PairSpheres spheres;
+    PairTable made; ///< neither: the budget ended before anything was proven, in these words
+    std::string ended;
+    PairReport report;
+
+    /// How much earlier than the surfaces touch the table may report contact, as far as the spheres tell.
+    double early() const {
+        const double lag = made.proof ? 0 : made.table ? made.table->epsilon : infinity;
+        return lag + spheres.stickOut;
+    }
+};
+
+struct PairBaker {
+    const SceneModel& scene;
+    const Pair& pair;
+    const BakeOptions& options;
+    const Motion& motion;
+    const Progress& progress;
+
+    /// Search, select, bound.
+    Attempt tabulated(PairSpheres spheres) const {
+        if (!report(progress, "spheres", 1)) throw InputError("stopped before the table was made");
+        measureSpheres(scene, pair, spheres);
+        Attempt attempt{std::move(spheres), {}, {}, {}};
+        noteFit(scene.bodies[pair.bodyA], attempt.spheres.a, attempt.report.notes);
+        noteFit(scene.bodies[pair.bodyB], attempt.spheres.b, attempt.report.notes);
+        try {
+            attempt.made = tabulatePair(attempt.spheres, motion, options, attempt.report, progress);
+        } catch (const BudgetEnded& error) {
+            attempt.ended = error.message;
+        }
+        return attempt;
+    }
+
+    /// Fill: both bodies with spheres, and how well these fit; then the few tests that answer for all.
+    Attempt few() const { return tabulated(fillPair(scene, pair, motion, options, progress)); }
+
+    /// Where the budget ended far from the epsilon asked for: tests instead. All pairs of spheres that may
+    /// meet, of these or, where these are too many, of others that are coarser. Nothing where that would
+    /// report contact no later.
+    std::optional<Attempt> allInstead(const Attempt& few) const {
+        const bool far = few.early() > std::max(options.epsilon, few.spheres.stickOut) + few.spheres.stickOut;
+        if (!far || few.spheres.askAll) {
+            if (!few.ended.empty()) throw InputError(few.ended);
+            return std::nullopt;
+        }
+        PairSpheres spheres = few.spheres;
+        spheres.askAll = canAskAll(spheres, options);
+        // A table that states a gap is verified against the very spheres that its settings make.
+        if (!spheres.askAll && options.depth <= 0 && options.conservative)
+            spheres = fillToAskAll(scene, pair, motion, options, progress);
+        if (spheres.askAll && spheres.stickOut < few.early()) return tabulated(std::move(spheres));
+        if (!few.ended.empty()) throw InputError(few.ended);
+        return std::nullopt;
+    }
+};
+
 } // namespace
 
 PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const BakeOptions& options,
@@ -89,23 +152,19 @@ PairTable tabulatePair(const PairSpheres& spheres, const Motion& motion, const B
 
 void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairReport& report,
               const Progress& progress) {
-    const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
     const Motion motion = pairMotion(scene, pair);
     checkMotion(motion);
-    // Fill: both bodies with spheres, and how well these fit.
-    PairSpheres spheres = fillPair(scene, pair, motion, options, progress);
-    if (!tss::report(progress, "spheres", 1)) throw InputError("stopped before the table was made");
-    measureSpheres(scene, pair, spheres);
-    noteFit(a, spheres.a, report.notes);
-    noteFit(b, spheres.b, report.notes);
-    // Search, select, bound.
-    PairTable made = tabulatePair(spheres, motion, options, report, progress);
+    const PairBaker baker{scene, pair, options, motion, progress};
+    Attempt attempt = baker.few();
+    if (std::optional<Attempt> all = baker.allInstead(attempt)) attempt = std::move(*all);
     // Store: with the hash by which a stale table is told.
-    pair.table = std::move(made.table);
-    pair.proof = std::move(made.proof);
+    pair.table = std::move(attempt.made.table);
+    pair.proof = std::move(attempt.made.proof);
+    report.epsilon = attempt.report.epsilon;
+    std::move(attempt.report.notes.begin(), attempt.report.notes.end(), std::back_inserter(report.notes));
     if (pair.table) {
-        noteExempt(a, pair.table->restRegion.a, report.notes);
-        noteExempt(b, pair.table->restRegion.b, report.notes);
+        noteExempt(scene.bodies[pair.bodyA], pair.table->restRegion.a, report.notes);
+        noteExempt(scene.bodies[pair.bodyB], pair.table->restRegion.b, report.notes);
     }
     pair.sourceHash = sourceHash(scene, pair);
 }

@@ -1,6 +1,6 @@
 #pragma once
-#include "bake/pipeline/Bake.h"
 #include "bake/base/Error.h"
+#include "bake/pipeline/Bake.h"
 
 namespace tss {
 

@@ -28,7 +28,11 @@ SphereFit wholeBody(const Body& body, const BakeOptions& options, double toleran
                     const Progress& progress) {
     SphereOptions how = sphereOptions(options, tolerance);
     how.hollow = hollow;
-    return fitSpheres(cleaned(meshOf(body)), how, progress);
+    SphereFit fit = fitSpheres(cleaned(meshOf(body)), how, progress);
+    if (fit.spheres.empty())
+        throw InputError(Where{"", "", body.path}, "not a sphere of this body was found: expected a coarser "
+                                                   "--tolerance, or other spheres");
+    return fit;
 }
 
 /// The spheres that touch without reason show it (see findHollow()).
@@ -83,7 +87,7 @@ PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, dou
 
 /// Medial spheres stand in the contact zone only, fine where the verdict needs it.
 PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
-                     double tolerance, const Progress& progress) {
+                     double tolerance, bool whole, const Progress& progress) {
     ContactZoneOptions zone;
     zone.tolerance = tolerance;
     zone.depth = options.depth;
@@ -91,7 +95,7 @@ PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const B
     zone.atRest = options.atRest;
     zone.maxSpheres = options.maxSpheres;
     zone.conservative = options.conservative;
-    zone.whole = manyDofs(motion, options);
+    zone.whole = whole;
     const TriangleMesh meshA = cleaned(meshOf(a)), meshB = cleaned(meshOf(b));
     ContactZoneFit fit = fitContactZone(meshA, meshB, motion, zone, progress);
     if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
@@ -120,6 +124,16 @@ PairSpheres fillWhole(const Body& a, const Body& b, const Motion& motion, const 
     spheres.b.enclosed = nesting.apart(nesting.undecided.b);
     spheres.clearanceAtRest = clearanceAtRest(meshOf(a), meshOf(b), motion);
     return spheres;
+}
+
+bool asksForCover(const BakeOptions& options) {
+    return options.reduce == ReduceMethod::Cover && options.search == SearchMethod::Certified;
+}
+
+/// Over more DOFs than these neither what is within reach nor a cover is found in any time that people have,
+/// or within a budget of seconds.
+bool manyDofs(const Motion& motion, const BakeOptions& options) {
+    return motion.dofCount() > (options.budget > 0 ? 3u : 6u);
 }
 
 /// Rounds the spheres as the file stores them and adds to the protrusion what that makes them stick out more.
@@ -153,6 +167,20 @@ FitRecord measured(const Body& body, SphereFit& fit, const std::optional<std::ve
     return figures;
 }
 
+PairSpheres fill(const SceneModel& scene, const Pair& pair, const Motion& motion, const BakeOptions& options,
+                 bool whole, const Progress& progress) {
+    const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
+    const double tolerance = options.tolerance.value_or(defaultTolerance(a, b));
+    PairSpheres spheres = options.spheres == SphereMethod::Medial
+                              ? fillZone(a, b, motion, options, tolerance, whole, progress)
+                              : fillWhole(a, b, motion, options, tolerance, progress);
+    roundToFloat(spheres.a);
+    roundToFloat(spheres.b);
+    spheres.stickOut = spheres.a.protrusion + spheres.b.protrusion;
+    checkRest(spheres, motion, options);
+    return spheres;
+}
+
 } // namespace
 
 double clearanceAtRest(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion) {
@@ -171,25 +199,35 @@ SphereOptions sphereOptions(const BakeOptions& options, double tolerance) {
     return how;
 }
 
-bool manyDofs(const Motion& motion, const BakeOptions& options) {
-    return motion.dofCount() > (options.budget > 0 ? 3u : 6u);
-}
-
 double boundOrUnknown(double bound) {
     return std::isfinite(bound) ? bound : -1;
 }
 
+bool canAskAll(const PairSpheres& spheres, const BakeOptions& options) {
+    return asksForCover(options) && spheres.a.spheres.size() * spheres.b.spheres.size() <= options.mostPairs;
+}
+
 PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
                      const BakeOptions& options, const Progress& progress) {
-    const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
-    const double tolerance = options.tolerance.value_or(defaultTolerance(a, b));
-    PairSpheres spheres = options.spheres == SphereMethod::Medial
-                              ? fillZone(a, b, motion, options, tolerance, progress)
-                              : fillWhole(a, b, motion, options, tolerance, progress);
-    roundToFloat(spheres.a);
-    roundToFloat(spheres.b);
-    spheres.stickOut = spheres.a.protrusion + spheres.b.protrusion;
-    checkRest(spheres, motion, options);
+    if (manyDofs(motion, options)) return fillToAskAll(scene, pair, motion, options, progress);
+    return fill(scene, pair, motion, options, false, progress);
+}
+
+PairSpheres fillToAskAll(const SceneModel& scene, const Pair& pair, const Motion& motion,
+                         const BakeOptions& options, const Progress& progress) {
+    PairSpheres spheres = fill(scene, pair, motion, options, true, progress);
+    if (asksForCover(options) && !canAskAll(spheres, options)) {
+        // Coarser spheres are fewer in about the same proportion; where not, as many for each body will do.
+        const double a = double(spheres.a.spheres.size()), b = double(spheres.b.spheres.size());
+        for (const double share : {0.8 * std::max(a / b, b / a), 1.0}) {
+            const int limit = static_cast<int>(std::sqrt(share * double(options.mostPairs)));
+            BakeOptions fewer = options;
+            fewer.maxSpheres = options.maxSpheres > 0 ? std::min(options.maxSpheres, limit) : limit;
+            spheres = fill(scene, pair, motion, fewer, true, progress);
+            if (canAskAll(spheres, options)) break;
+        }
+    }
+    spheres.askAll = canAskAll(spheres, options);
     return spheres;
 }
 

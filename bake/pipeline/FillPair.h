@@ -17,7 +17,12 @@ struct PairSpheres {
     double clearanceAtRest = 0;       ///< of the surfaces; 0: they touch or overlap
     RestRegion region{};              ///< of the meshes as loaded, where spheres are fitted to surfaces
     double stickOut = 0;              ///< of the spheres of both together, by which they tell no depths apart
+    bool askAll = false; ///< so few that a table can ask all their pairs that are not known to stay apart
 };
+
+/// Whether a table of so many spheres may ask all their pairs: they answer for themselves, where no cover of
+/// them is asked for by another method.
+bool canAskAll(const PairSpheres& spheres, const BakeOptions& options);
 
 /// How far apart the surfaces are where the joint rests; 0: they touch or overlap.
 double clearanceAtRest(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion);
@@ -29,12 +34,12 @@ SphereOptions sphereOptions(const BakeOptions& options, double tolerance);
 PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
                      const BakeOptions& options, const Progress& progress = {});
 
+/// Fills all of both surfaces, as finely as the options say or as coarsely as leaves all pairs to be asked.
+PairSpheres fillToAskAll(const SceneModel& scene, const Pair& pair, const Motion& motion,
+                         const BakeOptions& options, const Progress& progress = {});
+
 /// Measures how well the spheres fit: their figures, and their bounds where these become better.
 void measureSpheres(const SceneModel& scene, const Pair& pair, PairSpheres& spheres);
-
-/// Over more DOFs than these neither what is within reach nor a cover is found in any time that people have,
-/// or within a budget of seconds.
-bool manyDofs(const Motion& motion, const BakeOptions& options);
 
 /// A bound as a file states it: -1 where none is known.
 double boundOrUnknown(double bound);

@@ -14,16 +14,6 @@ namespace tss {
 
 namespace {
 
-/// Pairs of spheres that answer for themselves: a query asks few of so many, in clusters, and they take some
-/// 240 bytes each in memory.
-constexpr std::size_t mostPairsToAsk = 1'000'000;
-
-bool asksAll(const PairTask& task) {
-    return manyDofs(task.motion, task.options) && task.options.reduce == ReduceMethod::Cover &&
-           task.options.search == SearchMethod::Certified &&
-           task.spheres.a.spheres.size() * task.spheres.b.spheres.size() <= mostPairsToAsk;
-}
-
 SampledSearchOptions sampled(const PairTask& task) {
     SampledSearchOptions search;
     search.samples = static_cast<std::size_t>(task.options.samples);
@@ -46,9 +36,10 @@ Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std:
     }
     selection.reduced.restGaps = rule.thresholds(pairs);
     selection.certified = true;
-    notes.push_back(fmt::format("{} degrees of freedom are too many to find out which pairs of spheres "
-                                "imply others: all {} that may meet are asked",
-                                task.motion.dofCount(), pairs.size()));
+    notes.push_back(
+        fmt::format("which pairs of spheres imply others is too much to find out over {} degrees of "
+                    "freedom{}: all {} that may meet are asked",
+                    task.motion.dofCount(), task.options.budget > 0 ? " in the budget" : "", pairs.size()));
     return selection;
 }
 
@@ -65,8 +56,8 @@ Selection selectCover(const PairTask& task, const CandidatePairs& candidates, st
                                               allListed(candidates, task.options) ? &candidates : nullptr,
                                               task.motion, cover, progress);
     if (!std::isfinite(result.epsilon))
-        throw InputError("the budget ended before any bound was proven: expected a longer --budget, or a "
-                         "coarser --tolerance or --epsilon");
+        throw BudgetEnded("the budget ended before any bound was proven: expected a longer --budget, or a "
+                          "coarser --tolerance or --epsilon");
     Selection selection;
     selection.reduced = result;
     selection.epsilon = result.epsilon;
@@ -97,7 +88,8 @@ CandidatePairs searchPair(const PairTask& task, const Progress& progress) {
     certified.margin = task.margin;
     // The cover does without the list, which wide limits can make longer than anybody needs; only the others
     // wait.
-    if (task.options.reduce == ReduceMethod::Cover) certified.effort = asksAll(task) ? 5'000'000 : 50'000'000;
+    if (task.options.reduce == ReduceMethod::Cover)
+        certified.effort = task.spheres.askAll ? 5'000'000 : 50'000'000;
     return searchCertified(a, b, task.motion, certified, progress);
 }
 
@@ -112,7 +104,7 @@ Selection selectTests(const PairTask& task, const CandidatePairs& candidates, st
         selection.proof = NeverCollides{candidates.clearance, candidates.explored, {}, {}, {}};
         return selection;
     }
-    if (asksAll(task)) return selectAll(task, candidates, notes);
+    if (task.spheres.askAll) return selectAll(task, candidates, notes);
     switch (task.options.reduce) {
     case ReduceMethod::Cooccurrence:
         selection.reduced = reduceCooccurrence(candidates);

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/base/Error.h"
 #include "bake/pipeline/RestRule.h"
 #include "bake/reduce/Reduced.h"
 #include "bake/search/CandidatePairs.h"
@@ -33,8 +34,13 @@ struct Selection {
     std::optional<NeverCollides> proof; ///< there is nothing to select from
 };
 
+/// A budget that ended before anything was proven.
+class BudgetEnded : public InputError {
+    using InputError::InputError;
+};
+
 /// The few pairs that answer for all, or the proof that none can meet (METHOD 3). Notes get what a person
-/// should know. Throws InputError where a budget ends before anything is proven.
+/// should know. Throws BudgetEnded.
 Selection selectTests(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes,
                       const Progress& progress);
 

@@ -14,8 +14,9 @@ namespace {
 /// it. So many open ones are divided, 64 bytes each, at most: 64 and 256 kB.
 constexpr std::uint32_t mostCells[] = {512, 1u << 14, 1u << 15};
 constexpr std::size_t mostDivided[] = {0, 1 << 10, 1 << 12};
-/// Tables of more tests than this would take long to load.
-constexpr std::size_t mostTests = 1 << 16;
+/// Looks at a test over a box, all together: some tenths of a second when a table is loaded, and as many for
+/// the pieces of one DOF. Where they end, cells stay open.
+constexpr std::uint64_t mostEffort = 20'000'000;
 /// A clearance is known well enough where the cell's own motion is this share of it.
 constexpr double enoughOf = 0.25;
 /// What clearances are told in, as a share of the most that gaps change over one cell.
@@ -47,7 +48,7 @@ public:
             limits.size[k] = grid_.axes_[k].cells << grid_.axes_[k].halvings;
             parts *= limits.size[k];
         }
-        halve(limits, all_, 0);
+        halve(limits, all_, 0, mostEffort);
         if (grid_.dofs_ == 1) findPieces();
         grid_.asked_ = grid_.pieces_.empty() ? asked_ / parts : 0;
     }
@@ -125,7 +126,9 @@ private:
         return least;
     }
 
-    void halve(const Block& block, std::span<const std::uint32_t> list, std::size_t depth) {
+    /// Each half has half of the effort, the second also what the first leaves; what both leave is returned.
+    std::uint64_t halve(const Block& block, std::span<const std::uint32_t> list, std::size_t depth,
+                        std::uint64_t effort) {
         const Box box = grid_.box(block.first, block.size);
         DofValues centre{}, half{};
         double move = 0;
@@ -140,17 +143,20 @@ private:
         const double told =
             gap.low > 0 ? std::min(freeCode + std::floor(gap.low / grid_.unit_), mostCode) : 0;
         const bool enough = gap.low > 0 && (told == mostCode || move <= enoughOf * gap.low);
-        if (gap.high <= band_) return write(block, depth, touchCode);
+        effort -= std::min<std::uint64_t>(effort, list.size());
+        if (gap.high <= band_) return write(block, depth, touchCode), effort;
         const bool cell = depth == cellHalvings_;
-        if (enough || depth == order_.size() || (cell && (told > 0 || !divide(block.first))))
-            return write(block, depth, static_cast<std::uint8_t>(told));
+        if (enough || depth == order_.size() || effort < 2 * near.size() ||
+            (cell && (told > 0 || !divide(block.first))))
+            return write(block, depth, static_cast<std::uint8_t>(told)), effort;
         const std::size_t k = order_[depth];
         Block lower = block, upper = block;
         lower.size[k] = upper.size[k] = block.size[k] / 2;
         upper.first[k] += lower.size[k];
-        halve(lower, near, depth + 1);
-        halve(upper, near, depth + 1);
+        const std::uint64_t left = halve(lower, near, depth + 1, effort / 2);
+        effort = halve(upper, near, depth + 1, effort - effort / 2 + left);
         if (cell) dropUseless(block.first);
+        return effort;
     }
 
     /// Gives the cell parts, all open. False: there are none left.
@@ -202,7 +208,7 @@ private:
             looks_ = 0;
             bracket(pieces, from - hair, from + axis.width + hair, all_, 0);
             add(pieces, from + axis.width + hair, Verdict::Ask);
-            if (pieces.size() > mostPieces) return;
+            if (pieces.size() > mostPieces || looked_ > mostEffort) return;
         }
         if (!pieces.empty()) grid_.pieces_ = std::move(pieces);
     }
@@ -221,6 +227,7 @@ private:
                   4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(lower), std::abs(upper));
         std::vector<std::uint32_t> near;
         const GapRanges::Range gap = smallest(centre, half, list, near);
+        looked_ += list.size();
         if (gap.low > 0) return add(pieces, lower, Verdict::Free);
         if (gap.high <= band_) return add(pieces, lower, Verdict::Touch);
         if (depth == mostHalvings || !(centre[0] > lower && centre[0] < upper) || ++looks_ > mostLooks)
@@ -238,10 +245,11 @@ private:
     std::size_t cellHalvings_ = 0;   ///< of the limits
     double asked_ = 0;               ///< parts of cells that are open
     int looks_ = 0;                  ///< for pieces of one cell
+    std::uint64_t looked_ = 0;       ///< at tests, for pieces of all cells
 };
 
 VerdictGrid::VerdictGrid(const Motion& motion, std::span<const TablePair> pairs, double band) {
-    if (motion.dofCount() < 1 || motion.dofCount() > 3 || pairs.empty() || pairs.size() > mostTests) return;
+    if (motion.dofCount() < 1 || motion.dofCount() > 3 || pairs.empty()) return;
     Maker maker(*this, motion, pairs, band);
     if (maker.moves()) maker.make();
 }

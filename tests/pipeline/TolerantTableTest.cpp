@@ -5,6 +5,7 @@
 #include "bake/table/Query.h"
 #include "bake/verify/MeshVerify.h"
 #include "bake/verify/Verify.h"
+#include "tests/GroundTruth.h"
 #include "tests/pipeline/LumpyPair.h"
 #include "tests/table/RandomTable.h"
 
@@ -95,4 +96,42 @@ TEST_CASE("with a tolerance, bodies that overlap at rest are free there and noth
         CHECK(verifyTable(spheres.a.spheres, spheres.b.spheres, table, motion, how).reason.empty());
     }
     CHECK(touching > 100);
+}
+
+TEST_CASE("a budget that ends costs tests and not epsilon: all pairs that may meet are asked") {
+    const bool coarser = GENERATE(false, true); // all pairs of these spheres are too many
+    SceneModel scene = lumpyPair(2);
+    BakeOptions options;
+    options.tolerance = 0.02;
+    if (coarser) options.mostPairs = 3000;
+    options.atRest = AtRest::Collide;
+    options.budget = 1e-9;
+    const Motion motion = swing();
+    const PairSpheres few = fillPair(scene, scene.pairs[0], motion, options);
+    CHECK(canAskAll(few, options) == !coarser);
+    PairReport report;
+    bakePair(scene, scene.pairs[0], options, report, {});
+    REQUIRE(scene.pairs[0].table);
+    const Table& table = *scene.pairs[0].table;
+    CHECK(table.epsilon == 0);
+    CHECK(table.boundMiss == 0);
+    CHECK(table.boundEarly < 0.3);
+    CHECK(table.testCount() > 100);
+    CHECK(table.testCount() <= options.mostPairs);
+    const bool said = std::any_of(report.notes.begin(), report.notes.end(), [](const std::string& note) {
+        return note.find("in the budget: all ") != std::string::npos;
+    });
+    CHECK(said);
+    const GroundTruth truth(scene.bodies[0].mesh, scene.bodies[1].mesh);
+    int touching = 0, missed = 0;
+    random_table::Random random(7);
+    for (int i = 0; i < 2000; ++i) {
+        const std::vector<double> q = random_table::values(random, motion);
+        const bool touch = truth.touches(pose(motion, q));
+        touching += touch;
+        missed += touch && !query(table, q).hit();
+    }
+    CHECK(touching > 100);
+    CHECK(missed == 0);
+    CHECK(verifyOnMeshes(scene.bodies[0].mesh, scene.bodies[1].mesh, table, motion).reason.empty());
 }

@@ -43,12 +43,12 @@ bool exists(const std::string& file) {
 TEST_CASE("a pair that fails at last leaves the others baked, in a file that is named as incomplete") {
     const Folder folder;
     writeTwo(folder);
-    // A budget of next to nothing ends before any bound is proven.
-    set(folder, "in.tss", {{"tolerance", "0.5"}}, {{"tolerance", "0.5"}, {"budget", "1e-9"}});
+    // Growth within this tolerance finds no sphere that is small enough.
+    set(folder, "in.tss", {{"tolerance", "0.5"}}, {{"tolerance", "0.02"}, {"spheres", "growth"}});
     const Ran ran = runTss("bake in.tss -o out.tss --json", folder.path());
     INFO(ran.err);
     CHECK(ran.exit == 1);
-    CHECK(ran.err.find("in.tss (</two/two>): the budget ended") != std::string::npos);
+    CHECK(ran.err.find("(</two/still>): not a sphere of this body was found") != std::string::npos);
     CHECK(ran.err.find("go on with\n  tss bake out.incomplete.tss -o out.tss") != std::string::npos);
     const Json result = Json::parse(ran.out);
     CHECK(result["complete"] == false);
@@ -63,9 +63,9 @@ TEST_CASE("a pair that fails at last leaves the others baked, in a file that is 
     CHECK(again.exit == 1); // nothing has changed
     CHECK(again.out.find("1 of 2 baked already") != std::string::npos);
 
-    // With a budget of its own the rest is baked, and the file is what one bake would have made.
+    // With settings of its own the rest is baked, and the file is what one bake would have made.
     tss::SceneModel mended = kept;
-    mended.pairs[1].settings.erase("budget");
+    mended.pairs[1].settings = {{"tolerance", "0.5"}};
     tss::saveScene(mended, folder / "mended.tss");
     const Ran on = runTss("bake mended.tss -o out.tss", folder.path());
     INFO(on.err);
