@@ -2,8 +2,11 @@
 
 #include "bake/base/Error.h"
 #include "bake/motion/WholeTurn.h"
+#include "bake/respond/JointClusters.h"
+#include "bake/table/TableKernels.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -27,11 +30,17 @@ void checkFit(const TableOnJoint& entry, int dofCount) {
 void addPairs(const Table& table, std::uint32_t group, JointModel& model) {
     const std::vector<int>& dofs = model.groups[group].dofs;
     const std::vector<SpherePair> list = tests(table);
+    constexpr std::uint32_t none = ~0u;
+    std::vector<std::uint32_t> movers(table.b.size(), none);
     for (std::uint32_t k = 0; k < list.size(); ++k) {
         const Sphere &a = table.a[list[k].a], &b = table.b[list[k].b];
         const double rest = table.restGaps.empty() ? 0 : table.restGaps[k];
-        model.pairs.push_back(
-            {a.centre, b.centre, a.radius, b.radius, rest, a.radius + b.radius + rest, group, k, 0, 0});
+        const double reach = a.radius + b.radius + rest;
+        std::uint32_t& mover = movers[list[k].b];
+        const bool first = mover == none;
+        if (first) mover = static_cast<std::uint32_t>(model.speeds.size() / std::max(1, model.dofCount));
+        model.pairs.push_back({a.centre, b.centre, a.radius, b.radius, rest, reach, group, k, mover, 0, 0});
+        if (!first) continue;
         DofValues own;
         speedBounds(table.motion, b.centre, own.data());
         const std::size_t row = model.speeds.size();
@@ -39,6 +48,7 @@ void addPairs(const Table& table, std::uint32_t group, JointModel& model) {
         for (std::size_t l = 0; l < dofs.size(); ++l) {
             model.speeds[row + dofs[l]] = own[l];
             model.weights[dofs[l]] = std::max(model.weights[dofs[l]], own[l]);
+            model.groups[group].fastest[l] = std::max(model.groups[group].fastest[l], own[l]);
         }
     }
 }
@@ -86,6 +96,24 @@ void addTable(const TableOnJoint& entry, int index, JointModel& model) {
         model.pairs[p].contactOffset = added.contactOffset;
 }
 
+/// Makes the vector kernels of the last group's table, and what is asked of one in clusters.
+void prepareGroup(const Table& table, JointModel& model) {
+    JointModel::Group& group = model.groups.back();
+    group.prepared = std::make_shared<PreparedTable>(table);
+    group.clustered = !group.prepared->kernels().clusters().empty();
+    if (!group.clustered) return;
+    model.clustered = true;
+    const std::span pairs(model.pairs.data() + group.firstPair, group.lastPair - group.firstPair);
+    Vec3 lower = pairs[0].b, upper = pairs[0].b;
+    for (const JointModel::Pair& pair : pairs) {
+        lower = lower.cwiseMin(pair.b);
+        upper = upper.cwiseMax(pair.b);
+    }
+    group.middle = 0.5 * (lower + upper);
+    for (const JointModel::Pair& pair : pairs)
+        group.spread = std::max(group.spread, (pair.b - group.middle).norm());
+}
+
 /// Values whose tables all know the whole turn, and that nothing else limits.
 void findTurns(JointModel& model) {
     constexpr double turn = 2 * std::numbers::pi;
@@ -123,7 +151,9 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
     for (std::size_t i = 0; i < tables.size(); ++i) {
         checkFit(tables[i], dofCount);
         addTable(tables[i], static_cast<int>(i), model);
-        if (prepare) model.groups.back().prepared = std::make_shared<PreparedTable>(*tables[i].table);
+        if (prepare) prepareGroup(*tables[i].table, model);
+        const JointModel::Group& group = model.groups.back();
+        if (!group.clustered) model.listable += group.lastPair - group.firstPair;
         model.leastContactOffset = std::min(model.leastContactOffset, model.groups.back().contactOffset);
     }
     if (model.groups.empty()) model.leastContactOffset = std::numeric_limits<double>::min();
@@ -145,6 +175,8 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
         model.pairs[p].lever = std::sqrt(squared);
     }
     model.scale = weightedDistance(model, model.range, DofValues{});
+    static std::atomic<std::uint64_t> made{0};
+    model.id = ++made;
     return model;
 }
 
@@ -163,10 +195,6 @@ void placeGroup(const JointModel& model, std::size_t g, const DofValues& q, cons
     if (same) return;
     placed.known = true;
     evaluateFrame(group.motion, placed.at.data(), direction.data(), placed.frame);
-}
-
-void placeGroups(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws) {
-    for (std::size_t g = 0; g < model.groups.size(); ++g) placeGroup(model, g, q, way, ws);
 }
 
 namespace {
@@ -203,9 +231,10 @@ std::uint32_t findUnder(const JointModel& model, const JointModel::Group& group,
 } // namespace
 
 void cull(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws) {
-    ws.nearCount = 0;
+    ws.unlist();
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
         const JointModel::Group& group = model.groups[g];
+        if (group.clustered) continue;
         if (group.prepared) {
             const std::uint32_t found = findUnder(model, group, q, reach, ws);
             if (found == 0) continue;
@@ -231,11 +260,13 @@ void narrow(const JointModel& model, double distance, ResponseRoom& ws) {
     ws.nearCount = kept;
 }
 
-void linearise(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws) {
-    placeGroups(model, q, way, ws);
-    for (std::size_t i = 0; i < ws.nearCount; ++i) {
+void linearise(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws,
+               std::size_t first) {
+    std::uint32_t at = ~0u;
+    for (std::size_t i = first; i < ws.nearCount; ++i) {
         NearPair& near = ws.near[i];
         const JointModel::Pair& pair = model.pairs[near.pair];
+        if (pair.group != at) placeGroup(model, at = pair.group, q, way, ws);
         const JointModel::Group& group = model.groups[pair.group];
         const MotionFrame& frame = ws.groups[pair.group].frame;
         Vec3 centre, normal;
@@ -248,14 +279,28 @@ void linearise(const JointModel& model, const DofValues& q, const DofValues& way
 }
 
 double smallestLevel(const JointModel& model, const DofValues& q, ResponseRoom& ws) {
-    placeGroups(model, q, q, ws);
     double smallest = std::numeric_limits<double>::infinity();
     Vec3 centre, normal;
-    for (const JointModel::Pair& pair : model.pairs)
-        smallest =
-            std::min(smallest, levelOf(model, pair.contactOffset,
-                                       pairGap(pair, ws.groups[pair.group].frame.pose, centre, normal)));
+    for (std::size_t g = 0; g < model.groups.size(); ++g) {
+        const JointModel::Group& group = model.groups[g];
+        placeGroup(model, g, q, q, ws);
+        const Pose& pose = ws.groups[g].frame.pose;
+        double gap = std::numeric_limits<double>::infinity();
+        if (group.clustered)
+            gap = smallestGap(model, g, pose);
+        else
+            for (std::uint32_t p = group.firstPair; p < group.lastPair; ++p)
+                gap = std::min(gap, pairGap(model.pairs[p], pose, centre, normal));
+        smallest = std::min(smallest, levelOf(model, group.contactOffset, gap));
+    }
     return smallest;
+}
+
+double shareOfRange(const JointModel& model, const DofValues& way) {
+    double share = 0;
+    for (int l = 0; l < model.dofCount; ++l)
+        if (model.range[l] > 0) share = std::max(share, std::abs(way[l]) / model.range[l]);
+    return share;
 }
 
 void addLimits(const JointModel& model, const DofValues& q, double trust, const DofValues& goal,

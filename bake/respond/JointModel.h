@@ -4,6 +4,8 @@
 #include "bake/respond/JointResponder.h"
 #include "bake/table/PreparedTable.h"
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 
 namespace tss {
@@ -23,6 +25,10 @@ struct JointModel {
         std::uint32_t firstPair = 0, lastPair = 0;
         int table = 0;
         std::shared_ptr<const PreparedTable> prepared; ///< to cull with, none where that would not pay
+        bool clustered = false;     ///< its table is in clusters: its pairs are listed for one way at a time
+        DofValues fastest{};        ///< per DOF of the motion: the largest of its pairs' speeds
+        Vec3 middle = Vec3::Zero(); ///< of the centres of B's spheres, in B's frame ...
+        double spread = 0;          ///< ... which are no farther from it than this
     };
     struct Pair {
         Vec3 a, b; ///< centres, each in its own body's frame
@@ -30,6 +36,7 @@ struct JointModel {
         double reach = 0; ///< radiusA + radiusB + rest: the distance of the centres at contact
         std::uint32_t group = 0;
         std::uint32_t test = 0;   ///< index in its table
+        std::uint32_t mover = 0;  ///< its row of speeds, that of its sphere of B
         double lever = 0;         ///< its gap changes by at most lever * |w (q - q')|
         double contactOffset = 0; ///< its group's
     };
@@ -43,12 +50,15 @@ struct JointModel {
     std::vector<LimitPlane> planes;
     std::vector<Group> groups;
     std::vector<Pair> pairs;       ///< by group
-    std::vector<double> speeds;    ///< #pairs by dofCount: speed bound per unit of each value of the joint
+    std::vector<double> speeds;    ///< rows of dofCount: speed bound per unit of each value of the joint
     double scale = 0;              ///< length of the limits' diagonal in the weighted metric, scene units
     double leastContactOffset = 0; ///< of the groups
+    bool clustered = false;        ///< some group is
+    std::size_t listable = 0;      ///< pairs of those that are not
+    std::uint64_t id = 0;          ///< no other model has it
 
     const double* speed(std::uint32_t pair) const {
-        return speeds.data() + std::size_t(pair) * std::size_t(dofCount);
+        return speeds.data() + std::size_t(pairs[pair].mover) * std::size_t(dofCount);
     }
 };
 
@@ -79,6 +89,12 @@ struct PlacedGroup {
     bool known = false;
 };
 
+/// What is known of a group in clusters: at these values of its DOFs no gap was less.
+struct KnownClear {
+    DofValues at{};
+    double gap = -std::numeric_limits<double>::infinity();
+};
+
 /// Bits of JointWorkspace::held().
 enum : std::uint8_t {
     stoppedWay = 1,     ///< a way ended at this table's contact, and the joint stayed there
@@ -88,7 +104,7 @@ enum : std::uint8_t {
 
 /// What a JointWorkspace holds.
 struct ResponseRoom {
-    std::vector<NearPair> near;
+    std::vector<NearPair> near; ///< grows where tables are in clusters
     std::size_t nearCount = 0;
     bool common =
         false; ///< all thresholds are one, that of a start in collision: they do not rise by themselves
@@ -96,14 +112,27 @@ struct ResponseRoom {
     std::vector<std::uint32_t> found;  ///< tests of one table
     QpRows rows;
     std::vector<PlacedGroup> groups; ///< one a group
-    std::vector<Pose> ends;          ///< one a group: where a way would end
+    std::vector<Pose> ends;          ///< one a group: where a way would end ...
+    std::vector<std::uint8_t> ended; ///< ... where that is known
     std::vector<std::uint8_t> held;  ///< one a group: 0, or by what it held the joint in the last response
+
+    /// Of a model with tables in clusters: per pair the listing in which it came into the near list.
+    std::vector<std::uint32_t> listed;
+    std::uint32_t listing = 0;
+    /// One a group, kept from one response to the next: it spares work and changes no answer.
+    std::vector<KnownClear> clear;
+    std::uint64_t clearOf = 0; ///< the model that it is about
+
+    /// Empties the near list.
+    void unlist() {
+        nearCount = 0;
+        if (++listing == 0) std::fill(listed.begin(), listed.end(), 0), listing = 1;
+    }
 };
 
-/// Places one group, or every group, at q (values of the joint) into ws.groups.
+/// Places one group at q (values of the joint) into ws.groups.
 void placeGroup(const JointModel& model, std::size_t group, const DofValues& q, const DofValues& way,
                 ResponseRoom& ws);
-void placeGroups(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws);
 
 /// Gap of a pair with the group's pose; normal (unit or less, from A to B) and the centre of B in A's frame.
 inline double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& centre, Vec3& normal) {
@@ -115,16 +144,18 @@ inline double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& cent
 }
 
 /// Fills ws.near with the pairs whose gap can fall to their threshold when each DOF changes by at most
-/// reach[l] from q. Thresholds are min(contactOffset, gap at q), each of its own table.
+/// reach[l] from q. Thresholds are min(contactOffset, gap at q), each of its own table. Pairs of tables in
+/// clusters are none of them: see listOnWay (JointClusters.h).
 void cull(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws);
 
 /// Leaves out near pairs that stay above their threshold wherever |w (q - q')| is at most `distance`; gaps
 /// must be those at q.
 void narrow(const JointModel& model, double distance, ResponseRoom& ws);
 
-/// Gap and gradient of every near pair at q, one-sided towards `way` at rows of paths. Thresholds above the
-/// gap fall to it, unless they are common.
-void linearise(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws);
+/// Gap and gradient of the near pairs from `first` on at q, one-sided towards `way` at rows of paths.
+/// Thresholds above the gap fall to it, unless they are common.
+void linearise(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws,
+               std::size_t first = 0);
 
 /// A gap on the scale that tables of one joint share: above contact as a share of what its own table keeps,
 /// in units of the least of them; in contact as it is. Monotone, and positive where the gap is.
@@ -135,6 +166,9 @@ inline double levelOf(const JointModel& model, double contactOffset, double gap)
 inline double gapOf(const JointModel& model, double contactOffset, double level) {
     return level > 0 ? level * (contactOffset / model.leastContactOffset) : level;
 }
+
+/// Largest share of its range that any DOF goes.
+double shareOfRange(const JointModel& model, const DofValues& way);
 
 /// Smallest level of all pairs of the model at q; infinity where there are none.
 double smallestLevel(const JointModel& model, const DofValues& q, ResponseRoom& ws);
