@@ -13,7 +13,10 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// What rounding may do to lengths compared here, as a share of them.
-constexpr double hair = 1e-9;
+constexpr double hair = 1e-7;
+
+/// Where no more than some pairs are wanted, no more than so many times as many are asked in a table.
+constexpr std::uint32_t askedEach = 16;
 
 /// How the pairs of a group may come nearer on one way.
 struct Closing {
@@ -36,30 +39,24 @@ Closing closingOf(const JointModel::Group& group, const DofValues& way) {
     return closing;
 }
 
-/// The gap that all pairs of a group have at least at q, by what is known of another place.
-double knownGap(const JointModel::Group& group, const DofValues& q, const KnownClear& known) {
-    double gap = known.gap;
+/// Whether, by what is known, no pair can be within the margin at q.
+bool stillClear(const JointModel::Group& group, const DofValues& q, double margin, const KnownNear& known) {
+    double gap = known.least;
     for (std::size_t k = 0; k < group.dofs.size(); ++k)
-        gap -= group.fastest[k] * std::abs(q[group.dofs[k]] - known.at[k]) * (1 + hair);
-    return gap;
+        gap -= group.fastest[k] * std::abs(q[group.dofs[k]] - known.values[k]) * (1 + hair);
+    return gap > margin;
+}
+
+/// By how much the gap of a pair may have changed from one pose to another.
+double changeBetween(const JointModel::Group& group, const Pose& from, const Pose& to) {
+    return (from * group.middle - to * group.middle).norm() +
+           (from.linear() - to.linear()).norm() * group.spread;
 }
 
 /// Less than or equal to the gap of a bound, whatever rounding does.
 double gapOfBound(const TablePair& bound, const Pose& pose) {
     const double distance = (pose * bound.b - bound.a).norm();
     return distance - bound.reach - 1e-12 * (distance + std::abs(bound.reach));
-}
-
-/// No gap is less than this: by the bounds of all groups of clusters.
-double leastOfBounds(const TableClusters& clusters, const Pose& pose) {
-    double least = infinity;
-    for (const TablePair& bound : clusters.groups()) least = std::min(least, gapOfBound(bound, pose));
-    return least;
-}
-
-void remember(const JointModel::Group& group, const DofValues& q, double gap, KnownClear& known) {
-    for (std::size_t k = 0; k < group.dofs.size(); ++k) known.at[k] = q[group.dofs[k]];
-    known.gap = gap;
 }
 
 std::array<double, 12> numbersOf(const Pose& pose) {
@@ -74,38 +71,93 @@ NearPair& addNear(ResponseRoom& ws) {
     return ws.near[ws.nearCount++];
 }
 
+std::uint32_t binOf(const KnownNear& known, double gap) {
+    const double bin = gap / known.reach * KnownNear::bins;
+    return bin > 0 ? std::min(static_cast<std::uint32_t>(std::min(bin, 1e6)), KnownNear::bins - 1) : 0;
+}
+
+/// Keeps the tests found where the group stands, by their gaps.
+void remember(const JointModel& model, const JointModel::Group& group, const DofValues& q, const Pose& pose,
+              double reach, std::span<const std::uint32_t> found, KnownNear& known) {
+    known.reach = known.least = reach;
+    for (std::size_t k = 0; k < group.dofs.size(); ++k) known.values[k] = q[group.dofs[k]];
+    known.pose = pose;
+    std::array<std::uint8_t, KnownNear::most> bins;
+    std::array<std::uint32_t, KnownNear::bins + 1> counts{};
+    Vec3 centre, normal;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const double gap = pairGap(model.pairs[group.firstPair + found[i]], pose, centre, normal);
+        known.least = std::min(known.least, gap);
+        bins[i] = static_cast<std::uint8_t>(binOf(known, gap));
+        ++counts[bins[i] + 1u];
+    }
+    for (std::uint32_t bin = 0; bin < KnownNear::bins; ++bin) counts[bin + 1] += counts[bin];
+    for (std::size_t i = 0; i < found.size(); ++i) known.tests[counts[bins[i]]++] = found[i];
+    std::copy_n(counts.begin(), KnownNear::bins, known.ends.begin());
+}
+
+/// The tests of a group that may be within the margin where it stands, more than `enough` of them not all.
+std::span<const std::uint32_t> testsNear(const JointModel& model, const JointModel::Group& group,
+                                         const DofValues& q, const Pose& pose, double margin,
+                                         std::uint32_t enough, KnownNear& known, ResponseRoom& ws) {
+    const auto nearest = [&](double gap) {
+        return std::span<const std::uint32_t>(known.tests.data(), known.ends[binOf(known, gap)]);
+    };
+    const double changed = margin + changeBetween(group, known.pose, pose) * (1 + hair);
+    if (changed <= known.reach) return nearest(changed);
+    TableFeatures features;
+    group.prepared->features(numbersOf(pose), features);
+    if (known.more == 0) known.more = group.spread / 16;
+    std::uint32_t found =
+        group.prepared->testsWithin(features, margin + known.more, ws.found.data(), KnownNear::most);
+    if (found <= KnownNear::most) {
+        remember(model, group, q, pose, margin + known.more, {ws.found.data(), found}, known);
+        if (found < KnownNear::most / 4) known.more = std::min(2 * known.more, 16 * group.spread);
+        return nearest(margin);
+    }
+    known.more = std::max(0.5 * known.more, group.spread / 1024);
+    found = group.prepared->testsWithin(features, margin, ws.found.data(), enough);
+    return {ws.found.data(), found};
+}
+
 bool listGroup(const JointModel& model, std::size_t g, const DofValues& q, const DofValues& way,
                std::size_t most, ResponseRoom& ws) {
     const JointModel::Group& group = model.groups[g];
     const Closing closing = closingOf(group, way);
-    if (knownGap(group, q, ws.clear[g]) > closing.kept + closing.most * (1 + hair)) return true;
+    if (stillClear(group, q, closing.kept + closing.most * (1 + hair), ws.known[g])) return true;
     placeGroup(model, g, q, way, ws);
     const MotionFrame& frame = ws.groups[g].frame;
     const DofTwist whole = twistOfWay(group, frame, way);
     const double fastest =
         whole.velocity(frame.pose * group.middle).norm() + whole.turn.norm() * group.spread;
     const double margin = closing.kept + std::min(closing.most, fastest + closing.bend) * (1 + hair);
-    TableFeatures features;
-    group.prepared->features(numbersOf(frame.pose), features);
-    const std::uint32_t found = group.prepared->testsWithin(features, margin * (1 + hair), ws.found.data());
-    if (found == 0) {
-        const double clear = leastOfBounds(group.prepared->kernels().clusters(), frame.pose);
-        remember(group, q, std::max(margin, clear), ws.clear[g]);
-    }
-    for (std::uint32_t i = 0; i < found; ++i) {
-        const std::uint32_t p = group.firstPair + ws.found[i];
-        if (ws.listed[p] == ws.listing) continue;
-        Vec3 centre, normal;
-        const double gap = pairGap(model.pairs[p], frame.pose, centre, normal);
-        if (gap > margin) continue; // whatever else the kernel's rounding finds
+    const std::uint32_t enough = most < ~0u / askedEach
+                                     ? std::max(KnownNear::most, static_cast<std::uint32_t>(most) * askedEach)
+                                     : ~0u;
+    const std::span<const std::uint32_t> tests =
+        testsNear(model, group, q, frame.pose, margin * (1 + hair), enough, ws.known[g], ws);
+    if (tests.size() > enough) return false;
+    const auto gapOf = [&](std::uint32_t test, Vec3& centre, Vec3& normal) {
+        return pairGap(model.pairs[group.firstPair + test], frame.pose, centre, normal);
+    };
+    std::size_t count = 0;
+    Vec3 centre, normal;
+    for (const std::uint32_t test : tests) {
+        const double gap = gapOf(test, centre, normal);
+        if (gap > margin) continue;
         const double rate = normal.dot(whole.velocity(centre));
         if (gap > closing.kept && gap + std::min(0.0, rate) - closing.bend > closing.kept) continue;
-        if (ws.nearCount >= most) return false;
-        ws.listed[p] = ws.listing;
+        if (ws.listed[group.firstPair + test] != ws.listing) ws.found[count++] = test;
+    }
+    if (count > most - std::min(most, ws.nearCount)) return false;
+    // The same order whatever was known before.
+    std::sort(ws.found.begin(), ws.found.begin() + std::ptrdiff_t(count));
+    for (std::size_t i = 0; i < count; ++i) {
         NearPair& near = addNear(ws);
-        near.pair = p;
-        near.gap = gap;
-        near.threshold = std::min(group.contactOffset, gap);
+        near.pair = group.firstPair + ws.found[i];
+        near.gap = gapOf(ws.found[i], centre, normal);
+        near.threshold = std::min(group.contactOffset, near.gap);
+        ws.listed[near.pair] = ws.listing;
     }
     return true;
 }

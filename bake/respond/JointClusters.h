@@ -12,7 +12,8 @@ namespace tss {
 /// than its rate at q with half the bound of its acceleration. The first is asked of a whole group before
 /// it is placed, with what was known of it where the joint stood before; the larger of both bounds of all its
 /// pairs is the margin within which its table is asked; then each pair found is asked for itself.
-/// Returns false where it stopped, the list incomplete, because more than `most` pairs are near.
+/// Returns false where it stopped, the list incomplete, because more than `most` pairs are near, or too many
+/// have to be asked for that.
 bool listOnWay(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws,
                std::size_t most = ~std::size_t(0));
 

@@ -89,10 +89,18 @@ struct PlacedGroup {
     bool known = false;
 };
 
-/// What is known of a group in clusters: at these values of its DOFs no gap was less.
-struct KnownClear {
-    DofValues at{};
-    double gap = -std::numeric_limits<double>::infinity();
+/// What is known of a group in clusters from where it stood before: which tests had a gap of at most `reach`
+/// there. It spares asking the table again, and changes no answer.
+struct KnownNear {
+    static constexpr std::uint32_t most = 256, bins = 16;
+    std::vector<std::uint32_t>
+        tests; ///< by the bins of their gaps, each as wide as the others, up to `reach`
+    std::array<std::uint32_t, bins> ends{}; ///< of the bins among the tests
+    double reach = -std::numeric_limits<double>::infinity();
+    double least = -std::numeric_limits<double>::infinity(); ///< gap of all tests of the table
+    DofValues values{};                                      ///< of its DOFs there
+    Pose pose = Pose::Identity();
+    double more = 0; ///< how much farther than needed is asked, so that there are neither many nor none
 };
 
 /// Bits of JointWorkspace::held().
@@ -119,9 +127,8 @@ struct ResponseRoom {
     /// Of a model with tables in clusters: per pair the listing in which it came into the near list.
     std::vector<std::uint32_t> listed;
     std::uint32_t listing = 0;
-    /// One a group, kept from one response to the next: it spares work and changes no answer.
-    std::vector<KnownClear> clear;
-    std::uint64_t clearOf = 0; ///< the model that it is about
+    std::vector<KnownNear> known; ///< one a group, kept from one response to the next ...
+    std::uint64_t knownOf = 0;    ///< ... to this model
 
     /// Empties the near list.
     void unlist() {

@@ -164,7 +164,10 @@ ResponseRoom JointResponder::Prepared::room() const {
     ws.ends.resize(model_.groups.size());
     ws.ended.resize(model_.groups.size());
     ws.held.resize(model_.groups.size());
-    if (model_.clustered) ws.listed.resize(model_.pairs.size());
+    if (!model_.clustered) return ws;
+    ws.listed.resize(model_.pairs.size());
+    ws.known.resize(model_.groups.size());
+    for (KnownNear& known : ws.known) known.tests.resize(KnownNear::most);
     return ws;
 }
 
@@ -275,9 +278,10 @@ JointAnswer JointResponder::Prepared::respond(const double* last, const double* 
                                               ResponseRoom& ws) const {
     for (PlacedGroup& group : ws.groups) group.known = false; // it may have served another joint
     std::fill(ws.held.begin(), ws.held.end(), std::uint8_t(0));
-    if (model_.clustered && ws.clearOf != model_.id) {
-        ws.clear.assign(model_.groups.size(), KnownClear());
-        ws.clearOf = model_.id;
+    if (model_.clustered && ws.knownOf != model_.id) {
+        for (KnownNear& known : ws.known)
+            known.reach = known.least = -std::numeric_limits<double>::infinity();
+        ws.knownOf = model_.id;
     }
     DofValues from{}, to{};
     std::copy_n(last, model_.dofCount, from.begin());
