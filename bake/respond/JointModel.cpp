@@ -114,6 +114,29 @@ void prepareGroup(const Table& table, JointModel& model) {
         group.spread = std::max(group.spread, (pair.b - group.middle).norm());
 }
 
+/// Finds each group its chain.
+void findChains(JointModel& model) {
+    for (JointModel::Group& group : model.groups) {
+        if (group.paths) continue;
+        const auto begins = [&](const JointModel::Chain& chain) {
+            const std::size_t both = std::min(chain.dofs.size(), group.dofs.size());
+            for (std::size_t k = 0; k < both; ++k) {
+                const Dof &x = chain.motion.dofs[k], &y = group.motion.dofs[k];
+                if (chain.dofs[k] != group.dofs[k] || x.kind != y.kind || x.origin != y.origin ||
+                    x.axis != y.axis)
+                    return false;
+            }
+            return both > 0;
+        };
+        const auto found = std::find_if(model.chains.begin(), model.chains.end(), begins);
+        group.chain = static_cast<int>(found - model.chains.begin());
+        if (found == model.chains.end())
+            model.chains.push_back({group.motion, group.dofs});
+        else if (found->dofs.size() < group.dofs.size())
+            *found = {group.motion, group.dofs};
+    }
+}
+
 /// Values whose tables all know the whole turn, and that nothing else limits.
 void findTurns(JointModel& model) {
     constexpr double turn = 2 * std::numbers::pi;
@@ -161,6 +184,7 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
         if (!(model.lower[l] <= model.upper[l]))
             throw InputError("joint: expected limits of its tables that overlap");
     findTurns(model);
+    if (model.clustered) findChains(model);
     // A DOF that moves no sphere still needs a weight: the metric must be one.
     const double largest = *std::max_element(model.weights.begin(), model.weights.end());
     for (int l = 0; l < dofCount; ++l)
@@ -180,6 +204,28 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
     return model;
 }
 
+namespace {
+
+/// The same bits as evaluateFrame.
+void placeOnChain(const JointModel& model, const JointModel::Group& group, PlacedGroup& placed,
+                  PlacedChain& chain) {
+    const std::size_t count = group.dofs.size();
+    std::size_t same = 0;
+    while (same < std::min(count, chain.count) && chain.at[same] == placed.at[same]) ++same;
+    if (same < count) {
+        std::copy(placed.at.begin() + std::ptrdiff_t(same), placed.at.begin() + std::ptrdiff_t(count),
+                  chain.at.begin() + std::ptrdiff_t(same));
+        evaluateLinks(model.chains[std::size_t(group.chain)].motion, chain.at.data(), same, count,
+                      chain.before.data(), chain.twists.data());
+        chain.count = count;
+    }
+    placed.frame.pose = chain.before[count] * group.motion.base;
+    std::copy_n(chain.twists.begin(), count, placed.frame.twists.begin());
+    placed.frame.rowAhead = false;
+}
+
+} // namespace
+
 void placeGroup(const JointModel& model, std::size_t g, const DofValues& q, const DofValues& way,
                 ResponseRoom& ws) {
     const JointModel::Group& group = model.groups[g];
@@ -194,6 +240,7 @@ void placeGroup(const JointModel& model, std::size_t g, const DofValues& q, cons
     }
     if (same) return;
     placed.known = true;
+    if (group.chain >= 0) return placeOnChain(model, group, placed, ws.chains[std::size_t(group.chain)]);
     evaluateFrame(group.motion, placed.at.data(), direction.data(), placed.frame);
 }
 

@@ -25,6 +25,7 @@ struct JointModel {
         std::uint32_t firstPair = 0, lastPair = 0;
         int table = 0;
         std::shared_ptr<const PreparedTable> prepared; ///< to cull with, none where that would not pay
+        int chain = -1;             ///< of the model, which begins as its motion does; -1: none
         bool clustered = false;     ///< its table is in clusters: its pairs are listed for one way at a time
         DofValues fastest{};        ///< per DOF of the motion: the largest of its pairs' speeds
         Vec3 middle = Vec3::Zero(); ///< of the centres of B's spheres, in B's frame ...
@@ -41,6 +42,12 @@ struct JointModel {
         double contactOffset = 0; ///< its group's
     };
 
+    /// DOFs that several groups have in common, the longest of their motions: placed once for all of them.
+    struct Chain {
+        Motion motion;
+        std::vector<int> dofs; ///< as a group's
+    };
+
     int dofCount = 0;
     DofValues lower{}, upper{};        ///< of a DOF of a whole turn a turn beyond the tables' on both sides
     DofValues first{}, range{};        ///< lower limit and extent of the tables'
@@ -49,6 +56,7 @@ struct JointModel {
     DofValues perWeight{}; ///< 1 / weights
     std::vector<LimitPlane> planes;
     std::vector<Group> groups;
+    std::vector<Chain> chains;     ///< where some group is in clusters: many groups, and none with paths
     std::vector<Pair> pairs;       ///< by group
     std::vector<double> speeds;    ///< rows of dofCount: speed bound per unit of each value of the joint
     double scale = 0;              ///< length of the limits' diagonal in the weighted metric, scene units
@@ -89,6 +97,15 @@ struct PlacedGroup {
     bool known = false;
 };
 
+/// A chain as far as it stands at these values.
+struct PlacedChain {
+    std::array<Pose, maxDofs + 1> before;
+    std::array<DofTwist, maxDofs> twists;
+    DofValues at;
+    std::size_t count = 0; ///< DOFs
+    PlacedChain() { before[0] = Pose::Identity(); }
+};
+
 /// What is known of a group in clusters from where it stood before: which tests had a gap of at most `reach`
 /// there. It spares asking the table again, and changes no answer.
 struct KnownNear {
@@ -120,6 +137,7 @@ struct ResponseRoom {
     std::vector<std::uint32_t> found;  ///< tests of one table
     QpRows rows;
     std::vector<PlacedGroup> groups; ///< one a group
+    std::vector<PlacedChain> chains;
     std::vector<Pose> ends;          ///< one a group: where a way would end ...
     std::vector<std::uint8_t> ended; ///< ... where that is known
     std::vector<std::uint8_t> held;  ///< one a group: 0, or by what it held the joint in the last response

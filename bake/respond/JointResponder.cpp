@@ -161,6 +161,7 @@ ResponseRoom JointResponder::Prepared::room() const {
     ws.found.resize(room);
     ws.rows = QpRows(model_.listable + 2 * std::size_t(model_.dofCount) + model_.planes.size());
     ws.groups.resize(model_.groups.size());
+    ws.chains.resize(model_.chains.size());
     ws.ends.resize(model_.groups.size());
     ws.ended.resize(model_.groups.size());
     ws.held.resize(model_.groups.size());
@@ -277,6 +278,7 @@ JointAnswer JointResponder::Prepared::fromCollision(const DofValues& start, cons
 JointAnswer JointResponder::Prepared::respond(const double* last, const double* asked,
                                               ResponseRoom& ws) const {
     for (PlacedGroup& group : ws.groups) group.known = false; // it may have served another joint
+    for (PlacedChain& chain : ws.chains) chain.count = 0;
     std::fill(ws.held.begin(), ws.held.end(), std::uint8_t(0));
     if (model_.clustered && ws.knownOf != model_.id) {
         for (KnownNear& known : ws.known)
