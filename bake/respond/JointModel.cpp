@@ -279,6 +279,10 @@ std::uint32_t findUnder(const JointModel& model, const JointModel::Group& group,
 
 void cull(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws) {
     ws.unlist();
+    cullMore(model, q, reach, ws);
+}
+
+void cullMore(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws) {
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
         const JointModel::Group& group = model.groups[g];
         if (group.clustered) continue;

@@ -172,6 +172,8 @@ inline double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& cent
 /// reach[l] from q. Thresholds are min(contactOffset, gap at q), each of its own table. Pairs of tables in
 /// clusters are none of them: see listOnWay (JointClusters.h).
 void cull(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws);
+/// The same, after what is in ws.near.
+void cullMore(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws);
 
 /// Leaves out near pairs that stay above their threshold wherever |w (q - q')| is at most `distance`; gaps
 /// must be those at q.

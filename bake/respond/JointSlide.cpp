@@ -182,6 +182,18 @@ bool slideWay(const JointModel& model, const DofValues& q, const DofValues& goal
     return true;
 }
 
+/// Leaves in the near list what is in clusters: what came near on one way will on the next.
+void keepClustered(const JointModel& model, ResponseRoom& ws) {
+    if (!model.clustered) return ws.unlist();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < ws.nearCount; ++i)
+        if (model.groups[model.pairs[ws.near[i].pair].group].clustered) {
+            if (kept != i) ws.near[kept] = ws.near[i];
+            ++kept;
+        }
+    ws.nearCount = kept;
+}
+
 /// Culls for a round at q, `distance` from the goal. Returns whether for all that follow, too, none of which
 /// is farther from the goal. Else for moves of no more than `trust` of each range.
 bool cullRound(const JointModel& model, const DofValues& q, double distance, double trust, ResponseRoom& ws) {
@@ -195,7 +207,8 @@ bool cullRound(const JointModel& model, const DofValues& q, double distance, dou
             all = false;
         }
     }
-    cull(model, q, reach, ws);
+    keepClustered(model, ws);
+    cullMore(model, q, reach, ws);
     return all;
 }
 
