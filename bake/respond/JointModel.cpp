@@ -204,6 +204,27 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
     return model;
 }
 
+ResponseRoom roomFor(const JointModel& model) {
+    ResponseRoom ws;
+    ws.near.resize(model.listable);
+    ws.active.resize(model.listable);
+    std::size_t room = 0;
+    for (const JointModel::Group& group : model.groups)
+        if (group.prepared) room = std::max(room, group.prepared->testRoom());
+    ws.found.resize(room);
+    ws.rows = QpRows(model.listable + 2 * std::size_t(model.dofCount) + model.planes.size());
+    ws.groups.resize(model.groups.size());
+    ws.chains.resize(model.chains.size());
+    ws.ends.resize(model.groups.size());
+    ws.ended.resize(model.groups.size());
+    ws.held.resize(model.groups.size());
+    if (!model.clustered) return ws;
+    ws.listed.resize(model.pairs.size());
+    ws.known.resize(model.groups.size());
+    for (KnownNear& known : ws.known) known.tests.resize(KnownNear::most);
+    return ws;
+}
+
 namespace {
 
 /// The same bits as evaluateFrame.

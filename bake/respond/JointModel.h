@@ -109,7 +109,7 @@ struct PlacedChain {
 /// What is known of a group in clusters from where it stood before: which tests had a gap of at most `reach`
 /// there. It spares asking the table again, and changes no answer.
 struct KnownNear {
-    static constexpr std::uint32_t most = 256, bins = 16;
+    static constexpr std::uint32_t most = 128, bins = 16;
     std::vector<std::uint32_t>
         tests; ///< by the bins of their gaps, each as wide as the others, up to `reach`
     std::array<std::uint32_t, bins> ends{}; ///< of the bins among the tests
@@ -154,6 +154,8 @@ struct ResponseRoom {
         if (++listing == 0) std::fill(listed.begin(), listed.end(), 0), listing = 1;
     }
 };
+
+ResponseRoom roomFor(const JointModel& model);
 
 /// Places one group at q (values of the joint) into ws.groups.
 void placeGroup(const JointModel& model, std::size_t group, const DofValues& q, const DofValues& way,

@@ -25,7 +25,7 @@ TableOnJoint wholeJoint(const Table& table) {
 
 /// Where tables are in clusters: legs end where more pairs than this come near on them, but for those that go
 /// less than the least share of a range, or this share of it, before anything is known of the way.
-constexpr std::size_t manyNear = 256;
+constexpr std::size_t manyNear = 128;
 constexpr double leastLeg = 1.0 / 4096, firstLeg = 1.0 / 256;
 
 /// How the way from a pose to the goal is gone: in so many equal legs, so that few pairs are near each, or
@@ -119,7 +119,6 @@ double queryGap(const JointModel::Pair& pair, const Pose& inverse) {
 class JointResponder::Prepared {
 public:
     Prepared(std::span<const TableOnJoint> tables, int dofCount, Preparation preparation);
-    ResponseRoom room() const;
     JointAnswer respond(const double* last, const double* asked, ResponseRoom& ws) const;
     const JointModel& model() const { return model_; }
     const DofValues* freePose() const { return hasFreePose_ ? &freePose_ : nullptr; }
@@ -151,29 +150,8 @@ JointResponder::Prepared::Prepared(std::span<const TableOnJoint> tables, int dof
     if (preparation == Preparation::Fully) findFreePose(rest);
 }
 
-ResponseRoom JointResponder::Prepared::room() const {
-    ResponseRoom ws;
-    ws.near.resize(model_.listable);
-    ws.active.resize(model_.listable);
-    std::size_t room = 0;
-    for (const JointModel::Group& group : model_.groups)
-        if (group.prepared) room = std::max(room, group.prepared->testRoom());
-    ws.found.resize(room);
-    ws.rows = QpRows(model_.listable + 2 * std::size_t(model_.dofCount) + model_.planes.size());
-    ws.groups.resize(model_.groups.size());
-    ws.chains.resize(model_.chains.size());
-    ws.ends.resize(model_.groups.size());
-    ws.ended.resize(model_.groups.size());
-    ws.held.resize(model_.groups.size());
-    if (!model_.clustered) return ws;
-    ws.listed.resize(model_.pairs.size());
-    ws.known.resize(model_.groups.size());
-    for (KnownNear& known : ws.known) known.tests.resize(KnownNear::most);
-    return ws;
-}
-
 void JointResponder::Prepared::findFreePose(const DofValues& rest) {
-    ResponseRoom ws = room();
+    ResponseRoom ws = roomFor(model_);
     freePose_ = clampToLimits(model_, rest.data(), ws);
     double best = smallestLevel(model_, freePose_, ws);
     // A grid of some thousand poses at most, inner points and borders alike.
@@ -339,7 +317,7 @@ JointResponder& JointResponder::operator=(JointResponder&&) noexcept = default;
 JointResponder::~JointResponder() = default;
 
 JointWorkspace JointResponder::workspace() const {
-    return JointWorkspace(std::make_unique<ResponseRoom>(prepared_->room()));
+    return JointWorkspace(std::make_unique<ResponseRoom>(roomFor(prepared_->model())));
 }
 
 JointAnswer JointResponder::respond(const double* last, const double* asked,
