@@ -23,8 +23,8 @@ TableOnJoint wholeJoint(const Table& table) {
     return entry;
 }
 
-/// Where tables are in clusters: legs end where more pairs than this come near on them, but for those that go
-/// less than the least share of a range, or this share of it, before anything is known of the way.
+/// Where tables are in clusters: a leg is shortened until no more pairs than this come near on it, or until
+/// it goes no farther than the least share of a range. The first one goes no farther than firstLeg.
 constexpr std::size_t manyNear = 128;
 constexpr double leastLeg = 1.0 / 4096, firstLeg = 1.0 / 256;
 
