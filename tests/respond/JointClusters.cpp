@@ -211,3 +211,32 @@ TEST_CASE("what is not listed for a way stays away from contact all along it") {
     CHECK(listed < asked / 6 / 10);
     CHECK(nearest > 5);
 }
+
+TEST_CASE("a chain that starts in itself comes out, and is held out from then on") {
+    const Chain chain(5);
+    const JointResponder responder(chain.onJoint, links - 1);
+    REQUIRE(responder.freePose());
+    JointWorkspace ws = responder.workspace();
+    Random random(6);
+    int starts = 0, pushed = 0;
+    while (starts < 25) {
+        std::vector<double> q = random_table::values(random, chain.limits());
+        if (chain.gap(q) > 0) continue;
+        CAPTURE(++starts);
+        const std::vector<double> asked = q;
+        bool out = false;
+        for (int i = 0; i < 60; ++i) {
+            const double before = chain.gap(q);
+            const JointAnswer answer = responder.respond(q.data(), asked.data(), ws);
+            q = valuesOf(answer.q);
+            const double after = chain.gap(q);
+            if (out) REQUIRE(after > 0);
+            if (before <= 0 && answer.status == JointStatus::Separated) REQUIRE(after > before);
+            pushed += before <= 0 && after > 0 && answer.status == JointStatus::Separated;
+            out = after > 0;
+            if (before <= 0) REQUIRE(answer.status >= JointStatus::Separated);
+        }
+        REQUIRE(out);
+    }
+    CHECK(pushed > 10);
+}
