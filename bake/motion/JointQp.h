@@ -15,8 +15,12 @@ public:
         n_ = n;
         count_ = 0;
     }
-    /// One more, to be filled: n numbers of its normal, then its bound. There must be room.
-    double* add() { return numbers_.data() + stride() * std::size_t(count_++); }
+    /// One more, to be filled: n numbers of its normal, then its bound. Allocates where there is no room.
+    double* add() {
+        const std::size_t first = stride() * std::size_t(count_++);
+        if (first + stride() > numbers_.size()) numbers_.resize(2 * (first + stride()));
+        return numbers_.data() + first;
+    }
 
     const double* normal(int row) const { return numbers_.data() + stride() * std::size_t(row); }
     double bound(int row) const { return normal(row)[n_]; }

@@ -98,6 +98,15 @@ void evaluateFrame(const Motion& motion, const double* q, const double* directio
     frame.pose = before * motion.base;
 }
 
+void evaluateLinks(const Motion& motion, const double* q, std::size_t from, std::size_t to, Pose* before,
+                   DofTwist* twists) {
+    for (std::size_t k = from; k < to; ++k) {
+        const Pose own = dofPose(motion.dofs[k], q[k]);
+        twists[k] = twist(motion.dofs[k], nullptr, before[k], own);
+        before[k + 1] = before[k] * own;
+    }
+}
+
 void speedBounds(const Motion& motion, const Vec3& point, double* speeds) {
     // y: the point as the DOFs within place it at the middle of their limits, give or take `stray`.
     Vec3 y = motion.base * point;

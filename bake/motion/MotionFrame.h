@@ -25,6 +25,12 @@ struct MotionFrame {
 /// is meant.
 void evaluateFrame(const Motion& motion, const double* q, const double* direction, MotionFrame& frame);
 
+/// The same in parts, of a motion without paths. before[k] is the pose of all DOFs before k: known for k up
+/// to `from`, set for all up to `to`; twists are set from `from` to before `to`. T(q) = before[#DOFs] *
+/// motion.base.
+void evaluateLinks(const Motion& motion, const double* q, std::size_t from, std::size_t to, Pose* before,
+                   DofTwist* twists);
+
 /// How fast a point of B can move anywhere in the limits: speed per unit of each DOF's value (the lever of a
 /// turn, METHOD 2.2), found from the last DOF inwards. point: in B's frame. speeds: one a DOF.
 void speedBounds(const Motion& motion, const Vec3& point, double* speeds);

@@ -21,7 +21,6 @@ double slowestRate(const JointModel::Group& group, const MotionFrame& frame, con
 /// Gap and rate of every active pair at q; thresholds rise as pairs free themselves.
 void observe(const JointModel& model, const DofValues& q, const DofValues& way, std::size_t activeCount,
              ResponseRoom& ws) {
-    placeGroups(model, q, way, ws);
     std::uint32_t at = ~0u;
     DofTwist whole;
     for (std::size_t i = 0; i < activeCount; ++i) {
@@ -30,12 +29,8 @@ void observe(const JointModel& model, const DofValues& q, const DofValues& way, 
         const MotionFrame& frame = ws.groups[pair.group].frame;
         if (pair.group != at) {
             at = pair.group;
-            whole = DofTwist();
-            const std::vector<int>& dofs = model.groups[at].dofs;
-            for (std::size_t k = 0; k < dofs.size(); ++k) {
-                whole.turn += way[dofs[k]] * frame.twists[k].turn;
-                whole.slide += way[dofs[k]] * frame.twists[k].slide;
-            }
+            placeGroup(model, at, q, way, ws);
+            whole = twistOfWay(model.groups[at], frame, way);
         }
         Vec3 centre, normal;
         near.gap = pairGap(pair, frame.pose, centre, normal);
@@ -96,6 +91,15 @@ double freeTime(const JointModel& model, const DofValues& q, const DofValues& wa
 
 } // namespace
 
+DofTwist twistOfWay(const JointModel::Group& group, const MotionFrame& frame, const DofValues& way) {
+    DofTwist whole;
+    for (std::size_t k = 0; k < group.dofs.size(); ++k) {
+        whole.turn += way[group.dofs[k]] * frame.twists[k].turn;
+        whole.slide += way[group.dofs[k]] * frame.twists[k].slide;
+    }
+    return whole;
+}
+
 void MotionBounds::bound(const JointModel& model, const DofValues& way, NearPair& near) {
     if (const std::uint32_t index = model.pairs[near.pair].group; index != group_) {
         group_ = index;
@@ -121,6 +125,7 @@ void MotionBounds::bound(const JointModel& model, const DofValues& way, NearPair
 double advance(const JointModel& model, const DofValues& way, DofValues& q, ResponseRoom& ws) {
     const DofValues start = q;
     std::size_t activeCount = 0;
+    if (ws.active.size() < ws.nearCount) ws.active.resize(ws.near.size());
     MotionBounds bounds;
     for (std::size_t i = 0; i < ws.nearCount; ++i) {
         NearPair& near = ws.near[i];

@@ -13,6 +13,9 @@ namespace tss {
 /// of pairs that stopped it are marked in ws.held.
 double advance(const JointModel& model, const DofValues& way, DofValues& q, ResponseRoom& ws);
 
+/// How the whole way moves a point of A's frame, one time unit for all of it.
+DofTwist twistOfWay(const JointModel::Group& group, const MotionFrame& frame, const DofValues& way);
+
 /// Bounds of speeds and accelerations along one way, one time unit for the whole of it; what all pairs of a
 /// group share is found once.
 class MotionBounds {

@@ -2,8 +2,11 @@
 
 #include "bake/base/Error.h"
 #include "bake/motion/WholeTurn.h"
+#include "bake/respond/JointClusters.h"
+#include "bake/table/TableKernels.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -27,11 +30,17 @@ void checkFit(const TableOnJoint& entry, int dofCount) {
 void addPairs(const Table& table, std::uint32_t group, JointModel& model) {
     const std::vector<int>& dofs = model.groups[group].dofs;
     const std::vector<SpherePair> list = tests(table);
+    constexpr std::uint32_t none = ~0u;
+    std::vector<std::uint32_t> movers(table.b.size(), none);
     for (std::uint32_t k = 0; k < list.size(); ++k) {
         const Sphere &a = table.a[list[k].a], &b = table.b[list[k].b];
         const double rest = table.restGaps.empty() ? 0 : table.restGaps[k];
-        model.pairs.push_back(
-            {a.centre, b.centre, a.radius, b.radius, rest, a.radius + b.radius + rest, group, k, 0, 0});
+        const double reach = a.radius + b.radius + rest;
+        std::uint32_t& mover = movers[list[k].b];
+        const bool first = mover == none;
+        if (first) mover = static_cast<std::uint32_t>(model.speeds.size() / std::max(1, model.dofCount));
+        model.pairs.push_back({a.centre, b.centre, a.radius, b.radius, rest, reach, group, k, mover, 0, 0});
+        if (!first) continue;
         DofValues own;
         speedBounds(table.motion, b.centre, own.data());
         const std::size_t row = model.speeds.size();
@@ -39,6 +48,7 @@ void addPairs(const Table& table, std::uint32_t group, JointModel& model) {
         for (std::size_t l = 0; l < dofs.size(); ++l) {
             model.speeds[row + dofs[l]] = own[l];
             model.weights[dofs[l]] = std::max(model.weights[dofs[l]], own[l]);
+            model.groups[group].fastest[l] = std::max(model.groups[group].fastest[l], own[l]);
         }
     }
 }
@@ -86,6 +96,47 @@ void addTable(const TableOnJoint& entry, int index, JointModel& model) {
         model.pairs[p].contactOffset = added.contactOffset;
 }
 
+/// Makes the vector kernels of the last group's table, and what is asked of one in clusters.
+void prepareGroup(const Table& table, JointModel& model) {
+    JointModel::Group& group = model.groups.back();
+    group.prepared = std::make_shared<PreparedTable>(table);
+    group.clustered = !group.prepared->kernels().clusters().empty();
+    if (!group.clustered) return;
+    model.clustered = true;
+    const std::span pairs(model.pairs.data() + group.firstPair, group.lastPair - group.firstPair);
+    Vec3 lower = pairs[0].b, upper = pairs[0].b;
+    for (const JointModel::Pair& pair : pairs) {
+        lower = lower.cwiseMin(pair.b);
+        upper = upper.cwiseMax(pair.b);
+    }
+    group.middle = 0.5 * (lower + upper);
+    for (const JointModel::Pair& pair : pairs)
+        group.spread = std::max(group.spread, (pair.b - group.middle).norm());
+}
+
+/// Finds each group its chain.
+void findChains(JointModel& model) {
+    for (JointModel::Group& group : model.groups) {
+        if (group.paths) continue;
+        const auto begins = [&](const JointModel::Chain& chain) {
+            const std::size_t both = std::min(chain.dofs.size(), group.dofs.size());
+            for (std::size_t k = 0; k < both; ++k) {
+                const Dof &x = chain.motion.dofs[k], &y = group.motion.dofs[k];
+                if (chain.dofs[k] != group.dofs[k] || x.kind != y.kind || x.origin != y.origin ||
+                    x.axis != y.axis)
+                    return false;
+            }
+            return both > 0;
+        };
+        const auto found = std::find_if(model.chains.begin(), model.chains.end(), begins);
+        group.chain = static_cast<int>(found - model.chains.begin());
+        if (found == model.chains.end())
+            model.chains.push_back({group.motion, group.dofs});
+        else if (found->dofs.size() < group.dofs.size())
+            *found = {group.motion, group.dofs};
+    }
+}
+
 /// Values whose tables all know the whole turn, and that nothing else limits.
 void findTurns(JointModel& model) {
     constexpr double turn = 2 * std::numbers::pi;
@@ -123,7 +174,9 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
     for (std::size_t i = 0; i < tables.size(); ++i) {
         checkFit(tables[i], dofCount);
         addTable(tables[i], static_cast<int>(i), model);
-        if (prepare) model.groups.back().prepared = std::make_shared<PreparedTable>(*tables[i].table);
+        if (prepare) prepareGroup(*tables[i].table, model);
+        const JointModel::Group& group = model.groups.back();
+        if (!group.clustered) model.listable += group.lastPair - group.firstPair;
         model.leastContactOffset = std::min(model.leastContactOffset, model.groups.back().contactOffset);
     }
     if (model.groups.empty()) model.leastContactOffset = std::numeric_limits<double>::min();
@@ -131,6 +184,7 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
         if (!(model.lower[l] <= model.upper[l]))
             throw InputError("joint: expected limits of its tables that overlap");
     findTurns(model);
+    if (model.clustered) findChains(model);
     // A DOF that moves no sphere still needs a weight: the metric must be one.
     const double largest = *std::max_element(model.weights.begin(), model.weights.end());
     for (int l = 0; l < dofCount; ++l)
@@ -145,28 +199,9 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
         model.pairs[p].lever = std::sqrt(squared);
     }
     model.scale = weightedDistance(model, model.range, DofValues{});
+    static std::atomic<std::uint64_t> made{0};
+    model.id = ++made;
     return model;
-}
-
-void placeGroup(const JointModel& model, std::size_t g, const DofValues& q, const DofValues& way,
-                ResponseRoom& ws) {
-    const JointModel::Group& group = model.groups[g];
-    PlacedGroup& placed = ws.groups[g];
-    DofValues direction;
-    bool same = placed.known && !group.paths; // a path's twist depends on the way
-    for (std::size_t k = 0; k < group.dofs.size(); ++k) {
-        const double value = q[group.dofs[k]];
-        same = same && placed.at[k] == value;
-        placed.at[k] = value;
-        direction[k] = way[group.dofs[k]];
-    }
-    if (same) return;
-    placed.known = true;
-    evaluateFrame(group.motion, placed.at.data(), direction.data(), placed.frame);
-}
-
-void placeGroups(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws) {
-    for (std::size_t g = 0; g < model.groups.size(); ++g) placeGroup(model, g, q, way, ws);
 }
 
 namespace {
@@ -203,9 +238,14 @@ std::uint32_t findUnder(const JointModel& model, const JointModel::Group& group,
 } // namespace
 
 void cull(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws) {
-    ws.nearCount = 0;
+    ws.unlist();
+    cullMore(model, q, reach, ws);
+}
+
+void cullMore(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws) {
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
         const JointModel::Group& group = model.groups[g];
+        if (group.clustered) continue;
         if (group.prepared) {
             const std::uint32_t found = findUnder(model, group, q, reach, ws);
             if (found == 0) continue;
@@ -231,11 +271,13 @@ void narrow(const JointModel& model, double distance, ResponseRoom& ws) {
     ws.nearCount = kept;
 }
 
-void linearise(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws) {
-    placeGroups(model, q, way, ws);
-    for (std::size_t i = 0; i < ws.nearCount; ++i) {
+void linearise(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws,
+               std::size_t first) {
+    std::uint32_t at = ~0u;
+    for (std::size_t i = first; i < ws.nearCount; ++i) {
         NearPair& near = ws.near[i];
         const JointModel::Pair& pair = model.pairs[near.pair];
+        if (pair.group != at) placeGroup(model, at = pair.group, q, way, ws);
         const JointModel::Group& group = model.groups[pair.group];
         const MotionFrame& frame = ws.groups[pair.group].frame;
         Vec3 centre, normal;
@@ -248,76 +290,21 @@ void linearise(const JointModel& model, const DofValues& q, const DofValues& way
 }
 
 double smallestLevel(const JointModel& model, const DofValues& q, ResponseRoom& ws) {
-    placeGroups(model, q, q, ws);
     double smallest = std::numeric_limits<double>::infinity();
     Vec3 centre, normal;
-    for (const JointModel::Pair& pair : model.pairs)
-        smallest =
-            std::min(smallest, levelOf(model, pair.contactOffset,
-                                       pairGap(pair, ws.groups[pair.group].frame.pose, centre, normal)));
+    for (std::size_t g = 0; g < model.groups.size(); ++g) {
+        const JointModel::Group& group = model.groups[g];
+        placeGroup(model, g, q, q, ws);
+        const Pose& pose = ws.groups[g].frame.pose;
+        double gap = std::numeric_limits<double>::infinity();
+        if (group.clustered)
+            gap = smallestGap(model, g, pose);
+        else
+            for (std::uint32_t p = group.firstPair; p < group.lastPair; ++p)
+                gap = std::min(gap, pairGap(model.pairs[p], pose, centre, normal));
+        smallest = std::min(smallest, levelOf(model, group.contactOffset, gap));
+    }
     return smallest;
-}
-
-void addLimits(const JointModel& model, const DofValues& q, double trust, const DofValues& goal,
-               QpRows& rows) {
-    const int n = model.dofCount;
-    for (int l = 0; l < n; ++l) {
-        const double reach = trust * model.range[l];
-        for (double sign : {1.0, -1.0}) {
-            const double end =
-                sign > 0 ? std::max(model.lower[l], q[l] - reach) : std::min(model.upper[l], q[l] + reach);
-            double* row = rows.add();
-            std::fill_n(row, n, 0.0);
-            row[l] = sign;
-            row[n] = sign * model.weights[l] * (end - goal[l]);
-        }
-    }
-    for (const LimitPlane& plane : model.planes) {
-        double* row = rows.add();
-        double value = -plane.bound, squared = 0;
-        for (int l = 0; l < n; ++l) {
-            row[l] = -plane.coefficients[l] * model.perWeight[l];
-            value += plane.coefficients[l] * goal[l];
-            squared += row[l] * row[l];
-        }
-        const double scale = 1 / std::sqrt(squared);
-        for (int l = 0; l < n; ++l) row[l] *= scale;
-        row[n] = value * scale;
-    }
-}
-
-DofValues clampToLimits(const JointModel& model, const double* asked, ResponseRoom& ws) {
-    const int n = model.dofCount;
-    DofValues q{};
-    for (int l = 0; l < n; ++l) q[l] = std::clamp(asked[l], model.lower[l], model.upper[l]);
-    const auto within = [&](const LimitPlane& plane) {
-        double sum = -plane.bound;
-        for (int l = 0; l < n; ++l) sum += plane.coefficients[l] * q[l];
-        return sum <= 0;
-    };
-    if (std::all_of(model.planes.begin(), model.planes.end(), within)) return q;
-    ws.rows.clear(n);
-    addLimits(model, q, 1, q, ws.rows);
-    DofValues y;
-    if (!nearestToOrigin(ws.rows, 1e-12 * model.scale, y)) return q;
-    for (int l = 0; l < n; ++l)
-        q[l] = std::clamp(q[l] + y[l] / model.weights[l], model.lower[l], model.upper[l]);
-    return q;
-}
-
-void wrapTurns(const JointModel& model, DofValues& q) {
-    for (int l = 0; l < model.dofCount; ++l)
-        if (model.round[l] && (q[l] < model.first[l] || q[l] > model.first[l] + model.range[l]))
-            q[l] = nearestTurn(q[l], model.first[l] + 0.5 * model.range[l]);
-}
-
-double weightedDistance(const JointModel& model, const DofValues& x, const DofValues& y) {
-    double sum = 0;
-    for (int l = 0; l < model.dofCount; ++l) {
-        const double d = model.weights[l] * (x[l] - y[l]);
-        sum += d * d;
-    }
-    return std::sqrt(sum);
 }
 
 } // namespace tss

@@ -4,6 +4,8 @@
 #include "bake/respond/JointResponder.h"
 #include "bake/table/PreparedTable.h"
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 
 namespace tss {
@@ -23,6 +25,11 @@ struct JointModel {
         std::uint32_t firstPair = 0, lastPair = 0;
         int table = 0;
         std::shared_ptr<const PreparedTable> prepared; ///< to cull with, none where that would not pay
+        int chain = -1;             ///< of the model, which begins as its motion does; -1: none
+        bool clustered = false;     ///< its table is in clusters: its pairs are listed for one way at a time
+        DofValues fastest{};        ///< per DOF of the motion: the largest of its pairs' speeds
+        Vec3 middle = Vec3::Zero(); ///< of the centres of B's spheres, in B's frame ...
+        double spread = 0;          ///< ... which are no farther from it than this
     };
     struct Pair {
         Vec3 a, b; ///< centres, each in its own body's frame
@@ -30,8 +37,15 @@ struct JointModel {
         double reach = 0; ///< radiusA + radiusB + rest: the distance of the centres at contact
         std::uint32_t group = 0;
         std::uint32_t test = 0;   ///< index in its table
+        std::uint32_t mover = 0;  ///< its row of speeds, that of its sphere of B
         double lever = 0;         ///< its gap changes by at most lever * |w (q - q')|
         double contactOffset = 0; ///< its group's
+    };
+
+    /// DOFs that several groups have in common, the longest of their motions: placed once for all of them.
+    struct Chain {
+        Motion motion;
+        std::vector<int> dofs; ///< as a group's
     };
 
     int dofCount = 0;
@@ -42,13 +56,17 @@ struct JointModel {
     DofValues perWeight{}; ///< 1 / weights
     std::vector<LimitPlane> planes;
     std::vector<Group> groups;
+    std::vector<Chain> chains;     ///< where some group is in clusters: many groups, and none with paths
     std::vector<Pair> pairs;       ///< by group
-    std::vector<double> speeds;    ///< #pairs by dofCount: speed bound per unit of each value of the joint
+    std::vector<double> speeds;    ///< rows of dofCount: speed bound per unit of each value of the joint
     double scale = 0;              ///< length of the limits' diagonal in the weighted metric, scene units
     double leastContactOffset = 0; ///< of the groups
+    bool clustered = false;        ///< some group is
+    std::size_t listable = 0;      ///< pairs of those that are not
+    std::uint64_t id = 0;          ///< no other model has it
 
     const double* speed(std::uint32_t pair) const {
-        return speeds.data() + std::size_t(pair) * std::size_t(dofCount);
+        return speeds.data() + std::size_t(pairs[pair].mover) * std::size_t(dofCount);
     }
 };
 
@@ -79,6 +97,29 @@ struct PlacedGroup {
     bool known = false;
 };
 
+/// A chain as far as it stands at these values.
+struct PlacedChain {
+    std::array<Pose, maxDofs + 1> before;
+    std::array<DofTwist, maxDofs> twists;
+    DofValues at;
+    std::size_t count = 0; ///< DOFs
+    PlacedChain() { before[0] = Pose::Identity(); }
+};
+
+/// What is known of a group in clusters from where it stood before: which tests had a gap of at most `reach`
+/// there. It spares asking the table again, and changes no answer.
+struct KnownNear {
+    static constexpr std::uint32_t most = 128, bins = 16;
+    std::vector<std::uint32_t>
+        tests; ///< by the bins of their gaps, each as wide as the others, up to `reach`
+    std::array<std::uint32_t, bins> ends{}; ///< of the bins among the tests
+    double reach = -std::numeric_limits<double>::infinity();
+    double least = -std::numeric_limits<double>::infinity(); ///< gap of all tests of the table
+    DofValues values{};                                      ///< of its DOFs there
+    Pose pose = Pose::Identity();
+    double more = 0; ///< how much farther than needed is asked, so that there are neither many nor none
+};
+
 /// Bits of JointWorkspace::held().
 enum : std::uint8_t {
     stoppedWay = 1,     ///< a way ended at this table's contact, and the joint stayed there
@@ -88,7 +129,7 @@ enum : std::uint8_t {
 
 /// What a JointWorkspace holds.
 struct ResponseRoom {
-    std::vector<NearPair> near;
+    std::vector<NearPair> near; ///< grows where tables are in clusters
     std::size_t nearCount = 0;
     bool common =
         false; ///< all thresholds are one, that of a start in collision: they do not rise by themselves
@@ -96,14 +137,29 @@ struct ResponseRoom {
     std::vector<std::uint32_t> found;  ///< tests of one table
     QpRows rows;
     std::vector<PlacedGroup> groups; ///< one a group
-    std::vector<Pose> ends;          ///< one a group: where a way would end
+    std::vector<PlacedChain> chains;
+    std::vector<Pose> ends;          ///< one a group: where a way would end ...
+    std::vector<std::uint8_t> ended; ///< ... where that is known
     std::vector<std::uint8_t> held;  ///< one a group: 0, or by what it held the joint in the last response
+
+    /// Of a model with tables in clusters: per pair the listing in which it came into the near list.
+    std::vector<std::uint32_t> listed;
+    std::uint32_t listing = 0;
+    std::vector<KnownNear> known; ///< one a group, kept from one response to the next ...
+    std::uint64_t knownOf = 0;    ///< ... to this model
+
+    /// Empties the near list.
+    void unlist() {
+        nearCount = 0;
+        if (++listing == 0) std::fill(listed.begin(), listed.end(), 0), listing = 1;
+    }
 };
 
-/// Places one group, or every group, at q (values of the joint) into ws.groups.
+ResponseRoom roomFor(const JointModel& model);
+
+/// Places one group at q (values of the joint) into ws.groups.
 void placeGroup(const JointModel& model, std::size_t group, const DofValues& q, const DofValues& way,
                 ResponseRoom& ws);
-void placeGroups(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws);
 
 /// Gap of a pair with the group's pose; normal (unit or less, from A to B) and the centre of B in A's frame.
 inline double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& centre, Vec3& normal) {
@@ -115,16 +171,20 @@ inline double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& cent
 }
 
 /// Fills ws.near with the pairs whose gap can fall to their threshold when each DOF changes by at most
-/// reach[l] from q. Thresholds are min(contactOffset, gap at q), each of its own table.
+/// reach[l] from q. Thresholds are min(contactOffset, gap at q), each of its own table. Pairs of tables in
+/// clusters are none of them: see listOnWay (JointClusters.h).
 void cull(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws);
+/// The same, after what is in ws.near.
+void cullMore(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws);
 
 /// Leaves out near pairs that stay above their threshold wherever |w (q - q')| is at most `distance`; gaps
 /// must be those at q.
 void narrow(const JointModel& model, double distance, ResponseRoom& ws);
 
-/// Gap and gradient of every near pair at q, one-sided towards `way` at rows of paths. Thresholds above the
-/// gap fall to it, unless they are common.
-void linearise(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws);
+/// Gap and gradient of the near pairs from `first` on at q, one-sided towards `way` at rows of paths.
+/// Thresholds above the gap fall to it, unless they are common.
+void linearise(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws,
+               std::size_t first = 0);
 
 /// A gap on the scale that tables of one joint share: above contact as a share of what its own table keeps,
 /// in units of the least of them; in contact as it is. Monotone, and positive where the gap is.
@@ -135,6 +195,9 @@ inline double levelOf(const JointModel& model, double contactOffset, double gap)
 inline double gapOf(const JointModel& model, double contactOffset, double level) {
     return level > 0 ? level * (contactOffset / model.leastContactOffset) : level;
 }
+
+/// Largest share of its range that any DOF goes.
+double shareOfRange(const JointModel& model, const DofValues& way);
 
 /// Smallest level of all pairs of the model at q; infinity where there are none.
 double smallestLevel(const JointModel& model, const DofValues& q, ResponseRoom& ws);

@@ -1,6 +1,7 @@
 #include "bake/respond/JointResponder.h"
 
 #include "bake/motion/WholeTurn.h"
+#include "bake/respond/JointClusters.h"
 #include "bake/respond/JointModel.h"
 #include "bake/respond/JointSlide.h"
 
@@ -22,8 +23,20 @@ TableOnJoint wholeJoint(const Table& table) {
     return entry;
 }
 
-/// Into how many legs a way is parted, so that few pairs are near each.
-int legsOf(const JointModel& model, const DofValues& start, const DofValues& goal) {
+/// Where tables are in clusters: a leg is shortened until no more pairs than this come near on it, or until
+/// it goes no farther than the least share of a range. The first one goes no farther than firstLeg.
+constexpr std::size_t manyNear = 128;
+constexpr double leastLeg = 1.0 / 4096, firstLeg = 1.0 / 256;
+
+/// How the way from a pose to the goal is gone: in so many equal legs, so that few pairs are near each, or
+/// where tables are in clusters in legs as long as few pairs are near, the next one this share of what is
+/// left.
+struct Legs {
+    int count = 1;
+    double share = 1;
+};
+
+int equalLegs(const JointModel& model, const DofValues& start, const DofValues& goal) {
     double legs = 1;
     for (int l = 0; l < model.dofCount; ++l) {
         const double most = farMove * model.range[l];
@@ -32,21 +45,63 @@ int legsOf(const JointModel& model, const DofValues& start, const DofValues& goa
     return static_cast<int>(legs);
 }
 
-/// Culls for the first of so many legs from q to the goal.
+/// Lists the pairs near the first of so many legs from q to the goal.
 void cullLeg(const JointModel& model, const DofValues& q, const DofValues& goal, int legs, ResponseRoom& ws) {
     DofValues reach{};
     for (int l = 0; l < model.dofCount; ++l) reach[l] = std::abs(goal[l] - q[l]) / legs;
     cull(model, q, reach, ws);
 }
 
+DofValues partOfWay(const JointModel& model, const DofValues& q, const DofValues& goal, double share) {
+    DofValues way{};
+    for (int l = 0; l < model.dofCount; ++l) way[l] = share * (goal[l] - q[l]);
+    return way;
+}
+
+/// The same for a share of the way that has few of them, and no DOF going farther than `most` of its range.
+/// Returns that share.
+double cullAhead(const JointModel& model, const DofValues& q, const DofValues& goal, double most,
+                 ResponseRoom& ws) {
+    const double whole = shareOfRange(model, partOfWay(model, q, goal, 1));
+    for (double share = whole > most ? most / whole : 1;; share *= 0.25) {
+        const DofValues way = partOfWay(model, q, goal, share);
+        DofValues reach{};
+        for (int l = 0; l < model.dofCount; ++l) reach[l] = std::abs(way[l]);
+        cull(model, q, reach, ws);
+        const bool last = share * whole <= leastLeg;
+        if (listOnWay(model, q, way, ws, last ? ~std::size_t(0) : manyNear)) return share;
+    }
+}
+
+Legs beginLegs(const JointModel& model, const DofValues& q, const DofValues& goal, ResponseRoom& ws) {
+    Legs legs;
+    if (model.clustered) {
+        legs.share = cullAhead(model, q, goal, firstLeg, ws);
+        legs.count = legs.share < 1 ? 2 : 1;
+    } else {
+        legs.count = equalLegs(model, q, goal);
+        cullLeg(model, q, goal, legs.count, ws);
+    }
+    return legs;
+}
+
 /// Goes from q to the goal as far as the way is free, in legs; the near pairs must be those of the first one,
 /// and are those of the last one gone. False where it is not free to the end.
-bool walk(const JointModel& model, const DofValues& goal, int legs, DofValues& q, ResponseRoom& ws) {
+bool walk(const JointModel& model, const DofValues& goal, Legs legs, DofValues& q, ResponseRoom& ws) {
+    if (model.clustered) {
+        while (legs.share < 1) {
+            const DofValues way = partOfWay(model, q, goal, legs.share);
+            if (advance(model, way, q, ws) < 1) return false;
+            const double most = 4 * shareOfRange(model, way);
+            legs.share = cullAhead(model, q, goal, std::min(most, farMove), ws);
+        }
+        legs.count = 1;
+    }
     DofValues way{};
-    for (; legs > 0; --legs) {
-        for (int l = 0; l < model.dofCount; ++l) way[l] = (goal[l] - q[l]) / legs;
+    for (; legs.count > 0; --legs.count) {
+        for (int l = 0; l < model.dofCount; ++l) way[l] = (goal[l] - q[l]) / legs.count;
         if (advance(model, way, q, ws) < 1) return false;
-        if (legs > 1) cullLeg(model, q, goal, legs - 1, ws);
+        if (legs.count > 1) cullLeg(model, q, goal, legs.count - 1, ws);
     }
     q = goal;
     return true;
@@ -64,7 +119,6 @@ double queryGap(const JointModel::Pair& pair, const Pose& inverse) {
 class JointResponder::Prepared {
 public:
     Prepared(std::span<const TableOnJoint> tables, int dofCount, Preparation preparation);
-    ResponseRoom room() const;
     JointAnswer respond(const double* last, const double* asked, ResponseRoom& ws) const;
     const JointModel& model() const { return model_; }
     const DofValues* freePose() const { return hasFreePose_ ? &freePose_ : nullptr; }
@@ -72,7 +126,7 @@ public:
 private:
     void findFreePose(const DofValues& rest);
     JointAnswer within(const DofValues& start, const DofValues& goal, ResponseRoom& ws) const;
-    JointAnswer fromFree(const DofValues& start, const DofValues& goal, int legs, ResponseRoom& ws) const;
+    JointAnswer fromFree(const DofValues& start, const DofValues& goal, Legs legs, ResponseRoom& ws) const;
     JointAnswer fromCollision(const DofValues& start, const DofValues& goal, double depth,
                               ResponseRoom& ws) const;
     JointAnswer judged(const DofValues& q, JointStatus status, ResponseRoom& ws) const;
@@ -96,23 +150,8 @@ JointResponder::Prepared::Prepared(std::span<const TableOnJoint> tables, int dof
     if (preparation == Preparation::Fully) findFreePose(rest);
 }
 
-ResponseRoom JointResponder::Prepared::room() const {
-    ResponseRoom ws;
-    ws.near.resize(model_.pairs.size());
-    ws.active.resize(model_.pairs.size());
-    std::size_t room = 0;
-    for (const JointModel::Group& group : model_.groups)
-        if (group.prepared) room = std::max(room, group.prepared->testRoom());
-    ws.found.resize(room);
-    ws.rows = QpRows(model_.pairs.size() + 2 * std::size_t(model_.dofCount) + model_.planes.size());
-    ws.groups.resize(model_.groups.size());
-    ws.ends.resize(model_.groups.size());
-    ws.held.resize(model_.groups.size());
-    return ws;
-}
-
 void JointResponder::Prepared::findFreePose(const DofValues& rest) {
-    ResponseRoom ws = room();
+    ResponseRoom ws = roomFor(model_);
     freePose_ = clampToLimits(model_, rest.data(), ws);
     double best = smallestLevel(model_, freePose_, ws);
     // A grid of some thousand poses at most, inner points and borders alike.
@@ -140,13 +179,13 @@ JointAnswer JointResponder::Prepared::judged(const DofValues& q, JointStatus sta
     answer.q = q;
     answer.status = status;
     answer.gap = std::numeric_limits<double>::infinity();
-    placeGroups(model_, q, q, ws);
     std::uint32_t at = ~0u;
     Pose inverse = Pose::Identity();
     for (std::size_t i = 0; i < ws.nearCount; ++i) {
         const JointModel::Pair& pair = model_.pairs[ws.near[i].pair];
         if (pair.group != at) {
             at = pair.group;
+            placeGroup(model_, at, q, q, ws);
             inverse = ws.groups[at].frame.pose.inverse(Eigen::Isometry);
         }
         const double gap = queryGap(pair, inverse);
@@ -159,7 +198,7 @@ JointAnswer JointResponder::Prepared::judged(const DofValues& q, JointStatus sta
     return answer;
 }
 
-JointAnswer JointResponder::Prepared::fromFree(const DofValues& start, const DofValues& goal, int legs,
+JointAnswer JointResponder::Prepared::fromFree(const DofValues& start, const DofValues& goal, Legs legs,
                                                ResponseRoom& ws) const {
     DofValues q = start;
     if (walk(model_, goal, legs, q, ws)) {
@@ -188,8 +227,7 @@ JointAnswer JointResponder::Prepared::fromCollision(const DofValues& start, cons
     const bool deep = knownDepth_ > 0 && depth < -knownDepth_ && hasFreePose_;
     const double pushed = deep ? depth : pushOut(model_, q, ws);
     if (pushed > 0) {
-        const int legs = legsOf(model_, q, goal);
-        cullLeg(model_, q, goal, legs, ws);
+        const Legs legs = beginLegs(model_, q, goal, ws);
         JointAnswer answer = fromFree(q, goal, legs, ws);
         answer.status = JointStatus::Separated;
         if (answer.gap > 0) return answer;
@@ -209,6 +247,7 @@ JointAnswer JointResponder::Prepared::fromCollision(const DofValues& start, cons
         status = JointStatus::Returning;
     }
     cull(model_, q, model_.range, ws);
+    listOnWay(model_, q, DofValues{}, ws);
     JointAnswer answer = judged(q, status, ws);
     if (answer.gap > 0) answer.status = JointStatus::Separated;
     return answer;
@@ -217,7 +256,13 @@ JointAnswer JointResponder::Prepared::fromCollision(const DofValues& start, cons
 JointAnswer JointResponder::Prepared::respond(const double* last, const double* asked,
                                               ResponseRoom& ws) const {
     for (PlacedGroup& group : ws.groups) group.known = false; // it may have served another joint
+    for (PlacedChain& chain : ws.chains) chain.count = 0;
     std::fill(ws.held.begin(), ws.held.end(), std::uint8_t(0));
+    if (model_.clustered && ws.knownOf != model_.id) {
+        for (KnownNear& known : ws.known)
+            known.reach = known.least = -std::numeric_limits<double>::infinity();
+        ws.knownOf = model_.id;
+    }
     DofValues from{}, to{};
     std::copy_n(last, model_.dofCount, from.begin());
     std::copy_n(asked, model_.dofCount, to.begin());
@@ -232,10 +277,9 @@ JointAnswer JointResponder::Prepared::respond(const double* last, const double* 
 
 JointAnswer JointResponder::Prepared::within(const DofValues& start, const DofValues& goal,
                                              ResponseRoom& ws) const {
-    const int legs = legsOf(model_, start, goal);
     ws.common = false;
-    cullLeg(model_, start, goal, legs, ws);
-    if (legs == 1 && ws.nearCount == 0) {
+    const Legs legs = beginLegs(model_, start, goal, ws);
+    if (legs.count == 1 && ws.nearCount == 0) {
         JointAnswer free;
         free.q = goal;
         free.gap = std::numeric_limits<double>::infinity();
@@ -273,7 +317,7 @@ JointResponder& JointResponder::operator=(JointResponder&&) noexcept = default;
 JointResponder::~JointResponder() = default;
 
 JointWorkspace JointResponder::workspace() const {
-    return JointWorkspace(std::make_unique<ResponseRoom>(prepared_->room()));
+    return JointWorkspace(std::make_unique<ResponseRoom>(roomFor(prepared_->model())));
 }
 
 JointAnswer JointResponder::respond(const double* last, const double* asked,

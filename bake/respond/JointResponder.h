@@ -43,7 +43,8 @@ private:
 
 /// What keeps a joint out of collision at run time: everything a response needs, prepared once from the
 /// tables on the joint (METHOD 5). Immutable; one responder serves any number of threads and instances, each
-/// thread with a workspace of its own. A response allocates nothing, locks nothing and throws nothing.
+/// thread with a workspace of its own. A response locks nothing and throws nothing, and allocates nothing but
+/// where tables over many DOFs are in clusters: the workspace grows then to what came near at the worst.
 ///
 /// Of a free start it promises: the result is free by the exact query of each table (gap > 0), so is every
 /// pose on the way there, and it is no farther from the asked pose (as the limits clamp it) than the start,

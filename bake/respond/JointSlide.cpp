@@ -1,5 +1,7 @@
 #include "bake/respond/JointSlide.h"
 
+#include "bake/respond/JointClusters.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,6 +17,10 @@ constexpr double endRoom = 0.1;
 constexpr double liftSlack = 0.04;
 /// The first round of a slide goes no farther than this share of a range.
 constexpr double firstMove = 1.0 / 128;
+/// And where tables are in clusters, no round: what comes near on the way is listed for each.
+constexpr double clusteredMove = 1.0 / 512;
+/// Ways that a round looks for at most, each with what came near on the one before.
+constexpr int mostListings = 8;
 /// What a pair had to be lifted in a round, above endRoom, it has to be lifted in the next by this share:
 /// ways get shorter, and what they bend shrinks with their square.
 constexpr double liftKept = 0.25;
@@ -29,13 +35,18 @@ public:
           least_(-1.5 * weightedDistance(model, q, goal) - model.leastContactOffset) {
         ws.rows.clear(model.dofCount);
         addLimits(model, q, trust, goal, ws.rows);
-        for (std::size_t i = 0; i < ws.nearCount; ++i) {
-            NearPair& near = ws.near[i];
+        take(0);
+    }
+
+    /// Near pairs from `first` on, linearised.
+    void take(std::size_t first) {
+        for (std::size_t i = first; i < ws_.nearCount; ++i) {
+            NearPair& near = ws_.near[i];
             double squared = 0, offset = -near.gap;
-            for (int l = 0; l < model.dofCount; ++l) {
-                const double part = near.gradient[l] * model.perWeight[l];
+            for (int l = 0; l < model_.dofCount; ++l) {
+                const double part = near.gradient[l] * model_.perWeight[l];
                 squared += part * part;
-                offset -= near.gradient[l] * (goal[l] - q[l]);
+                offset -= near.gradient[l] * (goal_[l] - q_[l]);
             }
             near.row = -1;
             // A gap that no DOF changes is no demand on them.
@@ -98,30 +109,42 @@ double weightedLength(const JointModel& model, const DofValues& way) {
     return std::sqrt(sum);
 }
 
-/// Largest share of its range that any DOF goes.
-double shareOfRange(const JointModel& model, const DofValues& way) {
-    double share = 0;
-    for (int l = 0; l < model.dofCount; ++l)
-        if (model.range[l] > 0) share = std::max(share, std::abs(way[l]) / model.range[l]);
-    return share;
+double leastLift(const JointModel& model, const NearPair& near) {
+    return endRoom * model.pairs[near.pair].contactOffset;
+}
+
+/// Lists what comes near on the way from q and makes rows of it. False where nothing new does.
+bool listAhead(const JointModel& model, const DofValues& q, const DofValues& way, SlideRows& rows,
+               ResponseRoom& ws) {
+    if (!model.clustered) return false;
+    const std::size_t first = ws.nearCount;
+    listOnWay(model, q, way, ws);
+    if (ws.nearCount == first) return false;
+    linearise(model, q, way, ws, first);
+    for (std::size_t i = first; i < ws.nearCount; ++i) ws.near[i].lift = leastLift(model, ws.near[i]);
+    rows.take(first);
+    return true;
 }
 
 /// What each near pair needs above its threshold at the end of a way so that the bend of its gap does not
 /// block the way: what the gap there lacks against the linear guess, and room for the bound that `advance`
 /// must assume. Returns whether any demand that the way was found with was too low.
 bool findLifts(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws) {
-    for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    std::fill(ws.ended.begin(), ws.ended.end(), std::uint8_t(0));
+    const auto placeEnd = [&](std::size_t g) {
         const JointModel::Group& group = model.groups[g];
         DofValues end;
         for (std::size_t k = 0; k < group.dofs.size(); ++k) end[k] = q[group.dofs[k]] + way[group.dofs[k]];
         ws.ends[g] = pose(group.motion, {end.data(), group.dofs.size()});
-    }
+        ws.ended[g] = 1;
+    };
     bool short_ = false;
     Vec3 centre, normal;
     MotionBounds bounds;
     for (std::size_t i = 0; i < ws.nearCount; ++i) {
         NearPair& near = ws.near[i];
         const JointModel::Pair& pair = model.pairs[near.pair];
+        if (!ws.ended[pair.group]) placeEnd(pair.group);
         double guess = near.gap;
         for (int l = 0; l < model.dofCount; ++l) guess += near.gradient[l] * way[l];
         const double real = pairGap(pair, ws.ends[pair.group], centre, normal);
@@ -143,15 +166,32 @@ bool slideWay(const JointModel& model, const DofValues& q, const DofValues& goal
     };
     SlideRows rows(model, q, goal, trust, ws);
     const auto find = [&](DofValues& found) {
-        if (!corner && rows.nearest(lifted, found)) return true;
-        corner = true;
-        return rows.nearest(held, found);
+        for (int listing = 0; listing < mostListings; ++listing) {
+            if (corner || !rows.nearest(lifted, found)) {
+                corner = true;
+                if (!rows.nearest(held, found)) return false;
+            }
+            if (!listAhead(model, q, found, rows, ws)) break;
+        }
+        return true;
     };
     if (!find(way)) return false;
     if (!findLifts(model, q, way, ws)) return true;
     DofValues second;
     if (find(second)) way = second;
     return true;
+}
+
+/// Leaves in the near list what is in clusters: what came near on one way will on the next.
+void keepClustered(const JointModel& model, ResponseRoom& ws) {
+    if (!model.clustered) return ws.unlist();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < ws.nearCount; ++i)
+        if (model.groups[model.pairs[ws.near[i].pair].group].clustered) {
+            if (kept != i) ws.near[kept] = ws.near[i];
+            ++kept;
+        }
+    ws.nearCount = kept;
 }
 
 /// Culls for a round at q, `distance` from the goal. Returns whether for all that follow, too, none of which
@@ -167,30 +207,29 @@ bool cullRound(const JointModel& model, const DofValues& q, double distance, dou
             all = false;
         }
     }
-    cull(model, q, reach, ws);
+    keepClustered(model, ws);
+    cullMore(model, q, reach, ws);
     return all;
 }
 
 } // namespace
 
 void slide(const JointModel& model, const DofValues& goal, DofValues& q, ResponseRoom& ws) {
-    double trust = firstMove;
+    double trust = model.clustered ? clusteredMove : firstMove;
     double distance = weightedDistance(model, q, goal);
     const double least = std::clamp(1e-3 * distance, 1e-7 * model.scale, 1e-5 * model.scale);
     bool corner = false, complete = false;
-    const auto leastLift = [&](const NearPair& near) {
-        return endRoom * model.pairs[near.pair].contactOffset;
-    };
     for (int round = 0, far = 0; round < 20 && far < 40 && distance > least; ++(complete ? round : far)) {
         if (!complete) {
-            trust = std::min(trust, farMove);
+            trust = std::min(trust, model.clustered ? clusteredMove : farMove);
             complete = cullRound(model, q, distance, trust, ws);
-            if (complete) trust = 1;
-            for (std::size_t i = 0; i < ws.nearCount; ++i) ws.near[i].lift = leastLift(ws.near[i]);
+            if (complete && !model.clustered) trust = 1;
+            for (std::size_t i = 0; i < ws.nearCount; ++i) ws.near[i].lift = leastLift(model, ws.near[i]);
         } else {
             for (std::size_t i = 0; i < ws.nearCount; ++i) {
                 NearPair& near = ws.near[i];
-                near.lift = leastLift(near) + liftKept * (near.lift - leastLift(near));
+                const double least = leastLift(model, near);
+                near.lift = least + liftKept * (near.lift - least);
             }
         }
         DofValues way{};
@@ -203,12 +242,15 @@ void slide(const JointModel& model, const DofValues& goal, DofValues& q, Respons
         // Pairs are known to be near only where a pose is no farther from the goal than this one.
         DofValues end = q, next = q;
         for (int l = 0; l < model.dofCount; ++l) end[l] += way[l];
-        if (weightedDistance(model, end, goal) < distance) advance(model, way, next, ws);
+        if (weightedDistance(model, end, goal) < distance) {
+            listOnWay(model, q, way, ws); // were some still new, the way was not made for them
+            advance(model, way, next, ws);
+        }
         const double reached = weightedDistance(model, next, goal);
         if (reached < distance - 1e-3 * least) {
             q = next;
             distance = reached;
-            trust = std::min(1.0, 2 * trust);
+            trust = std::min(model.clustered ? clusteredMove : 1.0, 2 * trust);
         } else {
             trust = 0.25 * std::min(trust, shareOfRange(model, way));
             if (trust < 1e-7) return;
@@ -228,16 +270,18 @@ double pushOut(const JointModel& model, DofValues& q, ResponseRoom& ws) {
     for (int round = 0; round < 40 && depth < 0.5 * model.leastContactOffset; ++round) {
         cull(model, q, reach, ws);
         DofValues way{};
+        listOnWay(model, q, way, ws);
         linearise(model, q, way, ws);
         double share = 1;
         const double missing = (1 + endRoom) * model.leastContactOffset - depth;
         SlideRows rows(model, q, q, trust, ws);
-        while (
-            !rows.nearest([&](const NearPair& near) { return gapAt(near, depth + share * missing); }, way)) {
-            share *= 0.5;
-            if (share < 1e-4) break;
+        const auto raised = [&](const NearPair& near) { return gapAt(near, depth + share * missing); };
+        for (int listing = 0; listing < mostListings && share >= 1e-4; ++listing) {
+            while (share >= 1e-4 && !rows.nearest(raised, way)) share *= 0.5;
+            if (share < 1e-4 || !listAhead(model, q, way, rows, ws)) break;
         }
         if (share < 1e-4) break;
+        listOnWay(model, q, way, ws);
         for (std::size_t i = 0; i < ws.nearCount; ++i)
             ws.near[i].threshold = gapAt(ws.near[i], std::min(depth, model.leastContactOffset));
         DofValues end = q;

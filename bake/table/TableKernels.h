@@ -52,8 +52,10 @@ public:
     void frame(const double* q, MotionFrame& out) const;
 
     /// Numbers of all tests whose gap may be at most margin (>= 0; none is missed within the band), always in
-    /// the same order. out: room for testRoom() numbers. Returns how many.
-    std::uint32_t testsWithin(const TableFeatures& f, double margin, std::uint32_t* out) const;
+    /// the same order. out: room for testRoom() numbers. Returns how many. enough: a table in clusters stops
+    /// once it has found more than so many.
+    std::uint32_t testsWithin(const TableFeatures& f, double margin, std::uint32_t* out,
+                              std::uint32_t enough = ~0u) const;
 
     /// The same from the values themselves, without features where the cell of q has no test to be asked.
     std::uint32_t testsWithin(const double* q, double margin, std::uint32_t* out) const;
@@ -140,8 +142,8 @@ private:
     void eachNearCluster(const TableFeatures& f, const double& margin, Take take) const;
     bool hitInClusters(const TableFeatures& f) const;
     KernelGap nearestInClusters(const TableFeatures& f) const;
-    std::uint32_t testsInClusters(const TableFeatures& f, double margin, double wide,
-                                  std::uint32_t* out) const;
+    std::uint32_t testsInClusters(const TableFeatures& f, double margin, double wide, std::uint32_t* out,
+                                  std::uint32_t enough) const;
     /// What the bounds of clusters are compared with where gaps of tests up to the margin are asked for.
     double clusterReachOf(double margin) const;
     void poseFeatures(const double* q, TableFeatures& out) const;

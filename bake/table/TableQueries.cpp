@@ -72,11 +72,11 @@ KernelGap TableKernels::nearestInClusters(const TableFeatures& f) const {
 }
 
 std::uint32_t TableKernels::testsInClusters(const TableFeatures& f, double margin, double wide,
-                                            std::uint32_t* out) const {
+                                            std::uint32_t* out, std::uint32_t enough) const {
     std::uint32_t count = 0;
     eachNearCluster(f, clusterReachOf(margin), [&](std::uint32_t cluster) {
         count += kernels_.under(testsOf(cluster), f.doubles, wide, out + count);
-        return false;
+        return count > enough;
     });
     return count;
 }
@@ -105,9 +105,10 @@ double TableKernels::reachOf(double margin) const {
     return margin + 2 * std::max(signBand_, gapBand_) + 2e-6 * margin;
 }
 
-std::uint32_t TableKernels::testsWithin(const TableFeatures& f, double margin, std::uint32_t* out) const {
+std::uint32_t TableKernels::testsWithin(const TableFeatures& f, double margin, std::uint32_t* out,
+                                        std::uint32_t enough) const {
     const double wide = reachOf(margin);
-    if (!clusters_.empty()) return testsInClusters(f, margin, wide, out);
+    if (!clusters_.empty()) return testsInClusters(f, margin, wide, out, enough);
     if (!cells_.empty())
         if (const std::uint8_t limit = cells_.code(margin); limit < TableCells::nearCode)
             return kernels_.underNear(data_, f.doubles, cells_.under(f.cell, limit), wide, out);

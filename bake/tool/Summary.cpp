@@ -4,6 +4,7 @@
 #include "bake/geometry/PartSet.h"
 #include "bake/model/SourceHash.h"
 #include "bake/pipeline/BakeOptions.h"
+#include "bake/table/EarlyBound.h"
 #include "bake/table/TableKernels.h"
 #include "bake/tool/DofSpec.h"
 
@@ -55,6 +56,7 @@ void addTable(Json& json, const Table& table) {
     json["lowerBound"] = table.record.lowerBound ? Json(table.record.lowerBound) : Json();
     json["boundMiss"] = knownOrNull(table.boundMiss);
     json["boundEarly"] = knownOrNull(table.boundEarly);
+    json["earlyOfSolids"] = knownOrNull(earlyOfSolids(table));
     json["epsilon"] = table.epsilon;
     json["certified"] = table.certified;
     json["overlapAtRest"] =
@@ -256,6 +258,12 @@ Json summary(const SceneModel& scene) {
 
 namespace {
 
+std::string describeEarly(const Json& item, double metersPerUnit) {
+    if (!item["boundEarly"].is_null() || item["earlyOfSolids"].is_null())
+        return length(item["boundEarly"], metersPerUnit);
+    return length(item["earlyOfSolids"], metersPerUnit) + " unless one body stands inside the other";
+}
+
 /// The lines of a pair or skin that has a table.
 std::string describeTable(const Json& item, double metersPerUnit) {
     std::string text;
@@ -284,8 +292,8 @@ std::string describeTable(const Json& item, double metersPerUnit) {
                             length(item["residual"], metersPerUnit), item["residualSteps"].dump());
     if (!item.contains("travel")) // a skin's table has no bound of depth
         text += fmt::format("  bounds       miss {}, early {}, epsilon {}, {}{}\n",
-                            length(item["boundMiss"], metersPerUnit),
-                            length(item["boundEarly"], metersPerUnit), length(item["epsilon"], metersPerUnit),
+                            length(item["boundMiss"], metersPerUnit), describeEarly(item, metersPerUnit),
+                            length(item["epsilon"], metersPerUnit),
                             item["certified"].get<bool>() ? "certified for every pose" : "sampled poses only",
                             butForRegion(item, metersPerUnit));
     if (item.contains("earlyContact")) text += describeEarlyContact(item, metersPerUnit);

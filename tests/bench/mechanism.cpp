@@ -1,17 +1,22 @@
 // All pairs of a mechanism as one question: how long it takes beside FCL on the same pairs in the same
-// process, and whether any contact is missed. usage: bench_mechanism BAKED.tss [CONFIGURATIONS [NEAR]]
+// process, and whether any contact is missed; and how it is kept out of itself (METHOD 5).
 #include "bake/compare/MeshTruth.h"
 #include "bake/model/Kinematics.h"
+#include "bake/model/PairDofs.h"
 #include "bake/play/JointPlan.h"
 #include "bake/play/MechanismQuery.h"
 #include "bake/scene/SceneFile.h"
+#include "bake/table/PreparedTable.h"
+#include "bake/table/TablePairs.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fmt/format.h>
 #include <functional>
+#include <map>
 #include <memory>
 #include <random>
 
@@ -79,14 +84,138 @@ private:
     std::vector<std::pair<double, double>> limits_;
 };
 
-/// Small steps towards one configuration after another, now and then a jump.
-void drive(const SceneModel& scene, const MechanismQuery& query, std::size_t steps) {
+/// The scene with those pairs alone that FCL can judge: else the others, which touch at every second
+/// configuration of some arms, would hide what these miss.
+SceneModel judged(const SceneModel& scene, const Judge& judge) {
+    SceneModel part = scene;
+    part.pairs.clear();
+    for (const auto& [pair, truth] : judge.truths) part.pairs.push_back(*pair);
+    return part;
+}
+
+/// Contacts that FCL sees and the question does not: at random configurations, and where a pair of bodies
+/// just touches by FCL on the way from a configuration without contact to one with it.
+void countMissed(const SceneModel& scene, const Judge& judge, std::size_t configurations, std::size_t near) {
+    const MechanismQuery query(judged(scene, judge));
+    MechanismWorkspace ws = query.workspace();
+    Configurations draw(scene);
+    std::vector<double> q(draw.values()), other(q), middle(q);
+    std::size_t missed = 0, touching = 0;
+    for (std::size_t i = 1; i <= configurations; ++i) {
+        draw.next(q.data());
+        if (query.ask(q.data(), ws).verdict == Answer::Contact) {
+            ++touching;
+        } else if (const Pair* pair = judge.touching(posedBodies(scene, q))) {
+            ++missed;
+            fmt::print("missed: {}\n", pair->path);
+        }
+        if (i % 10000 == 0 || i == configurations) {
+            fmt::print("{} random configurations, {} touch: {} contacts missed\n", i, touching, missed);
+            std::fflush(stdout);
+        }
+    }
+    missed = 0;
+    std::map<std::string, std::size_t> made;
+    for (std::size_t i = 0; i < near;) {
+        do draw.next(q.data());
+        while (query.ask(q.data(), ws).verdict != Answer::Free);
+        MechanismAnswer answer;
+        do draw.next(other.data());
+        while ((answer = query.ask(other.data(), ws)).verdict != Answer::Contact);
+        const auto& [pair, truth] = judge.truths[static_cast<std::size_t>(answer.pair)];
+        const auto meets = [&](const std::vector<double>& at) {
+            const std::vector<Pose> placed = posedBodies(scene, at);
+            return truth->touches(placed[pair->bodyA].inverse(Eigen::Isometry) * placed[pair->bodyB]);
+        };
+        if (meets(q) || !meets(other)) continue;
+        for (int halving = 0; halving < 16; ++halving) {
+            for (std::size_t k = 0; k < q.size(); ++k) middle[k] = 0.5 * (q[k] + other[k]);
+            (meets(middle) ? other : q) = middle;
+        }
+        missed += query.ask(other.data(), ws).verdict != Answer::Contact;
+        ++made[pair->path];
+        if (++i % 10000 == 0 || i == near) {
+            fmt::print("{} configurations that just touch: {} contacts missed\n", i, missed);
+            std::fflush(stdout);
+        }
+    }
+    for (const auto& [path, count] : made) fmt::print("  {}: {}\n", path, count);
+}
+
+/// The tables of a scene, asked apart from whatever else there is: exact gaps in double of all tests that may
+/// be near.
+class ExactTables {
+public:
+    explicit ExactTables(const SceneModel& scene) {
+        std::vector<std::size_t> first;
+        std::size_t count = 0;
+        for (const Joint& joint : scene.joints) first.push_back(count), count += joint.dofs.size();
+        for (const Pair& pair : scene.pairs) {
+            if (!pair.table) continue;
+            Asked asked{&*pair.table, std::make_unique<PreparedTable>(*pair.table), {}};
+            for (const JointDof& dof : pairDofs(scene, pair))
+                asked.values.push_back(first[dof.joint] + dof.dof);
+            tables_.push_back(std::move(asked));
+        }
+    }
+    /// Smallest gap of all tests, `far` where none is less.
+    double gap(const std::vector<double>& q, double far) {
+        double least = far;
+        for (const Asked& asked : tables_) {
+            std::vector<double> own;
+            for (const std::size_t value : asked.values) own.push_back(q[value]);
+            found_.resize(std::max(found_.size(), asked.table->testRoom()));
+            const std::uint32_t count = asked.table->testsWithin(own.data(), far, found_.data());
+            if (count == 0) continue;
+            const Pose at = pose(asked.of->motion, own);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const TablePair& pair = asked.table->pair(found_[i]);
+                least = std::min(least, centreDistance(pair, at) - pair.reach);
+            }
+        }
+        return least;
+    }
+
+private:
+    struct Asked {
+        const Table* of;
+        std::unique_ptr<PreparedTable> table;
+        std::vector<std::size_t> values;
+    };
+    std::vector<Asked> tables_;
+    std::vector<std::uint32_t> found_;
+};
+
+/// Of this process alone, whatever else the machine does.
+double processMicroseconds() {
+    std::timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+}
+
+/// What a kind of step took.
+void printTimes(const char* what, std::vector<double>& times) {
+    if (times.empty()) return;
+    std::sort(times.begin(), times.end());
+    const std::size_t n = times.size();
+    fmt::print("  {}: {} steps, median {:.1f} us, 95 % below {:.1f} us, worst {:.1f} us\n", what, n,
+               times[n / 2], times[n * 19 / 20], times[n - 1]);
+}
+
+/// A mechanism that is driven into itself: towards one configuration after another where meshes meet by FCL,
+/// until it has been held for a while, by steps in which no value goes farther than `most` (0: by a fiftieth
+/// of what is left), now and then a jump. Whether it is ever in contact the tables say, and at every
+/// hundredth step FCL.
+void drive(const SceneModel& scene, const Judge& judge, std::size_t steps, double most) {
     std::vector<std::string> paths, warnings;
     for (const Pair& pair : scene.pairs) paths.push_back(pair.path);
+    const auto start = std::chrono::steady_clock::now();
     const auto plan = makeJointPlan(scene, paths, &warnings);
+    const std::chrono::duration<double> prepared = std::chrono::steady_clock::now() - start;
     for (const std::string& warning : warnings) fmt::print("{}\n", warning);
+    fmt::print("response: {} values, prepared in {:.2f} s\n", plan->valueCount, prepared.count());
     std::vector<JointWorkspace> rooms = workspaces(*plan);
-    MechanismWorkspace ws = query.workspace();
+    ExactTables exact(scene);
     std::vector<std::size_t> place; // of the plan's values among all
     for (const int joint : plan->joints) {
         std::size_t first = 0;
@@ -96,43 +225,64 @@ void drive(const SceneModel& scene, const MechanismQuery& query, std::size_t ste
     Configurations draw(scene);
     std::vector<double> all(draw.values()), hand(draw.values()), q(place.size()), asked(place.size());
     do draw.next(all.data());
-    while (query.ask(all.data(), ws).verdict != Answer::Free);
+    while (exact.gap(all, 1e-4) <= 0);
     for (std::size_t k = 0; k < place.size(); ++k) q[k] = all[place[k]];
     std::vector<std::vector<double>> times(6);
-    std::size_t through = 0;
+    std::vector<double> jumps;
+    std::size_t through = 0, met = 0, since = 0, held = 0;
+    double least = 1;
     for (std::size_t i = 0; i < steps; ++i) {
-        if (i % 80 == 0) draw.next(hand.data());
-        const double share = i % 500 == 499 ? 1 : 0.02;
+        if (i == 0 || ++since > 1500 || held > 100) {
+            do draw.next(hand.data());
+            while (!judge.touching(posedBodies(scene, hand)));
+            since = held = 0;
+        }
+        const bool jump = since == 1000;
+        double farthest = 0;
+        for (std::size_t k = 0; k < place.size(); ++k)
+            farthest = std::max(farthest, std::abs(hand[place[k]] - q[k]));
+        const double share = jump ? 1 : most == 0 ? 0.02 : farthest > most ? most / farthest : 1;
         for (std::size_t k = 0; k < place.size(); ++k) asked[k] = q[k] + share * (hand[place[k]] - q[k]);
         JointStatus worst = JointStatus::Free;
-        const auto start = std::chrono::steady_clock::now();
+        const double before = processMicroseconds();
         for (const GroupAnswer& answer : resolve(*plan, q, asked, rooms))
             worst = std::max(worst, answer.status);
-        const std::chrono::duration<double, std::micro> spent = std::chrono::steady_clock::now() - start;
-        times[static_cast<std::size_t>(worst)].push_back(spent.count());
+        const double spent = processMicroseconds() - before;
+        (jump ? jumps : times[static_cast<std::size_t>(worst)]).push_back(spent);
+        held += worst != JointStatus::Free;
         q = asked;
         for (std::size_t k = 0; k < place.size(); ++k) all[place[k]] = q[k];
-        through += query.ask(all.data(), ws).verdict == Answer::Contact;
+        const double gap = exact.gap(all, 1e-4);
+        least = std::min(least, gap);
+        through += gap <= 0;
+        if (i % 100 == 0) met += judge.touching(posedBodies(scene, all)) != nullptr;
     }
-    fmt::print("{} steps, {} end in contact\n", steps, through);
-    for (std::size_t k = 0; k < times.size(); ++k) {
-        if (times[k].empty()) continue;
-        std::sort(times[k].begin(), times[k].end());
-        fmt::print("  {}: {} steps, median {:.1f} us, 95 % below {:.1f} us\n",
-                   name(static_cast<JointStatus>(k)), times[k].size(), times[k][times[k].size() / 2],
-                   times[k][times[k].size() * 19 / 20]);
-    }
+    fmt::print("{} steps{}: least gap {:.3g}, {} end in contact; by FCL {} of {}\n", steps,
+               most > 0 ? fmt::format(" of at most {} a value", most) : " of a fiftieth", least, through, met,
+               (steps + 99) / 100);
+    for (std::size_t k = 0; k < times.size(); ++k) printTimes(name(static_cast<JointStatus>(k)), times[k]);
+    printTimes("jumps", jumps);
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
     if (argc < 2)
-        return std::fputs("usage: bench_mechanism BAKED.tss [CONFIGURATIONS [NEAR [STEPS]]]\n", stderr), 2;
+        return std::fputs(
+                   "usage: bench_mechanism BAKED.tss [CONFIGURATIONS [NEAR [STEPS [MOST]]]]\n"
+                   "  CONFIGURATIONS at random and NEAR contact, asked of FCL as well; STEPS of the "
+                   "response,\n"
+                   "  each of at most MOST a value (radians, scene units; 0: a fiftieth of what is left)\n",
+                   stderr),
+               2;
     const std::size_t configurations = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 10000;
     const std::size_t near = argc > 3 ? std::strtoul(argv[3], nullptr, 10) : 0;
     const std::size_t steps = argc > 4 ? std::strtoul(argv[4], nullptr, 10) : 0;
+    const double most = argc > 5 ? std::strtod(argv[5], nullptr) : 0.002;
     const SceneModel scene = loadScene(argv[1]);
+    const Judge judge(scene);
+    if (steps > 0) drive(scene, judge, steps, most);
+    if (steps > 0 && configurations == 0 && near == 0) return 0;
     const auto start = std::chrono::steady_clock::now();
     const MechanismQuery query(scene);
     const std::chrono::duration<double> prepared = std::chrono::steady_clock::now() - start;
@@ -159,7 +309,6 @@ int main(int argc, char** argv) {
         fmt::print("  {}: {} DOFs, {} tests, early {:.4g}, names {}\n", scene.pairs[k].path,
                    table.motion.dofCount(), table.testCount(), table.boundEarly, named);
     }
-    const Judge judge(scene);
     const std::size_t slow = std::min<std::size_t>(timed, 2000);
     std::size_t met = 0;
     const double fcl = time(slow, 3, [&] {
@@ -170,36 +319,5 @@ int main(int argc, char** argv) {
     fmt::print("FCL on {} pairs ({} left out that overlap at rest): {:.0f} ns, {} of {} touch\n",
                judge.truths.size(), judge.left, fcl, met, slow);
 
-    std::size_t missed = 0;
-    const auto check = [&](const std::vector<double>& q) {
-        if (query.ask(q.data(), ws).verdict == Answer::Contact) return;
-        if (const Pair* pair = judge.touching(posedBodies(scene, q))) {
-            ++missed;
-            fmt::print("missed: {}\n", pair->path);
-        }
-    };
-    std::vector<double> q(n), other(n);
-    for (std::size_t i = 0; i < configurations; ++i) {
-        draw.next(q.data());
-        check(q);
-    }
-    fmt::print("{} random configurations: {} contacts missed\n", configurations, missed);
-    missed = 0;
-    // Where contact begins by FCL, on the way from a free configuration to one that touches.
-    std::size_t made = 0;
-    while (made < near) {
-        draw.next(q.data());
-        if (judge.touching(posedBodies(scene, q))) continue;
-        draw.next(other.data());
-        if (!judge.touching(posedBodies(scene, other))) continue;
-        std::vector<double> middle(n);
-        for (int halving = 0; halving < 14; ++halving) {
-            for (std::size_t k = 0; k < n; ++k) middle[k] = 0.5 * (q[k] + other[k]);
-            (judge.touching(posedBodies(scene, middle)) ? other : q) = middle;
-        }
-        check(other);
-        ++made;
-    }
-    if (near > 0) fmt::print("{} configurations that just touch: {} contacts missed\n", made, missed);
-    if (steps > 0) drive(scene, query, steps);
+    countMissed(scene, judge, configurations, near);
 }

@@ -1,0 +1,79 @@
+// The limits of a joint, and the metric of its values.
+#include "bake/motion/WholeTurn.h"
+#include "bake/respond/JointModel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tss {
+
+double shareOfRange(const JointModel& model, const DofValues& way) {
+    double share = 0;
+    for (int l = 0; l < model.dofCount; ++l)
+        if (model.range[l] > 0) share = std::max(share, std::abs(way[l]) / model.range[l]);
+    return share;
+}
+
+void addLimits(const JointModel& model, const DofValues& q, double trust, const DofValues& goal,
+               QpRows& rows) {
+    const int n = model.dofCount;
+    for (int l = 0; l < n; ++l) {
+        const double reach = trust * model.range[l];
+        for (double sign : {1.0, -1.0}) {
+            const double end =
+                sign > 0 ? std::max(model.lower[l], q[l] - reach) : std::min(model.upper[l], q[l] + reach);
+            double* row = rows.add();
+            std::fill_n(row, n, 0.0);
+            row[l] = sign;
+            row[n] = sign * model.weights[l] * (end - goal[l]);
+        }
+    }
+    for (const LimitPlane& plane : model.planes) {
+        double* row = rows.add();
+        double value = -plane.bound, squared = 0;
+        for (int l = 0; l < n; ++l) {
+            row[l] = -plane.coefficients[l] * model.perWeight[l];
+            value += plane.coefficients[l] * goal[l];
+            squared += row[l] * row[l];
+        }
+        const double scale = 1 / std::sqrt(squared);
+        for (int l = 0; l < n; ++l) row[l] *= scale;
+        row[n] = value * scale;
+    }
+}
+
+DofValues clampToLimits(const JointModel& model, const double* asked, ResponseRoom& ws) {
+    const int n = model.dofCount;
+    DofValues q{};
+    for (int l = 0; l < n; ++l) q[l] = std::clamp(asked[l], model.lower[l], model.upper[l]);
+    const auto within = [&](const LimitPlane& plane) {
+        double sum = -plane.bound;
+        for (int l = 0; l < n; ++l) sum += plane.coefficients[l] * q[l];
+        return sum <= 0;
+    };
+    if (std::all_of(model.planes.begin(), model.planes.end(), within)) return q;
+    ws.rows.clear(n);
+    addLimits(model, q, 1, q, ws.rows);
+    DofValues y;
+    if (!nearestToOrigin(ws.rows, 1e-12 * model.scale, y)) return q;
+    for (int l = 0; l < n; ++l)
+        q[l] = std::clamp(q[l] + y[l] / model.weights[l], model.lower[l], model.upper[l]);
+    return q;
+}
+
+void wrapTurns(const JointModel& model, DofValues& q) {
+    for (int l = 0; l < model.dofCount; ++l)
+        if (model.round[l] && (q[l] < model.first[l] || q[l] > model.first[l] + model.range[l]))
+            q[l] = nearestTurn(q[l], model.first[l] + 0.5 * model.range[l]);
+}
+
+double weightedDistance(const JointModel& model, const DofValues& x, const DofValues& y) {
+    double sum = 0;
+    for (int l = 0; l < model.dofCount; ++l) {
+        const double d = model.weights[l] * (x[l] - y[l]);
+        sum += d * d;
+    }
+    return std::sqrt(sum);
+}
+
+} // namespace tss

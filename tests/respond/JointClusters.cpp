@@ -1,0 +1,242 @@
+#include "bake/respond/JointClusters.h"
+#include "bake/table/TableKernels.h"
+#include "tests/respond/Walk.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tss;
+using random_table::between;
+using random_table::Random;
+
+namespace {
+
+constexpr int links = 6;
+
+/// A link along x, from one hinge to the next: rings of spheres about the axis, so that as an arm's link it
+/// has hundreds.
+SphereSet capsule(Random& random) {
+    SphereSet spheres;
+    for (int ring = 1; ring < 10; ++ring)
+        for (int k = 0; k < 4; ++k) {
+            const double angle = 1.6 * k + 0.3 * ring;
+            spheres.push_back({Vec3(ring / 10.0, 0.05 * std::cos(angle), 0.05 * std::sin(angle)),
+                               between(random, 0.07, 0.1)});
+        }
+    return spheres;
+}
+
+/// A chain of links that turn against one another about axes square to the links, now one way, now the other,
+/// so far that each reaches all but its neighbours; one table for each two over two values or more than
+/// three.
+struct Chain {
+    std::vector<Table> tables;
+    std::vector<std::vector<int>> values;
+    std::vector<TableOnJoint> onJoint;
+
+    explicit Chain(std::uint64_t seed) {
+        Random random(seed);
+        std::vector<SphereSet> bodies;
+        for (int k = 0; k < links; ++k) bodies.push_back(capsule(random));
+        for (int a = 0; a < links; ++a)
+            for (int b = a + 2; b < links; ++b) {
+                if (b - a == 3) continue; // takes long to make, and is asked as one over two values is
+                Motion motion;
+                std::vector<int> own;
+                for (int k = a; k < b; ++k) {
+                    Dof dof;
+                    dof.axis = k % 2 ? Vec3::UnitY() : Vec3::UnitZ();
+                    dof.origin = Vec3(k - a + 1, 0, 0);
+                    dof.lower = -2.2;
+                    dof.upper = 2.4;
+                    motion.dofs.push_back(dof);
+                    own.push_back(k);
+                }
+                motion.base.translation() = Vec3(b - a, 0, 0);
+                std::vector<SpherePair> all;
+                for (std::uint32_t i = 0; i < bodies[a].size(); ++i)
+                    for (std::uint32_t j = 0; j < bodies[b].size(); ++j) all.push_back({i, j});
+                tables.push_back(makeTable(bodies[a], bodies[b], all, {}, motion));
+                values.push_back(own);
+            }
+        for (std::size_t t = 0; t < tables.size(); ++t) onJoint.push_back({&tables[t], values[t]});
+    }
+
+    std::vector<double> own(std::size_t table, std::span<const double> q) const {
+        std::vector<double> some;
+        for (const int value : values[table]) some.push_back(q[std::size_t(value)]);
+        return some;
+    }
+    /// By the plain query, test by test.
+    double gap(std::span<const double> q) const {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t t = 0; t < tables.size(); ++t)
+            least = std::min(least, query(tables[t], own(t, q)).gap);
+        return least;
+    }
+    const Motion& limits() const { return tables[2].motion; } ///< of the first link and the last
+};
+
+std::vector<double> valuesOf(const DofValues& q) {
+    return {q.begin(), q.begin() + links - 1};
+}
+
+} // namespace
+
+TEST_CASE("a chain that is driven into itself never goes through, whatever of its tables is passed over") {
+    int slid = 0, blocked = 0, free = 0;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        CAPTURE(seed);
+        const Chain chain(seed);
+        const JointResponder responder(chain.onJoint, links - 1);
+        JointWorkspace ws = responder.workspace();
+        Random random(100 + seed);
+        const Motion limits = chain.limits();
+        REQUIRE(limits.dofs.size() == links - 1);
+        std::vector<double> q(links - 1, 0.0), hand = q;
+        REQUIRE(chain.gap(q) > 0);
+        for (int step = 0; step < 800; ++step) {
+            CAPTURE(step);
+            if (step % 90 == 0) do
+                    hand = random_table::values(random, limits);
+                while (chain.gap(hand) > 0); // where it cannot be
+            const double share = step % 30 == 29 ? 1 : between(random, 0.01, 0.1);
+            std::vector<double> asked = q;
+            for (std::size_t k = 0; k < q.size(); ++k) asked[k] += share * (hand[k] - q[k]);
+            const JointAnswer answer = responder.respond(q.data(), asked.data(), ws);
+            const std::vector<double> next = valuesOf(answer.q);
+            REQUIRE(chain.gap(next) > 0);
+            REQUIRE(walk::distance(responder, next, asked) <= walk::distance(responder, q, asked));
+            REQUIRE(answer.status < JointStatus::Separated);
+            if (answer.status == JointStatus::Free && step % 8 == 0) {
+                REQUIRE(next == asked);
+                REQUIRE(walk::smallestGapBetween(
+                            q, next, 12, [&](const std::vector<double>& at) { return chain.gap(at); }) > 0);
+            }
+            // What is known of the steps before changes no bit.
+            if (step % 3 == 0) {
+                JointWorkspace fresh = responder.workspace();
+                REQUIRE(valuesOf(responder.respond(q.data(), asked.data(), fresh).q) == next);
+            }
+            free += answer.status == JointStatus::Free;
+            slid += answer.status == JointStatus::Slid;
+            blocked += answer.status == JointStatus::Blocked;
+            q = next;
+        }
+    }
+    CAPTURE(free, slid, blocked);
+    CHECK(free > 100);
+    CHECK(slid > 100);
+    CHECK(blocked > 5);
+}
+
+namespace {
+
+/// Of some random poses the one at which tables in clusters are nearest to contact, or deepest in it.
+std::vector<double> nearItself(Random& random, const JointModel& model, const Motion& limits) {
+    std::vector<double> nearest;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 8; ++i) {
+        const std::vector<double> q = random_table::values(random, limits);
+        for (std::size_t g = 0; g < model.groups.size(); ++g) {
+            const JointModel::Group& group = model.groups[g];
+            if (!group.clustered) continue;
+            const std::span own(q.data() + group.dofs[0], group.dofs.size());
+            const double gap = smallestGap(model, g, pose(group.motion, own));
+            if (gap < least) least = gap, nearest = q;
+        }
+    }
+    return nearest;
+}
+
+} // namespace
+
+TEST_CASE("what is not listed for a way stays away from contact all along it") {
+    const Chain chain(9);
+    const JointModel model = makeJointModel(chain.onJoint, links - 1, true);
+    REQUIRE(model.clustered);
+    REQUIRE(model.listable > 0);               // tables of both kinds
+    REQUIRE(model.chains.size() == links - 2); // of each link that a table begins with
+    ResponseRoom kept = roomFor(model);
+    Random random(10);
+    const Motion limits = chain.limits();
+    std::size_t listed = 0, asked = 0, nearest = 0;
+    for (int i = 0; i < 80; ++i) {
+        CAPTURE(i);
+        DofValues q{}, way{};
+        const std::vector<double> from = nearItself(random, model, limits);
+        const double size = std::pow(10.0, between(random, -4, -0.7));
+        for (std::size_t k = 0; k < from.size(); ++k) {
+            q[k] = from[k];
+            way[k] = between(random, -size, size);
+        }
+        ResponseRoom ws = roomFor(model);
+        for (PlacedGroup& group : kept.groups) group.known = false;
+        ws.unlist();
+        kept.unlist();
+        REQUIRE(listOnWay(model, q, way, ws));
+        // A little before, and here with what is known from there.
+        DofValues before = q;
+        for (std::size_t k = 0; k < from.size(); ++k) before[k] -= 0.5 * way[k];
+        REQUIRE(listOnWay(model, before, way, kept));
+        kept.unlist();
+        REQUIRE(listOnWay(model, q, way, kept));
+        REQUIRE(kept.nearCount == ws.nearCount);
+        for (std::size_t k = 0; k < ws.nearCount; ++k) REQUIRE(kept.near[k].pair == ws.near[k].pair);
+        listed += ws.nearCount;
+        for (int part = 0; part <= 5; ++part) {
+            DofValues at = q;
+            for (std::size_t k = 0; k < from.size(); ++k) at[k] += part / 5.0 * way[k];
+            for (std::size_t g = 0; g < model.groups.size(); ++g) {
+                const JointModel::Group& group = model.groups[g];
+                placeGroup(model, g, at, way, ws);
+                const Pose& pose = ws.groups[g].frame.pose;
+                REQUIRE(pose.matrix() == tss::pose(group.motion, chain.own(g, at)).matrix());
+                if (!group.clustered) continue;
+                double least = std::numeric_limits<double>::infinity();
+                Vec3 centre, normal;
+                for (std::uint32_t p = group.firstPair; p < group.lastPair; ++p) {
+                    const double gap = pairGap(model.pairs[p], pose, centre, normal);
+                    least = std::min(least, gap);
+                    if (gap > group.contactOffset || ws.listed[p] == ws.listing) continue;
+                    FAIL("pair " << p << " comes to " << gap << " and is not listed");
+                }
+                REQUIRE(smallestGap(model, g, pose) == least);
+                nearest += least < 0;
+                asked += group.lastPair - group.firstPair;
+            }
+        }
+    }
+    CAPTURE(listed, asked, nearest);
+    CHECK(listed > 1000);
+    CHECK(listed < asked / 6 / 10);
+    CHECK(nearest > 5);
+}
+
+TEST_CASE("a chain that starts in itself comes out, and is held out from then on") {
+    const Chain chain(5);
+    const JointResponder responder(chain.onJoint, links - 1);
+    REQUIRE(responder.freePose());
+    JointWorkspace ws = responder.workspace();
+    Random random(6);
+    int starts = 0, pushed = 0;
+    while (starts < 25) {
+        std::vector<double> q = random_table::values(random, chain.limits());
+        if (chain.gap(q) > 0) continue;
+        CAPTURE(++starts);
+        const std::vector<double> asked = q;
+        bool out = false;
+        for (int i = 0; i < 60; ++i) {
+            const double before = chain.gap(q);
+            const JointAnswer answer = responder.respond(q.data(), asked.data(), ws);
+            q = valuesOf(answer.q);
+            const double after = chain.gap(q);
+            if (out) REQUIRE(after > 0);
+            if (before <= 0 && answer.status == JointStatus::Separated) REQUIRE(after > before);
+            pushed += before <= 0 && after > 0 && answer.status == JointStatus::Separated;
+            out = after > 0;
+            if (before <= 0) REQUIRE(answer.status >= JointStatus::Separated);
+        }
+        REQUIRE(out);
+    }
+    CHECK(pushed > 10);
+}
