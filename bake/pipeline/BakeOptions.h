@@ -28,6 +28,7 @@ struct BakeOptions {
     bool conservative = true; ///< spheres contain the surface; otherwise they are inscribed
     bool keepSpheres = false; ///< store all generated spheres too
     double budget = 0;        ///< seconds for each pair's cover; 0: no limit
+    double metersPerUnit = 1; ///< of the scene, for what is said of lengths
 };
 
 /// Sets one option by its name on the command line, without dashes, from its text. Lengths may carry a unit.
