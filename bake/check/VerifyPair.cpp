@@ -37,7 +37,7 @@ void verifyGap(PairVerdict& verdict, const SceneModel& scene, const Pair& pair, 
 }
 
 /// What a person should know about what was proven of the meshes.
-void addNotes(PairVerdict& verdict, const Pair& pair) {
+void addNotes(PairVerdict& verdict, const Pair& pair, double metersPerUnit) {
     const MeshVerdict& meshes = verdict.meshes;
     if (pair.table && pair.table->boundMiss < 0)
         verdict.notes.push_back("how late it reports contact is not stated, and nothing is proven of it");
@@ -52,9 +52,9 @@ void addNotes(PairVerdict& verdict, const Pair& pair) {
                                             "with {:.3g} % of B",
                                             100 * meshes.exempt.shareA, 100 * meshes.exempt.shareB));
         if (meshes.farthestExempt > 0)
-            verdict.notes.push_back(fmt::format("pieces of these parts are up to {:.3g} scene units from the "
-                                                "other body at rest",
-                                                meshes.farthestExempt));
+            verdict.notes.push_back(
+                fmt::format("pieces of these parts are up to {} from the other body at rest",
+                            lengthText(meshes.farthestExempt, metersPerUnit)));
     }
 }
 
@@ -85,7 +85,7 @@ PairVerdict verifyPair(const SceneModel& scene, const Pair& pair, const Progress
     verdict.early = verdict.meshes.earlyBound;
     verdict.pose = verdict.meshes.pose;
     verdict.reason = verdict.meshes.reason;
-    addNotes(verdict, pair);
+    addNotes(verdict, pair, scene.metersPerUnit);
     if (verdict.holds() && pair.table && (pair.table->gapDepth > 0 || pair.table->gapMargin > 0))
         verifyGap(verdict, scene, pair, motion, progress);
     return verdict;

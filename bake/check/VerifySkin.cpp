@@ -40,7 +40,7 @@ public:
         : made_(*skin.table), table_(made_.table), mesh_(scene.bodies[skin.body].mesh),
           muscles_(skinMuscles(scene, skin)),
           thickness_(skin.thickness > 0 ? skin.thickness : usualThickness(mesh_)),
-          rounding_(floatRounding * (reachOf(mesh_) + thickness_)) {
+          rounding_(floatRounding * (reachOf(mesh_) + thickness_)), metersPerUnit_(scene.metersPerUnit) {
         const BakeOptions options = optionsFor(skin.settings, {}, scene.metersPerUnit);
         contained_ = options.conservative &&
                      (options.spheres == SphereMethod::Medial || options.spheres == SphereMethod::Shrinking);
@@ -192,17 +192,18 @@ private:
     void judgeLateness() {
         const double granted = 4 * rounding_;
         if (contained_ && verdict_.lateAtRest > granted)
-            verdict_.reason = fmt::format("at rest a muscle is {:.4g} nearer to the skin than its tests say",
-                                          verdict_.lateAtRest);
+            verdict_.reason = fmt::format("at rest a muscle is {} nearer to the skin than its tests say",
+                                          lengthText(verdict_.lateAtRest, metersPerUnit_));
         else if (verdict_.late > thickness_ && (contained_ || std::isinf(verdict_.late)))
-            verdict_.reason = fmt::format(
-                "a muscle by itself comes {:.4g} nearer to the skin than its tests say", verdict_.late);
+            verdict_.reason = fmt::format("a muscle by itself comes {} nearer to the skin than its tests say",
+                                          lengthText(verdict_.late, metersPerUnit_));
         if (!verdict_.holds()) return;
         verdict_.notes.push_back(
             fmt::format("looked at with the skin and the bones at rest, each muscle by itself at {} "
-                        "activations together: its tests are all there, and late by up to {:.3g} scene "
-                        "units, {:.3g} at rest",
-                        verdict_.states, verdict_.late, verdict_.lateAtRest));
+                        "activations together: its tests are all there, and late by up to {}, "
+                        "{} at rest",
+                        verdict_.states, lengthText(verdict_.late, metersPerUnit_),
+                        lengthText(verdict_.lateAtRest, metersPerUnit_)));
         verdict_.notes.push_back("nothing is proven of a skin that moves, of several muscles at once or of "
                                  "bones: its rows are found by search");
     }
@@ -211,7 +212,7 @@ private:
     const Table& table_;
     const TriangleMesh& mesh_;
     std::vector<std::shared_ptr<const MuscleDeformer>> muscles_;
-    double thickness_, rounding_;
+    double thickness_, rounding_, metersPerUnit_;
     bool contained_ = false;            ///< the spheres were to contain the muscles' surfaces
     std::vector<std::ptrdiff_t> rowOf_; ///< each vertex; -1: none
     std::unordered_set<std::uint64_t> tests_;

@@ -1,7 +1,9 @@
 // Wang, Wang and Kim, "An algebraic condition for the separation of two ellipsoids", 2001.
 #include "bake/compare/Ellipsoid.h"
 
-#include <Eigen/Eigenvalues>
+#include "bake/motion/SmallSystems.h"
+
+#include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
 
@@ -145,24 +147,23 @@ BentEllipsoid fitEllipsoid(const TriangleMesh& mesh) {
     mean /= static_cast<double>(mesh.vertices.size());
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     for (const Vec3& v : mesh.vertices) covariance += (v - mean) * (v - mean).transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+    const Eigen::Matrix3d principal = symmetricAxes(covariance);
     Eigen::Matrix3d axes;
-    axes.col(0) = solver.eigenvectors().col(2); // the longest
+    axes.col(0) = principal.col(2); // the longest
     // Least squares of both other coordinates against x^2 gives the direction and size of the bend.
     Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
     Eigen::Matrix<double, 2, 2> right = Eigen::Matrix2d::Zero();
     for (const Vec3& v : mesh.vertices) {
         const double x = axes.col(0).dot(v - mean);
         const Eigen::Vector2d basis(1, x * x);
-        const Eigen::Vector2d across(solver.eigenvectors().col(1).dot(v - mean),
-                                     solver.eigenvectors().col(0).dot(v - mean));
+        const Eigen::Vector2d across(principal.col(1).dot(v - mean), principal.col(0).dot(v - mean));
         normal += basis * basis.transpose();
         right += basis * across.transpose();
     }
     const Eigen::Matrix2d fit = normal.ldlt().solve(right);
-    const Vec3 bend = fit(1, 0) * solver.eigenvectors().col(1) + fit(1, 1) * solver.eigenvectors().col(0);
+    const Vec3 bend = fit(1, 0) * principal.col(1) + fit(1, 1) * principal.col(0);
     result.bend = bend.allFinite() ? bend.norm() : 0;
-    axes.col(1) = result.bend > 0 ? Vec3(bend.normalized()) : Vec3(solver.eigenvectors().col(1));
+    axes.col(1) = result.bend > 0 ? Vec3(bend.normalized()) : Vec3(principal.col(1));
     axes.col(2) = axes.col(0).cross(axes.col(1));
     Eigen::AlignedBox3d box;
     for (const Vec3& v : mesh.vertices) {

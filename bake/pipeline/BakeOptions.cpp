@@ -188,6 +188,7 @@ std::string methodName(const BakeOptions& options) {
 
 BakeOptions optionsFor(const BakeSettings& ofScene, const BakeSettings& given, double metersPerUnit) {
     BakeOptions options;
+    options.metersPerUnit = metersPerUnit;
     for (const auto& [key, text] : ofScene) setOption(options, key, text, metersPerUnit);
     for (const auto& [key, text] : given) setOption(options, key, text, metersPerUnit);
     return options;

@@ -31,6 +31,7 @@ struct BakeOptions {
     /// As many pairs of spheres a table asks at most where no cover of them is found: few of them in a query,
     /// in clusters, but each takes some 240 bytes in memory.
     std::size_t mostPairs = 1'000'000;
+    double metersPerUnit = 1; ///< of the scene, for what is said of lengths
 };
 
 /// Sets one option by its name on the command line, without dashes, from its text. Lengths may carry a unit.

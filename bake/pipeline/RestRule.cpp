@@ -41,10 +41,11 @@ void checkRest(const PairSpheres& spheres, const Motion& motion, const BakeOptio
                      });
     if (least <= options.epsilon)
         throw InputError(
-            fmt::format("the meshes are {:.4g} scene units apart at rest, and their spheres, rounded as "
-                        "files hold them, {:.4g}: "
+            fmt::format("the meshes are {} apart at rest, and their spheres, rounded as files hold them, "
+                        "{}: "
                         "expected coordinates nearer to the origin, or a rest pose with more clearance",
-                        spheres.clearanceAtRest, least));
+                        lengthText(spheres.clearanceAtRest, options.metersPerUnit),
+                        lengthText(least, options.metersPerUnit)));
 }
 
 void noteRest(const PairSpheres& spheres, const RuleAtRest& ruled, const Motion& motion,
@@ -56,10 +57,11 @@ void noteRest(const PairSpheres& spheres, const RuleAtRest& ruled, const Motion&
     const std::vector<double> rest = restValues(motion);
     const SphereTree a(spheres.a.spheres), b(spheres.b.spheres);
     if (smallestGap(a, b, pose(motion, rest), 1) > options.epsilon) return;
-    notes.push_back(fmt::format("the meshes are {:.4g} scene units apart at rest, these spheres are not: "
+    notes.push_back(fmt::format("the meshes are {} apart at rest, these spheres are not: "
                                 "contact there; --spheres medial makes them apart, others may with a "
-                                "--tolerance below {:.2g}",
-                                spheres.clearanceAtRest, spheres.clearanceAtRest / 2));
+                                "--tolerance below {}",
+                                lengthText(spheres.clearanceAtRest, options.metersPerUnit),
+                                lengthText(spheres.clearanceAtRest / 2, options.metersPerUnit)));
 }
 
 } // namespace tss

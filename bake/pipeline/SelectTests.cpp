@@ -65,8 +65,9 @@ Selection selectCover(const PairTask& task, const CandidatePairs& candidates, st
     if (selection.certified && result.complete && result.pairs.empty())
         selection.proof = NeverCollides{result.clearance, result.cells, {}, {}, {}};
     if (!result.complete)
-        notes.push_back(fmt::format("the budget ended first: epsilon {} scene units was reached, not {}",
-                                    result.epsilon, task.options.epsilon));
+        notes.push_back(fmt::format("the budget ended first: epsilon {} was reached, not {}",
+                                    lengthText(result.epsilon, task.options.metersPerUnit),
+                                    lengthText(task.options.epsilon, task.options.metersPerUnit)));
     return selection;
 }
 

@@ -1,8 +1,7 @@
 #include "bake/scene/Xform.h"
 
 #include "bake/base/Degrees.h"
-
-#include <Eigen/SVD>
+#include "bake/motion/SmallSystems.h"
 
 namespace tss {
 
@@ -128,8 +127,8 @@ SplitXform split(const Xform& xform) {
         return result;
     }
     const Eigen::Matrix3d linear = xform.matrix.linear();
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
+    const SingularValues svd = singularValues(linear);
+    Eigen::Matrix3d turn = svd.u * svd.v.transpose();
     if (turn.determinant() < 0) turn = -turn;
     result.placement.linear() = turn;
     result.stretch = turn.transpose() * linear;

@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/base/Progress.h"
-#include "bake/tool/CommandLine.h"
+#include "bake/cli/CommandLine.h"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,6 +8,7 @@
 namespace tss::tool {
 
 using Json = nlohmann::ordered_json;
+using cli::CommandLine, cli::failRequired, cli::failUsage, cli::Option, cli::Options;
 
 /// What every command has: --json, --quiet, and how it ends.
 struct Console {

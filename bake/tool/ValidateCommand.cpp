@@ -38,7 +38,8 @@ void validate(const std::string& file, Console& console) {
         fmt::print(stderr, "{}\n", error.text());
         result["errors"].push_back(place(error));
     }
-    console.say(errors.empty() ? file + ": good" : fmt::format("{}: {} things wrong", file, errors.size()));
+    console.say(errors.empty() ? file + ": good"
+                               : fmt::format("{}: {} wrong", file, counted(errors.size(), "thing")));
     console.print(result);
     console.exitCode = errors.empty() ? 0 : 1;
 }

@@ -144,7 +144,8 @@ public:
         model.body = body;
         const TriangleMesh& mesh = scene_.bodies[body].mesh;
         if (!auditMesh(mesh).watertight)
-            note(named.name + " is not closed; a muscle's volume is that of a closed surface");
+            note(named.name +
+                 " is not closed, and bake will refuse it: a muscle's volume is that of a closed surface");
         model.muscle.surface = mesh;
         if (model.insertionBone == model.bone) model.insertionBone = -1;
         model.muscle.spans = model.insertionBone >= 0;

@@ -35,9 +35,10 @@ RobotShape shapeOf(const PrimReader& prim) {
 /// From along z to along the axis that the prim names.
 Eigen::Matrix3d turnTo(const PrimReader& prim) {
     const std::string axis = prim.choice(axisOf, {"Z", "X", "Y"});
-    if (axis == "Z") return Eigen::Matrix3d::Identity();
-    return Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis == "X" ? Vec3::UnitX() : Vec3::UnitY())
-        .toRotationMatrix();
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    if (axis == "X") turn << 0, 0, 1, 0, 1, 0, -1, 0, 0;
+    if (axis == "Y") turn << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+    return turn;
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 # Run when installing: the headers of the core that a program includes, and what these include in turn. All others are
 # private. SOURCE: the repository; INCLUDES: where they go.
+cmake_policy(PUSH)
 cmake_policy(SET CMP0057 NEW) # IN_LIST
 set(open
     bake/base/Error.h
@@ -33,3 +34,4 @@ while(open)
     get_filename_component(folder ${header} DIRECTORY)
     file(INSTALL "${SOURCE}/${header}" DESTINATION "${INCLUDES}/${folder}")
 endwhile()
+cmake_policy(POP)

@@ -3,13 +3,13 @@
 #include "EglContext.h"
 #include "FramePattern.h"
 #include "OffscreenViewer.h"
+#include "Tell.h"
 
 #include "bake/base/Error.h"
+#include "bake/cli/CommandLine.h"
 #include "bake/model/Kinematics.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <osgDB/FileUtils>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
@@ -35,7 +35,8 @@ struct Arguments {
     int frames = 0; ///< 0: one round of the motion
     int every = 1;
     int finer = 2;
-    bool overlay = false, json = false, quiet = false;
+    bool overlay = false;
+    osgTSS::Speech speech;
 };
 
 /// "x,y,z:x,y,z": the eye, and what it looks at.
@@ -57,7 +58,7 @@ osgTSS::Shot shotOf(const Arguments& arguments) {
     constexpr int most = 4096;
     if (std::sscanf(arguments.size.c_str(), "%d%c%d%c", &shot.width, &x, &shot.height, &rest) != 3 ||
         x != 'x' || shot.width < 1 || shot.height < 1 || shot.width > most || shot.height > most)
-        throw CLI::ValidationError("--size", "expected WxH in pixels, found " + arguments.size);
+        tss::cli::failUsage("--size", "expected WxH in pixels, found " + arguments.size);
     shot.finer = arguments.finer;
     if (arguments.view.empty()) return shot;
     if (const auto place = placeOf(arguments.view)) {
@@ -148,18 +149,18 @@ void write(const osg::Image& image, const std::string& name) {
                                               "picture format that OpenSceneGraph writes, such as .png");
 }
 
-int render(const Arguments& arguments) {
+void render(const Arguments& arguments) {
     osgTSS::Shot shot = shotOf(arguments);
     const bool pattern = osgTSS::isFramePattern(arguments.output);
     if (!pattern && (arguments.frames != 1 || arguments.output.find('%') != std::string::npos))
-        throw CLI::ValidationError(
-            "--output", "expected one %d for the frame number, as in f_%04d.png, found " + arguments.output);
+        tss::cli::failUsage("--output", "expected one %d for the frame number, as in f_%04d.png, found " +
+                                            arguments.output);
     const osg::ref_ptr<osg::Node> scene = load(arguments);
     const unsigned int frames = framesOf(arguments, *scene);
     if (frames > 1) shot.reach = reachOf(arguments, *scene);
 
     const osgTSS::EglContext context;
-    nlohmann::ordered_json files = nlohmann::ordered_json::array();
+    std::vector<std::string> files;
     {
         osgTSS::OffscreenViewer viewer(*scene, shot);
         for (unsigned int frame = 0; frame < frames; ++frame) {
@@ -171,62 +172,48 @@ int render(const Arguments& arguments) {
             const std::string name = pattern ? osgTSS::frameName(arguments.output, frame) : arguments.output;
             write(image, name);
             files.push_back(name);
-            if (!arguments.quiet && isatty(STDERR_FILENO))
+            if (!arguments.speech.quiet && isatty(STDERR_FILENO))
                 fmt::print(stderr, "\rframe {} of {}{}", frame + 1, frames, frame + 1 == frames ? "\n" : "");
         }
     }
-    if (!arguments.quiet)
-        fmt::print(arguments.json ? stderr : stdout, "{} picture{}, {} to {}\n", files.size(),
-                   files.size() == 1 ? "" : "s", files.front().get<std::string>(),
-                   files.back().get<std::string>());
-    if (arguments.json)
-        fmt::print("{}\n", nlohmann::ordered_json{{"frames", frames}, {"files", files}}.dump());
-    return 0;
-}
-
-int fail(const Arguments& arguments, int code, const std::string& message) {
-    fmt::print(stderr, "tss-render: {}\n", message);
-    if (arguments.json)
-        fmt::print("{}\n", nlohmann::ordered_json{{"error", {{"message", message}}}, {"exit", code}}.dump());
-    return code;
+    osgTSS::tellPictures(arguments.speech, frames, files);
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app{"Pictures of a scene, one time code a frame, without an X server (EGL).", "tss-render"};
-    app.set_version_flag("--version", std::string("tss-render ") + osgTSSGetVersion());
-    app.add_option("scene", arguments.scene, "a .tss scene, or any file that OpenSceneGraph reads")
+    tss::cli::CommandLine line("tss-render",
+                               "Pictures of a scene, one time code a frame, without an X server (EGL).",
+                               std::string("tss-render ") + osgTSSGetVersion());
+    tss::cli::Options& options = line.options();
+    options.add_option("scene", arguments.scene, "a .tss scene, or any file that OpenSceneGraph reads")
         ->required();
-    app.add_option("-o,--output", arguments.output, "where pictures go, with %04d for the frame number")
+    options.add_option("-o,--output", arguments.output, "where pictures go, with %04d for the frame number")
         ->required();
-    app.add_option("--frames", arguments.frames, "how many (default: one round of the motion)")
-        ->check(CLI::PositiveNumber);
-    app.add_option("--every", arguments.every, "write only every N-th frame")->check(CLI::PositiveNumber);
-    app.add_option("--size", arguments.size, "WxH in pixels")->capture_default_str();
-    app.add_option("--finer", arguments.finer, "pixels drawn along each side of one, and averaged")
-        ->check(CLI::Range(1, 4))
+    options.add_option("--frames", arguments.frames, "how many (default: one round of the motion)")
+        ->positive();
+    options.add_option("--every", arguments.every, "write only every N-th frame")->positive();
+    options.add_option("--size", arguments.size, "WxH in pixels")->capture_default_str();
+    options.add_option("--finer", arguments.finer, "pixels drawn along each side of one, and averaged")
+        ->between(1, 4)
         ->capture_default_str();
-    app.add_option("--view", arguments.view,
-                   "a camera path, as osgviewer -p reads it, or EYE:AT in scene units, such as 0,-3,1:0,0,1 "
-                   "(default: from the front, "
-                   "all of the motion in sight)");
-    app.add_flag("--overlay", arguments.overlay, "show spheres, tested pairs and contacts");
-    app.add_option("--options", arguments.options,
-                   "further words for the loader, as osgviewer -O takes them");
-    app.add_flag("--json", arguments.json, "one JSON object on stdout, everything else on stderr");
-    app.add_flag("--quiet", arguments.quiet, "nothing but errors and what was asked for");
-    app.footer("Example: tss-render dog_jaw_baked.tss -o jaw_%04d.png --frames 97 --every 8 --overlay\n"
-               "Exit: 0 done, 1 the input is at fault, 2 usage, 3 internal error.");
+    options.add_option("--view", arguments.view,
+                       "a camera path, as osgviewer -p reads it, or EYE:AT in scene units, such as "
+                       "0,-3,1:0,0,1 (default: from the front, all of the motion in sight)");
+    options.add_flag("--overlay", arguments.overlay, "show spheres, tested pairs and contacts");
+    options.add_option("--options", arguments.options,
+                       "further words for the loader, as osgviewer -O takes them");
+    options.add_flag("--json", arguments.speech.json, "one JSON object on stdout, everything else on stderr");
+    options.add_flag("--quiet", arguments.speech.quiet, "nothing but errors and what was asked for");
+    options.footer("Example: tss-render dog_jaw_baked.tss -o jaw_%04d.png --frames 97 --every 8 --overlay\n"
+                   "Exit: 0 done, 1 the input is at fault, 2 usage, 3 internal error.");
+    options.callback([&] { render(arguments); });
     try {
-        app.parse(argc, argv);
-        return render(arguments);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+        return line.parse(argc, argv);
     } catch (const tss::InputError& error) {
-        return fail(arguments, 1, error.what());
+        return osgTSS::tellFailure(arguments.speech, 1, error.what());
     } catch (const std::exception& error) {
-        return fail(arguments, 3, std::string("internal error: ") + error.what());
+        return osgTSS::tellFailure(arguments.speech, 3, std::string("internal error: ") + error.what());
     }
 }

@@ -6,8 +6,8 @@
 
 #include "bake/base/Error.h"
 #include "bake/model/Kinematics.h"
+#include "bake/motion/SmallSystems.h"
 
-#include <Eigen/Eigenvalues>
 #include <osg/ValueObject>
 #include <osgTSS/Convert>
 
@@ -89,8 +89,7 @@ TurnFrame turnFrame(const Samples& samples) {
         turns.emplace_back(sample.pose.linear());
         moments += turns.back().coeffs() * turns.back().coeffs().transpose();
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> mean(moments);
-    found.mean = Eigen::Quaterniond(Eigen::Vector4d(mean.eigenvectors().col(3))).normalized();
+    found.mean = Eigen::Quaterniond(Eigen::Vector4d(tss::symmetricAxes(moments).col(3))).normalized();
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     for (Eigen::Quaterniond& q : turns) {
         q = found.mean.conjugate() * q;
@@ -99,9 +98,9 @@ TurnFrame turnFrame(const Samples& samples) {
         found.most = std::max(found.most, turn.norm());
     }
     if (found.most <= samples.still) return found;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-    found.frame.col(0) = axes.eigenvectors().col(2);
-    found.frame.col(1) = axes.eigenvectors().col(1);
+    const Eigen::Matrix3d axes = tss::symmetricAxes(spread);
+    found.frame.col(0) = axes.col(2);
+    found.frame.col(1) = axes.col(1);
     found.frame.col(2) = found.frame.col(0).cross(found.frame.col(1));
     for (const Eigen::Quaterniond& q : turns) {
         const tss::Vec3 turn = turnVector(q), first = found.frame.col(0);
@@ -199,7 +198,7 @@ Pivot pivotOf(const Samples& samples, bool turns) {
     }
     const Pivot still = pivot;
     // About one axis a point along it is free: the least one.
-    const Eigen::Matrix<double, 6, 1> x = normal.completeOrthogonalDecomposition().solve(right);
+    const Eigen::Matrix<double, 6, 1> x = tss::leastSolution(normal, right);
     pivot.at = x.head<3>();
     pivot.of = x.tail<3>();
     measure();

@@ -1,4 +1,5 @@
-#include <Eigen/SVD>
+#include "bake/motion/SmallSystems.h"
+
 #include <osgTSS/Convert>
 
 #include <algorithm>
@@ -39,11 +40,10 @@ std::optional<Similarity> toSimilarity(const osg::Matrixd& matrix) {
         result.pose.linear() = linear; // exact already: keep the bits
         return result;
     }
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    // A reference gcc 12 takes for uninitialised. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
-    const tss::Vec3 scales = svd.singularValues();
+    const tss::SingularValues svd = tss::singularValues(linear);
+    const tss::Vec3& scales = svd.values;
     if (!(scales[2] > 0) || scales[0] - scales[2] > fewDigits * scales[0]) return std::nullopt;
-    const Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
+    const Eigen::Matrix3d rotation = svd.u * svd.v.transpose();
     const double hand = rotation.determinant() < 0 ? -1 : 1;
     result.pose.linear() = hand * rotation;
     const double scale = scales.mean();

@@ -1,10 +1,11 @@
-#include "bake/tool/CommandLine.h"
+#include "bake/cli/CommandLine.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 
-namespace tss::tool {
+namespace tss::cli {
 
 Option* Option::required() {
     option_.required();
@@ -40,6 +41,16 @@ Option* Option::among(const std::vector<std::string>& choices) {
 }
 Option* Option::between(int least, int most) {
     option_.check(CLI::Range(least, most));
+    return this;
+}
+Option* Option::positive() {
+    // CLI::PositiveNumber would name the largest double as what may be.
+    option_.check(
+        [](const std::string& text) {
+            return std::strtod(text.c_str(), nullptr) > 0 ? std::string()
+                                                          : "expected more than 0, found " + text;
+        },
+        "POSITIVE");
     return this;
 }
 
@@ -99,13 +110,13 @@ void failUsage(const std::string& option, const std::string& why) {
 
 CommandLine::CommandLine(const std::string& name, const std::string& description, const std::string& version)
     : app_(std::make_unique<CLI::App>(description, name)), options_(std::make_unique<Options>(*app_)) {
-    app_->require_subcommand(1);
     app_->set_version_flag("--version", version);
 }
 
 CommandLine::~CommandLine() = default;
 
 int CommandLine::parse(int argc, char** argv) {
+    if (!app_->get_subcommands([](const CLI::App*) { return true; }).empty()) app_->require_subcommand(1);
     if (argc > 1 && mistyped(argv[1])) return 2;
     try {
         app_->parse(argc, argv);
@@ -119,7 +130,8 @@ int CommandLine::parse(int argc, char** argv) {
 bool CommandLine::mistyped(const std::string& word) const {
     const auto commands = app_->get_subcommands([](const CLI::App*) { return true; });
     const auto named = [&](const CLI::App* command) { return command->get_name() == word; };
-    if (word.starts_with('-') || std::any_of(commands.begin(), commands.end(), named)) return false;
+    if (commands.empty() || word.starts_with('-') || std::any_of(commands.begin(), commands.end(), named))
+        return false;
     std::string names;
     for (const CLI::App* command : commands) names += " " + command->get_name();
     std::fprintf(stderr, "%s: \"%s\" is no command; expected one of%s\n", app_->get_name().c_str(),
@@ -127,4 +139,4 @@ bool CommandLine::mistyped(const std::string& word) const {
     return true;
 }
 
-} // namespace tss::tool
+} // namespace tss::cli

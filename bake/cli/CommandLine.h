@@ -11,9 +11,9 @@ class App;
 class Option;
 } // namespace CLI
 
-namespace tss::tool {
+namespace tss::cli {
 
-// What the commands need of CLI11, by the names that it has there. CommandLine.cpp alone compiles it: it
+// What the programs need of CLI11, by the names that it has there. CommandLine.cpp alone compiles it: it
 // costs every object that sees it seconds.
 
 /// One option of a command.
@@ -30,12 +30,13 @@ public:
     Option* capture_default_str();
     Option* among(const std::vector<std::string>& choices);
     Option* between(int least, int most);
+    Option* positive();
 
 private:
     CLI::Option& option_;
 };
 
-/// A command, or the program with its commands.
+/// A command, or the program.
 class Options {
 public:
     explicit Options(CLI::App& app) : app_(app) {}
@@ -65,7 +66,7 @@ private:
     std::deque<Options> commands_;
 };
 
-/// Ends parse() as usage does: this option is missing.
+/// Ends parse() as usage does: this option is missing. From a callback.
 [[noreturn]] void failRequired(const std::string& option);
 /// The same: this option cannot be used so.
 [[noreturn]] void failUsage(const std::string& option, const std::string& why);
@@ -77,8 +78,8 @@ public:
     ~CommandLine();
 
     Options& options() { return *options_; }
-    /// Runs the command that is asked for. Returns 2 for what is no usage, having said so; what the command
-    /// throws is thrown.
+    /// Runs the callback of what is asked for: where there are commands, one of them has to be. Returns 2 for
+    /// what is no usage, having said so; what the command throws is thrown.
     int parse(int argc, char** argv);
 
 private:
@@ -88,4 +89,4 @@ private:
     std::unique_ptr<Options> options_;
 };
 
-} // namespace tss::tool
+} // namespace tss::cli

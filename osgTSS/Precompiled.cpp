@@ -1,0 +1,1 @@
+// Empty: the target that compiles Precompiled.h has to have a source.

@@ -1,0 +1,31 @@
+// Others' headers that most sources of the node kit include: compiled once for all of them (OSGTSS_PRECOMPILE).
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <osg/Geometry>
+#include <osg/Group>
+#include <osg/MatrixTransform>
+#include <osg/Node>
+#include <osg/NodeVisitor>
+#include <osg/Notify>
+#include <osg/Transform>
+#include <osg/ValueObject>
+#include <osg/observer_ptr>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <span>
+#include <sstream>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>

@@ -1,0 +1,2 @@
+// Of what tests/Precompiled.h compiles.
+int main() {}
