@@ -28,11 +28,7 @@ SphereFit wholeBody(const Body& body, const BakeOptions& options, double toleran
                     const Progress& progress) {
     SphereOptions how = sphereOptions(options, tolerance);
     how.hollow = hollow;
-    SphereFit fit = fitSpheres(cleaned(meshOf(body)), how, progress);
-    if (fit.spheres.empty())
-        throw InputError(Where{"", "", body.path}, "not a sphere of this body was found: expected a coarser "
-                                                   "--tolerance, or other spheres");
-    return fit;
+    return fitSpheres(cleaned(meshOf(body)), how, progress);
 }
 
 /// The spheres that touch without reason show it (see findHollow()).

@@ -43,12 +43,13 @@ bool exists(const std::string& file) {
 TEST_CASE("a pair that fails at last leaves the others baked, in a file that is named as incomplete") {
     const Folder folder;
     writeTwo(folder);
-    // Growth within this tolerance finds no sphere that is small enough.
-    set(folder, "in.tss", {{"tolerance", "0.5"}}, {{"tolerance", "0.02"}, {"spheres", "growth"}});
+    // A budget of next to nothing ends before any bound is proven, and samples prove nothing of all pairs.
+    set(folder, "in.tss", {{"tolerance", "0.5"}},
+        {{"tolerance", "0.5"}, {"search", "sampled"}, {"budget", "1e-9"}});
     const Ran ran = runTss("bake in.tss -o out.tss --json", folder.path());
     INFO(ran.err);
     CHECK(ran.exit == 1);
-    CHECK(ran.err.find("(</two/still>): not a sphere of this body was found") != std::string::npos);
+    CHECK(ran.err.find("in.tss (</two/two>): the budget ended") != std::string::npos);
     CHECK(ran.err.find("go on with\n  tss bake out.incomplete.tss -o out.tss") != std::string::npos);
     const Json result = Json::parse(ran.out);
     CHECK(result["complete"] == false);
