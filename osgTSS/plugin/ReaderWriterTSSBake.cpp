@@ -7,6 +7,7 @@
 #include <osgTSS/Bake>
 #include <osgTSS/Install>
 #include <osgTSS/LoadOptions>
+#include <osgTSS/PlayAnimations>
 #include <osgTSS/ViewerCallback>
 
 #include <exception>
@@ -27,6 +28,7 @@ public:
         supportsOption("static=<NAME,...>", "Transforms that are taken to stand still");
         supportsOption("ignore=<NAME,...>", "Nodes that are drawn, but part of no body");
         supportsOption("still=<DEGREES>", "Turns of bones of less than this are no degree of freedom");
+        supportsOption("play", "Play the animations that nothing plays, one after the other");
         supportsOption("cache=<FILE|off>",
                        "Where tables are kept (default FILE.EXT.cache.tss beside the file)");
         supportsOption("<setting>=<value>", "Settings of 'tss bake' without dashes, such as tolerance=0.1");
@@ -42,6 +44,7 @@ public:
         try {
             const osgTSS::LoadOptions load(options ? options->getOptionString() : std::string());
             bake(*root, load, source);
+            if (load.play) osgTSS::playAnimations(*root);
             return ReadResult(root);
         } catch (const std::exception& error) {
             OSG_WARN << "osgTSS: " << source << ": " << error.what() << std::endl;

@@ -7,7 +7,6 @@ namespace osgTSS {
 
 namespace {
 
-constexpr double framesPerSecond = 24;
 constexpr double fieldOfView = 30; ///< from bottom to top, degrees
 
 } // namespace

@@ -8,6 +8,8 @@
 
 namespace osgTSS {
 
+constexpr double framesPerSecond = 24;
+
 /// How pictures are taken.
 struct Shot {
     int width = 800, height = 600;

@@ -14,6 +14,7 @@
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 #include <osgTSS/LoadOptions>
+#include <osgTSS/PlayAnimations>
 #include <osgTSS/Scene>
 #include <osgTSS/SceneFile>
 #include <osgTSS/Version>
@@ -132,10 +133,12 @@ osg::BoundingSphere reachOf(const Arguments& arguments, const osg::Node& graph) 
     return box.valid() ? osg::BoundingSphere(box) : osg::BoundingSphere();
 }
 
-unsigned int framesOf(const Arguments& arguments, const osg::Node& scene) {
+/// `seconds`: of its animations.
+unsigned int framesOf(const Arguments& arguments, const osg::Node& scene, double seconds) {
     if (arguments.frames > 0) return static_cast<unsigned int>(arguments.frames);
     const osgTSS::Scene* found = osgTSS::Scene::on(scene);
-    const double codes = found ? found->getClock().end - found->getClock().start : 0;
+    const double codes = std::max(found ? found->getClock().end - found->getClock().start : 0,
+                                  std::ceil(seconds * osgTSS::framesPerSecond));
     return static_cast<unsigned int>(std::max(0.0, std::floor(codes))) + 1;
 }
 
@@ -156,7 +159,7 @@ void render(const Arguments& arguments) {
         tss::cli::failUsage("--output", "expected one %d for the frame number, as in f_%04d.png, found " +
                                             arguments.output);
     const osg::ref_ptr<osg::Node> scene = load(arguments);
-    const unsigned int frames = framesOf(arguments, *scene);
+    const unsigned int frames = framesOf(arguments, *scene, osgTSS::playAnimations(*scene));
     if (frames > 1) shot.reach = reachOf(arguments, *scene);
 
     const osgTSS::EglContext context;

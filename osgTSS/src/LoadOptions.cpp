@@ -39,6 +39,8 @@ LoadOptions::LoadOptions(const std::string& optionString) {
             graph.rotateUp = false;
         else if (key == "overlay")
             overlay = equals == std::string::npos || onOff(value, "option overlay");
+        else if (key == "play")
+            play = equals == std::string::npos || onOff(value, "option play");
         else if (equals != std::string::npos)
             others[key] = value;
     }

@@ -1,0 +1,75 @@
+// Animations of a file that nothing plays.
+#include <catch2/catch.hpp>
+#include <osg/Group>
+#include <osgAnimation/BasicAnimationManager>
+#include <osgAnimation/Channel>
+#include <osgTSS/PlayAnimations>
+#include <osgUtil/UpdateVisitor>
+
+namespace {
+
+osg::ref_ptr<osgAnimation::Animation> animation(const std::string& name, double seconds) {
+    osg::ref_ptr<osgAnimation::FloatLinearChannel> channel = new osgAnimation::FloatLinearChannel;
+    channel->setName("x");
+    channel->setTargetName("nobody");
+    auto* keys = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
+    keys->push_back(osgAnimation::FloatKeyframe(0, 0));
+    keys->push_back(osgAnimation::FloatKeyframe(seconds, 1));
+    osg::ref_ptr<osgAnimation::Animation> made = new osgAnimation::Animation;
+    made->setName(name);
+    made->addChannel(channel);
+    return made;
+}
+
+struct Played {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    osg::ref_ptr<osgAnimation::BasicAnimationManager> manager = new osgAnimation::BasicAnimationManager;
+
+    Played() {
+        osg::ref_ptr<osg::Group> below = new osg::Group;
+        below->setUpdateCallback(manager);
+        root->addChild(below);
+        for (const auto& [name, seconds] : {std::pair("walk", 1.0), {"run", 2.0}, {"jump", 0.5}})
+            manager->registerAnimation(animation(name, seconds));
+    }
+
+    std::string playingAt(double time) {
+        osg::ref_ptr<osgUtil::UpdateVisitor> update = new osgUtil::UpdateVisitor;
+        osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+        stamp->setSimulationTime(time);
+        update->setFrameStamp(stamp);
+        update->setTraversalNumber(++frame);
+        root->accept(*update);
+        std::string names;
+        for (const auto& one : manager->getAnimationList())
+            if (manager->isPlaying(one.get())) names += one->getName() + " ";
+        return names;
+    }
+
+    unsigned int frame = 0;
+};
+
+} // namespace
+
+TEST_CASE("animations that nothing plays are played one after the other, round and round") {
+    Played graph;
+    CHECK(osgTSS::playAnimations(*graph.root) == Approx(3.5));
+    // From whenever the first traversal is.
+    CHECK(graph.playingAt(10) == "walk ");
+    CHECK(graph.playingAt(10.9) == "walk ");
+    CHECK(graph.playingAt(11.1) == "run ");
+    CHECK(graph.playingAt(12.9) == "run ");
+    CHECK(graph.playingAt(13.2) == "jump ");
+    CHECK(graph.playingAt(13.6) == "walk ");
+    CHECK(graph.playingAt(18.2) == "run ");
+}
+
+TEST_CASE("what the application plays is left to it") {
+    Played graph;
+    graph.manager->playAnimation(graph.manager->getAnimationList()[1]);
+    CHECK(osgTSS::playAnimations(*graph.root) == 0);
+    CHECK_FALSE(graph.root->getUpdateCallback());
+    CHECK(graph.playingAt(5) == "run ");
+    osg::ref_ptr<osg::Group> empty = new osg::Group;
+    CHECK(osgTSS::playAnimations(*empty) == 0);
+}
