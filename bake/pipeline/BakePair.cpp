@@ -87,8 +87,6 @@ struct PairBaker {
 
     /// Search, select, bound.
     Attempt tabulated(PairSpheres spheres) const {
-        if (!report(progress, "spheres", 1)) throw InputError("stopped before the table was made");
-        measureSpheres(scene, pair, spheres);
         Attempt attempt{std::move(spheres), {}, {}, {}};
         noteFit(scene.bodies[pair.bodyA], attempt.spheres.a, attempt.report.notes);
         noteFit(scene.bodies[pair.bodyB], attempt.spheres.b, attempt.report.notes);
@@ -100,8 +98,14 @@ struct PairBaker {
         return attempt;
     }
 
+    PairSpheres measured(PairSpheres spheres) const {
+        if (!report(progress, "spheres", 1)) throw InputError("stopped before the table was made");
+        measureSpheres(scene, pair, spheres);
+        return spheres;
+    }
+
     /// Fill: both bodies with spheres, and how well these fit; then the few tests that answer for all.
-    Attempt few() const { return tabulated(fillPair(scene, pair, motion, options, progress)); }
+    Attempt few() const { return tabulated(measured(fillPair(scene, pair, motion, options, progress))); }
 
     /// Where the budget ended far from the epsilon asked for: tests instead. All pairs of spheres that may
     /// meet, of these or, where these are too many, of others that are coarser. Nothing where that would
@@ -116,7 +120,7 @@ struct PairBaker {
         spheres.askAll = canAskAll(spheres, options);
         // A table that states a gap is verified against the very spheres that its settings make.
         if (!spheres.askAll && options.depth <= 0 && options.conservative)
-            spheres = fillToAskAll(scene, pair, motion, options, progress);
+            spheres = measured(fillToAskAll(scene, pair, motion, options, progress));
         if (spheres.askAll && spheres.stickOut < few.early()) return tabulated(std::move(spheres));
         if (!few.ended.empty()) throw InputError(few.ended);
         return std::nullopt;

@@ -11,18 +11,6 @@ namespace {
 
 using namespace osgAnimation;
 
-class FindManagers : public osg::NodeVisitor {
-public:
-    FindManagers() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-    void apply(osg::Node& node) override {
-        for (osg::Callback* callback = node.getUpdateCallback(); callback;
-             callback = callback->getNestedCallback())
-            if (auto* manager = dynamic_cast<AnimationManagerBase*>(callback)) found.push_back(manager);
-        traverse(node);
-    }
-    std::vector<AnimationManagerBase*> found;
-};
-
 /// Keys of the channel if it is of this type. Curves are followed between their keys, so finely that what
 /// they swing beyond the samples is less than a part in a thousand of a step between two keys.
 template <class ChannelType, class Value>
@@ -77,12 +65,29 @@ void readAny(const Channel& channel, std::vector<Keys<osg::Quat>>& out) {
     read<QuatSphericalLinearChannel>(channel, curve, out) || read<QuatStepChannel>(channel, 1, out);
 }
 
+class FindManagers : public osg::NodeVisitor {
+public:
+    FindManagers() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+    void apply(osg::Node& node) override {
+        for (osg::Callback* callback = node.getUpdateCallback(); callback;
+             callback = callback->getNestedCallback())
+            if (auto* manager = dynamic_cast<AnimationManagerBase*>(callback))
+                if (std::find(found.begin(), found.end(), manager) == found.end()) found.push_back(manager);
+        traverse(node);
+    }
+    std::vector<AnimationManagerBase*> found;
+};
+
 } // namespace
 
-AnimationChannels::AnimationChannels(osg::Node& root) {
+std::vector<AnimationManagerBase*> animationManagers(osg::Node& root) {
     FindManagers managers;
     root.accept(managers);
-    for (AnimationManagerBase* manager : managers.found)
+    return managers.found;
+}
+
+AnimationChannels::AnimationChannels(osg::Node& root) {
+    for (AnimationManagerBase* manager : animationManagers(root))
         for (const auto& animation : manager->getAnimationList()) addAnimation(*animation);
 }
 

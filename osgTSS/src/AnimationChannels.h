@@ -3,6 +3,7 @@
 #include <osg/Quat>
 #include <osg/Vec3>
 #include <osgAnimation/Animation>
+#include <osgAnimation/AnimationManagerBase>
 #include <osgAnimation/Channel>
 
 #include <map>
@@ -11,6 +12,9 @@
 #include <vector>
 
 namespace osgTSS {
+
+/// The animation managers among the update callbacks of a graph, each once.
+std::vector<osgAnimation::AnimationManagerBase*> animationManagers(osg::Node& root);
 
 /// Values over time, seconds: of a channel of numbers, vectors or turns.
 template <class Value>

@@ -1,5 +1,8 @@
+#include "AnimationChannels.h"
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <osg/NodeCallback>
 #include <osg/NodeVisitor>
 #include <osgAnimation/BasicAnimationManager>
@@ -50,45 +53,33 @@ private:
     double _start = -1;
 };
 
-class FindTurns : public osg::NodeVisitor {
-public:
-    FindTurns() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-
-    void apply(osg::Node& node) override {
-        for (osg::Callback* callback = node.getUpdateCallback(); callback;
-             callback = callback->getNestedCallback())
-            if (auto* manager = dynamic_cast<osgAnimation::BasicAnimationManager*>(callback)) add(*manager);
-        traverse(node);
+/// Nothing for a manager that is playing, or has nothing to play.
+std::optional<Turns> turnsOf(osgAnimation::BasicAnimationManager& manager) {
+    Turns turns;
+    turns.manager = &manager;
+    double end = 0;
+    for (const auto& animation : manager.getAnimationList()) {
+        if (manager.isPlaying(animation.get())) return std::nullopt;
+        turns.ends.push_back(end += std::max(0.0, animation->computeDurationFromChannels()));
     }
-
-    std::vector<Turns> found;
-
-private:
-    void add(osgAnimation::BasicAnimationManager& manager) {
-        Turns turns;
-        turns.manager = &manager;
-        double end = 0;
-        for (const auto& animation : manager.getAnimationList()) {
-            if (manager.isPlaying(animation.get())) return;
-            turns.ends.push_back(end += std::max(0.0, animation->computeDurationFromChannels()));
-        }
-        const bool known = std::any_of(found.begin(), found.end(),
-                                       [&](const Turns& other) { return other.manager == &manager; });
-        if (end > 0 && std::isfinite(end) && !known) found.push_back(std::move(turns));
-    }
-};
+    if (!(end > 0 && std::isfinite(end))) return std::nullopt;
+    return turns;
+}
 
 } // namespace
 
 double playAnimations(osg::Node& root) {
-    FindTurns find;
-    root.accept(find);
+    std::vector<Turns> found;
     double longest = 0;
-    for (Turns& turns : find.found) {
-        turns.manager->playAnimation(turns.manager->getAnimationList().front());
-        longest = std::max(longest, turns.round());
+    for (osgAnimation::AnimationManagerBase* any : animationManagers(root)) {
+        auto* manager = dynamic_cast<osgAnimation::BasicAnimationManager*>(any);
+        std::optional<Turns> turns = manager ? turnsOf(*manager) : std::nullopt;
+        if (!turns) continue;
+        manager->playAnimation(manager->getAnimationList().front());
+        longest = std::max(longest, turns->round());
+        found.push_back(std::move(*turns));
     }
-    if (longest > 0) root.addUpdateCallback(new PlayInTurn(std::move(find.found)));
+    if (!found.empty()) root.addUpdateCallback(new PlayInTurn(std::move(found)));
     return longest;
 }
 
