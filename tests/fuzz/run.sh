@@ -27,15 +27,24 @@ for encoding in json cbor urdf mjcf usda; do
         >"$encoding.log" 2>&1 &
     running[$encoding]=$!
 done
-failed=
+failed=()
 for encoding in json cbor urdf mjcf usda; do
-    wait "${running[$encoding]}" || failed=yes
+    wait "${running[$encoding]}" || failed+=("$encoding")
     printf '%s: ' "$encoding"
     grep -E 'SUMMARY|ERROR|number_of_executed_units' "$encoding.log" | tail -n 3
 done
-if [ -n "$failed" ]; then
-    tail -n 40 json.log cbor.log urdf.log mjcf.log usda.log
-    echo "FAILED: what was found is in build-fuzz/run/found-*"
+# Of each that failed: what its log says of it, and the bytes, so that another machine can run them.
+for encoding in ${failed[@]+"${failed[@]}"}; do
+    echo "== $encoding"
+    grep -vE '^#[0-9]+|NEW_FUNC|# Uses' "$encoding.log" | tail -n 60 | cut -c 1-300
+    for found in found-"$encoding"-*; do
+        [ -f "$found" ] || continue
+        echo "base64 of $found:"
+        head -c 6000 "$found" | base64
+    done
+done
+if [ ${#failed[@]} -gt 0 ]; then
+    echo "FAILED: ${failed[*]}; what was found is in build-fuzz/run/found-*"
     exit 1
 fi
 echo "PASSED: nothing found in $seconds s of each"
