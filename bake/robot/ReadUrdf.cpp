@@ -55,11 +55,18 @@ Pose poseOf(const urdf::Pose& p) {
 
 class Reader {
 public:
-    Reader(const XMLElement& top, const std::string& file, Robot& robot)
-        : file_(file), robot_(robot), model_(parse(top, file)) {
+    Reader(const XMLElement& top, const std::string& file, Robot& robot) : file_(file), robot_(robot) {
+        for (auto* e = top.FirstChildElement("link"); e; e = e->NextSiblingElement("link")) nameLink(*e);
+        for (auto* e = top.FirstChildElement("joint"); e; e = e->NextSiblingElement("joint")) nameJoint(*e);
+        checkForest(robot); // what urdfdom makes of a loop is never freed
+        model_ = parse(top, file);
         robot.name = model_->getName();
         for (auto* e = top.FirstChildElement("link"); e; e = e->NextSiblingElement("link")) readLink(*e);
-        for (auto* e = top.FirstChildElement("joint"); e; e = e->NextSiblingElement("joint")) readJoint(*e);
+        std::vector<RobotJoint> named;
+        named.swap(robot.joints);
+        auto joint = named.begin();
+        for (auto* e = top.FirstChildElement("joint"); e; e = e->NextSiblingElement("joint"))
+            readJoint(*e, std::move(*joint++));
     }
 
 private:
@@ -100,24 +107,32 @@ private:
         return shapes;
     }
 
-    void readLink(const XMLElement& element) {
-        const auto model = model_->getLink(textOf(element, "name"));
+    void nameLink(const XMLElement& element) {
         RobotLink link;
-        link.name = model->name;
-        link.collision = readShapes(element, "collision", model->collision_array);
-        link.visual = readShapes(element, "visual", model->visual_array);
-        link.color = urdfColor(file_, element);
+        link.name = textOf(element, "name");
         index_[link.name] = static_cast<int>(robot_.links.size());
         robot_.links.push_back(std::move(link));
     }
 
-    void readJoint(const XMLElement& element) {
-        const auto model = model_->getJoint(textOf(element, "name"));
+    void nameJoint(const XMLElement& element) {
         RobotJoint joint;
-        joint.name = model->name;
+        joint.name = textOf(element, "name");
         joint.where = placeOf(file_, element).pointer;
-        joint.parent = index_.at(model->parent_link_name);
-        joint.child = index_.at(model->child_link_name);
+        joint.parent = index_.at(textOf(*element.FirstChildElement("parent"), "link"));
+        joint.child = index_.at(textOf(*element.FirstChildElement("child"), "link"));
+        robot_.joints.push_back(std::move(joint));
+    }
+
+    void readLink(const XMLElement& element) {
+        const auto model = model_->getLink(textOf(element, "name"));
+        RobotLink& link = robot_.links[index_.at(model->name)];
+        link.collision = readShapes(element, "collision", model->collision_array);
+        link.visual = readShapes(element, "visual", model->visual_array);
+        link.color = urdfColor(file_, element);
+    }
+
+    void readJoint(const XMLElement& element, RobotJoint joint) {
+        const auto model = model_->getJoint(joint.name);
         joint.origin = poseOf(model->parent_to_joint_origin_transform);
         if (model->type == urdf::Joint::FLOATING || model->type == urdf::Joint::PLANAR) {
             const char* kind = model->type == urdf::Joint::PLANAR ? "planar" : "floating";

@@ -14,27 +14,6 @@ Where placeOf(const Robot& robot, const RobotJoint& joint) {
     return {robot.file, joint.where, "joint " + joint.name};
 }
 
-void checkForest(const Robot& robot) {
-    std::vector<int> above(robot.links.size(), -1); // the joint that holds a link
-    for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-        const RobotJoint& joint = robot.joints[j];
-        int& holder = above[joint.child];
-        if (holder >= 0)
-            throw InputError(placeOf(robot, joint),
-                             "link " + robot.links[joint.child].name + " hangs on joint " +
-                                 robot.joints[holder].name +
-                                 " too; expected each link to be the child of one joint");
-        holder = static_cast<int>(j);
-    }
-    for (std::size_t link = 0; link < robot.links.size(); ++link) {
-        std::size_t steps = 0;
-        for (int at = static_cast<int>(link); at >= 0 && above[at] >= 0; at = robot.joints[above[at]].parent)
-            if (++steps > robot.links.size())
-                throw InputError(placeOf(robot, robot.joints[above[at]]),
-                                 "the joints close a loop; expected links that hang on each other as a tree");
-    }
-}
-
 std::string rangeText(const Robot& robot, const Dof& dof) {
     const auto text = [&](double value) {
         char digits[40];
@@ -93,11 +72,32 @@ void settleHeld(Robot& robot, RobotJoint& joint) {
 
 } // namespace
 
-void settleRobot(Robot& robot) {
+void checkForest(const Robot& robot) {
     constexpr std::size_t most = 500;
     if (robot.links.size() > most)
         throw InputError(Where{robot.file, "", ""},
                          "expected no more than 500 links, found " + std::to_string(robot.links.size()));
+    std::vector<int> above(robot.links.size(), -1); // the joint that holds a link
+    for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+        const RobotJoint& joint = robot.joints[j];
+        int& holder = above[joint.child];
+        if (holder >= 0)
+            throw InputError(placeOf(robot, joint),
+                             "link " + robot.links[joint.child].name + " hangs on joint " +
+                                 robot.joints[holder].name +
+                                 " too; expected each link to be the child of one joint");
+        holder = static_cast<int>(j);
+    }
+    for (std::size_t link = 0; link < robot.links.size(); ++link) {
+        std::size_t steps = 0;
+        for (int at = static_cast<int>(link); at >= 0 && above[at] >= 0; at = robot.joints[above[at]].parent)
+            if (++steps > robot.links.size())
+                throw InputError(placeOf(robot, robot.joints[above[at]]),
+                                 "the joints close a loop; expected links that hang on each other as a tree");
+    }
+}
+
+void settleRobot(Robot& robot) {
     checkForest(robot);
     for (RobotJoint& joint : robot.joints)
         if (!joint.leader.empty()) settleFollower(robot, joint);

@@ -58,10 +58,14 @@ struct Robot {
     std::vector<std::string> notes; ///< what was left out or taken otherwise than it stands there, by name
 };
 
-/// What holds for any format, once all is read. A joint whose limits leave it one value becomes fixed there.
-/// One that follows another gets the limits that the other's leave it; the coupling itself is for the scene's
-/// motion alone, and noted: in a table both move by themselves, which only adds poses. Throws InputError with
-/// file and line: a link that hangs on two, a closed loop, a leader that is none.
+/// That links hang on each other as a forest: from the joints' parents and children alone. Throws InputError
+/// with file and line for a link that hangs on two, for a closed loop, for more than 500 links.
+void checkForest(const Robot& robot);
+
+/// What holds for any format, once all is read: checkForest(). A joint whose limits leave it one value
+/// becomes fixed there. One that follows another gets the limits that the other's leave it; the coupling
+/// itself is for the scene's motion alone, and noted: in a table both move by themselves, which only adds
+/// poses. Throws InputError with file and line also for a leader that is none.
 void settleRobot(Robot& robot);
 
 } // namespace tss

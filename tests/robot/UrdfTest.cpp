@@ -169,6 +169,9 @@ TEST_CASE("what a URDF gets wrong is refused with file, line and element") {
          "hangs on joint j too");
     says(robotOf(two + aLink("c") + aJoint("j", "fixed", "a", "b", "") + aJoint("k", "fixed", "b", "a", "")),
          "loop");
+    says(robotOf(two + aJoint("j", "fixed", "a", "b", "") + aJoint("k", "fixed", "b", "a", "")), "a loop");
+    says(robotOf(two + aLink("c") + aJoint("j", "fixed", "a", "b", "") + aJoint("k", "fixed", "c", "c", "")),
+         "line 7 (<joint k>): the joints close a loop");
     says(robotOf(aLink("a", "<collision><geometry><box/></geometry></collision>")),
          "expected an attribute size");
     says(robotOf(aLink("a", "<collision><geometry><box size='1 0 1'/></geometry></collision>")),
