@@ -106,7 +106,7 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const SkinBody& body = rig.bodies[row.body];
     const SkinScene::Placed& placed = scene.bodies[row.body];
     const Vec3f x = placed.toBody(scene.skin[row.vertex].head<3>());
-    Vec3f own = scene.normalOf(rig, row.vertex);
+    Vec3f own = scene.normalOf(row.vertex);
     if (placed.moved) own = placed.turn.transpose() * own;
     SurfacePoint hit;
     Vec3f way = Vec3f::Zero(); // since rest, past the bone
@@ -189,12 +189,12 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     if (placed.moved) own = placed.turn * own;
     const SurfacePoint hit = walkSkin(rig, scene, row, x);
     const Tri& corners = rig.triangles[hit.triangle];
-    const Vec3f smooth = smoothAt(hit, corners, [&](int v) { return scene.normalOf(rig, v); });
+    const Vec3f smooth = smoothAt(hit, corners, [&](int v) { return scene.normalOf(v); });
     float facing = smooth.dot(own);
     if (row.within) {
         Vec3f before = Vec3f::Zero();
         for (int k = 0; k < 3; ++k)
-            before += row.weights[k] * scene.normalOf(rig, static_cast<std::size_t>(row.corners[k]));
+            before += row.weights[k] * scene.normalOf(static_cast<std::size_t>(row.corners[k]));
         facing = std::max(facing, smooth.dot(before.normalized()));
     }
     float trust = trustOf(facing);
@@ -224,8 +224,8 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const Tri& corners = rig.triangles[hit.triangle];
     // Around a fold's end the walk comes to the vertex itself.
     if ((corners.array() == static_cast<int>(row.vertex)).any()) return plane;
-    const Vec3f smooth = smoothAt(hit, corners, [&](int v) { return scene.normalOf(rig, v); });
-    const Vec3f own = scene.normalOf(rig, row.vertex);
+    const Vec3f smooth = smoothAt(hit, corners, [&](int v) { return scene.normalOf(v); });
+    const Vec3f own = scene.normalOf(row.vertex);
     float trust = trustOf(-smooth.dot(own));
     const Vec3f away = x - hit.point, both = (smooth - own).normalized();
     if (both.dot(away) < 0)

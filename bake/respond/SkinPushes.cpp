@@ -244,7 +244,8 @@ float SkinPushes::solve(std::span<SkinPlane> planes, std::span<const Move> base,
     return largest;
 }
 
-std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, std::span<Move> places) {
+std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, std::span<Move> places,
+                              std::span<char> blocks) {
     std::size_t pushing = 0;
     ++round_;
     for (std::size_t r = 0; r < planes.size(); ++r) {
@@ -264,8 +265,10 @@ std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, std::span<Move>
     }
     std::sort(seen_.begin(), seen_.end());
     for (const std::uint32_t n : seen_)
-        for (std::uint32_t e = foundation_.nodeStart[n]; e < foundation_.nodeStart[n + 1]; ++e)
+        for (std::uint32_t e = foundation_.nodeStart[n]; e < foundation_.nodeStart[n + 1]; ++e) {
             places[foundation_.nodeVertex[e]] += foundation_.nodeWeight[e] * nodes_[n];
+            blocks[foundation_.nodeVertex[e] / SkinRig::block] = 1;
+        }
     seen_.clear();
     return pushing;
 }

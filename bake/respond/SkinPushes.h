@@ -18,8 +18,9 @@ public:
     /// Returns the largest change of a place in the last sweep.
     float solve(std::span<SkinPlane> planes, std::span<const Move> base, int sweeps);
 
-    /// Adds the moves by the planes' pushes to #touched places. Returns how many planes push.
-    std::size_t apply(std::span<const SkinPlane> planes, std::span<Move> places);
+    /// Adds the moves by the planes' pushes to #touched places, and marks the blocks of those. Returns how
+    /// many planes push.
+    std::size_t apply(std::span<const SkinPlane> planes, std::span<Move> places, std::span<char> blocks);
 
 private:
     struct Entry {

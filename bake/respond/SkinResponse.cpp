@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace tss {
@@ -14,6 +15,12 @@ namespace {
 constexpr int lookUps = 10;
 /// In sizes of the skin: what is not deeper than this needs no further look-up.
 constexpr float settled = 1e-5f;
+/// In sizes of the skin: what faced nothing is looked up again where contacts have moved it by this. Deeper
+/// it does not get into anything unnoticed.
+constexpr float unnoticed = 1e-4f;
+/// Without new contacts, what is deepest has to get less deep by this factor, or what is asked for is more
+/// than the skin can give, and no further look-up helps.
+constexpr float progress = 0.5f;
 
 double activationOf(std::span<const double> activations, const SkinBody& body, std::size_t m) {
     const double a = m < activations.size() ? activations[m] : 0;
@@ -48,12 +55,15 @@ private:
     std::uint64_t placeOfChoice(const SkinRow& row, const SkinPlane& plane) const;
     Seen seen(const SkinRow& row, const SkinPlane& plane) const;
     bool mayPush(std::uint32_t r) const;
+    void takeBack();
     void findStirred();
     bool stirred(std::uint32_t r) const;
     void toRest();
     void addDeepest();
     void resist();
-    void findNormals();
+    void showPlaces(std::size_t block);
+    void showNormals(std::size_t block);
+    void show();
 
     std::shared_ptr<const SkinRig> rig_;
     SkinScene scene_;
@@ -65,11 +75,12 @@ private:
     std::vector<Seen> seen_;
     std::vector<std::uint32_t> seenRows_; ///< of seen_
     std::vector<std::uint32_t> seenOf_;   ///< #rows: 1 + its place in seen_, 0: none
-    std::vector<Move> start_;             ///< the skin as it is carried
+    std::vector<char> pushed_;            ///< #blocks: with vertices that contacts may have moved
     std::vector<char> stirred_;           ///< #touched: contacts have moved it
     std::vector<char> lacking_;           ///< #rows: when last looked up, another one was chosen
     std::vector<Vec3> positions_, normals_;
-    std::vector<Move> normalSums_;
+    std::vector<Move> turned_;              ///< #touched, then the border: y, z, x of the places
+    std::vector<char> shown_, shownBefore_; ///< #blocks: places and normals are not those at rest
     std::vector<double> activations_;
     std::vector<Pose> poses_;
     double residual_ = 0;
@@ -79,9 +90,11 @@ private:
 
 SkinResponse::State::State(std::shared_ptr<const SkinRig> rig)
     : rig_(std::move(rig)), pushes_(rig_->foundation), planeOf_(rig_->rows.size(), 0),
-      seenOf_(rig_->rows.size(), 0), positions_(rig_->rest), normals_(rig_->restNormals),
+      seenOf_(rig_->rows.size(), 0), pushed_(rig_->blocks(), 0), stirred_(rig_->rest.size(), 0),
+      positions_(rig_->rest), normals_(rig_->restNormals), shown_(rig_->blocks(), 0),
       activations_(rig_->bodies.size(), 0), poses_(rig_->bodies.size(), Pose::Identity()) {
-    normalSums_.resize(rig_->rest.size() + rig_->border.size());
+    for (const auto* places : {&rig_->places, &rig_->borderPlaces})
+        for (const Move& x : *places) turned_.emplace_back(x[1], x[2], x[0], 0);
 }
 
 SkinUpdate SkinResponse::State::update(std::span<const double> activations, std::span<const Pose> poses) {
@@ -109,18 +122,17 @@ SkinUpdate SkinResponse::State::update(std::span<const double> activations, std:
         if (rig_->parameters.faithful) {
             positions_ = rig_->rest;
             contacts_ = pushOut(rig_->spheres, activations_, poses_, rig_->restNormals, positions_);
-            scene_.skin.resize(positions_.size(), Move::Zero());
+            scene_.skin = rig_->places;
+            scene_.skin.insert(scene_.skin.end(), rig_->borderPlaces.begin(), rig_->borderPlaces.end());
             for (std::size_t v = 0; v < positions_.size(); ++v)
                 scene_.skin[v].head<3>() = ((positions_[v] - rig_->centre) / rig_->size).cast<float>();
+            scene_.live.assign(rig_->blocks(), 1);
         } else {
+            takeBack();
             placeBodies(*rig_, activations_, poses_, scene_);
-            start_ = scene_.skin;
             resist();
-            for (std::size_t v = 0; v < positions_.size(); ++v)
-                positions_[v] =
-                    rig_->rest[v] + rig_->size * (scene_.skin[v] - rig_->places[v]).head<3>().cast<double>();
         }
-        findNormals();
+        show();
     }
     result.contacts = contacts_;
     return result;
@@ -134,8 +146,7 @@ void SkinResponse::State::toRest() {
     atRest_ = true;
 }
 
-/// What a row that lacks nothing keeps until contacts have moved the skin there. Where nothing faced it, any
-/// move may change that, but those that no look-up would notice.
+/// What a row that lacks nothing keeps until contacts have moved the skin there.
 SkinResponse::State::Seen SkinResponse::State::seen(const SkinRow& row, const SkinPlane& plane) const {
     Seen seen{plane, {}, 0};
     if (plane.found()) {
@@ -151,7 +162,7 @@ SkinResponse::State::Seen SkinResponse::State::seen(const SkinRow& row, const Sk
         seen.plane.vertex[0] = row.vertex;
         seen.plane.weight[0] = 1;
     }
-    seen.free = std::max(seen.free, settled);
+    seen.free = std::max(seen.free, plane.found() ? settled : unnoticed);
     seen.place = placeOf(scene_, seen.plane);
     return seen;
 }
@@ -162,11 +173,28 @@ bool SkinResponse::State::mayPush(std::uint32_t r) const {
     return (placeOf(scene_, seen.plane) - seen.place).squaredNorm() > seen.free * seen.free;
 }
 
+/// What contacts have moved goes back to where it is carried.
+void SkinResponse::State::takeBack() {
+    for (std::size_t b = 0; b < pushed_.size(); ++b) {
+        if (pushed_[b] == 0) continue;
+        pushed_[b] = 0;
+        const std::size_t last = std::min((b + 1) * SkinRig::block, stirred_.size());
+        for (std::size_t v = b * SkinRig::block; v < last; ++v) {
+            scene_.skin[v] = scene_.carried[v];
+            stirred_[v] = 0;
+        }
+    }
+}
+
 /// Which vertices contacts have moved from where they were carried to.
 void SkinResponse::State::findStirred() {
     constexpr float still = settled * settled;
-    for (std::size_t v = 0; v < start_.size(); ++v)
-        stirred_[v] = (scene_.skin[v] - start_[v]).squaredNorm() > still;
+    for (std::size_t b = 0; b < pushed_.size(); ++b) {
+        if (pushed_[b] == 0) continue;
+        const std::size_t last = std::min((b + 1) * SkinRig::block, stirred_.size());
+        for (std::size_t v = b * SkinRig::block; v < last; ++v)
+            stirred_[v] = (scene_.skin[v] - scene_.carried[v]).squaredNorm() > still;
+    }
 }
 
 /// Whether that is so of any that a row depends on.
@@ -220,16 +248,16 @@ void SkinResponse::State::resist() {
     pushes_.clear();
     residual_ = 0;
     contacts_ = 0;
-    stirred_.resize(start_.size());
     lacking_.assign(rig_->rows.size(), 0);
+    float last = std::numeric_limits<float>::max();
     for (int round = 0; round < lookUps; ++round) {
-        bool open = false;
+        float lack = 0;
         for (std::uint32_t r = 0; r < rig_->rows.size(); ++r) {
             const SkinRow& row = rig_->rows[r];
             if (planeOf_[r] > 0) {
                 SkinPlane& plane = planes_[planeOf_[r] - 1];
                 lookAgain(*rig_, scene_, row, plane);
-                open = open || plane.gap < -settled;
+                lack = std::max(lack, -plane.gap);
                 continue;
             }
             if ((round > 0 && !stirred(r)) || !mayPush(r)) continue;
@@ -245,36 +273,64 @@ void SkinResponse::State::resist() {
                 continue;
             }
             found_.push_back({placeOfChoice(row, plane), r, plane});
-            open = true;
         }
+        if (found_.empty() && (lack <= settled || lack > progress * last)) break;
+        last = lack;
         addDeepest();
-        if (!open) break;
-        residual_ =
-            rig_->size * static_cast<double>(pushes_.solve(planes_, start_, rig_->parameters.iterations));
-        scene_.skin = start_;
-        contacts_ = pushes_.apply(planes_, scene_.skin);
+        residual_ = rig_->size *
+                    static_cast<double>(pushes_.solve(planes_, scene_.carried, rig_->parameters.iterations));
+        takeBack();
+        contacts_ = pushes_.apply(planes_, scene_.skin, pushed_);
         findStirred();
     }
 }
 
-void SkinResponse::State::findNormals() {
-    std::fill(normalSums_.begin(), normalSums_.end(), Move::Zero());
-    const std::size_t inside = positions_.size();
-    const auto add = [&](const Tri& t, const Move& a, const Move& b, const Move& c) {
-        const Move n = (b - a).cross3(c - a);
-        for (int k = 0; k < 3; ++k) normalSums_[t[k]] += n;
-    };
-    const std::vector<Move>& skin = scene_.skin;
-    for (const Tri& t : rig_->triangles) add(t, skin[t[0]], skin[t[1]], skin[t[2]]);
-    const auto at = [&](int v) -> const Move& {
-        const auto u = static_cast<std::size_t>(v);
-        return u < inside ? skin[u] : rig_->borderPlaces[u - inside];
-    };
-    for (const Tri& t : rig_->borderTriangles) add(t, at(t[0]), at(t[1]), at(t[2]));
-    for (std::size_t v = 0; v < inside; ++v) {
-        const float squared = normalSums_[v].head<3>().squaredNorm();
-        normals_[v] = squared > 0 ? Vec3((normalSums_[v].head<3>() / std::sqrt(squared)).cast<double>())
-                                  : rig_->restNormals[v];
+/// Places of a block as they are now.
+void SkinResponse::State::showPlaces(std::size_t block) {
+    const std::size_t last = std::min((block + 1) * SkinRig::block, positions_.size());
+    for (std::size_t v = block * SkinRig::block; v < last; ++v) {
+        const Move& x = scene_.skin[v];
+        turned_[v] = Move(x[1], x[2], x[0], 0);
+        if (!rig_->parameters.faithful)
+            positions_[v] = rig_->rest[v] + rig_->size * (x - rig_->places[v]).head<3>().cast<double>();
+    }
+}
+
+void SkinResponse::State::showNormals(std::size_t block) {
+    const std::size_t last = std::min((block + 1) * SkinRig::block, positions_.size());
+    const Move *skin = scene_.skin.data(), *turned = turned_.data();
+    const SkinFan* fan = rig_->fans.fans.data() + rig_->fans.start[block * SkinRig::block];
+    for (std::size_t v = block * SkinRig::block; v < last; ++v) {
+        Move sum = Move::Zero(); // z, x, y
+        for (const SkinFan* end = rig_->fans.fans.data() + rig_->fans.start[v + 1]; fan != end; ++fan) {
+            const Move spoke = skin[fan->middle] - skin[v], rim = skin[fan->last] - skin[fan->first];
+            sum += spoke.cwiseProduct(turned[fan->last] - turned[fan->first]) -
+                   (turned[fan->middle] - turned[v]).cwiseProduct(rim);
+        }
+        const float squared = sum.squaredNorm();
+        const float scale = squared > 0 ? 1 / std::sqrt(squared) : 0;
+        normals_[v] = scale > 0 ? Vec3((scale * Eigen::Vector3f(sum[1], sum[2], sum[0])).cast<double>())
+                                : rig_->restNormals[v];
+    }
+}
+
+/// What has moved, and the normals around it; all other skin is at rest.
+void SkinResponse::State::show() {
+    shownBefore_.swap(shown_);
+    shown_.assign(rig_->blocks(), 0);
+    for (std::size_t b = 0; b < shown_.size(); ++b)
+        for (std::uint32_t k = rig_->aroundStart[b]; k < rig_->aroundStart[b + 1]; ++k)
+            if (scene_.live[b] != 0 || pushed_[b] != 0) shown_[rig_->around[k]] = 1;
+    for (std::size_t b = 0; b < shown_.size(); ++b)
+        if (shown_[b] != 0 || shownBefore_[b] != 0) showPlaces(b);
+    for (std::size_t b = 0; b < shown_.size(); ++b) {
+        if (shown_[b] != 0) {
+            showNormals(b);
+        } else if (shownBefore_[b] != 0) {
+            const auto first = static_cast<std::ptrdiff_t>(b * SkinRig::block);
+            const auto count = std::min(SkinRig::block, normals_.size() - b * SkinRig::block);
+            std::copy_n(rig_->restNormals.begin() + first, count, normals_.begin() + first);
+        }
     }
 }
 

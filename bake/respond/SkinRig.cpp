@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace tss {
 namespace {
@@ -72,9 +73,10 @@ Move placeOf(const SkinRig& rig, const Vec3& x) {
     return toMove((x - rig.centre) / rig.size);
 }
 
-/// Splits the triangles: those of touched vertices only, and those that bear on a normal.
+/// Those of touched vertices only, and the fans of all at a touched vertex.
 void addTriangles(SkinRig& rig, const TriangleMesh& skin, const std::vector<std::uint32_t>& indexOf) {
     std::vector<std::uint32_t> borderOf(skin.vertices.size(), untouched);
+    std::vector<Tri> at;
     for (const Tri& t : skin.triangles) {
         int inside = 0;
         Tri local;
@@ -85,21 +87,51 @@ void addTriangles(SkinRig& rig, const TriangleMesh& skin, const std::vector<std:
             if (index == untouched) {
                 std::uint32_t& border = borderOf[t[k]];
                 if (border == untouched) {
-                    border = static_cast<std::uint32_t>(rig.border.size());
-                    rig.border.push_back(skin.vertices[t[k]]);
+                    border = static_cast<std::uint32_t>(rig.borderPlaces.size());
+                    rig.borderPlaces.push_back(placeOf(rig, skin.vertices[t[k]]));
                 }
                 index = static_cast<std::uint32_t>(rig.vertices.size()) + border;
             }
             local[k] = static_cast<int>(index);
         }
-        (inside == 3 ? rig.triangles : rig.borderTriangles).push_back(local);
+        at.push_back(local);
+        if (inside == 3) rig.triangles.push_back(local);
     }
     const auto byFirstVertex = [](const Tri& a, const Tri& b) { return a.minCoeff() < b.minCoeff(); };
     std::stable_sort(rig.triangles.begin(), rig.triangles.end(), byFirstVertex);
     rig.across = trianglesAcross(rig.triangles);
+    rig.fans = skinFans(at, rig.vertices.size());
     for (const Vec3& x : rig.rest) rig.places.push_back(placeOf(rig, x));
     for (const Vec3& n : rig.restNormals) rig.placeNormals.push_back(toMove(n));
-    for (const Vec3& x : rig.border) rig.borderPlaces.push_back(placeOf(rig, x));
+}
+
+/// Which blocks bodies and frames move, and those around each.
+void addBlocks(SkinRig& rig) {
+    const auto mark = [](std::vector<std::uint32_t>& list, std::size_t block) {
+        if (list.empty() || list.back() != block) list.push_back(static_cast<std::uint32_t>(block));
+    };
+    rig.frameBlocks.resize(rig.frames);
+    std::vector<std::uint32_t> bodyOf(rig.bodyVertices);
+    for (std::uint32_t m = 0; m < rig.bodies.size(); ++m)
+        std::fill_n(bodyOf.begin() + rig.bodies[m].first, rig.bodies[m].count, m);
+    std::vector<std::set<std::uint32_t>> around(rig.blocks());
+    for (std::uint32_t v = 0; v < rig.vertices.size(); ++v) {
+        const auto own = static_cast<std::uint32_t>(v / SkinRig::block);
+        for (std::uint32_t k = rig.pullStart[v]; k < rig.pullStart[v + 1]; ++k)
+            mark(rig.bodies[bodyOf[rig.pulls[k].from]].blocks, own);
+        for (std::uint32_t k = rig.frameStart[v]; k < rig.frameStart[v + 1]; ++k)
+            mark(rig.frameBlocks[rig.frameShares[k].frame], own);
+        around[own].insert(own);
+        for (std::uint32_t k = rig.fans.start[v]; k < rig.fans.start[v + 1]; ++k)
+            for (const std::uint32_t corner :
+                 {rig.fans.fans[k].first, rig.fans.fans[k].middle, rig.fans.fans[k].last})
+                if (corner < rig.vertices.size()) around[corner / SkinRig::block].insert(own);
+    }
+    rig.aroundStart.push_back(0);
+    for (const auto& blocks : around) {
+        rig.around.insert(rig.around.end(), blocks.begin(), blocks.end());
+        rig.aroundStart.push_back(static_cast<std::uint32_t>(rig.around.size()));
+    }
 }
 
 SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, int insertion,
@@ -238,27 +270,15 @@ Pose SkinRig::local(const Pose& pose) const {
 }
 
 std::size_t SkinRig::bytes() const {
-    std::size_t sum = foundation.bytes() + rows.size() * sizeof(SkinRow) + pulls.size() * sizeof(SkinPull) +
-                      frameShares.size() * sizeof(SkinFrameShare) +
-                      4 * (pullStart.size() + frameStart.size()) +
-                      vertices.size() * (2 * sizeof(Vec3) + 2 * sizeof(Move)) +
-                      (2 * triangles.size() + borderTriangles.size()) * sizeof(Tri);
+    std::size_t sum =
+        foundation.bytes() + rows.size() * sizeof(SkinRow) + pulls.size() * sizeof(SkinPull) +
+        frameShares.size() * sizeof(SkinFrameShare) + 4 * (pullStart.size() + frameStart.size()) +
+        vertices.size() * (2 * sizeof(Vec3) + 2 * sizeof(Move)) + 2 * triangles.size() * sizeof(Tri) +
+        fans.fans.size() * sizeof(SkinFan) + 4 * (fans.start.size() + around.size());
     for (const SkinBody& body : bodies)
         sum += (body.rest.size() + body.places.size() + body.normals.size()) * sizeof(Move) +
                2 * body.triangles.size() * sizeof(Tri);
     return sum;
-}
-
-std::vector<Vec3> skinNormals(const TriangleMesh& skin) {
-    std::vector<Vec3> normals(skin.vertices.size(), Vec3::Zero());
-    for (const Tri& t : skin.triangles) {
-        const Vec3& a = skin.vertices[t[0]];
-        const Vec3 n = (skin.vertices[t[1]] - a).cross(skin.vertices[t[2]] - a);
-        for (int k = 0; k < 3; ++k) normals[t[k]] += n;
-    }
-    for (Vec3& n : normals)
-        if (n.squaredNorm() > 0) n.normalize();
-    return normals;
 }
 
 SkinMoves skinMoves(const TriangleMesh& skin,
@@ -325,6 +345,7 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     addTriangles(rig, skin, indexOf);
     addBodies(rig, ground, framesOf(ground, parameters));
     addShares(rig, carriage);
+    addBlocks(rig);
     if (parameters.faithful) {
         rig.spheres = skinSpheres(table, bodies, parameters.insertions, indexOf);
         return result;

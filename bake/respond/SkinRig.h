@@ -5,6 +5,7 @@
 #include "bake/motion/PoseBlend.h"
 #include "bake/respond/SkinFaithful.h"
 #include "bake/respond/SkinFoundation.h"
+#include "bake/respond/SkinNormals.h"
 #include "bake/table/SkinTable.h"
 
 #include <memory>
@@ -46,6 +47,7 @@ struct SkinBody {
     std::vector<Move> rest;             ///< #count, at activation 0, in the skin's frame
     std::vector<Move> places, normals;  ///< #nodes blocks of #count
     std::vector<float> strain;          ///< #nodes: most that an edge has changed, of its length at rest
+    std::vector<std::uint32_t> blocks;  ///< of the skin, that it displaces
     int frame = -1;                     ///< that it moves with
     int insertion = -1;                 ///< body that its far end moves with, -1: all of it moves with one
     std::shared_ptr<const MuscleSpan> span;   ///< in run-time lengths; null where insertion is -1
@@ -107,11 +109,14 @@ struct SkinRig {
     std::vector<Vec3> restNormals;       ///< unit
     std::vector<Tri> triangles;          ///< of touched vertices only
     std::vector<Tri> across;             ///< beyond each of their edges, -1: none
-    std::vector<Tri> borderTriangles;    ///< the others at a touched vertex, into vertices then border
-    std::vector<Vec3> border;            ///< places of the untouched corners of borderTriangles
+    SkinFans fans;                       ///< all at a touched vertex, into vertices then borderPlaces
 
     std::vector<Move> places, placeNormals; ///< rest and restNormals as the run time has them
-    std::vector<Move> borderPlaces;
+    std::vector<Move> borderPlaces;         ///< of the untouched corners of fans
+    /// Touched vertices move in blocks of this many. Around block b, with it, are those with a normal that
+    /// hangs on it: around[aroundStart[b]] to around[aroundStart[b + 1]].
+    static constexpr std::size_t block = 16;
+    std::vector<std::uint32_t> aroundStart, around;
     std::vector<SkinBody> bodies;
     std::size_t bodyVertices = 0;
     std::vector<std::uint32_t> pullStart; ///< of vertex v: pulls[pullStart[v]] to pulls[pullStart[v + 1]]
@@ -119,6 +124,7 @@ struct SkinRig {
     std::size_t frames = 0;
     std::vector<std::uint32_t> frameStart;
     std::vector<SkinFrameShare> frameShares;
+    std::vector<std::vector<std::uint32_t>> frameBlocks; ///< #frames, that it moves
     std::vector<SkinRow> rows;
     std::vector<int> starts;
     SkinFoundation foundation;
@@ -126,11 +132,9 @@ struct SkinRig {
 
     /// A pose in the skin's frame, scene units, as the run time has it.
     Pose local(const Pose& pose) const;
+    std::size_t blocks() const { return (places.size() + block - 1) / block; }
     std::size_t bytes() const;
 };
-
-/// Unit normals of all vertices, weighted by area: those of SkinResponse at rest.
-std::vector<Vec3> skinNormals(const TriangleMesh& skin);
 
 /// What muscles and bones do to the vertices of a skin, as SkinSearchOptions wants it: one list a body, #V
 /// each.

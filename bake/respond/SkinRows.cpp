@@ -42,7 +42,7 @@ std::vector<Station> stationsOf(const SkinRig& rig) {
 
 TriangleMesh skinAt(const SkinRig& rig, const SkinScene& scene) {
     TriangleMesh mesh{{}, rig.triangles};
-    for (const Move& x : scene.skin) mesh.vertices.push_back(x.head<3>().cast<double>());
+    for (const Move& x : scene.carried) mesh.vertices.push_back(x.head<3>().cast<double>());
     return mesh;
 }
 
@@ -100,7 +100,7 @@ void meetFolds(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& s
     const double reach = seenReach * static_cast<double>(rig.radius),
                  depth = enterDepth * static_cast<double>(rig.radius);
     parallelFor(skin.vertices.size(), [&](std::size_t v) {
-        const Vec3 own = scene.normalOf(rig, v).cast<double>();
+        const Vec3 own = scene.normalOf(v).cast<double>();
         const Vec3& x = skin.vertices[v];
         const NearestPoint near = locator.nearestFacing(x, reach, -own);
         if (near.triangle < 0 || (skin.triangles[near.triangle].array() == static_cast<int>(v)).any()) return;

@@ -1,5 +1,7 @@
 #include "bake/respond/SkinScene.h"
 
+#include <algorithm>
+
 namespace tss {
 namespace {
 
@@ -44,49 +46,67 @@ void placeSurface(const SkinBody& body, double activation, const Pose& far, Skin
     if (!isIdentity(far)) placeFar(body, far, placed, scene);
 }
 
-/// Turns what muscles have displaced, and the normals, by the frames' shares.
-void turnSkin(const SkinRig& rig, SkinScene& scene) {
-    scene.skinNormals = rig.placeNormals;
-    for (std::size_t v = 0; v < rig.places.size(); ++v) {
-        const SkinFrameShare* share = rig.frameShares.data() + rig.frameStart[v];
-        const SkinFrameShare* end = rig.frameShares.data() + rig.frameStart[v + 1];
-        PoseBlend blend;
-        bool moves = false;
-        for (; share != end; ++share)
-            if (!scene.still[share->frame]) {
-                blend.add(static_cast<double>(share->share), scene.frames[share->frame]);
-                moves = true;
-            }
-        if (!moves) continue;
-        const Pose pose = blend.pose();
-        const Vec3 rest = rig.places[v].head<3>().cast<double>();
-        const Vec3 now = pose * (rest + scene.base[v].head<3>().cast<double>());
-        scene.base[v].head<3>() = (now - rest).cast<float>();
-        scene.skinNormals[v].head<3>() =
-            (pose.linear() * rig.placeNormals[v].head<3>().cast<double>()).cast<float>();
+/// What the bones' shares of a vertex make of its place, which muscles have displaced by `sum`.
+Move turned(const SkinRig& rig, SkinScene& scene, std::size_t v, const Move& sum) {
+    const SkinFrameShare* share = rig.frameShares.data() + rig.frameStart[v];
+    const SkinFrameShare* end = rig.frameShares.data() + rig.frameStart[v + 1];
+    PoseBlend blend;
+    bool moves = false;
+    for (; share != end; ++share)
+        if (!scene.still[share->frame]) {
+            blend.add(static_cast<double>(share->share), scene.frames[share->frame]);
+            moves = true;
+        }
+    if (!moves) return rig.places[v] + sum;
+    const Pose pose = blend.pose();
+    const Vec3 place = rig.places[v].head<3>().cast<double>() + sum.head<3>().cast<double>();
+    Move result = rig.places[v];
+    result.head<3>() = (pose * place).cast<float>();
+    scene.skinNormals[v].head<3>() =
+        (pose.linear() * rig.placeNormals[v].head<3>().cast<double>()).cast<float>();
+    return result;
+}
+
+void placeBlock(const SkinRig& rig, std::size_t block, bool turns, SkinScene& scene) {
+    const std::size_t last = std::min((block + 1) * SkinRig::block, rig.places.size());
+    for (std::size_t v = block * SkinRig::block; v < last; ++v) {
+        Move sum = Move::Zero();
+        for (std::uint32_t k = rig.pullStart[v]; k < rig.pullStart[v + 1]; ++k)
+            sum += rig.pulls[k].share * scene.moves[rig.pulls[k].from];
+        scene.skinNormals[v] = rig.placeNormals[v];
+        scene.carried[v] = turns ? turned(rig, scene, v, sum) : Move(rig.places[v] + sum);
+        scene.skin[v] = scene.carried[v];
     }
+}
+
+void prepareScene(const SkinRig& rig, SkinScene& scene) {
+    scene.bodies.resize(rig.bodies.size());
+    scene.surface.assign(rig.bodyVertices, Move::Zero());
+    scene.normals = scene.moves = scene.surface;
+    scene.live.assign(rig.blocks(), 0);
+    scene.carried = scene.skin = rig.places;
+    scene.skin.insert(scene.skin.end(), rig.borderPlaces.begin(), rig.borderPlaces.end());
+    scene.skinNormals = rig.placeNormals;
 }
 
 } // namespace
 
 void placeBodies(const SkinRig& rig, std::span<const double> activations, std::span<const Pose> poses,
                  SkinScene& scene) {
-    if (scene.bodies.size() != rig.bodies.size()) {
-        scene.bodies.resize(rig.bodies.size());
-        scene.surface.assign(rig.bodyVertices, Move::Zero());
-        scene.normals = scene.moves = scene.surface;
-        scene.base.resize(rig.places.size());
-        scene.skin = scene.base;
-    }
+    if (scene.bodies.size() != rig.bodies.size()) prepareScene(rig, scene);
     scene.frames.resize(rig.frames);
     scene.still.assign(rig.frames, true);
-    bool turned = false;
+    // 1: it was live; 2: it is.
+    const auto wake = [&](const std::vector<std::uint32_t>& blocks) {
+        for (const std::uint32_t b : blocks) scene.live[b] |= 2;
+    };
     for (std::size_t m = 0; m < rig.bodies.size(); ++m) {
         const SkinBody& body = rig.bodies[m];
         SkinScene::Placed& placed = scene.bodies[m];
         const Pose far = body.insertion < 0 ? Pose::Identity()
                                             : between(rig.local(poses[m]), rig.local(poses[body.insertion]));
         placeSurface(body, activations[m], far, placed, scene);
+        if (activations[m] != 0 || !isIdentity(far)) wake(body.blocks);
         placed.moved = !isIdentity(poses[m]);
         if (!placed.moved) continue;
         const Pose local = rig.local(poses[m]);
@@ -95,18 +115,13 @@ void placeBodies(const SkinRig& rig, std::span<const double> activations, std::s
         if (body.frame < 0 || !scene.still[body.frame]) continue;
         scene.frames[body.frame] = DualPose(local);
         scene.still[body.frame] = false;
-        turned = true;
+        wake(rig.frameBlocks[body.frame]);
     }
-    const SkinPull* pull = rig.pulls.data();
-    for (std::size_t v = 0; v < rig.places.size(); ++v) {
-        Move sum = Move::Zero();
-        for (const SkinPull* end = rig.pulls.data() + rig.pullStart[v + 1]; pull != end; ++pull)
-            sum += pull->share * scene.moves[pull->from];
-        scene.base[v] = sum;
+    const bool turns = std::find(scene.still.begin(), scene.still.end(), false) != scene.still.end();
+    for (std::size_t b = 0; b < scene.live.size(); ++b) {
+        if (scene.live[b] != 0) placeBlock(rig, b, turns, scene);
+        scene.live[b] = (scene.live[b] & 2) / 2;
     }
-    scene.skinNormals.clear();
-    if (turned) turnSkin(rig, scene);
-    for (std::size_t v = 0; v < rig.places.size(); ++v) scene.skin[v] = rig.places[v] + scene.base[v];
 }
 
 } // namespace tss

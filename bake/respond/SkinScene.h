@@ -25,15 +25,15 @@ struct SkinScene {
     std::vector<bool> still;                   ///< #frames
     std::vector<Move> surface, normals, moves; ///< of the vertices of all bodies, in the bodies' rest frames;
                                                ///< moves: since rest, of muscles by contraction and swelling
-    std::vector<Move> base;        ///< #touched: displacement of the skin as it is carried, without contact
-    std::vector<Move> skin;        ///< #touched: its places, with what contacts have added
-    std::vector<Move> skinNormals; ///< #touched: those at rest, turned by the bones; empty: none has turned
-    Eigen::Vector3f normalOf(const SkinRig& rig, std::size_t v) const {
-        return (skinNormals.empty() ? rig.placeNormals : skinNormals)[v].head<3>();
-    }
+    std::vector<char> live;                    ///< #blocks: something below it is not at rest
+    std::vector<Move> carried;     ///< #touched: places of the skin as it is carried, without contact
+    std::vector<Move> skin;        ///< the same with what contacts have added, then the border's
+    std::vector<Move> skinNormals; ///< #touched: those at rest, turned by the bones
+    Eigen::Vector3f normalOf(std::size_t v) const { return skinNormals[v].head<3>(); }
 };
 
-/// Moves the bodies, and the skin with them. activations, poses (motion of each body since rest, in the
+/// Moves the bodies, and the skin with them: where nothing is live, and was not before, it is left as it is,
+/// so what else moves `skin` has to be taken back. activations, poses (motion of each body since rest, in the
 /// skin's frame, scene units): one a body, within its range.
 void placeBodies(const SkinRig& rig, std::span<const double> activations, std::span<const Pose> poses,
                  SkinScene& scene);
