@@ -101,6 +101,33 @@ TEST_CASE("once it was at rest a skin moves as it did the first time, to the bit
     }
 }
 
+TEST_CASE("over a muscle that rests skin is at rest to the bit, whatever moved it before") {
+    const auto couple = skins::couple(skins::vaultedSheet(32, 1, 0.01, 0),
+                                      {skins::muscleBelow(0, 0.25, -0.6), skins::muscleBelow(0, 0.25, 0.6)});
+    const auto rig = couple.rig();
+    SkinResponse both(rig), one(rig);
+    both.update(std::vector<double>{0.5, 1});
+    both.update(std::vector<double>{1, 0});
+    one.update(std::vector<double>{1, 0});
+    TriangleMesh mesh = couple.skin;
+    int resting = 0, moving = 0;
+    for (std::size_t v = 0; v < rig->vertices.size(); ++v) {
+        CHECK(both.positions()[v] == one.positions()[v]);
+        CHECK(both.normals()[v] == one.normals()[v]);
+        mesh.vertices[rig->vertices[v]] = both.positions()[v];
+        moving += both.positions()[v] != rig->rest[v];
+        if (rig->rest[v].y() < 0.5) continue;
+        ++resting;
+        CHECK(both.positions()[v] == rig->rest[v]);
+        CHECK((both.normals()[v] - rig->restNormals[v]).norm() < 1e-6); // beside what moves in floats
+    }
+    CHECK(resting > 50);
+    CHECK(moving > 50);
+    const std::vector<Vec3> normals = skinNormals(mesh);
+    for (std::size_t v = 0; v < rig->vertices.size(); ++v)
+        CHECK((both.normals()[v] - normals[rig->vertices[v]]).norm() < 1e-4);
+}
+
 TEST_CASE("the skin comes back on its own, not because it is told to be at rest") {
     // 1e-9 is not 0: nothing is reset, the multipliers must die away.
     SkinResponse response(skins::usual().rig());
