@@ -1,5 +1,6 @@
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
+#include "bake/check/EarlyContact.h"
 #include "bake/pipeline/Bake.h"
 #include "bake/pipeline/CheckBake.h"
 #include "bake/scene/AllPairs.h"
@@ -23,7 +24,7 @@ struct BakeArguments {
     std::string input, output;
     BakeRequest request;
     int threads = 0;
-    bool inscribed = false, keep = false, allPairs = false, pairsOnly = false, again = false;
+    bool inscribed = false, keep = false, allPairs = false, pairsOnly = false, again = false, finer = false;
 };
 
 /// Adds the pairs of all bodies to the scene and says which; also what cannot be a pair.
@@ -120,6 +121,28 @@ bool hasNoRoom(const Json& pair) {
            10 * early["freePoses"].get<int>() < 9 * early["poses"].get<int>();
 }
 
+/// Bakes the pairs again whose spheres stick out too far for the clearance of their joint, each with the
+/// tolerance that leaves most of it.
+void bakeFiner(SceneModel& scene, const BakeRequest& request, KeptParts& parts, const Console& console) {
+    for (const Pair& pair : scene.pairs) {
+        if (!parts.complete()) return;
+        const auto& asked = request.pairs;
+        if (!asked.empty() && std::find(asked.begin(), asked.end(), pair.path) == asked.end()) continue;
+        const std::optional<EarlyContact> early = measureEarlyContact(scene, pair);
+        if (!early || !early->coarse() || early->tolerance <= 0) continue;
+        console.say(fmt::format("{}: contact reported at {:.0f} % of the poses where nothing touches: again, "
+                                "with a tolerance of {}",
+                                pair.path, 100 * early->share,
+                                lengthText(early->tolerance, scene.metersPerUnit)));
+        BakeRequest finer = request;
+        finer.pairs = {pair.path};
+        finer.onlyMissing = false;
+        finer.given["tolerance"] = fmt::format("{}", early->tolerance);
+        finer.given.erase("max-spheres");
+        parts.run(finer);
+    }
+}
+
 void runBake(BakeArguments& arguments, Console& console) {
     if (arguments.inscribed) arguments.request.given["conservative"] = "false";
     if (arguments.keep) arguments.request.given["keep-spheres"] = "true";
@@ -133,7 +156,10 @@ void runBake(BakeArguments& arguments, Console& console) {
     if (!arguments.pairsOnly) {
         arguments.request.onlyMissing = goesOn(scene, arguments, console);
         tellOtherRefusals(scene, arguments);
-        inFile(arguments.input, [&] { parts.run(arguments.request); });
+        inFile(arguments.input, [&] {
+            parts.run(arguments.request);
+            if (arguments.finer) bakeFiner(scene, arguments.request, parts, console);
+        });
     }
     const std::string written = parts.write();
     if (!parts.complete()) return endIncomplete(arguments, parts, written, console);
@@ -182,6 +208,9 @@ void addBake(Options& app, Console& console) {
                       "inscribed spheres: nothing early, misses stated");
     command->add_flag("--keep-spheres", arguments->keep,
                       "store all generated spheres, not only the used ones");
+    command->add_flag("--finer", arguments->finer,
+                      "bake a pair whose spheres are too coarse for its joint's clearance again, with the "
+                      "tolerance that info proposes");
     command->add_flag("--again", arguments->again,
                       "bake all, also those that a bake of the same settings has left baked");
     command->add_option("--threads", arguments->threads, "worker threads (default: one a core)")

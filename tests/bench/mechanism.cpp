@@ -301,7 +301,14 @@ int main(int argc, char** argv) {
     const auto touching = std::count_if(one.begin(), one.end(), [](const MechanismAnswer& answer) {
         return answer.verdict == Answer::Contact;
     });
-    fmt::print("a configuration of all of it: {:.0f} ns; {} of {} touch\n", asked, touching, timed);
+    std::vector<MechanismAnswer> many(timed);
+    const double crowd = time(timed, 7, [&] { query.ask(values.data(), timed, many.data(), ws); });
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < timed; ++i) differ += one[i].verdict != many[i].verdict;
+    fmt::print(
+        "a configuration of all of it: {:.0f} ns, of many at once {:.0f} ns ({:.2f} times as quick, {} "
+        "differ); {} of {} touch\n",
+        asked, crowd, asked / crowd, differ, touching, timed);
     for (const int k : query.order()) {
         const auto named = std::count_if(one.begin(), one.end(),
                                          [&](const MechanismAnswer& answer) { return answer.pair == k; });
