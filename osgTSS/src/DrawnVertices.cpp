@@ -1,5 +1,7 @@
 #include "DrawnVertices.h"
 
+#include "bake/motion/TurnBetween.h"
+
 #include <osgTSS/Convert>
 
 #include <array>
@@ -105,9 +107,8 @@ void DrawnVertices::deform(SkinGeometry& shown, std::span<const std::uint32_t> v
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         const std::size_t v = vertices[k];
         const bool turned = !_drawnNormals.empty() && normals[k] != _restNormals[v];
-        const Eigen::Quaterniond turn = turned
-                                            ? Eigen::Quaterniond::FromTwoVectors(_restNormals[v], normals[k])
-                                            : Eigen::Quaterniond::Identity();
+        const Eigen::Quaterniond turn =
+            turned ? tss::turnBetween(_restNormals[v], normals[k]) : Eigen::Quaterniond::Identity();
         for (std::uint32_t d = _start[v]; d < _start[v + 1]; ++d) {
             _moved.push_back(_drawn[d]);
             _positions.push_back(positions[k] / _scale);
