@@ -206,7 +206,7 @@ Json summary(const SceneModel& scene, const Pair& pair) {
                  {"bodyA", scene.bodies[pair.bodyA].path},
                  {"bodyB", scene.bodies[pair.bodyB].path},
                  {"dofs", pairMotion(scene, pair).dofCount()},
-                 {"joint", describeDofs(pairMotion(scene, pair))},
+                 {"joint", describeDofs(pairMotion(scene, pair), scene.metersPerUnit)},
                  {"baked", pair.table || pair.proof},
                  {"neverCollides", pair.proof != nullptr},
                  {"stale", staleness(scene, pair)},
