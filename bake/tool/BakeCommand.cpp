@@ -113,10 +113,10 @@ void endIncomplete(const BakeArguments& arguments, const KeptParts& parts, const
                    arguments.output);
 }
 
-/// The meshes overlap at rest, and at many other poses too.
+/// The meshes overlap at rest, or as good as that, and at many other poses too.
 bool hasNoRoom(const Json& pair) {
     const Json early = pair.value("earlyContact", Json());
-    if (early.is_null() || pair["clearanceAtRest"].get<double>() > 0) return false;
+    if (early.is_null() || !early["close"].get<bool>()) return false;
     return early["stuck"].get<bool>() || early["held"].get<bool>() ||
            10 * early["freePoses"].get<int>() < 9 * early["poses"].get<int>();
 }

@@ -105,6 +105,7 @@ void addEarlyContact(Json& json, const SceneModel& scene, const Pair& pair) {
                             {"freePoses", early->freePoses},
                             {"stuck", early->stuck()},
                             {"held", early->held},
+                            {"close", early->close},
                             {"share", early->share},
                             {"atRest", early->restReported},
                             {"coarse", early->coarse()},
