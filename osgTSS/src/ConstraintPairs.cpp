@@ -16,7 +16,7 @@ namespace osgTSS {
 
 std::vector<int> ConstraintVisitor::jointsToTop(int body) const {
     std::vector<int> joints;
-    for (int joint = _jointAbove[body]; joint >= 0; joint = _jointAbove[_model->joints[joint].body0])
+    for (int joint = _jointAbove[body]; joint >= 0; joint = _jointAbove[_model.joints[joint].body0])
         joints.push_back(joint);
     return joints;
 }
@@ -34,30 +34,30 @@ void ConstraintVisitor::addPair(int a, int b) {
     pair.joints = up;
     pair.joints.insert(pair.joints.end(), down.rbegin(), down.rend());
     std::size_t dofs = 0;
-    for (int joint : pair.joints) dofs += _model->joints[joint].dofs.size();
+    for (int joint : pair.joints) dofs += _model.joints[joint].dofs.size();
     if (dofs > tss::maxDofs) {
         ++_tooManyDofs;
         return;
     }
     try {
-        tss::checkMotion(tss::pairMotion(*_model, pair));
+        tss::checkMotion(tss::pairMotion(_model, pair));
     } catch (const tss::InputError& error) {
         if (!_quiet)
-            OSG_WARN << "osgTSS: the pair of " << _model->bodies[a].path << " and " << _model->bodies[b].path
+            OSG_WARN << "osgTSS: the pair of " << _model.bodies[a].path << " and " << _model.bodies[b].path
                      << " is left out: " << error.message << std::endl;
         return;
     }
     if (pair.joints.size() == 1) {
-        pair.path = _model->joints[pair.joints[0]].path;
+        pair.path = _model.joints[pair.joints[0]].path;
     } else {
-        pair.path = freePath(_model->bodies[b].displayName + "Pair");
+        pair.path = freePath(_model.bodies[b].displayName + "Pair");
     }
-    _model->pairs.push_back(pair);
+    _model.pairs.push_back(pair);
 }
 
 /// a stands before b.
 bool ConstraintVisitor::wanted(int a, int b) const {
-    const auto parentOf = [&](int body) { return _model->joints[_jointAbove[body]].body0; };
+    const auto parentOf = [&](int body) { return _model.joints[_jointAbove[body]].body0; };
     switch (_pairs) {
     case ALL:
         return true;
@@ -72,7 +72,7 @@ bool ConstraintVisitor::wanted(int a, int b) const {
     }
     const auto nextAbove = [&](int body) {
         do body = _jointAbove[body] < 0 ? -1 : parentOf(body);
-        while (body >= 0 && _model->bodies[body].mesh.empty());
+        while (body >= 0 && _model.bodies[body].mesh.empty());
         return body;
     };
     const bool neighbours = nextAbove(b) == a;
@@ -82,19 +82,19 @@ bool ConstraintVisitor::wanted(int a, int b) const {
 
 void ConstraintVisitor::addPairs() {
     const auto top = [&](int body) {
-        while (_jointAbove[body] >= 0) body = _model->joints[_jointAbove[body]].body0;
+        while (_jointAbove[body] >= 0) body = _model.joints[_jointAbove[body]].body0;
         return body;
     };
-    const int count = static_cast<int>(_model->bodies.size());
+    const int count = static_cast<int>(_model.bodies.size());
     for (int body = 0; body < count; ++body)
         if (_dropped[body] > 0 && !_quiet)
-            OSG_WARN << "osgTSS: the pairs of " << _model->bodies[body].path
+            OSG_WARN << "osgTSS: the pairs of " << _model.bodies[body].path
                      << " are left out: " << _dropped[body]
                      << " of its triangles have corners that are no numbers" << std::endl;
     for (int b = 0; b < count; ++b)
         for (int a = 0; a < b; ++a)
-            if (_dropped[a] == 0 && _dropped[b] == 0 && !_model->bodies[a].mesh.empty() &&
-                !_model->bodies[b].mesh.empty() && top(a) == top(b) && wanted(a, b))
+            if (_dropped[a] == 0 && _dropped[b] == 0 && !_model.bodies[a].mesh.empty() &&
+                !_model.bodies[b].mesh.empty() && top(a) == top(b) && wanted(a, b))
                 addPair(a, b);
     if (_tooManyDofs > 0 && !_quiet)
         OSG_NOTICE << "osgTSS: " << _tooManyDofs
@@ -103,23 +103,23 @@ void ConstraintVisitor::addPairs() {
 }
 
 const tss::SceneModel& ConstraintVisitor::getModel() {
-    if (_finished) return *_model;
+    if (_finished) return _model;
     _finished = true;
     if (!_unlimited.empty() && !_quiet)
         OSG_WARN << "osgTSS: these slide without limits and are taken to stay where they are: " << _unlimited
                  << "; limits are given by the user value osgTSS:limits (\"transX:0:5\"), or by the option "
                  << "limits=NAME:transX:0:5 on loading" << std::endl;
-    _soft->finish(*_model, [&](const std::string& what) {
+    _soft->finish(_model, [&](const std::string& what) {
         if (!_quiet) OSG_WARN << "osgTSS: " << what << std::endl;
     });
     addPairs();
-    for (const tss::MuscleModel& muscle : _model->muscles)
+    for (const tss::MuscleModel& muscle : _model.muscles)
         if (!muscle.activation.empty())
-            _model->endTimeCode = std::max(_model->endTimeCode, muscle.activation.times.back());
-    for (const tss::Joint& joint : _model->joints)
+            _model.endTimeCode = std::max(_model.endTimeCode, muscle.activation.times.back());
+    for (const tss::Joint& joint : _model.joints)
         for (const tss::TimeSamples& drive : joint.drives)
-            if (!drive.empty()) _model->endTimeCode = std::max(_model->endTimeCode, drive.times.back());
-    return *_model;
+            if (!drive.empty()) _model.endTimeCode = std::max(_model.endTimeCode, drive.times.back());
+    return _model;
 }
 
 } // namespace osgTSS

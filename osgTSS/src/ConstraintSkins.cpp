@@ -39,9 +39,9 @@ void ConstraintVisitor::addSoftBody(osg::Drawable& drawable, const char* fallbac
     place.color = _place.color;
     tss::Pose local = similarity->pose;
     local.translation() *= _place.scale;
-    const tss::Pose above = _model->bodies[_place.body].placement;
+    const tss::Pose above = _model.bodies[_place.body].placement;
     place.body = addBody(drawable, fallback, place.scale);
-    tss::Body& body = _model->bodies[place.body];
+    tss::Body& body = _model.bodies[place.body];
     body.placement = above * local;
     _dropped[place.body] += collectTriangles(shape, osg::Matrixd(), place.scale, body.mesh);
     if (body.mesh.empty()) throw tss::InputError("it has no triangles");
@@ -58,7 +58,7 @@ bool ConstraintVisitor::addSoft(osg::Drawable& drawable) {
         if (skin) {
             tss::SkinModel model = parseSkin(*skin);
             addSoftBody(drawable, "Skin");
-            model.body = static_cast<int>(_model->bodies.size()) - 1;
+            model.body = static_cast<int>(_model.bodies.size()) - 1;
             _soft->addSkin(model, drawable.getName(), carrier);
             auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(replacedBy(drawable) ? replacedBy(drawable)
                                                                                       : &drawable);
@@ -70,9 +70,9 @@ bool ConstraintVisitor::addSoft(osg::Drawable& drawable) {
         model.muscle = tag.muscle;
         osg::Drawable* own = replacedBy(drawable);
         if (std::string words; (own ? *own : drawable).getUserValue(activationTag, words))
-            model.activation = parseActivation(words, _model->timeCodesPerSecond);
+            model.activation = parseActivation(words, _model.timeCodesPerSecond);
         addSoftBody(drawable, "Muscle");
-        model.body = static_cast<int>(_model->bodies.size()) - 1;
+        model.body = static_cast<int>(_model.bodies.size()) - 1;
         model.bone = carrier;
         model.path = freePath(drawable.getName().empty() ? "Muscle" : drawable.getName());
         _soft->addMuscle(model, tag.skins, tag.to);

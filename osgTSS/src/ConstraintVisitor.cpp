@@ -65,8 +65,8 @@ std::vector<double> restOf(const tss::Joint& joint) {
 } // namespace
 
 ConstraintVisitor::ConstraintVisitor(Pairs pairs)
-    : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _pairs(pairs), _model(std::make_unique<tss::SceneModel>()),
-      _soft(std::make_unique<SoftParts>()) {
+    : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _pairs(pairs), _owned(std::make_unique<tss::SceneModel>()),
+      _model(*_owned), _soft(std::make_unique<SoftParts>()) {
     setNodeMaskOverride(~0u);
 }
 
@@ -74,9 +74,9 @@ ConstraintVisitor::~ConstraintVisitor() = default;
 
 /// At the first node: the body that no joint moves.
 void ConstraintVisitor::begin(osg::Node& node) {
-    if (!_model->bodies.empty()) return;
+    if (!_model.bodies.empty()) return;
     _channels = std::make_unique<AnimationChannels>(node);
-    _model->defaultPrim = tss::freePrimName(*_model, node.getName().empty() ? "Scene" : node.getName());
+    _model.defaultPrim = tss::freePrimName(_model, node.getName().empty() ? "Scene" : node.getName());
     _place.body = addBody(node, "World", 1);
     if (node.asTransform()) _bodyNodes.back().node = nullptr; // the node's own frame is another
 }
@@ -119,7 +119,7 @@ void ConstraintVisitor::applyTransform(osg::Transform& node) {
     node.getUserValue("osgTSS:moved", moved);
     try {
         if (!still)
-            if (auto found = jointsOf(node, *_channels, _model->timeCodesPerSecond, why))
+            if (auto found = jointsOf(node, *_channels, _model.timeCodesPerSecond, why))
                 return enterJoint(node, std::move(*found));
     } catch (const tss::InputError& error) {
         why = error.message;
@@ -170,7 +170,7 @@ void ConstraintVisitor::apply(osg::Drawable& drawable) {
     if (addSoft(drawable)) return;
     if (auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable); rig && _skeleton)
         return addRig(*rig);
-    tss::Body& body = _model->bodies[_place.body];
+    tss::Body& body = _model.bodies[_place.body];
     const bool first = body.mesh.empty();
     _dropped[_place.body] += collectTriangles(drawable, place.toBody, place.scale, body.mesh);
     if (!body.mesh.empty()) addLook(drawable, place, first);
@@ -178,7 +178,7 @@ void ConstraintVisitor::apply(osg::Drawable& drawable) {
 
 /// first: the body shows nothing else yet.
 void ConstraintVisitor::addLook(const osg::Drawable& drawable, const Place& place, bool first) {
-    tss::Body& body = _model->bodies[place.body];
+    tss::Body& body = _model.bodies[place.body];
     const bool visible = place.visible && drawable.getNodeMask() != 0;
     body.visible = first ? visible : body.visible || visible;
     if (!first) return;
@@ -196,10 +196,10 @@ void ConstraintVisitor::applySkeleton(osg::Transform& node) {
     _skeleton = std::make_unique<SkeletonMeshes>(node);
     applyTransform(node);
     for (const SkeletonMeshes::Skin& skin : _skeleton->skins)
-        _soft->setWeights(*_model, skin.body, *skin.rig, skin.scale,
+        _soft->setWeights(_model, skin.body, *skin.rig, skin.scale,
                           [&](const std::string& bone) { return _skeleton->bodyOf(bone); });
     for (RigParts::Part& part : _skeleton->parts()) {
-        tss::Body& body = _model->bodies[part.body];
+        tss::Body& body = _model.bodies[part.body];
         const bool first = body.mesh.empty();
         const int offset = static_cast<int>(body.mesh.vertices.size());
         body.mesh.vertices.insert(body.mesh.vertices.end(), part.mesh.vertices.begin(),
@@ -271,16 +271,16 @@ void ConstraintVisitor::enterJoint(osg::Transform& node, FoundJoints found) {
 /// Adds the joint and the body that it moves, and returns that. scale: of the node's children to the body; 0:
 /// a body between two joints of one node.
 int ConstraintVisitor::addJoint(tss::Joint joint, int body0, osg::Node& node, double scale) {
-    const int index = static_cast<int>(_model->joints.size());
+    const int index = static_cast<int>(_model.joints.size());
     joint.body0 = body0;
-    _model->joints.push_back(joint);
+    _model.joints.push_back(joint);
     _jointNodes.push_back(&node);
     const int body1 = addBody(node, "Body", scale);
     if (scale == 0) _bodyNodes.back().node = nullptr;
-    _model->joints[index].body1 = body1;
-    _model->bodies[body0].rigid = _model->bodies[body1].rigid = true;
+    _model.joints[index].body1 = body1;
+    _model.bodies[body0].rigid = _model.bodies[body1].rigid = true;
     _jointAbove[body1] = index;
-    _model->bodies[body1].placement = _model->bodies[body0].placement * tss::jointPose(joint, restOf(joint));
+    _model.bodies[body1].placement = _model.bodies[body0].placement * tss::jointPose(joint, restOf(joint));
     return body1;
 }
 
@@ -293,9 +293,9 @@ void ConstraintVisitor::enterMoved(osg::Transform& node, const osg::Matrixd& mat
     place.toBody = osg::Matrixd();
     tss::Pose local = similarity->pose;
     local.translation() *= _place.scale;
-    const tss::Pose above = _model->bodies[_place.body].placement;
+    const tss::Pose above = _model.bodies[_place.body].placement;
     place.body = addBody(node, "Moved", place.scale);
-    _model->bodies[place.body].placement = above * local;
+    _model.bodies[place.body].placement = above * local;
     enter(node, place);
 }
 
@@ -304,19 +304,19 @@ int ConstraintVisitor::addBody(osg::Node& node, const char* fallback, double sca
     const std::string& name = node.getName();
     body.path = freePath(name.empty() ? fallback : name + "Body");
     body.displayName = name;
-    _model->bodies.push_back(body);
+    _model.bodies.push_back(body);
     _bodyNodes.push_back({&node, scale});
     _groups.emplace_back();
     _dropped.push_back(0);
     _jointAbove.push_back(-1);
     _skeletonOf.push_back(_skeleton ? &_skeleton->skeleton() : nullptr);
-    return static_cast<int>(_model->bodies.size()) - 1;
+    return static_cast<int>(_model.bodies.size()) - 1;
 }
 
 /// As tss::freePrimName(), which looks through the whole scene for each: too slow for all pairs of many
 /// bodies.
 std::string ConstraintVisitor::freePath(const std::string& wanted) {
-    const std::string stem = "/" + _model->defaultPrim + "/" + tss::freePrimName(tss::SceneModel{}, wanted);
+    const std::string stem = "/" + _model.defaultPrim + "/" + tss::freePrimName(tss::SceneModel{}, wanted);
     std::string path = stem;
     for (int& number = _numbers[stem]; !_paths.insert(path).second;)
         path = stem + std::to_string(number = std::max(number + 1, 2));
