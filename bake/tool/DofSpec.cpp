@@ -33,7 +33,12 @@ Vec3 parseAxis(const std::string& text, const std::string& what) {
 
 double limit(const std::string& text, const std::string& what, double metersPerUnit, double axisLength) {
     const bool unit = !text.empty() && std::isalpha(static_cast<unsigned char>(text.back()));
-    return unit ? parseLength(text, metersPerUnit) / axisLength : parseNumber(text, what);
+    if (!unit) return parseNumber(text, what);
+    try {
+        return parseLength(text, metersPerUnit) / axisLength;
+    } catch (const InputError& error) {
+        throw InputError(what + ": " + error.message);
+    }
 }
 
 std::vector<PathRow> readPath(const std::string& file) {
