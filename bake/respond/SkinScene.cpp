@@ -70,7 +70,7 @@ void turnSkin(const SkinRig& rig, SkinScene& scene) {
 } // namespace
 
 void placeBodies(const SkinRig& rig, std::span<const double> activations, std::span<const Pose> poses,
-                 SkinScene& scene) {
+                 std::span<const Vec3> shift, SkinScene& scene) {
     if (scene.bodies.size() != rig.bodies.size()) {
         scene.bodies.resize(rig.bodies.size());
         scene.surface.assign(rig.bodyVertices, Move::Zero());
@@ -102,6 +102,7 @@ void placeBodies(const SkinRig& rig, std::span<const double> activations, std::s
         Move sum = Move::Zero();
         for (const SkinPull* end = rig.pulls.data() + rig.pullStart[v + 1]; pull != end; ++pull)
             sum += pull->share * scene.moves[pull->from];
+        if (!shift.empty()) sum.head<3>() += (shift[v] / rig.size).cast<float>();
         scene.base[v] = sum;
     }
     scene.skinNormals.clear();
