@@ -3,8 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/model/JointGraph.h"
 #include "bake/motion/MotionBound.h"
-#include "bake/scene/Layer.h"
-#include "bake/scene/SceneWriting.h"
+#include "bake/scene/SceneParts.h"
 
 #include <algorithm>
 #include <optional>

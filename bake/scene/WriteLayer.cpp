@@ -5,7 +5,6 @@
 #include "bake/scene/Buffers.h"
 #include "bake/scene/LayerMembers.h"
 #include "bake/scene/Utf8.h"
-#include "bake/scene/WriteNumber.h"
 
 #include <nlohmann/json.hpp>
 

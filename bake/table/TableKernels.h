@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/table/Contact.h"
+#include "bake/table/ContactTest.h"
 #include "bake/table/Kernels.h"
 #include "bake/table/PoseLanes.h"
 #include "bake/table/PosePlan.h"

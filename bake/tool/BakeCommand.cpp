@@ -113,10 +113,10 @@ void endIncomplete(const BakeArguments& arguments, const KeptParts& parts, const
                    arguments.output);
 }
 
-/// The meshes overlap at rest, and at many other poses too.
+/// The meshes overlap at rest, or as good as that, and at many other poses too.
 bool hasNoRoom(const Json& pair) {
     const Json early = pair.value("earlyContact", Json());
-    if (early.is_null() || pair["clearanceAtRest"].get<double>() > 0) return false;
+    if (early.is_null() || !early["close"].get<bool>()) return false;
     return early["stuck"].get<bool>() || early["held"].get<bool>() ||
            10 * early["freePoses"].get<int>() < 9 * early["poses"].get<int>();
 }
@@ -195,28 +195,15 @@ void addBake(Options& app, Console& console) {
     command
         ->add_flag("--pairs-only", arguments->pairsOnly, "write the scene with those pairs and bake none yet")
         ->needs(allPairs);
-    const std::pair<const char*, const char*> settings[] = {
-        {"spheres", "medial (default), shrinking, growth or surface"},
-        {"growth",
-         "START,STEP,END,MAXRADIUS of --spheres growth: fractions of the bounding diagonal (default "
-         "0.01,0.01,0.101,0.02) or lengths"},
-        {"tolerance",
-         "how far the spheres may stick out of the meshes (default: 1/500 of the smaller body's diagonal)"},
-        {"epsilon", "gap that the table may add to that of all spheres; 0 (default): lossless"},
-        {"depth", "the gap too is right down to this depth; 0 (default): yes or no only"},
-        {"max-spheres", "at most so many spheres a body: the best tolerance for them"},
-        {"reduce", "cover (default), cooccurrence, minimal or none"},
-        {"search", "certified (default) or sampled"},
-        {"samples", "poses explored by --search sampled"},
-        {"at-rest", "the region in which the meshes overlap at rest: offset (default), ignore or collide"},
-        {"budget", "seconds to find the few tests of each pair; making its spheres does not count"}};
-    for (const auto& [name, description] : settings)
+    for (const BakeOption& option : bakeOptions()) {
+        if (option.about.empty()) continue;
         command->add_option(
-            std::string("--") + name,
-            [arguments, key = std::string(name)](const std::string& text) {
+            std::string("--") + option.name,
+            [arguments, key = std::string(option.name)](const std::string& text) {
                 arguments->request.given[key] = text;
             },
-            description);
+            option.about);
+    }
     command->add_flag("--no-conservative", arguments->inscribed,
                       "inscribed spheres: nothing early, misses stated");
     command->add_flag("--keep-spheres", arguments->keep,

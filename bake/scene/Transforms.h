@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/motion/Motion.h"
-#include "bake/scene/PrimReader.h"
+#include "bake/scene/Properties.h"
 
 namespace tss {
 
@@ -25,5 +25,8 @@ struct SplitXform {
     bool stretched = false;
 };
 SplitXform split(const Xform& xform);
+
+/// Writes the operations of a rigid transform to the parent.
+void writePlacement(PrimWriter& prim, const Pose& placement);
 
 } // namespace tss

@@ -1,4 +1,4 @@
-#include "bake/scene/Xform.h"
+#include "bake/scene/Transforms.h"
 
 #include "bake/base/Degrees.h"
 #include "bake/motion/SmallSystems.h"
@@ -9,15 +9,17 @@ namespace {
 
 constexpr const char* resetToken = "!resetXformStack!";
 constexpr const char* invertToken = "!invert!";
+constexpr Attribute translate = declared("double3 xformOp:translate");
+constexpr Attribute orient = declared("quatd xformOp:orient");
 
 /// An operation may be of half, float or double precision: the attribute as the file has it, if of these
 /// types.
-Attribute attributeOf(const PrimReader& prim, const std::string& name,
+Attribute attributeOf(const PrimReader& prim, std::string_view name,
                       std::initializer_list<const char*> types) {
     const Property* property = prim.prim().property(name);
     for (const char* type : types)
-        if (property && property->typeName == type) return {name.c_str(), type};
-    return {name.c_str(), *types.begin()};
+        if (property && property->typeName == type) return {name, type};
+    return {name, *types.begin()};
 }
 
 Eigen::Affine3d rotationAbout(int axis, double degrees) {
@@ -50,7 +52,7 @@ Xform matrix(const PrimReader& prim, const std::string& name) {
     // The file has row vectors: its rows are our columns.
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column) xform.matrix(column, row) = rows[4 * row + column];
-    const Attribute attribute{name.c_str(), "matrix4d"};
+    const Attribute attribute{name, "matrix4d"};
     if (xform.matrix.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1))
         prim.problem(attribute, "expected a last column of 0, 0, 0, 1");
     xform.matrix.makeAffine();
@@ -83,7 +85,7 @@ Xform operation(const PrimReader& prim, const std::string& name) {
         xform.rigid = factors == Vec3::Ones();
     } else
         prim.problem(schema::xformOpOrder,
-                     "expected translate, orient, rotate..., scale or transform, found \"" + name + "\"");
+                     "expected translate, orient, rotate..., scale or transform, found \"", name, "\"");
     return xform;
 }
 
@@ -99,13 +101,12 @@ Xform localXform(const PrimReader& prim) {
         const bool inverted = name.starts_with(invertToken);
         if (inverted) name = name.substr(std::string(invertToken).size());
         if (!prim.prim().property(name)) {
-            prim.problem(schema::xformOpOrder,
-                         "expected the operation \"" + name + "\" among the properties");
+            prim.problem(schema::xformOpOrder, "expected the operation \"", name, "\" among the properties");
             continue;
         }
         const Xform next = operation(prim, name);
         if (inverted && !(std::abs(next.matrix.linear().determinant()) > 0))
-            prim.problem(schema::xformOpOrder, "expected an operation that can be inverted, found " + name);
+            prim.problem(schema::xformOpOrder, "expected an operation that can be inverted, found ", name);
         else
             local.matrix = local.matrix * (inverted ? next.matrix.inverse() : next.matrix);
         local.rigid = local.rigid && next.rigid;
@@ -136,6 +137,19 @@ SplitXform split(const Xform& xform) {
     result.stretched = !(result.stretch - Eigen::Matrix3d::Identity()).isZero(noise);
     if (!result.stretched) result.stretch.setIdentity();
     return result;
+}
+
+void writePlacement(PrimWriter& prim, const Pose& placement) {
+    std::vector<std::string> order;
+    if (placement.translation() != Vec3::Zero()) {
+        prim.set(translate, Vec3(placement.translation()));
+        order.emplace_back(translate.name);
+    }
+    if (placement.linear() != Eigen::Matrix3d::Identity()) {
+        prim.set(orient, Eigen::Quaterniond(placement.linear()).normalized());
+        order.emplace_back(orient.name);
+    }
+    if (!order.empty()) prim.set(schema::xformOpOrder, order);
 }
 
 } // namespace tss

@@ -1,10 +1,15 @@
-#include "bake/scene/SceneReading.h"
+#include "bake/scene/SceneParts.h"
 
 #include <cmath>
 
 namespace tss {
 
 namespace {
+
+constexpr Attribute jointIndices =
+    declared("int[] primvars:skel:jointIndices", "of each vertex, which of `skel:joints` it follows");
+constexpr Attribute jointWeights =
+    declared("float[] primvars:skel:jointWeights", "and how much: of each vertex a sum of 1", atLeast(0));
 
 /// Weights of floats, and of hand-written digits, sum to 1 within this.
 constexpr double sumSlack = 1e-3;
@@ -23,34 +28,27 @@ Shape shapeOf(const PrimReader& prim, const Attribute& attribute) {
         if (size && *size >= 1 && *size <= 1e6 && *size == std::floor(*size))
             shape.influences = static_cast<std::size_t>(*size);
         else
-            prim.problem(attribute, "expected an elementSize, the number of influences a vertex, that is a "
-                                    "whole number of at least 1, found " +
-                                        describe(found->second));
+            prim.problem(attribute,
+                         "expected an elementSize, the number of influences a vertex, that is a "
+                         "whole number of at least 1, found ",
+                         describe(found->second));
     }
     if (const auto found = property.other.find("interpolation"); found != property.other.end()) {
         const auto* text = found->second.as<std::string>();
         shape.constant = text && *text == "constant";
         if (!shape.constant && (!text || *text != "vertex"))
-            prim.problem(attribute, "expected the interpolation \"vertex\" or \"constant\", found " +
-                                        describe(found->second));
+            prim.problem(attribute, "expected the interpolation \"vertex\" or \"constant\", found ",
+                         describe(found->second));
     }
     return shape;
-}
-
-/// A number of the attribute at an index of its values.
-Place valueAt(const PrimReader& prim, const Attribute& attribute, std::size_t index) {
-    return prim.placeOf(attribute.name, "default") / index;
 }
 
 bool checkCount(const PrimReader& prim, const Attribute& attribute, std::size_t count, std::size_t vertices,
                 const Shape& shape) {
     const std::size_t wanted = shape.influences * (shape.constant ? 1 : vertices);
     if (count == wanted) return true;
-    prim.problem(attribute,
-                 "expected " + std::to_string(wanted) + " numbers, " + std::to_string(shape.influences) +
-                     " (the elementSize) " +
-                     (shape.constant ? "for all vertices" : "a vertex of " + std::to_string(vertices)) +
-                     ", found " + std::to_string(count));
+    prim.problem(attribute, "expected ", wanted, " numbers, ", shape.influences, " (the elementSize) ",
+                 shape.constant ? "for all vertices" : joined("a vertex of ", vertices), ", found ", count);
     return false;
 }
 
@@ -59,10 +57,9 @@ bool checkSums(const SceneReading& reading, const PrimReader& prim, const SkinWe
         double sum = 0;
         for (std::size_t k = 0; k < read.influences; ++k) sum += read.weights[at + k];
         if (std::abs(sum - 1) <= sumSlack) continue;
-        reading.problems.add(valueAt(prim, schema::jointWeights, at),
-                             "expected weights that sum to 1, found a sum of " +
-                                 describe(Value(sum)).substr(7) + " at vertex " +
-                                 std::to_string(at / read.influences));
+        reading.problems.add(prim.placeOf(jointWeights, "default") / at,
+                             "expected weights that sum to 1, found a sum of ", sum, " at vertex ",
+                             at / read.influences);
         return false;
     }
     return true;
@@ -76,9 +73,9 @@ std::vector<int> readSkelJoints(const SceneReading& reading, const PrimReader& p
         if (found != reading.bodyAt.end() && found->second != reading.bodyAt.at(prim.place().path))
             joints.push_back(found->second);
         else
-            reading.problems.add(valueAt(prim, schema::skelJoints, k),
-                                 "expected the path of a Mesh or an Xform other than the skin, found \"" +
-                                     paths[k] + "\"");
+            reading.problems.add(prim.placeOf(schema::skelJoints, "default") / k,
+                                 "expected the path of a Mesh or an Xform other than the skin, found \"",
+                                 paths[k], "\"");
     }
     return joints.size() == paths.size() ? joints : std::vector<int>();
 }
@@ -87,37 +84,36 @@ std::vector<int> readSkelJoints(const SceneReading& reading, const PrimReader& p
 
 SkinWeights readSkinWeights(const SceneReading& reading, const PrimReader& prim, std::size_t vertices) {
     SkinWeights read;
-    const bool indexed = prim.value(schema::jointIndices), weighed = prim.value(schema::jointWeights);
+    const bool indexed = prim.value(jointIndices), weighed = prim.value(jointWeights);
     if (!indexed && !weighed) return read;
-    for (const Attribute& attribute : {schema::skelJoints, schema::jointIndices, schema::jointWeights})
+    for (const Attribute& attribute : {schema::skelJoints, jointIndices, jointWeights})
         if (!prim.value(attribute)) {
-            prim.problem(std::string("expected the attribute ") + attribute.name + " (" + attribute.typeName +
+            prim.problem("expected the attribute ", attribute.name, " (", attribute.typeName,
                          ") too: weights of a skin are skel:joints, primvars:skel:jointIndices and "
                          "primvars:skel:jointWeights together");
             return {};
         }
     read.joints = readSkelJoints(reading, prim);
-    const Shape shape = shapeOf(prim, schema::jointIndices), other = shapeOf(prim, schema::jointWeights);
+    const Shape shape = shapeOf(prim, jointIndices), other = shapeOf(prim, jointWeights);
     if (shape.influences != other.influences || shape.constant != other.constant) {
-        prim.problem(schema::jointWeights,
+        prim.problem(jointWeights,
                      "expected the elementSize and interpolation of primvars:skel:jointIndices");
         return {};
     }
     read.influences = shape.influences;
-    read.indices = prim.indices(schema::jointIndices);
-    read.weights = prim.reals(schema::jointWeights, Range{0});
+    read.indices = prim.indices(jointIndices);
+    read.weights = prim.reals(jointWeights);
     // What is not a list of good numbers has been told already.
     if (read.joints.empty() || (read.indices.empty() && vertices > 0) ||
         (read.weights.empty() && vertices > 0) ||
-        !checkCount(prim, schema::jointIndices, read.indices.size(), vertices, shape) ||
-        !checkCount(prim, schema::jointWeights, read.weights.size(), vertices, shape) ||
+        !checkCount(prim, jointIndices, read.indices.size(), vertices, shape) ||
+        !checkCount(prim, jointWeights, read.weights.size(), vertices, shape) ||
         !checkSums(reading, prim, read))
         return {};
     for (std::size_t i = 0; i < read.indices.size(); ++i)
         if (read.indices[i] >= read.joints.size()) {
-            reading.problems.add(valueAt(prim, schema::jointIndices, i),
-                                 "expected indices below " + std::to_string(read.joints.size()) +
-                                     ", the number of skel:joints, found " + std::to_string(read.indices[i]));
+            reading.problems.add(prim.placeOf(jointIndices, "default") / i, "expected indices below ",
+                                 read.joints.size(), ", the number of skel:joints, found ", read.indices[i]);
             return {};
         }
     if (shape.constant) {
@@ -129,6 +125,21 @@ SkinWeights readSkinWeights(const SceneReading& reading, const PrimReader& prim,
         }
     }
     return read;
+}
+
+void writeSkinWeights(PrimWriter& prim, const SceneModel& scene, const SkinWeights& weights) {
+    if (weights.joints.empty()) return;
+    prim.set(schema::skelJoints, pathsOf(scene.bodies, weights.joints));
+    prim.set(jointIndices, weights.indices);
+    prim.set(jointWeights, weights.weights);
+    for (const Attribute& attribute : {jointIndices, jointWeights}) {
+        prim.setMetadata(attribute, "elementSize", static_cast<double>(weights.influences));
+        prim.setMetadata(attribute, "interpolation", "vertex");
+    }
+}
+
+SchemaType skinWeightsSchema() {
+    return {"TssSkinAPI", {schema::skelJoints, jointIndices, jointWeights}};
 }
 
 } // namespace tss

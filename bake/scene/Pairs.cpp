@@ -1,5 +1,5 @@
 #include "bake/model/JointGraph.h"
-#include "bake/scene/SceneReading.h"
+#include "bake/scene/SceneParts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,13 +18,12 @@ bool readBodiesOfPrim(const SceneReading& reading, const PrimReader& prim, Pair&
     pair.bodyB = reading.body(prim, schema::bodies, paths[1]);
     if (pair.bodyA < 0 || pair.bodyB < 0) return false;
     const auto chain = findChain(reading.scene.joints, pair.bodyA, pair.bodyB);
-    const Place place = prim.placeOf(schema::bodies, "targetPaths");
     if (!chain)
-        reading.problems.add(place, "expected one chain of joints from " + paths[0] + " to " + paths[1] +
-                                        ", found more than one: a pair cannot be part of a closed loop");
+        prim.targetProblem(schema::bodies, "expected one chain of joints from ", paths[0], " to ", paths[1],
+                           ", found more than one: a pair cannot be part of a closed loop");
     else if (chain->empty())
-        reading.problems.add(place, "expected a chain of joints from " + paths[0] + " to " + paths[1] +
-                                        ", found none");
+        prim.targetProblem(schema::bodies, "expected a chain of joints from ", paths[0], " to ", paths[1],
+                           ", found none");
     else
         pair.joints = *chain;
     return chain && !chain->empty();
@@ -36,7 +35,7 @@ bool readBodiesOfJoint(const SceneReading& reading, const PrimReader& prim, Pair
     pair.bodyA = joint.body0;
     pair.bodyB = joint.body1;
     pair.joints = {index};
-    if (prim.prim().property(schema::bodies))
+    if (prim.has(schema::bodies))
         reading.problems.add(prim.placeOf(schema::bodies), "expected tss:bodies on a prim that is no joint");
     if (pair.bodyA < 0 || pair.bodyB < 0)
         prim.problem("expected physics:body0 and physics:body1: a pair needs both");
@@ -46,7 +45,7 @@ bool readBodiesOfJoint(const SceneReading& reading, const PrimReader& prim, Pair
 void checkMeshes(const SceneReading& reading, const PrimReader& prim, const Pair& pair) {
     for (int body : {pair.bodyA, pair.bodyB})
         if (reading.scene.bodies[body].mesh.vertices.empty())
-            prim.problem("expected two bodies with geometry, found none in " +
+            prim.problem("expected two bodies with geometry, found none in ",
                          reading.scene.bodies[body].path);
 }
 
@@ -56,8 +55,8 @@ bool checkPairMotion(const SceneReading& reading, const PrimReader& prim, const 
         const Joint& joint = reading.scene.joints[index];
         for (const Dof& dof : joint.dofs)
             if (!std::isfinite(dof.lower) || !std::isfinite(dof.upper)) {
-                prim.problem("expected a lower and an upper limit for each DOF of a pair, found none for " +
-                             dof.name + " of " + joint.path);
+                prim.problem("expected a lower and an upper limit for each DOF of a pair, found none for ",
+                             dof.name, " of ", joint.path);
                 return false;
             }
         try { // told with the joint whose limits they are, before they are one chain
@@ -78,33 +77,53 @@ bool checkPairMotion(const SceneReading& reading, const PrimReader& prim, const 
 
 } // namespace
 
+std::vector<SchemaType> pairSchemas() {
+    return {{"TssPairAPI", {schema::bodies, schema::table}}};
+}
+
 BakeSettings readSettings(const PrimReader& prim) {
     BakeSettings settings;
-    const std::string prefix = schema::bakePrefix;
     for (const auto& [name, property] : prim.prim().properties) {
-        if (!name.starts_with(prefix)) continue;
-        std::string key = name.substr(prefix.size());
+        if (!name.starts_with(schema::bakePrefix)) continue;
+        std::string key = name.substr(schema::bakePrefix.size());
         std::replace(key.begin(), key.end(), '_', '-');
-        const Attribute attribute{name.c_str(), "string", true};
-        if (prim.value(attribute)) settings[key] = prim.text(attribute, "");
+        const Attribute attribute{name, "string"};
+        if (prim.value(attribute)) settings[key] = prim.text(attribute);
     }
     return settings;
 }
 
+void writeSettings(Prim& prim, const BakeSettings& settings) {
+    std::erase_if(prim.properties,
+                  [](const auto& property) { return property.first.starts_with(schema::bakePrefix); });
+    for (const auto& [key, text] : settings) {
+        std::string name = joined(schema::bakePrefix, key);
+        std::replace(name.begin(), name.end(), '-', '_');
+        PrimWriter(prim).set(Attribute{name, "string", true}, Value(text));
+    }
+}
+
 void readPairs(SceneReading& reading) {
-    for (std::size_t i = 0; i < reading.index.entries.size(); ++i) {
-        if (!hasApi(*reading.index.entries[i].prim, "TssPairAPI")) continue;
-        if (!reading.ownPrim(static_cast<int>(i), "TssPairAPI")) continue;
-        const PrimReader prim = reading.reader(static_cast<int>(i));
+    const auto isPair = [](const Prim& prim) { return hasApi(prim, "TssPairAPI"); };
+    reading.forPrims(isPair, [&](const PrimReader& prim, int entry) {
+        if (!reading.ownPrim(entry, "TssPairAPI")) return;
         Pair pair;
         pair.path = prim.place().path;
         pair.settings = readSettings(prim);
         const bool tied = reading.jointAt.contains(pair.path) ? readBodiesOfJoint(reading, prim, pair)
                                                               : readBodiesOfPrim(reading, prim, pair);
-        if (!tied) continue;
+        if (!tied) return;
         checkMeshes(reading, prim, pair);
         if (checkPairMotion(reading, prim, pair)) reading.scene.pairs.push_back(std::move(pair));
-    }
+    });
+}
+
+void writePair(Layer& layer, const SceneModel& scene, const Pair& pair) {
+    const bool ofJoint = pair.joints.size() == 1 && scene.joints[pair.joints[0]].path == pair.path;
+    PrimWriter prim(makePrim(layer, pair.path, "Scope"));
+    addApi(prim.prim(), "TssPairAPI");
+    if (!ofJoint) prim.setTargets(schema::bodies, pathsOf(scene.bodies, {pair.bodyA, pair.bodyB}));
+    writeSettings(prim.prim(), pair.settings);
 }
 
 } // namespace tss
