@@ -49,13 +49,47 @@ Dof placed(const Dof& dof, const Pose& place) {
     return seen;
 }
 
-/// D^-1 as a DOF of the same value. A path has none: what is linear between its rows is not when inverted.
-Dof inverted(const Dof& dof, const Joint& joint) {
-    if (dof.kind == DofKind::Path)
-        throw InputError(
-            {"", "", joint.path},
-            "expected a joint with a path to be crossed from physics:body0 to physics:body1: swap its "
-            "bodies or those of the pair");
+bool oneTurn(const std::vector<PathRow>& rows) {
+    return std::all_of(rows.begin(), rows.end(), [&](const PathRow& row) {
+        return row.rotation.coeffs() == rows.front().rotation.coeffs();
+    });
+}
+
+bool onePlace(const std::vector<PathRow>& rows) {
+    return std::all_of(rows.begin(), rows.end(),
+                       [&](const PathRow& row) { return row.translation == rows.front().translation; });
+}
+
+/// The path's inverse at the same values, all that is linear between its rows: `after` is what of it is left
+/// for what follows. The inverse of a turn R about a place t is x -> R^-1 (x - t), linear where R or t is one
+/// and the same; where both change it is not.
+Dof invertedPath(const Dof& dof, const Joint& joint, Pose& after) {
+    Dof back = dof;
+    if (onePlace(dof.path)) {
+        after.translation() = -dof.path.front().translation;
+        for (PathRow& row : back.path) {
+            row.translation = Vec3::Zero();
+            row.rotation = row.rotation.conjugate();
+        }
+    } else if (oneTurn(dof.path)) {
+        after.linear() = dof.path.front().rotation.conjugate().toRotationMatrix();
+        back.frame = dof.frame * after;
+        for (PathRow& row : back.path) {
+            row.translation = -row.translation;
+            row.rotation = Eigen::Quaterniond::Identity();
+        }
+    } else {
+        throw InputError({"", "", joint.path},
+                         "expected a joint with a path that both turns and travels to be crossed from "
+                         "physics:body0 to physics:body1: swap its bodies or those of the pair");
+    }
+    after = dof.frame * after * dof.frame.inverse(Eigen::Isometry);
+    return back;
+}
+
+/// D^-1 as a DOF of the same value, and then `after`.
+Dof inverted(const Dof& dof, const Joint& joint, Pose& after) {
+    if (dof.kind == DofKind::Path) return invertedPath(dof, joint, after);
     Dof back = dof;
     back.axis = -dof.axis;
     return back;
@@ -67,9 +101,11 @@ void append(Motion& motion, Pose& place, const Joint& joint, bool backwards, boo
     place = place * (backwards ? joint.frame1 : joint.frame0);
     for (std::size_t k = 0; k < count; ++k) {
         const Dof& dof = joint.dofs[backwards ? count - 1 - k : k];
-        Dof seen = placed(backwards ? inverted(dof, joint) : dof, place);
+        Pose after = Pose::Identity();
+        Dof seen = placed(backwards ? inverted(dof, joint, after) : dof, place);
         if (several) seen.name = primName(joint.path) + ":" + dof.name;
         motion.dofs.push_back(std::move(seen));
+        if (dof.kind == DofKind::Path) place = place * after;
     }
     place = place * (backwards ? joint.frame0 : joint.frame1).inverse();
     for (const LimitPlane& plane : joint.planes) {

@@ -65,7 +65,8 @@ std::vector<double> restOf(const tss::Joint& joint) {
 } // namespace
 
 ConstraintVisitor::ConstraintVisitor(Pairs pairs)
-    : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _pairs(pairs), _soft(std::make_unique<SoftParts>()) {
+    : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _pairs(pairs), _owned(std::make_unique<tss::SceneModel>()),
+      _model(*_owned), _soft(std::make_unique<SoftParts>()) {
     setNodeMaskOverride(~0u);
 }
 
