@@ -1,6 +1,6 @@
 #include "bake/play/ChainPoses.h"
 
-#include "bake/model/PairDofs.h"
+#include "bake/model/Kinematics.h"
 #include "bake/table/RoundingBand.h"
 
 #include <algorithm>

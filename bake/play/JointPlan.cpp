@@ -1,7 +1,7 @@
 #include "bake/play/JointPlan.h"
 
 #include "bake/base/Error.h"
-#include "bake/model/PairDofs.h"
+#include "bake/model/Kinematics.h"
 #include "bake/motion/MotionBound.h"
 #include "bake/table/Query.h"
 

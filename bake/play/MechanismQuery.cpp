@@ -1,7 +1,7 @@
 #include "bake/play/MechanismQuery.h"
 
 #include "bake/base/Error.h"
-#include "bake/model/PairDofs.h"
+#include "bake/model/Kinematics.h"
 #include "bake/play/ChainPoses.h"
 #include "bake/table/TableKernels.h"
 

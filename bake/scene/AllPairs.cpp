@@ -1,7 +1,7 @@
 #include "bake/scene/AllPairs.h"
 
 #include "bake/base/Error.h"
-#include "bake/model/JointGraph.h"
+#include "bake/model/Kinematics.h"
 #include "bake/motion/MotionBound.h"
 #include "bake/scene/SceneParts.h"
 

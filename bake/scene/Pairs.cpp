@@ -1,4 +1,4 @@
-#include "bake/model/JointGraph.h"
+#include "bake/model/Kinematics.h"
 #include "bake/scene/SceneParts.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 // process, and whether any contact is missed; and how it is kept out of itself (METHOD 5).
 #include "bake/compare/MeshTruth.h"
 #include "bake/model/Kinematics.h"
-#include "bake/model/PairDofs.h"
 #include "bake/play/JointPlan.h"
 #include "bake/play/MechanismQuery.h"
 #include "bake/scene/SceneFile.h"

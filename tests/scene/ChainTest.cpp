@@ -1,6 +1,5 @@
 #include "bake/base/Error.h"
-#include "bake/model/JointGraph.h"
-#include "bake/model/PairDofs.h"
+#include "bake/model/Kinematics.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/WriteLayer.h"
 #include "tests/scene/Samples.h"
