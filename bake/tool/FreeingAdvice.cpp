@@ -66,7 +66,7 @@ public:
         const Pose atZero = pose(motion_, std::vector<double>(motion_.dofCount(), 0.0));
         if ((atZero.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-6) form_ = formOf(scene, pair);
         if (form_ != Form::None) already_ = atZero.translation();
-        if (form_ == Form::TwoMeshes) a_ = "A", b_ = "B";
+        if (form_ == Form::TwoMeshes) a_ = 'A', b_ = 'B';
         dofs_ = form_ != Form::None && std::none_of(motion_.dofs.begin(), motion_.dofs.end(),
                                                     [](const Dof& dof) { return dof.kind == DofKind::Path; });
     }
