@@ -136,6 +136,7 @@ const aiScene& readFile(Assimp::Importer& importer, const std::string& file,
     if (!std::filesystem::is_regular_file(file, error))
         throw InputError(Where{file, "", ""}, "not a file, a mesh file was expected");
     expectWholeGlb(file);
+    expectEndedPly(file);
     auto* files = new NearbyFiles(file);
     importer.SetIOHandler(files); // which owns it
     // STL and the like repeat a vertex for every face: welded() joins them, exactly equal ones only.

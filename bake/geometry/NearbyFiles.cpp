@@ -57,6 +57,16 @@ Assimp::IOStream* NearbyFiles::Open(const char* file, const char* mode) {
     return nullptr;
 }
 
+void expectEndedPly(const std::string& file) {
+    constexpr std::size_t most = 1 << 16; // of a header
+    std::ifstream stream(file, std::ios::binary);
+    std::string begin(most, '\0');
+    stream.read(begin.data(), most);
+    begin.resize(static_cast<std::size_t>(stream.gcount()));
+    if ((begin.starts_with("ply") || begin.starts_with("PLY")) && begin.find("end_header") == begin.npos)
+        throw InputError(Where{file, "", ""}, "cannot be read as a mesh: its header has no line end_header");
+}
+
 void expectWholeGlb(const std::string& file) {
     std::ifstream stream(file, std::ios::binary);
     char magic[4] = {};

@@ -28,6 +28,9 @@ private:
     std::string refused_;
 };
 
+/// A PLY whose header has no end, for which an importer would look for ever. Throws InputError.
+void expectEndedPly(const std::string& file);
+
 /// A binary glTF whose chunks say that they are longer than the file is, which an importer would make room
 /// for. Throws InputError.
 void expectWholeGlb(const std::string& file);
