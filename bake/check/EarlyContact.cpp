@@ -3,6 +3,7 @@
 #include "bake/base/Parallel.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/MeshQuery.h"
+#include "bake/pipeline/FillPair.h"
 #include "bake/search/ExploredPoses.h"
 #include "bake/table/Query.h"
 
@@ -90,10 +91,11 @@ std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const P
     EarlyContact result;
     const double size = std::min(bounds(meshA).diagonal().norm(), bounds(meshB).diagonal().norm());
     const std::vector<double> rest = restValues(motion);
-    result.atRest = clearance(a, b, pose(motion, rest), std::max(size, early));
+    result.atRest = clearanceAtRest(meshA, meshB, motion);
+    result.close = result.atRest < std::max(size, early) / 1000;
     const Table& table = *pair.table;
     const bool contact = query(table, rest).hit();
-    result.restReported = result.atRest > 0 && contact;
+    result.restReported = !result.close && contact;
     result.held = !contact && heldAtRest(table, motion, rest);
 
     const std::vector<std::vector<double>> poses = exploredPoses(motion, 100, 1);
@@ -117,8 +119,7 @@ std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const P
 
     // The spheres of both bodies then take at most six tenths of the play that the joint has where it is
     // reported without reason.
-    const double play =
-        std::min(wrong.empty() ? early : median(wrong), result.atRest > 0 ? result.atRest : early);
+    const double play = std::min(wrong.empty() ? early : median(wrong), result.close ? early : result.atRest);
     const double proposed = roundedDown(0.3 * play), now = (early - epsilon) / 2;
     if (proposed >= 0.9 * now) return result;
     result.tolerance = proposed;

@@ -9,7 +9,8 @@ namespace tss {
 /// then, not whether the joint ever opens that far. Measured on the meshes, at poses spread over all limits.
 struct EarlyContact {
     double atRest = 0;         ///< scene units: the surfaces are that far apart at rest; 0: they touch
-    bool restReported = false; ///< contact is reported at rest, though the surfaces are apart
+    bool close = false;        ///< by so little that no tolerance is proposed for it
+    bool restReported = false; ///< contact is reported at rest, though the surfaces are apart, not close
     bool held = false;         ///< not at rest, but every small step from there is reported, whichever way
     int poses = 0;             ///< looked at
     int freePoses = 0;         ///< of those, where the surfaces are apart
@@ -22,7 +23,7 @@ struct EarlyContact {
     bool coarse() const { return restReported || share > 0.1; }
 
     /// The bodies overlap wherever the joint goes: it cannot leave its rest.
-    bool stuck() const { return atRest == 0 && 20 * freePoses < poses; }
+    bool stuck() const { return close && 20 * freePoses < poses; }
 };
 
 /// Nothing for a pair without a table or a table without a bound.

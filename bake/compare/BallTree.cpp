@@ -85,19 +85,16 @@ double treesGap(const BallTree& a, const BallTree& b, const Pose& pose) {
     while (!queue.empty() && queue.top().gap < best) {
         const Item item = queue.top();
         queue.pop();
-        const BallTree::Node &na = a.nodes[item.a], &nb = b.nodes[item.b];
-        if (na.count == 0 && nb.count == 0) {
+        if (a.nodes[item.a].count == 0 && b.nodes[item.b].count == 0) {
             best = item.gap;
             break;
         }
-        const bool openA = nb.count == 0 || (na.count > 0 && na.radius >= nb.radius);
-        const BallTree::Node& opened = openA ? na : nb;
-        for (std::uint32_t k = opened.first; k < opened.first + opened.count; ++k) {
-            const Vec3 centreB = openA ? item.centreB : Vec3(pose * b.nodes[k].centre);
-            const std::uint32_t ia = openA ? k : item.a, ib = openA ? item.b : k;
+        openLarger(a, b, item.a, item.b, [&](std::uint32_t ia, std::uint32_t ib) {
+            const Vec3 centreB = ib == item.b ? item.centreB : Vec3(pose * b.nodes[ib].centre);
             const double gap = gapOf(ia, ib, centreB);
             if (gap < best) queue.push({gap, ia, ib, centreB});
-        }
+            return false;
+        });
     }
     return best;
 }

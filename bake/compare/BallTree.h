@@ -23,6 +23,18 @@ struct BallTree {
 /// ball contains the spheres below it whole.
 BallTree buildBallTree(const SphereSet& spheres, int arity, Enclosure enclosure);
 
+/// Calls visit(node of A, node of B) for what takes the place of a pair that is not one of two leaves: the
+/// larger ball is opened. True, and no more calls, as soon as a visit says so.
+template <class Visit>
+bool openLarger(const BallTree& a, const BallTree& b, std::uint32_t ia, std::uint32_t ib, Visit&& visit) {
+    const BallTree::Node &na = a.nodes[ia], &nb = b.nodes[ib];
+    const bool openA = nb.count == 0 || (na.count > 0 && na.radius >= nb.radius);
+    const BallTree::Node& opened = openA ? na : nb;
+    for (std::uint32_t k = opened.first; k < opened.first + opened.count; ++k)
+        if (openA ? visit(k, ib) : visit(ia, k)) return true;
+    return false;
+}
+
 /// Do leaves of the two trees overlap? Depth first, the larger ball opened, first hit out.
 template <class Counter>
 bool treesTouch(const BallTree& a, const BallTree& b, const Pose& pose, Counter& counter) {
@@ -44,12 +56,10 @@ bool treesTouch(const BallTree& a, const BallTree& b, const Pose& pose, Counter&
     while (!stack.empty()) {
         const Item item = stack.back();
         stack.pop_back();
-        const BallTree::Node &na = a.nodes[item.a], &nb = b.nodes[item.b];
-        const bool openA = nb.count == 0 || (na.count > 0 && na.radius >= nb.radius);
-        const BallTree::Node& opened = openA ? na : nb;
-        for (std::uint32_t k = opened.first; k < opened.first + opened.count; ++k)
-            if (openA ? test(k, item.b, item.centreB) : test(item.a, k, pose * b.nodes[k].centre))
-                return true;
+        const auto visit = [&](std::uint32_t ia, std::uint32_t ib) {
+            return test(ia, ib, ib == item.b ? item.centreB : Vec3(pose * b.nodes[ib].centre));
+        };
+        if (openLarger(a, b, item.a, item.b, visit)) return true;
     }
     return false;
 }

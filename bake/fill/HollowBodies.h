@@ -14,7 +14,8 @@ struct FilledBody {
     double protrusion; ///< of the spheres, scene units
 };
 
-/// Of which of two bodies it is wrong to say that its openings are closed and what is behind them is body.
+/// Which of two bodies are hollow: cups or sheets, whose openings may not be closed and filled as if there
+/// were material behind them.
 struct HollowBodies {
     bool a = false, b = false;
     explicit operator bool() const { return a || b; }

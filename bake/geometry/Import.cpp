@@ -1,6 +1,7 @@
 #include "bake/geometry/Import.h"
 
 #include "bake/base/Error.h"
+#include "bake/geometry/MeshAudit.h"
 
 #include <algorithm>
 #include <cctype>
@@ -8,6 +9,8 @@
 #include <numeric>
 
 #ifdef OSGTSS_IMPORT
+#include "bake/geometry/NearbyFiles.h"
+
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -115,19 +118,45 @@ std::vector<std::string> leftOutOf(const aiScene& scene) {
     return names;
 }
 
+/// Cutting a face into triangles takes the square of its corners.
+void expectSmallFaces(const aiScene& scene, const std::string& file) {
+    constexpr unsigned most = 10'000;
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+        for (unsigned f = 0; f < scene.mMeshes[m]->mNumFaces; ++f)
+            if (const unsigned corners = scene.mMeshes[m]->mFaces[f].mNumIndices; corners > most)
+                throw InputError(Where{file, "", ""}, "has a face of " + std::to_string(corners) +
+                                                          " corners; expected at most " +
+                                                          std::to_string(most));
+}
+
 const aiScene& readFile(Assimp::Importer& importer, const std::string& file,
                         std::vector<std::string>* leftOut) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) throw InputError(Where{file, "", ""}, "no such file");
     if (!std::filesystem::is_regular_file(file, error))
         throw InputError(Where{file, "", ""}, "not a file, a mesh file was expected");
+    expectWholeGlb(file);
+    expectEndedPly(file);
+    auto* files = new NearbyFiles(file);
+    importer.SetIOHandler(files); // which owns it
     // STL and the like repeat a vertex for every face: welded() joins them, exactly equal ones only.
-    const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
+    const aiScene* scene = importer.ReadFile(file, 0);
+    if (scene) expectSmallFaces(*scene, file);
+    if (scene) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
     if (!scene || !scene->mRootNode)
         throw InputError(Where{file, "", ""},
-                         "cannot be read as a mesh: " + std::string(importer.GetErrorString()));
+                         "cannot be read as a mesh: " +
+                             (files->refused().empty() ? importer.GetErrorString() : files->refused()));
     if (leftOut) *leftOut = leftOutOf(*scene);
     return *scene;
+}
+
+/// The mesh of a file, welded.
+TriangleMesh checked(const TriangleMesh& mesh, const std::string& file) {
+    return inFile(file, [&] {
+        checkIndices(mesh);
+        return welded(mesh);
+    });
 }
 
 [[noreturn]] void refuseEmpty(const std::string& file) {
@@ -144,7 +173,7 @@ TriangleMesh importMesh(const std::string& file, MeshAxes axes, std::vector<std:
     TriangleMesh mesh;
     append(scene, *scene.mRootNode, Eigen::Matrix4d::Identity(), mesh);
     if (mesh.triangles.empty()) refuseEmpty(file);
-    return welded(mesh);
+    return checked(mesh, file);
 }
 
 std::vector<ImportedNode> importNodes(const std::string& file, std::vector<std::string>* leftOut) {
@@ -153,7 +182,7 @@ std::vector<ImportedNode> importNodes(const std::string& file, std::vector<std::
     std::vector<ImportedNode> nodes;
     collect(scene, *scene.mRootNode, Eigen::Matrix4d::Identity(), nodes);
     if (nodes.empty()) refuseEmpty(file);
-    for (ImportedNode& node : nodes) node.mesh = welded(node.mesh);
+    for (ImportedNode& node : nodes) node.mesh = checked(node.mesh, file);
     return nodes;
 }
 

@@ -14,8 +14,9 @@ enum class MeshAxes { Turned, AsWritten };
 /// vertices at exactly the same place made one (in the order of their first use), points and lines left out.
 /// Nothing else is repaired: see auditMesh() and cleaned(). assimp holds coordinates as floats, so that at
 /// most 7 digits of a file survive: a mesh far from the origin of its file loses detail (at 1e7 units a float
-/// is 1 unit wide). Throws InputError: no such file, a format or content that cannot be read, no triangle in
-/// it, or a build without OSGTSS_IMPORT.
+/// is 1 unit wide). Other files that it names are read where they lie in its folder or below. Throws
+/// InputError: no such file, a format or content that cannot be read, no triangle in it, a corner that is not
+/// finite, a face of more than 10,000 corners, or a build without OSGTSS_IMPORT.
 /// leftOut, where given, receives what else the file holds and a mesh has no place for: animations, bones,
 /// shapes to blend to, cameras, lights, points and lines.
 TriangleMesh importMesh(const std::string& file, MeshAxes axes = MeshAxes::Turned,

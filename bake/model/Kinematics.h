@@ -1,9 +1,25 @@
 #pragma once
 #include "bake/model/SceneModel.h"
 
+#include <optional>
 #include <span>
 
 namespace tss {
+
+/// Indices of the joints that lead from one body to another, in this order; empty when none do, nothing when
+/// there is more than one way. Joints that are not enabled do not count; the world counts as a body that
+/// joints may share.
+std::optional<std::vector<int>> findChain(const std::vector<Joint>& joints, int bodyA, int bodyB);
+
+/// A degree of freedom of a scene: the joint, and which of its own.
+struct JointDof {
+    int joint = -1;
+    std::size_t dof = 0;
+};
+
+/// Which of the joints' DOFs each DOF of pairMotion() is: those of a joint that is crossed from body1 to
+/// body0 come in reverse order.
+std::vector<JointDof> pairDofs(const SceneModel& scene, const Pair& pair);
 
 /// Where each body stands (body to world) when the joints have these values: one value a DOF, joints in file
 /// order, DOFs in the joint's order. Bodies that no enabled joint moves stay as modelled; where joints close

@@ -7,8 +7,9 @@
 namespace tss {
 
 /// A muscle between two bones (METHOD 6.1): each point moves with the blend of their motions by its
-/// MuscleDeformer::insertionShare(). What that changes of the volume is made up for where it is changed: what
-/// moves with both bones swells by one factor, what moves with one of them stays as it is.
+/// MuscleDeformer::insertionShare(). Blending changes the volume; to keep it, the part that moves with both
+/// bones becomes thicker or thinner, all of it by one factor, and the parts that move with one bone stay as
+/// they are.
 class MuscleSpan {
 public:
     /// unit: scene units per length of what carry() is given.

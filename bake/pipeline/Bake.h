@@ -38,6 +38,7 @@ bool toBake(const SceneModel& scene, const SkinModel& skin, const BakeRequest& r
 /// bounds; for each skin the rows that its muscles can reach. Tables, proofs, hashes and settings go into the
 /// scene. Throws InputError that names the prim for what
 /// cannot be baked: what shows without making spheres (refusedByBake()) before any is made.
-std::vector<PairReport> bake(SceneModel& scene, const BakeRequest& request, const Progress& progress = {});
+std::vector<PairReport> bake(SceneModel& scene, const BakeRequest& request = {},
+                             const Progress& progress = {});
 
 } // namespace tss

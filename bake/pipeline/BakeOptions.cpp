@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -128,57 +127,80 @@ std::string lengthText(double length, double metersPerUnit) {
 
 namespace {
 
-/// Sets the option if there is one of this name, and says whether there is. names: gets them all, if given.
-bool set(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit,
-         bool onlyLook, std::vector<std::string>* names = nullptr) {
-    using Setter = std::function<void()>;
-    const std::pair<const char*, Setter> setters[] = {
-        {"spheres", [&] { options.spheres = choice(key, text, sphereWords); }},
-        {"growth", [&] { options.growth = growth(text, metersPerUnit); }},
-        {"search", [&] { options.search = choice(key, text, searchWords); }},
-        {"reduce", [&] { options.reduce = choice(key, text, reduceWords); }},
-        {"at-rest", [&] { options.atRest = choice(key, text, atRestWords); }},
-        {"tolerance", [&] { options.tolerance = length(key, text, metersPerUnit, false); }},
-        {"epsilon", [&] { options.epsilon = length(key, text, metersPerUnit, true); }},
-        {"depth", [&] { options.depth = length(key, text, metersPerUnit, true); }},
-        {"max-spheres", [&] { options.maxSpheres = count(key, text, 1); }},
-        {"samples", [&] { options.samples = count(key, text, 1); }},
-        {"conservative", [&] { options.conservative = flag(key, text); }},
-        {"keep-spheres", [&] { options.keepSpheres = flag(key, text); }},
-        {"budget",
-         [&] {
-             options.budget = parseNumber(text, "--budget");
-             if (options.budget < 0)
-                 throw InputError("--budget: expected seconds >= 0, found \"" + text + "\"");
+/// "medial (default), shrinking, growth or surface".
+template <class Value, std::size_t count>
+std::string listed(const std::array<Word<Value>, count>& words) {
+    std::string text;
+    for (std::size_t k = 0; k < count; ++k)
+        text += std::string(k == 0          ? ""
+                            : k + 1 < count ? ", "
+                                            : " or ") +
+                words[k].first + (k == 0 ? " (default)" : "");
+    return text;
+}
+
+using Text = const std::string&;
+
+std::vector<BakeOption> makeBakeOptions() {
+    return {
+        {"spheres", listed(sphereWords),
+         [](BakeOptions& o, Text key, Text text, double) { o.spheres = choice(key, text, sphereWords); }},
+        {"growth",
+         "START,STEP,END,MAXRADIUS of --spheres growth: fractions of the bounding diagonal (default "
+         "0.01,0.01,0.101,0.02) or lengths",
+         [](BakeOptions& o, Text, Text text, double unit) { o.growth = growth(text, unit); }},
+        {"tolerance",
+         "how far the spheres may stick out of the meshes (default: 1/500 of the smaller body's diagonal)",
+         [](BakeOptions& o, Text key, Text text, double unit) {
+             o.tolerance = length(key, text, unit, false);
          }},
+        {"epsilon", "gap that the table may add to that of all spheres; 0 (default): lossless",
+         [](BakeOptions& o, Text key, Text text, double unit) { o.epsilon = length(key, text, unit, true); }},
+        {"depth", "the gap too is right down to this depth; 0 (default): yes or no only",
+         [](BakeOptions& o, Text key, Text text, double unit) { o.depth = length(key, text, unit, true); }},
+        {"max-spheres", "at most so many spheres a body: the best tolerance for them",
+         [](BakeOptions& o, Text key, Text text, double) { o.maxSpheres = count(key, text, 1); }},
+        {"reduce", listed(reduceWords),
+         [](BakeOptions& o, Text key, Text text, double) { o.reduce = choice(key, text, reduceWords); }},
+        {"search", listed(searchWords),
+         [](BakeOptions& o, Text key, Text text, double) { o.search = choice(key, text, searchWords); }},
+        {"samples", "poses explored by --search sampled",
+         [](BakeOptions& o, Text key, Text text, double) { o.samples = count(key, text, 1); }},
+        {"at-rest", "the region in which the meshes overlap at rest: " + listed(atRestWords),
+         [](BakeOptions& o, Text key, Text text, double) { o.atRest = choice(key, text, atRestWords); }},
+        {"budget", "seconds to find the few tests of each pair; making its spheres does not count",
+         [](BakeOptions& o, Text, Text text, double) {
+             o.budget = parseNumber(text, "--budget");
+             if (o.budget < 0) throw InputError("--budget: expected seconds >= 0, found \"" + text + "\"");
+         }},
+        {"conservative", "",
+         [](BakeOptions& o, Text key, Text text, double) { o.conservative = flag(key, text); }},
+        {"keep-spheres", "",
+         [](BakeOptions& o, Text key, Text text, double) { o.keepSpheres = flag(key, text); }},
     };
-    for (const auto& [name, set] : setters) {
-        if (names) names->push_back(name);
-        if (key == name) {
-            if (!onlyLook) set();
-            return true;
-        }
-    }
-    return false;
+}
+
+const BakeOption* findOption(const std::string& key) {
+    for (const BakeOption& option : bakeOptions())
+        if (key == option.name) return &option;
+    return nullptr;
 }
 
 } // namespace
 
-bool isOption(const std::string& key) {
-    BakeOptions none;
-    return set(none, key, "", 1, true);
+const std::vector<BakeOption>& bakeOptions() {
+    static const std::vector<BakeOption> all = makeBakeOptions();
+    return all;
 }
 
-std::vector<std::string> optionNames() {
-    BakeOptions none;
-    std::vector<std::string> names;
-    set(none, "", "", 1, true, &names);
-    return names;
+bool isOption(const std::string& key) {
+    return findOption(key) != nullptr;
 }
 
 void setOption(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit) {
-    if (!set(options, key, text, metersPerUnit, false))
-        throw InputError("bake setting \"" + key + "\" is not known");
+    const BakeOption* option = findOption(key);
+    if (!option) throw InputError("bake setting \"" + key + "\" is not known");
+    option->set(options, key, text, metersPerUnit);
 }
 
 std::string methodName(const BakeOptions& options) {

@@ -12,7 +12,7 @@ namespace tss {
 enum class SearchMethod { Certified, Sampled };
 enum class ReduceMethod { Cover, Cooccurrence, Minimal, None };
 
-/// Settings of a bake; each is an option of `tss bake` of the same name. Lengths in scene units.
+/// Settings of a bake, each of them one of bakeOptions(). Lengths in scene units.
 struct BakeOptions {
     SphereMethod spheres = SphereMethod::Medial;
     GrowthOptions growth; ///< of SphereMethod::Growth (METHOD 1.1)
@@ -34,15 +34,23 @@ struct BakeOptions {
     double metersPerUnit = 1; ///< of the scene, for what is said of lengths
 };
 
-/// Sets one option by its name on the command line, without dashes, from its text. Lengths may carry a unit.
-/// Throws InputError naming the option and what was expected.
+/// One setting by the name that it has on the command line (without dashes), in scene files
+/// (tss:bake:<name>) and in the node kit.
+struct BakeOption {
+    const char* name;
+    std::string about; ///< the line of help; empty: true or false, a flag of its own on the command line
+    void (*set)(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit);
+};
+
+/// All there are, as help lists them.
+const std::vector<BakeOption>& bakeOptions();
+
+/// Sets one option by its name from its text. Lengths may carry a unit. Throws InputError naming the option
+/// and what was expected.
 void setOption(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit);
 
 /// Whether setOption() knows this name.
 bool isOption(const std::string& key);
-
-/// All names that setOption() knows.
-std::vector<std::string> optionNames();
 
 /// What a table states as its method: "medial/certified/cover".
 std::string methodName(const BakeOptions& options);

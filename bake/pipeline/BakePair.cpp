@@ -107,9 +107,9 @@ struct PairBaker {
     /// Fill: both bodies with spheres, and how well these fit; then the few tests that answer for all.
     Attempt few() const { return tabulated(measured(fillPair(scene, pair, motion, options, progress))); }
 
-    /// Where the budget ended far from the epsilon asked for: tests instead. All pairs of spheres that may
-    /// meet, of these or, where these are too many, of others that are coarser. Nothing where that would
-    /// report contact no later.
+    /// Where the budget ended far from the epsilon asked for: a table that tests every pair of spheres that
+    /// may meet, in place of a cover. Of the same spheres, or of coarser ones where these have too many
+    /// pairs. Nothing where that table would report contact no later than the cover does.
     std::optional<Attempt> allInstead(const Attempt& few) const {
         const bool far = few.early() > std::max(options.epsilon, few.spheres.stickOut) + few.spheres.stickOut;
         if (!far || few.spheres.askAll) {

@@ -100,6 +100,18 @@ bool lengthened(FreeingTrial& trial, const std::vector<char>& wanted, JointMove&
     return false;
 }
 
+/// Without what slides axes that are parallel along themselves, which moves nothing.
+void settleAxes(const Motion& motion, JointMove& move) {
+    Vec3 common = Vec3::Zero();
+    for (const Dof& dof : motion.dofs) {
+        if (dof.kind != DofKind::Rotation) continue;
+        const Vec3 axis = dof.axis.normalized();
+        if (!common.isZero() && common.cross(axis).norm() > 1e-9) return;
+        common = axis;
+    }
+    move.tail<3>() -= common * common.dot(move.tail<3>());
+}
+
 /// A small move that frees what is wanted also between the poses that are tried. first: one that frees much
 /// of it, or nothing.
 JointMove smallMove(FreeingTrial& trial, std::vector<char>& wanted, JointMove move, bool axes) {
@@ -127,6 +139,7 @@ std::vector<FreeingMove> freeingMoves(const TriangleMesh& a, const TriangleMesh&
     found.push_back(trial.measured(move));
     if (options.axes) {
         move = smallMove(trial, wanted, move, true);
+        settleAxes(motion, move);
         // Where it helps little the axes stay.
         const FreeingMove turned = trial.measured(move);
         if (turned.free > found.front().free || turned.moved < 0.9 * found.front().moved)

@@ -1,6 +1,6 @@
 #include "bake/play/ChainPoses.h"
 
-#include "bake/model/PairDofs.h"
+#include "bake/model/Kinematics.h"
 #include "bake/table/RoundingBand.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ ChainPoses::ChainPoses(const SceneModel& scene, const std::vector<int>& pairs) {
         if (first >= 0 && placed[first]) continue;
         if (first >= 0) {
             placed[first] = true;
-            steps_.push_back({-1, first, {}, PoseRecipe(Motion(), Vec3::Zero(), Vec3::Zero())});
+            steps_.push_back({-1, first, {}, PoseRecipe(Motion(), Vec3::Zero(), Vec3::Zero()), {}});
         }
         std::vector<int> front{first};
         for (std::size_t i = 0; i < front.size(); ++i)
@@ -66,11 +66,12 @@ ChainPoses::ChainPoses(const SceneModel& scene, const std::vector<int>& pairs) {
                 front.push_back(next);
                 if (body >= 0) chains[next] = chains[body];
                 chains[next].push_back(j);
-                Step step{body == first ? -1 : body, next, {}, {}};
+                Step step{body == first ? -1 : body, next, {}, {}, {}};
                 const Pair one = over({j}, body, next);
                 for (const JointDof& dof : pairDofs(scene, one))
                     step.values.push_back(firstValue[j] + dof.dof);
                 step.recipe = PoseRecipe(pairMotion(scene, one), Vec3::Zero(), Vec3::Zero());
+                if (step.recipe.affine()) step.plan = PosePlan(step.recipe);
                 steps_.push_back(std::move(step));
                 toOrigin_[next] = pairMotion(scene, over(chains[next], first, next));
             }
@@ -101,6 +102,30 @@ void ChainPoses::evaluate(const double* values, Matrix* places) const {
         Matrix toParent;
         step.recipe.evaluate(own.data(), toParent.data());
         compose(places[step.parent], toParent, places[step.body]);
+    }
+}
+
+void ChainPoses::ownLanes(const Step& step, const double* const* values, PoseLanes& own) const {
+    const std::size_t dofs = step.values.size();
+    double q[poseLanes * maxDofs];
+    for (std::uint32_t i = 0; i < poseLanes; ++i)
+        for (std::size_t k = 0; k < dofs; ++k) q[i * dofs + k] = values[i][step.values[k]];
+    if (dofs > 0 && kernels_.poses) return kernels_.poses(step.plan, q, poseLanes, poseLanes, own.doubles);
+    Matrix place;
+    for (std::uint32_t i = 0; i < poseLanes; ++i) {
+        if (i == 0 || dofs > 0) step.recipe.evaluate(q + i * dofs, place.data());
+        for (std::size_t n = 0; n < place.size(); ++n) own.doubles[n + 1][i] = place[n];
+    }
+}
+
+void ChainPoses::evaluate(const double* const* values, BodyLanes* places) const {
+    PoseLanes own;
+    for (const Step& step : steps_) {
+        ownLanes(step, values, own);
+        if (step.parent < 0)
+            std::copy_n(&own.doubles[1][0], 12 * poseLanes, &places[step.body].numbers[0][0]);
+        else
+            laneKernels_.compose(places[step.parent], own, places[step.body]);
     }
 }
 

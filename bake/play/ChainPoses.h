@@ -1,6 +1,8 @@
 #pragma once
 #include "bake/model/SceneModel.h"
-#include "bake/table/PoseRecipe.h"
+#include "bake/table/Kernels.h"
+#include "bake/table/PoseLanes.h"
+#include "bake/table/PosePlan.h"
 
 #include <vector>
 
@@ -27,6 +29,9 @@ public:
     /// that of the body that its joints lead to in the end; of a body that no pair's joint links, nothing.
     void evaluate(const double* values, Matrix* places) const;
 
+    /// The same of poseLanes configurations at once: values of each, places one a body.
+    void evaluate(const double* const* values, BodyLanes* places) const;
+
     /// B to A, from their places.
     static void between(const Matrix& a, const Matrix& b, Matrix& out);
 
@@ -46,8 +51,12 @@ private:
         int parent = -1, body = -1;      ///< parent -1: one that stands at the origin
         std::vector<std::size_t> values; ///< of each DOF of the recipe, its place among all values
         PoseRecipe recipe;               ///< body to parent
+        PosePlan plan;                   ///< the same; empty where nothing moves
     };
+    void ownLanes(const Step& step, const double* const* values, PoseLanes& own) const;
 
+    KernelSet kernels_ = directKernels<double>(KernelTarget::Best);
+    LaneKernels laneKernels_ = laneKernels(KernelTarget::Best);
     std::vector<Step> steps_;      ///< each parent before its children
     std::vector<bool> served_;     ///< per joint
     std::vector<Motion> toOrigin_; ///< per body: its motion against the origin's

@@ -1,7 +1,7 @@
 #include "bake/play/JointPlan.h"
 
 #include "bake/base/Error.h"
-#include "bake/model/PairDofs.h"
+#include "bake/model/Kinematics.h"
 #include "bake/motion/MotionBound.h"
 #include "bake/table/Query.h"
 
@@ -53,8 +53,9 @@ void addGroup(const SceneModel& scene, const std::vector<Placed>& tables, JointP
     plan.groups.push_back({pairs, slots, JointResponder(entries, static_cast<int>(slots.size()))});
 }
 
-/// In as few groups as a simple rule finds: each table where its values and those that are there already are
-/// no more than a response serves, of these where it adds fewest.
+/// Puts the tables into groups that are answered together. A group holds at most maxDofs values of joints;
+/// each table goes to the group with room for it that it adds the fewest values to, or starts a new one. That
+/// gives few groups, not always the fewest.
 std::vector<std::vector<Placed>> grouped(const std::vector<Placed>& tables) {
     std::vector<std::vector<Placed>> groups;
     std::vector<std::set<std::size_t>> slots;

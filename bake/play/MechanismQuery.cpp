@@ -1,11 +1,12 @@
 #include "bake/play/MechanismQuery.h"
 
 #include "bake/base/Error.h"
-#include "bake/model/PairDofs.h"
+#include "bake/model/Kinematics.h"
 #include "bake/play/ChainPoses.h"
 #include "bake/table/TableKernels.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <random>
 
@@ -36,8 +37,15 @@ public:
     std::size_t provenCount() const { return parts_.size() - tables_.size(); }
     MechanismWorkspace workspace() const;
     MechanismAnswer ask(const double* values, MechanismWorkspace& ws) const;
+    void ask(const double* values, std::size_t count, MechanismAnswer* answers, MechanismWorkspace& ws) const;
 
 private:
+    /// Configurations side by side.
+    struct Lanes {
+        std::array<const double*, poseLanes> values;
+        std::array<MechanismAnswer*, poseLanes> answers;
+        std::uint32_t count = 0;
+    };
     /// The values of one pair, and the limits that its table or proof was made for.
     struct Part {
         int pair = -1;
@@ -61,6 +69,9 @@ private:
     const double* ownValues(const Part& part, const double* values, double* room) const;
     bool beyond(const Part& part, const double* values) const;
     bool touches(const Asked& asked, const double* values, const ChainPoses::Matrix* places) const;
+    bool touchesUnplaced(const Asked& asked, const double* values) const;
+    /// Asks the tables that need places of all of these.
+    void askPlaced(Lanes& lanes, MechanismWorkspace& ws) const;
     /// The values, those beyond the limits replaced: for places, of which the pairs that have such a value
     /// make no use.
     const double* limited(const double* values, MechanismWorkspace& ws) const;
@@ -193,12 +204,15 @@ std::vector<int> MechanismQuery::Prepared::order() const {
 }
 
 MechanismWorkspace MechanismQuery::Prepared::workspace() const {
-    return {std::vector<ChainPoses::Matrix>(bodyCount_), std::vector<double>(valueCount())};
+    return {std::vector<ChainPoses::Matrix>(bodyCount_), std::vector<double>(valueCount()),
+            std::vector<BodyLanes>(bodyCount_)};
 }
 
 bool MechanismQuery::Prepared::within(const double* values) const {
+    int in = 1;
     for (std::size_t k = 0; k < lower_.size(); ++k)
-        if (!(values[k] >= lower_[k] && values[k] <= upper_[k]) && std::isfinite(lower_[k])) return false;
+        in &= static_cast<int>(values[k] >= lower_[k]) & static_cast<int>(values[k] <= upper_[k]);
+    if (in == 0) return false;
     if (!planes_) return true;
     return std::none_of(parts_.begin(), parts_.end(), [&](const Part& part) {
         return !part.motion.planes.empty() && beyond(part, values);
@@ -219,10 +233,7 @@ bool MechanismQuery::Prepared::beyond(const Part& part, const double* values) co
 
 bool MechanismQuery::Prepared::touches(const Asked& asked, const double* values,
                                        const ChainPoses::Matrix* places) const {
-    if (!asked.placed) {
-        DofValues room;
-        return asked.table.hit(ownValues(parts_[asked.part], values, room.data()));
-    }
+    if (!asked.placed) return touchesUnplaced(asked, values);
     const ChainPoses::Matrix &a = places[asked.bodyA], &b = places[asked.bodyB];
     if (ChainPoses::squaredDistance(a, asked.a, b, asked.b) > asked.farSquared) return false;
     ChainPoses::Matrix between;
@@ -230,6 +241,11 @@ bool MechanismQuery::Prepared::touches(const Asked& asked, const double* values,
     TableFeatures features;
     asked.table.features(between, features);
     return asked.table.hit(features);
+}
+
+bool MechanismQuery::Prepared::touchesUnplaced(const Asked& asked, const double* values) const {
+    DofValues room;
+    return asked.table.hit(ownValues(parts_[asked.part], values, room.data()));
 }
 
 const double* MechanismQuery::Prepared::limited(const double* values, MechanismWorkspace& ws) const {
@@ -261,6 +277,51 @@ MechanismAnswer MechanismQuery::Prepared::ask(const double* values, MechanismWor
     return untouched(values, inside);
 }
 
+void MechanismQuery::Prepared::ask(const double* values, std::size_t count, MechanismAnswer* answers,
+                                   MechanismWorkspace& ws) const {
+    Lanes lanes;
+    for (std::size_t i = 0; i < count; ++i, values += valueCount()) {
+        if (!within(values)) {
+            answers[i] = ask(values, ws);
+            continue;
+        }
+        answers[i] = {MechanismAnswer::Verdict::Free, -1};
+        const auto touching = std::find_if(tables_.begin(), tables_.end(), [&](const Asked& asked) {
+            return !asked.placed && touchesUnplaced(asked, values);
+        });
+        if (touching != tables_.end()) {
+            answers[i] = {MechanismAnswer::Verdict::Contact, parts_[touching->part].pair};
+            continue;
+        }
+        lanes.values[lanes.count] = values;
+        lanes.answers[lanes.count] = &answers[i];
+        if (++lanes.count == poseLanes) askPlaced(lanes, ws);
+    }
+    if (lanes.count > 0) askPlaced(lanes, ws);
+}
+
+void MechanismQuery::Prepared::askPlaced(Lanes& lanes, MechanismWorkspace& ws) const {
+    std::fill(lanes.values.begin() + lanes.count, lanes.values.end(), lanes.values[0]);
+    chain_.evaluate(lanes.values.data(), ws.lanes.data());
+    std::uint32_t open = (1u << lanes.count) - 1;
+    lanes.count = 0;
+    PoseLanes poses;
+    for (auto asked = tables_.begin(); asked != tables_.end() && open != 0; ++asked) {
+        if (!asked->placed) continue;
+        const TableKernels& kernels = asked->table.kernels();
+        const BodyLanes &a = ws.lanes[asked->bodyA], &b = ws.lanes[asked->bodyB];
+        const std::uint32_t near =
+            open & kernels.laneKernels().near(a, asked->a, b, asked->b, asked->farSquared);
+        if (near == 0) continue;
+        kernels.features(a, b, poses);
+        const std::uint32_t touching = kernels.hits(poses, near);
+        for (std::uint32_t left = touching; left != 0; left &= left - 1)
+            *lanes.answers[std::countr_zero(left)] = {MechanismAnswer::Verdict::Contact,
+                                                      parts_[asked->part].pair};
+        open &= ~touching;
+    }
+}
+
 MechanismQuery::MechanismQuery(const SceneModel& scene, const std::vector<int>& order)
     : prepared_(std::make_unique<const Prepared>(scene, order)) {}
 MechanismQuery::MechanismQuery(MechanismQuery&&) noexcept = default;
@@ -289,6 +350,11 @@ MechanismWorkspace MechanismQuery::workspace() const {
 
 MechanismAnswer MechanismQuery::ask(const double* values, MechanismWorkspace& ws) const {
     return prepared_->ask(values, ws);
+}
+
+void MechanismQuery::ask(const double* values, std::size_t count, MechanismAnswer* answers,
+                         MechanismWorkspace& ws) const {
+    prepared_->ask(values, count, answers, ws);
 }
 
 } // namespace tss

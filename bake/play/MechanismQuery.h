@@ -1,5 +1,6 @@
 #pragma once
 #include "bake/model/SceneModel.h"
+#include "bake/table/PoseLanes.h"
 
 #include <array>
 #include <cstdint>
@@ -20,10 +21,11 @@ struct MechanismAnswer {
     int pair = -1; ///< of the scene: the first that was found to touch; -1: none
 };
 
-/// Room for one question, made once per thread by MechanismQuery::workspace.
+/// Room for questions, made once per thread by MechanismQuery::workspace.
 struct MechanismWorkspace {
     std::vector<std::array<double, 12>> places; ///< one a body: 3 by 4, row-major, rotation first
     std::vector<double> limited;                ///< one a value
+    std::vector<BodyLanes> lanes;               ///< one a body, in poseLanes configurations
 };
 
 /// A whole mechanism as one question: whether any pair of bodies touches, given a value for every DOF of all
@@ -56,6 +58,12 @@ public:
 
     /// values: valueCount(), finite.
     MechanismAnswer ask(const double* values, MechanismWorkspace& ws) const;
+
+    /// Many configurations: values has a row of valueCount() for each, answers room for as many. The tables
+    /// that need no places are asked of each configuration; those that this leaves open go on side by side,
+    /// so that joints and places are worked out in vectors. Verdicts are those of the above, but where
+    /// rounding decides; of several pairs that touch another one may be named.
+    void ask(const double* values, std::size_t count, MechanismAnswer* answers, MechanismWorkspace& ws) const;
 
 private:
     class Prepared;

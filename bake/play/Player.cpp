@@ -3,7 +3,6 @@
 #include "bake/base/ThreadTime.h"
 #include "bake/geometry/Solid.h"
 #include "bake/model/Kinematics.h"
-#include "bake/model/PairDofs.h"
 #include "bake/motion/MuscleDeformer.h"
 #include "bake/motion/MuscleSpan.h"
 #include "bake/play/JointPlan.h"

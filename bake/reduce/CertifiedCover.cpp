@@ -68,7 +68,7 @@ private:
     /// the poses that this list still misses, until it misses none or is as small as its bound nearly.
     void makeSmaller() {
         for (int round = 0; round < options_.rounds; ++round) {
-            const ConstraintCover smallest = coverConstraints(demands_);
+            const PairCover smallest = coverConstraints(demands_);
             if (double(cover_.members().size()) <= 1.02 * smallest.lowerBound) return;
             Cover next(problem_);
             for (const SpherePair& pair : smallest.pairs) {

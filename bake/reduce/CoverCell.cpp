@@ -16,9 +16,12 @@ bool deeper(const PairInCell& x, const PairInCell& y) {
     return x.gap != y.gap ? x.gap < y.gap : x.reachPair.pair < y.reachPair.pair;
 }
 
-/// The offset from the centre, in the cell, that by the slopes makes (gap of k - weight * gap of p) largest
-/// while the gap of p is <= level: a linear program with one row, solved by turning the DOFs that cost least.
-/// k null: where p is deepest. answer: what the value must exceed to matter.
+/// Where in the cell to look for a pose at which pair p owes an answer and member k does not give it. With
+/// gaps taken as linear in the DOFs, finds the offset from the cell's centre that makes f = gap of k - weight
+/// * gap of p largest while the gap of p is at most `level`: a linear program with one constraint, solved
+/// from the corner where f is largest by turning those DOFs that lose least of f per gap won. Only f >
+/// `answer` matters, so a part of the excess is spent on getting inside the constraint. k null: the corner
+/// where p is deepest.
 std::array<double, maxDofs> extremeOffset(const CellMotion& motion, const PairInCell* k, const PairInCell& p,
                                           double weight, double level, double answer) {
     std::array<double, maxDofs> offset{}, price{};

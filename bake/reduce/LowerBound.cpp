@@ -1,6 +1,7 @@
 #include "bake/reduce/LowerBound.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/reduce/SetCover.h"
 #include "bake/search/NodePairs.h"
 
 #include <algorithm>
@@ -45,25 +46,31 @@ std::vector<PoseConstraint> constraintsAt(const CoverProblem& problem, const Err
     return demands;
 }
 
-ConstraintCover coverConstraints(const std::vector<PoseConstraint>& demands) {
+PairCover coverPairs(const std::vector<std::span<const SpherePair>>& rows) {
     std::map<SpherePair, std::uint32_t> number;
-    for (const PoseConstraint& demand : demands)
-        for (const SpherePair& pair : demand.pairs) number.emplace(pair, 0);
+    for (const auto& row : rows)
+        for (const SpherePair& pair : row) number.emplace(pair, 0);
     std::vector<SpherePair> pairs;
     for (auto& [pair, n] : number) {
         n = static_cast<std::uint32_t>(pairs.size());
         pairs.push_back(pair);
     }
-    std::vector<std::vector<std::uint32_t>> rows;
-    for (const PoseConstraint& demand : demands) {
-        rows.emplace_back();
-        for (const SpherePair& pair : demand.pairs) rows.back().push_back(number[pair]);
+    std::vector<std::vector<std::uint32_t>> columns;
+    for (const auto& row : rows) {
+        columns.emplace_back();
+        for (const SpherePair& pair : row) columns.back().push_back(number[pair]);
     }
-    const SetCover cover = coverRows(std::move(rows));
-    ConstraintCover result;
+    const SetCover cover = coverRows(std::move(columns));
+    PairCover result;
     result.lowerBound = cover.lowerBound;
     for (std::uint32_t c : cover.chosen) result.pairs.push_back(pairs[c]);
     return result;
+}
+
+PairCover coverConstraints(const std::vector<PoseConstraint>& demands) {
+    std::vector<std::span<const SpherePair>> rows;
+    for (const PoseConstraint& demand : demands) rows.emplace_back(demand.pairs);
+    return coverPairs(rows);
 }
 
 } // namespace tss

@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/reduce/CoverProof.h"
-#include "bake/reduce/SetCover.h"
+
+#include <span>
 
 namespace tss {
 
@@ -16,10 +17,13 @@ std::vector<PoseConstraint> constraintsAt(const CoverProblem& problem, const Err
 
 /// The fewest pairs found that meet all demands, and the fewest there can be: a bound for every table,
 /// however it is made.
-struct ConstraintCover {
-    std::vector<SpherePair> pairs;
+struct PairCover {
+    std::vector<SpherePair> pairs; ///< sorted
     double lowerBound = 0;
 };
-ConstraintCover coverConstraints(const std::vector<PoseConstraint>& demands);
+PairCover coverConstraints(const std::vector<PoseConstraint>& demands);
+
+/// The same for demands without poses. rows: pairs any one of which meets a demand, not empty, sorted.
+PairCover coverPairs(const std::vector<std::span<const SpherePair>>& rows);
 
 } // namespace tss

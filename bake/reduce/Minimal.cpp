@@ -2,12 +2,11 @@
 #include "bake/reduce/Minimal.h"
 
 #include "bake/base/Parallel.h"
-#include "bake/reduce/SetCover.h"
+#include "bake/reduce/LowerBound.h"
 #include "bake/search/ExploredPoses.h"
 #include "bake/search/NodePairs.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 
 namespace tss {
@@ -74,23 +73,9 @@ Reduced reduceMinimal(const SphereSet& a, const SphereSet& b, const Motion& moti
     const auto conditions = Conditions(a, b, motion, rule)
                                 .collect(exploredPoses(motion, options.samples, options.seed), progress);
 
-    std::map<SpherePair, std::uint32_t> number;
-    for (const auto& list : conditions)
-        for (const SpherePair& p : list) number.emplace(p, 0);
-    std::vector<SpherePair> pairs;
-    for (auto& [pair, n] : number) {
-        n = static_cast<std::uint32_t>(pairs.size());
-        pairs.push_back(pair);
-    }
-    std::vector<std::vector<std::uint32_t>> rows;
-    for (const auto& list : conditions) {
-        rows.emplace_back();
-        for (const SpherePair& p : list) rows.back().push_back(number[p]);
-    }
-    const SetCover cover = coverRows(std::move(rows));
-
+    const PairCover cover = coverPairs({conditions.begin(), conditions.end()});
     CandidatePairs chosen;
-    for (std::uint32_t c : cover.chosen) chosen.pairs.push_back(pairs[c]);
+    chosen.pairs = cover.pairs;
     countSpheres(chosen);
     return {chosen.pairs, rule.thresholds(chosen.pairs), chosen.spheresA, chosen.spheresB, cover.lowerBound};
 }

@@ -1,5 +1,6 @@
 #include "bake/report/PairStudy.h"
 
+#include "bake/base/Degrees.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 
@@ -165,9 +166,8 @@ void describe(PairStudy& study, const SceneModel& scene, const Pair& pair, const
     study.nameA = last(scene.bodies[static_cast<std::size_t>(pair.bodyA)].path);
     study.nameB = last(scene.bodies[static_cast<std::size_t>(pair.bodyB)].path);
     study.millimetres = 1000 * scene.metersPerUnit;
-    constexpr double degrees = 180 / 3.14159265358979323846;
     for (const Dof& dof : motion.dofs) {
-        const double factor = dof.kind == DofKind::Rotation ? degrees : 1;
+        const double factor = dof.kind == DofKind::Rotation ? toDegrees(1) : 1;
         study.dofs.push_back(fmt::format("{}: {:.4g} to {:.4g}{}", dof.name, dof.lower * factor,
                                          dof.upper * factor,
                                          dof.kind == DofKind::Rotation ? " degrees" : ""));

@@ -1,5 +1,7 @@
 #include "bake/report/Text.h"
 
+#include "bake/base/Degrees.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -52,10 +54,7 @@ double deepestMiss(const Row& row) {
 std::string firstContactText(const PairStudy& study, const Row& row) {
     if (row.firstContact.motions == row.firstContact.never) return "never";
     std::string text = number(study.millimetres * row.firstContact.worstLength) + " mm";
-    if (study.leadingUnit == "degrees") {
-        constexpr double degrees = 180 / 3.14159265358979323846;
-        text += ", " + number(degrees * row.firstContact.worstAngle) + "°";
-    }
+    if (study.leadingUnit == "degrees") text += ", " + number(toDegrees(row.firstContact.worstAngle)) + "°";
     if (row.firstContact.never)
         text += fmt::format(" ({} of {} never)", row.firstContact.never, row.firstContact.motions);
     return text;

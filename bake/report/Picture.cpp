@@ -1,12 +1,12 @@
 #include "bake/report/Picture.h"
 
+#include "bake/base/Degrees.h"
 #include "bake/report/Png.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <numbers>
 
 namespace tss::reporting {
 
@@ -145,8 +145,8 @@ std::vector<Picture> picturesOf(const SceneModel& scene, const Pair& pair, std::
             if (limit == dof.rest) continue;
             poses.push_back(poses.front());
             poses.back()[leadingDof] = limit;
-            captions.push_back(fmt::format("{} {:.4g}{}", dof.name,
-                                           turns ? limit * 180 / std::numbers::pi : limit, turns ? "°" : ""));
+            captions.push_back(
+                fmt::format("{} {:.4g}{}", dof.name, turns ? toDegrees(limit) : limit, turns ? "°" : ""));
         }
     }
     const View view = viewOf(scene, pair, motion, leadingDof, poses);

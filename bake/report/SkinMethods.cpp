@@ -98,22 +98,19 @@ Work byTrees(const RefittedTree& skin, const std::vector<std::uint32_t>& vertexO
     const auto test = [&](std::uint32_t a, std::uint32_t b) {
         counter.sphereTest();
         const BallTree::Node &na = skin.tree.nodes[a], &nb = muscle.tree.nodes[b];
-        if (!overlap({na.centre, na.radius}, {nb.centre, nb.radius})) return;
+        if (!overlap({na.centre, na.radius}, {nb.centre, nb.radius})) return false;
         if (na.count == 0 && nb.count == 0) {
             found[vertexOf[skin.leafOf[a]]] = 1;
         } else {
             stack.emplace_back(a, b);
         }
+        return false; // go on
     };
     if (!skin.tree.nodes.empty() && !muscle.tree.nodes.empty()) test(0, 0);
     while (!stack.empty()) {
         const auto [a, b] = stack.back();
         stack.pop_back();
-        const BallTree::Node &na = skin.tree.nodes[a], &nb = muscle.tree.nodes[b];
-        const bool openA = nb.count == 0 || (na.count > 0 && na.radius >= nb.radius);
-        const BallTree::Node& opened = openA ? na : nb;
-        for (std::uint32_t k = opened.first; k < opened.first + opened.count; ++k)
-            openA ? test(k, b) : test(a, k);
+        openLarger(skin.tree, muscle.tree, a, b, test);
     }
     return counter.work;
 }

@@ -1,5 +1,6 @@
 #include "bake/report/PairStudy.h"
 
+#include "bake/base/Degrees.h"
 #include "bake/base/Parallel.h"
 
 #include <chrono>
@@ -13,7 +14,7 @@ namespace {
 using namespace compare;
 
 double degreesPer(const Dof& dof) {
-    return dof.kind == DofKind::Rotation ? 180 / 3.14159265358979323846 : 1;
+    return dof.kind == DofKind::Rotation ? toDegrees(1) : 1;
 }
 
 /// The scene's own animation of the pair where a single joint carries it, else the leading DOF from its upper

@@ -186,8 +186,9 @@ void narrow(const JointModel& model, double distance, ResponseRoom& ws);
 void linearise(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws,
                std::size_t first = 0);
 
-/// A gap on the scale that tables of one joint share: above contact as a share of what its own table keeps,
-/// in units of the least of them; in contact as it is. Monotone, and positive where the gap is.
+/// The tables of one joint keep different gaps (contactOffset). A level makes gaps of different tables
+/// comparable: a gap > 0 is scaled so that every table's contactOffset becomes the smallest of them; a gap <=
+/// 0 stays as it is. Monotone.
 inline double levelOf(const JointModel& model, double contactOffset, double gap) {
     return gap > 0 ? gap * (model.leastContactOffset / contactOffset) : gap;
 }

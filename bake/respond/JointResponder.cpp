@@ -28,12 +28,10 @@ TableOnJoint wholeJoint(const Table& table) {
 constexpr std::size_t manyNear = 128;
 constexpr double leastLeg = 1.0 / 4096, firstLeg = 1.0 / 256;
 
-/// How the way from a pose to the goal is gone: in so many equal legs, so that few pairs are near each, or
-/// where tables are in clusters in legs as long as few pairs are near, the next one this share of what is
-/// left.
+/// The way from a pose to the goal is gone in legs, so that few pairs are near each of them.
 struct Legs {
-    int count = 1;
-    double share = 1;
+    int count = 1;    ///< equal legs; of a model without tables in clusters
+    double share = 1; ///< of the way left that the next leg goes; of a model with such tables
 };
 
 int equalLegs(const JointModel& model, const DofValues& start, const DofValues& goal) {
@@ -85,8 +83,8 @@ Legs beginLegs(const JointModel& model, const DofValues& q, const DofValues& goa
     return legs;
 }
 
-/// Goes from q to the goal as far as the way is free, in legs; the near pairs must be those of the first one,
-/// and are those of the last one gone. False where it is not free to the end.
+/// Goes from q to the goal, leg by leg, as far as the way is free. Before, ws holds the near pairs of the
+/// first leg; after, those of the last leg that was begun. False where the way is not free to the end.
 bool walk(const JointModel& model, const DofValues& goal, Legs legs, DofValues& q, ResponseRoom& ws) {
     if (model.clustered) {
         while (legs.share < 1) {

@@ -126,9 +126,10 @@ bool listAhead(const JointModel& model, const DofValues& q, const DofValues& way
     return true;
 }
 
-/// What each near pair needs above its threshold at the end of a way so that the bend of its gap does not
-/// block the way: what the gap there lacks against the linear guess, and room for the bound that `advance`
-/// must assume. Returns whether any demand that the way was found with was too low.
+/// A way is found with linearised gaps, but gaps bend, and `advance` must assume the worst bend. Sets for
+/// each near pair how far above its threshold the linear gap has to end for the way to be free: by how much
+/// the true gap at the end is smaller, and by how far its worst bend may dip below a straight line in between
+/// (an eighth of the acceleration). True where the way was found with less than that for some pair.
 bool findLifts(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws) {
     std::fill(ws.ended.begin(), ws.ended.end(), std::uint8_t(0));
     const auto placeEnd = [&](std::size_t g) {

@@ -33,7 +33,8 @@ double activationOf(std::span<const double> activations, const SkinBody& body, s
 class SkinResponse::State {
 public:
     explicit State(std::shared_ptr<const SkinRig> rig);
-    SkinUpdate update(std::span<const double> activations, std::span<const Pose> poses);
+    SkinUpdate update(std::span<const double> activations, std::span<const Pose> poses,
+                      std::span<const Vec3> shift);
     std::span<const Vec3> positions() const { return positions_; }
     std::span<const Vec3> normals() const { return normals_; }
     const SkinRig& rig() const { return *rig_; }
@@ -52,6 +53,7 @@ private:
         std::uint32_t row = 0;
         SkinPlane plane;
     };
+    bool shiftBy(std::span<const Vec3> shift);
     std::uint64_t placeOfChoice(const SkinRow& row, const SkinPlane& plane) const;
     Seen seen(const SkinRow& row, const SkinPlane& plane) const;
     bool mayPush(std::uint32_t r) const;
@@ -83,6 +85,7 @@ private:
     std::vector<char> shown_, shownBefore_; ///< #blocks: places and normals are not those at rest
     std::vector<double> activations_;
     std::vector<Pose> poses_;
+    std::vector<Vec3> shift_; ///< #touched; empty: none
     double residual_ = 0;
     std::size_t contacts_ = 0;
     bool atRest_ = true;
@@ -97,8 +100,18 @@ SkinResponse::State::State(std::shared_ptr<const SkinRig> rig)
         for (const Move& x : *places) turned_.emplace_back(x[1], x[2], x[0], 0);
 }
 
-SkinUpdate SkinResponse::State::update(std::span<const double> activations, std::span<const Pose> poses) {
-    bool same = true, rest = true;
+/// Takes it over, and returns whether it was that already.
+bool SkinResponse::State::shiftBy(std::span<const Vec3> shift) {
+    const bool none = std::all_of(shift.begin(), shift.end(), [](const Vec3& s) { return s.isZero(0); });
+    if (none || shift.size() != rig_->vertices.size()) shift = {};
+    if (std::equal(shift.begin(), shift.end(), shift_.begin(), shift_.end())) return true;
+    shift_.assign(shift.begin(), shift.end());
+    return false;
+}
+
+SkinUpdate SkinResponse::State::update(std::span<const double> activations, std::span<const Pose> poses,
+                                       std::span<const Vec3> shift) {
+    bool same = shiftBy(shift), rest = shift_.empty();
     for (std::size_t m = 0; m < rig_->bodies.size(); ++m) {
         const double a = activationOf(activations, rig_->bodies[m], m);
         same = same && a == activations_[m];
@@ -129,7 +142,7 @@ SkinUpdate SkinResponse::State::update(std::span<const double> activations, std:
             scene_.live.assign(rig_->blocks(), 1);
         } else {
             takeBack();
-            placeBodies(*rig_, activations_, poses_, scene_);
+            placeBodies(*rig_, activations_, poses_, shift_, scene_);
             resist();
         }
         show();
@@ -340,8 +353,9 @@ SkinResponse::SkinResponse(SkinResponse&&) noexcept = default;
 SkinResponse& SkinResponse::operator=(SkinResponse&&) noexcept = default;
 SkinResponse::~SkinResponse() = default;
 
-SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<const Pose> poses) {
-    return state_->update(activations, poses);
+SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<const Pose> poses,
+                                std::span<const Vec3> shift) {
+    return state_->update(activations, poses, shift);
 }
 
 std::span<const std::uint32_t> SkinResponse::vertices() const {

@@ -23,10 +23,10 @@ struct SkinUpdate {
 ///     response.update(activations, poses);                            // each update traversal
 ///     for k: mesh.vertices[response.vertices()[k]] = response.positions()[k], and so the normals
 ///
-/// Quasi-static: no time step, no velocity, and no history: the skin is a function of the activations and
-/// poses alone, the same bits whatever came before. With all activations 0 and all poses the identity it is
-/// exactly at rest. Nothing is allocated any more once its lists have grown to what the motion asks for. Not
-/// thread-safe: one thread an instance.
+/// Quasi-static: no time step, no velocity, and no history: the skin is a function of the activations,
+/// poses and shifts alone, the same bits whatever came before. With all activations 0 and all poses the
+/// identity it is exactly at rest. Nothing is allocated any more once its lists have grown to what the motion
+/// asks for. Not thread-safe: one thread an instance.
 class SkinResponse {
 public:
     explicit SkinResponse(std::shared_ptr<const SkinRig> rig);
@@ -36,7 +36,10 @@ public:
 
     /// activations: one a body in the rig's order, missing ones count as 0, clamped to each one's range.
     /// poses: motion of each body (its bone) since rest, in the skin's frame; empty: none moves.
-    SkinUpdate update(std::span<const double> activations, std::span<const Pose> poses = {});
+    /// shift: how far something else, as a morph target, has moved each of vertices() since rest, before
+    /// bones turn it: in the skin's frame, scene units; empty: nothing has.
+    SkinUpdate update(std::span<const double> activations, std::span<const Pose> poses = {},
+                      std::span<const Vec3> shift = {});
 
     /// The vertices that are touched, the only ones that move: indices into the skin's mesh.
     std::span<const std::uint32_t> vertices() const;

@@ -210,7 +210,7 @@ std::vector<bool> addRows(SkinRig& rig, const std::vector<SkinBefore>& before,
     SkinScene scene;
     bool atRest = true;
     for (const Station& station : stationsOf(rig)) {
-        placeBodies(rig, station.activations, station.poses, scene);
+        placeBodies(rig, station.activations, station.poses, {}, scene);
         const TriangleMesh skin = skinAt(rig, scene);
         const ClosestPointQuery locator(skin);
         meetBodies(rig, scene, skin, locator, atRest, bodies);
@@ -225,7 +225,7 @@ std::vector<bool> addRows(SkinRig& rig, const std::vector<SkinBefore>& before,
 void measureRows(SkinRig& rig) {
     SkinScene scene;
     placeBodies(rig, std::vector<double>(rig.bodies.size(), 0),
-                std::vector<Pose>(rig.bodies.size(), Pose::Identity()), scene);
+                std::vector<Pose>(rig.bodies.size(), Pose::Identity()), {}, scene);
     parallelFor(rig.rows.size(), [&](std::size_t r) {
         SkinRow& row = rig.rows[r];
         const bool body = row.meeting == SkinMeeting::SkinOnBody;

@@ -67,12 +67,14 @@ Move turned(const SkinRig& rig, SkinScene& scene, std::size_t v, const Move& sum
     return result;
 }
 
-void placeBlock(const SkinRig& rig, std::size_t block, bool turns, SkinScene& scene) {
+void placeBlock(const SkinRig& rig, std::size_t block, bool turns, std::span<const Vec3> shift,
+                SkinScene& scene) {
     const std::size_t last = std::min((block + 1) * SkinRig::block, rig.places.size());
     for (std::size_t v = block * SkinRig::block; v < last; ++v) {
         Move sum = Move::Zero();
         for (std::uint32_t k = rig.pullStart[v]; k < rig.pullStart[v + 1]; ++k)
             sum += rig.pulls[k].share * scene.moves[rig.pulls[k].from];
+        if (!shift.empty()) sum.head<3>() += (shift[v] / rig.size).cast<float>();
         scene.skinNormals[v] = rig.placeNormals[v];
         scene.carried[v] = turns ? turned(rig, scene, v, sum) : Move(rig.places[v] + sum);
         scene.skin[v] = scene.carried[v];
@@ -92,7 +94,7 @@ void prepareScene(const SkinRig& rig, SkinScene& scene) {
 } // namespace
 
 void placeBodies(const SkinRig& rig, std::span<const double> activations, std::span<const Pose> poses,
-                 SkinScene& scene) {
+                 std::span<const Vec3> shift, SkinScene& scene) {
     if (scene.bodies.size() != rig.bodies.size()) prepareScene(rig, scene);
     scene.frames.resize(rig.frames);
     scene.still.assign(rig.frames, true);
@@ -119,7 +121,8 @@ void placeBodies(const SkinRig& rig, std::span<const double> activations, std::s
     }
     const bool turns = std::find(scene.still.begin(), scene.still.end(), false) != scene.still.end();
     for (std::size_t b = 0; b < scene.live.size(); ++b) {
-        if (scene.live[b] != 0) placeBlock(rig, b, turns, scene);
+        if (!shift.empty()) scene.live[b] |= 2;
+        if (scene.live[b] != 0) placeBlock(rig, b, turns, shift, scene);
         scene.live[b] = (scene.live[b] & 2) / 2;
     }
 }

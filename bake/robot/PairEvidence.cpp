@@ -1,7 +1,7 @@
 #include "bake/robot/PairEvidence.h"
 
 #include "bake/geometry/MeshQuery.h"
-#include "bake/model/JointGraph.h"
+#include "bake/model/Kinematics.h"
 #include "bake/model/SourceHash.h"
 #include "bake/search/ExploredPoses.h"
 #include "bake/table/Query.h"

@@ -1,6 +1,6 @@
 #include "bake/robot/WritePairs.h"
 
-#include "bake/scene/PrimWriter.h"
+#include "bake/scene/Properties.h"
 #include "bake/scene/SceneFile.h"
 
 #include <algorithm>
@@ -130,7 +130,7 @@ Layer withFilteredPairs(const SceneModel& scene, const std::vector<PairEvidence>
         Prim* prim = findPrim(layer, scene.bodies[body].path);
         if (!prim) continue;
         addApi(*prim, "PhysicsFilteredPairsAPI");
-        PrimWriter(*prim).setTargets("physics:filteredPairs", paths);
+        PrimWriter(*prim).setTargets({"physics:filteredPairs", "rel"}, paths);
     }
     return layer;
 }

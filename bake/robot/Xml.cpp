@@ -89,7 +89,9 @@ std::unique_ptr<tinyxml2::XMLDocument> parseXml(const std::string& text, const s
     if (document->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
         if (const auto at = text.find("<!DOCTYPE"); at != text.npos)
             refuseDocumentType(file, 1 + static_cast<int>(std::count(text.begin(), text.begin() + at, '\n')));
-        throw InputError(Where{file, lineText(document->ErrorLineNum()), ""}, reasonOf(*document));
+        throw InputError(
+            Where{file, document->ErrorLineNum() > 0 ? lineText(document->ErrorLineNum()) : "", ""},
+            reasonOf(*document));
     }
     for (const auto* node = document->FirstChild(); node; node = node->NextSibling())
         if (node->ToUnknown()) refuseDocumentType(file, node->GetLineNum());

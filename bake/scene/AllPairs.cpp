@@ -1,10 +1,9 @@
 #include "bake/scene/AllPairs.h"
 
 #include "bake/base/Error.h"
-#include "bake/model/JointGraph.h"
+#include "bake/model/Kinematics.h"
 #include "bake/motion/MotionBound.h"
-#include "bake/scene/Layer.h"
-#include "bake/scene/SceneWriting.h"
+#include "bake/scene/SceneParts.h"
 
 #include <algorithm>
 #include <optional>

@@ -2,7 +2,6 @@
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Sha256.h"
-#include "bake/scene/ValueType.h"
 
 #include <bit>
 #include <cmath>
@@ -74,172 +73,6 @@ fs::path folderOf(const std::string& file) {
     return folder.empty() ? "." : folder;
 }
 
-class BufferReader {
-public:
-    BufferReader(const std::string& fileName, Problems& problems) : file_(fileName), problems_(problems) {}
-
-    void readAll(const Value& list, const Place& place) {
-        const auto* array = list.as<Value::Array>();
-        if (!array) return problems_.add(place, "expected an array of buffers, found " + describe(list));
-        for (std::size_t i = 0; i < array->size(); ++i) {
-            const auto* keys = (*array)[i].as<Value::Object>();
-            if (!keys) problems_.add(place / i, "expected an object, found " + describe((*array)[i]));
-            auto bytes = keys ? read(*keys, place / i) : std::nullopt;
-            unread_.push_back(!bytes);
-            buffers_.push_back(bytes ? std::move(*bytes) : std::string());
-            left_.push_back(buffers_.back().size());
-        }
-    }
-
-    void fill(Value& prims, const Place& place) {
-        auto* array = prims.as<Value::Array>();
-        for (std::size_t i = 0; array && i < array->size(); ++i) {
-            auto* prim = (*array)[i].as<Value::Object>();
-            if (!prim) continue;
-            Place at = place / i;
-            const auto name = prim->find("name");
-            if (const auto* text = name == prim->end() ? nullptr : name->second.as<std::string>())
-                at.path += "/" + *text;
-            if (const auto found = prim->find("properties"); found != prim->end())
-                fillProperties(found->second, at);
-            if (const auto found = prim->find("primChildren"); found != prim->end())
-                fill(found->second, at / std::string("primChildren"));
-        }
-    }
-
-private:
-    std::optional<std::string> read(const Value::Object& keys, const Place& place) {
-        const auto text = [&](const char* key) {
-            const auto found = keys.find(key);
-            const auto* string = found == keys.end() ? nullptr : found->second.as<std::string>();
-            if (!string) problems_.add(place / std::string(key), std::string("expected the string ") + key);
-            return string ? *string : std::string();
-        };
-        const std::string uri = text(uriKey), hash = text(hashKey);
-        const auto length = whole(keys, lengthKey, place);
-        if (!length || uri.empty() || hash.empty()) return std::nullopt;
-        const Place at = place / std::string(uriKey);
-        if (file_.empty()) {
-            problems_.add(at, "expected a scene that is a file: its buffers stand beside it");
-            return std::nullopt;
-        }
-        if (!isBareName(uri)) {
-            problems_.add(at, "expected the bare name of a file beside the scene, found \"" + uri + "\"");
-            return std::nullopt;
-        }
-        const fs::path file = folderOf(file_) / uri;
-        std::error_code error;
-        const fs::file_status status = fs::symlink_status(file, error);
-        if (!fs::exists(status)) {
-            problems_.add(at, "the buffer \"" + uri +
-                                  "\" is missing: expected it beside the scene, where `convert "
-                                  "--buffers` put it");
-            return std::nullopt;
-        }
-        if (!fs::is_regular_file(status)) {
-            problems_.add(at, "expected a regular file beside the scene and no link: \"" + uri + "\"");
-            return std::nullopt;
-        }
-        const std::uintmax_t size = fs::file_size(file, error);
-        if (error || size != *length) {
-            problems_.add(place / std::string(lengthKey), "expected the size of \"" + uri + "\", " +
-                                                              std::to_string(size) + " bytes, found " +
-                                                              std::to_string(*length));
-            return std::nullopt;
-        }
-        std::string bytes = readWholeFile(file.string());
-        if (hashOf(bytes) == hash) return bytes;
-        problems_.add(place / std::string(hashKey),
-                      "expected the SHA-256 of \"" + uri + "\", " + hashOf(bytes) +
-                          ": the file is another one than the scene was saved with");
-        return std::nullopt;
-    }
-
-    /// A whole number of at least 0.
-    std::optional<std::uint64_t> whole(const Value::Object& keys, const char* key, const Place& place) {
-        const auto found = keys.find(key);
-        const double* number = found == keys.end() ? nullptr : found->second.as<double>();
-        if (number && *number >= 0 && *number == std::trunc(*number) && *number <= 9007199254740992.0)
-            return static_cast<std::uint64_t>(*number);
-        problems_.add(place / std::string(key),
-                      std::string("expected ") + key + ", an integer of at least 0" +
-                          (found == keys.end() ? "" : ", found " + describe(found->second)));
-        return std::nullopt;
-    }
-
-    void fillProperties(Value& properties, const Place& place) {
-        auto* all = properties.as<Value::Object>();
-        if (!all) return;
-        for (auto& [name, property] : *all) {
-            auto* keys = property.as<Value::Object>();
-            const auto typeName = keys ? keys->find("typeName") : Value::Object::iterator();
-            const auto* text = keys && typeName != keys->end() ? typeName->second.as<std::string>() : nullptr;
-            const auto type = text ? valueType(*text) : std::nullopt;
-            if (!type) continue;
-            Place at = place / std::string("properties") / name;
-            at.path += "." + name;
-            if (const auto found = keys->find("default"); found != keys->end())
-                fillValue(found->second, *type, *text, at / std::string("default"));
-            const auto found = keys->find("timeSamples");
-            auto* samples = found == keys->end() ? nullptr : found->second.as<Value::Array>();
-            for (std::size_t i = 0; samples && i < samples->size(); ++i)
-                if (auto* pair = (*samples)[i].as<Value::Array>(); pair && pair->size() == 2)
-                    fillValue((*pair)[1], *type, *text, at / std::string("timeSamples") / i / std::size_t(1));
-        }
-    }
-
-    void fillValue(Value& value, const ValueType& type, const std::string& typeName, const Place& place) {
-        const auto* keys = value.as<Value::Object>();
-        if (!keys || !keys->contains(bufferKey)) return;
-        Value numbers{Value::Array()};
-        view(*keys, type, typeName, place, numbers);
-        value = std::move(numbers);
-    }
-
-    void view(const Value::Object& keys, const ValueType& type, const std::string& typeName,
-              const Place& place, Value& out) {
-        const Scalar scalar = scalarOf(type);
-        if (scalar == Scalar::None)
-            return problems_.add(place,
-                                 "expected the value itself: " + typeName + " has no form in a buffer");
-        for (const auto& [key, value] : keys)
-            if (key != bufferKey && key != offsetKey && key != countKey)
-                return problems_.add(place / key,
-                                     "expected buffer, byteOffset and count, found \"" + key + "\"");
-        const auto index = whole(keys, bufferKey, place), offset = whole(keys, offsetKey, place),
-                   count = whole(keys, countKey, place);
-        if (!index || !offset || !count) return;
-        if (*index >= buffers_.size())
-            return problems_.add(place / std::string(bufferKey),
-                                 "expected an index below " + std::to_string(buffers_.size()) +
-                                     ", the number of buffers, found " + std::to_string(*index));
-        if (unread_[*index]) return; // which has been said
-        const std::string& bytes = buffers_[*index];
-        const std::size_t each = sizeOf(scalar) * static_cast<std::size_t>(type.width);
-        if (*offset > bytes.size() || *count > (bytes.size() - *offset) / each)
-            return problems_.add(place / std::string(countKey),
-                                 "expected elements inside of the buffer's " + std::to_string(bytes.size()) +
-                                     " bytes, found " + std::to_string(*count) + " of " +
-                                     std::to_string(each) + " bytes from " + std::to_string(*offset));
-        if (*count * each > left_[*index])
-            return problems_.add(place, "expected values that use no byte of a buffer twice");
-        left_[*index] -= *count * each;
-        if (*count == 0) return;
-        Numbers numbers{{}, type.width == 1 ? 0 : type.width};
-        numbers.values.reserve(*count * static_cast<std::size_t>(type.width));
-        const std::size_t step = sizeOf(scalar), end = *offset + *count * each;
-        for (std::size_t at = *offset; at < end; at += step)
-            numbers.values.push_back(decode(scalar, &bytes[at]));
-        out = Value(std::move(numbers));
-    }
-
-    const std::string file_;
-    Problems& problems_;
-    std::vector<std::string> buffers_;
-    std::vector<bool> unread_;      ///< that could not be read
-    std::vector<std::size_t> left_; ///< bytes of each that no value has used yet
-};
-
 /// Moves arrays of a layer into one block of bytes.
 class Packer {
 public:
@@ -275,15 +108,107 @@ private:
 
 } // namespace
 
-void inlineBuffers(Value& root, const std::string& fileName, Problems& problems) {
-    auto* keys = root.as<Value::Object>();
-    const auto list = keys ? keys->find("buffers") : Value::Object::iterator();
-    if (!keys || list == keys->end()) return;
-    BufferReader reader(fileName, problems);
-    reader.readAll(list->second, Place() / std::string("buffers"));
-    keys->erase(list);
-    if (const auto prims = keys->find("primChildren"); prims != keys->end())
-        reader.fill(prims->second, Place() / std::string("primChildren"));
+void BufferReader::readAll(const Value& list, const Place& place) {
+    any_ = true;
+    const auto* array = list.as<Value::Array>();
+    if (!array) return problems_.add(place, "expected an array of buffers, found ", describe(list));
+    for (std::size_t i = 0; i < array->size(); ++i) {
+        const auto* keys = (*array)[i].as<Value::Object>();
+        if (!keys) problems_.add(place / i, "expected an object, found ", describe((*array)[i]));
+        auto bytes = keys ? read(*keys, place / i) : std::nullopt;
+        unread_.push_back(!bytes);
+        buffers_.push_back(bytes ? std::move(*bytes) : std::string());
+        left_.push_back(buffers_.back().size());
+    }
+}
+
+std::optional<std::string> BufferReader::read(const Value::Object& keys, const Place& place) {
+    const auto text = [&](const char* key) {
+        const auto* string = member<std::string>(keys, key);
+        if (!string) problems_.add(place / key, "expected the string ", key);
+        return string ? *string : std::string();
+    };
+    const std::string uri = text(uriKey), hash = text(hashKey);
+    const auto length = whole(keys, lengthKey, place);
+    if (!length || uri.empty() || hash.empty()) return std::nullopt;
+    const fs::path file = folderOf(file_) / uri;
+    std::error_code error;
+    const fs::file_status status = fs::symlink_status(file, error);
+    const Place at = place / uriKey;
+    if (file_.empty()) {
+        problems_.add(at, "expected a scene that is a file: its buffers stand beside it");
+    } else if (!isBareName(uri)) {
+        problems_.add(at, "expected the bare name of a file beside the scene, found \"", uri, "\"");
+    } else if (!fs::exists(status)) {
+        problems_.add(at, "the buffer \"", uri,
+                      "\" is missing: expected it beside the scene, where `convert --buffers` put it");
+    } else if (!fs::is_regular_file(status)) {
+        problems_.add(at, "expected a regular file beside the scene and no link: \"", uri, "\"");
+    } else if (const auto size = fs::file_size(file, error); error || size != *length) {
+        problems_.add(place / lengthKey, "expected the size of \"", uri, "\", ", size, " bytes, found ",
+                      *length);
+    } else {
+        std::string bytes = readWholeFile(file.string());
+        const std::string found = hashOf(bytes);
+        if (found == hash) return bytes;
+        problems_.add(place / hashKey, "expected the SHA-256 of \"", uri, "\", ", found,
+                      ": the file is another one than the scene was saved with");
+    }
+    return std::nullopt;
+}
+
+std::optional<std::uint64_t> BufferReader::whole(const Value::Object& keys, const char* key,
+                                                 const Place& place) {
+    const auto found = keys.find(key);
+    const double* number = member<double>(keys, key);
+    if (number && *number >= 0 && *number == std::trunc(*number) && *number <= 9007199254740992.0)
+        return static_cast<std::uint64_t>(*number);
+    problems_.add(place / key, "expected ", key, ", an integer of at least 0",
+                  found == keys.end() ? "" : ", found " + describe(found->second));
+    return std::nullopt;
+}
+
+void BufferReader::fill(Value& value, const ValueType& type, const std::string& typeName,
+                        const Place& place) {
+    const auto* keys = value.as<Value::Object>();
+    if (!any_ || !keys || !keys->contains(bufferKey)) return;
+    auto numbers = view(*keys, type, typeName, place);
+    value = numbers ? std::move(*numbers) : Value(Value::Array());
+}
+
+std::optional<Value> BufferReader::view(const Value::Object& keys, const ValueType& type,
+                                        const std::string& typeName, const Place& place) {
+    const auto wrong = [&](const Place& at, const auto&... parts) {
+        problems_.add(at, parts...);
+        return std::nullopt;
+    };
+    const Scalar scalar = scalarOf(type);
+    if (scalar == Scalar::None)
+        return wrong(place, "expected the value itself: ", typeName, " has no form in a buffer");
+    for (const auto& [key, value] : keys)
+        if (key != bufferKey && key != offsetKey && key != countKey)
+            return wrong(place / key, "expected buffer, byteOffset and count, found \"", key, "\"");
+    const auto index = whole(keys, bufferKey, place), offset = whole(keys, offsetKey, place),
+               count = whole(keys, countKey, place);
+    if (!index || !offset || !count) return std::nullopt;
+    if (*index >= buffers_.size())
+        return wrong(place / bufferKey, "expected an index below ", buffers_.size(),
+                     ", the number of buffers, found ", *index);
+    if (unread_[*index]) return std::nullopt; // which has been said
+    const std::string& bytes = buffers_[*index];
+    const std::size_t step = sizeOf(scalar), each = step * static_cast<std::size_t>(type.width);
+    if (*offset > bytes.size() || *count > (bytes.size() - *offset) / each)
+        return wrong(place / countKey, "expected elements inside of the buffer's ", bytes.size(),
+                     " bytes, found ", *count, " of ", each, " bytes from ", *offset);
+    if (*count * each > left_[*index])
+        return wrong(place, "expected values that use no byte of a buffer twice");
+    left_[*index] -= *count * each;
+    if (*count == 0) return std::nullopt;
+    Numbers numbers{{}, type.width == 1 ? 0 : type.width};
+    numbers.values.reserve(*count * static_cast<std::size_t>(type.width));
+    for (std::size_t at = *offset, end = *offset + *count * each; at < end; at += step)
+        numbers.values.push_back(decode(scalar, &bytes[at]));
+    return Value(std::move(numbers));
 }
 
 Buffer takeBuffer(Layer& layer, const std::string& stem, std::size_t fewest) {

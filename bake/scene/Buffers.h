@@ -1,16 +1,38 @@
 #pragma once
 #include "bake/scene/Layer.h"
 #include "bake/scene/Problems.h"
+#include "bake/scene/ValueType.h"
 
 namespace tss {
 
 /// Big arrays may stand in files beside the scene: a value {"buffer": i, "byteOffset": o, "count": n} is n
 /// elements of the attribute's type, packed and little-endian, of the i-th of the layer's "buffers": [{"uri",
-/// "byteLength", "sha256"}]. Puts the numbers where they are named and takes the key "buffers" away. A buffer
-/// is a regular file, no link, of a bare name in the scene's own folder, with the size and the hash that are
-/// stated; no byte is used twice, so that a small file stays small in memory. What is wrong goes to the
-/// problems.
-void inlineBuffers(Value& root, const std::string& fileName, Problems& problems);
+/// "byteLength", "sha256"}]. A buffer is a regular file, no link, of a bare name in the scene's own folder,
+/// with the size and the hash that are stated; no byte is used twice, so that a small file stays small in
+/// memory. What is wrong goes to the problems.
+class BufferReader {
+public:
+    BufferReader(std::string fileName, Problems& problems)
+        : file_(std::move(fileName)), problems_(problems) {}
+
+    void readAll(const Value& list, const Place& place);
+    /// Puts the numbers in the place of a value that names them.
+    void fill(Value& value, const ValueType& type, const std::string& typeName, const Place& place);
+
+private:
+    std::optional<std::string> read(const Value::Object& keys, const Place& place);
+    /// A whole number of at least 0.
+    std::optional<std::uint64_t> whole(const Value::Object& keys, const char* key, const Place& place);
+    std::optional<Value> view(const Value::Object& keys, const ValueType& type, const std::string& typeName,
+                              const Place& place);
+
+    std::string file_;
+    Problems& problems_;
+    bool any_ = false;
+    std::vector<std::string> buffers_;
+    std::vector<bool> unread_;      ///< that could not be read
+    std::vector<std::size_t> left_; ///< bytes of each that no value has used yet
+};
 
 /// Takes the numeric arrays of at least `fewest` elements out of the layer, which then names them in the one
 /// buffer STEM.HASH.bin. Returns its name and its bytes; both empty when there are no such arrays.

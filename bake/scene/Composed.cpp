@@ -14,8 +14,7 @@ std::vector<std::string> references(const Prim& prim) {
 }
 
 bool isInstanceable(const Prim& prim) {
-    const auto found = prim.metadata.find("instanceable");
-    const bool* flag = found == prim.metadata.end() ? nullptr : found->second.as<bool>();
+    const bool* flag = member<bool>(prim.metadata, "instanceable");
     return flag && *flag;
 }
 
@@ -102,9 +101,8 @@ void Composer::copy(const Prim& prim, Composed& to) {
     for (const auto& [name, property] : prim.properties) numbers_ += numbersIn(property);
     if (prims_ > mostPrims || numbers_ > mostNumbers) {
         if (!full_)
-            problems_.add(to.place / std::string("metadata") / std::string("references"),
-                          "expected references that make at most " + std::to_string(mostPrims) +
-                              " prims and " + std::to_string(mostNumbers) + " numbers in all");
+            problems_.add(to.place / "metadata" / "references", "expected references that make at most ",
+                          mostPrims, " prims and ", mostNumbers, " numbers in all");
         full_ = true;
         return;
     }
@@ -124,11 +122,8 @@ Composed Composer::compose(const Prim& prim, const Place& place) {
     const auto targets = references(prim);
     open_.push_back(&prim);
     if (targets.empty() || !isInstanceable(prim)) // what stands below an instance does not count
-        for (std::size_t i = 0; i < prim.children.size() && !full_; ++i) {
-            Place at = place / std::string("primChildren") / i;
-            at.path += "/" + prim.children[i].name;
-            composed.children.push_back(compose(prim.children[i], at));
-        }
+        for (std::size_t i = 0; i < prim.children.size() && !full_; ++i)
+            composed.children.push_back(compose(prim.children[i], place.child(i, prim.children[i].name)));
     for (std::size_t i = 0; i < targets.size() && !full_; ++i) addReference(targets[i], place, composed);
     open_.pop_back();
     return composed;
@@ -136,25 +131,24 @@ Composed Composer::compose(const Prim& prim, const Place& place) {
 
 void Composer::addBelow(const std::vector<Prim>& prims, const Place& place) {
     for (std::size_t i = 0; i < prims.size(); ++i) {
-        Place at = place / std::string("primChildren") / i;
-        at.path += "/" + prims[i].name;
+        const Place at = place.child(i, prims[i].name);
         all_[at.path] = {&prims[i], at};
         addBelow(prims[i].children, at);
     }
 }
 
 void Composer::addReference(const std::string& target, const Place& at, Composed& to) {
-    const Place place = at / std::string("metadata") / std::string("references");
+    const Place place = at / "metadata" / "references";
     if (all_.empty()) addBelow(layer_.children, {});
     const auto found = all_.find(target);
     const Prim* const base = found == all_.end() ? nullptr : found->second.first;
     if (!base)
-        problems_.add(place, "expected the path of a prim of this file, found \"" + target + "\"");
+        problems_.add(place, "expected the path of a prim of this file, found \"", target, "\"");
     else if (std::find(open_.begin(), open_.end(), base) != open_.end())
-        problems_.add(place,
-                      "expected a reference that does not lead back to this prim, found \"" + target + "\"");
+        problems_.add(place, "expected a reference that does not lead back to this prim, found \"", target,
+                      "\"");
     else if (open_.size() >= deepest)
-        problems_.add(place, "expected at most " + std::to_string(deepest) + " levels of references");
+        problems_.add(place, "expected at most ", deepest, " levels of references");
     else {
         Composed weaker = compose(*base, found->second.second);
         moveAll(weaker, target, at.path);

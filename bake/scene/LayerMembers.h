@@ -65,6 +65,11 @@ bool forMembers(const Layer& layer, const Visit& visit) {
            (layer.children.empty() || visit("primChildren", layer.children));
 }
 
+template <class Node>
+concept isObject = requires(const Node& node) {
+    forMembers(node, [](const auto&...) { return true; });
+};
+
 /// The same for the elements of an array: visit(node).
 template <class Visit>
 bool forElements(const std::vector<Prim>& prims, const Visit& visit) {

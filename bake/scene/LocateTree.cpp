@@ -85,19 +85,10 @@ private:
     Wanted* next_; ///< what the next value is, null when it is not wanted
 };
 
-std::vector<std::string> keysOf(std::string_view pointer) {
+std::vector<std::string> keysOf(const std::string& pointer) {
     std::vector<std::string> keys;
-    while (!pointer.empty()) {
-        const auto end = std::min(pointer.find('/', 1), pointer.size());
-        std::string key;
-        for (std::size_t i = 1; i < end; ++i) { // RFC 6901
-            const bool escaped = pointer[i] == '~' && i + 1 < end;
-            key += escaped ? (pointer[i + 1] == '0' ? '~' : '/') : pointer[i];
-            i += escaped;
-        }
-        keys.push_back(key);
-        pointer.remove_prefix(end);
-    }
+    for (Json::json_pointer left(pointer); !left.empty(); left.pop_back())
+        keys.insert(keys.begin(), left.back());
     return keys;
 }
 

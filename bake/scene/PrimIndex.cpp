@@ -7,8 +7,7 @@ namespace tss {
 namespace {
 
 bool takesPart(const Prim& prim) {
-    const auto active = prim.metadata.find("active");
-    const bool* flag = active == prim.metadata.end() ? nullptr : active->second.as<bool>();
+    const bool* flag = member<bool>(prim.metadata, "active");
     return prim.specifier == "def" && (!flag || *flag);
 }
 
@@ -36,8 +35,7 @@ int PrimIndex::addEntry(const Prim& prim, const Place& place, int parent, bool c
 
 void PrimIndex::add(const std::vector<Prim>& prims, const Place& place, int parent, Composer& composer) {
     for (std::size_t i = 0; i < prims.size(); ++i) {
-        Place at = place / std::string("primChildren") / i;
-        at.path += "/" + prims[i].name;
+        const Place at = place.child(i, prims[i].name);
         if (hasReferences(prims[i]) && prims[i].specifier == "def") {
             composed_.push_back(composer.compose(prims[i], at));
             add(composed_.back(), parent);

@@ -2,11 +2,7 @@
 
 namespace tss {
 
-namespace {
-constexpr std::size_t mostKept = 1000;
-}
-
-Place Place::operator/(const std::string& key) const {
+Place Place::operator/(std::string_view key) const {
     Place place{pointer + "/", path};
     for (char c : key) { // RFC 6901
         if (c == '~')
@@ -19,14 +15,22 @@ Place Place::operator/(const std::string& key) const {
     return place;
 }
 
-void Problems::add(const Place& place, const std::string& message) {
+Place Place::child(std::size_t index, std::string_view name) const {
+    Place place = *this / "primChildren" / index;
+    place.path.append("/").append(name);
+    return place;
+}
+
+Place Place::property(std::string_view name) const {
+    Place place = *this / "properties" / name;
+    place.path.append(".").append(name);
+    return place;
+}
+
+void Problems::addText(const Place& place, const std::string& message) {
     InputError error({file_, place.pointer, place.path}, message);
     if (mode_ == Mode::ThrowFirst) throw error;
     if (errors.size() < mostKept) errors.push_back(std::move(error));
-}
-
-void Problems::warn(const Place& place, const std::string& message) {
-    if (warnings.size() < mostKept) warnings.emplace_back(Where{file_, place.pointer, place.path}, message);
 }
 
 } // namespace tss

@@ -18,7 +18,10 @@ Layer parseLayer(std::string_view text, const std::string& fileName, Problems& p
 /// Reads a scene file. Throws InputError, also when the file cannot be opened.
 Layer readLayer(const std::string& file);
 
-/// The tree as parsed, as a layer. Takes the big arrays out of `root`.
-Layer layerFromValue(Value root, Problems& problems);
+/// An attribute or a relationship from its JSON object; its value is checked against its typeName.
+Property readProperty(Value object, const Place& place, Problems& problems);
+
+/// Words [A-Za-z_][A-Za-z0-9_]* with colons between.
+bool isPropertyName(std::string_view name);
 
 } // namespace tss

@@ -1,5 +1,6 @@
 #include "bake/scene/ReadTree.h"
 
+#include "bake/scene/Problems.h"
 #include "bake/scene/SaxTokens.h"
 #include "bake/scene/TreeBuilder.h"
 #include "bake/scene/Utf8.h"
@@ -80,11 +81,11 @@ public:
     }
 
     bool number_integer(std::int64_t number) {
-        tree_.addInteger(number);
+        tree_.addInteger(Value(number));
         return done(Event::Value, true);
     }
     bool number_unsigned(std::uint64_t number) {
-        tree_.addUnsigned(number);
+        tree_.addInteger(Value(number));
         return done(Event::Value, true);
     }
     bool number_float(double number, const std::string&) {
@@ -94,11 +95,11 @@ public:
     bool string(const std::string& text) { return add(Value(text)); }
     bool binary(const Json::binary_t&) { return false; } // JSON has none
     bool start_object(std::size_t) {
-        located([&] { tree_.startObject(); });
+        located([&] { tree_.open(true); });
         return done(Event::Open);
     }
     bool start_array(std::size_t) {
-        located([&] { tree_.startArray(); });
+        located([&] { tree_.open(false); });
         takePlainNumbers();
         return done(Event::Open);
     }
@@ -181,8 +182,8 @@ private:
     [[noreturn]] void fault(const std::string& expected, std::size_t at) const {
         const TextPosition position = positionOf(cursor.text, at);
         try {
-            tree_.refuse("expected JSON: " + expected + ", found " + found(at) + " at line " +
-                         std::to_string(position.line) + ", column " + std::to_string(position.column));
+            tree_.refuse(joined("expected JSON: ", expected, ", found ", found(at), " at line ",
+                                position.line, ", column ", position.column));
         } catch (const InputError& error) {
             throw LocatedError(error, position);
         }
@@ -203,11 +204,11 @@ public:
 
     bool number_integer(std::int64_t number) {
         if (low() == 27 && byteAt(end_ + 1) >= 0x80) refuse("an integer of 64 bits", headEnd());
-        tree_.addInteger(number);
+        tree_.addInteger(Value(number));
         return done(Event::Value);
     }
     bool number_unsigned(std::uint64_t number) {
-        tree_.addUnsigned(number);
+        tree_.addInteger(Value(number));
         return done(Event::Value);
     }
     bool number_float(double number, const std::string&) {
@@ -223,12 +224,12 @@ public:
     }
     bool binary(const Json::binary_t&) { refuse("no byte strings and no tags", end_ + 1); }
     bool start_object(std::size_t count) {
-        tree_.startObject();
+        tree_.open(true);
         check(count, 2);
         return done(Event::Open);
     }
     bool start_array(std::size_t count) {
-        tree_.startArray();
+        tree_.open(false);
         check(count, 1);
         return done(Event::Open);
     }

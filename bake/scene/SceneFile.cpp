@@ -2,7 +2,7 @@
 
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadScene.h"
-#include "bake/scene/StoreTables.h"
+#include "bake/scene/SceneParts.h"
 #include "bake/scene/ToLayer.h"
 #include "bake/scene/WriteLayer.h"
 

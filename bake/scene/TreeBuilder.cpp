@@ -134,26 +134,9 @@ void TreeBuilder::addNumber(double number) {
     top().numbers.push_back(number);
 }
 
-void TreeBuilder::addInteger(std::int64_t number) {
-    const Value value(number);
-    if (const double* exact = value.as<double>())
-        addNumber(*exact);
-    else
-        add(value);
-}
-
-void TreeBuilder::addUnsigned(std::uint64_t number) {
-    if (number <= static_cast<std::uint64_t>(INT64_MAX))
-        addInteger(static_cast<std::int64_t>(number));
-    else
-        add(Value(number));
-}
-
-void TreeBuilder::startObject() {
-    open(true);
-}
-void TreeBuilder::startArray() {
-    open(false);
+void TreeBuilder::addInteger(Value number) {
+    const double* exact = number.as<double>();
+    exact ? addNumber(*exact) : add(std::move(number));
 }
 
 void TreeBuilder::key(const std::string& key) {

@@ -19,12 +19,11 @@ public:
 
     void add(Value value);
     void addNumber(double number);
-    void addInteger(std::int64_t number);
-    void addUnsigned(std::uint64_t number);
-    void startObject();
+    /// An integer, which may be more than a double holds exactly.
+    void addInteger(Value number);
+    void open(bool object);
     void key(const std::string& key);
     void endObject();
-    void startArray();
     void endArray();
 
     /// What is open is an object.
@@ -37,7 +36,6 @@ public:
 
 private:
     struct Frame;
-    void open(bool object);
     Frame& top();
     void spend(std::size_t bytes);
 

@@ -2,7 +2,6 @@
 
 #include "bake/scene/Utf8.h"
 #include "bake/scene/WriteLayer.h"
-#include "bake/scene/WriteNumber.h"
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 #include "bake/scene/PrimIndex.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadScene.h"
-#include "bake/scene/Typos.h"
+#include "bake/scene/Schema.h"
 
 namespace tss {
 

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct Numbers {
 /// by key.
 struct Value {
     using Array = std::vector<Value>;
-    using Object = std::map<std::string, Value>;
+    using Object = std::map<std::string, Value, std::less<>>;
 
     std::variant<std::monostate, bool, double, std::int64_t, std::uint64_t, std::string, Array, Object,
                  Numbers>
@@ -63,5 +64,21 @@ struct Value {
 
 /// What a value is, in the words of a message: `number 1.7`, `"abc"`, `an array of 3 elements`.
 std::string describe(const Value& value);
+
+/// The shortest decimal text that reads back as the same double; integers of up to 2^53 in plain digits, -0.0
+/// with its sign. Not-finite numbers as the words inf, -inf, nan, without quotes.
+std::string numberText(double number);
+
+/// Appends without allocating.
+void appendNumber(std::string& text, double number);
+/// The same for a number that a float holds: shortest text that reads back as the same float.
+void appendFloat(std::string& text, double number);
+
+/// The value under a key of an object, null where there is none or one of another kind.
+template <class T>
+const T* member(const Value::Object& object, std::string_view key) {
+    const auto found = object.find(key);
+    return found == object.end() ? nullptr : found->second.as<T>();
+}
 
 } // namespace tss

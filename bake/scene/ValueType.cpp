@@ -60,7 +60,7 @@ public:
     double stored(double number, const PlaceOf& place) const {
         if (type_.base == Base::Integer) {
             if (number != std::trunc(number) || number < type_.lowest || number > type_.highest)
-                problems_.add(place(), "expected " + integerText() + ", found " + describe(Value(number)));
+                problems_.add(place(), "expected ", integerText(), ", found ", describe(Value(number)));
             return number;
         }
         if (!type_.isFloat() || !std::isfinite(number)) return number;
@@ -68,8 +68,8 @@ public:
         // The largest float is mostly written with fewer digits, which are a little more than it is.
         const bool rounds = type_.base == Base::Float && std::abs(number) < 0x1.ffffffp127;
         if (std::abs(number) > limit && !rounds)
-            problems_.add(place(), "expected a number of at most " + describe(Value(limit)).substr(7) +
-                                       " in a " + std::string(name_) + ", found " + describe(Value(number)));
+            problems_.add(place(), "expected a number of at most ", limit, " in a ", name_, ", found ",
+                          describe(Value(number)));
         return nearestFloat(number);
     }
 
@@ -87,14 +87,13 @@ public:
             if (*word == "-inf") return -std::numeric_limits<double>::infinity();
             if (*word == "nan") return std::numeric_limits<double>::quiet_NaN();
         }
-        problems_.add(place(), "expected " + (type_.base == Base::Integer ? integerText() : "a number") +
-                                   ", found " + describe(value));
+        problems_.add(place(), "expected ", type_.base == Base::Integer ? integerText() : "a number",
+                      ", found ", describe(value));
         return 0;
     }
 
     std::string integerText() const {
-        return "an integer from " + describe(Value(type_.lowest)).substr(7) + " to " +
-               describe(Value(type_.highest)).substr(7);
+        return joined("an integer from ", type_.lowest, " to ", type_.highest);
     }
 
 private:
@@ -104,7 +103,11 @@ private:
 };
 
 std::string tupleText(int width, std::string_view typeName) {
-    return "an array of " + std::to_string(width) + " numbers (" + std::string(typeName) + ")";
+    return joined("an array of ", width, " numbers (", typeName, ")");
+}
+
+void notAnArray(const Value& value, std::string_view typeName, const Place& place, Problems& problems) {
+    problems.add(place, "expected an array (", typeName, "), found ", describe(value));
 }
 
 /// One tuple of `width` numbers appended to `out`; `out` always grows by width.
@@ -116,12 +119,12 @@ void appendTuple(const Value& value, int width, const NumberCheck& check, std::s
             for (double number : numbers->values)
                 out.push_back(check.stored(number, [&] { return place / (out.size() - start); }));
         else
-            problems.add(place, "expected " + tupleText(width, typeName) + ", found " + describe(value));
+            problems.add(place, "expected ", tupleText(width, typeName), ", found ", describe(value));
     } else if (const auto* array = value.as<Value::Array>(); array && array->size() == std::size_t(width)) {
         for (const Value& element : *array)
             out.push_back(check.read(element, [&] { return place / (out.size() - start); }));
     } else {
-        problems.add(place, "expected " + tupleText(width, typeName) + ", found " + describe(value));
+        problems.add(place, "expected ", tupleText(width, typeName), ", found ", describe(value));
     }
     out.resize(start + width);
 }
@@ -138,16 +141,15 @@ void conformArray(Value& value, int width, const NumberCheck& check, std::string
     }
     if (const Numbers* numbers = value.as<Numbers>()) {
         const bool flat = numbers->width == 0;
-        problems.add(place / std::size_t(0),
-                     "expected " + (width == 1 ? "a number" : tupleText(width, typeName)) + ", found " +
-                         (flat ? describe(Value(numbers->values[0]))
-                               : "an array of " + std::to_string(numbers->width) + " elements"));
+        problems.add(place / 0, "expected ", width == 1 ? "a number" : tupleText(width, typeName), ", found ",
+                     flat ? describe(Value(numbers->values[0]))
+                          : joined("an array of ", numbers->width, " elements"));
         value = Value(Value::Array());
         return;
     }
     const auto* array = value.as<Value::Array>();
     if (!array) {
-        problems.add(place, "expected an array (" + std::string(typeName) + "), found " + describe(value));
+        notAnArray(value, typeName, place, problems);
         value = Value(Value::Array());
         return;
     }
@@ -167,15 +169,14 @@ template <class T>
 void conformEach(Value& value, bool array, const char* wanted, std::string_view typeName, const Place& place,
                  Problems& problems) {
     const auto check = [&](const Value& element, const Place& at) {
-        if (!element.as<T>())
-            problems.add(at, std::string("expected ") + wanted + ", found " + describe(element));
+        if (!element.as<T>()) problems.add(at, "expected ", wanted, ", found ", describe(element));
     };
     if (!array) return check(value, place);
     if (const auto* elements = value.as<Value::Array>()) {
         for (std::size_t i = 0; i < elements->size(); ++i)
             if (!(*elements)[i].as<T>()) check((*elements)[i], place / i);
     } else {
-        problems.add(place, "expected an array (" + std::string(typeName) + "), found " + describe(value));
+        notAnArray(value, typeName, place, problems);
     }
 }
 
@@ -186,8 +187,8 @@ void checkAssets(const Value& value, const Place& place, Problems& problems) {
     const auto* path = value.as<std::string>();
     const auto bad = [](char c) { return c == '@' || static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
     if (path && std::any_of(path->begin(), path->end(), bad))
-        problems.add(place, "expected the path of a file without @ and control characters, found " +
-                                describe(value));
+        problems.add(place, "expected the path of a file without @ and control characters, found ",
+                     describe(value));
 }
 
 /// Integers of 64 bits that no double holds stay as they are, in a plain array.
@@ -232,8 +233,7 @@ void conform(Value& value, const ValueType& type, std::string_view typeName, con
     if (type.rows > 1 && type.array) {
         auto* matrices = value.as<Value::Array>();
         if (!matrices)
-            problems.add(place,
-                         "expected an array (" + std::string(typeName) + "), found " + describe(value));
+            notAnArray(value, typeName, place, problems);
         else
             for (std::size_t i = 0; i < matrices->size(); ++i) {
                 ValueType one = type;
@@ -244,8 +244,7 @@ void conform(Value& value, const ValueType& type, std::string_view typeName, con
         conformArray(value, type.width, check, typeName, place, problems);
         const Numbers* rows = value.as<Numbers>();
         if (!rows || rows->count() != std::size_t(type.rows))
-            problems.add(place, "expected " + std::to_string(type.rows) + " rows (" + std::string(typeName) +
-                                    "), found " + describe(value));
+            problems.add(place, "expected ", type.rows, " rows (", typeName, "), found ", describe(value));
     } else if (type.array) {
         conformArray(value, type.width, check, typeName, place, problems);
     } else if (type.width > 1) {

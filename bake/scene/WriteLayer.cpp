@@ -5,10 +5,10 @@
 #include "bake/scene/Buffers.h"
 #include "bake/scene/LayerMembers.h"
 #include "bake/scene/Utf8.h"
-#include "bake/scene/WriteNumber.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -45,50 +45,86 @@ class JsonWriter {
 public:
     std::string out;
 
+    /// Any node: an object or an array, or where a line has no end, on that line.
     template <class Node>
     void write(const Node& node, std::size_t indent) {
-        if (fitsLine(node)) return;
-        if constexpr (requires { forMembers(node, [](const auto&...) { return true; }); })
-            writeObject(node, indent);
-        else
-            writeArray(node, indent);
+        const std::size_t before = out.size();
+        budget_ = lineStart_ + lineWidth;
+        const bool fits = before < budget_ && inLine(node);
+        budget_ = noEnd;
+        if (fits) return;
+        out.resize(before);
+        emit(node, indent);
     }
-
-    void write(const std::string& text, std::size_t) { appendQuoted(out, text); }
-
-    void write(const TypedValue& typed, std::size_t indent) {
-        if (fitsLine(typed)) return;
-        if (const auto* object = typed.value.as<Value::Object>())
-            writeObject(*object, indent);
-        else if (typed.value.as<Value::Array>())
-            writeArray(typed, indent);
-        else if (const auto* numbers = typed.value.as<Numbers>())
-            writeNumbers(*numbers, typed.asFloat, indent);
-        else
-            inLine(typed, std::string::npos);
-    }
-
-    /// Writes on one line; false, perhaps with a part written, when that goes beyond the budget of
-    /// characters.
+    /// Writes on one line; false, perhaps with a part written, when that goes beyond the budget.
     template <class Node>
-    bool inLine(const Node& node, std::size_t budget) {
-        if constexpr (requires { forMembers(node, [](const auto&...) { return true; }); })
-            return inLineObject(node, budget);
+    bool inLine(const Node& node) {
+        return emit(node, onOneLine) && out.size() <= budget_;
+    }
+
+private:
+    static constexpr std::size_t noEnd = std::string::npos, onOneLine = std::string::npos;
+
+    void newLine(std::size_t indent) {
+        out += '\n';
+        lineStart_ = out.size();
+        out.append(indent, ' ');
+    }
+
+    void appendReal(double number, bool asFloat) {
+        const bool word = !std::isfinite(number);
+        if (word) out += '"';
+        asFloat ? appendFloat(out, number) : appendNumber(out, number);
+        if (word) out += '"';
+    }
+
+    /// What stands between two brackets, from each(item): item(node) or item(node, key) for every part.
+    template <class Each>
+    bool emitParts(const char (&brackets)[3], std::size_t indent, const Each& each) {
+        out += brackets[0];
+        bool first = true;
+        const auto part = [&](const auto& node, const std::string_view* key) {
+            if (!first) out += indent == onOneLine ? ", " : ",";
+            first = false;
+            if (indent != onOneLine) newLine(indent + 1);
+            if (key) {
+                appendQuoted(out, *key);
+                out += ": ";
+            }
+            if (indent == onOneLine) return inLine(node);
+            write(node, indent + 1);
+            return true;
+        };
+        const bool fits = each(part);
+        if (indent != onOneLine) newLine(indent);
+        out += brackets[1];
+        return fits;
+    }
+
+    template <class Node>
+    bool emit(const Node& node, std::size_t indent) {
+        if constexpr (isObject<Node>)
+            return emitParts("{}", indent, [&](const auto& part) {
+                return forMembers(
+                    node, [&](std::string_view key, const auto& member) { return part(member, &key); });
+            });
         else
-            return inLineArray(node, budget);
+            return emitParts("[]", indent, [&](const auto& part) {
+                return forElements(node, [&](const auto& element) { return part(element, nullptr); });
+            });
     }
 
-    bool inLine(const std::string& text, std::size_t budget) {
+    bool emit(const std::string& text, std::size_t) {
         appendQuoted(out, text);
-        return out.size() <= budget;
+        return true;
     }
 
-    bool inLine(const TypedValue& typed, std::size_t budget) {
+    bool emit(const TypedValue& typed, std::size_t indent) {
         const Value& value = typed.value;
-        if (const auto* object = value.as<Value::Object>()) return inLineObject(*object, budget);
-        if (value.as<Value::Array>()) return inLineArray(typed, budget);
-        if (const auto* numbers = value.as<Numbers>()) return inLineNumbers(*numbers, budget, typed.asFloat);
-        if (const auto* text = value.as<std::string>()) return inLine(*text, budget);
+        if (const auto* object = value.as<Value::Object>()) return emit(*object, indent);
+        if (value.as<Value::Array>()) return emit<TypedValue>(typed, indent);
+        if (const auto* numbers = value.as<Numbers>()) return emitNumbers(*numbers, typed.asFloat, indent);
+        if (const auto* text = value.as<std::string>()) return emit(*text, indent);
         if (const auto* number = value.as<double>())
             appendReal(*number, typed.asFloat);
         else if (const auto* flag = value.as<bool>())
@@ -99,129 +135,32 @@ public:
             out += std::to_string(*huge);
         else
             out += "null";
-        return out.size() <= budget;
+        return true;
     }
 
-private:
-    void newLine(std::size_t indent) {
-        out += '\n';
-        lineStart_ = out.size();
-        out.append(indent, ' ');
-    }
-
-    /// Writes it on the current line if it fits; leaves nothing behind if not.
-    template <class Node>
-    bool fitsLine(const Node& node) {
-        const std::size_t before = out.size();
-        const std::size_t budget = lineStart_ + lineWidth;
-        if (before < budget && inLine(node, budget)) return true;
-        out.resize(before);
-        return false;
-    }
-
-    void appendReal(double number, bool asFloat) {
-        const bool word = !std::isfinite(number);
-        if (word) out += '"';
-        asFloat ? appendFloat(out, number) : appendNumber(out, number);
-        if (word) out += '"';
-    }
-
-    template <class Object>
-    bool inLineObject(const Object& object, std::size_t budget) {
-        out += '{';
-        bool first = true;
-        const bool fits = forMembers(object, [&](std::string_view key, const auto& node) {
-            if (!first) out += ", ";
-            first = false;
-            appendQuoted(out, key);
-            out += ": ";
-            return inLine(node, budget);
-        });
-        out += '}';
-        return fits && out.size() <= budget;
-    }
-
-    template <class Array>
-    bool inLineArray(const Array& array, std::size_t budget) {
+    /// Many elements fill their lines.
+    bool emitNumbers(const Numbers& numbers, bool asFloat, std::size_t indent) {
         out += '[';
-        bool first = true;
-        const bool fits = forElements(array, [&](const auto& node) {
-            if (!first) out += ", ";
-            first = false;
-            return inLine(node, budget);
-        });
-        out += ']';
-        return fits && out.size() <= budget;
-    }
-
-    void appendElement(const Numbers& numbers, std::size_t i, bool asFloat) {
-        if (numbers.width == 0) return appendReal(numbers.values[i], asFloat);
-        out += '[';
-        for (int k = 0; k < numbers.width; ++k) {
-            if (k > 0) out += ',';
-            appendReal(numbers.values[i * numbers.width + k], asFloat);
-        }
-        out += ']';
-    }
-
-    bool inLineNumbers(const Numbers& numbers, std::size_t budget, bool asFloat) {
-        out += '[';
-        for (std::size_t i = 0; i < numbers.count(); ++i) {
+        if (indent != onOneLine) newLine(indent + 1);
+        const std::size_t width = static_cast<std::size_t>(std::max(numbers.width, 1));
+        for (std::size_t i = 0; i < numbers.values.size(); i += width) {
             if (i > 0) out += ',';
-            appendElement(numbers, i, asFloat);
-            if (out.size() > budget) return false;
-        }
-        out += ']';
-        return out.size() <= budget;
-    }
-
-    template <class Object>
-    void writeObject(const Object& object, std::size_t indent) {
-        out += '{';
-        bool first = true;
-        forMembers(object, [&](std::string_view key, const auto& node) {
-            if (!first) out += ',';
-            first = false;
-            newLine(indent + 1);
-            appendQuoted(out, key);
-            out += ": ";
-            write(node, indent + 1);
-            return true;
-        });
-        newLine(indent);
-        out += '}';
-    }
-
-    template <class Array>
-    void writeArray(const Array& array, std::size_t indent) {
-        out += '[';
-        bool first = true;
-        forElements(array, [&](const auto& node) {
-            if (!first) out += ',';
-            first = false;
-            newLine(indent + 1);
-            write(node, indent + 1);
-            return true;
-        });
-        newLine(indent);
-        out += ']';
-    }
-
-    void writeNumbers(const Numbers& numbers, bool asFloat, std::size_t indent) {
-        out += '[';
-        newLine(indent + 1);
-        for (std::size_t i = 0; i < numbers.count(); ++i) {
-            if (i > 0) {
-                out += ',';
-                if (out.size() - lineStart_ > lineWidth - 10) newLine(indent + 1);
+            if (i > 0 && indent != onOneLine && out.size() - lineStart_ > lineWidth - 10) newLine(indent + 1);
+            if (numbers.width > 0) out += '[';
+            for (std::size_t k = 0; k < width; ++k) {
+                if (k > 0) out += ',';
+                appendReal(numbers.values[i + k], asFloat);
             }
-            appendElement(numbers, i, asFloat);
+            if (numbers.width > 0) out += ']';
+            if (out.size() > budget_) return false;
         }
-        newLine(indent);
+        if (indent != onOneLine) newLine(indent);
         out += ']';
+        return true;
     }
 
     std::size_t lineStart_ = 0;
+    std::size_t budget_ = noEnd; ///< where the text must end that is being tried on one line
 };
 
 /// The items of a layer one by one, each by nlohmann's writer.
@@ -231,7 +170,7 @@ public:
 
     template <class Node>
     void write(const Node& node) {
-        if constexpr (requires { forMembers(node, [](const auto&...) { return true; }); }) {
+        if constexpr (isObject<Node>) {
             std::size_t count = 0;
             forMembers(node, [&](const auto&...) { return ++count; });
             head(map, count);
@@ -305,7 +244,7 @@ private:
 
 std::string jsonText(const Value& value) {
     JsonWriter writer;
-    writer.inLine(TypedValue{value}, std::string::npos);
+    writer.inLine(TypedValue{value});
     return std::move(writer.out);
 }
 

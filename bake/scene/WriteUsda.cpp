@@ -3,7 +3,6 @@
 #include "bake/scene/Schema.h"
 #include "bake/scene/UsdaValue.h"
 #include "bake/scene/WriteLayer.h"
-#include "bake/scene/WriteNumber.h"
 
 #include <algorithm>
 #include <array>
@@ -193,7 +192,7 @@ private:
 
     void writeProperties(const Prim& prim) {
         // Other programs would round what has no such word; the faces are what osgTSS has proven.
-        static const std::string scheme = schema::subdivisionScheme.name;
+        static const std::string scheme(schema::subdivisionScheme.name);
         bool owed = prim.typeName == "Mesh" && prim.specifier != "over";
         const auto pay = [&] {
             Property none;

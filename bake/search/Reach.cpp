@@ -75,9 +75,9 @@ Probe probe(const Problem& p, const CellMotion& motion, const Pose& inverse, con
         const Vec3 x = motion.centrePose() * ball.centre;
         return {x, motion.reach(x).move + spread};
     }
-    // A point x of A that meets y of B at pose q: at the centre pose y is where x would be taken from q to
-    // there, at most f(y) from x, and f differs between two points by at most relativeMove times their
-    // distance.
+    // Say that x of A meets y of B at some pose of the cell. At the centre pose y is elsewhere, at most f(y)
+    // from x, f being how far a point of B moves in the cell. What is known is f(x). As f differs between two
+    // points by at most rate times their distance, f(y) <= f(x) + rate * f(y), so f(y) <= f(x) / (1 - rate).
     const double rate = motion.relativeMove();
     const double move = rate < 1 ? (motion.reach(ball.centre).move + spread) / (1 - rate)
                                  : std::numeric_limits<double>::infinity();

@@ -9,11 +9,11 @@ namespace tss {
 /// Which of two bodies a surface belongs to: A stands, B moves.
 enum class Side { A, B };
 
-/// The parts of the surface of one body that come within `margin` of the other's mesh at some pose of a part
-/// of Q (METHOD 1.4). Sound: what is left out stays farther away at every one of those poses; what is kept
-/// may stay a few `size` away. Patches larger than `size` are halved. patches: of the body on `side`, in its
-/// own frame. other: the mesh of the other body, in its own frame. size: radius of the patches to end with,
-/// scene units, > 0. The same for any number of threads.
+/// Finds the parts of one body's surface that come within `margin` of the other body's mesh at some pose of
+/// the cells (METHOD 1.4). Nothing is lost: what is left out stays farther away at all their poses. What is
+/// kept may stay a few `size` farther than the margin. Patches larger than `size` are halved. patches: of the
+/// body on `side`, in its own frame. other: the mesh of the other body, in its own frame. size: radius of the
+/// patches to end with, scene units, > 0. The same for any number of threads.
 std::vector<Patch> findReach(std::span<const Patch> patches, Side side, const MeshQuery& other,
                              const Motion& motion, const CellTree& cells, double size, double margin,
                              const Progress& progress = {});

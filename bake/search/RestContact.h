@@ -1,7 +1,7 @@
 #pragma once
 #include "bake/base/Progress.h"
 #include "bake/search/ContactParts.h"
-#include "bake/table/RestRegion.h"
+#include "bake/table/Table.h"
 
 namespace tss {
 

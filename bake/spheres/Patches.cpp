@@ -6,8 +6,13 @@
 #include "bake/spheres/MedialBall.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <fmt/format.h>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <random>
 
 namespace tss {
 
@@ -56,77 +61,163 @@ bool covers(const Sphere& sphere, const Patch& patch) {
 
 namespace {
 
-/// What the threads share.
-struct Shared {
-    Shared(const PatchOptions& options, const Progress& progress)
-        : options(options), poll(progress, "patches") {}
-
-    const PatchOptions& options;
-    Poll poll;
-    std::atomic<std::size_t> splits{0};
+/// What splitting all patches comes to, told by a few of them.
+struct Outlook {
+    double patches = 0;                                      ///< about so many
+    double surely = 0;                                       ///< hardly fewer
+    double finest = std::numeric_limits<double>::infinity(); ///< the least that a sphere seen may stick out
 };
 
-/// Splits one patch as far as needed.
-class Splitter {
+/// Finds for a patch its sphere, or that it must be split.
+class Fitter {
 public:
-    Splitter(const Solid& solid, Shared& shared) : solid_(solid), options_(shared.options), shared_(shared) {}
+    Fitter(const Solid& solid, const PatchOptions& options) : solid_(solid), options_(options) {}
 
-    void add(const Patch& patch, double radiusExpected) {
-        if (shared_.poll.stopped()) throw InputError("stopped before the spheres were made");
+    /// The ball of a patch that is small enough beside it; else nothing, and `expected` becomes the radius of
+    /// the balls about it, at first 0.
+    std::optional<MedialBall> fit(const Patch& patch, double& expected) {
         const double radius = patch.radius();
         // Not worth a ball of its own while far larger than the balls about it allow.
-        if (radiusExpected > 0 && radius > 1.5 * largest(radiusExpected, options_.protrusion))
-            return split(patch, radiusExpected);
+        if (expected > 0 && radius > 1.5 * largest(expected, options_.protrusion)) return {};
         const MedialBall ball =
             medialBall(solid_, patch.centre(), patch.normal, options_.protrusion, options_.slackFactor,
-                       radiusExpected > 0 ? 1.1 * radiusExpected : 4 * radius, known_, options_.neighbour);
+                       expected > 0 ? 1.1 * expected : 4 * radius, known_, options_.neighbour);
         finest_ = std::min(finest_, ball.protrusion());
-        if (radius <= largest(ball.sphere.radius, ball.protrusion()) && covers(ball.sphere, patch)) {
-            result.patches.push_back(patch);
-            result.candidates.push_back(ball.sphere);
-            result.inner.push_back(ball.inner);
-        } else {
-            split(patch, std::max(ball.sphere.radius, ball.free));
-        }
+        if (radius <= largest(ball.sphere.radius, ball.protrusion()) && covers(ball.sphere, patch))
+            return ball;
+        expected = std::max(ball.sphere.radius, ball.free);
+        return {};
     }
 
-    FittedPatches result;
+    double finest() const { return finest_; }
 
 private:
     double largest(double ballRadius, double protrusion) const {
         return protrusion > 0 ? options_.sizeFactor * std::sqrt(2 * ballRadius * protrusion) : 0;
     }
 
-    void split(const Patch& patch, double radiusExpected) {
-        // From the size of a mesh down to the rounding of its coordinates are at most about 110 halvings.
-        constexpr int mostDeep = 128;
-        if (shared_.splits.fetch_add(1, std::memory_order_relaxed) >= options_.mostPatches ||
-            depth_ >= mostDeep)
-            refuse();
+    const Solid& solid_;
+    const PatchOptions& options_;
+    double finest_ = std::numeric_limits<double>::infinity();
+    KnownInside known_;
+};
+
+// From the size of a mesh down to the rounding of its coordinates are at most about 110 halvings.
+constexpr int mostDeep = 128;
+
+/// Goes down into halves chosen at random: one found at depth d stands for 2^d (D. Knuth, "Estimating the
+/// efficiency of backtrack programs", 1975). The mean is right, however few descents there are.
+Outlook lookAhead(const Solid& solid, std::span<const Patch> patches, const PatchOptions& options,
+                  std::size_t descents) {
+    std::vector<double> upTo; // patches are chosen by the square of their radius
+    double total = 0;
+    for (const Patch& patch : patches)
+        upTo.push_back(total += std::max(std::pow(patch.radius(), 2), std::numeric_limits<double>::min()));
+    std::mt19937_64 random(1);
+    Fitter fitter(solid, options);
+    std::vector<double> counts;
+    for (std::size_t k = 0; k < descents; ++k) {
+        const double chosen = total * (double(k) + double(random() >> 11) * 0x1p-53) / double(descents);
+        const auto at = std::min<std::size_t>(
+            std::upper_bound(upTo.begin(), upTo.end(), chosen) - upTo.begin(), patches.size() - 1);
+        Patch patch = patches[at];
+        double count = total / (upTo[at] - (at ? upTo[at - 1] : 0)), expected = 0;
+        for (int depth = 0; depth < mostDeep && !fitter.fit(patch, expected); ++depth, count *= 2)
+            patch = halves(patch)[random() & 1];
+        counts.push_back(count);
+    }
+    const double n = double(descents), mean = std::accumulate(counts.begin(), counts.end(), 0.0) / n;
+    // A few descents into a tight corner say next to all, and not surely: cut down to what others say too.
+    const auto most = counts.begin() + static_cast<std::ptrdiff_t>(15 * descents / 16);
+    std::nth_element(counts.begin(), most, counts.end());
+    double low = 0, squares = 0;
+    for (const double count : counts) {
+        low += std::min(count, *most) / n;
+        squares += std::pow(std::min(count, *most), 2) / n;
+    }
+    return {mean, low - 3 * std::sqrt(std::max(0.0, squares - low * low) / n), fitter.finest()};
+}
+
+/// What the threads share.
+class Shared {
+public:
+    Shared(const Solid& solid, std::span<const Patch> patches, const PatchOptions& options,
+           const Progress& progress)
+        : solid(solid), options(options), poll(progress, "patches"), patches_(patches) {}
+
+    /// One more is split. Looks ahead once, early: most of what is too much is known to be then.
+    void countSplit() {
+        const std::size_t early = options.mostPatches / 200, count = ++splits_;
+        if (count == early + 1 && outlook().surely > double(options.mostPatches)) tooMany_ = true;
+        if (tooMany_ || count > options.mostPatches) refuse();
+    }
+
+    [[noreturn]] void refuse() {
+        const Outlook& seen = outlook();
+        const double most = double(options.mostPatches), takes = std::max(seen.patches, most);
+        if (options.neighbour && seen.finest < 0.5 * options.protrusion) {
+            // Their number goes with the inverse of the clearance; a tenth of the most is made in minutes.
+            const double clearance = options.neighbour->clearance;
+            throw RestTooClose(fmt::format(
+                "the meshes are {:.4g} scene units apart at rest: spheres that are apart there too need a "
+                "tolerance of {:.2g} and take about {:.2g} patches, more than {}: expected a clearance of "
+                "at least {:.2g} there, meshes that overlap where they are meant to, or --at-rest collide, "
+                "with which there may be contact at rest",
+                clearance, std::max(seen.finest, 0.0), takes, options.mostPatches,
+                10 * clearance * takes / most));
+        }
+        throw TooFine(
+            fmt::format("a tolerance of about {:.4g} takes about {:.2g} patches, more than {}, of a mesh "
+                        "{:.4g} in size: expected a coarser one",
+                        options.protrusion, takes, options.mostPatches, solid.diagonal()));
+    }
+
+    const Solid& solid;
+    const PatchOptions& options;
+    Poll poll;
+
+private:
+    const Outlook& outlook() {
+        std::call_once(looked_, [&] {
+            const std::size_t descents = std::clamp<std::size_t>(options.mostPatches / 10'000, 64, 1024);
+            outlook_ = lookAhead(solid, patches_, options, descents);
+        });
+        return outlook_;
+    }
+
+    std::span<const Patch> patches_;
+    std::atomic<std::size_t> splits_{0};
+    std::atomic<bool> tooMany_{false};
+    std::once_flag looked_;
+    Outlook outlook_;
+};
+
+/// Splits one patch as far as needed.
+class Splitter {
+public:
+    explicit Splitter(Shared& shared) : shared_(shared), fitter_(shared.solid, shared.options) {}
+
+    void add(const Patch& patch, double expected) {
+        if (shared_.poll.stopped()) throw InputError("stopped before the spheres were made");
+        if (const auto ball = fitter_.fit(patch, expected)) {
+            result.patches.push_back(patch);
+            result.candidates.push_back(ball->sphere);
+            result.inner.push_back(ball->inner);
+            return;
+        }
+        shared_.countSplit();
+        if (depth_ >= mostDeep) shared_.refuse();
         ++depth_;
-        for (const Patch& half : halves(patch)) add(half, radiusExpected);
+        for (const Patch& half : halves(patch)) add(half, expected);
         --depth_;
     }
 
-    [[noreturn]] void refuse() const {
-        if (options_.neighbour && finest_ < 0.5 * options_.protrusion)
-            throw RestTooClose(fmt::format(
-                "the meshes are {:.4g} scene units apart at rest: spheres that are apart there too may stick "
-                "out by no more than {:.4g} and take more than {} patches: expected a rest pose "
-                "with more clearance, or meshes that overlap where they are meant to",
-                options_.neighbour->clearance, std::max(finest_, 0.0), options_.mostPatches));
-        throw TooFine(
-            fmt::format("a tolerance of about {:.4g} takes more than {} patches of a mesh {:.4g} in size: "
-                        "expected a coarser one",
-                        options_.protrusion, options_.mostPatches, solid_.diagonal()));
-    }
+    FittedPatches result;
 
-    const Solid& solid_;
-    const PatchOptions& options_;
+private:
     Shared& shared_;
+    Fitter fitter_;
     int depth_ = 0;
-    double finest_ = std::numeric_limits<double>::infinity(); ///< the least that a sphere may stick out
-    KnownInside known_;
 };
 
 } // namespace
@@ -136,9 +227,9 @@ FittedPatches fitPatches(const Solid& solid, std::span<const Patch> patches, con
     constexpr std::size_t block = 64;
     const std::size_t blocks = (patches.size() + block - 1) / block;
     std::vector<FittedPatches> parts(blocks);
-    Shared shared(options, progress);
+    Shared shared(solid, patches, options, progress);
     parallelFor(blocks, [&](std::size_t b) {
-        Splitter splitter(solid, shared);
+        Splitter splitter(shared);
         for (std::size_t i = b * block; i < std::min(patches.size(), (b + 1) * block); ++i)
             splitter.add(patches[i], 0);
         parts[b] = std::move(splitter.result);

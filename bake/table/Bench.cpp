@@ -1,4 +1,5 @@
 #include "bake/table/Bench.h"
+#include "bake/motion/MotionFrame.h"
 #include "bake/table/Contact.h"
 #include "bake/table/TablePairs.h"
 

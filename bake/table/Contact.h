@@ -1,9 +1,10 @@
 #pragma once
-#include "bake/motion/MotionFrame.h"
+#include "bake/motion/Motion.h"
 
 namespace tss {
 
-/// Everything about the nearest test, in double from T(q) itself.
+/// Everything about the nearest test at a pose, in double from T(q) itself. Lengths in scene units. Of an
+/// empty table gap is infinity, test -1, and nothing else means anything.
 struct TableContact {
     double gap = 0;
     int test = -1;
@@ -11,29 +12,5 @@ struct TableContact {
     Vec3 normal = Vec3::Zero(); ///< unit, A's frame, from A towards B
     DofValues gradient{};       ///< d gap / d q, one a DOF
 };
-
-/// A test as the contact kernels read it: centres with a 1 behind, in their own frames.
-struct alignas(32) ContactTest {
-    double a[4], b[4];
-    double reach = 0;  ///< of the gap: sum of radii, and the gap at rest
-    double middle = 0; ///< half of radius A less radius B
-};
-
-/// Gap, point, normal and, of `dofs` DOFs, gradient of one test; `test` is left as it is. A vector kernel of
-/// 256 bits does the same (Kernels.h).
-inline void plainContact(const ContactTest& test, const MotionFrame& frame, std::size_t dofs,
-                         TableContact& out) {
-    const Vec3 a(test.a[0], test.a[1], test.a[2]);
-    const Vec3 centre = frame.pose * Vec3(test.b[0], test.b[1], test.b[2]), between = centre - a;
-    const double distance = between.norm();
-    const Vec3 normal = distance > 0 ? Vec3(between * (1 / distance)) : Vec3::UnitX();
-    out.gap = distance - test.reach;
-    out.normal = normal;
-    out.point = a + normal * (0.5 * distance + test.middle);
-    // n . (turn x x + slide), with the part that all DOFs share in front.
-    const Vec3 arm = centre.cross(normal);
-    for (std::size_t k = 0; k < dofs; ++k)
-        out.gradient[k] = frame.twists[k].turn.dot(arm) + frame.twists[k].slide.dot(normal);
-}
 
 } // namespace tss

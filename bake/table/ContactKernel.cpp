@@ -5,7 +5,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "bake/table/Contact.h"
+#include "bake/table/ContactTest.h"
 #include "bake/table/KernelsVector.h"
 
 HWY_BEFORE_NAMESPACE();

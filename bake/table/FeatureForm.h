@@ -1,8 +1,9 @@
 #pragma once
 #include "bake/table/DofFactors.h"
+#include "bake/table/Kernels.h"
 #include "bake/table/TablePairs.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 namespace tss {
 
@@ -11,8 +12,8 @@ namespace tss {
 /// (DofFactor), less their values where the bodies are near contact; a feature that weighs the same in every
 /// pair (|t|^2 of a slide) is in `shared`.
 struct FeatureForm {
-    static constexpr int maxDofs = 3;      ///< 3^d products: beyond, the direct kernel is the cheaper one
-    static constexpr int maxFeatures = 10; ///< likewise (METHOD 4, two kernels)
+    static constexpr int maxDofs = 3; ///< 3^d products: beyond, the direct kernel is the cheaper one
+    static constexpr int maxFeatures = maxFoldFeatures; ///< likewise (METHOD 4, two kernels)
 
     struct Feature {
         std::array<std::uint8_t, maxDofs> factor{}; ///< per DOF: 0 none, 1 first, 2 second

@@ -10,6 +10,7 @@ KernelSet foldKernels(KernelTarget target, std::uint32_t features, std::size_t d
     if (target == KernelTarget::Best) target = bestTarget();
     if (target == KernelTarget::Scalar) return scalarFoldKernels<T>();
     KernelSet set = vectorFoldQueries<T>(target, features);
+    addFoldCrowd<T>(target, features, set);
     addFoldPoses<T>(target, dofs, set);
     addContact(target, set);
     return set;
@@ -19,6 +20,7 @@ KernelSet directKernels(KernelTarget target) {
     if (target == KernelTarget::Best) target = bestTarget();
     if (target == KernelTarget::Scalar) return scalarDirectKernels<T>();
     KernelSet set = vectorDirectQueries<T>(target);
+    addDirectCrowd<T>(target, set);
     addDirectPoses<T>(target, set);
     addContact(target, set);
     return set;

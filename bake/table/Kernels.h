@@ -81,12 +81,13 @@ struct KernelSet {
 };
 
 inline constexpr std::uint32_t directColumns = 9;
+inline constexpr std::uint32_t maxFoldFeatures = 10;
 inline constexpr std::uint32_t foldColumns(std::uint32_t features) {
     return features + 4;
 }
 
-/// The kernels of a target that is available, for T float or double. features: up to 10 for the fold; dofs:
-/// of the motion that is folded, up to 3.
+/// The kernels of a target that is available, for T float or double. features: up to maxFoldFeatures for the
+/// fold; dofs: of the motion that is folded, up to 3.
 template <class T>
 KernelSet foldKernels(KernelTarget target, std::uint32_t features, std::size_t dofs);
 template <class T>

@@ -1,6 +1,6 @@
 #include "bake/table/KernelsScalar.h"
 
-#include "bake/table/Contact.h"
+#include "bake/table/ContactTest.h"
 
 #include <bit>
 #include <cmath>

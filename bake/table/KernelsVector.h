@@ -3,11 +3,17 @@
 
 namespace tss {
 
-/// The queries of a vector target; empty pointers where the build has none.
+/// The queries of one pose of a vector target; empty pointers where the build has none.
 template <class T>
 KernelSet vectorFoldQueries(KernelTarget target, std::uint32_t features);
 template <class T>
 KernelSet vectorDirectQueries(KernelTarget target);
+
+/// KernelSet's hits and gaps, likewise.
+template <class T>
+void addFoldCrowd(KernelTarget target, std::uint32_t features, KernelSet& set);
+template <class T>
+void addDirectCrowd(KernelTarget target, KernelSet& set);
 
 /// KernelSet's pose and poses of a fold, of a motion of `dofs` DOFs; left null where the target has none.
 template <class T>

@@ -38,8 +38,24 @@ bool PreparedTable::hit(const TableFeatures& f) const {
     return kernels_->hit(f);
 }
 
+TableGap PreparedTable::gap(const double* q) const {
+    TableFeatures f;
+    features(q, f);
+    return gap(f);
+}
+
 TableGap PreparedTable::gap(const TableFeatures& f) const {
     return kernels_->gap(f);
+}
+
+TableContact PreparedTable::contact(const double* q) const {
+    TableFeatures f;
+    MotionFrame at;
+    TableContact found;
+    features(q, f);
+    frame(q, at);
+    contact(f, at, found);
+    return found;
 }
 
 void PreparedTable::contact(const TableFeatures& f, const MotionFrame& frame, TableContact& out) const {

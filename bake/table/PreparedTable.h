@@ -84,11 +84,12 @@ public:
     bool hit(const TableFeatures& f) const;
 
     /// The smallest gap, within gapBand() for gaps up to the table's margin, and its test.
+    TableGap gap(const double* q) const;
     TableGap gap(const TableFeatures& f) const;
 
-    /// The smallest gap with point, normal and gradient; `frame` is frame(q) of the same pose. Of the
-    /// gradient dofCount() values are written. For an empty table only gap (infinity) and test (-1) mean
-    /// anything.
+    /// The smallest gap with point, normal and gradient (Contact.h); `frame` is frame(q) of the same pose. Of
+    /// the gradient dofCount() values are written.
+    TableContact contact(const double* q) const;
     void contact(const TableFeatures& f, const MotionFrame& frame, TableContact& out) const;
 
     /// T(q) and how each DOF moves B from there, for `contact`.

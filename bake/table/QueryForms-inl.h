@@ -1,5 +1,5 @@
 // What the queries in vectors are made of: the two forms of a row, how a block or a broadcast row is read,
-// which blocks are visited. Seen once for each kind of vectors (VectorTargets.h).
+// which blocks are visited, the nearest of a block. Seen once for each kind of vectors (VectorTargets.h).
 #if defined(TSS_QUERY_FORMS) == defined(HWY_TARGET_TOGGLE)
 #ifdef TSS_QUERY_FORMS
 #undef TSS_QUERY_FORMS
@@ -10,6 +10,7 @@
 #include "bake/table/Kernels.h"
 
 #include <hwy/highway.h>
+#include <utility>
 
 HWY_BEFORE_NAMESPACE();
 namespace tss {
@@ -137,6 +138,31 @@ struct SomeBlocks {
         }
     }
 };
+
+/// Smallest gap so far and the number of its test, in every lane.
+template <class T>
+struct Nearest {
+    V<T> gap, number;
+    HWY_INLINE void take(V<T> otherGap, V<T> otherNumber) {
+        number = hn::IfThenElse(hn::Lt(otherGap, gap), otherNumber, number);
+        gap = hn::Min(otherGap, gap);
+    }
+};
+
+template <class T, class Form, class Column>
+HWY_INLINE V<T> gapOf(const V<T>* pose, Column column) {
+    const V<T> square = hn::Sub(Form::square(pose + 1, column), pose[0]);
+    return hn::Sub(hn::Sqrt(hn::Max(square, hn::Zero(Lanes<T>()))), column(Form::reach));
+}
+
+/// Calls use(FoldForm) of the fold with so many features; not at all where there is none.
+template <class T, class Use>
+void withFold(std::uint32_t features, Use use) {
+    [&]<std::uint32_t... M>(std::integer_sequence<std::uint32_t, M...>) {
+        ((features == M ? use(FoldForm<T, M>{}) : void()), ...);
+    }
+    (std::make_integer_sequence<std::uint32_t, maxFoldFeatures + 1>{});
+}
 
 #endif
 

@@ -1,5 +1,4 @@
-// The queries in vectors: of one pose against vectors of pairs, and of vectors of poses against one pair
-// after the other.
+// The queries of one pose, against vectors of pairs.
 #include "bake/table/VectorTargets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bake/table/QueryKernels.cpp"
@@ -45,22 +44,6 @@ bool hit(const KernelData& data, const void* pose) {
     }
     if (block != end) least = hn::Min(least, Form::offset(p.values + 1, LoadColumn<T>{block}));
     return !hn::AllFalse(d, hn::Le(least, p.values[0]));
-}
-
-/// Smallest gap so far and the number of its test, in every lane.
-template <class T>
-struct Nearest {
-    V<T> gap, number;
-    HWY_INLINE void take(V<T> otherGap, V<T> otherNumber) {
-        number = hn::IfThenElse(hn::Lt(otherGap, gap), otherNumber, number);
-        gap = hn::Min(otherGap, gap);
-    }
-};
-
-template <class T, class Form, class Column>
-HWY_INLINE V<T> gapOf(const V<T>* pose, Column column) {
-    const V<T> square = hn::Sub(Form::square(pose + 1, column), pose[0]);
-    return hn::Sub(hn::Sqrt(hn::Max(square, hn::Zero(Lanes<T>()))), column(Form::reach));
 }
 
 /// The least lane, and the number of its test.
@@ -140,52 +123,6 @@ std::uint32_t underNear(const KernelData& data, const void* pose, const NearBloc
 }
 
 template <class T, class Form>
-void hits(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count,
-          std::uint8_t* hit) {
-    const Lanes<T> d;
-    const std::uint32_t n = static_cast<std::uint32_t>(hn::Lanes(d));
-    const T* end = static_cast<const T*>(rows.end);
-    for (std::uint32_t i = 0; i < count; i += n) {
-        V<T> p[Form::values + 1];
-        for (std::uint32_t k = 0; k <= Form::values; ++k)
-            p[k] = hn::LoadU(d, static_cast<const T*>(poses) + std::size_t(k) * stride + i);
-        V<T> least = farthest<T>();
-        for (const T* row = static_cast<const T*>(rows.blocks); row < end; row += Form::columns)
-            least = hn::Min(least, Form::offset(p + 1, BroadcastColumn<T>{row}));
-        std::uint8_t bytes[8] = {};
-        hn::StoreMaskBits(d, hn::Le(least, p[0]), bytes);
-        for (std::uint32_t k = 0; k < n; ++k) hit[i + k] = bytes[k / 8] >> (k % 8) & 1;
-    }
-}
-
-template <class T, class Form>
-void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count, float* gap,
-          std::int32_t* test) {
-    const Lanes<T> d;
-    const hn::RebindToSigned<Lanes<T>> di;
-    const std::uint32_t n = static_cast<std::uint32_t>(hn::Lanes(d));
-    const T* end = static_cast<const T*>(rows.end);
-    HWY_ALIGN hwy::MakeSigned<T> tests[hn::MaxLanes(Lanes<T>())];
-    HWY_ALIGN T least[hn::MaxLanes(Lanes<T>())];
-    for (std::uint32_t i = 0; i < count; i += n) {
-        V<T> p[Form::values + 1];
-        for (std::uint32_t k = 0; k <= Form::values; ++k)
-            p[k] = hn::LoadU(d, static_cast<const T*>(poses) + std::size_t(k) * stride + i);
-        Nearest<T> nearest{farthest<T>(), hn::BitCast(d, hn::Set(di, -1))};
-        for (const T* row = static_cast<const T*>(rows.blocks); row < end; row += Form::columns) {
-            const BroadcastColumn<T> column{row};
-            nearest.take(gapOf<T, Form>(p, column), column(Form::reach + 1));
-        }
-        hn::Store(nearest.gap, d, least);
-        hn::Store(hn::BitCast(di, nearest.number), di, tests);
-        for (std::uint32_t k = 0; k < n; ++k) {
-            gap[i + k] = static_cast<float>(least[k]);
-            test[i + k] = static_cast<std::int32_t>(tests[k]);
-        }
-    }
-}
-
-template <class T, class Form>
 KernelSet kernels() {
     KernelSet set;
     set.lanes = static_cast<std::uint32_t>(hn::Lanes(Lanes<T>()));
@@ -195,38 +132,14 @@ KernelSet kernels() {
     set.hitNear = hitNear<T, Form>;
     set.gapNear = gapNear<T, Form>;
     set.underNear = underNear<T, Form>;
-    set.hits = hits<T, Form>;
-    set.gaps = gaps<T, Form>;
     return set;
 }
 
 template <class T>
 KernelSet fold(std::uint32_t features) {
-    switch (features) {
-    case 0:
-        return kernels<T, FoldForm<T, 0>>();
-    case 1:
-        return kernels<T, FoldForm<T, 1>>();
-    case 2:
-        return kernels<T, FoldForm<T, 2>>();
-    case 3:
-        return kernels<T, FoldForm<T, 3>>();
-    case 4:
-        return kernels<T, FoldForm<T, 4>>();
-    case 5:
-        return kernels<T, FoldForm<T, 5>>();
-    case 6:
-        return kernels<T, FoldForm<T, 6>>();
-    case 7:
-        return kernels<T, FoldForm<T, 7>>();
-    case 8:
-        return kernels<T, FoldForm<T, 8>>();
-    case 9:
-        return kernels<T, FoldForm<T, 9>>();
-    case 10:
-        return kernels<T, FoldForm<T, 10>>();
-    }
-    return {};
+    KernelSet set;
+    withFold<T>(features, [&](auto form) { set = kernels<T, decltype(form)>(); });
+    return set;
 }
 
 template <class T>

@@ -105,8 +105,8 @@ public:
         nearGap_ = cellMove / codesPerMove * evenCodes;
     }
 
-    /// Finds all rows: first those of the grid, then those of the parts of cells that leave it open whether
-    /// tests touch.
+    /// Finds all rows: those of the cells of the grid, then those of the parts into which cells are cut where
+    /// it is open whether a test touches.
     void find(std::uint32_t lanes) {
         std::vector<std::uint32_t> all(pairs_.size());
         std::iota(all.begin(), all.end(), 0u);

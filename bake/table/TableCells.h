@@ -10,8 +10,8 @@ namespace tss {
 /// The limits of a motion cut into cells, those where contact begins more finely, and for every cell how near
 /// the tests of each block of the kernels can come anywhere in it (METHOD 4, cells): a query leaves out what
 /// cannot matter where the joint stands.
-/// Gaps are kept as codes of one byte that never fall as gaps rise, so that comparing codes leaves out no
-/// test that comparing gaps would not.
+/// A gap is kept as a code of one byte. A larger gap never has a smaller code: whatever test would matter by
+/// its gap matters by its code too.
 class TableCells {
 public:
     /// Codes of gaps up to 0 and above it part here.

@@ -7,8 +7,8 @@
 
 namespace tss {
 
-/// One pair of spheres, its radii in the reach alone: at no pose do the centres of one of these pairs come
-/// nearer to its own reach than those of the bound to this one.
+/// A pair of spheres that bounds some pairs from below: at every pose its gap, the distance of its centres
+/// less its reach, is at most the gap of each of them. Its radii are not told apart, only their sum in reach.
 TablePair boundOf(std::span<const TablePair> pairs);
 
 /// The tests of a large table in clusters of equally many whole blocks, those together whose spheres lie
@@ -31,8 +31,7 @@ public:
     const std::vector<std::uint32_t>& order() const { return order_; }
     std::size_t testsEach() const { return testsEach_; }
 
-    /// One a cluster, its radii in the reach alone: at no pose do the centres of a test of the cluster come
-    /// nearer to its own reach than those of the bound to this one.
+    /// The pair that bounds each cluster from below (boundOf()).
     std::span<const TablePair> bounds() const { return bounds_; }
 
     /// Group g is the clusters from g * clustersEach() on, whole blocks of them too; bounded likewise.

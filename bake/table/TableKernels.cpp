@@ -2,6 +2,7 @@
 
 #include "bake/base/Error.h"
 #include "bake/table/EarlyBound.h"
+#include "bake/table/LikelyTests.h"
 #include "bake/table/RoundingBand.h"
 
 #include <algorithm>
@@ -24,6 +25,9 @@ constexpr std::uint32_t fewClustered = 32;
 constexpr std::size_t mostDofsOfCells = 3;
 constexpr double mostLooked = 0.6;
 constexpr std::size_t mostTests = 1 << 16;
+/// Tests that are asked first, and poses that they are chosen by.
+constexpr std::size_t mostLikely = 16;
+constexpr int likelyPoses = 512;
 
 /// Poses at which the bodies are nearest to touching: a twentieth of a lattice over the limits.
 std::vector<std::vector<double>> nearContact(const Motion& motion, const std::vector<TablePair>& pairs) {
@@ -201,7 +205,8 @@ void TableKernels::fill(const Widened& rows, std::uint32_t lanes, std::span<cons
     using Number = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
     data.columns = fold_ ? std::uint32_t(fold_->features.size()) : 0;
     const std::uint32_t columns = fold_ ? foldColumns(data.columns) : directColumns;
-    const std::size_t count = std::max<std::size_t>(1, (rows.pairs.size() + lanes - 1) / lanes);
+    const std::size_t size = order.empty() ? rows.pairs.size() : order.size();
+    const std::size_t count = std::max<std::size_t>(1, (size + lanes - 1) / lanes);
     const std::size_t step = std::size_t(columns) * lanes;
     store.assign((count * step * sizeof(T) + sizeof(Chunk) - 1) / sizeof(Chunk), Chunk{});
     T* blocks = reinterpret_cast<T*>(store.data());
@@ -209,7 +214,7 @@ void TableKernels::fill(const Widened& rows, std::uint32_t lanes, std::span<cons
     data.end = blocks + count * step;
     for (std::size_t place = 0; place < count * lanes; ++place) {
         T* block = blocks + place / lanes * step + place % lanes;
-        const bool real = place < rows.pairs.size();
+        const bool real = place < size;
         const std::size_t i = real && !order.empty() ? order[place] : place;
         const double reach = real ? rows.pairs[i].reach : farReach;
         *column(block, lanes, columns - 1) = std::bit_cast<T>(real ? Number(i) : Number(-1));
@@ -259,6 +264,22 @@ void TableKernels::fillClusters() {
 }
 
 template <class T>
+void TableKernels::fillLikely() {
+    std::vector<TouchingPose> touching;
+    TableFeatures f;
+    for (const std::vector<double>& q : latticePoses(motion_, likelyPoses)) {
+        poseFeatures(q.data(), f);
+        if (!hitBeyondLikely(f)) continue;
+        touching.push_back({pose(motion_, q), static_cast<std::uint32_t>(nearestInClusters(f).test)});
+    }
+    likely_ = tss::likelyTests(pairs_, touching, mostLikely);
+    if (likely_.empty()) likely_ = {0}; // any
+    const Widened tests{pairs_, widening_};
+    fill<T>(tests, kernels_.lanes, likely_, likelyStore_, likelyData_);
+    fill<T>(tests, 1, likely_, likelyRowStore_, likelyRows_);
+}
+
+template <class T>
 void TableKernels::prepareKernels(CellUse use) {
     kernels_ = fold_ ? foldKernels<T>(target_, std::uint32_t(fold_->features.size()), motion_.dofCount())
                      : directKernels<T>(target_);
@@ -272,12 +293,18 @@ void TableKernels::prepareKernels(CellUse use) {
     const Widened tests{pairs_, widening_};
     fill<T>(tests, kernels_.lanes, clusters_.empty() ? cells_.order() : clusters_.order(), blocks_, data_);
     fill<T>(tests, 1, {}, rowStore_, rows_);
-    if (!clusters_.empty()) fillClusters<T>();
+    laneKernels_ = tss::laneKernels(target_);
+    if (!clusters_.empty()) {
+        fillClusters<T>();
+        fillLikely<T>();
+    }
     room_ = std::max<std::size_t>(1, (pairs_.size() + kernels_.lanes - 1) / kernels_.lanes) * kernels_.lanes;
 }
 
 std::size_t TableKernels::bytes() const {
-    return (blocks_.size() + clusterStore_.size() + groupStore_.size()) * sizeof(Chunk) + cells_.bytes();
+    return (blocks_.size() + clusterStore_.size() + groupStore_.size() + likelyStore_.size()) *
+               sizeof(Chunk) +
+           cells_.bytes();
 }
 
 void TableKernels::features(const double* q, TableFeatures& out) const {

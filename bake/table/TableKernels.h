@@ -1,6 +1,7 @@
 #pragma once
-#include "bake/table/Contact.h"
+#include "bake/table/ContactTest.h"
 #include "bake/table/Kernels.h"
+#include "bake/table/PoseLanes.h"
 #include "bake/table/PosePlan.h"
 #include "bake/table/PreparedTable.h"
 #include "bake/table/TableCells.h"
@@ -67,6 +68,14 @@ public:
     /// Smallest gap and its test of every instance.
     void gaps(const InstanceFeatures& f, float* gap, std::int32_t* test) const;
 
+    /// B to A in as many configurations from where their bodies are: of the direct form without cells only,
+    /// as the next.
+    void features(const BodyLanes& a, const BodyLanes& b, PoseLanes& out) const {
+        laneKernels_.between(a, originA_, b, originB_, float_, out);
+    }
+    /// A bit for each pose at which some test touches, of those that have one in `asked`.
+    std::uint32_t hits(const PoseLanes& poses, std::uint32_t asked) const;
+
     /// What tests are compared with where gaps up to the margin are asked for.
     double reachOf(double margin) const;
 
@@ -109,6 +118,10 @@ public:
     };
     BoundRows clusterBounds() const { return {clusterRows_, clusterData_}; }
     BoundRows groupBounds() const { return {groupRows_, groupData_}; }
+    /// Tests that a table in clusters asks first (LikelyTests.h), and their rows.
+    const std::vector<std::uint32_t>& likely() const { return likely_; }
+    BoundRows likelyTests() const { return {likelyRows_, likelyData_}; }
+    const LaneKernels& laneKernels() const { return laneKernels_; }
     std::uint32_t lanes() const { return kernels_.lanes; }
     const Vec3& originA() const { return originA_; }
     const Vec3& originB() const { return originB_; }
@@ -141,6 +154,8 @@ private:
     template <class Take>
     void eachNearCluster(const TableFeatures& f, const double& margin, Take take) const;
     bool hitInClusters(const TableFeatures& f) const;
+    bool hitBeyondLikely(const TableFeatures& f) const;
+    std::uint32_t hitsOf(const KernelData& rows, const PoseLanes& poses) const;
     KernelGap nearestInClusters(const TableFeatures& f) const;
     std::uint32_t testsInClusters(const TableFeatures& f, double margin, double wide, std::uint32_t* out,
                                   std::uint32_t enough) const;
@@ -164,6 +179,8 @@ private:
     void makeCells(CellUse use);
     template <class T>
     void fillClusters();
+    template <class T>
+    void fillLikely();
 
     Motion motion_;
     std::vector<TablePair> pairs_;
@@ -184,9 +201,12 @@ private:
     double signBand_ = 0, gapBand_ = 0, condition_ = 0;
     std::size_t room_ = 0;
 
-    std::vector<Chunk> blocks_, rowStore_, clusterStore_, clusterRowStore_, groupStore_, groupRowStore_;
+    std::vector<Chunk> blocks_, rowStore_, clusterStore_, clusterRowStore_, groupStore_, groupRowStore_,
+        likelyStore_, likelyRowStore_;
     KernelSet kernels_;
-    KernelData data_, rows_, clusterData_, clusterRows_, groupData_, groupRows_;
+    LaneKernels laneKernels_;
+    KernelData data_, rows_, clusterData_, clusterRows_, groupData_, groupRows_, likelyData_, likelyRows_;
+    std::vector<std::uint32_t> likely_;
     TableCells cells_;
     TableClusters clusters_;
     double clusterBand_ = 0; ///< what rounding may do to the gap of a cluster's bound

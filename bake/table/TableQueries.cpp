@@ -3,6 +3,7 @@
 #include "bake/table/TableKernels.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace tss {
@@ -45,10 +46,38 @@ void TableKernels::eachNearCluster(const TableFeatures& f, const double& margin,
 }
 
 bool TableKernels::hitInClusters(const TableFeatures& f) const {
+    return kernels_.hit(likelyData_, f.doubles) || hitBeyondLikely(f);
+}
+
+bool TableKernels::hitBeyondLikely(const TableFeatures& f) const {
     bool hit = false;
     eachNearCluster(f, 0,
                     [&](std::uint32_t cluster) { return hit = kernels_.hit(testsOf(cluster), f.doubles); });
     return hit;
+}
+
+std::uint32_t TableKernels::hitsOf(const KernelData& rows, const PoseLanes& poses) const {
+    std::uint8_t hit[poseLanes];
+    kernels_.hits(rows, poses.doubles, poseLanes, poseLanes, hit);
+    std::uint32_t bits = 0;
+    for (std::uint32_t i = 0; i < poseLanes; ++i) bits |= std::uint32_t(hit[i]) << i;
+    return bits;
+}
+
+std::uint32_t TableKernels::hits(const PoseLanes& poses, std::uint32_t asked) const {
+    if (clusters_.empty()) return hitsOf(rows_, poses) & asked;
+    std::uint32_t found = hitsOf(likelyRows_, poses) & asked;
+    TableFeatures f;
+    for (std::uint32_t left = asked & ~found; left != 0; left &= left - 1) {
+        const int lane = std::countr_zero(left);
+        for (std::size_t k = 0; k < std::size(poses.floats); ++k)
+            if (float_)
+                f.floats[k] = poses.floats[k][lane];
+            else
+                f.doubles[k] = poses.doubles[k][lane];
+        found |= std::uint32_t(hitBeyondLikely(f)) << lane;
+    }
+    return found;
 }
 
 KernelGap TableKernels::nearestInClusters(const TableFeatures& f) const {

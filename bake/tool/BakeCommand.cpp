@@ -1,5 +1,6 @@
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
+#include "bake/check/EarlyContact.h"
 #include "bake/pipeline/Bake.h"
 #include "bake/pipeline/CheckBake.h"
 #include "bake/scene/AllPairs.h"
@@ -23,7 +24,7 @@ struct BakeArguments {
     std::string input, output;
     BakeRequest request;
     int threads = 0;
-    bool inscribed = false, keep = false, allPairs = false, pairsOnly = false, again = false;
+    bool inscribed = false, keep = false, allPairs = false, pairsOnly = false, again = false, finer = false;
 };
 
 /// Adds the pairs of all bodies to the scene and says which; also what cannot be a pair.
@@ -112,12 +113,34 @@ void endIncomplete(const BakeArguments& arguments, const KeptParts& parts, const
                    arguments.output);
 }
 
-/// The meshes overlap at rest, and at many other poses too.
+/// The meshes overlap at rest, or as good as that, and at many other poses too.
 bool hasNoRoom(const Json& pair) {
     const Json early = pair.value("earlyContact", Json());
-    if (early.is_null() || pair["clearanceAtRest"].get<double>() > 0) return false;
+    if (early.is_null() || !early["close"].get<bool>()) return false;
     return early["stuck"].get<bool>() || early["held"].get<bool>() ||
            10 * early["freePoses"].get<int>() < 9 * early["poses"].get<int>();
+}
+
+/// Bakes the pairs again whose spheres stick out too far for the clearance of their joint, each with the
+/// tolerance that leaves most of it.
+void bakeFiner(SceneModel& scene, const BakeRequest& request, KeptParts& parts, const Console& console) {
+    for (const Pair& pair : scene.pairs) {
+        if (!parts.complete()) return;
+        const auto& asked = request.pairs;
+        if (!asked.empty() && std::find(asked.begin(), asked.end(), pair.path) == asked.end()) continue;
+        const std::optional<EarlyContact> early = measureEarlyContact(scene, pair);
+        if (!early || !early->coarse() || early->tolerance <= 0) continue;
+        console.say(fmt::format("{}: contact reported at {:.0f} % of the poses where nothing touches: again, "
+                                "with a tolerance of {}",
+                                pair.path, 100 * early->share,
+                                lengthText(early->tolerance, scene.metersPerUnit)));
+        BakeRequest finer = request;
+        finer.pairs = {pair.path};
+        finer.onlyMissing = false;
+        finer.given["tolerance"] = fmt::format("{}", early->tolerance);
+        finer.given.erase("max-spheres");
+        parts.run(finer);
+    }
 }
 
 void runBake(BakeArguments& arguments, Console& console) {
@@ -133,7 +156,10 @@ void runBake(BakeArguments& arguments, Console& console) {
     if (!arguments.pairsOnly) {
         arguments.request.onlyMissing = goesOn(scene, arguments, console);
         tellOtherRefusals(scene, arguments);
-        inFile(arguments.input, [&] { parts.run(arguments.request); });
+        inFile(arguments.input, [&] {
+            parts.run(arguments.request);
+            if (arguments.finer) bakeFiner(scene, arguments.request, parts, console);
+        });
     }
     const std::string written = parts.write();
     if (!parts.complete()) return endIncomplete(arguments, parts, written, console);
@@ -169,32 +195,22 @@ void addBake(Options& app, Console& console) {
     command
         ->add_flag("--pairs-only", arguments->pairsOnly, "write the scene with those pairs and bake none yet")
         ->needs(allPairs);
-    const std::pair<const char*, const char*> settings[] = {
-        {"spheres", "medial (default), shrinking, growth or surface"},
-        {"growth",
-         "START,STEP,END,MAXRADIUS of --spheres growth: fractions of the bounding diagonal (default "
-         "0.01,0.01,0.101,0.02) or lengths"},
-        {"tolerance",
-         "how far the spheres may stick out of the meshes (default: 1/500 of the smaller body's diagonal)"},
-        {"epsilon", "gap that the table may add to that of all spheres; 0 (default): lossless"},
-        {"depth", "the gap too is right down to this depth; 0 (default): yes or no only"},
-        {"max-spheres", "at most so many spheres a body: the best tolerance for them"},
-        {"reduce", "cover (default), cooccurrence, minimal or none"},
-        {"search", "certified (default) or sampled"},
-        {"samples", "poses explored by --search sampled"},
-        {"at-rest", "the region in which the meshes overlap at rest: offset (default), ignore or collide"},
-        {"budget", "seconds to find the few tests of each pair; making its spheres does not count"}};
-    for (const auto& [name, description] : settings)
+    for (const BakeOption& option : bakeOptions()) {
+        if (option.about.empty()) continue;
         command->add_option(
-            std::string("--") + name,
-            [arguments, key = std::string(name)](const std::string& text) {
+            std::string("--") + option.name,
+            [arguments, key = std::string(option.name)](const std::string& text) {
                 arguments->request.given[key] = text;
             },
-            description);
+            option.about);
+    }
     command->add_flag("--no-conservative", arguments->inscribed,
                       "inscribed spheres: nothing early, misses stated");
     command->add_flag("--keep-spheres", arguments->keep,
                       "store all generated spheres, not only the used ones");
+    command->add_flag("--finer", arguments->finer,
+                      "bake a pair whose spheres are too coarse for its joint's clearance again, with the "
+                      "tolerance that info proposes");
     command->add_flag("--again", arguments->again,
                       "bake all, also those that a bake of the same settings has left baked");
     command->add_option("--threads", arguments->threads, "worker threads (default: one a core)")

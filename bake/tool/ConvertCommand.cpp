@@ -8,7 +8,7 @@
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteUsda.h"
-#include "bake/scene/Xform.h"
+#include "bake/scene/Transforms.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/UsdInput.h"
 #include "bake/tool/WriteSpheres.h"

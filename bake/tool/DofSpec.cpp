@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <sstream>
 
 namespace tss::tool {
@@ -32,7 +33,12 @@ Vec3 parseAxis(const std::string& text, const std::string& what) {
 
 double limit(const std::string& text, const std::string& what, double metersPerUnit, double axisLength) {
     const bool unit = !text.empty() && std::isalpha(static_cast<unsigned char>(text.back()));
-    return unit ? parseLength(text, metersPerUnit) / axisLength : parseNumber(text, what);
+    if (!unit) return parseNumber(text, what);
+    try {
+        return parseLength(text, metersPerUnit) / axisLength;
+    } catch (const InputError& error) {
+        throw InputError(what + ": " + error.message);
+    }
 }
 
 std::vector<PathRow> readPath(const std::string& file) {
@@ -105,13 +111,32 @@ Dof parseDof(const std::string& text, double metersPerUnit) {
     return dof;
 }
 
-std::string describeDofs(const Motion& motion) {
+std::vector<Dof> parseDofs(const std::vector<std::string>& texts, double metersPerUnit) {
+    std::vector<Dof> dofs;
+    for (const std::string& text : texts) dofs.push_back(parseDof(text, metersPerUnit));
+    std::map<std::string, int> ofKind, soFar;
+    for (const Dof& dof : dofs) ++ofKind[dof.name];
+    for (Dof& dof : dofs)
+        if (ofKind[dof.name] > 1) dof.name += std::to_string(++soFar[dof.name]);
+    return dofs;
+}
+
+bool isParsedName(const std::string& name) {
+    const std::string kind = name.substr(0, name.find_first_of("123456789"));
+    return (kind == "rot" || kind == "trans" || kind == "path") &&
+           name.find_first_not_of("0123456789", kind.size()) == name.npos;
+}
+
+std::string describeDofs(const Motion& motion, double metersPerUnit) {
     std::string text;
-    for (const Dof& dof : motion.dofs)
+    for (const Dof& dof : motion.dofs) {
+        std::string unit;
+        if (dof.kind == DofKind::Rotation) unit = " degrees";
+        if (dof.kind == DofKind::Translation) unit = " times " + lengthText(dof.axis.norm(), metersPerUnit);
         text += fmt::format("{}{} {:.6g} to {:.6g}{}, rest {:.6g}{}", text.empty() ? "" : "; ", dof.name,
-                            toUser(dof, dof.lower), toUser(dof, dof.upper),
-                            dof.kind == DofKind::Rotation ? " degrees" : "", toUser(dof, dof.rest),
+                            toUser(dof, dof.lower), toUser(dof, dof.upper), unit, toUser(dof, dof.rest),
                             dof.kind == DofKind::Path ? describePath(dof) : "");
+    }
     return text;
 }
 

@@ -2,6 +2,7 @@
 #include "bake/motion/Motion.h"
 
 #include <string>
+#include <vector>
 
 namespace tss::tool {
 
@@ -12,14 +13,21 @@ namespace tss::tool {
 /// ORIGIN and AXIS are x,y,z. Throws InputError that quotes the text and says what was expected.
 Dof parseDof(const std::string& text, double metersPerUnit);
 
+/// Several in turn. They are called rot, trans or path, and numbered from 1 where there are several of a
+/// kind.
+std::vector<Dof> parseDofs(const std::vector<std::string>& texts, double metersPerUnit);
+
+/// Whether parseDofs() gives this name.
+bool isParsedName(const std::string& name);
+
 /// "x,y,z". Throws InputError.
 Vec3 parseVector(const std::string& text, const std::string& what);
 
 /// Comma-separated numbers. Throws InputError.
 std::vector<double> parseNumbers(const std::string& text, const std::string& what);
 
-/// "open 0 to 24 degrees, rest 0; ..."
-std::string describeDofs(const Motion& motion);
+/// "open 0 to 24 degrees, rest 0; push 0 to 2 times 9.04 mm, rest 0; ..."
+std::string describeDofs(const Motion& motion, double metersPerUnit);
 
 /// Values of a DOF as people write them: degrees for rotations, else as they are.
 double toUser(const Dof& dof, double q);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace tss::tool {
 
@@ -26,31 +27,48 @@ std::string vectorText(const Vec3& v, double size) {
     return fmt::format("{:.7g},{:.7g},{:.7g}", coordinate(v.x()), coordinate(v.y()), coordinate(v.z()));
 }
 
-std::string dofOption(const Dof& dof, double size) {
+/// As --dof and --joint have it.
+std::string dofText(const Dof& dof, double size) {
     const std::string limits = fmt::format("{:.7g}:{:.7g}", toUser(dof, dof.lower), toUser(dof, dof.upper));
     if (dof.kind == DofKind::Translation)
-        return fmt::format("--dof trans:{}:{}", vectorText(dof.axis, dof.axis.norm()), limits);
-    return fmt::format("--dof rot:{}:{}:{}", vectorText(dof.origin, size), vectorText(dof.axis, 1), limits);
+        return fmt::format("trans:{}:{}", vectorText(dof.axis, dof.axis.norm()), limits);
+    return fmt::format("rot:{}:{}:{}", vectorText(dof.origin, size), vectorText(dof.axis, 1), limits);
 }
 
-std::string dofOptions(const Motion& motion, double size) {
-    std::string text;
-    for (const Dof& dof : motion.dofs)
-        text += fmt::format("{}{}", text.empty() ? "" : " ", dofOption(dof, size));
-    return text;
+std::string bareName(const Body& body) {
+    return body.displayName.empty() ? body.path.substr(body.path.rfind('/') + 1) : body.displayName;
+}
+
+/// How the scene was made, as far as it shows: which options of `tss make` move B.
+enum class Form { TwoMeshes, Joint, None };
+
+Form formOf(const SceneModel& scene, const Pair& pair) {
+    const auto parsed = [&](int joint) {
+        const std::vector<Dof>& dofs = scene.joints[joint].dofs;
+        return std::all_of(dofs.begin(), dofs.end(), [](const Dof& dof) { return isParsedName(dof.name); });
+    };
+    const auto solid = std::count_if(scene.bodies.begin(), scene.bodies.end(),
+                                     [](const Body& b) { return !b.mesh.empty(); });
+    if (pair.joints.size() == scene.joints.size() && solid == 2 &&
+        std::all_of(pair.joints.begin(), pair.joints.end(), parsed))
+        return Form::TwoMeshes;
+    const bool asMade = scene.bodies[pair.bodyA].placement.linear().isIdentity(1e-6);
+    return asMade && pair.joints.size() == 1 && scene.joints[pair.joints[0]].body0 == pair.bodyA ? Form::Joint
+                                                                                                 : Form::None;
 }
 
 class Adviser {
 public:
     Adviser(const SceneModel& scene, const Pair& pair, const Console& console)
-        : unit_(scene.metersPerUnit), pair_(pair), console_(console), motion_(pairMotion(scene, pair)) {
-        // What `tss make` has made: B has the axes of A, moved by --b-offset.
+        : unit_(scene.metersPerUnit), pair_(pair), console_(console), motion_(pairMotion(scene, pair)),
+          a_(bareName(scene.bodies[pair.bodyA])), b_(bareName(scene.bodies[pair.bodyB])) {
+        // What `tss make` has made: B has the axes of A, moved by the offset.
         const Pose atZero = pose(motion_, std::vector<double>(motion_.dofCount(), 0.0));
-        plain_ = pair.joints.size() == scene.joints.size() &&
-                 (atZero.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-6;
-        already_ = plain_ ? Vec3(atZero.translation()) : Vec3(Vec3::Zero());
-        dofs_ = plain_ && std::none_of(motion_.dofs.begin(), motion_.dofs.end(),
-                                       [](const Dof& dof) { return dof.kind == DofKind::Path; });
+        if ((atZero.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-6) form_ = formOf(scene, pair);
+        if (form_ != Form::None) already_ = atZero.translation();
+        if (form_ == Form::TwoMeshes) a_ = 'A', b_ = 'B';
+        dofs_ = form_ != Form::None && std::none_of(motion_.dofs.begin(), motion_.dofs.end(),
+                                                    [](const Dof& dof) { return dof.kind == DofKind::Path; });
     }
 
     Json say(const TriangleMesh& a, const TriangleMesh& b) {
@@ -59,9 +77,11 @@ public:
         if (moves.empty()) return advice;
         size_ = std::min(bounds(a).diagonal().norm(), bounds(b).diagonal().norm());
         console_.say(fmt::format(
-            "{}: the meshes overlap where the joint rests. {}, found by trying, the best first:", pair_.path,
-            plain_ ? "Options of tss make, in place of those given, that move B out of A"
-                   : "Shifts of B that move it out of A, such as by --b-offset"));
+            "{}: the meshes overlap where the joint rests. {} out of {}, found by trying, the best first:",
+            pair_.path,
+            form_ == Form::None ? "Moves of " + b_
+                                : "Options of tss make, in place of those given, that move " + b_,
+            a_));
         for (const FreeingMove& move : moves) advice.push_back(sayMove(move));
         return advice;
     }
@@ -69,11 +89,26 @@ public:
 private:
     std::string length(double value) const { return lengthText(value, unit_); }
 
+    /// dofs: with these of the motion, where they can be said.
+    std::string option(const Vec3& shift, const Motion& motion, bool dofs) const {
+        const std::string by = vectorText(already_ + shift, size_);
+        if (form_ == Form::None) return fmt::format("all of {} moved by {} in its own frame", b_, by);
+        std::vector<std::string> texts;
+        if (dofs_ && dofs)
+            for (const Dof& dof : motion.dofs) texts.push_back(dofText(dof, size_));
+        if (form_ == Form::Joint)
+            return fmt::format("--joint '{}={},{}:{};offset:{}'",
+                               pair_.path.substr(pair_.path.rfind('/') + 1), a_, b_,
+                               dofs_ ? fmt::format("{}", fmt::join(texts, ";")) : "DOFS AS GIVEN", by);
+        std::string text = "--b-offset=" + by;
+        for (const std::string& dof : texts) text += " --dof " + dof;
+        return text;
+    }
+
     Json sayMove(const FreeingMove& move) const {
-        const std::string shift = fmt::format("--b-offset={}", vectorText(already_ + move.shift, size_));
-        std::string option = shift;
-        if (move.axes.norm() > 1e-6 * size_) option += fmt::format(" {}", dofOptions(move.motion, size_));
-        std::string text = fmt::format("  {}\n    B lies {} elsewhere, free at {} of {} poses", option,
+        const bool axes = form_ == Form::Joint || move.axes.norm() > 1e-6 * size_;
+        const std::string words = option(move.shift, move.motion, axes);
+        std::string text = fmt::format("  {}\n    {} lies {} elsewhere, free at {} of {} poses", words, b_,
                                        length(move.moved), move.free, move.poses);
         if (move.freeAtRest) text += fmt::format(", {} apart at rest", length(move.atRest));
         if (move.free > 0) text += fmt::format(", {} where it is closest", length(move.least));
@@ -83,7 +118,7 @@ private:
         if (move.free > 0 && 0.3 * move.least < size_ / 500) tolerance = roundedText(0.3 * move.least, unit_);
         if (!tolerance.empty()) text += fmt::format("; then bake with --tolerance {}", tolerance);
         console_.say(text);
-        return {{"option", option},
+        return {{"option", words},
                 {"shift", {move.shift.x(), move.shift.y(), move.shift.z()}},
                 {"axes", {move.axes.x(), move.axes.y(), move.axes.z()}},
                 {"moved", move.moved},
@@ -93,18 +128,19 @@ private:
                 {"apartAtRest", move.atRest},
                 {"least", move.least},
                 {"tolerance", tolerance},
-                {"beyond", sayBeyond(move, shift)}};
+                {"beyond", sayBeyond(move)}};
     }
 
     /// What it would meet if it went on, and limits that let it.
-    Json sayBeyond(const FreeingMove& move, const std::string& shift) const {
+    Json sayBeyond(const FreeingMove& move) const {
         if (move.beyond.empty()) return nullptr;
         std::string where;
         Motion wider = move.motion;
         for (const StopBeyond& stop : move.beyond) {
             const Dof& dof = motion_.dofs[stop.dof];
-            where += fmt::format("{}at {:.4g}{} of {}", where.empty() ? "" : " and ", toUser(dof, stop.value),
-                                 dof.kind == DofKind::Rotation ? " degrees" : "", dof.name);
+            where += fmt::format("{}at {:.4g}{}{}", where.empty() ? "" : " and ", toUser(dof, stop.value),
+                                 dof.kind == DofKind::Rotation ? " degrees" : "",
+                                 dof.name.empty() ? "" : " of " + dof.name);
             // A little farther, so that it is contact that stops it.
             const double more = 0.05 * (dof.upper - dof.lower);
             Dof& widened = wider.dofs[stop.dof];
@@ -113,18 +149,20 @@ private:
             else
                 widened.upper = stop.value + more;
         }
-        const std::string option = dofs_ ? fmt::format("{} {}", shift, dofOptions(wider, size_)) : "";
-        console_.say(fmt::format("    B meets nothing within these limits then; it would {}{}{}", where,
-                                 dofs_ ? ". For limits that end at contact:\n    " : "", option));
-        return {{"where", where}, {"option", option}};
+        const std::string words = dofs_ ? option(move.shift, wider, true) : "";
+        console_.say(fmt::format("    {} meets nothing within these limits then; it would {}{}{}", b_, where,
+                                 dofs_ ? ". For limits that end at contact:\n    " : "", words));
+        return {{"where", where}, {"option", words}};
     }
 
     const double unit_;
     const Pair& pair_;
     const Console& console_;
     const Motion motion_;
-    bool plain_ = false, dofs_ = false;
-    Vec3 already_;
+    std::string a_, b_; ///< the bodies, as the user knows them
+    Form form_ = Form::None;
+    bool dofs_ = false; ///< the DOFs can be said as an option
+    Vec3 already_ = Vec3::Zero();
     double size_ = 0;
 };
 

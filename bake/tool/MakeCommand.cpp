@@ -57,8 +57,7 @@ int addBody(SceneModel& scene, const std::string& file, const Vec3& color, Json&
 
 Motion parseMotion(const MakeArguments& arguments) {
     Motion motion;
-    for (const std::string& text : arguments.dofs)
-        motion.dofs.push_back(parseDof(text, arguments.metersPerUnit));
+    motion.dofs = parseDofs(arguments.dofs, arguments.metersPerUnit);
     motion.base.translation() = parseVector(arguments.offset, "--b-offset");
     std::vector<double> rest(motion.dofCount(), 0.0);
     if (!arguments.rest.empty()) rest = parseNumbers(arguments.rest, "--rest");
@@ -184,7 +183,7 @@ void make(MakeArguments& arguments, const Console& console) {
     else
         applyMotion(scene, arguments.motion);
     saveScene(scene, arguments.output);
-    console.say("joint  " + describeDofs(motion));
+    console.say("joint  " + describeDofs(motion, scene.metersPerUnit));
     remarkSizes(scene, console);
     remarkRadians(motion, console);
     remarkFarAxes(motion, scene, console);
@@ -242,7 +241,9 @@ void addWholeSceneOptions(Options& command, const std::shared_ptr<MakeArguments>
     add("--body", whole.bodies,
         "[NAME=]MESH: a rigid body; repeat. All meshes lie as they do where every joint is at 0");
     add("--joint", whole.joints,
-        "NAME=PARENT,CHILD:DOF[;DOF...]: a joint of two bodies, its DOFs as for --dof; repeat");
+        "NAME=PARENT,CHILD:DOF[;DOF...][;offset:X,Y,Z]: a joint of two bodies, its DOFs as for --dof; the "
+        "child, with "
+        "what hangs on it, is moved by the offset first; repeat");
     Option* skin = add("--skin", whole.skins, "[NAME=]MESH: a skin over the bodies and muscles");
     add("--bone", whole.bones, "BODY: a body that the skin lies on; repeat (default: all)")->needs(skin);
     add("--muscle", whole.muscles,

@@ -69,14 +69,17 @@ void runAllPairs(const QueryArguments& arguments, const Console& console) {
                                      counted(bare.size(), "pair")));
     const Csv poses = readCsv(arguments.poses, dofs.size());
     checkColumns(poses, names, arguments.poses);
-    std::vector<double> values(dofs.size());
+    std::vector<double> values;
+    for (const std::vector<double>& row : poses.rows)
+        for (std::size_t k = 0; k < dofs.size(); ++k) values.push_back(fromUser(*dofs[k], row[k]));
+    std::vector<MechanismAnswer> answers(poses.rows.size());
     MechanismWorkspace workspace = mechanism.workspace();
+    mechanism.ask(values.data(), answers.size(), answers.data(), workspace);
     std::string text = "hit,pair\n";
     std::size_t hits = 0, outside = 0;
     Json outsideRows = Json::array();
     for (std::size_t row = 0; row < poses.rows.size(); ++row) {
-        for (std::size_t k = 0; k < values.size(); ++k) values[k] = fromUser(*dofs[k], poses.rows[row][k]);
-        const MechanismAnswer answer = mechanism.ask(values.data(), workspace);
+        const MechanismAnswer& answer = answers[row];
         if (answer.verdict == Verdict::Beyond && ++outside <= mostRowsNamed) outsideRows.push_back(row);
         hits += answer.verdict == Verdict::Contact;
         text += answer.verdict == Verdict::Beyond ? "nan,\n"
@@ -154,7 +157,7 @@ void addQuery(Options& app, Console& console) {
         ->add_flag("--all-pairs", arguments->allPairs,
                    "whether any pair of the scene touches: one column for each DOF of all joints, in the "
                    "order of the "
-                   "file; CSV: hit,pair, the pair found first. Nan: outside the limits of some pair, and no "
+                   "file; CSV: hit,pair, one that touches. Nan: outside the limits of some pair, and no "
                    "other one touches")
         ->excludes(command->get_option("--pair"))
         ->excludes(command->get_option("--distance"));

@@ -39,7 +39,11 @@ std::string rootName(const std::string& text) {
 
 Robot readRobot(const RobotArguments& arguments, [[maybe_unused]] const std::string& text,
                 [[maybe_unused]] const FindMesh& find) {
-    const bool mujoco = rootName(text) == "mujoco";
+    const std::string root = rootName(text);
+    const bool mujoco = root == "mujoco";
+    if (!root.empty() && !mujoco && root != "robot")
+        throw InputError(Where{arguments.input, "", ""},
+                         "expected the <robot> of a URDF or the <mujoco> of an MJCF, found <" + root + ">");
     if (mujoco) {
 #ifdef OSGTSS_HAVE_MJCF
         return readMjcf(text, arguments.input,
@@ -101,7 +105,7 @@ void remarkSizes(const SceneModel& scene, const Console& console) {
 
 } // namespace
 
-void sayScene(const RobotScene& made, const std::string& output, const Console& console) {
+Json sayScene(const RobotScene& made, const std::string& output, const Console& console) {
     const Json links = sayLinks(made, console);
     Json joints = Json::array();
     for (const Joint& joint : made.scene.joints) {
@@ -113,7 +117,7 @@ void sayScene(const RobotScene& made, const std::string& output, const Console& 
                                                           : "goes along its path";
         joints.push_back({{"path", joint.path}, {"dofs", joint.dofs.size()}});
         console.say(joint.path.substr(joint.path.rfind('/') + 1) + ": " +
-                    (joint.dofs.empty() ? "fixed" : describeDofs(motion)));
+                    (joint.dofs.empty() ? "fixed" : describeDofs(motion, made.scene.metersPerUnit)));
     }
     for (const std::string& note : made.notes) console.say("note: " + note);
     remarkSizes(made.scene, console);
@@ -121,17 +125,15 @@ void sayScene(const RobotScene& made, const std::string& output, const Console& 
     for (const Pair& pair : made.scene.pairs) pairs.push_back(pair.path);
     for (const MuscleModel& muscle : made.scene.muscles) muscles.push_back(muscle.path);
     for (const SkinModel& skin : made.scene.skins) skins.push_back(skin.path);
-    console.say(fmt::format("wrote {}: {}, {}, {}; next: tss bake {} -o BAKED.tss", output,
-                            counted(made.links.size(), "part"), counted(made.scene.joints.size(), "joint"),
-                            counted(pairs.size(), "pair"), output));
-    console.print({{"output", output},
-                   {"robot", made.scene.defaultPrim},
-                   {"links", links},
-                   {"joints", joints},
-                   {"pairs", pairs},
-                   {"muscles", muscles},
-                   {"skins", skins},
-                   {"notes", made.notes}});
+    const bool nothing = pairs.empty() && skins.empty();
+    console.say(fmt::format("wrote {}: {}, {}, {}; {}", output, counted(made.links.size(), "part"),
+                            counted(made.scene.joints.size(), "joint"), counted(pairs.size(), "pair"),
+                            nothing ? "nothing to bake: no two bodies with a surface move against each other"
+                                    : "next: tss bake " + output + " -o BAKED.tss"));
+    return {{"output", output}, {"robot", made.scene.defaultPrim},
+            {"links", links},   {"joints", joints},
+            {"pairs", pairs},   {"muscles", muscles},
+            {"skins", skins},   {"notes", made.notes}};
 }
 
 namespace {
@@ -164,7 +166,7 @@ void makeRobot(const RobotArguments& arguments, const Console& console) {
         applyMotion(made.scene, arguments.motion);
     }
     saveScene(made.scene, arguments.output);
-    sayScene(made, arguments.output, console);
+    console.print(sayScene(made, arguments.output, console));
 }
 
 } // namespace tss::tool

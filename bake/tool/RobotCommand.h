@@ -12,8 +12,8 @@ struct RobotArguments {
     std::string motion; ///< a CSV file, see applyMotion()
 };
 
-/// Says what the scene holds that was written: meshes, joints, notes, what comes next.
-void sayScene(const RobotScene& made, const std::string& output, const Console& console);
+/// Says what the scene holds that was written: meshes, joints, notes, what comes next. Returns it as data.
+Json sayScene(const RobotScene& made, const std::string& output, const Console& console);
 
 /// Writes the scene of a robot and says what it holds. Throws InputError.
 void makeRobot(const RobotArguments& arguments, const Console& console);

@@ -37,7 +37,9 @@ RobotScene sceneOfOurs(const UsdStage& stage, const std::string& file) {
 
 RobotScene readUsdScene(const std::string& file, const RobotSceneRequest& request) {
     const OpenUsd open = besideUsd(file);
-    UsdStage stage = readStage(open(std::filesystem::path(file).filename().string()).text, file, open);
+    const std::string name = std::filesystem::path(file).filename().string();
+    const UsdFile first = inFile(file, [&] { return open(name); });
+    UsdStage stage = readStage(first.text, file, open);
     if (stage.ours) return sceneOfOurs(stage, file);
     const FindMesh none = [](const std::string& name) -> std::string { return name; };
     return sceneOf(robotOf(std::move(stage), file), request, none);

@@ -30,11 +30,12 @@ double peakMemory() {
 
 /// Proves the rounding of the table's run-time kernel, with the instructions of every kind that this machine
 /// has.
-std::string kernelVerified(const Table& table, Json& json) {
+std::string kernelVerified(const Table& table, Json& json, const Progress& progress) {
     json["kernels"] = Json::array();
     for (const KernelTarget target : {KernelTarget::Scalar, KernelTarget::Sse2, KernelTarget::Avx2,
                                       KernelTarget::Avx512, KernelTarget::Neon}) {
         if (!available(target)) continue;
+        if (!report(progress, "kernels", 0)) return "stopped before all its kernels were looked at";
         PrepareOptions options;
         options.target = target;
         const PreparedTable prepared(table, options);
@@ -65,7 +66,7 @@ std::string verified(const SceneModel& scene, const Pair& pair, Json& json, cons
                       {"shareB", verdict.meshes.exempt.shareB},
                       {"farthest", verdict.meshes.farthestExempt}};
     if (verdict.early >= 0) json["early"] = verdict.early;
-    if (verdict.reason.empty() && pair.table) return kernelVerified(*pair.table, json);
+    if (verdict.reason.empty() && pair.table) return kernelVerified(*pair.table, json, progress);
     if (verdict.pose.empty()) return verdict.reason;
     json["pose"] = verdict.pose;
     const Motion motion = pairMotion(scene, pair);
@@ -75,6 +76,28 @@ std::string verified(const SceneModel& scene, const Pair& pair, Json& json, cons
             fmt::format("{}{:.9g}", k ? ", " : " at DOF values ", toUser(motion.dofs[k], verdict.pose[k]));
     return verdict.reason + pose;
 }
+
+/// The seconds that one pair or skin may take; 0: any.
+class Budget {
+public:
+    explicit Budget(double seconds) : seconds_(seconds) {}
+
+    double spent() const { return secondsSince(start_); }
+    /// Until it is spent; to be asked no longer than this is there.
+    Progress within(Progress told) {
+        return [this, told = std::move(told)](std::string_view step, double done) {
+            stopped_ = stopped_ || (seconds_ > 0 && spent() >= seconds_);
+            return report(told, step, done) && !stopped_;
+        };
+    }
+    bool stopped() const { return stopped_; } ///< somebody asked after it was spent
+    std::string ended() const { return fmt::format("not decided within {:.6g} s", seconds_); }
+
+private:
+    double seconds_;
+    bool stopped_ = false;
+    Clock::time_point start_ = Clock::now();
+};
 
 /// What is claimed of a pair, in a few words.
 std::string claims(const Pair& pair, double metersPerUnit) {
@@ -94,14 +117,16 @@ std::string claims(const Pair& pair, double metersPerUnit) {
 
 /// Reports one pair; whether it holds.
 bool verifyOne(const std::string& file, const SceneModel& scene, const Pair& pair, Json& result,
-               Console& console, const Progress& progress, double budget) {
+               Console& console, Budget budget) {
     Json json = {{"path", pair.path}};
-    const auto start = Clock::now();
+    const Progress progress = budget.within(console.progress());
     std::string why = inFile(file, [&] { return verified(scene, pair, json, progress); });
-    const double seconds = secondsSince(start);
-    if (!why.empty() && budget > 0 && seconds >= budget)
-        why = fmt::format("not proven within {:.6g} s", budget);
+    const double seconds = budget.spent();
+    // What a pose has refuted is decided, however late.
+    const bool decided = why.empty() || !budget.stopped() || json.contains("pose");
+    if (!decided) why = budget.ended();
     json["holds"] = why.empty();
+    json["decided"] = decided;
     json["reason"] = why;
     json["seconds"] = seconds;
     json["peakMegabytes"] = peakMemory();
@@ -120,12 +145,13 @@ bool verifyOne(const std::string& file, const SceneModel& scene, const Pair& pai
 
 /// Looks at one skin again; whether nothing was found.
 bool verifyOne(const std::string& file, const SceneModel& scene, const SkinModel& skin, Json& result,
-               Console& console, const Progress& progress) {
+               Console& console, Budget budget) {
     SkinVerdict verdict;
-    const std::string thrown = inFile(file, [&] {
-        verdict = verifySkin(scene, skin, progress);
+    std::string thrown = inFile(file, [&] {
+        verdict = verifySkin(scene, skin, budget.within(console.progress()));
         return verdict.reason;
     });
+    if (!thrown.empty() && budget.stopped()) thrown = budget.ended();
     result["skins"].push_back({{"path", skin.path},
                                {"checked", thrown.empty()},
                                {"proven", false},
@@ -149,15 +175,10 @@ void verify(const std::string& file, double budget, Console& console) {
     int bad = 0;
     for (const Pair& pair : scene.pairs) {
         if (!pair.table && !pair.proof) continue;
-        const auto start = Clock::now();
-        const Progress told = console.progress();
-        const Progress within = [&](std::string_view step, double done) {
-            return report(told, step, done) && (budget <= 0 || secondsSince(start) < budget);
-        };
-        bad += !verifyOne(file, scene, pair, result, console, within, budget);
+        bad += !verifyOne(file, scene, pair, result, console, Budget(budget));
     }
     for (const SkinModel& skin : scene.skins)
-        if (skin.table) bad += !verifyOne(file, scene, skin, result, console, console.progress());
+        if (skin.table) bad += !verifyOne(file, scene, skin, result, console, Budget(budget));
     if (result["pairs"].empty() && result["skins"].empty())
         throw InputError(Where{file, "", ""},
                          "nothing to verify; expected a scene with a baked pair or skin");
@@ -178,7 +199,9 @@ void addVerify(Options& app, Console& console) {
     auto file = std::make_shared<std::string>();
     auto budget = std::make_shared<double>(0);
     command->add_option("scene", *file, "a baked scene")->required();
-    command->add_option("--budget", *budget, "seconds a pair; 0 (default): as long as it takes");
+    command->add_option(
+        "--budget", *budget,
+        "seconds a pair or skin, after which it is not decided; 0 (default): as long as it takes");
     command->footer(
         "Proven from the file and the meshes alone, at every pose of the limits: that some test "
         "reports where the\n"

@@ -12,6 +12,7 @@
 #include "bake/scene/Layer.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/DofSpec.h"
+#include "bake/tool/FreeingAdvice.h"
 #include "bake/tool/OwnMotion.h"
 #include "bake/tool/RobotCommand.h"
 
@@ -56,12 +57,12 @@ int linkCalled(const Robot& robot, const std::string& name, const std::string& o
     throw InputError(option + ": no body is called \"" + name + "\"; expected one of " + known);
 }
 
-/// NAME=PARENT,CHILD:DOF[;DOF...]
+/// NAME=PARENT,CHILD:DOF[;DOF...][;offset:X,Y,Z]
 RobotJoint parseJoint(const Robot& robot, const std::string& text, double metersPerUnit) {
     const std::string option = "--joint " + text;
     const auto sign = text.find('='), comma = text.find(',', sign), colon = text.find(':', comma);
     if (sign == text.npos || comma == text.npos || colon == text.npos)
-        throw InputError(option + ": expected NAME=PARENT,CHILD:DOF[;DOF...]");
+        throw InputError(option + ": expected NAME=PARENT,CHILD:DOF[;DOF...][;offset:X,Y,Z]");
     RobotJoint joint;
     joint.name = text.substr(0, sign);
     if (!isPrimName(joint.name))
@@ -70,10 +71,19 @@ RobotJoint parseJoint(const Robot& robot, const std::string& text, double meters
     joint.parent = linkCalled(robot, text.substr(sign + 1, comma - sign - 1), option);
     joint.child = linkCalled(robot, text.substr(comma + 1, colon - comma - 1), option);
     if (joint.parent == joint.child) throw InputError(option + ": expected two bodies");
-    for (const std::string& dof : split(text.substr(colon + 1), ';')) {
-        joint.dofs.push_back(parseDof(dof, metersPerUnit));
+    const std::string offset = "offset:";
+    Vec3 moved = Vec3::Zero();
+    for (const std::string& part : split(text.substr(colon + 1), ';')) {
+        if (part.starts_with(offset)) {
+            moved += parseVector(part.substr(offset.size()), option);
+            continue;
+        }
+        joint.dofs.push_back(parseDof(part, metersPerUnit));
         joint.dofs.back().name.clear();
     }
+    // The DOFs are as the parent has them, also where the child is moved first.
+    joint.origin.translation() = moved;
+    for (Dof& dof : joint.dofs) dof.origin -= moved;
     return joint;
 }
 
@@ -322,7 +332,14 @@ void makeWholeScene(const WholeSceneArguments& arguments, const Console& console
     else
         applyMotion(made.scene, arguments.motion);
     saveScene(made.scene, arguments.output);
-    sayScene(made, arguments.output, console);
+    Json result = sayScene(made, arguments.output, console);
+    for (const Pair& pair : made.scene.pairs)
+        if (pair.joints.size() == 1)
+            for (Json& move : adviseMoves(made.scene, pair, console)) {
+                move["pair"] = pair.path;
+                result["freeingMoves"].push_back(std::move(move));
+            }
+    console.print(result);
 }
 
 } // namespace tss::tool

@@ -26,13 +26,13 @@ constexpr std::array attributes = {schema::points,
                                    Attribute{"radius", "double"},
                                    Attribute{"height", "double"}};
 
-const char* schemaType(const std::string& name) {
+std::string_view schemaType(const std::string& name) {
     for (const Attribute& attribute : attributes)
         if (name == attribute.name) return attribute.typeName;
     if (name.starts_with("limit:") ||
         (name.starts_with("drive:") && name.ends_with(":physics:targetPosition")))
         return "float";
-    return nullptr;
+    return {};
 }
 
 bool sameForm(const ValueType& a, const ValueType& b) {
@@ -57,8 +57,8 @@ void adapt(Prim& prim, const std::string& parent, const std::string& file, LeftO
     for (auto& [name, property] : prim.properties) {
         const auto type = valueType(property.typeName);
         if (!type || property.isRelationship()) continue;
-        const char* wanted = schemaType(name);
-        if (wanted && property.typeName != wanted && sameForm(*type, *valueType(wanted))) {
+        const std::string_view wanted = schemaType(name);
+        if (!wanted.empty() && property.typeName != wanted && sameForm(*type, *valueType(wanted))) {
             Problems problems(file);
             property.typeName = wanted;
             if (property.defaultValue)

@@ -9,7 +9,7 @@ namespace tss {
 namespace {
 
 constexpr Attribute size{"size", "double"}, radius{"radius", "double"}, height{"height", "double"},
-    axisOf{"axis", "token"};
+    axisOf = declared("token axis", "", anyNumber, "Z X Y");
 
 /// Along z, with USD's fallbacks.
 RobotShape shapeOf(const PrimReader& prim) {
@@ -34,7 +34,7 @@ RobotShape shapeOf(const PrimReader& prim) {
 
 /// From along z to along the axis that the prim names.
 Eigen::Matrix3d turnTo(const PrimReader& prim) {
-    const std::string axis = prim.choice(axisOf, {"Z", "X", "Y"});
+    const std::string axis = prim.choice(axisOf);
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     if (axis == "X") turn << 0, 0, 1, 0, 1, 0, -1, 0, 0;
     if (axis == "Y") turn << 1, 0, 0, 0, 0, 1, 0, -1, 0;

@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/scene/SceneReading.h"
+#include "bake/scene/SceneParts.h"
 
 namespace tss {
 

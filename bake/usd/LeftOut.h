@@ -5,10 +5,14 @@
 
 namespace tss {
 
-/// Names by what became of them, as notes: at most some a kind, and how many there are.
+/// Names by what became of them, as notes: at most some a kind, and how many there are. What is added of one
+/// name several times in a row is said once.
 class LeftOut {
 public:
-    void add(const std::string& kind, const std::string& name) { names_[kind].push_back(name); }
+    void add(const std::string& kind, const std::string& name) {
+        std::vector<std::string>& names = names_[kind];
+        if (names.empty() || names.back() != name) names.push_back(name);
+    }
 
     std::vector<std::string> notes() const {
         constexpr std::size_t most = 4;

@@ -1,7 +1,7 @@
 #include "bake/usd/OurLayer.h"
 
 #include "bake/base/Error.h"
-#include "bake/scene/ReadProperty.h"
+#include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadTree.h"
 #include "bake/scene/ValueType.h"
 #include "bake/scene/WriteUsda.h"

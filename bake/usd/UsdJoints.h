@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/robot/Robot.h"
-#include "bake/scene/SceneReading.h"
+#include "bake/scene/SceneParts.h"
 #include "bake/usd/LeftOut.h"
 
 #include <functional>

@@ -12,8 +12,8 @@ namespace tss {
 namespace {
 
 constexpr Attribute rigidEnabled{"physics:rigidBodyEnabled", "bool"},
-    collides{"physics:collisionEnabled", "bool"}, approximation{"physics:approximation", "token", true};
-constexpr const char* filtered = "physics:filteredPairs";
+    collides{"physics:collisionEnabled", "bool"}, approximation{"physics:approximation", "token", true},
+    filtered{"physics:filteredPairs", "rel"};
 
 class Reader {
 public:
@@ -120,7 +120,7 @@ private:
         rigid_ = starts;
         for (std::size_t i = 0; i < count; ++i) {
             if (!isJoint(*entries_[i].prim)) continue;
-            for (const char* body : {schema::body0, schema::body1}) {
+            for (const Attribute& body : {schema::body0, schema::body1}) {
                 const std::string path = reader(i).target(body);
                 int at = path.empty() ? -1 : reading_.index.find(path);
                 if (at < 0 || holdsBodies[at]) continue;

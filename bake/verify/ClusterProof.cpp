@@ -55,7 +55,14 @@ std::string refuteClusters(const PreparedTable& prepared, const std::vector<Exac
     for (const TablePair& bound : clusters.bounds()) bounds.push_back({bound.a, bound.b, bound.reach});
     reason = refuteBounds(prepared, bounds, {}, clusters.clustersEach(), clusters.groups(),
                           prepared.kernels().groupBounds(), posed);
-    return reason.empty() ? reason : "of a group of clusters: " + reason;
+    if (!reason.empty()) return "of a group of clusters: " + reason;
+    // What is asked first, which alone may say that a pose touches, is tests of the table.
+    const std::vector<std::uint32_t>& likely = prepared.kernels().likely();
+    const TableKernels::BoundRows stored = prepared.kernels().likelyTests();
+    if (!blocksAreRows(prepared, stored.blocks, stored.rows, likely.size(), {}) ||
+        !rowsAreTests(prepared, stored.rows, likely))
+        return "what it asks first is no test of it";
+    return {};
 }
 
 } // namespace tss::verify

@@ -50,7 +50,8 @@ double tried(const Table& table, const PreparedTable& prepared, const std::vecto
             reason = "at a pose the kernel's rotation or translation is another than the motion's";
         const double own = double(gap), answer = prepared.gap(f).gap;
         if ((own <= 0 && !prepared.hit(f)) || (own > prepared.signBand() && prepared.hit(f)))
-            reason = fmt::format("at a pose the gap is {:.6g} and the kernel's verdict is wrong", own);
+            reason =
+                fmt::format("at a pose the gap is {:.6g} scene units and the kernel's verdict is wrong", own);
         if (own > prepared.kernels().margin() || own < -prepared.kernels().depth()) continue;
         worst = std::max(worst, std::abs(answer - own));
     }
@@ -86,9 +87,9 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
                                        : directErrors(prepared, StoredRow(prepared, p), test,
                                                       prepared.kernels().farthestT(), direct->rounding());
         if (errors.sign.high > 0 && test.reach >= 0)
-            verdict.reason =
-                fmt::format("test {} may miss a touch: its squared distance may be {:.3g} too large", p,
-                            errors.sign.high);
+            verdict.reason = fmt::format(
+                "test {} may miss a touch: its squared distance may be {:.3g} scene units squared too large",
+                p, errors.sign.high);
         // d^2 - reach^2 <= -low means d <= sqrt(reach^2 - low).
         const double reach = std::max(0.0, test.reach);
         verdict.early =
@@ -97,13 +98,13 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
             verdict.gapOff = std::max(verdict.gapOff, gapError(u, errors.square, test.reach, gap));
     }
     if (verdict.reason.empty() && verdict.early > prepared.signBand() * (1 + 1e-6))
-        verdict.reason =
-            fmt::format("it may report contact {:.3g} before the table does, more than its band of {:.3g}",
-                        verdict.early, prepared.signBand());
+        verdict.reason = fmt::format(
+            "it may report contact {:.3g} scene units before the table does, more than its band of {:.3g}",
+            verdict.early, prepared.signBand());
     if (verdict.reason.empty()) verdict.seen = tried(table, prepared, tests, direct, verdict.reason);
     if (verdict.reason.empty() && verdict.seen > verdict.gapOff)
-        verdict.reason = fmt::format("its gap was off by {:.3g} at a pose, more than {:.3g}", verdict.seen,
-                                     verdict.gapOff);
+        verdict.reason = fmt::format("its gap was off by {:.3g} scene units at a pose, more than {:.3g}",
+                                     verdict.seen, verdict.gapOff);
     if (verdict.reason.empty()) verdict.reason = refuteCells(table, prepared);
     if (verdict.reason.empty() && direct)
         verdict.reason = refuteClusters(prepared, tests, direct->rounding());

@@ -104,6 +104,18 @@ bool blocksAreRows(const PreparedTable& prepared, const KernelData& blockData, c
     return true;
 }
 
+bool rowsAreTests(const PreparedTable& prepared, const KernelData& rowData,
+                  std::span<const std::uint32_t> tests) {
+    const std::size_t row = directColumns * (prepared.precision() == KernelPrecision::Float ? 4 : 8);
+    const auto* rows = static_cast<const std::byte*>(rowData.blocks);
+    const auto* all = static_cast<const std::byte*>(prepared.kernels().rows().blocks);
+    if (rows + tests.size() * row != rowData.end) return false;
+    for (std::size_t i = 0; i < tests.size(); ++i)
+        if (tests[i] >= prepared.testCount() || std::memcmp(rows + i * row, all + tests[i] * row, row) != 0)
+            return false;
+    return true;
+}
+
 std::string refuteCells(const Table& table, const PreparedTable& prepared) {
     const auto& order = prepared.kernels().clusters().empty() ? prepared.kernels().cells().order()
                                                               : prepared.kernels().clusters().order();

@@ -10,6 +10,10 @@ namespace tss::verify {
 bool blocksAreRows(const PreparedTable& prepared, const KernelData& blocks, const KernelData& rows,
                    std::size_t count, std::span<const std::uint32_t> order);
 
+/// Whether rows of the direct form are those of these tests, to the bit, one after the other.
+bool rowsAreTests(const PreparedTable& prepared, const KernelData& rows,
+                  std::span<const std::uint32_t> tests);
+
 /// Proves, with the verifier's own bounds of motion, that the cells of a prepared table leave out no test
 /// that matters: in every cell, tests of a block left out of a yes-or-no query stay apart, those left out
 /// under a margin stay above it, those left out of the smallest gap never have it; and where a cell answers

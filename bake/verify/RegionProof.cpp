@@ -116,7 +116,7 @@ RegionVerdict judgeRegion(const VerifiedBody& a, const VerifiedBody& b, const Mo
     if (strays > 0)
         verdict.reason = fmt::format(
             "{} connected pieces of the surfaces that it excepts are nowhere near the other body at rest: up "
-            "to {:.4g} away",
+            "to {:.4g} scene units away",
             strays, verdict.farthest);
     return verdict;
 }

@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/motion/Motion.h"
-#include "bake/table/RestRegion.h"
+#include "bake/table/Table.h"
 #include "bake/verify/VerifiedBody.h"
 
 #include <string>

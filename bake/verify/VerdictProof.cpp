@@ -40,8 +40,9 @@ public:
             if (pieces[i].verdict == Verdict::Ask) continue;
             const Box box{{pieces[i].from}, {pieces[i + 1].from}};
             if (!holds(box, pieces[i].verdict, 0, all_, 0))
-                reason = fmt::format("from {} to {} its verdict is not what the tests say", box.lower[0],
-                                     box.upper[0]);
+                reason = fmt::format(
+                    "with its DOF from {} to {} (rad or scene units) its verdict is not what the tests say",
+                    box.lower[0], box.upper[0]);
         }
         if (reason.empty() && !pieces.empty() && pieces.back().verdict != Verdict::Ask)
             reason = "its last piece has no end";

@@ -26,12 +26,7 @@ int main(int argc, char** argv) {
     std::vector<double> asked;
     for (int k = 2; k < argc; ++k) asked.push_back(std::atof(argv[k]));
 
-    tss::TableFeatures features;
-    tss::MotionFrame frame;
-    tss::TableContact contact;
-    table.features(asked.data(), features);
-    table.frame(asked.data(), frame);
-    table.contact(features, frame, contact);
+    const tss::TableContact contact = table.contact(asked.data());
     std::cout << (table.hit(asked.data()) ? "touches" : "free") << ", gap " << contact.gap << " at "
               << contact.point.transpose() << "\n";
 

@@ -90,7 +90,8 @@ BakeOptions::BakeOptions(const std::map<std::string, std::string>& words) {
 }
 
 std::string nearestOption(const std::string& word) {
-    std::vector<std::string> names = tss::optionNames();
+    std::vector<std::string> names;
+    for (const tss::BakeOption& option : tss::bakeOptions()) names.emplace_back(option.name);
     names.insert(names.end(), std::begin(ownWords), std::end(ownWords));
     names.insert(names.end(), std::begin(loadWords), std::end(loadWords));
     std::string best;

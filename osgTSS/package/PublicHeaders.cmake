@@ -5,8 +5,6 @@ cmake_policy(SET CMP0057 NEW) # IN_LIST
 set(open
     bake/base/Error.h
     bake/model/AddPair.h
-    bake/model/Kinematics.h
-    bake/model/PairDofs.h
     bake/model/SceneModel.h
     bake/model/SourceHash.h
     bake/play/JointPlan.h

@@ -1,44 +1,114 @@
 #include "CollectTriangles.h"
 
+#include <osg/Geometry>
 #include <osg/TriangleFunctor>
+#include <osg/TriangleIndexFunctor>
 #include <osgTSS/Convert>
 
+#include <algorithm>
 #include <map>
+#include <vector>
 
 namespace osgTSS {
 
 namespace {
 
-struct Collector {
-    const osg::Matrixd* matrix = nullptr;
-    double scale = 1;
-    bool mirrored = false;
-    tss::TriangleMesh* mesh = nullptr;
-    std::map<osg::Vec3, int> vertexAt;
-    std::size_t dropped = 0;
+/// Takes the points of triangles as they stand in the drawable.
+class Collector {
+public:
+    Collector(const osg::Matrixd& matrix, double scale, bool mirrored, tss::TriangleMesh& mesh)
+        : _matrix(matrix), _scale(scale), _mirrored(mirrored), _mesh(mesh) {}
 
-    bool finite(const osg::Vec3& point) const {
-        return point.valid() && toCore(osg::Vec3d(point) * *matrix).allFinite();
-    }
-
-    int vertex(const osg::Vec3& point) {
-        const auto [entry, fresh] = vertexAt.emplace(point, static_cast<int>(mesh->vertices.size()));
-        if (fresh) mesh->vertices.push_back(scale * toCore(osg::Vec3d(point) * *matrix));
-        return entry->second;
-    }
-
-    void operator()(const osg::Vec3& a, const osg::Vec3& b, const osg::Vec3& c) {
+    void add(const osg::Vec3d& a, const osg::Vec3d& b, const osg::Vec3d& c) {
         if (!finite(a) || !finite(b) || !finite(c)) {
             ++dropped;
             return;
         }
         const int i = vertex(a), j = vertex(b), k = vertex(c);
         if (i == j || j == k || k == i) return; // strips are stitched together with such
-        mesh->triangles.push_back(mirrored ? tss::Tri(i, k, j) : tss::Tri(i, j, k));
+        _mesh.triangles.push_back(_mirrored ? tss::Tri(i, k, j) : tss::Tri(i, j, k));
     }
+
+    std::size_t dropped = 0;
+
+private:
+    bool finite(const osg::Vec3d& point) const {
+        return point.valid() && toCore(point * _matrix).allFinite();
+    }
+
+    int vertex(const osg::Vec3d& point) {
+        const auto [entry, fresh] = _vertexAt.emplace(point, static_cast<int>(_mesh.vertices.size()));
+        if (fresh) _mesh.vertices.push_back(_scale * toCore(point * _matrix));
+        return entry->second;
+    }
+
+    const osg::Matrixd& _matrix;
+    double _scale;
+    bool _mirrored;
+    tss::TriangleMesh& _mesh;
+    std::map<osg::Vec3d, int> _vertexAt;
+};
+
+/// Of a drawable that says its points itself.
+struct Points {
+    Collector* collector = nullptr;
+    void operator()(const osg::Vec3& a, const osg::Vec3& b, const osg::Vec3& c) { collector->add(a, b, c); }
     // The signature of OSG before 3.5.
     void operator()(const osg::Vec3& a, const osg::Vec3& b, const osg::Vec3& c, bool) { (*this)(a, b, c); }
 };
+
+/// Of a geometry, by its vertices.
+struct Corners {
+    Collector* collector = nullptr;
+    const std::vector<osg::Vec3d>* vertices = nullptr;
+    void operator()(unsigned int a, unsigned int b, unsigned int c) {
+        if (std::max({a, b, c}) < vertices->size())
+            collector->add((*vertices)[a], (*vertices)[b], (*vertices)[c]);
+        else
+            ++collector->dropped;
+    }
+};
+
+/// The places of a geometry's vertices, whatever they are stored as.
+class Vertices : public osg::ConstArrayVisitor {
+public:
+    using osg::ConstArrayVisitor::apply;
+    void apply(const osg::Vec2Array& array) override {
+        for (const osg::Vec2& v : array) add(v.x(), v.y(), 0);
+    }
+    void apply(const osg::Vec3Array& array) override {
+        for (const osg::Vec3& v : array) all.emplace_back(v);
+    }
+    void apply(const osg::Vec4Array& array) override {
+        for (const osg::Vec4& v : array) add(v);
+    }
+    void apply(const osg::Vec2dArray& array) override {
+        for (const osg::Vec2d& v : array) add(v.x(), v.y(), 0);
+    }
+    void apply(const osg::Vec3dArray& array) override { all.assign(array.begin(), array.end()); }
+    void apply(const osg::Vec4dArray& array) override {
+        for (const osg::Vec4d& v : array) add(v);
+    }
+    void apply(const osg::Vec3sArray& array) override {
+        for (const osg::Vec3s& v : array) add(v.x(), v.y(), v.z());
+    }
+
+    std::vector<osg::Vec3d> all;
+
+private:
+    void add(double x, double y, double z) { all.emplace_back(x, y, z); }
+    template <class Vec4>
+    void add(const Vec4& v) {
+        add(v.x() / v.w(), v.y() / v.w(), v.z() / v.w());
+    }
+};
+
+bool shrunkToPoint(const osg::Matrixd& m) {
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            if (m(row, column) != 0) return false;
+    return true;
+}
 
 double determinant(const osg::Matrixd& m) {
     const osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)), z(m(2, 0), m(2, 1), m(2, 2));
@@ -49,13 +119,23 @@ double determinant(const osg::Matrixd& m) {
 
 std::size_t collectTriangles(const osg::Drawable& drawable, const osg::Matrixd& matrix, double scale,
                              tss::TriangleMesh& mesh) {
-    osg::TriangleFunctor<Collector> functor;
-    functor.matrix = &matrix;
-    functor.scale = scale;
-    functor.mirrored = (determinant(matrix) < 0) != (scale < 0);
-    functor.mesh = &mesh;
-    drawable.accept(functor);
-    return functor.dropped;
+    if (shrunkToPoint(matrix)) return 0; // draws nothing
+    Collector collector(matrix, scale, (determinant(matrix) < 0) != (scale < 0), mesh);
+    const osg::Geometry* geometry = drawable.asGeometry();
+    if (!geometry) {
+        osg::TriangleFunctor<Points> functor;
+        functor.collector = &collector;
+        drawable.accept(functor);
+    } else if (geometry->getVertexArray()) {
+        Vertices vertices;
+        geometry->getVertexArray()->accept(vertices);
+        osg::TriangleIndexFunctor<Corners> functor;
+        functor.collector = &collector;
+        functor.vertices = &vertices.all;
+        for (const auto& primitives : geometry->getPrimitiveSetList())
+            if (primitives) primitives->accept(functor);
+    }
+    return collector.dropped;
 }
 
 } // namespace osgTSS

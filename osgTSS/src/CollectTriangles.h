@@ -9,7 +9,7 @@ namespace osgTSS {
 /// Adds the triangles of a drawable to a mesh, every point times the matrix and then the scale. Equal points
 /// of one drawable become one vertex; a matrix that mirrors turns the triangles round, so that outside stays
 /// outside.
-/// Returns how many were left out since a corner is no finite point.
+/// Returns how many were left out since a corner is no finite point, or no vertex of the geometry.
 std::size_t collectTriangles(const osg::Drawable& drawable, const osg::Matrixd& matrix, double scale,
                              tss::TriangleMesh& mesh);
 

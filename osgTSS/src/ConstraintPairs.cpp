@@ -90,7 +90,7 @@ void ConstraintVisitor::addPairs() {
         if (_dropped[body] > 0 && !_quiet)
             OSG_WARN << "osgTSS: the pairs of " << _model.bodies[body].path
                      << " are left out: " << _dropped[body]
-                     << " of its triangles have corners that are no numbers" << std::endl;
+                     << " of its triangles have corners that are no numbers or no vertices" << std::endl;
     for (int b = 0; b < count; ++b)
         for (int a = 0; a < b; ++a)
             if (_dropped[a] == 0 && _dropped[b] == 0 && !_model.bodies[a].mesh.empty() &&

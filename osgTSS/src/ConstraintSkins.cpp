@@ -11,26 +11,29 @@
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/Convert>
 
+#include <algorithm>
+#include <cmath>
+
 // Skins and muscles among the drawables that were found.
 namespace osgTSS {
 
 namespace {
 
 /// A body of a shape that changes is drawn from float vertices.
-osg::Geometry& shapeOf(osg::Drawable& drawable) {
-    osg::Geometry* geometry = restGeometryOf(drawable);
-    if (dynamic_cast<osgAnimation::MorphGeometry*>(geometry))
-        throw tss::InputError("expected a shape of its own, and it has morph targets");
+osg::ref_ptr<osg::Geometry> shapeOf(osg::Drawable& drawable) {
+    const osg::ref_ptr<osg::Geometry> geometry = restGeometryOf(drawable);
+    if (dynamic_cast<osgAnimation::MorphGeometry*>(geometry.get()))
+        throw tss::InputError("expected a rigged mesh without morph targets");
     if (!geometry || !dynamic_cast<osg::Vec3Array*>(geometry->getVertexArray()))
         throw tss::InputError("expected a geometry of float vertices (osg::Vec3Array)");
-    return *geometry;
+    return geometry;
 }
 
 } // namespace
 
 /// A body of its own, in the geometry's own frame and lengths of the body that it hangs in.
 void ConstraintVisitor::addSoftBody(osg::Drawable& drawable, const char* fallback) {
-    const osg::Geometry& shape = shapeOf(drawable);
+    const osg::ref_ptr<osg::Geometry> shape = shapeOf(drawable);
     const auto similarity = toSimilarity(_place.toBody);
     if (!similarity) throw tss::InputError("the transforms above it shear, or scale axes differently");
     Place place;
@@ -43,7 +46,7 @@ void ConstraintVisitor::addSoftBody(osg::Drawable& drawable, const char* fallbac
     place.body = addBody(drawable, fallback, place.scale);
     tss::Body& body = _model.bodies[place.body];
     body.placement = above * local;
-    _dropped[place.body] += collectTriangles(shape, osg::Matrixd(), place.scale, body.mesh);
+    _dropped[place.body] += collectTriangles(*shape, osg::Matrixd(), place.scale, body.mesh);
     if (body.mesh.empty()) throw tss::InputError("it has no triangles");
     addLook(drawable, place, true);
 }
@@ -59,9 +62,13 @@ bool ConstraintVisitor::addSoft(osg::Drawable& drawable) {
             tss::SkinModel model = parseSkin(*skin);
             addSoftBody(drawable, "Skin");
             model.body = static_cast<int>(_model.bodies.size()) - 1;
+            osg::Drawable* own = replacedBy(drawable) ? replacedBy(drawable) : &drawable;
+            const auto* morph = dynamic_cast<osgAnimation::MorphGeometry*>(own);
+            if (morph)
+                model.travel = std::max(model.travel, reachOf(*morph) * std::abs(_bodyNodes.back().scale));
             _soft->addSkin(model, drawable.getName(), carrier);
-            auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(replacedBy(drawable) ? replacedBy(drawable)
-                                                                                      : &drawable);
+            if (morph) _soft->setCarried(_model, model.body);
+            auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(own);
             if (rig && _skeleton) _skeleton->skins.push_back({rig, model.body, _bodyNodes.back().scale});
             return true;
         }
@@ -69,6 +76,8 @@ bool ConstraintVisitor::addSoft(osg::Drawable& drawable) {
         const MuscleTag tag = parseMuscle(*muscle);
         model.muscle = tag.muscle;
         osg::Drawable* own = replacedBy(drawable);
+        if (dynamic_cast<osgAnimation::MorphGeometry*>(own ? own : &drawable))
+            throw tss::InputError("expected a shape of its own, and it has morph targets");
         if (std::string words; (own ? *own : drawable).getUserValue(activationTag, words))
             model.activation = parseActivation(words, _model.timeCodesPerSecond);
         addSoftBody(drawable, "Muscle");

@@ -19,6 +19,7 @@
 #include <osg/LOD>
 #include <osg/Material>
 #include <osg/Notify>
+#include <osg/Projection>
 #include <osg/ValueObject>
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/Convert>
@@ -65,7 +66,8 @@ std::vector<double> restOf(const tss::Joint& joint) {
 } // namespace
 
 ConstraintVisitor::ConstraintVisitor(Pairs pairs)
-    : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _pairs(pairs), _soft(std::make_unique<SoftParts>()) {
+    : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _pairs(pairs), _owned(std::make_unique<tss::SceneModel>()),
+      _model(*_owned), _soft(std::make_unique<SoftParts>()) {
     setNodeMaskOverride(~0u);
 }
 
@@ -111,7 +113,9 @@ void ConstraintVisitor::apply(osg::Transform& node) {
 }
 
 void ConstraintVisitor::applyTransform(osg::Transform& node) {
-    if (dynamic_cast<osg::AutoTransform*>(&node)) return; // turns to the eye, which is no motion of a body
+    // Turns to the eye, or is placed before it: no motion of a body.
+    if (dynamic_cast<osg::AutoTransform*>(&node) || node.getReferenceFrame() != osg::Transform::RELATIVE_RF)
+        return;
     std::string why;
     bool still = false, moved = false;
     node.getUserValue("osgTSS:static", still);
@@ -124,8 +128,7 @@ void ConstraintVisitor::applyTransform(osg::Transform& node) {
         why = error.message;
     }
     if (!why.empty() && _seen.insert(&node).second) warn("it moves, but is no joint: " + why);
-    osg::Matrix matrix =
-        node.getReferenceFrame() == osg::Transform::RELATIVE_RF ? _place.toBody : osg::Matrixd();
+    osg::Matrix matrix = _place.toBody;
     const auto stands = standingBone(node);
     if (stands && !still && why.empty())
         matrix = *stands * matrix;
@@ -142,6 +145,9 @@ void ConstraintVisitor::apply(osg::Camera& node) {
     if (node.getReferenceFrame() == osg::Transform::RELATIVE_RF && node.getBufferAttachmentMap().empty())
         apply(static_cast<osg::Transform&>(node));
 }
+
+/// A picture before the scene, in lengths of its own.
+void ConstraintVisitor::apply(osg::Projection&) {}
 
 void ConstraintVisitor::apply(osg::Billboard&) {}
 
@@ -231,8 +237,6 @@ void ConstraintVisitor::enterJoint(osg::Transform& node, FoundJoints found) {
                 << std::endl;
         return;
     }
-    if (node.getReferenceFrame() != osg::Transform::RELATIVE_RF)
-        return warn("what hangs below is left out: expected a transform relative to its parent");
     const auto parent = toSimilarity(_place.toBody);
     if (!parent)
         return warn("what hangs below is left out: the transforms above it shear, or scale axes differently");

@@ -1,7 +1,6 @@
 #include "ContactReport.h"
 
 #include "bake/model/Kinematics.h"
-#include "bake/model/PairDofs.h"
 #include "bake/table/Query.h"
 
 #include <osgTSS/Convert>

@@ -1,12 +1,13 @@
 #include "DrawnVertices.h"
+#include "PointGrid.h"
+
+#include "bake/motion/TurnBetween.h"
 
 #include <osgTSS/Convert>
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <unordered_map>
 
 namespace osgTSS {
 
@@ -15,50 +16,6 @@ namespace {
 /// Of the mesh's size: float coordinates that went through a file or another unit agree to this.
 constexpr double same = 1e-5;
 
-/// The vertices of a mesh in cells of a grid.
-class VertexGrid {
-public:
-    VertexGrid(const std::vector<tss::Vec3>& points, double cell) : _points(points), _cell(cell) {
-        for (std::size_t i = 0; i < points.size(); ++i)
-            _cells[key(at(points[i]))].push_back(static_cast<std::uint32_t>(i));
-    }
-
-    /// The nearest within one cell; -1: none.
-    int nearest(const tss::Vec3& point) const {
-        const auto centre = at(point);
-        int best = -1;
-        double least = _cell * _cell;
-        for (int n = 0; n < 27; ++n) {
-            const auto cell =
-                _cells.find(key({centre[0] + n % 3 - 1, centre[1] + n / 3 % 3 - 1, centre[2] + n / 9 - 1}));
-            if (cell == _cells.end()) continue;
-            for (const std::uint32_t i : cell->second)
-                if (const double away = (_points[i] - point).squaredNorm(); away <= least) {
-                    if (best >= 0 && away == least) continue;
-                    least = away;
-                    best = static_cast<int>(i);
-                }
-        }
-        return best;
-    }
-
-private:
-    using Cell = std::array<std::int64_t, 3>;
-    Cell at(const tss::Vec3& p) const {
-        return {std::llround(p.x() / _cell), std::llround(p.y() / _cell), std::llround(p.z() / _cell)};
-    }
-    static std::uint64_t key(const Cell& c) {
-        std::uint64_t hash = 0;
-        for (const std::int64_t part : c)
-            hash = (hash ^ static_cast<std::uint64_t>(part)) * 0x9e3779b97f4a7c15ull;
-        return hash;
-    }
-
-    const std::vector<tss::Vec3>& _points;
-    double _cell;
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> _cells;
-};
-
 } // namespace
 
 std::optional<DrawnVertices> DrawnVertices::of(const osg::Geometry& rest, const tss::TriangleMesh& mesh,
@@ -66,8 +23,8 @@ std::optional<DrawnVertices> DrawnVertices::of(const osg::Geometry& rest, const 
     const auto* vertices = dynamic_cast<const osg::Vec3Array*>(rest.getVertexArray());
     if (!vertices || mesh.empty()) return std::nullopt;
     const Eigen::AlignedBox3d box = tss::bounds(mesh);
-    const VertexGrid grid(mesh.vertices, same * (box.diagonal().norm() + 1e-2 * box.center().norm()) +
-                                             std::numeric_limits<float>::min());
+    const PointGrid grid(mesh.vertices, same * (box.diagonal().norm() + 1e-2 * box.center().norm()) +
+                                            std::numeric_limits<float>::min());
     std::vector<int> meshVertex;
     std::vector<std::uint32_t> count(mesh.vertices.size() + 1, 0);
     for (const osg::Vec3& vertex : *vertices) {
@@ -105,9 +62,8 @@ void DrawnVertices::deform(SkinGeometry& shown, std::span<const std::uint32_t> v
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         const std::size_t v = vertices[k];
         const bool turned = !_drawnNormals.empty() && normals[k] != _restNormals[v];
-        const Eigen::Quaterniond turn = turned
-                                            ? Eigen::Quaterniond::FromTwoVectors(_restNormals[v], normals[k])
-                                            : Eigen::Quaterniond::Identity();
+        const Eigen::Quaterniond turn =
+            turned ? tss::turnBetween(_restNormals[v], normals[k]) : Eigen::Quaterniond::Identity();
         for (std::uint32_t d = _start[v]; d < _start[v + 1]; ++d) {
             _moved.push_back(_drawn[d]);
             _positions.push_back(positions[k] / _scale);

@@ -1,4 +1,3 @@
-#include "AnimationPathJoint.h"
 #include "InstallSkins.h"
 #include "JointNodes.h"
 #include "Machines.h"
@@ -10,7 +9,6 @@
 #include <osgAnimation/Skeleton>
 #include <osgTSS/Install>
 #include <osgTSS/JointCallback>
-#include <osgTSS/JointTransform>
 #include <osgTSS/LimitsCallback>
 #include <osgTSS/MuscleCallback>
 #include <osgTSS/SkinCallback>
@@ -107,13 +105,6 @@ void installGroup(osg::Node& root, Scene& scene, const std::vector<PairPlace>& g
     callback->start(node);
 }
 
-/// Whether some joint of a place can be set beyond its limits.
-bool canStray(const PairPlace& place) {
-    return std::any_of(place.joints.begin(), place.joints.end(), [](osg::Node* node) {
-        return !dynamic_cast<JointTransform*>(node) && !animationPathOf(*node);
-    });
-}
-
 } // namespace
 
 Installed install(osg::Node& root, Scene& scene) {
@@ -123,7 +114,6 @@ Installed install(osg::Node& root, Scene& scene) {
     Installed installed;
     Machines machines(root, model);
     std::vector<PairPlace> kept;
-    bool watched = false;
     for (std::size_t p = 0; p < model.pairs.size(); ++p) {
         const tss::Pair& pair = model.pairs[p];
         if (!pair.proof && !pair.table) {
@@ -139,13 +129,13 @@ Installed install(osg::Node& root, Scene& scene) {
         }
         for (const PairPlace& place : places) {
             machines.tag(place);
-            watched = watched || (pair.proof && canStray(place));
             if (pair.table) kept.push_back(place);
         }
         if (pair.proof) ++installed.proven;
     }
     for (const auto& group : grouped(kept)) installGroup(root, scene, group, installed);
-    if (watched) addOutermost(root, *osg::ref_ptr<LimitsCallback>(new LimitsCallback(&scene)));
+    if (!kept.empty() || installed.proven > 0)
+        addOutermost(root, *osg::ref_ptr<LimitsCallback>(new LimitsCallback(&scene)));
     installSkins(root, scene, installed);
     if (installed.unbaked > 0)
         OSG_NOTICE << "osgTSS: " << installed.unbaked << " of " << model.pairs.size() + model.skins.size()

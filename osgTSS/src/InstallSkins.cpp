@@ -11,6 +11,7 @@
 
 #include <osg/NodeVisitor>
 #include <osg/Notify>
+#include <osg/ValueObject>
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/MuscleCallback>
 #include <osgTSS/SkinCallback>
@@ -31,7 +32,8 @@ int find(const tss::SceneModel& scene, const std::string& skin) {
 
 /// Shows what the drawable shows, its state and all its other arrays kept, and lets its vertices be moved.
 osg::ref_ptr<SkinGeometry> shownInsteadOf(osg::Drawable& drawable, const std::string& body, double scale) {
-    osg::Geometry& source = *restGeometryOf(drawable);
+    const osg::ref_ptr<osg::Geometry> keep = restGeometryOf(drawable);
+    osg::Geometry& source = *keep;
     osg::ref_ptr<osg::Geometry> rest = new osg::Geometry(source, osg::CopyOp::SHALLOW_COPY);
     if (rest->containsDeprecatedData()) {
         rest = new osg::Geometry(source, osg::CopyOp::DEEP_COPY_ARRAYS | osg::CopyOp::DEEP_COPY_PRIMITIVES);
@@ -53,19 +55,37 @@ osg::ref_ptr<SkinGeometry> shownInsteadOf(osg::Drawable& drawable, const std::st
     return shown;
 }
 
+/// A mesh of morph targets stays where what sets its weights looks for it, and is not drawn.
 void replace(osg::Drawable& before, osg::Drawable& after) {
     const osg::ref_ptr<osg::Drawable> keep = &before;
+    const bool stays = dynamic_cast<osgAnimation::MorphGeometry*>(&before);
     const osg::Node::ParentList parents = before.getParents();
-    for (osg::Group* parent : parents) parent->replaceChild(&before, &after);
+    for (osg::Group* parent : parents)
+        if (stays)
+            parent->insertChild(parent->getChildIndex(&before) + 1, &after);
+        else
+            parent->replaceChild(&before, &after);
+    if (!stays) return;
+    before.setNodeMask(0);
+    before.setUserValue("osgTSS:ignored", true);
+}
+
+void putBack(SkinGeometry& shown) {
+    const osg::ref_ptr<osg::Drawable> before = replacedBy(shown), keep = &shown;
+    if (!dynamic_cast<osgAnimation::MorphGeometry*>(before.get())) return replace(shown, *before);
+    before->setNodeMask(shown.getNodeMask());
+    before->setUserValue("osgTSS:ignored", false);
+    const osg::Node::ParentList parents = shown.getParents();
+    for (osg::Group* parent : parents) parent->removeChild(&shown);
 }
 
 class FindReplaced : public osg::NodeVisitor {
 public:
     FindReplaced() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
     void apply(osg::Drawable& drawable) override {
-        if (replacedBy(drawable)) found.insert(&drawable);
+        if (replacedBy(drawable)) found.insert(static_cast<SkinGeometry*>(&drawable));
     }
-    std::set<osg::ref_ptr<osg::Drawable>> found;
+    std::set<osg::ref_ptr<SkinGeometry>> found;
 };
 
 /// A graph's own skins and muscles, as a visitor finds them.
@@ -144,7 +164,7 @@ void addOutermost(osg::Node& node, osg::Callback& callback) {
 void restoreDrawables(osg::Node& root) {
     FindReplaced visitor;
     root.accept(visitor);
-    for (const osg::ref_ptr<osg::Drawable>& shown : visitor.found) replace(*shown, *replacedBy(*shown));
+    for (const osg::ref_ptr<SkinGeometry>& shown : visitor.found) putBack(*shown);
 }
 
 /// On the root: skins, and muscles between two bones, are deformed after everything else of the scene has

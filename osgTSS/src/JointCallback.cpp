@@ -4,14 +4,10 @@
 #include "SceneCache.h"
 #include "SkeletonPose.h"
 
-#include <osg/Geometry>
 #include <osg/Node>
-#include <osg/NodeVisitor>
 #include <osg/Notify>
-#include <osg/PagedLOD>
 #include <osg/observer_ptr>
 #include <osgTSS/JointCallback>
-#include <osgTSS/Overlay>
 
 #include <algorithm>
 #include <map>
@@ -39,27 +35,6 @@ struct BoundJoint {
     }
 };
 
-/// What is drawn below a node, as a number that changes with it; what osgTSS itself shows does not count, nor
-/// what is paged.
-class DrawnBelow : public osg::NodeVisitor {
-public:
-    explicit DrawnBelow(osg::Node& node) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {
-        setNodeMaskOverride(~0u);
-        node.accept(*this);
-    }
-    void apply(osg::Node& node) override {
-        if (!dynamic_cast<Overlay*>(&node)) traverse(node);
-    }
-    void apply(osg::PagedLOD&) override {}
-    void apply(osg::Drawable& drawable) override {
-        const osg::Geometry* geometry = drawable.asGeometry();
-        const osg::Array* vertices = geometry ? geometry->getVertexArray() : nullptr;
-        number = number * 31 + reinterpret_cast<std::size_t>(&drawable);
-        number = number * 31 + (vertices ? vertices->getNumElements() : 0);
-    }
-    std::size_t number = 0;
-};
-
 /// The nodes of a path that move what is below, to be compared only: they may be gone later.
 std::vector<const osg::Node*> transformsOf(const osg::NodePath& path) {
     std::vector<const osg::Node*> found;
@@ -82,8 +57,6 @@ struct JointCallback::Binding {
     std::vector<tss::GroupAnswer> found;
     ContactReport contacts;
     std::optional<SkeletonPose> skeletons; ///< where some joint is a bone
-    std::size_t drawn = 0;                 ///< DrawnBelow when the callback came to work here
-    unsigned int updates = 0;              ///< so far
     unsigned int traversal = 0, frame = 0; ///< of the last update
     bool updated = false;                  ///< there was one
     bool toldBeyond = false;               ///< that more is asked than the limits allow
@@ -99,7 +72,6 @@ struct JointCallback::Binding {
     }
     void choose(const Scene& scene, const std::vector<std::string>& pairPaths);
     void watch(const Scene& scene, const std::vector<std::string>& pairPaths);
-    void watchGeometry(osg::Node& owner);
     void restoreAsked() const;
     void resolve();
     void tellBeyond();
@@ -201,18 +173,6 @@ void JointCallback::Binding::watch(const Scene& scene, const std::vector<std::st
                  << std::endl;
     }
     if (changed) choose(scene, pairPaths);
-}
-
-/// Says once that what is drawn is not what the tables were made from any more. Looked at now and then.
-void JointCallback::Binding::watchGeometry(osg::Node& owner) {
-    constexpr unsigned int everyUpdates = 64;
-    if (updates++ % everyUpdates != 0) return;
-    const std::size_t now = DrawnBelow(owner).number;
-    if (updates > 1 && drawn != 0 && now != drawn)
-        OSG_WARN << "osgTSS: the geometry below node \"" << owner.getName()
-                 << "\" is other than when its tables were installed; they know what was there then"
-                 << std::endl;
-    drawn = updates == 1 || now == drawn ? now : 0;
 }
 
 void JointCallback::Binding::restoreAsked() const {
@@ -333,7 +293,6 @@ bool JointCallback::run(osg::Object* object, osg::Object* data) {
     const MeasureUpdate measure(_scene->getCache().updateTime);
     if (!binding.stillGood(*_scene)) return result; // the animation took a joint away
     if (!again) {
-        binding.watchGeometry(*node);
         binding.watch(*_scene, _pairPaths);
         binding.resolve();
     }

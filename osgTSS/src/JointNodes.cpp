@@ -120,6 +120,12 @@ void tagJoint(osg::Node& node, const std::string& jointPath) {
     node.setUserValue(tagName, paths.empty() ? jointPath : paths + " " + jointPath);
 }
 
+bool carriesJoint(osg::Node& node) {
+    if (const auto* joint = dynamic_cast<JointTransform*>(&node)) return !joint->getJoint().path.empty();
+    std::string paths;
+    return node.getUserValue(tagName, paths);
+}
+
 std::map<std::string, std::vector<osg::Node*>> findAllJointNodes(osg::Node& root) {
     FindJointNodes visitor;
     root.accept(visitor);

@@ -29,6 +29,9 @@ std::unique_ptr<JointNode> makeJointNode(osg::Node& node, const tss::Joint& join
 /// is saved and cloned with the node.
 void tagJoint(osg::Node& node, const std::string& jointPath);
 
+/// Whether the node carries a joint.
+bool carriesJoint(osg::Node& node);
+
 /// The nodes at and below `root` that carry a joint, by the joint's path. Sees masked nodes; of several nodes
 /// with one path the first.
 std::map<std::string, osg::Node*> findJointNodes(osg::Node& root);

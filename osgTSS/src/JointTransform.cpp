@@ -20,34 +20,53 @@ tss::Pose rigid(const osg::Matrixd& matrix) {
 
 } // namespace
 
-JointTransform::JointTransform() {
+struct JointTransform::Description {
+    tss::Joint joint;
+    tss::Motion limits; ///< its DOFs and couplings again, as clampToLimits() wants them
+};
+
+JointTransform::JointTransform() : _joint(std::make_unique<Description>()) {
     setDataVariance(DYNAMIC);
 }
+
+JointTransform::~JointTransform() = default;
 
 JointTransform::JointTransform(const tss::Joint& joint) : JointTransform() {
     setJoint(joint);
 }
 
 JointTransform::JointTransform(const JointTransform& other, const osg::CopyOp& copyop)
-    : osg::Transform(other, copyop), _joint(other._joint), _limits(other._limits), _asked(other._asked),
-      _values(other._values), _matrix(other._matrix), _inverse(other._inverse) {}
+    : osg::Transform(other, copyop), _joint(std::make_unique<Description>(*other._joint)),
+      _asked(other._asked), _values(other._values), _matrix(other._matrix), _inverse(other._inverse) {}
 
 void JointTransform::setJoint(const tss::Joint& joint) {
     for (const tss::Dof& dof : joint.dofs)
         if (!(dof.lower <= dof.upper))
             throw tss::InputError({"", "", joint.path},
                                   "DOF '" + dof.name + "': expected lower limit <= upper limit");
-    _joint = joint;
-    _limits.dofs = joint.dofs;
-    _limits.planes = joint.planes;
-    _asked = _values = tss::restValues(_limits);
+    _joint->joint = joint;
+    _joint->limits.dofs = joint.dofs;
+    _joint->limits.planes = joint.planes;
+    _asked = _values = tss::restValues(_joint->limits);
     update();
+}
+
+const tss::Joint& JointTransform::getJoint() const {
+    return _joint->joint;
+}
+
+void JointTransform::setPath(const std::string& path) {
+    _joint->joint.path = path;
+}
+
+const tss::Dof& JointTransform::getDof(unsigned int i) const {
+    return _joint->joint.dofs[i];
 }
 
 void JointTransform::setFrames(const osg::Matrixd& toParent, const osg::Matrixd& toChild) {
     const tss::Pose frame0 = rigid(toParent), frame1 = rigid(toChild);
-    _joint.frame0 = frame0;
-    _joint.frame1 = frame1;
+    _joint->joint.frame0 = frame0;
+    _joint->joint.frame1 = frame1;
     update();
 }
 
@@ -62,10 +81,10 @@ unsigned int JointTransform::addDof(tss::DofKind kind, char axis, double lower, 
     dof.rest = rest;
     if (!(lower <= rest && rest <= upper))
         throw tss::InputError("DOF '" + dof.name + "': expected lower limit <= rest <= upper limit");
-    _joint.dofs.push_back(dof);
-    for (tss::LimitPlane& plane : _joint.planes) plane.coefficients.push_back(0);
-    _limits.dofs = _joint.dofs;
-    _limits.planes = _joint.planes;
+    _joint->joint.dofs.push_back(dof);
+    for (tss::LimitPlane& plane : _joint->joint.planes) plane.coefficients.push_back(0);
+    _joint->limits.dofs = _joint->joint.dofs;
+    _joint->limits.planes = _joint->joint.planes;
     _asked.push_back(rest);
     _values.push_back(rest);
     update();
@@ -85,9 +104,10 @@ void JointTransform::setValues(const std::vector<double>& asked) {
     for (std::size_t k = 0; k < wish.size() && k < asked.size(); ++k)
         if (std::isfinite(asked[k])) wish[k] = asked[k];
     for (std::size_t k = 0; k < wish.size(); ++k)
-        if (tss::wholeTurn(_joint.dofs[k]) && _joint.planes.empty())
-            wish[k] = tss::nearestTurn(wish[k], (_joint.dofs[k].lower + _joint.dofs[k].upper) / 2);
-    _asked = tss::clampToLimits(_limits, wish);
+        if (tss::wholeTurn(_joint->joint.dofs[k]) && _joint->joint.planes.empty())
+            wish[k] =
+                tss::nearestTurn(wish[k], (_joint->joint.dofs[k].lower + _joint->joint.dofs[k].upper) / 2);
+    _asked = tss::clampToLimits(_joint->limits, wish);
     setResolvedValues(_asked);
 }
 
@@ -100,12 +120,12 @@ void JointTransform::setValue(unsigned int i, double asked) {
 void JointTransform::setResolvedValues(const std::vector<double>& values) {
     if (values == _values) return;
     _values = values;
-    _values.resize(_joint.dofs.size());
+    _values.resize(_joint->joint.dofs.size());
     update();
 }
 
 void JointTransform::update() {
-    const tss::Pose pose = tss::jointPose(_joint, _values);
+    const tss::Pose pose = tss::jointPose(_joint->joint, _values);
     _matrix = toOsg(pose);
     _inverse = toOsg(pose.inverse(Eigen::Isometry));
     dirtyBound();

@@ -1,5 +1,6 @@
 #include "JointNodes.h"
 #include "PerNode.h"
+#include "StandingParts.h"
 
 #include <osg/Node>
 #include <osg/NodeVisitor>
@@ -10,7 +11,7 @@
 
 namespace osgTSS {
 
-/// The joints of proofs below one node that can go beyond what the proofs are for.
+/// The joints of proofs below one node that can go beyond what the proofs are for, and what stands there.
 struct LimitsCallback::Watch {
     struct Joint {
         std::string path, pair;
@@ -18,8 +19,9 @@ struct LimitsCallback::Watch {
     };
     std::shared_ptr<const tss::SceneModel> model;
     std::vector<Joint> joints;
+    StandingParts parts;
 
-    Watch(osg::Node& node, const Scene& scene) : model(scene.shareModel()) {
+    Watch(osg::Node& node, const Scene& scene) : model(scene.shareModel()), parts(node) {
         const auto nodes = findAllJointNodes(node);
         std::set<int> known;
         for (const tss::Pair& pair : model->pairs) {
@@ -47,6 +49,11 @@ struct LimitsCallback::Watch {
             ++told;
             return true;
         });
+        if (const auto what = parts.changed()) {
+            OSG_WARN << "osgTSS: " << *what << " when tables were installed; they know what was there then"
+                     << std::endl;
+            ++told;
+        }
         return told;
     }
 };

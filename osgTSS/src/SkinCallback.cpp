@@ -35,15 +35,18 @@ struct Played {
     std::vector<Bone> bones;            ///< one a muscle or bone below the skin
     bool riding = false;                ///< some of them moves with a node
     std::unique_ptr<tss::SkinResponse> response;
+    osg::observer_ptr<osgAnimation::MorphGeometry> morph; ///< that makes the skin's own shape; null: none
     std::vector<double> activations;
     std::vector<tss::Pose> poses;
+    std::vector<tss::Vec3> shift;                ///< by morph targets
     unsigned int traversal = 0, frameNumber = 0; ///< of the last update
     bool updated = false;
 
     Played(osg::Node& owner, const Scene& scene, const std::string& path);
     void findBones(const BodyNodes& nodes);
     void pose(osg::Node& owner);
-    void update(osg::Node& owner, const Scene& scene, double time);
+    void morphed(osg::NodeVisitor& visitor);
+    void update(osg::Node& owner, osg::NodeVisitor& visitor, const Scene& scene, double time);
 };
 
 Played::Played(osg::Node& owner, const Scene& scene, const std::string& path) : model(scene.shareModel()) {
@@ -74,6 +77,7 @@ Played::Played(osg::Node& owner, const Scene& scene, const std::string& path) : 
         }
     }
     findBones(nodes);
+    morph = dynamic_cast<osgAnimation::MorphGeometry*>(replacedBy(*geometry));
     try {
         if (const auto rig = scene.getCache().rig(index)) response = std::make_unique<tss::SkinResponse>(rig);
     } catch (const tss::InputError& error) {
@@ -110,12 +114,26 @@ void Played::pose(osg::Node& owner) {
     }
 }
 
-void Played::update(osg::Node& owner, const Scene& scene, double time) {
+/// The geometry's own morphing, which its traversal leaves out while it is not drawn.
+void Played::morphed(osg::NodeVisitor& visitor) {
+    if (osg::Callback* callback = morph->getUpdateCallback()) callback->run(morph.get(), &visitor);
+    const auto& rest = static_cast<const osg::Vec3Array&>(*geometry->getRestGeometry()->getVertexArray());
+    const auto* now = dynamic_cast<const osg::Vec3Array*>(morph->getVertexArray());
+    shift.clear();
+    if (!now || now->size() != rest.size()) return;
+    for (const std::uint32_t vertex : response->rig().vertices) {
+        const std::uint32_t one = drawn->of(vertex).front();
+        shift.push_back(scale * toCore((*now)[one] - rest[one]));
+    }
+}
+
+void Played::update(osg::Node& owner, osg::NodeVisitor& visitor, const Scene& scene, double time) {
     activations.clear();
     for (const Bone& bone : bones)
         activations.push_back(bone.muscle < 0 ? 0 : scene.getActivation(bone.muscle, time));
     if (riding) pose(owner);
-    if (!response->update(activations, poses).moved) return;
+    if (morph.valid() && drawn) morphed(visitor);
+    if (!response->update(activations, poses, shift).moved) return;
     if (drawn)
         drawn->deform(*geometry, response->rig().vertices, response->positions(), response->normals());
     else
@@ -157,7 +175,7 @@ bool SkinCallback::run(osg::Object* object, osg::Object* data) {
     played.updated = true;
     played.traversal = traversal;
     played.frameNumber = frame;
-    played.update(*node, *_scene, _scene->getClock().timeCode(*stamp));
+    played.update(*node, *visitor, *_scene, _scene->getClock().timeCode(*stamp));
     return result;
 }
 

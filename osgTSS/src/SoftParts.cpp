@@ -29,10 +29,36 @@ osg::Drawable* replacedBy(osg::Drawable& drawable) {
     return nullptr;
 }
 
-osg::Geometry* restGeometryOf(osg::Drawable& drawable) {
+osg::ref_ptr<osg::Geometry> restGeometryOf(osg::Drawable& drawable) {
     if (osg::Drawable* replaced = replacedBy(drawable)) return restGeometryOf(*replaced);
+    if (auto* morph = dynamic_cast<osgAnimation::MorphGeometry*>(&drawable)) {
+        osg::ref_ptr<osg::Geometry> rest = new osg::Geometry(*morph, osg::CopyOp::SHALLOW_COPY);
+        rest->setUpdateCallback(nullptr);
+        // The first morphing takes copies for its sources, and writes into the arrays from then on.
+        const osg::Array* vertices = morph->getVertexSource();
+        const osg::Array* normals = morph->getNormalSource();
+        if (!vertices) vertices = morph->getVertexArray();
+        if (!normals) normals = morph->getNormalArray();
+        if (vertices) rest->setVertexArray(osg::clone(vertices, osg::CopyOp::DEEP_COPY_ALL));
+        if (normals) rest->setNormalArray(osg::clone(normals, osg::CopyOp::DEEP_COPY_ALL));
+        return rest;
+    }
     auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable);
     return rig && rig->getSourceGeometry() ? rig->getSourceGeometry() : drawable.asGeometry();
+}
+
+double reachOf(const osgAnimation::MorphGeometry& morph) {
+    const osg::Array* own = morph.getVertexSource() ? morph.getVertexSource() : morph.getVertexArray();
+    const auto* source = dynamic_cast<const osg::Vec3Array*>(own);
+    std::vector<double> reach(source ? source->size() : 0, 0);
+    const bool offsets = morph.getMethod() == osgAnimation::MorphGeometry::RELATIVE;
+    for (const auto& target : morph.getMorphTargetList()) {
+        const osg::Array* array = target.getGeometry() ? target.getGeometry()->getVertexArray() : nullptr;
+        const auto* vertices = dynamic_cast<const osg::Vec3Array*>(array);
+        for (std::size_t v = 0; vertices && v < std::min(reach.size(), vertices->size()); ++v)
+            reach[v] += (offsets ? (*vertices)[v] : (*vertices)[v] - (*source)[v]).length();
+    }
+    return reach.empty() ? 0 : *std::max_element(reach.begin(), reach.end());
 }
 
 void SoftParts::addBone(int body, std::string name, std::vector<std::string> skins) {
@@ -99,6 +125,18 @@ void SoftParts::setWeights(tss::SceneModel& scene, int body, osgAnimation::RigGe
         }
         weights.indices.resize((v + 1) * weights.influences, 0);
         weights.weights.resize((v + 1) * weights.influences, 0);
+    }
+}
+
+void SoftParts::setCarried(tss::SceneModel& scene, int body) {
+    for (Skin& skin : _skins) {
+        if (skin.model.body != body) continue;
+        const std::size_t count = scene.bodies[body].mesh.vertices.size();
+        skin.model.weights.influences = 1;
+        skin.model.weights.joints = {skin.carrier};
+        skin.model.weights.indices.assign(count, 0);
+        skin.model.weights.weights.assign(count, 1);
+        scene.bodies[skin.carrier].rigid = true; // a body, also where it has no mesh
     }
 }
 

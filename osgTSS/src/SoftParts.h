@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/model/SceneModel.h"
 
+#include <osgAnimation/MorphGeometry>
 #include <osgAnimation/RigGeometry>
 
 #include <functional>
@@ -9,9 +10,13 @@
 
 namespace osgTSS {
 
-/// The geometry that a drawable shows at rest: of a rigged mesh what it is made from, of a skin or muscle
-/// that install() put in its place the one that was there. Null for a drawable that is no geometry.
-osg::Geometry* restGeometryOf(osg::Drawable& drawable);
+/// The geometry that a drawable shows at rest: of a rigged mesh what it is made from, of a mesh of morph
+/// targets itself without any, of a skin or muscle that install() put in its place the one that was there.
+/// Null for a drawable that is no geometry.
+osg::ref_ptr<osg::Geometry> restGeometryOf(osg::Drawable& drawable);
+
+/// The farthest that a vertex may be moved by morph targets, all weights from 0 to 1, in its own lengths.
+double reachOf(const osgAnimation::MorphGeometry& morph);
 
 /// The drawable that install() has put this one in place of; null: none.
 osg::Drawable* replacedBy(osg::Drawable& drawable);
@@ -32,6 +37,9 @@ public:
     /// The weights that a rigged mesh has, for its skin. bodyOf: of a bone by its name, -1: not known.
     void setWeights(tss::SceneModel& scene, int body, osgAnimation::RigGeometry& rig, double scale,
                     const std::function<int(const std::string&)>& bodyOf);
+
+    /// Of a mesh whose shape something else makes: bones do not turn it, it moves with its carrier alone.
+    void setCarried(tss::SceneModel& scene, int body);
 
     /// Puts them into the model: muscles get their fibres, skins what lies below them. tell: hears what
     /// cannot be served, with the path of its prim.

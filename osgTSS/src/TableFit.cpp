@@ -1,12 +1,10 @@
 #include "TableFit.h"
+#include "PointGrid.h"
 
 #include "bake/model/SourceHash.h"
 #include "bake/motion/WholeTurn.h"
 
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <unordered_map>
 
 namespace osgTSS {
 
@@ -14,39 +12,6 @@ namespace {
 
 /// Of the size of what is compared: float coordinates that were moved once or twice agree to this.
 constexpr double same = 1e-5;
-
-/// Points in cells of a grid, to find one within a distance.
-class PointGrid {
-public:
-    PointGrid(const std::vector<tss::Vec3>& points, double cell) : _points(points), _cell(cell) {
-        for (std::size_t i = 0; i < points.size(); ++i) _cells[key(at(points[i]))].push_back(i);
-    }
-    bool near(const tss::Vec3& point) const {
-        const auto centre = at(point);
-        for (int n = 0; n < 27; ++n) {
-            const auto cell =
-                _cells.find(key({centre[0] + n % 3 - 1, centre[1] + n / 3 % 3 - 1, centre[2] + n / 9 - 1}));
-            if (cell == _cells.end()) continue;
-            for (std::size_t i : cell->second)
-                if ((_points[i] - point).squaredNorm() <= _cell * _cell) return true;
-        }
-        return false;
-    }
-
-private:
-    using Cell = std::array<std::int64_t, 3>;
-    Cell at(const tss::Vec3& p) const {
-        return {std::llround(p.x() / _cell), std::llround(p.y() / _cell), std::llround(p.z() / _cell)};
-    }
-    static std::uint64_t key(const Cell& c) {
-        std::uint64_t hash = 0;
-        for (std::int64_t part : c) hash = (hash ^ static_cast<std::uint64_t>(part)) * 0x9e3779b97f4a7c15ull;
-        return hash;
-    }
-    const std::vector<tss::Vec3>& _points;
-    double _cell;
-    std::unordered_map<std::uint64_t, std::vector<std::size_t>> _cells;
-};
 
 /// Area, and the area's first and second moments about a point: what does not depend on how it is cut.
 struct Moments {
@@ -79,9 +44,9 @@ bool sameSurface(const tss::TriangleMesh& a, const tss::TriangleMesh& b) {
         return false;
     const PointGrid inA(a.vertices, same * size), inB(b.vertices, same * size);
     for (const tss::Vec3& vertex : a.vertices)
-        if (!inB.near(vertex)) return false;
+        if (inB.nearest(vertex) < 0) return false;
     for (const tss::Vec3& vertex : b.vertices)
-        if (!inA.near(vertex)) return false;
+        if (inA.nearest(vertex) < 0) return false;
     return true;
 }
 

@@ -1,4 +1,5 @@
 // The query kernels alone, by target, motion and size: features given, features made, and many at once.
+#include "bake/motion/MotionFrame.h"
 #include "bake/table/Contact.h"
 #include "bake/table/PreparedTable.h"
 #include "bake/table/TablePairs.h"

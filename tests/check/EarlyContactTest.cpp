@@ -96,3 +96,13 @@ TEST_CASE("bodies that overlap at rest and go deeper with every small step are t
     CHECK_FALSE(baked(wedgedBlock(0.1)).held);
     CHECK_FALSE(baked(0.02).held);
 }
+
+TEST_CASE("a clearance of less than a thousandth of the bodies is told as it is, and not called touching") {
+    SceneModel scene = slidingBlock(0.02, 5e-4);
+    scene.pairs[0].settings["at-rest"] = "collide";
+    scene.pairs[0].settings["epsilon"] = "0.001"; // spheres need not be apart at rest
+    const EarlyContact close = baked(scene);
+    CHECK(close.atRest == Approx(5e-4));
+    CHECK(close.close);
+    CHECK_FALSE(close.restReported);
+}

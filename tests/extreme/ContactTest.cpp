@@ -1,4 +1,5 @@
 #include "bake/table/Contact.h"
+#include "bake/motion/MotionFrame.h"
 #include "bake/respond/JointResponder.h"
 #include "bake/table/Query.h"
 #include "tests/extreme/Served.h"

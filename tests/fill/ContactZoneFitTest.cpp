@@ -133,6 +133,41 @@ TEST_CASE("where a limit on spheres keeps bodies that never meet from being told
     CHECK(fit.a.fit.note.find("spheres do not suffice") != std::string::npos);
 }
 
+TEST_CASE("faces too near to each other at rest are refused soon, with a clearance that can be had") {
+    for (const double clearance : {1e-6, 1e-3}) {
+        CAPTURE(clearance);
+        ContactZoneOptions options = tolerance(0.02);
+        options.atRest = AtRest::Offset;
+        if (clearance == 1e-3) options.medial.mostPatches = 100'000; // they would do, of so large a gap
+        const auto fitted = [&](double gap, const Progress& progress) {
+            const Scene scene = slidingOver(boxMesh({0, 0, 1 + gap}, {1, 1, 2}));
+            return fitContactZone(scene.a, scene.b, scene.motion, options, progress);
+        };
+        int asked = 0; // once for every so many patches
+        std::string refusal;
+        try {
+            fitted(clearance,
+                   [&](std::string_view step, double) { return (asked += step == "patches") < 1000; });
+        } catch (const RestTooClose& error) {
+            refusal = error.message;
+        }
+        INFO(refusal);
+        CHECK(asked < 200);
+        const auto lengthAfter = [&](const std::string& words) {
+            const std::size_t at = refusal.find(words);
+            REQUIRE(at != std::string::npos);
+            return std::stod(refusal.substr(at + words.size()));
+        };
+        const double proposed = lengthAfter("expected a clearance of at least ");
+        CHECK(proposed > 2 * clearance);
+        CHECK(proposed < 0.1);
+        CHECK(lengthAfter("need a tolerance of ") == Approx(0.38 * clearance).epsilon(0.1));
+        if (clearance == 1e-3) CHECK(fitted(proposed, {}).a.fit.coverage == 0);
+        options.atRest = AtRest::Collide; // the other proposal
+        CHECK(fitted(clearance, {}).a.fit.coverage == 0);
+    }
+}
+
 TEST_CASE("a limit on spheres keeps the finest level that fits and says so") {
     const Scene scene = lumpyPair(6);
     ContactZoneOptions options = tolerance(0.004);

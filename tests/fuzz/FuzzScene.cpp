@@ -3,7 +3,7 @@
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/ReadTree.h"
-#include "bake/scene/StoreTables.h"
+#include "bake/scene/SceneParts.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteUsda.h"
 

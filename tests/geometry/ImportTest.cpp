@@ -6,6 +6,7 @@
 #include "tests/geometry/TestMeshes.h"
 
 #include <fstream>
+#include <sys/stat.h>
 
 using namespace tss;
 using namespace tss::test;
@@ -117,6 +118,54 @@ TEST_CASE("the real meshes come in as their list says") {
     CHECK(link.openEdges == 238);
     CHECK(link.components == 4);
     CHECK_FALSE(link.watertight);
+}
+
+TEST_CASE("what a mesh file names is read beside it alone, and a pipe is not waited for") {
+    const std::filesystem::path folder = std::filesystem::path(OSGTSS_BINARY_DIR) / "import_folder";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder / "sub");
+    const auto gltf = [&](const std::string& uri) {
+        std::ofstream(folder / "sub/a.gltf")
+            << R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":")" << uri
+            << R"("}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,)"
+            << R"("componentType":5126,"count":3,"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":)"
+            << R"({"POSITION":0}}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0})";
+        return (folder / "sub/a.gltf").string();
+    };
+    const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    for (const char* file : {"sub/here.bin", "above.bin"})
+        std::ofstream(folder / file, std::ios::binary)
+            .write(reinterpret_cast<const char*>(corners), sizeof corners);
+    REQUIRE(mkfifo((folder / "sub/pipe.bin").c_str(), 0600) == 0);
+    std::filesystem::create_symlink("../above.bin", folder / "sub/link.bin");
+    CHECK(importMesh(gltf("here.bin")).triangles.size() == 1);
+    CHECK(refusal(gltf("pipe.bin")).find("pipe.bin is not a regular file") != std::string::npos);
+    for (const char* out : {"../above.bin", "link.bin"})
+        CHECK(refusal(gltf(out)).find("lies outside of ") != std::string::npos);
+    // The file itself may be a link, to a folder that has the others.
+    std::filesystem::create_symlink("sub/a.gltf", folder / "elsewhere.gltf");
+    gltf("here.bin");
+    std::filesystem::rename(folder / "sub/here.bin", folder / "here.bin");
+    CHECK(importMesh((folder / "elsewhere.gltf").string()).triangles.size() == 1);
+    std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("lengths that a file does not have, endless faces and corners that are no numbers are refused") {
+    const std::string chunk("glTF\x02\0\0\0\xe8\x03\0\0\xf0\xff\xff\xff"
+                            "JSON{}",
+                            22);
+    CHECK(refusal(TemporaryFile("cut.glb", chunk).name).find("4294967280 bytes, and 2 are left") !=
+          std::string::npos);
+    CHECK(
+        refusal(
+            TemporaryFile("endless.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n").name)
+            .find("no line end_header") != std::string::npos);
+    std::string face = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
+    for (int k = 0; k < 4000; ++k) face += " 1 2 3";
+    CHECK(refusal(TemporaryFile("face.obj", face + "\n").name).find("a face of 12000 corners") !=
+          std::string::npos);
+    const TemporaryFile nan("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
+    CHECK(refusal(nan.name).find(nan.name + ": vertex 1 is not finite") != std::string::npos);
 }
 
 #else

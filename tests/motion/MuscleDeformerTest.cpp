@@ -1,8 +1,8 @@
 #include "bake/motion/MuscleDeformer.h"
 #include "bake/base/Error.h"
-#include "bake/motion/MuscleEllipsoid.h"
 #include "bake/motion/MuscleTrack.h"
 #include "bake/motion/MuscleVolume.h"
+#include "tests/BentEllipsoid.h"
 #include "tests/FloatTraps.h"
 
 #include <catch2/catch.hpp>
@@ -14,11 +14,11 @@ using namespace tss;
 namespace {
 
 Muscle bentMuscle(MuscleForm form, double height, double bend = 0.3) {
-    BentEllipsoid shape;
+    test::BentEllipsoid shape;
     shape.bend = bend;
     shape.halfWidth = 0.3;
     shape.halfHeight = height;
-    Muscle muscle = bentEllipsoid(shape);
+    Muscle muscle = test::bentEllipsoid(shape);
     muscle.form = form;
     muscle.maxContraction = 0.3;
     muscle.activationLower = -0.5;
@@ -37,14 +37,14 @@ double length(const std::vector<Vec3>& vertices, const Vec3& along) {
 } // namespace
 
 TEST_CASE("a bent ellipsoid has the volume of the straight one") {
-    BentEllipsoid shape;
+    test::BentEllipsoid shape;
     shape.rings = shape.sectors = 128;
     shape.halfWidth = 0.2;
     shape.halfHeight = 0.1;
     const double exact = 4.0 / 3 * std::numbers::pi * 0.2 * 0.1;
     for (const double bend : {0.0, 0.5, -0.2}) {
         shape.bend = bend;
-        const Muscle muscle = bentEllipsoid(shape);
+        const Muscle muscle = test::bentEllipsoid(shape);
         CHECK(enclosedVolume(muscle.surface.vertices, muscle.surface.triangles) ==
               Approx(exact).epsilon(2e-3));
     }

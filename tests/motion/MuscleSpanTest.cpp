@@ -1,6 +1,6 @@
 #include "bake/motion/MuscleSpan.h"
-#include "bake/motion/MuscleEllipsoid.h"
 #include "bake/motion/MuscleVolume.h"
+#include "tests/BentEllipsoid.h"
 #include "tests/FloatTraps.h"
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ using std::numbers::pi;
 
 /// A muscle of length 4 along x, bent upwards, between two bones.
 MuscleDeformer betweenBones() {
-    BentEllipsoid shape;
+    test::BentEllipsoid shape;
     shape.origin = {0, 0, 0};
     shape.insertion = {4, 0, 0};
     shape.bend = 0.5;
@@ -23,7 +23,7 @@ MuscleDeformer betweenBones() {
     shape.halfHeight = 0.4;
     shape.rings = 40;
     shape.sectors = 32;
-    Muscle muscle = bentEllipsoid(shape);
+    Muscle muscle = test::bentEllipsoid(shape);
     muscle.spans = true;
     return MuscleDeformer(std::move(muscle));
 }

@@ -74,7 +74,8 @@ TEST_CASE("a rotation written with five digits is a rotation") {
     CHECK((turn * turn.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-12);
 }
 
-TEST_CASE("a shear, a corner that is no number and a path to be crossed backwards cost themselves alone") {
+TEST_CASE(
+    "a shear, a corner that is no number and a winding path to be crossed backwards cost themselves alone") {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->setName("Yard");
     root->addChild(box(osg::Vec3()));
@@ -93,7 +94,7 @@ TEST_CASE("a shear, a corner that is no number and a path to be crossed backward
     along->setName("Along");
     osg::ref_ptr<osg::AnimationPath> path = new osg::AnimationPath;
     path->insert(0, osg::AnimationPath::ControlPoint(osg::Vec3d(0, 0, 0)));
-    path->insert(1, osg::AnimationPath::ControlPoint(osg::Vec3d(5, 0, 0)));
+    path->insert(1, osg::AnimationPath::ControlPoint(osg::Vec3d(5, 0, 0), osg::Quat(1, osg::Vec3d(0, 0, 1))));
     along->setUpdateCallback(new osg::AnimationPathCallback(path));
     along->addChild(box(osg::Vec3(0, 0, 1)));
     root->addChild(along);

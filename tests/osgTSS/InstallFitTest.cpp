@@ -170,16 +170,60 @@ TEST_CASE("a joint that is hung elsewhere is let go, and the others are kept") {
     CHECK(yard.reach(1) == Approx(4).margin(1e-3));
 }
 
-TEST_CASE("geometry that is hung below a joint after install is told of once") {
+TEST_CASE("geometry that comes after install, below a joint or beside all joints, is told of once") {
     Yard yard;
     const tss::SceneModel model = yard.baked();
     install(*yard.root, model);
     Heard heard;
-    for (int frame = 0; frame < 70; ++frame) yard.reach(0, 1);
-    CHECK(heard.times("is other than") == 0);
-    yard.arms[0]->addChild(box(osg::Vec3(1, 0, 0)));
+    for (int frame = 0; frame < 130; ++frame) yard.reach(0, 1);
+    CHECK(heard.times("when tables were installed") == 0);
+    const bool below = GENERATE(true, false);
+    (below ? yard.arms[0].get() : yard.root.get())->addChild(box(osg::Vec3(1, 0, 0)));
     for (int frame = 0; frame < 200; ++frame) yard.reach(0, 1);
-    CHECK(heard.times("is other than") == 1);
+    CHECK(heard.times("is other than when tables were installed") == 1);
+}
+
+TEST_CASE("a transform that was taken to stand still and is moved after install is told of once") {
+    Yard yard;
+    // Above the first arm, below it, and above all there is.
+    osg::ref_ptr<osg::MatrixTransform> above = new osg::MatrixTransform, below = new osg::MatrixTransform,
+                                       whole = new osg::MatrixTransform;
+    above->setName("Above");
+    below->setName("Below");
+    whole->setName("Whole");
+    yard.root->replaceChild(yard.arms[0], above);
+    above->addChild(yard.arms[0]);
+    const osg::ref_ptr<osg::Node> block = yard.arms[0]->getChild(0);
+    yard.arms[0]->replaceChild(block, below);
+    below->addChild(block);
+    osg::ref_ptr<osg::Group> group = new osg::Group;
+    group->setName("Yard");
+    whole->addChild(yard.root);
+    group->addChild(whole);
+    yard.root = group;
+    const tss::SceneModel model = yard.baked();
+    REQUIRE(install(*yard.root, model).joints == 2);
+    Heard heard;
+    const auto play = [&] {
+        for (int frame = 0; frame < 130; ++frame) yard.reach(0, 1);
+    };
+    play();
+    CHECK(heard.times("stands elsewhere") == 0);
+    SECTION("between the yard and an arm") {
+        above->setMatrix(osg::Matrixd::translate(0, 1, 0));
+        play();
+        CHECK(heard.times("transform \"Above\" stands elsewhere than when tables were installed") == 1);
+    }
+    SECTION("between an arm and what it carries") {
+        below->setMatrix(osg::Matrixd::rotate(0.1, osg::Vec3d(0, 0, 1)));
+        play();
+        CHECK(heard.times("transform \"Below\" stands elsewhere") == 1);
+    }
+    SECTION("what carries all of it may go anywhere") {
+        whole->setMatrix(osg::Matrixd::translate(0, 100, 0));
+        play();
+        CHECK(heard.times("stands elsewhere") == 0);
+    }
 }
 
 TEST_CASE("what a table does to its joint is said when it is installed, once") {

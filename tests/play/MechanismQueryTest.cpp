@@ -126,6 +126,48 @@ TEST_CASE("beyond the limits of some pairs the others still answer, and nothing 
     CHECK(beyond > 30);
 }
 
+TEST_CASE("many configurations at once get the verdicts that they get one by one") {
+    long contacts = 0, beyond = 0, free = 0, placed = 0;
+    for (std::uint64_t seed = 90; seed < 102; ++seed) {
+        CAPTURE(seed);
+        Random random(seed);
+        const SceneModel scene = anyMechanism(random, 3 + int(seed % 5), seed % 2);
+        const Singles singles(scene);
+        for (const auto& [pair, table] : singles.tables) placed += table.dofCount() > 3;
+        const MechanismQuery query(scene);
+        MechanismWorkspace ws = query.workspace();
+        for (const std::size_t count : {0, 1, 7, 15, 16, 17, 250}) {
+            std::vector<double> values;
+            for (std::size_t i = 0; i < count; ++i) {
+                std::vector<double> one = anyValues(random, scene);
+                if (i % 20 == 7) one[random() % one.size()] = 5; // beyond
+                values.insert(values.end(), one.begin(), one.end());
+            }
+            std::vector<MechanismAnswer> answers(count + 1, {Answer::Beyond, 77});
+            query.ask(values.data(), count, answers.data(), ws);
+            REQUIRE(answers[count].pair == 77); // untouched
+            for (std::size_t i = 0; i < count; ++i) {
+                const double* at = values.data() + i * query.valueCount();
+                const std::vector<double> own(at, at + query.valueCount());
+                if (answers[i].verdict != query.ask(at, ws).verdict) REQUIRE(singles.atTheBand(own));
+                if (answers[i].verdict == Answer::Contact) {
+                    if (!singles.touches(answers[i].pair, own)) REQUIRE(singles.atTheBand(own));
+                } else {
+                    REQUIRE(answers[i].pair == -1);
+                }
+                (answers[i].verdict == Answer::Contact  ? contacts
+                 : answers[i].verdict == Answer::Beyond ? beyond
+                                                        : free) += 1;
+            }
+        }
+    }
+    CAPTURE(contacts, beyond, free, placed);
+    CHECK(contacts > 300);
+    CHECK(beyond > 30);
+    CHECK(free > 300);
+    CHECK(placed > 10);
+}
+
 TEST_CASE("a table for other joints than the scene's is refused, a pair without one is named") {
     Random random(80);
     SceneModel scene = anyMechanism(random, 4, true);

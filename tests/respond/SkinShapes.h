@@ -1,8 +1,8 @@
 #pragma once
-#include "bake/motion/MuscleEllipsoid.h"
 #include "bake/respond/SkinResponse.h"
 #include "bake/respond/SkinRig.h"
 #include "bake/search/SkinSearch.h"
+#include "tests/BentEllipsoid.h"
 
 #include <cmath>
 
@@ -36,13 +36,13 @@ inline tss::TriangleMesh vaultedSheet(int n, double size, double height, double 
 
 /// A bent ellipsoid along x right under the middle of the sheet.
 inline tss::Muscle muscleBelow(double clearance, double contraction = 0.25, double y = 0) {
-    tss::BentEllipsoid shape;
+    tss::test::BentEllipsoid shape;
     shape.origin = {-0.6, y, -0.25 - clearance};
     shape.insertion = {0.6, y, -0.25 - clearance};
     shape.bend = 0.1;
     shape.halfWidth = 0.25;
     shape.halfHeight = 0.15;
-    tss::Muscle muscle = tss::bentEllipsoid(shape);
+    tss::Muscle muscle = tss::test::bentEllipsoid(shape);
     muscle.maxContraction = contraction;
     muscle.anchor = 0.5;
     return muscle;

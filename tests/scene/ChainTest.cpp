@@ -1,6 +1,5 @@
 #include "bake/base/Error.h"
-#include "bake/model/JointGraph.h"
-#include "bake/model/PairDofs.h"
+#include "bake/model/Kinematics.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/WriteLayer.h"
 #include "tests/scene/Samples.h"
@@ -36,6 +35,24 @@ Dof randomDof(std::mt19937_64& random, int axis, bool turns) {
     return dof;
 }
 
+/// A path that turns about a place, or travels without turning: its inverse is one as well.
+Dof randomPath(std::mt19937_64& random) {
+    Dof dof;
+    dof.name = "path";
+    dof.kind = DofKind::Path;
+    dof.frame = randomPose(random);
+    const bool turns = random() % 2;
+    const Pose still = randomPose(random);
+    for (int k = 0; k < 4; ++k) {
+        const Pose row = randomPose(random);
+        dof.path.push_back({double(k), turns ? still.translation() : row.translation(),
+                            Eigen::Quaterniond(turns ? row.linear() : still.linear())});
+    }
+    dof.lower = 0.5;
+    dof.upper = 2.7;
+    return dof;
+}
+
 Joint randomJoint(std::mt19937_64& random, const std::string& name, int body0, int body1) {
     Joint joint;
     joint.path = "/Scene/" + name;
@@ -45,6 +62,10 @@ Joint randomJoint(std::mt19937_64& random, const std::string& name, int body0, i
     joint.frame1 = randomPose(random);
     for (int axis = 0; axis < 3; ++axis)
         if (random() % 2) joint.dofs.push_back(randomDof(random, axis, random() % 2));
+    if (random() % 3 == 0)
+        joint.dofs.insert(joint.dofs.begin() +
+                              static_cast<std::ptrdiff_t>(random() % (joint.dofs.size() + 1)),
+                          randomPath(random));
     joint.drives.resize(joint.dofs.size());
     LimitPlane plane;
     for (std::size_t k = 0; k < joint.dofs.size(); ++k) plane.coefficients.push_back(uniform(random, 0.5, 1));
@@ -151,7 +172,7 @@ TEST_CASE("a pair over a chain is found again in its file") {
     CHECK((was.matrix() - is.matrix()).norm() < 1e-5);
 }
 
-TEST_CASE("a path is read with its rows, and is not crossed backwards") {
+TEST_CASE("a path is read with its rows, and one that turns and travels is not crossed backwards") {
     SceneModel scene;
     samples::addBody(scene, "A");
     samples::addBody(scene, "B");

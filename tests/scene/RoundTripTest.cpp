@@ -4,7 +4,6 @@
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/ValidateScene.h"
 #include "bake/scene/WriteLayer.h"
-#include "bake/scene/WriteNumber.h"
 #include "tests/scene/RandomLayer.h"
 #include "tests/scene/Samples.h"
 

@@ -1,4 +1,4 @@
-#include "bake/scene/Typos.h"
+#include "bake/scene/Schema.h"
 #include "bake/scene/ReadLayer.h"
 
 #include <catch2/catch.hpp>

@@ -1,8 +1,8 @@
 #include "bake/search/SkinSearch.h"
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
-#include "bake/motion/MuscleEllipsoid.h"
 #include "bake/motion/PoseBlend.h"
+#include "tests/BentEllipsoid.h"
 #include "tests/FloatTraps.h"
 
 #include <catch2/catch.hpp>
@@ -28,9 +28,9 @@ Scene randomScene(std::uint64_t seed) {
     for (int i = 0; i < 600; ++i)
         scene.skin.vertices.emplace_back(1.5 * unit(random), 0.6 * unit(random), 0.6 * unit(random));
     for (int i = 0; i + 2 < 600; i += 3) scene.skin.triangles.emplace_back(i, i + 1, i + 2);
-    BentEllipsoid shape;
+    test::BentEllipsoid shape;
     shape.bend = 0.2;
-    Muscle muscle = bentEllipsoid(shape);
+    Muscle muscle = test::bentEllipsoid(shape);
     muscle.maxContraction = 0.5;
     muscle.activationLower = -0.3;
     scene.muscle = std::make_unique<MuscleDeformer>(std::move(muscle));

@@ -188,6 +188,9 @@ TEST_CASE("contact gives the query's point and normal, and the gap's gradient") 
             t.frame(q.data(), frame);
             TableContact c;
             t.contact(f, frame, c);
+            const TableContact alone = t.contact(q.data());
+            REQUIRE((alone.test == c.test && alone.gap == c.gap && alone.point == c.point));
+            REQUIRE(t.gap(q.data()).gap == t.gap(f).gap);
             const QueryResult plain = query(table, q);
             if (c.test != plain.test) {
                 REQUIRE(c.gap == Approx(plain.gap).margin(2 * t.gapBand() + 1e-5 * std::abs(plain.gap)));

@@ -1,3 +1,4 @@
+#include "bake/table/LikelyTests.h"
 #include "bake/table/TableKernels.h"
 #include "tests/table/ExactGap.h"
 #include "tests/table/RandomTable.h"
@@ -65,6 +66,115 @@ TEST_CASE("a table in clusters answers as without them, to the bit, and misses n
     CHECK(hits > 100);
     CHECK(free > 100);
     CHECK(listed > 1000);
+}
+
+TEST_CASE("poses side by side touch where each of them does, on every kind of kernels") {
+    long hits = 0, free = 0;
+    for (const KernelTarget target : {KernelTarget::Scalar, KernelTarget::Sse2, KernelTarget::Avx2,
+                                      KernelTarget::Avx512, KernelTarget::Neon}) {
+        if (!available(target)) continue;
+        for (std::uint64_t seed = 40; seed < 48; ++seed) {
+            CAPTURE(name(target), seed);
+            Random random(seed);
+            const Table table = clustered(random, seed);
+            PrepareOptions options;
+            options.target = target;
+            options.poseError = 1e-12;
+            const PreparedTable prepared(table, options);
+            const TableKernels& kernels = prepared.kernels();
+            REQUIRE_FALSE(kernels.likely().empty());
+            for (int i = 0; i < 10; ++i) {
+                // A stands anywhere.
+                BodyLanes a, b;
+                PoseLanes poses;
+                std::vector<std::vector<double>> q;
+                const Pose atA = Pose(Eigen::AngleAxisd(i, random_table::direction(random))) *
+                                 Eigen::Translation3d(random_table::inBall(random, 2));
+                for (std::uint32_t lane = 0; lane < poseLanes; ++lane) {
+                    q.push_back(random_table::values(random, table.motion));
+                    const Pose atB = atA * pose(table.motion, q.back());
+                    for (int k = 0; k < 12; ++k) {
+                        a.numbers[k][lane] = atA(k / 4, k % 4);
+                        b.numbers[k][lane] = atB(k / 4, k % 4);
+                    }
+                }
+                kernels.features(a, b, poses);
+                const std::uint32_t asked = static_cast<std::uint32_t>(random() % (1u << poseLanes));
+                const std::uint32_t found = kernels.hits(poses, asked);
+                REQUIRE((found & ~asked) == 0);
+                for (std::uint32_t lane = 0; lane < poseLanes; ++lane) {
+                    if ((asked >> lane & 1) == 0) continue;
+                    const double gap = double(exact::gap(table.motion, tablePairs(table), q[lane]));
+                    if (gap <= 0) REQUIRE((found >> lane & 1) == 1);
+                    if (gap > prepared.signBand()) REQUIRE((found >> lane & 1) == 0);
+                    (gap <= 0 ? hits : free) += 1;
+                }
+            }
+        }
+    }
+    CAPTURE(hits, free);
+    CHECK(hits > 100);
+    CHECK(free > 100);
+}
+
+TEST_CASE("points of two bodies are near in the lanes in which they are") {
+    Random random(3);
+    for (const KernelTarget target : {KernelTarget::Scalar, KernelTarget::Sse2, KernelTarget::Avx2,
+                                      KernelTarget::Avx512, KernelTarget::Neon}) {
+        if (!available(target)) continue;
+        CAPTURE(name(target));
+        BodyLanes a, b;
+        std::vector<Pose> placesA, placesB;
+        for (std::uint32_t lane = 0; lane < poseLanes; ++lane)
+            for (auto& [lanes, places] : {std::pair(&a, &placesA), std::pair(&b, &placesB)}) {
+                places->push_back(Pose(Eigen::AngleAxisd(lane, random_table::direction(random))) *
+                                  Eigen::Translation3d(random_table::inBall(random, 1)));
+                for (int k = 0; k < 12; ++k) lanes->numbers[k][lane] = places->back()(k / 4, k % 4);
+            }
+        const Vec3 inA = random_table::inBall(random, 1), inB = random_table::inBall(random, 1);
+        const std::uint32_t near = laneKernels(target).near(a, inA, b, inB, 1.5);
+        for (std::uint32_t lane = 0; lane < poseLanes; ++lane)
+            CHECK((near >> lane & 1) == ((placesB[lane] * inB - placesA[lane] * inA).squaredNorm() <= 1.5));
+        CHECK(near != 0);
+        CHECK(near != (1u << poseLanes) - 1);
+    }
+}
+
+TEST_CASE("tests asked first are those that touch at most poses, each where none before it does") {
+    Random random(4);
+    std::vector<TablePair> pairs;
+    for (int i = 0; i < 40; ++i) {
+        TablePair pair;
+        pair.a = random_table::inBall(random, 1);
+        pair.b = random_table::inBall(random, 1);
+        pair.reach = 0.4;
+        pairs.push_back(pair);
+    }
+    std::vector<TouchingPose> poses;
+    for (int i = 0; i < 200; ++i) {
+        TouchingPose at{Pose(Eigen::Translation3d(random_table::inBall(random, 1))), 0};
+        double least = 0;
+        for (std::uint32_t k = 0; k < pairs.size(); ++k)
+            if (const double gap = centreDistance(pairs[k], at.pose) - pairs[k].reach; gap < least)
+                least = gap, at.test = k;
+        if (least < 0) poses.push_back(at);
+    }
+    REQUIRE(poses.size() > 50);
+    const auto ended = [&](std::span<const std::uint32_t> tests) {
+        return std::count_if(poses.begin(), poses.end(), [&](const TouchingPose& at) {
+            return std::any_of(tests.begin(), tests.end(), [&](std::uint32_t test) {
+                return centreDistance(pairs[test], at.pose) <= pairs[test].reach;
+            });
+        });
+    };
+    const std::vector<std::uint32_t> few = likelyTests(pairs, poses, 5);
+    REQUIRE(few.size() == 5);
+    for (std::uint32_t k = 0; k < pairs.size(); ++k) CHECK(ended({&k, 1}) <= ended({few.data(), 1}));
+    for (std::size_t n = 1; n < few.size(); ++n) CHECK(ended({few.data(), n}) < ended({few.data(), n + 1}));
+    const std::vector<std::uint32_t> all = likelyTests(pairs, poses, pairs.size());
+    CHECK(std::size_t(ended(all)) == poses.size());
+    CHECK(all.size() < pairs.size());
+    CHECK(likelyTests(pairs, {}, 5).empty());
 }
 
 TEST_CASE("a cluster's bound is no farther apart than any of its tests, at any pose") {

@@ -177,6 +177,12 @@ TEST_CASE("a baked table is verified, and one with its tests taken out is not") 
     INFO(good.err);
     CHECK(good.exit == 0);
     CHECK(Json::parse(good.out)["holds"] == true);
+    CHECK(Json::parse(good.out)["pairs"][0]["decided"] == true);
+    const Ran hasty = runTss("verify baked.tss --json --budget 1e-9", folder.path());
+    CHECK(hasty.exit == 1);
+    CHECK(hasty.err.find("not decided within 1e-09 s") != std::string::npos);
+    CHECK(Json::parse(hasty.out)["holds"] == false);
+    CHECK(Json::parse(hasty.out)["pairs"][0]["decided"] == false);
 
     tss::SceneModel scene = tss::loadScene(folder / "baked.tss");
     tss::Table damaged = *scene.pairs[0].table;

@@ -142,3 +142,37 @@ TEST_CASE("the bake of all pairs sorts neighbours, chains and what never collide
     CHECK(readText(folder.path() / "same.tss") == readText(folder.path() / "baked.tss"));
     CHECK(runTss("verify baked.tss --quiet", folder.path()).exit == 0);
 }
+
+TEST_CASE("a pair too coarse for its joint's clearance is baked again finer where that is asked for") {
+    SceneModel scene;
+    scene.defaultPrim = "Slides";
+    // Blocks that slide above a floor against a wall, one close to it.
+    TriangleMesh floor = boxMesh({0, 0, 0}, {3, 3, 1});
+    const TriangleMesh wall = boxMesh({2.8, 0, 1}, {3, 3, 2});
+    for (const Tri& t : wall.triangles)
+        floor.triangles.emplace_back(t.array() + static_cast<int>(floor.vertices.size()));
+    floor.vertices.insert(floor.vertices.end(), wall.vertices.begin(), wall.vertices.end());
+    const int still = addBody(scene, "Floor", floor);
+    Motion slide = hinge({0, 0, 0}, -3, 2.5);
+    slide.dofs[0].kind = DofKind::Translation;
+    slide.dofs[0].axis = Vec3::UnitX();
+    addPair(scene, still, addBody(scene, "Near", boxMesh({0, 0.2, 1.06}, {0.5, 0.8, 1.5})), slide, "One");
+    addPair(scene, still, addBody(scene, "Far", boxMesh({0, 1.2, 1.5}, {0.5, 1.8, 1.9})), slide, "Two");
+    const Folder folder;
+    saveScene(scene, folder / "slides.tss");
+    const auto baked = [&](const std::string& more) {
+        const Ran ran =
+            runTss("bake slides.tss -o baked.tss --json --tolerance 0.1 --again" + more, folder.path());
+        INFO(ran.err);
+        REQUIRE(ran.exit == 0);
+        return Json::parse(ran.out)["pairs"];
+    };
+    const Json plain = baked(""), finer = baked(" --finer"), other = baked(" --finer --pair /Slides/Two");
+    REQUIRE(plain[0]["earlyContact"]["coarse"] == true);
+    REQUIRE(plain[1]["earlyContact"]["coarse"] == false);
+    CHECK(finer[0]["earlyContact"]["coarse"] == false);
+    CHECK(finer[0]["boundEarly"] < plain[0]["boundEarly"]);
+    CHECK(finer[1]["boundEarly"] == plain[1]["boundEarly"]);
+    CHECK(finer[1]["tests"] == plain[1]["tests"]);
+    CHECK(other[0]["baked"] == false);
+}

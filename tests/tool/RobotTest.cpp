@@ -122,6 +122,9 @@ TEST_CASE("what a robot's file needs and has not is exit 1 with the place, and l
     refused("alone/none.urdf -o out.tss", 1, "alone/none.urdf");
     REQUIRE(mkfifo((folder / "pipe.urdf").c_str(), 0600) == 0);
     refused("pipe.urdf -o out.tss", 1, "expected a regular file"); // and not waited for
+    writeText(folder.path() / "config.xml", "<?xml version='1.0'?>\n<!-- <robot> -->\n<config/>\n");
+    refused("config.xml -o out.tss", 1,
+            "config.xml: expected the <robot> of a URDF or the <mujoco> of an MJCF, found <config>");
     std::filesystem::rename(folder.path() / "my_arm", folder.path() / "moved");
     refused("alone/arm.urdf -o out.tss", 1,
             "alone/arm.urdf: line 4 (<link upper-arm>): mesh \"package://my_arm/upper.obj\"");

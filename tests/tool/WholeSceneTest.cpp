@@ -95,6 +95,53 @@ TEST_CASE("the same hinge is the same motion whichever way it is made") {
         CHECK((pose(a, std::vector{angle}).matrix() - pose(b, std::vector{angle}).matrix()).norm() < 1e-6);
 }
 
+TEST_CASE("bodies that overlap at rest get a joint to paste, and what hangs on the one that is moved goes "
+          "with it") {
+    const Folder folder;
+    writeObj(boxMesh({-1, -1, -2}, {1, 1, 0}), folder / "block.obj");
+    writeObj(boxMesh({-0.5, -0.5, -0.1}, {0.5, 0.5, 2}), folder / "arm.obj");
+    writeObj(boxMesh({-0.4, -0.4, 2.1}, {0.4, 0.4, 3}), folder / "hand.obj");
+    const std::string bodies = "make -o out.tss --body block.obj --body arm.obj --body hand.obj "
+                               "--joint 'wrist=arm,hand:rot:0,0,2.05:1,0,0:-2:2' --pairs neighbours --json ";
+    const std::string first = "--joint 'shoulder=block,arm:rot:0,0,0:0,1,0:-2:2'";
+    const Json overlaps = Json::parse(runTss(bodies + first, folder.path()).out);
+    REQUIRE(overlaps["freeingMoves"].size() >= 1);
+    const Json& move = overlaps["freeingMoves"][0];
+    CHECK(move["pair"] == "/out/shoulder");
+    CHECK(move["freePoses"] == move["poses"]);
+    const std::string option = move["option"];
+    INFO(option);
+    REQUIRE(option.rfind("--joint 'shoulder=block,arm:rot:", 0) == 0);
+
+    const Ran followed = runTss(bodies + option, folder.path());
+    INFO(followed.err);
+    REQUIRE(followed.exit == 0);
+    CHECK_FALSE(Json::parse(followed.out).contains("freeingMoves"));
+    const tss::SceneModel scene = tss::loadScene(folder / "out.tss");
+    const tss::Vec3 shift(move["shift"][0], move["shift"][1], move["shift"][2]);
+    CHECK(shift.norm() > 0.1);
+    for (const char* body : {"/out/arm", "/out/hand"})
+        CHECK((scene.bodies[findBody(scene, body)].placement.translation() - shift).norm() < 1e-5);
+    // The wrist is where it was in both.
+    const tss::Motion wrist = pairMotion(scene, scene.pairs.at(1));
+    CHECK((pose(wrist, std::vector{0.03}) * tss::Vec3(0, 0, 2.05) - tss::Vec3(0, 0, 2.05)).norm() < 1e-6);
+}
+
+TEST_CASE("values of one kind have names of their own") {
+    const Folder folder;
+    writeLimb(folder);
+    REQUIRE(runTss("make -o ankle.tss --a lower.obj --b foot.obj --dof rot:4.05,0,0:0,1,0:-20:20 "
+                   "--dof trans:0,0,0.5:0:0.1 --dof rot:4.05,0,0:0,0,1:-5:5 --meters-per-unit 0.01",
+                   folder.path())
+                .exit == 0);
+    const Json info = Json::parse(runTss("info ankle.tss --json", folder.path()).out);
+    const std::string joint = info["pairs"][0]["joint"];
+    INFO(joint);
+    CHECK(joint.find("rot1 -20 to 20 degrees") != std::string::npos);
+    CHECK(joint.find("rot2 -5 to 5 degrees") != std::string::npos);
+    CHECK(joint.find("trans 0 to 0.1 times 5 mm") != std::string::npos);
+}
+
 TEST_CASE("what cannot be is remarked upon, and what is wrong is refused with the option") {
     const Folder folder;
     writeLimb(folder);

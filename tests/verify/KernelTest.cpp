@@ -139,6 +139,15 @@ TEST_CASE("clusters made for other spheres are refused, and for the right ones p
         CHECK(verify::refuteClusters(prepared, tests, posed) != "");
         // What rounding may do is not said to be more than there is room for.
         CHECK(verify::refuteClusters(prepared, verify::exactTests(table), 1) != "");
+        // What is asked first is these tests and no others.
+        const KernelData& first = prepared.kernels().likelyTests().rows;
+        std::vector<std::uint32_t> likely = prepared.kernels().likely();
+        CHECK(verify::rowsAreTests(prepared, first, likely));
+        likely[0] = (likely[0] + 1) % static_cast<std::uint32_t>(prepared.testCount());
+        CHECK_FALSE(verify::rowsAreTests(prepared, first, likely));
+        likely = prepared.kernels().likely();
+        likely.pop_back();
+        CHECK_FALSE(verify::rowsAreTests(prepared, first, likely));
     }
 }
 

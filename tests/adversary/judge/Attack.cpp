@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <functional>
@@ -152,7 +153,7 @@ class Search {
 public:
     Search(Judge& judge, const AttackOptions& options)
         : judge_(judge), motion_(judge.motion), random_(options.seed * 0x9E3779B97F4A7C15u + 3),
-          budget_(options.poses) {}
+          budget_(options.poses), until_(processorSeconds() + options.seconds) {}
 
     void run() {
         if (emptyLimits()) return;
@@ -183,7 +184,8 @@ private:
         if (found.missed + found.early + found.kernel >= enough) return 2;
         // Where planes leave little of the box most draws cost nothing but time.
         if (++draws_ > 50 * budget_ + 1000) return 2;
-        return double(judge_.found.poses) / double(budget_);
+        if (10 * found.poses > budget_ && processorSeconds() > until_) return 2;
+        return double(found.poses) / double(budget_);
     }
 
     std::optional<Seen> consider(const Values& q) {
@@ -322,11 +324,16 @@ private:
     const Motion& motion_;
     scenes::Random random_;
     std::uint64_t budget_, draws_ = 0;
+    double until_; ///< by processorSeconds()
     int idle_ = 0;
     std::vector<Values> meeting_, free_, firing_, silent_;
 };
 
 } // namespace
+
+double processorSeconds() {
+    return double(std::clock()) / CLOCKS_PER_SEC;
+}
 
 Findings attackTable(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion, const Table& table,
                      const AttackOptions& options) {

@@ -25,8 +25,12 @@ struct Findings {
 struct AttackOptions {
     std::uint64_t poses = 1000; ///< to judge, about
     std::uint64_t seed = 1;
+    double seconds = 1e9;      ///< of processor time, after which a tenth of the poses is enough
     bool boundsAnyway = false; ///< take the bounds for claims though the table is not certified
 };
+
+/// Processor time of this process.
+double processorSeconds();
 
 /// Looks for poses at which a table breaks what it claims of two meshes (METHOD, what a table promises): rest
 /// and its neighbourhood, corners of Q, rows of paths, random poses, the ends of bisected segments between

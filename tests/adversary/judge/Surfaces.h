@@ -2,7 +2,7 @@
 #include "bake/geometry/MeshQuery.h"
 #include "bake/geometry/Solid.h"
 #include "bake/motion/Motion.h"
-#include "bake/table/RestRegion.h"
+#include "bake/table/Table.h"
 
 #include <memory>
 #include <optional>

@@ -9,7 +9,6 @@
 #include "tests/extreme/scenes/Builders.h"
 
 #include <cmath>
-#include <ctime>
 #include <fmt/format.h>
 
 namespace adversary {
@@ -17,10 +16,6 @@ namespace adversary {
 using namespace tss;
 
 namespace {
-
-double processorSeconds() {
-    return double(std::clock()) / CLOCKS_PER_SEC;
-}
 
 /// Says no when its time is over.
 class Allowance {
@@ -120,7 +115,7 @@ Trial tryScene(SceneModel scene, const std::string& name, std::uint64_t seed, co
     // Stopped, a bake leaves what it has, which must be true all the same.
     if (!trial.stopped && (trial.proof || trial.certified)) verify(scene, options, trial);
     const double attacked = processorSeconds();
-    trial.found = attackPair(scene, pair, {options.poses, seed});
+    trial.found = attackPair(scene, pair, {options.poses, seed, options.attackSeconds});
     trial.attackTook = processorSeconds() - attacked;
     if (trial.found.failed()) trial.troubles.push_back(trial.found.what);
     return trial;

@@ -10,8 +10,9 @@ namespace adversary {
 
 struct TrialOptions {
     std::uint64_t poses = 1000;
-    double bakeSeconds = 5;    ///< of processor time, after which the bake is asked to stop
-    double verifySeconds = 20; ///< the same for the proof
+    double bakeSeconds = 5;     ///< of processor time, after which the bake is asked to stop
+    double verifySeconds = 20;  ///< the same for the proof
+    double attackSeconds = 1e9; ///< the same for the attack, which judges a tenth of the poses in any case
 };
 
 /// One scene baked, written, read, proven again and attacked.

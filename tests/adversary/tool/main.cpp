@@ -13,7 +13,7 @@ namespace {
 using namespace adversary;
 
 constexpr const char* usage =
-    "usage: tss-adversary run FIRST COUNT [POSES [BAKE_SECONDS [VERIFY_SECONDS]]]\n"
+    "usage: tss-adversary run FIRST COUNT [POSES [BAKE_SECONDS [VERIFY_SECONDS [ATTACK_SECONDS]]]]\n"
     "                                  scenes of these seeds, baked, proven again and attacked; the table of "
     "them\n"
     "       tss-adversary one SEED [POSES]\n"
@@ -95,6 +95,7 @@ int main(int count, char** arguments) {
             options.poses = static_cast<std::uint64_t>(number(4, 1000));
             options.bakeSeconds = number(5, options.bakeSeconds);
             options.verifySeconds = number(6, options.verifySeconds);
+            options.attackSeconds = number(7, options.attackSeconds);
             return run(std::stoull(arguments[2]), std::stoull(arguments[3]), options);
         }
         if (command == "one" && count >= 3) {

@@ -1,0 +1,129 @@
+#include "bake/model/Kinematics.h"
+#include "bake/scene/SceneParts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tss {
+
+namespace {
+
+bool readBodiesOfPrim(const SceneReading& reading, const PrimReader& prim, Pair& pair) {
+    const auto paths = prim.targets(schema::bodies);
+    if (paths.size() != 2 || paths[0] == paths[1]) {
+        prim.problem("expected a joint, or a relationship tss:bodies that names two bodies");
+        return false;
+    }
+    pair.bodyA = reading.body(prim, schema::bodies, paths[0]);
+    pair.bodyB = reading.body(prim, schema::bodies, paths[1]);
+    if (pair.bodyA < 0 || pair.bodyB < 0) return false;
+    const auto chain = findChain(reading.scene.joints, pair.bodyA, pair.bodyB);
+    if (!chain)
+        prim.targetProblem(schema::bodies, "expected one chain of joints from ", paths[0], " to ", paths[1],
+                           ", found more than one: a pair cannot be part of a closed loop");
+    else if (chain->empty())
+        prim.targetProblem(schema::bodies, "expected a chain of joints from ", paths[0], " to ", paths[1],
+                           ", found none");
+    else
+        pair.joints = *chain;
+    return chain && !chain->empty();
+}
+
+bool readBodiesOfJoint(const SceneReading& reading, const PrimReader& prim, Pair& pair) {
+    const int index = reading.jointAt.at(pair.path);
+    const Joint& joint = reading.scene.joints[index];
+    pair.bodyA = joint.body0;
+    pair.bodyB = joint.body1;
+    pair.joints = {index};
+    if (prim.has(schema::bodies))
+        reading.problems.add(prim.placeOf(schema::bodies), "expected tss:bodies on a prim that is no joint");
+    if (pair.bodyA < 0 || pair.bodyB < 0)
+        prim.problem("expected physics:body0 and physics:body1: a pair needs both");
+    return pair.bodyA >= 0 && pair.bodyB >= 0;
+}
+
+void checkMeshes(const SceneReading& reading, const PrimReader& prim, const Pair& pair) {
+    for (int body : {pair.bodyA, pair.bodyB})
+        if (reading.scene.bodies[body].mesh.vertices.empty())
+            prim.problem("expected two bodies with geometry, found none in ",
+                         reading.scene.bodies[body].path);
+}
+
+/// Everything that a motion needs and that a joint alone may do without.
+bool checkPairMotion(const SceneReading& reading, const PrimReader& prim, const Pair& pair) {
+    for (int index : pair.joints) {
+        const Joint& joint = reading.scene.joints[index];
+        for (const Dof& dof : joint.dofs)
+            if (!std::isfinite(dof.lower) || !std::isfinite(dof.upper)) {
+                prim.problem("expected a lower and an upper limit for each DOF of a pair, found none for ",
+                             dof.name, " of ", joint.path);
+                return false;
+            }
+        try { // told with the joint whose limits they are, before they are one chain
+            checkMotion(Motion{joint.dofs, Pose::Identity(), joint.planes});
+        } catch (const InputError& error) {
+            reading.reader(reading.index.find(joint.path)).problem(error.message);
+            return false;
+        }
+    }
+    try {
+        checkMotion(pairMotion(reading.scene, pair));
+    } catch (const InputError& error) {
+        prim.problem(error.message);
+        return false;
+    }
+    return true;
+}
+
+} // namespace
+
+std::vector<SchemaType> pairSchemas() {
+    return {{"TssPairAPI", {schema::bodies, schema::table}}};
+}
+
+BakeSettings readSettings(const PrimReader& prim) {
+    BakeSettings settings;
+    for (const auto& [name, property] : prim.prim().properties) {
+        if (!name.starts_with(schema::bakePrefix)) continue;
+        std::string key = name.substr(schema::bakePrefix.size());
+        std::replace(key.begin(), key.end(), '_', '-');
+        const Attribute attribute{name, "string"};
+        if (prim.value(attribute)) settings[key] = prim.text(attribute);
+    }
+    return settings;
+}
+
+void writeSettings(Prim& prim, const BakeSettings& settings) {
+    std::erase_if(prim.properties,
+                  [](const auto& property) { return property.first.starts_with(schema::bakePrefix); });
+    for (const auto& [key, text] : settings) {
+        std::string name = joined(schema::bakePrefix, key);
+        std::replace(name.begin(), name.end(), '-', '_');
+        PrimWriter(prim).set(Attribute{name, "string", true}, Value(text));
+    }
+}
+
+void readPairs(SceneReading& reading) {
+    const auto isPair = [](const Prim& prim) { return hasApi(prim, "TssPairAPI"); };
+    reading.forPrims(isPair, [&](const PrimReader& prim, int entry) {
+        if (!reading.ownPrim(entry, "TssPairAPI")) return;
+        Pair pair;
+        pair.path = prim.place().path;
+        pair.settings = readSettings(prim);
+        const bool tied = reading.jointAt.contains(pair.path) ? readBodiesOfJoint(reading, prim, pair)
+                                                              : readBodiesOfPrim(reading, prim, pair);
+        if (!tied) return;
+        checkMeshes(reading, prim, pair);
+        if (checkPairMotion(reading, prim, pair)) reading.scene.pairs.push_back(std::move(pair));
+    });
+}
+
+void writePair(Layer& layer, const SceneModel& scene, const Pair& pair) {
+    const bool ofJoint = pair.joints.size() == 1 && scene.joints[pair.joints[0]].path == pair.path;
+    PrimWriter prim(makePrim(layer, pair.path, "Scope"));
+    addApi(prim.prim(), "TssPairAPI");
+    if (!ofJoint) prim.setTargets(schema::bodies, pathsOf(scene.bodies, {pair.bodyA, pair.bodyB}));
+    writeSettings(prim.prim(), pair.settings);
+}
+
+} // namespace tss

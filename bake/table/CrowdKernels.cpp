@@ -1,0 +1,106 @@
+// The queries of many poses: vectors of poses against one pair after the other.
+#include "bake/table/VectorTargets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "bake/table/CrowdKernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "bake/table/KernelsVector.h"
+#include "bake/table/QueryForms-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tss {
+namespace HWY_NAMESPACE {
+namespace {
+
+#if HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
+
+template <class T, class Form>
+void hits(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count,
+          std::uint8_t* hit) {
+    const Lanes<T> d;
+    const std::uint32_t n = static_cast<std::uint32_t>(hn::Lanes(d));
+    const T* end = static_cast<const T*>(rows.end);
+    for (std::uint32_t i = 0; i < count; i += n) {
+        V<T> p[Form::values + 1];
+        for (std::uint32_t k = 0; k <= Form::values; ++k)
+            p[k] = hn::LoadU(d, static_cast<const T*>(poses) + std::size_t(k) * stride + i);
+        V<T> least = farthest<T>();
+        for (const T* row = static_cast<const T*>(rows.blocks); row < end; row += Form::columns)
+            least = hn::Min(least, Form::offset(p + 1, BroadcastColumn<T>{row}));
+        std::uint8_t bytes[8] = {};
+        hn::StoreMaskBits(d, hn::Le(least, p[0]), bytes);
+        for (std::uint32_t k = 0; k < n; ++k) hit[i + k] = bytes[k / 8] >> (k % 8) & 1;
+    }
+}
+
+template <class T, class Form>
+void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count, float* gap,
+          std::int32_t* test) {
+    const Lanes<T> d;
+    const hn::RebindToSigned<Lanes<T>> di;
+    const std::uint32_t n = static_cast<std::uint32_t>(hn::Lanes(d));
+    const T* end = static_cast<const T*>(rows.end);
+    HWY_ALIGN hwy::MakeSigned<T> tests[hn::MaxLanes(Lanes<T>())];
+    HWY_ALIGN T least[hn::MaxLanes(Lanes<T>())];
+    for (std::uint32_t i = 0; i < count; i += n) {
+        V<T> p[Form::values + 1];
+        for (std::uint32_t k = 0; k <= Form::values; ++k)
+            p[k] = hn::LoadU(d, static_cast<const T*>(poses) + std::size_t(k) * stride + i);
+        Nearest<T> nearest{farthest<T>(), hn::BitCast(d, hn::Set(di, -1))};
+        for (const T* row = static_cast<const T*>(rows.blocks); row < end; row += Form::columns) {
+            const BroadcastColumn<T> column{row};
+            nearest.take(gapOf<T, Form>(p, column), column(Form::reach + 1));
+        }
+        hn::Store(nearest.gap, d, least);
+        hn::Store(hn::BitCast(di, nearest.number), di, tests);
+        for (std::uint32_t k = 0; k < n; ++k) {
+            gap[i + k] = static_cast<float>(least[k]);
+            test[i + k] = static_cast<std::int32_t>(tests[k]);
+        }
+    }
+}
+
+template <class T>
+void foldCrowd(std::uint32_t features, KernelSet& set) {
+    withFold<T>(features, [&](auto form) {
+        set.hits = hits<T, decltype(form)>;
+        set.gaps = gaps<T, decltype(form)>;
+    });
+}
+
+template <class T>
+void directCrowd(KernelSet& set) {
+    set.hits = hits<T, DirectForm<T>>;
+    set.gaps = gaps<T, DirectForm<T>>;
+}
+
+#endif
+
+} // namespace
+} // namespace HWY_NAMESPACE
+} // namespace tss
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include <hwy/targets.h>
+
+namespace tss {
+
+template <class T>
+void addFoldCrowd(KernelTarget target, std::uint32_t features, KernelSet& set) {
+    TSS_TARGETS(foldCrowd<T>(features, set))
+    (void)target, (void)features, (void)set;
+}
+template <class T>
+void addDirectCrowd(KernelTarget target, KernelSet& set) {
+    TSS_TARGETS(directCrowd<T>(set))
+    (void)target, (void)set;
+}
+template void addFoldCrowd<float>(KernelTarget, std::uint32_t, KernelSet&);
+template void addFoldCrowd<double>(KernelTarget, std::uint32_t, KernelSet&);
+template void addDirectCrowd<float>(KernelTarget, KernelSet&);
+template void addDirectCrowd<double>(KernelTarget, KernelSet&);
+
+} // namespace tss
+#endif
