@@ -2,7 +2,7 @@
 #include "RandomGraph.h"
 
 #include "bake/compare/MeshTruth.h"
-#include "bake/model/PairDofs.h"
+#include "bake/model/Kinematics.h"
 #include "bake/table/Query.h"
 
 #include <osgTSS/Bake>
