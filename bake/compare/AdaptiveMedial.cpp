@@ -128,8 +128,8 @@ std::vector<Part> divide(const MedialSurface& surface, const Solid& solid, const
 
 } // namespace
 
-BallTree buildAdaptiveMedial(const TriangleMesh& mesh, const Solid& solid, int levels) {
-    BallTree tree;
+EnclosingTree buildAdaptiveMedial(const TriangleMesh& mesh, const Solid& solid, int levels) {
+    EnclosingTree tree;
     const MedialSurface surface = medialSurface(mesh, solid);
     if (surface.elements.empty()) return tree;
     Elements all(surface.elements.size());
@@ -145,7 +145,7 @@ BallTree buildAdaptiveMedial(const TriangleMesh& mesh, const Solid& solid, int l
         std::vector<std::pair<std::uint32_t, Elements>> below;
         for (std::size_t i = 0; i < open.size(); ++i) {
             if (divided[i].size() < 2) continue; // nothing to gain: stays a leaf
-            BallTree::Node& node = tree.nodes[open[i].first];
+            EnclosingTree::Node& node = tree.nodes[open[i].first];
             node.first = static_cast<std::uint32_t>(tree.nodes.size());
             node.count = static_cast<std::uint32_t>(divided[i].size());
             for (Part& part : divided[i]) {
@@ -158,7 +158,7 @@ BallTree buildAdaptiveMedial(const TriangleMesh& mesh, const Solid& solid, int l
     return tree;
 }
 
-std::unique_ptr<CollisionMethod> makeAdaptiveMedial(const Problem& problem, int levels) {
+std::unique_ptr<CollisionMethod> makeAdaptiveMedial(const ComparedPair& problem, int levels) {
     const auto start = std::chrono::steady_clock::now();
     const Solid solidA(problem.meshA), solidB(problem.meshB);
     MeshTrees trees{buildAdaptiveMedial(problem.meshA, solidA, levels),

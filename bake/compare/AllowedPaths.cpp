@@ -17,7 +17,7 @@ struct Stretch {
 
 class AllowedPaths final : public CollisionMethodLoop<AllowedPaths> {
 public:
-    AllowedPaths(const Problem& problem, const Oracle& oracle, int paths, int steps)
+    AllowedPaths(const ComparedPair& problem, const Oracle& oracle, int paths, int steps)
         : leading_(leadingDof(problem)) {
         const auto start = std::chrono::steady_clock::now();
         std::size_t count = 1;
@@ -65,7 +65,7 @@ private:
         int count;
     };
 
-    std::vector<Stretch> trace(const Problem& problem, const Oracle& oracle, std::size_t index,
+    std::vector<Stretch> trace(const ComparedPair& problem, const Oracle& oracle, std::size_t index,
                                int steps) const {
         PoseQuery query{std::vector<double>(axes_.size()), Pose::Identity()};
         for (std::size_t k = axes_.size(); k-- > 0;) {
@@ -104,15 +104,15 @@ private:
     }
 
     std::size_t leading_;
-    std::vector<Axis> axes_; ///< one a DOF; the leading one has one entry
+    std::vector<Axis> axes_; ///< one per DOF; the leading one has one entry
     std::vector<std::uint32_t> first_;
     std::vector<Stretch> stretches_;
 };
 
 } // namespace
 
-std::unique_ptr<CollisionMethod> makeAllowedPaths(const Problem& problem, const Oracle& oracle, int paths,
-                                                  int steps) {
+std::unique_ptr<CollisionMethod> makeAllowedPaths(const ComparedPair& problem, const Oracle& oracle,
+                                                  int paths, int steps) {
     return std::make_unique<AllowedPaths>(problem, oracle, paths, steps);
 }
 

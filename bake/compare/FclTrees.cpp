@@ -10,7 +10,7 @@ namespace {
 template <class Volume>
 class FclMethod final : public CollisionMethodLoop<FclMethod<Volume>> {
 public:
-    FclMethod(const Problem& problem, const std::string& name, const std::string& remark) {
+    FclMethod(const ComparedPair& problem, const std::string& name, const std::string& remark) {
         const auto start = std::chrono::steady_clock::now();
         fillFclModel(a_, problem.meshA);
         fillFclModel(b_, problem.meshB);
@@ -49,7 +49,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<CollisionMethod> makeFcl(const Problem& problem, FclTree tree) {
+std::unique_ptr<CollisionMethod> makeFcl(const ComparedPair& problem, FclTree tree) {
     switch (tree) {
     case FclTree::Obb:
         return std::make_unique<FclMethod<fcl::OBBd>>(problem, "obb", "");

@@ -13,7 +13,7 @@ namespace tss::compare {
 namespace {
 
 /// Largest distance from p of a point of B carried by the DOFs from `from` on, over their limits.
-double reachFrom(const Problem& problem, std::size_t from, const Vec3& p) {
+double reachFrom(const ComparedPair& problem, std::size_t from, const Vec3& p) {
     const Motion& motion = problem.motion;
     if (from == motion.dofCount()) {
         double reach = 0;
@@ -35,7 +35,7 @@ double reachFrom(const Problem& problem, std::size_t from, const Vec3& p) {
 }
 
 /// How far a point of B moves at most for each unit of a DOF.
-double speedOf(const Problem& problem, std::size_t k) {
+double speedOf(const ComparedPair& problem, std::size_t k) {
     const Dof& dof = problem.motion.dofs[k];
     if (dof.kind == DofKind::Rotation) return reachFrom(problem, k + 1, dof.origin);
     if (dof.kind == DofKind::Translation) return dof.axis.norm();
@@ -53,7 +53,7 @@ double speedOf(const Problem& problem, std::size_t k) {
 template <int D>
 class GapGrid final : public CollisionMethodLoop<GapGrid<D>> {
 public:
-    GapGrid(const Problem& problem, const GapOracle& oracle, int points, const StatedError& ofOracle) {
+    GapGrid(const ComparedPair& problem, const GapOracle& oracle, int points, const StatedError& ofOracle) {
         const auto start = std::chrono::steady_clock::now();
         std::size_t count = 1;
         double band = 0;
@@ -130,7 +130,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<CollisionMethod> makeGapGrid(const Problem& problem, const GapOracle& oracle, int points,
+std::unique_ptr<CollisionMethod> makeGapGrid(const ComparedPair& problem, const GapOracle& oracle, int points,
                                              const StatedError& ofOracle) {
     if (points < 2) throw InputError("a grid of gaps: expected at least 2 points a DOF");
     switch (problem.motion.dofCount()) {

@@ -50,7 +50,7 @@ struct AnyContact : btManifoldResult {
 
 class Gimpact final : public CollisionMethodLoop<Gimpact> {
 public:
-    explicit Gimpact(const Problem& problem) {
+    explicit Gimpact(const ComparedPair& problem) {
         const auto start = std::chrono::steady_clock::now();
         const Eigen::AlignedBox3d box = bounds(problem.meshA);
         centre_ = box.center();
@@ -112,7 +112,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<CollisionMethod> makeGimpact(const Problem& problem) {
+std::unique_ptr<CollisionMethod> makeGimpact(const ComparedPair& problem) {
     return std::make_unique<Gimpact>(problem);
 }
 

@@ -137,8 +137,8 @@ std::vector<Vec3> someCentres(const MedialSurface& surface, const std::vector<st
 
 } // namespace
 
-BallTree buildHubbard(const TriangleMesh& mesh, const Solid& solid, int levels) {
-    BallTree tree;
+EnclosingTree buildHubbard(const TriangleMesh& mesh, const Solid& solid, int levels) {
+    EnclosingTree tree;
     const MedialSurface surface = medialSurface(mesh, solid);
     const std::size_t elementCount = surface.elements.size();
     if (elementCount == 0) return tree;
@@ -185,7 +185,7 @@ BallTree buildHubbard(const TriangleMesh& mesh, const Solid& solid, int levels) 
     return tree;
 }
 
-std::unique_ptr<CollisionMethod> makeHubbard(const Problem& problem, int levels) {
+std::unique_ptr<CollisionMethod> makeHubbard(const ComparedPair& problem, int levels) {
     const auto start = std::chrono::steady_clock::now();
     const Solid solidA(problem.meshA), solidB(problem.meshB);
     MeshTrees trees{buildHubbard(problem.meshA, solidA, levels), buildHubbard(problem.meshB, solidB, levels)};

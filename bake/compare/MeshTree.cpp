@@ -90,10 +90,10 @@ std::unique_ptr<CollisionMethod> makeMeshTreeMethod(MeshTrees trees, Description
     return std::make_unique<MeshTreeMethod>(std::move(trees), std::move(description));
 }
 
-double leafProtrusion(const BallTree& tree, const Solid& solid) {
+double leafProtrusion(const EnclosingTree& tree, const Solid& solid) {
     std::vector<double> each(tree.nodes.size(), 0.0);
     parallelFor(each.size(), [&](std::size_t i) {
-        const BallTree::Node& node = tree.nodes[i];
+        const EnclosingTree::Node& node = tree.nodes[i];
         if (node.count == 0) each[i] = solid.protrusion(node.centre, node.radius);
     });
     return each.empty() ? 0 : *std::max_element(each.begin(), each.end());

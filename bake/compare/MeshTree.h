@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/compare/BallTree.h"
+#include "bake/compare/EnclosingTree.h"
 #include "bake/compare/Methods.h"
 #include "bake/geometry/Solid.h"
 
@@ -11,28 +11,28 @@ namespace tss::compare {
 // Sphere trees made from a mesh: each node's ball contains the piece of surface below it, but not the balls
 // below it. What touches is found all the same, since every ball above a common point contains it.
 
-BallTree buildOctree(const TriangleMesh& mesh, int levels);
-BallTree buildHubbard(const TriangleMesh& mesh, const Solid& solid, int levels);
-BallTree buildAdaptiveMedial(const TriangleMesh& mesh, const Solid& solid, int levels);
+EnclosingTree buildOctree(const TriangleMesh& mesh, int levels);
+EnclosingTree buildHubbard(const TriangleMesh& mesh, const Solid& solid, int levels);
+EnclosingTree buildAdaptiveMedial(const TriangleMesh& mesh, const Solid& solid, int levels);
 
-/// The largest sphere that rests against the middle of each triangle from inside, one a triangle; radius 0:
+/// The largest sphere that rests against the middle of each triangle from inside, one per triangle; radius 0:
 /// none. (No ball inside can rest against a convex corner.)
 SphereSet restingSpheres(const TriangleMesh& mesh, const Solid& solid);
 
 struct MeshTrees {
-    BallTree a, b;
+    EnclosingTree a, b;
 };
 
 std::unique_ptr<CollisionMethod> makeMeshTreeMethod(MeshTrees trees, Description description);
 
-inline std::size_t leafCount(const BallTree& tree) {
+inline std::size_t leafCount(const EnclosingTree& tree) {
     std::size_t leaves = 0;
-    for (const BallTree::Node& node : tree.nodes) leaves += node.count == 0 ? 1 : 0;
+    for (const EnclosingTree::Node& node : tree.nodes) leaves += node.count == 0 ? 1 : 0;
     return leaves;
 }
 
 /// Largest protrusion of a leaf from the solid.
-double leafProtrusion(const BallTree& tree, const Solid& solid);
+double leafProtrusion(const EnclosingTree& tree, const Solid& solid);
 
 /// Elements of the surface (triangles, split where they are large), each with the inner medial ball nearest
 /// to it: what Hubbard's and Bradshaw and O'Sullivan's trees are made from.

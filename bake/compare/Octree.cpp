@@ -37,8 +37,8 @@ struct Cube {
 
 } // namespace
 
-BallTree buildOctree(const TriangleMesh& mesh, int levels) {
-    BallTree tree;
+EnclosingTree buildOctree(const TriangleMesh& mesh, int levels) {
+    EnclosingTree tree;
     if (mesh.empty()) return tree;
     const Eigen::AlignedBox3d box = bounds(mesh);
     Cube root{0, 0, box.center(), 0.5 * box.sizes().maxCoeff(), {}};
@@ -48,7 +48,7 @@ BallTree buildOctree(const TriangleMesh& mesh, int levels) {
     tree.nodes.push_back({box.center(), 0, 0, 0});
     for (std::size_t next = 0; next < open.size(); ++next) { // breadth first
         const Cube cube = std::move(open[next]);
-        BallTree::Node node{cube.centre, cube.half * std::sqrt(3.0) * (1 + 1e-9), 0, 0};
+        EnclosingTree::Node node{cube.centre, cube.half * std::sqrt(3.0) * (1 + 1e-9), 0, 0};
         if (cube.level < levels) {
             node.first = static_cast<std::uint32_t>(tree.nodes.size());
             for (int octant = 0; octant < 8; ++octant) {
@@ -70,15 +70,15 @@ BallTree buildOctree(const TriangleMesh& mesh, int levels) {
     return tree;
 }
 
-std::unique_ptr<CollisionMethod> makeOctree(const Problem& problem, int levels) {
+std::unique_ptr<CollisionMethod> makeOctree(const ComparedPair& problem, int levels) {
     const auto start = std::chrono::steady_clock::now();
     MeshTrees trees{buildOctree(problem.meshA, levels), buildOctree(problem.meshB, levels)};
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     // A leaf's cube holds a point of the surface, so no point of its ball is farther from that than 2 r.
     double early = 0;
-    for (const BallTree* tree : {&trees.a, &trees.b}) {
+    for (const EnclosingTree* tree : {&trees.a, &trees.b}) {
         double radius = 0;
-        for (const BallTree::Node& node : tree->nodes)
+        for (const EnclosingTree::Node& node : tree->nodes)
             if (node.count == 0) radius = std::max(radius, node.radius);
         early += 2 * radius;
     }

@@ -79,14 +79,14 @@ SphereSet keepLargest(const TriangleMesh& mesh, const SphereSet& resting, double
 
 } // namespace
 
-std::unique_ptr<CollisionMethod> makeOrourkeBadler(const Problem& problem) {
+std::unique_ptr<CollisionMethod> makeOrourkeBadler(const ComparedPair& problem) {
     const auto start = std::chrono::steady_clock::now();
     const Solid solidA(problem.meshA), solidB(problem.meshB);
     const SphereSet a =
         keepLargest(problem.meshA, restingSpheres(problem.meshA, solidA), 1e-3 * solidA.diagonal());
     const SphereSet b =
         keepLargest(problem.meshB, restingSpheres(problem.meshB, solidB), 1e-3 * solidB.diagonal());
-    MeshTrees trees{buildBallTree(a, 8, Enclosure::Balls), buildBallTree(b, 8, Enclosure::Balls)};
+    MeshTrees trees{buildEnclosingTree(a, 8, Enclosure::Balls), buildEnclosingTree(b, 8, Enclosure::Balls)};
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     const double miss =
         coverageBound(a, patchesOf(problem.meshA)) + coverageBound(b, patchesOf(problem.meshB));

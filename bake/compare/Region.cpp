@@ -24,7 +24,7 @@ struct Bins {
 };
 
 /// What the samples in a slice of the leading DOF say. The slice's two ends are always among them.
-Bin classify(const Problem& problem, const Oracle& oracle, std::size_t dof, double low, double high,
+Bin classify(const ComparedPair& problem, const Oracle& oracle, std::size_t dof, double low, double high,
              int samples, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     int hits = 0;
@@ -40,7 +40,7 @@ Bin classify(const Problem& problem, const Oracle& oracle, std::size_t dof, doub
     return hits == 0 ? Bin::Free : hits == samples ? Bin::Contact : Bin::Mixed;
 }
 
-Bins makeBins(const Problem& problem, const Oracle& oracle, int bins, int samples, std::uint64_t seed) {
+Bins makeBins(const ComparedPair& problem, const Oracle& oracle, int bins, int samples, std::uint64_t seed) {
     Bins result;
     result.dof = leadingDof(problem);
     const Dof& dof = problem.motion.dofs[result.dof];
@@ -57,7 +57,8 @@ Bins makeBins(const Problem& problem, const Oracle& oracle, int bins, int sample
 
 class AngularRegion final : public CollisionMethodLoop<AngularRegion> {
 public:
-    AngularRegion(const Problem& problem, const Oracle& oracle, int bins, int samples, std::uint64_t seed) {
+    AngularRegion(const ComparedPair& problem, const Oracle& oracle, int bins, int samples,
+                  std::uint64_t seed) {
         const auto start = std::chrono::steady_clock::now();
         const Bins all = makeBins(problem, oracle, bins, samples, seed);
         dof_ = all.dof;
@@ -95,7 +96,7 @@ private:
 
 class MixedRegion final : public CollisionMethodLoop<MixedRegion> {
 public:
-    MixedRegion(const Problem& problem, const Oracle& oracle, int bins, int samples, std::uint64_t seed,
+    MixedRegion(const ComparedPair& problem, const Oracle& oracle, int bins, int samples, std::uint64_t seed,
                 std::shared_ptr<const CollisionMethod> inside)
         : inside_(std::move(inside)) {
         const auto start = std::chrono::steady_clock::now();
@@ -129,7 +130,7 @@ private:
 
 } // namespace
 
-std::size_t leadingDof(const Problem& problem) {
+std::size_t leadingDof(const ComparedPair& problem) {
     const Eigen::AlignedBox3d box = bounds(problem.meshB);
     std::vector<double> q;
     for (const Dof& dof : problem.motion.dofs) q.push_back(0.5 * (dof.lower + dof.upper));
@@ -153,12 +154,12 @@ std::size_t leadingDof(const Problem& problem) {
     return leading;
 }
 
-std::unique_ptr<CollisionMethod> makeAngularRegion(const Problem& problem, const Oracle& oracle, int bins,
-                                                   int samples, std::uint64_t seed) {
+std::unique_ptr<CollisionMethod> makeAngularRegion(const ComparedPair& problem, const Oracle& oracle,
+                                                   int bins, int samples, std::uint64_t seed) {
     return std::make_unique<AngularRegion>(problem, oracle, bins, samples, seed);
 }
 
-std::unique_ptr<CollisionMethod> makeMixedRegion(const Problem& problem, const Oracle& oracle, int bins,
+std::unique_ptr<CollisionMethod> makeMixedRegion(const ComparedPair& problem, const Oracle& oracle, int bins,
                                                  int samples, std::uint64_t seed,
                                                  std::shared_ptr<const CollisionMethod> inside) {
     return std::make_unique<MixedRegion>(problem, oracle, bins, samples, seed, std::move(inside));

@@ -18,7 +18,7 @@ StatedError statedOf(const Table& table) {
 /// As the paper runs it: for each sphere of A its row of spheres of B, through indices.
 class PairList final : public CollisionMethodLoop<PairList> {
 public:
-    explicit PairList(const Problem& problem) : table_(problem.table) {
+    explicit PairList(const ComparedPair& problem) : table_(problem.table) {
         description() = {
             "tss-scalar",
             "TSS",
@@ -51,7 +51,7 @@ private:
 
 class PlainTable final : public CollisionMethodLoop<PlainTable> {
 public:
-    explicit PlainTable(const Problem& problem) : table_(problem.table) {
+    explicit PlainTable(const ComparedPair& problem) : table_(problem.table) {
         description() = {"tss-plain",
                          "TSS",
                          "the table's plain query: every test, with gap, contact point and normal",
@@ -106,19 +106,19 @@ private:
 
 } // namespace
 
-std::unique_ptr<CollisionMethod> makeKernelTable(const Problem& problem) {
+std::unique_ptr<CollisionMethod> makeKernelTable(const ComparedPair& problem) {
     return std::make_unique<KernelTable>(problem.table, "tss", PrepareOptions{});
 }
-std::unique_ptr<CollisionMethod> makeFloatTable(const Problem& problem) {
+std::unique_ptr<CollisionMethod> makeFloatTable(const ComparedPair& problem) {
     if (PreparedTable(problem.table).precision() == KernelPrecision::Float) return nullptr;
     PrepareOptions options;
     options.precision = KernelPrecision::Float;
     return std::make_unique<KernelTable>(problem.table, "tss-float", options);
 }
-std::unique_ptr<CollisionMethod> makePairList(const Problem& problem) {
+std::unique_ptr<CollisionMethod> makePairList(const ComparedPair& problem) {
     return std::make_unique<PairList>(problem);
 }
-std::unique_ptr<CollisionMethod> makePlainTable(const Problem& problem) {
+std::unique_ptr<CollisionMethod> makePlainTable(const ComparedPair& problem) {
     return std::make_unique<PlainTable>(problem);
 }
 

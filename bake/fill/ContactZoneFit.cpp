@@ -4,7 +4,7 @@
 #include "bake/fill/HollowBodies.h"
 #include "bake/fill/NestedBodies.h"
 #include "bake/geometry/MeshAudit.h"
-#include "bake/search/Reach.h"
+#include "bake/search/NearSurface.h"
 #include "bake/spheres/MedialSpheres.h"
 
 #include <algorithm>
@@ -153,10 +153,10 @@ private:
     /// The zones within reach over what is left of Q. False: there are none.
     bool narrow(double tolerance) {
         if (whole_) return true;
-        std::vector<Patch> zoneA =
-            findReach(a_.zone, Side::A, b_.surface, motion_, cells_, tolerance, options_.margin, progress_);
-        std::vector<Patch> zoneB =
-            findReach(b_.zone, Side::B, a_.surface, motion_, cells_, tolerance, options_.margin, progress_);
+        std::vector<Patch> zoneA = findNearSurface(a_.zone, Side::A, b_.surface, motion_, cells_, tolerance,
+                                                   options_.margin, progress_);
+        std::vector<Patch> zoneB = findNearSurface(b_.zone, Side::B, a_.surface, motion_, cells_, tolerance,
+                                                   options_.margin, progress_);
         const bool region = !result_.rest.region.empty(); // of which either zone may meet the other's
         if (region ? zoneA.empty() && zoneB.empty() : zoneA.empty() || zoneB.empty()) {
             // The poses left are free; what was decided before stays with the inscribed spheres.

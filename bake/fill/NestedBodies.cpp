@@ -15,7 +15,7 @@ namespace tss {
 namespace {
 
 /// Looks at a vertex before it is given up, some ten microseconds each.
-constexpr std::uint64_t mostLooks = 400'000;
+constexpr std::uint64_t mostProbes = 400'000;
 
 /// Shares of the reach: surfaces nearer than the first are near enough for spheres to touch, as far as their
 /// protrusion may fall short of the tolerance (protrusionFor()); farther than the second they are apart. The
@@ -79,7 +79,7 @@ struct OpenCell {
 struct CellResult {
     std::vector<OpenCell> halves;
     std::array<bool, 2> inside{}, stuck{};
-    std::uint64_t looks = 0;
+    std::uint64_t probes = 0;
 };
 
 /// Looks at cells; asked by many threads at once.
@@ -114,7 +114,7 @@ public:
         std::array<bool, 2> deep{}; // some part is inside at the centre, as far as its vertices tell
         for (OpenPart part : given.parts) {
             bool inside = false;
-            if (outside(motion, inverse, part, inside, result.looks)) continue;
+            if (outside(motion, inverse, part, inside, result.probes)) continue;
             deep[part.question] = deep[part.question] || inside;
             left.push_back(part);
         }
@@ -134,17 +134,17 @@ private:
     /// Some vertex of the part stays outside the outer solid, or near its surface, all over the cell; then it
     /// is the part's witness. inside: none of them is outside at the centre.
     bool outside(const CellMotion& motion, const Pose& inverse, OpenPart& part, bool& inside,
-                 std::uint64_t& looks) const {
+                 std::uint64_t& probes) const {
         const Question& question = questions_[part.question];
         const Part& vertices = question.parts[part.part];
         inside = true;
         for (std::uint32_t i = 0; i < vertices.size(); ++i) {
             const std::uint32_t at = (part.witness + i) % static_cast<std::uint32_t>(vertices.size());
-            ++looks;
+            ++probes;
             // The vertex in the frame of the outer body, and how far it may move against that in the cell
-            // (for those of A as in findReach()).
+            // (for those of A as in findNearSurface()).
             const Vec3 x = question.outerMoves ? vertices[at] : motion.centrePose() * vertices[at];
-            double move = motion.reach(x).move;
+            double move = motion.pointMotion(x).move;
             if (question.outerMoves)
                 move = motion.relativeMove() < 1 ? move / (1 - motion.relativeMove())
                                                  : std::numeric_limits<double>::infinity();
@@ -169,8 +169,8 @@ private:
     /// True: the cell is settled, since the surfaces are near each other all over it, or since they are apart
     /// at its centre and a part is inside there.
     bool judgeSurfaces(const CellMotion& motion, const std::array<bool, 2>& deep, CellResult& result) const {
-        const double move =
-            motion.reach(motion.centrePose() * centreB_).move + motion.relativeMove() * radiusB_ + rounding_;
+        const double move = motion.pointMotion(motion.centrePose() * centreB_).move +
+                            motion.relativeMove() * radiusB_ + rounding_;
         const double distance = surfaceA_.distanceTo(surfaceB_, motion.centrePose(), reach_);
         if (distance + move <= settled * reach_) return true;
         if (!(distance >= apart * reach_)) return false;
@@ -206,7 +206,7 @@ Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double 
     const Examiner examiner(a, b, rates, reach);
     std::array<bool, 2> found{}, undecided{};
     std::vector<OpenCell> cells{examiner.whole()}, halves;
-    std::uint64_t looks = 0;
+    std::uint64_t probes = 0;
     bool stopped = false;
     // Breadth first: a pose that shows it comes early.
     for (; !cells.empty() && !stopped; cells = std::exchange(halves, {})) {
@@ -218,15 +218,15 @@ Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double 
                 if (!cell.parts.empty()) results[k] = examiner.examine(cell);
             });
             for (CellResult& result : results) {
-                looks += result.looks;
+                probes += result.probes;
                 for (std::size_t k = 0; k < 2; ++k) {
                     found[k] = found[k] || result.inside[k];
                     undecided[k] = undecided[k] || result.stuck[k];
                 }
                 for (OpenCell& half : result.halves) halves.push_back(std::move(half));
             }
-            stopped =
-                looks > mostLooks || !report(progress, "nested bodies", double(looks) / double(mostLooks));
+            stopped = probes > mostProbes ||
+                      !report(progress, "nested bodies", double(probes) / double(mostProbes));
             if (!stopped) continue;
             cells.erase(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(first + results.size()));
             for (const std::vector<OpenCell>* left : {&cells, &halves})

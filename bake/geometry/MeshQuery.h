@@ -96,8 +96,8 @@ private:
     Vec3 origin_ = Vec3::Zero();
     std::vector<Corners> corners_;
     Bvh bvh_;
-    std::vector<Dipole> dipoles_; ///< one a node
-    std::vector<char> flat_;      ///< one a triangle: it has no area; empty where all have one
+    std::vector<Dipole> dipoles_; ///< one per node
+    std::vector<char> flat_;      ///< one per triangle: it has no area; empty where all have one
 };
 
 } // namespace tss

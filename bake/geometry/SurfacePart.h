@@ -18,7 +18,7 @@ std::array<Corners, 2> halves(const Corners& corners);
 /// it.
 struct SurfacePart {
     std::uint32_t triangle = 0; ///< index into TriangleMesh::triangles, as loaded and before any cleaning
-    std::uint32_t cuts = 1;     ///< a leading 1, then a bit a cut, first cut first: which half is meant
+    std::uint32_t cuts = 1;     ///< a leading 1, then a bit per cut, first cut first: which half is meant
 
     friend auto operator<=>(const SurfacePart&,
                             const SurfacePart&) = default; // NOLINT(modernize-use-nullptr)

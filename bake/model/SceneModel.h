@@ -36,7 +36,7 @@ struct Joint {
     Pose frame1 = Pose::Identity();
     std::vector<Dof> dofs;           ///< radians and scene units, in the order of T(q); rest in Dof::rest
     std::vector<LimitPlane> planes;  ///< couplings between the DOFs of this joint
-    std::vector<TimeSamples> drives; ///< the asked motion, one a DOF, may be empty; same units as the DOF
+    std::vector<TimeSamples> drives; ///< the asked motion, one per DOF, may be empty; same units as the DOF
     bool enabled = true;
     bool collisionEnabled = true;
 };

@@ -32,7 +32,7 @@ template <class Accept>
 NearestPoint ClosestPointQuery::search(const Vec3& x, double range, int first, const Accept& accept) const {
     NearestPoint best;
     double bound = range * range;
-    const auto look = [&](std::uint32_t t) {
+    const auto probe = [&](std::uint32_t t) {
         if (!accept(t)) return;
         const Vec3 &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
         const Vec3 w = nearestOnTriangle(x, a, b, c);
@@ -42,8 +42,8 @@ NearestPoint ClosestPointQuery::search(const Vec3& x, double range, int first, c
         bound = d;
         best = {static_cast<int>(t), w, p, std::sqrt(d)};
     };
-    if (first >= 0) look(static_cast<std::uint32_t>(first));
-    visitNearest(bvh_, x, bound, look);
+    if (first >= 0) probe(static_cast<std::uint32_t>(first));
+    visitNearest(bvh_, x, bound, probe);
     return best;
 }
 

@@ -28,7 +28,7 @@ struct ActiveSet {
     int count = 0;
     std::array<int, std::size_t(N)> row;
     Values<N> multiplier;
-    std::array<Values<N>, std::size_t(N)> basis; ///< orthonormal, one a member
+    std::array<Values<N>, std::size_t(N)> basis; ///< orthonormal, one per member
     std::array<Values<N>, std::size_t(N)> upper; ///< upper[j][i], i <= j: normal j in that basis
 
     /// Splits a normal into its part along the basis (coefficients) and the rest; twice, for orthogonality.

@@ -37,7 +37,7 @@ struct Dof {
 
 /// A linear coupling of limits: coefficients . q <= bound.
 struct LimitPlane {
-    std::vector<double> coefficients; ///< one a DOF
+    std::vector<double> coefficients; ///< one per DOF
     double bound = 0;
 };
 
@@ -60,7 +60,7 @@ struct Motion {
 /// The rigid map of one DOF at value q.
 Pose dofPose(const Dof& dof, double q);
 
-/// T(q). q: one value a DOF.
+/// T(q). q: one value per DOF.
 Pose pose(const Motion& motion, std::span<const double> q);
 
 /// The rest values of all DOFs.

@@ -130,7 +130,7 @@ double CellMotion::distance(const Axis& axis, const Vec3& x) const {
     return axis.turn.cross(from).norm() / axis.turnRate;
 }
 
-CellMotion::Reach CellMotion::reach(const Vec3& x) const {
+CellMotion::PointMotion CellMotion::pointMotion(const Vec3& x) const {
     double move = 0, second = 0, knots = 0;
     for (std::size_t k = dofs_; k-- > 0;) {
         const Axis& axis = axes_[k];

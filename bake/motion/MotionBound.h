@@ -51,13 +51,13 @@ public:
     double half(std::size_t k) const { return axes_[k].half; } ///< half width h of DOF k
     std::span<const double> centre() const { return {centre_.data(), dofs_}; } ///< q0
 
-    struct Reach {
+    struct PointMotion {
         double move;      ///< |T(q)y - x| is at most this for every q of the cell, x = T(q0)y
         double remainder; ///< |T(q)y - x - J(q - q0)| is at most this, J the Jacobian at q0
     };
-    Reach reach(const Vec3& x) const;
+    PointMotion pointMotion(const Vec3& x) const;
 
-    /// The part of reach(x).move that each DOF adds: which one to split.
+    /// The part of pointMotion(x).move that each DOF adds: which one to split.
     std::array<double, maxDofs> shares(const Vec3& x) const;
 
     /// v . J: how the product of x(q) with a fixed vector v changes with each DOF, at q0.

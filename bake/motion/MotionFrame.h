@@ -20,9 +20,9 @@ struct MotionFrame {
     bool rowAhead = false;
 };
 
-/// T(q), the same bits as pose(motion, q), and the twists there. q, direction: one value a DOF of the motion;
-/// at a row of a path, and up to 1e-9 of its values before it, the segment that lies beyond it in `direction`
-/// is meant.
+/// T(q), the same bits as pose(motion, q), and the twists there. q, direction: one value per DOF of the
+/// motion; at a row of a path, and up to 1e-9 of its values before it, the segment that lies beyond it in
+/// `direction` is meant.
 void evaluateFrame(const Motion& motion, const double* q, const double* direction, MotionFrame& frame);
 
 /// The same in parts, of a motion without paths. before[k] is the pose of all DOFs before k: known for k up
@@ -32,7 +32,7 @@ void evaluateLinks(const Motion& motion, const double* q, std::size_t from, std:
                    DofTwist* twists);
 
 /// How fast a point of B can move anywhere in the limits: speed per unit of each DOF's value (the lever of a
-/// turn, METHOD 2.2), found from the last DOF inwards. point: in B's frame. speeds: one a DOF.
+/// turn, METHOD 2.2), found from the last DOF inwards. point: in B's frame. speeds: one per DOF.
 void speedBounds(const Motion& motion, const Vec3& point, double* speeds);
 
 /// The most that a DOF turns per unit of its value: 1, 0 for a translation.

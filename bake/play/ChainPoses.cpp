@@ -82,13 +82,13 @@ bool ChainPoses::links(const Pair& pair) const {
     return std::all_of(pair.joints.begin(), pair.joints.end(), [&](int joint) { return served_[joint]; });
 }
 
-double ChainPoses::error(const Pair& pair, double reach) const {
+double ChainPoses::error(const Pair& pair, double farthest) const {
     const Motion &a = toOrigin_[pair.bodyA], &b = toOrigin_[pair.bodyB];
     // As far as a point may come to lie from any of the origins on its way.
-    const double farthest = reach + motionSize(a) + motionSize(b);
+    const double mostApart = farthest + motionSize(a) + motionSize(b);
     // The way back from the origin to A leaves out what A's turn and its shift are off by, and both once more
     // where they meet.
-    return 4 * (poseError(a, doubleRoundoff, farthest) + poseError(b, doubleRoundoff, farthest));
+    return 4 * (poseError(a, doubleRoundoff, mostApart) + poseError(b, doubleRoundoff, mostApart));
 }
 
 void ChainPoses::evaluate(const double* values, Matrix* places) const {

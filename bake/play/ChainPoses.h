@@ -21,15 +21,15 @@ public:
     /// All of the pair's joints are served. Not served are paths, and joints that close a loop.
     bool links(const Pair& pair) const;
 
-    /// How far between() may be off at points of B no farther from B's origin than `reach`, scene units; of a
-    /// pair that is linked.
-    double error(const Pair& pair, double reach) const;
+    /// How far between() may be off at points of B no farther from B's origin than `farthest`, scene units;
+    /// of a pair that is linked.
+    double error(const Pair& pair, double farthest) const;
 
-    /// values: one a DOF of all joints of the scene, in file order, finite. places: one a body, its frame to
-    /// that of the body that its joints lead to in the end; of a body that no pair's joint links, nothing.
+    /// values: one per DOF of all joints of the scene, in file order, finite. places: one per body, its frame
+    /// to that of the body that its joints lead to in the end; of a body that no pair's joint links, nothing.
     void evaluate(const double* values, Matrix* places) const;
 
-    /// The same of poseLanes configurations at once: values of each, places one a body.
+    /// The same of poseLanes configurations at once: values of each, places one per body.
     void evaluate(const double* const* values, BodyLanes* places) const;
 
     /// B to A, from their places.

@@ -148,10 +148,10 @@ void MechanismQuery::Prepared::addTable(const SceneModel& scene, std::uint32_t p
     const Pair& pair = scene.pairs[parts_[part].pair];
     const bool linked = pair.table->motion.dofCount() > FeatureForm::maxDofs && chain_.links(pair);
     const std::vector<TablePair> tests = tablePairs(*pair.table);
-    double reach = 0;
-    for (const TablePair& test : tests) reach = std::max({reach, test.a.norm(), test.b.norm()});
+    double farthest = 0;
+    for (const TablePair& test : tests) farthest = std::max({farthest, test.a.norm(), test.b.norm()});
     PrepareOptions options;
-    if (linked) options.poseError = chain_.error(pair, reach);
+    if (linked) options.poseError = chain_.error(pair, farthest);
     Asked asked{part, PreparedTable(*pair.table, options), linked, pair.bodyA, pair.bodyB, {}, {}, 0};
     asked.placed = linked && asked.table.form() == KernelForm::Direct;
     if (asked.placed && !tests.empty()) {
@@ -159,7 +159,7 @@ void MechanismQuery::Prepared::addTable(const SceneModel& scene, std::uint32_t p
         asked.a = bound.a;
         asked.b = bound.b;
         // What the table itself would count as touching by its rounding stays with the table.
-        const double far = bound.reach + 2 * (asked.table.signBand() + options.poseError);
+        const double far = bound.contactDistance + 2 * (asked.table.signBand() + options.poseError);
         asked.farSquared = far > 0 ? far * far : 0;
     }
     tables_.push_back(std::move(asked));

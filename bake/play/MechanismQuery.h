@@ -23,9 +23,9 @@ struct MechanismAnswer {
 
 /// Room for questions, made once per thread by MechanismQuery::workspace.
 struct MechanismWorkspace {
-    std::vector<std::array<double, 12>> places; ///< one a body: 3 by 4, row-major, rotation first
-    std::vector<double> limited;                ///< one a value
-    std::vector<BodyLanes> lanes;               ///< one a body, in poseLanes configurations
+    std::vector<std::array<double, 12>> places; ///< one per body: 3 by 4, row-major, rotation first
+    std::vector<double> limited;                ///< one per value
+    std::vector<BodyLanes> lanes;               ///< one per body, in poseLanes configurations
 };
 
 /// A whole mechanism as one question: whether any pair of bodies touches, given a value for every DOF of all
@@ -44,7 +44,7 @@ public:
     MechanismQuery& operator=(MechanismQuery&&) noexcept;
     ~MechanismQuery();
 
-    /// One a DOF of all joints of the scene, in file order, DOFs in the joint's order: radians and scene
+    /// One per DOF of all joints of the scene, in file order, DOFs in the joint's order: radians and scene
     /// units.
     std::size_t valueCount() const;
     /// Pairs that have neither table nor proof.

@@ -24,10 +24,10 @@ public:
         std::vector<double> values;             ///< of all joints, in file order
         double gap = 0;                         ///< smallest of all tables at these values
         JointStatus status = JointStatus::Free; ///< the gravest of all
-        std::vector<double> residualDepths;     ///< one a skin: how deep its vertices are in the muscles'
+        std::vector<double> residualDepths;     ///< one per skin: how deep its vertices are in the muscles'
                                                 ///< surfaces beyond their depth at rest, scene units
         double jointSeconds = 0;                ///< of this thread's processor time, for all joints
-        std::vector<double> skinSeconds;        ///< the same, one a skin: for its update alone
+        std::vector<double> skinSeconds;        ///< the same, one per skin: for its update alone
     };
     /// How truly each skin follows its bones after the last step.
     std::vector<SkinFollowing> following() const;

@@ -31,7 +31,7 @@ std::shared_ptr<const SkinRig> skinRig(const SceneModel& scene, const SkinModel&
 std::vector<double> skinActivations(const SceneModel& scene, const SkinModel& skin, double timeCode);
 
 /// What SkinResponse::update wants as poses: the motion since rest of the bone of each of underSkin(), in the
-/// skin's frame. placements: body to world now, one a body of the scene. Empty when there is no bone.
+/// skin's frame. placements: body to world now, one per body of the scene. Empty when there is no bone.
 std::vector<Pose> skinPoses(const SceneModel& scene, const SkinModel& skin, std::span<const Pose> placements);
 
 } // namespace tss

@@ -48,7 +48,7 @@ public:
 
 private:
     /// A proof over all of Q within a share of the budget that is left.
-    CoverProof prove(const ErrorContract& owed, Cover& cover, double share) {
+    CoverProof prove(const ErrorContract& owed, GrowingCover& cover, double share) {
         CoverBudget part = budget_;
         const std::chrono::duration<double> used = std::chrono::steady_clock::now() - budget_.start;
         if (budget_.seconds > 0) part.seconds = used.count() + share * (budget_.seconds - used.count());
@@ -70,9 +70,9 @@ private:
         for (int round = 0; round < options_.rounds; ++round) {
             const PairCover smallest = coverConstraints(demands_);
             if (double(cover_.members().size()) <= 1.02 * smallest.lowerBound) return;
-            Cover next(problem_);
+            GrowingCover next(problem_);
             for (const SpherePair& pair : smallest.pairs) {
-                ReachPair member;
+                ContactPair member;
                 problem_.countsAtAll(pair, member);
                 next.add(member);
             }
@@ -100,10 +100,10 @@ private:
     double epsilonAnywhere() const {
         double least = infinity;
         const SphereTree::Node &a = problem_.treeA[0], &b = problem_.treeB[0];
-        for (const ReachPair& member : cover_.members()) {
+        for (const ContactPair& member : cover_.members()) {
             const double apart = (problem_.a[member.pair.a].centre - a.centre).norm() +
                                  (problem_.b[member.pair.b].centre - b.centre).norm();
-            least = std::min(least, apart + a.radius + b.radius - member.reach + problem_.band);
+            least = std::min(least, apart + a.radius + b.radius - member.contactDistance + problem_.band);
         }
         return std::max(least, owed_.epsilon);
     }
@@ -124,7 +124,7 @@ private:
     CoverResult finish() {
         result_.complete = result_.epsilon <= owed_.epsilon;
         CandidatePairs chosen;
-        for (const ReachPair& member : cover_.members()) chosen.pairs.push_back(member.pair);
+        for (const ContactPair& member : cover_.members()) chosen.pairs.push_back(member.pair);
         std::sort(chosen.pairs.begin(), chosen.pairs.end());
         countSpheres(chosen);
         result_.pairs = chosen.pairs;
@@ -139,7 +139,7 @@ private:
     const ErrorContract owed_;
     const CoverOptions& options_;
     CoverBudget budget_;
-    Cover cover_;
+    GrowingCover cover_;
     std::vector<PoseConstraint> demands_;
     CoverResult result_;
 };

@@ -13,7 +13,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool deeper(const PairInCell& x, const PairInCell& y) {
-    return x.gap != y.gap ? x.gap < y.gap : x.reachPair.pair < y.reachPair.pair;
+    return x.gap != y.gap ? x.gap < y.gap : x.contactPair.pair < y.contactPair.pair;
 }
 
 /// Where in the cell to look for a pose at which pair p owes an answer and member k does not give it. With
@@ -74,7 +74,7 @@ CellVerdict CellExaminer::examine(const OpenCell& whole) {
     ++cellNumber_;
     if (weighMembers(motion, *cell.lists)) return {};
     here_.clear();
-    for (const ReachPair& pair : cell.lists->open) weigh(motion, pair);
+    for (const ContactPair& pair : cell.lists->open) weigh(motion, pair);
     openNodes(motion, cell.lists->nodes);
     dropAnswered(motion);
     if (here_.empty() && nodes_.empty()) return {};
@@ -84,7 +84,7 @@ CellVerdict CellExaminer::examine(const OpenCell& whole) {
         if (auto lacking = counterexampleElsewhere(motion)) return {std::move(lacking), {}};
         double widest = 0;
         for (const PairInCell& pair : here_) widest = std::max(widest, pair.move);
-        if (widest < p_.floor) return {Counterexample{here_.front().reachPair, {}}, {}};
+        if (widest < p_.floor) return {Counterexample{here_.front().contactPair, {}}, {}};
     }
     return split(cell, motion, seen);
 }
@@ -93,25 +93,26 @@ CellVerdict CellExaminer::examine(const OpenCell& whole) {
 bool CellExaminer::weighMembers(const CellMotion& motion, const CellLists& lists) {
     near_.clear();
     bestMember_ = infinity;
-    const auto look = [&](std::uint32_t k) {
-        const ReachPair& pair = members_[k];
+    const auto probe = [&](std::uint32_t k) {
+        const ContactPair& pair = members_[k];
         const Moved& b = moved(motion, p_.treeB.leafOf(pair.pair.b));
         const double distance = (b.x - p_.a[pair.pair.a].centre).norm();
-        if (distance - b.reach.move > pair.reach + owed_.margin + owed_.epsilon + p_.band) {
-            bestMember_ = std::min(bestMember_, distance - pair.reach);
+        if (distance - b.motion.move > pair.contactDistance + owed_.margin + owed_.epsilon + p_.band) {
+            bestMember_ = std::min(bestMember_, distance - pair.contactDistance);
             return false;
         }
-        PairInCell here(motion, b.x, b.reach, p_.a[pair.pair.a].centre, pair);
+        PairInCell here(motion, b.x, b.motion, p_.a[pair.pair.a].centre, pair);
         here.member = k;
         bestMember_ = std::min(bestMember_, here.gap);
-        if (here.staysBelow(pair.reach - owed_.depth + owed_.epsilon, p_.band)) return true;
-        if (!here.staysAbove(pair.reach + owed_.margin + owed_.epsilon, p_.band)) near_.push_back(here);
+        if (here.staysBelow(pair.contactDistance - owed_.depth + owed_.epsilon, p_.band)) return true;
+        if (!here.staysAbove(pair.contactDistance + owed_.margin + owed_.epsilon, p_.band))
+            near_.push_back(here);
         return false;
     };
     for (std::uint32_t k : lists.members)
-        if (look(k)) return true;
+        if (probe(k)) return true;
     for (std::uint32_t k = lists.membersSeen; k < members_.size(); ++k)
-        if (look(k)) return true;
+        if (probe(k)) return true;
     if (!near_.empty()) std::iter_swap(near_.begin(), std::min_element(near_.begin(), near_.end(), deeper));
     return false;
 }
@@ -121,17 +122,19 @@ const CellExaminer::Moved& CellExaminer::moved(const CellMotion& motion, std::ui
     if (at.cell != cellNumber_) {
         at.cell = cellNumber_;
         at.x = motion.centrePose() * p_.treeB[node].centre;
-        at.reach = motion.reach(at.x);
+        at.motion = motion.pointMotion(at.x);
     }
     return at;
 }
 
-void CellExaminer::weigh(const CellMotion& motion, const ReachPair& pair) {
+void CellExaminer::weigh(const CellMotion& motion, const ContactPair& pair) {
     if (inCover_.contains(pair.pair)) return;
     const Moved& b = moved(motion, p_.treeB.leafOf(pair.pair.b));
-    if ((b.x - p_.a[pair.pair.a].centre).norm() - b.reach.move > pair.reach + owed_.margin + p_.band) return;
-    const PairInCell here(motion, b.x, b.reach, p_.a[pair.pair.a].centre, pair);
-    if (!here.staysAbove(pair.reach + owed_.margin, p_.band)) here_.push_back(here);
+    if ((b.x - p_.a[pair.pair.a].centre).norm() - b.motion.move >
+        pair.contactDistance + owed_.margin + p_.band)
+        return;
+    const PairInCell here(motion, b.x, b.motion, p_.a[pair.pair.a].centre, pair);
+    if (!here.staysAbove(pair.contactDistance + owed_.margin, p_.band)) here_.push_back(here);
 }
 
 /// Goes down the trees as far as the size of the cell gives smaller balls a meaning.
@@ -141,12 +144,12 @@ void CellExaminer::openNodes(const CellMotion& motion, const std::vector<NodePai
     descend(p_.treeA, p_.treeB, stack_,
             [&](NodePair pair, const SphereTree::Node& na, const SphereTree::Node& nb) {
                 if (na.leaf() && nb.leaf()) {
-                    ReachPair spheres;
+                    ContactPair spheres;
                     if (p_.admit({na.sphere, nb.sphere}, spheres)) weigh(motion, spheres);
                     return false;
                 }
                 const Moved& b = moved(motion, pair.b);
-                const double move = b.reach.move, sum = na.radius + nb.radius;
+                const double move = b.motion.move, sum = na.radius + nb.radius;
                 if ((b.x - na.centre).norm() - move > sum + owed_.margin + p_.band) return false;
                 const bool blurred = sum < 2 * move && move > p_.floor;
                 if (blurred) nodes_.push_back(pair);
@@ -193,10 +196,10 @@ void CellExaminer::dropAnswered(const CellMotion& motion) {
 /// Where the models touch at the centre of the cell and no member answers: the deepest pair there.
 std::optional<Counterexample> CellExaminer::counterexampleAtCentre(const CellMotion& motion) const {
     if (bestMember_ <= owed_.answer(-infinity)) return {};
-    ReachPair best;
+    ContactPair best;
     double gap = infinity;
     if (!here_.empty()) {
-        best = here_.front().reachPair;
+        best = here_.front().contactPair;
         gap = here_.front().gap;
     }
     if (!nodes_.empty()) deepestBelow(motion, best, gap);
@@ -241,27 +244,27 @@ std::optional<Counterexample> CellExaminer::counterexampleAt(const CellMotion& m
     const Pose at = pose(p_.motion, q);
     double member = infinity;
     for (const PairInCell& pair : near_)
-        if (const double own = p_.gap(pair.reachPair, at); own < member) {
+        if (const double own = p_.gap(pair.contactPair, at); own < member) {
             member = own;
             answering = &pair;
         }
-    ReachPair best;
+    ContactPair best;
     double gap = infinity;
     for (const PairInCell& pair : here_)
-        if (const double own = p_.gap(pair.reachPair, at); own < gap) {
+        if (const double own = p_.gap(pair.contactPair, at); own < gap) {
             gap = own;
-            best = pair.reachPair;
+            best = pair.contactPair;
         }
     if (gap > owed_.margin || member <= owed_.answer(gap)) return {};
     return Counterexample{best, q};
 }
 
 /// The deepest pair at the centre below the nodes not opened, when deeper than the one given.
-void CellExaminer::deepestBelow(const CellMotion& motion, ReachPair& best, double& gap) const {
+void CellExaminer::deepestBelow(const CellMotion& motion, ContactPair& best, double& gap) const {
     const double atMost = std::min(gap, std::nextafter(owed_.margin, infinity));
     leastBelow(p_.treeA, p_.treeB, motion.centrePose(), nodes_, atMost,
                [&](std::uint32_t i, std::uint32_t j) {
-                   ReachPair pair;
+                   ContactPair pair;
                    if (!p_.admit({i, j}, pair)) return infinity;
                    const double own = p_.gap(pair, motion.centrePose());
                    if (own < gap) {
@@ -291,7 +294,7 @@ CellVerdict CellExaminer::split(const OpenCell& cell, const CellMotion& motion, 
     auto lists = std::make_shared<CellLists>();
     lists->nodes = nodes_;
     lists->open.reserve(here_.size());
-    for (const PairInCell& pair : here_) lists->open.push_back(pair.reachPair);
+    for (const PairInCell& pair : here_) lists->open.push_back(pair.contactPair);
     lists->members.reserve(near_.size());
     for (const PairInCell& pair : near_) lists->members.push_back(pair.member);
     lists->membersSeen = seen;
@@ -308,12 +311,13 @@ double CellExaminer::epsilonOver(const OpenCell& whole) {
     ++cellNumber_;
     if (weighMembers(motion, *cell.lists)) return owed_.epsilon;
     double table = infinity;
-    for (const ReachPair& pair : members_) {
+    for (const ContactPair& pair : members_) {
         const Vec3 x = motion.centrePose() * p_.b[pair.pair.b].centre;
-        table = std::min(table, (x - p_.a[pair.pair.a].centre).norm() - pair.reach + motion.reach(x).move);
+        table = std::min(table, (x - p_.a[pair.pair.a].centre).norm() - pair.contactDistance +
+                                    motion.pointMotion(x).move);
     }
     here_.clear();
-    for (const ReachPair& pair : cell.lists->open) weigh(motion, pair);
+    for (const ContactPair& pair : cell.lists->open) weigh(motion, pair);
     openNodes(motion, cell.lists->nodes);
     dropAnswered(motion);
     double models = infinity;
@@ -321,7 +325,8 @@ double CellExaminer::epsilonOver(const OpenCell& whole) {
     for (const NodePair& pair : nodes_) {
         const SphereTree::Node &na = p_.treeA[pair.a], &nb = p_.treeB[pair.b];
         const Vec3 x = motion.centrePose() * nb.centre;
-        models = std::min(models, (x - na.centre).norm() - na.radius - nb.radius - motion.reach(x).move);
+        models =
+            std::min(models, (x - na.centre).norm() - na.radius - nb.radius - motion.pointMotion(x).move);
     }
     models -= p_.band;
     if (models > owed_.margin) return owed_.epsilon;

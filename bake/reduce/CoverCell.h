@@ -10,7 +10,7 @@ namespace tss {
 /// What a cell inherits from its parent: what may still owe an answer in it, and who may give it.
 struct CellLists {
     std::vector<NodePair> nodes;        ///< not yet opened
-    std::vector<ReachPair> open;        ///< sphere pairs not yet answered
+    std::vector<ContactPair> open;      ///< sphere pairs not yet answered
     std::vector<std::uint32_t> members; ///< members of the cover that are near
     std::uint32_t membersSeen = 0;      ///< members up to this number are in the list if they are near
 };
@@ -24,7 +24,7 @@ struct OpenCell {
 /// A pair that the cover lacks. With a pose it is a fact: there the models touch and the cover does not
 /// answer. Without one the cell is too small to split further and the pair is taken to end the search.
 struct Counterexample {
-    ReachPair pair;
+    ContactPair pair;
     std::vector<double> pose;
 };
 
@@ -40,7 +40,7 @@ class CellExaminer {
 public:
     /// members: the cover; inCover: the same as a set. Neither changes while this lives.
     CellExaminer(const CoverProblem& problem, const ErrorContract& owed,
-                 const std::vector<ReachPair>& members, const ConcurrentPairs& inCover)
+                 const std::vector<ContactPair>& members, const ConcurrentPairs& inCover)
         : p_(problem), owed_(owed), members_(members), inCover_(inCover), moved_(problem.treeB.size()) {}
 
     CellVerdict examine(const OpenCell& cell);
@@ -52,20 +52,20 @@ public:
 private:
     bool weighMembers(const CellMotion& motion, const CellLists& lists);
     void openNodes(const CellMotion& motion, const std::vector<NodePair>& nodes);
-    void weigh(const CellMotion& motion, const ReachPair& pair);
+    void weigh(const CellMotion& motion, const ContactPair& pair);
     void dropAnswered(const CellMotion& motion);
     std::optional<Counterexample> counterexampleAtCentre(const CellMotion& motion) const;
     std::optional<Counterexample> counterexampleElsewhere(const CellMotion& motion) const;
     std::optional<Counterexample> counterexampleAt(const CellMotion& motion,
                                                    const std::array<double, maxDofs>& offset,
                                                    const PairInCell*& answering) const;
-    void deepestBelow(const CellMotion& motion, ReachPair& best, double& gap) const;
+    void deepestBelow(const CellMotion& motion, ContactPair& best, double& gap) const;
     std::size_t widestDof(const CellMotion& motion) const;
     CellVerdict split(const OpenCell& cell, const CellMotion& motion, std::uint32_t seen) const;
 
     const CoverProblem& p_;
     const ErrorContract owed_;
-    const std::vector<ReachPair>& members_;
+    const std::vector<ContactPair>& members_;
     const ConcurrentPairs& inCover_;
 
     std::vector<PairInCell> near_; ///< members
@@ -78,7 +78,7 @@ private:
     struct Moved {
         std::uint64_t cell = 0;
         Vec3 x;
-        CellMotion::Reach reach{};
+        CellMotion::PointMotion motion{};
     };
     const Moved& moved(const CellMotion& motion, std::uint32_t node);
     std::vector<Moved> moved_;

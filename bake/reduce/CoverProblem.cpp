@@ -47,13 +47,13 @@ CoverProblem::CoverProblem(const SphereSet& a, const SphereSet& b, const Motion&
     for (const SpherePair& pair : *candidates) candidates_->insert(pair);
 }
 
-bool CoverProblem::countsAtAll(SpherePair pair, ReachPair& out) const {
+bool CoverProblem::countsAtAll(SpherePair pair, ContactPair& out) const {
     if (!counts(pair)) return false;
     out = {pair, a[pair.a].radius + b[pair.b].radius + rule.threshold(pair)};
-    return out.reach >= 0;
+    return out.contactDistance >= 0;
 }
 
-bool CoverProblem::admit(SpherePair pair, ReachPair& out) const {
+bool CoverProblem::admit(SpherePair pair, ContactPair& out) const {
     if (!countsAtAll(pair, out)) return false;
     const auto held = [&](SpherePair by) { return counts(by) && rule.threshold(by) == 0; };
     if (holderA_[pair.a] >= 0 && held({static_cast<std::uint32_t>(holderA_[pair.a]), pair.b})) return false;

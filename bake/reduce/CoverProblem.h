@@ -18,9 +18,9 @@ struct ErrorContract {
 };
 
 /// A sphere pair with the distance of centres at which contact begins: the radii, less the overlap at rest.
-struct ReachPair {
+struct ContactPair {
     SpherePair pair;
-    double reach = 0;
+    double contactDistance = 0;
 };
 
 /// Everything about one cover that stays the same while it is searched: the models, the motion, which pairs
@@ -40,16 +40,16 @@ public:
     double band = 0;  ///< rounding error that distances may carry
     double floor = 0; ///< cells whose motion is smaller are not split further
 
-    /// The pair with its reach; nothing when it carries no contract: it is ignored at rest, not a
-    /// candidate, or one of its spheres lies inside another that does the same.
-    bool admit(SpherePair pair, ReachPair& out) const;
+    /// The pair with its distance at contact; nothing when it carries no contract: it is ignored at rest, not
+    /// a candidate, or one of its spheres lies inside another that does the same.
+    bool admit(SpherePair pair, ContactPair& out) const;
 
     /// The same, except that spheres inside others count too: whether a table may use the pair.
-    bool countsAtAll(SpherePair pair, ReachPair& out) const;
+    bool countsAtAll(SpherePair pair, ContactPair& out) const;
 
     /// The gap of a pair at a pose, counted from where its contact begins.
-    double gap(const ReachPair& p, const Pose& pose) const {
-        return (pose * b[p.pair.b].centre - a[p.pair.a].centre).norm() - p.reach;
+    double gap(const ContactPair& p, const Pose& pose) const {
+        return (pose * b[p.pair.b].centre - a[p.pair.a].centre).norm() - p.contactDistance;
     }
 
 private:

@@ -39,7 +39,7 @@ PartResult runPart(CellExaminer& examiner, const OpenCell& cell, std::uint64_t s
 /// Examiners to be used again, as many as threads want at once. Which one is used makes no difference.
 class ExaminerPool {
 public:
-    ExaminerPool(const CoverProblem& problem, const ErrorContract& owed, const Cover& cover)
+    ExaminerPool(const CoverProblem& problem, const ErrorContract& owed, const GrowingCover& cover)
         : make_([&problem, owed, &cover] {
               return std::make_unique<CellExaminer>(problem, owed, cover.members(), cover.set());
           }) {}
@@ -75,7 +75,7 @@ private:
 /// Adds what a round found lacking, unless what was added before in the same round answers it.
 class Additions {
 public:
-    Additions(const CoverProblem& problem, const ErrorContract& owed, Cover& cover, CoverProof& proof)
+    Additions(const CoverProblem& problem, const ErrorContract& owed, GrowingCover& cover, CoverProof& proof)
         : problem_(problem), owed_(owed), cover_(cover), proof_(proof), first_(cover.members().size()) {}
 
     void add(const Counterexample& lacking) {
@@ -94,7 +94,7 @@ public:
 private:
     const CoverProblem& problem_;
     const ErrorContract& owed_;
-    Cover& cover_;
+    GrowingCover& cover_;
     CoverProof& proof_;
     std::size_t first_;
 };
@@ -123,14 +123,14 @@ bool CoverBudget::spent(std::uint64_t cellsUsed, double share) const {
     return !report(progress, "certified cover", share);
 }
 
-double Cover::gap(const Pose& pose, std::size_t first) const {
+double GrowingCover::gap(const Pose& pose, std::size_t first) const {
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t k = first; k < members_.size(); ++k)
         best = std::min(best, problem_->gap(members_[k], pose));
     return best;
 }
 
-CoverProof proveCover(const CoverProblem& problem, const ErrorContract& owed, Cover& cover,
+CoverProof proveCover(const CoverProblem& problem, const ErrorContract& owed, GrowingCover& cover,
                       std::vector<OpenCell> cells, const CoverBudget& budget) {
     constexpr std::size_t width = 64;
     CoverProof proof;

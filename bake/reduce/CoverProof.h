@@ -18,17 +18,18 @@ struct CoverBudget {
 };
 
 /// The cover as it grows: its members in the order they were taken, and the poses that forced them in.
-class Cover {
+class GrowingCover {
 public:
-    explicit Cover(const CoverProblem& problem)
+    explicit GrowingCover(const CoverProblem& problem)
         : problem_(&problem), set_(std::make_unique<ConcurrentPairs>(problem.a.size(), problem.b.size())) {}
-    Cover(const CoverProblem& problem, const std::vector<ReachPair>& members) : Cover(problem) {
-        for (const ReachPair& pair : members) add(pair);
+    GrowingCover(const CoverProblem& problem, const std::vector<ContactPair>& members)
+        : GrowingCover(problem) {
+        for (const ContactPair& pair : members) add(pair);
     }
 
-    const std::vector<ReachPair>& members() const { return members_; }
+    const std::vector<ContactPair>& members() const { return members_; }
     const ConcurrentPairs& set() const { return *set_; }
-    void add(const ReachPair& pair) {
+    void add(const ContactPair& pair) {
         members_.push_back(pair);
         set_->insert(pair.pair);
     }
@@ -38,7 +39,7 @@ public:
 
 private:
     const CoverProblem* problem_;
-    std::vector<ReachPair> members_;
+    std::vector<ContactPair> members_;
     std::unique_ptr<ConcurrentPairs> set_;
 };
 
@@ -54,7 +55,7 @@ struct CoverProof {
 /// Shows, cell by cell, that the cover answers all that is owed, adding what it lacks (METHOD 3.3). Rounds of
 /// many cells in parallel against a cover that stands still, then what they lack is added one by one in a
 /// fixed order: the same bits for any number of threads.
-CoverProof proveCover(const CoverProblem& problem, const ErrorContract& owed, Cover& cover,
+CoverProof proveCover(const CoverProblem& problem, const ErrorContract& owed, GrowingCover& cover,
                       std::vector<OpenCell> cells, const CoverBudget& budget);
 
 } // namespace tss

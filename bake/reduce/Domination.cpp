@@ -36,7 +36,7 @@ bool firesWith(const CellMotion& cell, const PairInCell& k, const PairInCell& p,
         pp += h2 * p.slope[l] * p.slope[l];
     }
     const double ownK = k.squared - limit * limit;
-    const double ownP = p.squared - p.reachPair.reach * p.reachPair.reach;
+    const double ownP = p.squared - p.contactPair.contactDistance * p.contactPair.contactDistance;
     const auto shown = [&](double lambda) {
         const double free = lambda * ownP - ownK - slack * (1 + lambda);
         return free > 0 && change(cell, k, p, lambda, lambda, free) <= free;
@@ -62,18 +62,20 @@ bool staysNearer(const CellMotion& cell, const PairInCell& k, const PairInCell& 
 bool dominates(const CellMotion& cell, const PairInCell& k, const PairInCell& p, const ErrorContract& owed,
                double band) {
     const double slack = 16 * (k.distance + p.distance + k.move + p.move + band) * band;
-    if (owed.yesNo()) return firesWith(cell, k, p, k.reachPair.reach + owed.epsilon, slack);
-    return staysNearer(cell, k, p, k.reachPair.reach - p.reachPair.reach + owed.epsilon, slack);
+    if (owed.yesNo()) return firesWith(cell, k, p, k.contactPair.contactDistance + owed.epsilon, slack);
+    return staysNearer(cell, k, p,
+                       k.contactPair.contactDistance - p.contactPair.contactDistance + owed.epsilon, slack);
 }
 
 double answerRank(const PairInCell& k, const ErrorContract& owed) {
-    const double limit = k.reachPair.reach + owed.epsilon;
+    const double limit = k.contactPair.contactDistance + owed.epsilon;
     return owed.yesNo() ? k.squared - limit * limit : k.gap;
 }
 
 double rankNeeded(const PairInCell& p, const ErrorContract& owed) {
     if (!owed.yesNo()) return p.gap + owed.epsilon;
-    return largestLambda * std::max(0.0, p.squared - p.reachPair.reach * p.reachPair.reach);
+    return largestLambda *
+           std::max(0.0, p.squared - p.contactPair.contactDistance * p.contactPair.contactDistance);
 }
 
 } // namespace tss

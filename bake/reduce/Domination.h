@@ -6,13 +6,13 @@ namespace tss {
 
 /// A pair at the centre of a cell, with what it needs to be weighed against others there.
 struct PairInCell : PairDistanceBounds {
-    ReachPair reachPair;
+    ContactPair contactPair;
     std::uint32_t member = 0; ///< its number in the cover, for a member
     double gap;               ///< at the cell's centre
 
-    PairInCell(const CellMotion& cell, const Vec3& x, const CellMotion::Reach& reach, const Vec3& centreA,
-               const ReachPair& p)
-        : PairDistanceBounds(cell, x, reach, centreA), reachPair(p), gap(distance - p.reach) {}
+    PairInCell(const CellMotion& cell, const Vec3& x, const CellMotion::PointMotion& moved,
+               const Vec3& centreA, const ContactPair& p)
+        : PairDistanceBounds(cell, x, moved, centreA), contactPair(p), gap(distance - p.contactDistance) {}
 };
 
 /// All over the cell: wherever p owes an answer, k gives it (METHOD 3.3, domination by difference). Worked

@@ -20,7 +20,7 @@ std::vector<SpherePair> answersAt(const CoverProblem& problem, const ErrorContra
     // farther.
     visitPairsWithin(problem.treeA, problem.treeB, at, owed.margin + owed.epsilon,
                      [&](std::uint32_t i, std::uint32_t j, double) {
-                         ReachPair pair;
+                         ContactPair pair;
                          if (!problem.countsAtAll({i, j}, pair)) return;
                          const double gap = problem.gap(pair, at);
                          near.emplace_back(gap, pair.pair);

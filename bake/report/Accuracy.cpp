@@ -78,7 +78,7 @@ double firstTouch(int steps, const Touches& touches) {
     return 2;
 }
 
-double farthestMove(const compare::Problem& problem, const std::vector<double>& p,
+double farthestMove(const compare::ComparedPair& problem, const std::vector<double>& p,
                     const std::vector<double>& q) {
     const Pose from = pose(problem.motion, p), to = pose(problem.motion, q);
     double most = 0;
@@ -92,7 +92,7 @@ double farthestMove(const compare::Problem& problem, const std::vector<double>& 
 
 } // namespace
 
-JudgedPoses::JudgedPoses(const compare::Problem& problem, const compare::MeshTruth& truth,
+JudgedPoses::JudgedPoses(const compare::ComparedPair& problem, const compare::MeshTruth& truth,
                          const std::vector<std::vector<double>>& values)
     : problem_(problem), truth_(truth), solidA_(problem.meshA), solidB_(problem.meshB) {
     const std::vector<Vec3> partsA = oneOfEach(problem.meshA), partsB = oneOfEach(problem.meshB);
@@ -170,8 +170,9 @@ ErrorFigures measureError(const compare::CollisionMethod& method, const JudgedPo
     return figures;
 }
 
-std::vector<ClosingMotion> closingMotions(const compare::Problem& problem, const compare::MeshTruth& truth,
-                                          const JudgedPoses& poses, std::size_t count, int steps) {
+std::vector<ClosingMotion> closingMotions(const compare::ComparedPair& problem,
+                                          const compare::MeshTruth& truth, const JudgedPoses& poses,
+                                          std::size_t count, int steps) {
     std::vector<ClosingMotion> motions;
     std::vector<const std::vector<double>*> free, touching;
     for (std::size_t i = 0; i < poses.queries().size(); ++i)
@@ -185,7 +186,7 @@ std::vector<ClosingMotion> closingMotions(const compare::Problem& problem, const
     return motions;
 }
 
-FirstContact measureFirstContact(const compare::Problem& problem, const compare::CollisionMethod& method,
+FirstContact measureFirstContact(const compare::ComparedPair& problem, const compare::CollisionMethod& method,
                                  std::span<const ClosingMotion> motions, int steps) {
     FirstContact result;
     const std::size_t leading = compare::leadingDof(problem);

@@ -1,7 +1,7 @@
 #pragma once
 #include "bake/compare/CollisionMethod.h"
+#include "bake/compare/ComparedPair.h"
 #include "bake/compare/MeshTruth.h"
-#include "bake/compare/Problem.h"
 #include "bake/geometry/Solid.h"
 
 namespace tss::reporting {
@@ -11,7 +11,7 @@ namespace tss::reporting {
 /// them. Depths and distances are found when first asked for and kept.
 class JudgedPoses {
 public:
-    JudgedPoses(const compare::Problem& problem, const compare::MeshTruth& truth,
+    JudgedPoses(const compare::ComparedPair& problem, const compare::MeshTruth& truth,
                 const std::vector<std::vector<double>>& values);
 
     const std::vector<compare::PoseQuery>& queries() const { return queries_; }
@@ -31,7 +31,7 @@ public:
     double depth(std::size_t pose) const;
 
 private:
-    const compare::Problem& problem_;
+    const compare::ComparedPair& problem_;
     const compare::MeshTruth& truth_;
     Solid solidA_, solidB_;
     std::vector<compare::PoseQuery> queries_;
@@ -65,8 +65,9 @@ struct ClosingMotion {
 
 /// From the free to the touching poses of a set, in their order, as many as there are of both but not more
 /// than `count`. Contact is looked for in `steps` steps and bisected.
-std::vector<ClosingMotion> closingMotions(const compare::Problem& problem, const compare::MeshTruth& truth,
-                                          const JudgedPoses& poses, std::size_t count, int steps);
+std::vector<ClosingMotion> closingMotions(const compare::ComparedPair& problem,
+                                          const compare::MeshTruth& truth, const JudgedPoses& poses,
+                                          std::size_t count, int steps);
 
 /// First-contact error of a method over closing motions: positive is early.
 struct FirstContact {
@@ -77,7 +78,7 @@ struct FirstContact {
     double worstLength = 0;          ///< how far the farthest point of B moves in between, scene units
     double earliest = 0, latest = 0; ///< signed lengths: early and late by so much
 };
-FirstContact measureFirstContact(const compare::Problem& problem, const compare::CollisionMethod& method,
+FirstContact measureFirstContact(const compare::ComparedPair& problem, const compare::CollisionMethod& method,
                                  std::span<const ClosingMotion> motions, int steps);
 
 } // namespace tss::reporting

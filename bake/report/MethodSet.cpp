@@ -63,13 +63,13 @@ private:
     const std::vector<std::string>& only_;
 };
 
-void addTables(Entry& entry, const Problem& problem) {
+void addTables(Entry& entry, const ComparedPair& problem) {
     entry.add("tss", [&] { return makeKernelTable(problem); });
     entry.add("tss-float", [&] { return makeFloatTable(problem); });
     entry.add("tss-scalar", [&] { return makePairList(problem); });
 }
 
-void addTrees(Entry& entry, const Problem& problem) {
+void addTrees(Entry& entry, const ComparedPair& problem) {
     for (const TreeOf of : {TreeOf::All, TreeOf::Used}) {
         const std::string name = of == TreeOf::All ? "tree-all" : "tree-used";
         for (const Enclosure how : {Enclosure::Balls, Enclosure::Points, Enclosure::CoreSet, Enclosure::Box})
@@ -78,7 +78,7 @@ void addTrees(Entry& entry, const Problem& problem) {
     }
 }
 
-void addMeshTrees(Entry& entry, const Problem& problem, bool quick) {
+void addMeshTrees(Entry& entry, const ComparedPair& problem, bool quick) {
     for (int levels = 4; levels <= (quick ? 6 : 8); levels += quick ? 2 : 1)
         entry.add("octree", [&] { return makeOctree(problem, levels); });
     for (int levels = 3; levels <= (quick ? 3 : 5); ++levels) {
@@ -90,16 +90,16 @@ void addMeshTrees(Entry& entry, const Problem& problem, bool quick) {
 
 /// What the methods below are made from: the whole sphere model, asked through its trees.
 struct Asked {
-    explicit Asked(const Problem& problem)
-        : a(std::make_shared<BallTree>(buildBallTree(problem.a, 8, Enclosure::Balls))),
-          b(std::make_shared<BallTree>(buildBallTree(problem.b, 8, Enclosure::Balls))) {}
+    explicit Asked(const ComparedPair& problem)
+        : a(std::make_shared<EnclosingTree>(buildEnclosingTree(problem.a, 8, Enclosure::Balls))),
+          b(std::make_shared<EnclosingTree>(buildEnclosingTree(problem.b, 8, Enclosure::Balls))) {}
     bool hit(const PoseQuery& query) const {
         IgnoreWork none;
         return treesTouch(*a, *b, query.pose, none);
     }
     double gap(const PoseQuery& query) const { return treesGap(*a, *b, query.pose); }
 
-    std::shared_ptr<const BallTree> a, b;
+    std::shared_ptr<const EnclosingTree> a, b;
 };
 
 /// Values a DOF, coarse to fine.
@@ -112,7 +112,7 @@ std::vector<int> gridPoints(std::size_t dofs, bool quick) {
     return points;
 }
 
-void addGrid(Entry& entry, const Problem& problem, const Asked& asked, int points) {
+void addGrid(Entry& entry, const ComparedPair& problem, const Asked& asked, int points) {
     const StatedError stated{missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)};
     entry.add("gap-grid", [&] {
         return makeGapGrid(
@@ -121,7 +121,7 @@ void addGrid(Entry& entry, const Problem& problem, const Asked& asked, int point
 }
 
 /// Methods that store the motion rather than the shape.
-void addMotionMethods(Entry& entry, const Problem& problem, bool quick, std::uint64_t seed) {
+void addMotionMethods(Entry& entry, const ComparedPair& problem, bool quick, std::uint64_t seed) {
     const Asked asked(problem);
     const Oracle hit = [asked](const PoseQuery& query) { return asked.hit(query); };
     const std::size_t dofs = problem.motion.dofCount();
@@ -142,7 +142,7 @@ void addMotionMethods(Entry& entry, const Problem& problem, bool quick, std::uin
     for (const int points : gridPoints(dofs, quick)) addGrid(entry, problem, asked, points);
 }
 
-void addMeshMethods(Entry& entry, const Problem& problem) {
+void addMeshMethods(Entry& entry, const ComparedPair& problem) {
     entry.add("fcl-obbrss", [&] { return makeFcl(problem, FclTree::Obbrss); });
     entry.add("fcl-obb", [&] { return makeFcl(problem, FclTree::Obb); });
     entry.add("fcl-aabb", [&] { return makeFcl(problem, FclTree::Aabb); });
@@ -159,7 +159,7 @@ MethodSet makeMethods(const Model& model, Field field, bool quick, const std::ve
                       std::uint64_t seed) {
     MethodSet methods;
     Entry entry(methods, only);
-    const Problem& problem = model.problem;
+    const ComparedPair& problem = model.problem;
     addTables(entry, problem);
     if (field == Field::Table) return methods;
     if (field == Field::Model) {

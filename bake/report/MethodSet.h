@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/compare/BallTree.h"
+#include "bake/compare/EnclosingTree.h"
 #include "bake/compare/Methods.h"
 #include "bake/report/Model.h"
 

@@ -29,7 +29,7 @@ std::unique_ptr<Model> sameMeshes(const Model& model, const Recipe& recipe) {
 
 /// The model with its table over spheres and meshes that are there already.
 std::unique_ptr<Model> complete(std::unique_ptr<Model> model) {
-    compare::Problem& problem = model->problem;
+    compare::ComparedPair& problem = model->problem;
     problem.a = model->spheres->a.spheres;
     problem.b = model->spheres->b.spheres;
     PairReport notes;

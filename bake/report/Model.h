@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/compare/Problem.h"
+#include "bake/compare/ComparedPair.h"
 #include "bake/pipeline/BakePair.h"
 
 namespace tss::reporting {
@@ -14,7 +14,7 @@ struct Recipe {
 struct Model {
     Recipe recipe;
     std::shared_ptr<const PairSpheres> spheres;
-    compare::Problem problem; ///< the table is empty where there is a proof instead
+    compare::ComparedPair problem; ///< the table is empty where there is a proof instead
     std::shared_ptr<const NeverCollides> proof;
     double sphereSeconds = 0, tableSeconds = 0;
 };

@@ -72,7 +72,7 @@ BakePoint bakePoint(const StudiedModel& studied) {
     const auto sticksOut = [](const FitRecord& fit, const SphereSet& spheres, const TriangleMesh& mesh) {
         return fit.protrusion >= 0 ? fit.protrusion : protrusionOf(spheres, mesh);
     };
-    const Problem& problem = model.problem;
+    const ComparedPair& problem = model.problem;
     point.protrusion = std::max(sticksOut(problem.fitA, problem.a, problem.meshA),
                                 sticksOut(problem.fitB, problem.b, problem.meshB));
     point.spheresA = model.problem.a.size();

@@ -1,7 +1,7 @@
 #include "bake/report/SkinMethods.h"
 
 #include "bake/base/ThreadTime.h"
-#include "bake/compare/BallTree.h"
+#include "bake/compare/EnclosingTree.h"
 
 #include <algorithm>
 #include <functional>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace compare;
 
-using Found = std::vector<char>; ///< one a skin vertex
+using Found = std::vector<char>; ///< one per skin vertex
 
 /// One method: marks the skin spheres that touch, says the work.
 using Method = std::function<Work(const SkinStep&, Found&)>;
@@ -44,10 +44,11 @@ Work byTable(const SkinSetting& setting, const SkinStep& step, Found& found) {
 
 /// A tree over spheres that move: the shape of the tree stays, its balls follow each step.
 struct RefittedTree {
-    BallTree tree;
+    EnclosingTree tree;
     std::vector<std::uint32_t> leafOf; ///< sphere of each leaf node
 
-    RefittedTree(const SphereSet& spheres, int arity) : tree(buildBallTree(spheres, arity, Enclosure::Box)) {
+    RefittedTree(const SphereSet& spheres, int arity)
+        : tree(buildEnclosingTree(spheres, arity, Enclosure::Box)) {
         // Leaves are copies of the spheres: found again by their place.
         std::vector<std::uint32_t> order(spheres.size());
         std::iota(order.begin(), order.end(), 0u);
@@ -71,7 +72,7 @@ struct RefittedTree {
     }
     void refit(const SphereSet& spheres) {
         for (std::size_t n = tree.nodes.size(); n-- > 0;) {
-            BallTree::Node& node = tree.nodes[n];
+            EnclosingTree::Node& node = tree.nodes[n];
             if (node.count == 0) {
                 node.centre = spheres[leafOf[n]].centre;
                 node.radius = spheres[leafOf[n]].radius;
@@ -97,7 +98,7 @@ Work byTrees(const RefittedTree& skin, const std::vector<std::uint32_t>& vertexO
     std::vector<std::pair<std::uint32_t, std::uint32_t>> stack;
     const auto test = [&](std::uint32_t a, std::uint32_t b) {
         counter.sphereTest();
-        const BallTree::Node &na = skin.tree.nodes[a], &nb = muscle.tree.nodes[b];
+        const EnclosingTree::Node &na = skin.tree.nodes[a], &nb = muscle.tree.nodes[b];
         if (!overlap({na.centre, na.radius}, {nb.centre, nb.radius})) return false;
         if (na.count == 0 && nb.count == 0) {
             found[vertexOf[skin.leafOf[a]]] = 1;

@@ -58,7 +58,7 @@ Table wholeTable(const SkinTable& skinTable, const std::vector<SphereSet>& rest,
 /// The muscles filled with spheres, and where these go.
 struct MusclesInMotion {
     FilledMuscles filled;
-    std::vector<SphereSet> rest; ///< one a muscle
+    std::vector<SphereSet> rest; ///< one per muscle
     std::vector<MuscleTrack> tracks;
 };
 

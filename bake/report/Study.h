@@ -12,9 +12,9 @@ namespace tss::reporting {
 struct ReportOptions {
     bool quick = false;                      ///< under a minute for a pair of some ten thousand triangles
     std::vector<std::string> methods;        ///< parts of names wanted; empty: all
-    std::vector<std::vector<double>> motion; ///< steps to count tests along, one value a DOF (radians, scene
-                                             ///< units); empty: the scene's own drives, or a sweep
-    std::vector<std::string> pairs;          ///< prim paths; empty: all
+    std::vector<std::vector<double>> motion; ///< steps to count tests along, one value per DOF (radians,
+                                             ///< scene units); empty: the scene's own drives, or a sweep
+    std::vector<std::string> pairs; ///< prim paths; empty: all
     std::uint64_t seed = 20;
     bool besidePaper = false; ///< also the paper's own counts, and what this project set out to reach
 };

@@ -20,8 +20,8 @@ double degreesPer(const Dof& dof) {
 /// The scene's own animation of the pair where a single joint carries it, else the leading DOF from its upper
 /// limit to the lower one and back, the others at rest.
 std::vector<std::vector<double>> motionSteps(const SceneModel& scene, const Pair& pair,
-                                             const Problem& problem, const ReportOptions& options, int steps,
-                                             std::string& inWords) {
+                                             const ComparedPair& problem, const ReportOptions& options,
+                                             int steps, std::string& inWords) {
     if (!options.motion.empty()) {
         inWords = "the motion given";
         return options.motion;
@@ -100,7 +100,7 @@ double missedShare(const CollisionMethod& whole, const CollisionMethod& table,
 
 void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, const Model& model,
                 const MeshTruth& truth, const ReportOptions& options, int steps) {
-    const Problem& problem = model.problem;
+    const ComparedPair& problem = model.problem;
     const std::size_t leading = leadingDof(problem);
     const Dof& dof = problem.motion.dofs[leading];
     study.leadingDof = dof.name;
@@ -142,7 +142,7 @@ void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, con
 }
 
 void studySampling(PairStudy& study, const Model& model, const ReportOptions& options) {
-    const Problem& problem = model.problem;
+    const ComparedPair& problem = model.problem;
     const auto whole = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
     const std::size_t count = options.quick ? 4000 : 20000;
     const auto uniform = poseQueries(problem.motion, randomPoses(problem.motion, count, options.seed + 5));

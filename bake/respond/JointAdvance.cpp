@@ -9,17 +9,17 @@ namespace {
 
 /// A rate of the gap that holds until the row just ahead of some paths and beyond it: of each DOF what closes
 /// it more.
-double slowestRate(const JointModel::Group& group, const MotionFrame& frame, const DofValues& way,
+double slowestRate(const JointModel::Group& group, const MotionFrame& frame, const DofValues& step,
                    const Vec3& normal, const Vec3& centre) {
     double rate = 0;
     for (std::size_t k = 0; k < group.dofs.size(); ++k)
-        rate += std::min(way[group.dofs[k]] * normal.dot(frame.before[k].velocity(centre)),
-                         way[group.dofs[k]] * normal.dot(frame.twists[k].velocity(centre)));
+        rate += std::min(step[group.dofs[k]] * normal.dot(frame.before[k].velocity(centre)),
+                         step[group.dofs[k]] * normal.dot(frame.twists[k].velocity(centre)));
     return rate;
 }
 
 /// Gap and rate of every active pair at q; thresholds rise as pairs free themselves.
-void observe(const JointModel& model, const DofValues& q, const DofValues& way, std::size_t activeCount,
+void observe(const JointModel& model, const DofValues& q, const DofValues& step, std::size_t activeCount,
              ResponseRoom& ws) {
     std::uint32_t at = ~0u;
     DofTwist whole;
@@ -29,13 +29,13 @@ void observe(const JointModel& model, const DofValues& q, const DofValues& way, 
         const MotionFrame& frame = ws.groups[pair.group].frame;
         if (pair.group != at) {
             at = pair.group;
-            placeGroup(model, at, q, way, ws);
-            whole = twistOfWay(model.groups[at], frame, way);
+            placeGroup(model, at, q, step, ws);
+            whole = twistOfStep(model.groups[at], frame, step);
         }
         Vec3 centre, normal;
         near.gap = pairGap(pair, frame.pose, centre, normal);
         near.rate = normal.dot(whole.velocity(centre));
-        if (frame.rowAhead) near.rate = slowestRate(model.groups[at], frame, way, normal, centre);
+        if (frame.rowAhead) near.rate = slowestRate(model.groups[at], frame, step, normal, centre);
         if (!ws.common) near.threshold = std::max(near.threshold, std::min(pair.contactOffset, near.gap));
     }
 }
@@ -50,19 +50,19 @@ double closingTime(double g, double rate, double acceleration) {
 }
 
 /// Time until some path DOF reaches its next row, where its rate jumps.
-double timeToRow(const JointModel::Group& group, const DofValues& q, const DofValues& way) {
+double timeToRow(const JointModel::Group& group, const DofValues& q, const DofValues& step) {
     double time = HUGE_VAL;
     if (!group.paths) return time;
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
         const int l = group.dofs[k];
-        const double left = std::abs(nextRow(group.motion.dofs[k], q[l], way[l]) - q[l]);
-        if (left < std::abs(way[l])) time = std::min(time, left / std::abs(way[l]));
+        const double left = std::abs(nextRow(group.motion.dofs[k], q[l], step[l]) - q[l]);
+        if (left < std::abs(step[l])) time = std::min(time, left / std::abs(step[l]));
     }
     return time;
 }
 
 /// The time for which no near pair can reach its threshold, 0 when one is there.
-double freeTime(const JointModel& model, const DofValues& q, const DofValues& way, double left,
+double freeTime(const JointModel& model, const DofValues& q, const DofValues& step, double left,
                 std::size_t activeCount, ResponseRoom& ws) {
     double time = left;
     std::uint32_t at = ~0u;
@@ -73,13 +73,13 @@ double freeTime(const JointModel& model, const DofValues& q, const DofValues& wa
         if (time > 0 && near.speed * time < room) continue;
         const JointModel::Pair& pair = model.pairs[near.pair];
         if (near.rate < 0 && room < 0.05 * pair.contactOffset) {
-            ws.held[pair.group] |= stoppedWay;
+            ws.held[pair.group] |= stoppedStep;
             time = 0; // the others are looked at too: several may hold
         }
         if (time == 0) continue;
         if (const std::uint32_t group = pair.group; group != at) {
             at = group;
-            row = timeToRow(model.groups[group], q, way);
+            row = timeToRow(model.groups[group], q, step);
         }
         const double g = std::max(room, 0.0);
         const double first = near.speed > 0 ? g / near.speed : HUGE_VAL;
@@ -91,16 +91,16 @@ double freeTime(const JointModel& model, const DofValues& q, const DofValues& wa
 
 } // namespace
 
-DofTwist twistOfWay(const JointModel::Group& group, const MotionFrame& frame, const DofValues& way) {
+DofTwist twistOfStep(const JointModel::Group& group, const MotionFrame& frame, const DofValues& step) {
     DofTwist whole;
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
-        whole.turn += way[group.dofs[k]] * frame.twists[k].turn;
-        whole.slide += way[group.dofs[k]] * frame.twists[k].slide;
+        whole.turn += step[group.dofs[k]] * frame.twists[k].turn;
+        whole.slide += step[group.dofs[k]] * frame.twists[k].slide;
     }
     return whole;
 }
 
-void MotionBounds::bound(const JointModel& model, const DofValues& way, NearPair& near) {
+void MotionBounds::bound(const JointModel& model, const DofValues& step, NearPair& near) {
     if (const std::uint32_t index = model.pairs[near.pair].group; index != group_) {
         group_ = index;
         const JointModel::Group& group = model.groups[index];
@@ -108,7 +108,7 @@ void MotionBounds::bound(const JointModel& model, const DofValues& way, NearPair
         double turning = 0; // by the DOFs nearer to A
         for (int k = 0; k < count_; ++k) {
             dofs_[k] = group.dofs[k];
-            change_[k] = std::abs(way[dofs_[k]]);
+            change_[k] = std::abs(step[dofs_[k]]);
             const double turn = group.turnRates[k] * change_[k];
             bend_[k] = change_[k] * (turn + 2 * turning);
             turning += turn;
@@ -122,27 +122,27 @@ void MotionBounds::bound(const JointModel& model, const DofValues& way, NearPair
     }
 }
 
-double advance(const JointModel& model, const DofValues& way, DofValues& q, ResponseRoom& ws) {
+double advance(const JointModel& model, const DofValues& step, DofValues& q, ResponseRoom& ws) {
     const DofValues start = q;
     std::size_t activeCount = 0;
     if (ws.active.size() < ws.nearCount) ws.active.resize(ws.near.size());
     MotionBounds bounds;
     for (std::size_t i = 0; i < ws.nearCount; ++i) {
         NearPair& near = ws.near[i];
-        bounds.bound(model, way, near);
+        bounds.bound(model, step, near);
         if (near.gap - near.threshold <= near.speed) ws.active[activeCount++] = static_cast<std::uint32_t>(i);
     }
     if (activeCount == 0) {
-        for (int l = 0; l < model.dofCount; ++l) q[l] = start[l] + way[l];
+        for (int l = 0; l < model.dofCount; ++l) q[l] = start[l] + step[l];
         return 1;
     }
     double t = 0;
     for (int round = 0; round < 60 && t < 1; ++round) {
-        observe(model, q, way, activeCount, ws);
-        const double step = freeTime(model, q, way, 1 - t, activeCount, ws);
-        if (step <= 1e-13) break;
-        t = step >= 1 - t ? 1 : t + step;
-        for (int l = 0; l < model.dofCount; ++l) q[l] = start[l] + t * way[l];
+        observe(model, q, step, activeCount, ws);
+        const double share = freeTime(model, q, step, 1 - t, activeCount, ws);
+        if (share <= 1e-13) break;
+        t = share >= 1 - t ? 1 : t + share;
+        for (int l = 0; l < model.dofCount; ++l) q[l] = start[l] + t * step[l];
     }
     return t;
 }

@@ -11,10 +11,10 @@ namespace tss {
 /// Returns the share of the way that was gone; q is moved there, exactly to the end when it is 1.
 /// Stops at a pair that comes nearer and is within a twentieth of its contact offset of its threshold; groups
 /// of pairs that stopped it are marked in ws.held.
-double advance(const JointModel& model, const DofValues& way, DofValues& q, ResponseRoom& ws);
+double advance(const JointModel& model, const DofValues& step, DofValues& q, ResponseRoom& ws);
 
 /// How the whole way moves a point of A's frame, one time unit for all of it.
-DofTwist twistOfWay(const JointModel::Group& group, const MotionFrame& frame, const DofValues& way);
+DofTwist twistOfStep(const JointModel::Group& group, const MotionFrame& frame, const DofValues& step);
 
 /// Bounds of speeds and accelerations along one way, one time unit for the whole of it; what all pairs of a
 /// group share is found once.
@@ -22,7 +22,7 @@ class MotionBounds {
 public:
     /// Sets near.speed and near.acceleration. Quick where pairs come group by group, always with the same
     /// way.
-    void bound(const JointModel& model, const DofValues& way, NearPair& near);
+    void bound(const JointModel& model, const DofValues& step, NearPair& near);
 
 private:
     std::uint32_t group_ = ~0u;

@@ -25,11 +25,11 @@ struct Closing {
     double kept = 0; ///< a pair that stays farther apart than this cannot matter
 };
 
-Closing closingOf(const JointModel::Group& group, const DofValues& way) {
+Closing closingOf(const JointModel::Group& group, const DofValues& step) {
     Closing closing;
     double turning = 0, acceleration = 0;
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
-        const double change = std::abs(way[group.dofs[k]]), turn = group.turnRates[k] * change;
+        const double change = std::abs(step[group.dofs[k]]), turn = group.turnRates[k] * change;
         closing.most += group.fastest[k] * change;
         acceleration += group.fastest[k] * change * (turn + 2 * turning);
         turning += turn;
@@ -56,7 +56,7 @@ double changeBetween(const JointModel::Group& group, const Pose& from, const Pos
 /// Less than or equal to the gap of a bound, whatever rounding does.
 double gapOfBound(const TablePair& bound, const Pose& pose) {
     const double distance = (pose * bound.b - bound.a).norm();
-    return distance - bound.reach - 1e-12 * (distance + std::abs(bound.reach));
+    return distance - bound.contactDistance - 1e-12 * (distance + std::abs(bound.contactDistance));
 }
 
 std::array<double, 12> numbersOf(const Pose& pose) {
@@ -72,14 +72,14 @@ NearPair& addNear(ResponseRoom& ws) {
 }
 
 std::uint32_t binOf(const KnownNear& known, double gap) {
-    const double bin = gap / known.reach * KnownNear::bins;
+    const double bin = gap / known.range * KnownNear::bins;
     return bin > 0 ? std::min(static_cast<std::uint32_t>(std::min(bin, 1e6)), KnownNear::bins - 1) : 0;
 }
 
 /// Keeps the tests found where the group stands, by their gaps.
 void remember(const JointModel& model, const JointModel::Group& group, const DofValues& q, const Pose& pose,
-              double reach, std::span<const std::uint32_t> found, KnownNear& known) {
-    known.reach = known.least = reach;
+              double range, std::span<const std::uint32_t> found, KnownNear& known) {
+    known.range = known.least = range;
     for (std::size_t k = 0; k < group.dofs.size(); ++k) known.values[k] = q[group.dofs[k]];
     known.pose = pose;
     std::array<std::uint8_t, KnownNear::most> bins;
@@ -104,7 +104,7 @@ std::span<const std::uint32_t> testsNear(const JointModel& model, const JointMod
         return std::span<const std::uint32_t>(known.tests.data(), known.ends[binOf(known, gap)]);
     };
     const double changed = margin + changeBetween(group, known.pose, pose) * (1 + hair);
-    if (changed <= known.reach) return nearest(changed);
+    if (changed <= known.range) return nearest(changed);
     TableFeatures features;
     group.prepared->features(numbersOf(pose), features);
     if (known.more == 0) known.more = group.spread / 16;
@@ -120,14 +120,14 @@ std::span<const std::uint32_t> testsNear(const JointModel& model, const JointMod
     return {ws.found.data(), found};
 }
 
-bool listGroup(const JointModel& model, std::size_t g, const DofValues& q, const DofValues& way,
+bool listGroup(const JointModel& model, std::size_t g, const DofValues& q, const DofValues& step,
                std::size_t most, ResponseRoom& ws) {
     const JointModel::Group& group = model.groups[g];
-    const Closing closing = closingOf(group, way);
+    const Closing closing = closingOf(group, step);
     if (stillClear(group, q, closing.kept + closing.most * (1 + hair), ws.known[g])) return true;
-    placeGroup(model, g, q, way, ws);
+    placeGroup(model, g, q, step, ws);
     const MotionFrame& frame = ws.groups[g].frame;
-    const DofTwist whole = twistOfWay(group, frame, way);
+    const DofTwist whole = twistOfStep(group, frame, step);
     const double fastest =
         whole.velocity(frame.pose * group.middle).norm() + whole.turn.norm() * group.spread;
     const double margin = closing.kept + std::min(closing.most, fastest + closing.bend) * (1 + hair);
@@ -164,11 +164,11 @@ bool listGroup(const JointModel& model, std::size_t g, const DofValues& q, const
 
 } // namespace
 
-bool listOnWay(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws,
-               std::size_t most) {
+bool listOnStep(const JointModel& model, const DofValues& q, const DofValues& step, ResponseRoom& ws,
+                std::size_t most) {
     if (!model.clustered) return true;
     for (std::size_t g = 0; g < model.groups.size(); ++g)
-        if (model.groups[g].clustered && !listGroup(model, g, q, way, most, ws)) return false;
+        if (model.groups[g].clustered && !listGroup(model, g, q, step, most, ws)) return false;
     return true;
 }
 

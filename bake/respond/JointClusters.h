@@ -14,8 +14,8 @@ namespace tss {
 /// pairs is the margin within which its table is asked; then each pair found is asked for itself.
 /// Returns false where it stopped, the list incomplete, because more than `most` pairs are near, or too many
 /// have to be asked for that.
-bool listOnWay(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws,
-               std::size_t most = ~std::size_t(0));
+bool listOnStep(const JointModel& model, const DofValues& q, const DofValues& step, ResponseRoom& ws,
+                std::size_t most = ~std::size_t(0));
 
 /// Smallest gap of the pairs of one group in clusters: of all of them, looking at few.
 double smallestGap(const JointModel& model, std::size_t group, const Pose& pose);

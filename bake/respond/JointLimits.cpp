@@ -7,10 +7,10 @@
 
 namespace tss {
 
-double shareOfRange(const JointModel& model, const DofValues& way) {
+double shareOfRange(const JointModel& model, const DofValues& step) {
     double share = 0;
     for (int l = 0; l < model.dofCount; ++l)
-        if (model.range[l] > 0) share = std::max(share, std::abs(way[l]) / model.range[l]);
+        if (model.range[l] > 0) share = std::max(share, std::abs(step[l]) / model.range[l]);
     return share;
 }
 
@@ -18,10 +18,10 @@ void addLimits(const JointModel& model, const DofValues& q, double trust, const 
                QpRows& rows) {
     const int n = model.dofCount;
     for (int l = 0; l < n; ++l) {
-        const double reach = trust * model.range[l];
+        const double travel = trust * model.range[l];
         for (double sign : {1.0, -1.0}) {
             const double end =
-                sign > 0 ? std::max(model.lower[l], q[l] - reach) : std::min(model.upper[l], q[l] + reach);
+                sign > 0 ? std::max(model.lower[l], q[l] - travel) : std::min(model.upper[l], q[l] + travel);
             double* row = rows.add();
             std::fill_n(row, n, 0.0);
             row[l] = sign;

@@ -35,11 +35,12 @@ void addPairs(const Table& table, std::uint32_t group, JointModel& model) {
     for (std::uint32_t k = 0; k < list.size(); ++k) {
         const Sphere &a = table.a[list[k].a], &b = table.b[list[k].b];
         const double rest = table.restGaps.empty() ? 0 : table.restGaps[k];
-        const double reach = a.radius + b.radius + rest;
+        const double contactDistance = a.radius + b.radius + rest;
         std::uint32_t& mover = movers[list[k].b];
         const bool first = mover == none;
         if (first) mover = static_cast<std::uint32_t>(model.speeds.size() / std::max(1, model.dofCount));
-        model.pairs.push_back({a.centre, b.centre, a.radius, b.radius, rest, reach, group, k, mover, 0, 0});
+        model.pairs.push_back(
+            {a.centre, b.centre, a.radius, b.radius, rest, contactDistance, group, k, mover, 0, 0});
         if (!first) continue;
         DofValues own;
         speedBounds(table.motion, b.centre, own.data());
@@ -206,56 +207,56 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
 
 namespace {
 
-/// Takes a pair into the near list where its gap can fall to its threshold within reach.
-void takeIfNear(const JointModel& model, std::uint32_t p, const Pose& pose, const DofValues& reach,
+/// Takes a pair into the near list where its gap can fall to its threshold within travel.
+void takeIfNear(const JointModel& model, std::uint32_t p, const Pose& pose, const DofValues& travel,
                 ResponseRoom& ws) {
     const JointModel::Pair& pair = model.pairs[p];
     const double* speed = model.speed(p);
-    double far = pair.reach + 2 * pair.contactOffset;
-    for (int l = 0; l < model.dofCount; ++l) far += speed[l] * reach[l];
+    double far = pair.contactDistance + 2 * pair.contactOffset;
+    for (int l = 0; l < model.dofCount; ++l) far += speed[l] * travel[l];
     const double squared = (pose * pair.b - pair.a).squaredNorm();
     if (far < 0 || squared > far * far) return;
     NearPair& near = ws.near[ws.nearCount++];
     near.pair = p;
-    near.gap = std::sqrt(squared) - pair.reach;
+    near.gap = std::sqrt(squared) - pair.contactDistance;
     near.threshold = std::min(pair.contactOffset, near.gap);
 }
 
 /// The tests of a group that a vector query finds under the margin that its fastest pair needs.
-std::uint32_t findUnder(const JointModel& model, const JointModel::Group& group, const DofValues& q,
-                        const DofValues& reach, ResponseRoom& ws) {
+std::uint32_t findWithin(const JointModel& model, const JointModel::Group& group, const DofValues& q,
+                         const DofValues& travel, ResponseRoom& ws) {
     DofValues own;
     double margin = 2 * group.contactOffset;
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
         own[k] = q[group.dofs[k]];
         if (model.round[group.dofs[k]]) // the table's cells end at its limits
             own[k] = nearestTurn(own[k], group.motion.dofs[k].lower + std::numbers::pi);
-        margin += model.weights[group.dofs[k]] * reach[group.dofs[k]];
+        margin += model.weights[group.dofs[k]] * travel[group.dofs[k]];
     }
     return group.prepared->testsWithin(own.data(), margin, ws.found.data());
 }
 
 } // namespace
 
-void cull(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws) {
+void cull(const JointModel& model, const DofValues& q, const DofValues& travel, ResponseRoom& ws) {
     ws.unlist();
-    cullMore(model, q, reach, ws);
+    cullMore(model, q, travel, ws);
 }
 
-void cullMore(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws) {
+void cullMore(const JointModel& model, const DofValues& q, const DofValues& travel, ResponseRoom& ws) {
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
         const JointModel::Group& group = model.groups[g];
         if (group.clustered) continue;
         if (group.prepared) {
-            const std::uint32_t found = findUnder(model, group, q, reach, ws);
+            const std::uint32_t found = findWithin(model, group, q, travel, ws);
             if (found == 0) continue;
-            placeGroup(model, g, q, reach, ws);
+            placeGroup(model, g, q, travel, ws);
             for (std::uint32_t i = 0; i < found; ++i)
-                takeIfNear(model, group.firstPair + ws.found[i], ws.groups[g].frame.pose, reach, ws);
+                takeIfNear(model, group.firstPair + ws.found[i], ws.groups[g].frame.pose, travel, ws);
         } else {
-            placeGroup(model, g, q, reach, ws);
+            placeGroup(model, g, q, travel, ws);
             for (std::uint32_t p = group.firstPair; p < group.lastPair; ++p)
-                takeIfNear(model, p, ws.groups[g].frame.pose, reach, ws);
+                takeIfNear(model, p, ws.groups[g].frame.pose, travel, ws);
         }
     }
 }
@@ -271,13 +272,13 @@ void narrow(const JointModel& model, double distance, ResponseRoom& ws) {
     ws.nearCount = kept;
 }
 
-void linearise(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws,
+void linearise(const JointModel& model, const DofValues& q, const DofValues& step, ResponseRoom& ws,
                std::size_t first) {
     std::uint32_t at = ~0u;
     for (std::size_t i = first; i < ws.nearCount; ++i) {
         NearPair& near = ws.near[i];
         const JointModel::Pair& pair = model.pairs[near.pair];
-        if (pair.group != at) placeGroup(model, at = pair.group, q, way, ws);
+        if (pair.group != at) placeGroup(model, at = pair.group, q, step, ws);
         const JointModel::Group& group = model.groups[pair.group];
         const MotionFrame& frame = ws.groups[pair.group].frame;
         Vec3 centre, normal;

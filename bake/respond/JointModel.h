@@ -34,7 +34,7 @@ struct JointModel {
     struct Pair {
         Vec3 a, b; ///< centres, each in its own body's frame
         double radiusA = 0, radiusB = 0, rest = 0;
-        double reach = 0; ///< radiusA + radiusB + rest: the distance of the centres at contact
+        double contactDistance = 0; ///< radiusA + radiusB + rest: the distance of the centres at contact
         std::uint32_t group = 0;
         std::uint32_t test = 0;   ///< index in its table
         std::uint32_t mover = 0;  ///< its row of speeds, that of its sphere of B
@@ -106,14 +106,14 @@ struct PlacedChain {
     PlacedChain() { before[0] = Pose::Identity(); }
 };
 
-/// What is known of a group in clusters from where it stood before: which tests had a gap of at most `reach`
+/// What is known of a group in clusters from where it stood before: which tests had a gap of at most `range`
 /// there. It spares asking the table again, and changes no answer.
 struct KnownNear {
     static constexpr std::uint32_t most = 128, bins = 16;
     std::vector<std::uint32_t>
-        tests; ///< by the bins of their gaps, each as wide as the others, up to `reach`
+        tests; ///< by the bins of their gaps, each as wide as the others, up to `range`
     std::array<std::uint32_t, bins> ends{}; ///< of the bins among the tests
-    double reach = -std::numeric_limits<double>::infinity();
+    double range = -std::numeric_limits<double>::infinity();
     double least = -std::numeric_limits<double>::infinity(); ///< gap of all tests of the table
     DofValues values{};                                      ///< of its DOFs there
     Pose pose = Pose::Identity();
@@ -122,7 +122,7 @@ struct KnownNear {
 
 /// Bits of JointWorkspace::held().
 enum : std::uint8_t {
-    stoppedWay = 1,     ///< a way ended at this table's contact, and the joint stayed there
+    stoppedStep = 1,    ///< a way ended at this table's contact, and the joint stayed there
     touchedAtStart = 2, ///< the joint stood in its contact before
     passedBy = 4 ///< its contact ended the straight way, and the joint came to what was asked around it
 };
@@ -136,16 +136,16 @@ struct ResponseRoom {
     std::vector<std::uint32_t> active; ///< places in `near` of those that can matter on one way
     std::vector<std::uint32_t> found;  ///< tests of one table
     QpRows rows;
-    std::vector<PlacedGroup> groups; ///< one a group
+    std::vector<PlacedGroup> groups; ///< one per group
     std::vector<PlacedChain> chains;
-    std::vector<Pose> ends;          ///< one a group: where a way would end ...
+    std::vector<Pose> ends;          ///< one per group: where a way would end ...
     std::vector<std::uint8_t> ended; ///< ... where that is known
-    std::vector<std::uint8_t> held;  ///< one a group: 0, or by what it held the joint in the last response
+    std::vector<std::uint8_t> held;  ///< one per group: 0, or by what it held the joint in the last response
 
     /// Of a model with tables in clusters: per pair the listing in which it came into the near list.
     std::vector<std::uint32_t> listed;
     std::uint32_t listing = 0;
-    std::vector<KnownNear> known; ///< one a group, kept from one response to the next ...
+    std::vector<KnownNear> known; ///< one per group, kept from one response to the next ...
     std::uint64_t knownOf = 0;    ///< ... to this model
 
     /// Empties the near list.
@@ -158,7 +158,7 @@ struct ResponseRoom {
 ResponseRoom roomFor(const JointModel& model);
 
 /// Places one group at q (values of the joint) into ws.groups.
-void placeGroup(const JointModel& model, std::size_t group, const DofValues& q, const DofValues& way,
+void placeGroup(const JointModel& model, std::size_t group, const DofValues& q, const DofValues& step,
                 ResponseRoom& ws);
 
 /// Gap of a pair with the group's pose; normal (unit or less, from A to B) and the centre of B in A's frame.
@@ -167,15 +167,15 @@ inline double pairGap(const JointModel::Pair& pair, const Pose& pose, Vec3& cent
     normal = centre - pair.a;
     const double distance = normal.norm();
     normal = distance > 0 ? Vec3(normal * (1 / distance)) : Vec3::UnitX();
-    return distance - pair.reach;
+    return distance - pair.contactDistance;
 }
 
 /// Fills ws.near with the pairs whose gap can fall to their threshold when each DOF changes by at most
-/// reach[l] from q. Thresholds are min(contactOffset, gap at q), each of its own table. Pairs of tables in
-/// clusters are none of them: see listOnWay (JointClusters.h).
-void cull(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws);
+/// travel[l] from q. Thresholds are min(contactOffset, gap at q), each of its own table. Pairs of tables in
+/// clusters are none of them: see listOnStep (JointClusters.h).
+void cull(const JointModel& model, const DofValues& q, const DofValues& travel, ResponseRoom& ws);
 /// The same, after what is in ws.near.
-void cullMore(const JointModel& model, const DofValues& q, const DofValues& reach, ResponseRoom& ws);
+void cullMore(const JointModel& model, const DofValues& q, const DofValues& travel, ResponseRoom& ws);
 
 /// Leaves out near pairs that stay above their threshold wherever |w (q - q')| is at most `distance`; gaps
 /// must be those at q.
@@ -183,7 +183,7 @@ void narrow(const JointModel& model, double distance, ResponseRoom& ws);
 
 /// Gap and gradient of the near pairs from `first` on at q, one-sided towards `way` at rows of paths.
 /// Thresholds above the gap fall to it, unless they are common.
-void linearise(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws,
+void linearise(const JointModel& model, const DofValues& q, const DofValues& step, ResponseRoom& ws,
                std::size_t first = 0);
 
 /// The tables of one joint keep different gaps (contactOffset). A level makes gaps of different tables
@@ -198,7 +198,7 @@ inline double gapOf(const JointModel& model, double contactOffset, double level)
 }
 
 /// Largest share of its range that any DOF goes.
-double shareOfRange(const JointModel& model, const DofValues& way);
+double shareOfRange(const JointModel& model, const DofValues& step);
 
 /// Smallest level of all pairs of the model at q; infinity where there are none.
 double smallestLevel(const JointModel& model, const DofValues& q, ResponseRoom& ws);

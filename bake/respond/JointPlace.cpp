@@ -48,7 +48,7 @@ void placeOnChain(const JointModel& model, const JointModel::Group& group, Place
 
 } // namespace
 
-void placeGroup(const JointModel& model, std::size_t g, const DofValues& q, const DofValues& way,
+void placeGroup(const JointModel& model, std::size_t g, const DofValues& q, const DofValues& step,
                 ResponseRoom& ws) {
     const JointModel::Group& group = model.groups[g];
     PlacedGroup& placed = ws.groups[g];
@@ -58,7 +58,7 @@ void placeGroup(const JointModel& model, std::size_t g, const DofValues& q, cons
         const double value = q[group.dofs[k]];
         same = same && placed.at[k] == value;
         placed.at[k] = value;
-        direction[k] = way[group.dofs[k]];
+        direction[k] = step[group.dofs[k]];
     }
     if (same) return;
     placed.known = true;

@@ -45,29 +45,29 @@ int equalLegs(const JointModel& model, const DofValues& start, const DofValues& 
 
 /// Lists the pairs near the first of so many legs from q to the goal.
 void cullLeg(const JointModel& model, const DofValues& q, const DofValues& goal, int legs, ResponseRoom& ws) {
-    DofValues reach{};
-    for (int l = 0; l < model.dofCount; ++l) reach[l] = std::abs(goal[l] - q[l]) / legs;
-    cull(model, q, reach, ws);
+    DofValues travel{};
+    for (int l = 0; l < model.dofCount; ++l) travel[l] = std::abs(goal[l] - q[l]) / legs;
+    cull(model, q, travel, ws);
 }
 
-DofValues partOfWay(const JointModel& model, const DofValues& q, const DofValues& goal, double share) {
-    DofValues way{};
-    for (int l = 0; l < model.dofCount; ++l) way[l] = share * (goal[l] - q[l]);
-    return way;
+DofValues partOfStep(const JointModel& model, const DofValues& q, const DofValues& goal, double share) {
+    DofValues step{};
+    for (int l = 0; l < model.dofCount; ++l) step[l] = share * (goal[l] - q[l]);
+    return step;
 }
 
 /// The same for a share of the way that has few of them, and no DOF going farther than `most` of its range.
 /// Returns that share.
 double cullAhead(const JointModel& model, const DofValues& q, const DofValues& goal, double most,
                  ResponseRoom& ws) {
-    const double whole = shareOfRange(model, partOfWay(model, q, goal, 1));
+    const double whole = shareOfRange(model, partOfStep(model, q, goal, 1));
     for (double share = whole > most ? most / whole : 1;; share *= 0.25) {
-        const DofValues way = partOfWay(model, q, goal, share);
-        DofValues reach{};
-        for (int l = 0; l < model.dofCount; ++l) reach[l] = std::abs(way[l]);
-        cull(model, q, reach, ws);
+        const DofValues step = partOfStep(model, q, goal, share);
+        DofValues travel{};
+        for (int l = 0; l < model.dofCount; ++l) travel[l] = std::abs(step[l]);
+        cull(model, q, travel, ws);
         const bool last = share * whole <= leastLeg;
-        if (listOnWay(model, q, way, ws, last ? ~std::size_t(0) : manyNear)) return share;
+        if (listOnStep(model, q, step, ws, last ? ~std::size_t(0) : manyNear)) return share;
     }
 }
 
@@ -88,17 +88,17 @@ Legs beginLegs(const JointModel& model, const DofValues& q, const DofValues& goa
 bool walk(const JointModel& model, const DofValues& goal, Legs legs, DofValues& q, ResponseRoom& ws) {
     if (model.clustered) {
         while (legs.share < 1) {
-            const DofValues way = partOfWay(model, q, goal, legs.share);
-            if (advance(model, way, q, ws) < 1) return false;
-            const double most = 4 * shareOfRange(model, way);
+            const DofValues step = partOfStep(model, q, goal, legs.share);
+            if (advance(model, step, q, ws) < 1) return false;
+            const double most = 4 * shareOfRange(model, step);
             legs.share = cullAhead(model, q, goal, std::min(most, farMove), ws);
         }
         legs.count = 1;
     }
-    DofValues way{};
+    DofValues step{};
     for (; legs.count > 0; --legs.count) {
-        for (int l = 0; l < model.dofCount; ++l) way[l] = (goal[l] - q[l]) / legs.count;
-        if (advance(model, way, q, ws) < 1) return false;
+        for (int l = 0; l < model.dofCount; ++l) step[l] = (goal[l] - q[l]) / legs.count;
+        if (advance(model, step, q, ws) < 1) return false;
         if (legs.count > 1) cullLeg(model, q, goal, legs.count - 1, ws);
     }
     q = goal;
@@ -206,9 +206,9 @@ JointAnswer JointResponder::Prepared::fromFree(const DofValues& start, const Dof
     }
     const double before = weightedDistance(model_, q, goal);
     for (std::uint8_t& held : ws.held)
-        if (held & stoppedWay) held |= passedBy;
+        if (held & stoppedStep) held |= passedBy;
     slide(model_, goal, q, ws);
-    if (std::any_of(ws.held.begin(), ws.held.end(), [](std::uint8_t held) { return held & stoppedWay; }))
+    if (std::any_of(ws.held.begin(), ws.held.end(), [](std::uint8_t held) { return held & stoppedStep; }))
         for (std::uint8_t& held : ws.held) held &= static_cast<std::uint8_t>(~passedBy);
     const double after = weightedDistance(model_, q, goal);
     const bool slid = after < before - 1e-6 * model_.scale;
@@ -245,7 +245,7 @@ JointAnswer JointResponder::Prepared::fromCollision(const DofValues& start, cons
         status = JointStatus::Returning;
     }
     cull(model_, q, model_.range, ws);
-    listOnWay(model_, q, DofValues{}, ws);
+    listOnStep(model_, q, DofValues{}, ws);
     JointAnswer answer = judged(q, status, ws);
     if (answer.gap > 0) answer.status = JointStatus::Separated;
     return answer;
@@ -258,7 +258,7 @@ JointAnswer JointResponder::Prepared::respond(const double* last, const double* 
     std::fill(ws.held.begin(), ws.held.end(), std::uint8_t(0));
     if (model_.clustered && ws.knownOf != model_.id) {
         for (KnownNear& known : ws.known)
-            known.reach = known.least = -std::numeric_limits<double>::infinity();
+            known.range = known.least = -std::numeric_limits<double>::infinity();
         ws.knownOf = model_.id;
     }
     DofValues from{}, to{};

@@ -33,7 +33,7 @@ public:
     JointWorkspace& operator=(JointWorkspace&&) noexcept;
     ~JointWorkspace();
 
-    /// One a table: 0, or that it held the joint in the last response.
+    /// One per table: 0, or that it held the joint in the last response.
     std::span<const std::uint8_t> held() const;
 
 private:

@@ -58,7 +58,7 @@ public:
     /// The way from q to the pose nearest to the goal where every near pair's linearised gap is at least
     /// demand(near). False where there is none. Marks the groups whose gaps bound the way in ws.held.
     template <class PoseConstraint>
-    bool nearest(PoseConstraint demand, DofValues& way) {
+    bool nearest(PoseConstraint demand, DofValues& step) {
         for (std::size_t i = 0; i < ws_.nearCount; ++i) {
             NearPair& near = ws_.near[i];
             if (near.rowScale == 0) continue;
@@ -74,19 +74,19 @@ public:
         mark(active);
         for (int l = 0; l < model_.dofCount; ++l) {
             const double end = goal_[l] + y[l] * model_.perWeight[l];
-            way[l] = std::clamp(end, model_.lower[l], model_.upper[l]) - q_[l];
+            step[l] = std::clamp(end, model_.lower[l], model_.upper[l]) - q_[l];
         }
         return true;
     }
 
 private:
     void mark(const QpActive& active) {
-        for (std::uint8_t& held : ws_.held) held &= static_cast<std::uint8_t>(~stoppedWay);
+        for (std::uint8_t& held : ws_.held) held &= static_cast<std::uint8_t>(~stoppedStep);
         for (std::size_t i = 0; i < ws_.nearCount && active.count > 0; ++i) {
             const NearPair& near = ws_.near[i];
             const auto end = active.rows.begin() + active.count;
             if (near.row >= 0 && std::find(active.rows.begin(), end, near.row) != end)
-                ws_.held[model_.pairs[near.pair].group] |= stoppedWay;
+                ws_.held[model_.pairs[near.pair].group] |= stoppedStep;
         }
     }
 
@@ -103,9 +103,9 @@ private:
     double least_; ///< bounds below it cannot matter
 };
 
-double weightedLength(const JointModel& model, const DofValues& way) {
+double weightedLength(const JointModel& model, const DofValues& step) {
     double sum = 0;
-    for (int l = 0; l < model.dofCount; ++l) sum += model.weights[l] * way[l] * model.weights[l] * way[l];
+    for (int l = 0; l < model.dofCount; ++l) sum += model.weights[l] * step[l] * model.weights[l] * step[l];
     return std::sqrt(sum);
 }
 
@@ -114,13 +114,13 @@ double leastLift(const JointModel& model, const NearPair& near) {
 }
 
 /// Lists what comes near on the way from q and makes rows of it. False where nothing new does.
-bool listAhead(const JointModel& model, const DofValues& q, const DofValues& way, SlideRows& rows,
+bool listAhead(const JointModel& model, const DofValues& q, const DofValues& step, SlideRows& rows,
                ResponseRoom& ws) {
     if (!model.clustered) return false;
     const std::size_t first = ws.nearCount;
-    listOnWay(model, q, way, ws);
+    listOnStep(model, q, step, ws);
     if (ws.nearCount == first) return false;
-    linearise(model, q, way, ws, first);
+    linearise(model, q, step, ws, first);
     for (std::size_t i = first; i < ws.nearCount; ++i) ws.near[i].lift = leastLift(model, ws.near[i]);
     rows.take(first);
     return true;
@@ -130,12 +130,12 @@ bool listAhead(const JointModel& model, const DofValues& q, const DofValues& way
 /// each near pair how far above its threshold the linear gap has to end for the way to be free: by how much
 /// the true gap at the end is smaller, and by how far its worst bend may dip below a straight line in between
 /// (an eighth of the acceleration). True where the way was found with less than that for some pair.
-bool findLifts(const JointModel& model, const DofValues& q, const DofValues& way, ResponseRoom& ws) {
+bool findLifts(const JointModel& model, const DofValues& q, const DofValues& step, ResponseRoom& ws) {
     std::fill(ws.ended.begin(), ws.ended.end(), std::uint8_t(0));
     const auto placeEnd = [&](std::size_t g) {
         const JointModel::Group& group = model.groups[g];
         DofValues end;
-        for (std::size_t k = 0; k < group.dofs.size(); ++k) end[k] = q[group.dofs[k]] + way[group.dofs[k]];
+        for (std::size_t k = 0; k < group.dofs.size(); ++k) end[k] = q[group.dofs[k]] + step[group.dofs[k]];
         ws.ends[g] = pose(group.motion, {end.data(), group.dofs.size()});
         ws.ended[g] = 1;
     };
@@ -147,9 +147,9 @@ bool findLifts(const JointModel& model, const DofValues& q, const DofValues& way
         const JointModel::Pair& pair = model.pairs[near.pair];
         if (!ws.ended[pair.group]) placeEnd(pair.group);
         double guess = near.gap;
-        for (int l = 0; l < model.dofCount; ++l) guess += near.gradient[l] * way[l];
+        for (int l = 0; l < model.dofCount; ++l) guess += near.gradient[l] * step[l];
         const double real = pairGap(pair, ws.ends[pair.group], centre, normal);
-        bounds.bound(model, way, near);
+        bounds.bound(model, step, near);
         near.lift = endRoom * pair.contactOffset + near.acceleration / 8 + std::max(0.0, guess - real);
         short_ = short_ || guess < near.threshold + near.lift - liftSlack * pair.contactOffset;
     }
@@ -158,8 +158,8 @@ bool findLifts(const JointModel& model, const DofValues& q, const DofValues& way
 
 /// The way of one round of a slide; false where none goes on. corner: whether the joint is known to be where
 /// no way lifts all pairs; set here.
-bool slideWay(const JointModel& model, const DofValues& q, const DofValues& goal, double trust,
-              ResponseRoom& ws, bool& corner, DofValues& way) {
+bool slideStep(const JointModel& model, const DofValues& q, const DofValues& goal, double trust,
+               ResponseRoom& ws, bool& corner, DofValues& step) {
     const auto lifted = [](const NearPair& near) { return near.threshold + near.lift; };
     // In a corner the lift cannot be had: where the pair is now is always feasible.
     const auto held = [](const NearPair& near) {
@@ -176,10 +176,10 @@ bool slideWay(const JointModel& model, const DofValues& q, const DofValues& goal
         }
         return true;
     };
-    if (!find(way)) return false;
-    if (!findLifts(model, q, way, ws)) return true;
+    if (!find(step)) return false;
+    if (!findLifts(model, q, step, ws)) return true;
     DofValues second;
-    if (find(second)) way = second;
+    if (find(second)) step = second;
     return true;
 }
 
@@ -199,17 +199,17 @@ void keepClustered(const JointModel& model, ResponseRoom& ws) {
 /// is farther from the goal. Else for moves of no more than `trust` of each range.
 bool cullRound(const JointModel& model, const DofValues& q, double distance, double trust, ResponseRoom& ws) {
     bool all = true;
-    DofValues reach{};
+    DofValues travel{};
     for (int l = 0; l < model.dofCount; ++l) {
         const double most = trust * model.range[l];
-        reach[l] = 2 * distance * model.perWeight[l];
-        if (reach[l] > most && most > 0) {
-            reach[l] = most;
+        travel[l] = 2 * distance * model.perWeight[l];
+        if (travel[l] > most && most > 0) {
+            travel[l] = most;
             all = false;
         }
     }
     keepClustered(model, ws);
-    cullMore(model, q, reach, ws);
+    cullMore(model, q, travel, ws);
     return all;
 }
 
@@ -233,19 +233,19 @@ void slide(const JointModel& model, const DofValues& goal, DofValues& q, Respons
                 near.lift = least + liftKept * (near.lift - least);
             }
         }
-        DofValues way{};
-        for (int l = 0; l < model.dofCount; ++l) way[l] = goal[l] - q[l];
-        linearise(model, q, way, ws);
+        DofValues step{};
+        for (int l = 0; l < model.dofCount; ++l) step[l] = goal[l] - q[l];
+        linearise(model, q, step, ws);
         // No pose from here on is farther from the goal than this one, so from this one than twice that.
         narrow(model, 2 * distance, ws);
-        if (!slideWay(model, q, goal, trust, ws, corner, way)) return;
-        if (weightedLength(model, way) < least) return;
+        if (!slideStep(model, q, goal, trust, ws, corner, step)) return;
+        if (weightedLength(model, step) < least) return;
         // Pairs are known to be near only where a pose is no farther from the goal than this one.
         DofValues end = q, next = q;
-        for (int l = 0; l < model.dofCount; ++l) end[l] += way[l];
+        for (int l = 0; l < model.dofCount; ++l) end[l] += step[l];
         if (weightedDistance(model, end, goal) < distance) {
-            listOnWay(model, q, way, ws); // were some still new, the way was not made for them
-            advance(model, way, next, ws);
+            listOnStep(model, q, step, ws); // were some still new, the way was not made for them
+            advance(model, step, next, ws);
         }
         const double reached = weightedDistance(model, next, goal);
         if (reached < distance - 1e-3 * least) {
@@ -253,7 +253,7 @@ void slide(const JointModel& model, const DofValues& goal, DofValues& q, Respons
             distance = reached;
             trust = std::min(model.clustered ? clusteredMove : 1.0, 2 * trust);
         } else {
-            trust = 0.25 * std::min(trust, shareOfRange(model, way));
+            trust = 0.25 * std::min(trust, shareOfRange(model, step));
             if (trust < 1e-7) return;
         }
     }
@@ -261,37 +261,37 @@ void slide(const JointModel& model, const DofValues& goal, DofValues& q, Respons
 
 double pushOut(const JointModel& model, DofValues& q, ResponseRoom& ws) {
     constexpr double trust = 0.25;
-    DofValues reach{};
-    for (int l = 0; l < model.dofCount; ++l) reach[l] = trust * model.range[l];
+    DofValues travel{};
+    for (int l = 0; l < model.dofCount; ++l) travel[l] = trust * model.range[l];
     double depth = smallestLevel(model, q, ws);
     const auto gapAt = [&](const NearPair& near, double level) {
         return gapOf(model, model.pairs[near.pair].contactOffset, level);
     };
     ws.common = true;
     for (int round = 0; round < 40 && depth < 0.5 * model.leastContactOffset; ++round) {
-        cull(model, q, reach, ws);
-        DofValues way{};
-        listOnWay(model, q, way, ws);
-        linearise(model, q, way, ws);
+        cull(model, q, travel, ws);
+        DofValues step{};
+        listOnStep(model, q, step, ws);
+        linearise(model, q, step, ws);
         double share = 1;
         const double missing = (1 + endRoom) * model.leastContactOffset - depth;
         SlideRows rows(model, q, q, trust, ws);
         const auto raised = [&](const NearPair& near) { return gapAt(near, depth + share * missing); };
         for (int listing = 0; listing < mostListings && share >= 1e-4; ++listing) {
-            while (share >= 1e-4 && !rows.nearest(raised, way)) share *= 0.5;
-            if (share < 1e-4 || !listAhead(model, q, way, rows, ws)) break;
+            while (share >= 1e-4 && !rows.nearest(raised, step)) share *= 0.5;
+            if (share < 1e-4 || !listAhead(model, q, step, rows, ws)) break;
         }
         if (share < 1e-4) break;
-        listOnWay(model, q, way, ws);
+        listOnStep(model, q, step, ws);
         for (std::size_t i = 0; i < ws.nearCount; ++i)
             ws.near[i].threshold = gapAt(ws.near[i], std::min(depth, model.leastContactOffset));
         DofValues end = q;
-        double t = advance(model, way, end, ws);
+        double t = advance(model, step, end, ws);
         // The far end of the free way need not be the shallowest pose on it.
         double there = smallestLevel(model, end, ws);
         for (int halving = 0; halving < 20 && there < depth + 0.25 * t * share * missing; ++halving) {
             t *= 0.5;
-            for (int l = 0; l < model.dofCount; ++l) end[l] = q[l] + t * way[l];
+            for (int l = 0; l < model.dofCount; ++l) end[l] = q[l] + t * step[l];
             there = smallestLevel(model, end, ws);
         }
         if (!(there > depth + 1e-6 * share * missing)) break;

@@ -12,7 +12,7 @@ struct SkinGround {
     const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies;
     SkinGraph graph;
     std::vector<Vec3> normals;
-    std::vector<ClosestPointQuery> locators; ///< one a body
+    std::vector<ClosestPointQuery> locators; ///< one per body
     std::vector<std::vector<Vec3>> surfaceNormals;
     std::vector<std::vector<bool>> inside; ///< #bodies of #V: within a muscle at rest; empty: a bone
     double size = 0;                       ///< diagonal of the skin's bounds, 1 where it has none

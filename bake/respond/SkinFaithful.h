@@ -17,7 +17,7 @@ struct SkinSpheres {
     std::vector<Row> rows;
     std::vector<std::uint32_t> sphere;   ///< #tests
     std::vector<double> restGap;         ///< #tests, at most 0
-    std::vector<MuscleTrack> tracks;     ///< one a body
+    std::vector<MuscleTrack> tracks;     ///< one per body
     std::vector<std::uint32_t> body, at; ///< #spheres: its body, and which point of its track it is
     std::vector<double> radius;          ///< #spheres, at activation 0
     std::vector<int> insertion;          ///< #bodies: see SkinParameters::insertions
@@ -29,7 +29,7 @@ SkinSpheres skinSpheres(const SkinTable& table,
                         const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
                         std::span<const int> insertions, const std::vector<std::uint32_t>& indexOf);
 
-/// Each skin sphere leaves the sphere that it is deepest in, until it is in none. poses: one a body, in the
+/// Each skin sphere leaves the sphere that it is deepest in, until it is in none. poses: one per body, in the
 /// skin's frame. places: of the touched vertices, at rest, pushed; normals: theirs at rest. Returns how many
 /// were pushed.
 std::size_t pushOut(const SkinSpheres& spheres, std::span<const double> activations,

@@ -14,7 +14,7 @@ struct SkinFollowing {
         double mean = 0;
         double most = 0; ///< 95 % of the vertices are within it
     };
-    std::vector<OnBone> bones;        ///< one a body; none lies on a muscle
+    std::vector<OnBone> bones;        ///< one per body; none lies on a muscle
     double shortest = 1, longest = 1; ///< edges, of their length at rest: 1st and 99th percentile
     std::size_t turnedOver = 0;       ///< triangles that lie upside down against the skin's own turn
 
@@ -30,7 +30,7 @@ public:
     SkinFollowMeasure(const TriangleMesh& skin,
                       const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies, const SkinRig& rig);
 
-    /// positions: of the rig's touched vertices. poses: one a body, its motion since rest, in the skin's
+    /// positions: of the rig's touched vertices. poses: one per body, its motion since rest, in the skin's
     /// frame; empty: none moves.
     SkinFollowing at(std::span<const Vec3> positions, std::span<const Pose> poses) const;
 

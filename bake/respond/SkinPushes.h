@@ -40,13 +40,13 @@ private:
     int settle(std::span<SkinPlane> planes, int steps);
 
     const SkinFoundation& foundation_;
-    std::vector<std::uint32_t> ownStart_, columnStart_, coupleStart_; ///< one a plane and an end
+    std::vector<std::uint32_t> ownStart_, columnStart_, coupleStart_; ///< one per plane and an end
     std::vector<Entry> own_;                                          ///< what each plane has of the nodes
     std::vector<Entry> column_;                                       ///< how the nodes move when it pushes
     std::vector<Entry> coupling_; ///< how much nearer to their goal the other planes come by it
     std::vector<float> before_;   ///< of plane r with each s < r, at r (r - 1) / 2 + s; the same both ways
     std::vector<float> peak_;     ///< of each plane: most that its push moves a node
-    std::vector<float> dense_, self_, asked_, lack_, most_, matrix_; ///< matrix_: one a coupling
+    std::vector<float> dense_, self_, asked_, lack_, most_, matrix_; ///< matrix_: one per coupling
     std::vector<float> step_, way_, left_, answer_;                  ///< of conjugate gradients
     std::vector<std::uint32_t> seen_, stamp_;
     std::vector<Move> nodes_;

@@ -34,7 +34,7 @@ public:
     SkinResponse& operator=(SkinResponse&&) noexcept;
     ~SkinResponse();
 
-    /// activations: one a body in the rig's order, missing ones count as 0, clamped to each one's range.
+    /// activations: one per body in the rig's order, missing ones count as 0, clamped to each one's range.
     /// poses: motion of each body (its bone) since rest, in the skin's frame; empty: none moves.
     /// shift: how far something else, as a morph target, has moved each of vertices() since rest, before
     /// bones turn it: in the skin's frame, scene units; empty: nothing has.

@@ -34,7 +34,7 @@ struct SkinScene {
 
 /// Moves the bodies, and the skin with them: where nothing is live, and was not before, it is left as it is,
 /// so what else moves `skin` has to be taken back. activations, poses (motion of each body since rest, in the
-/// skin's frame, scene units): one a body, within its range. shift: one a touched vertex, or none, scene
+/// skin's frame, scene units): one per body, within its range. shift: one a touched vertex, or none, scene
 /// units.
 void placeBodies(const SkinRig& rig, std::span<const double> activations, std::span<const Pose> poses,
                  std::span<const Vec3> shift, SkinScene& scene);

@@ -41,7 +41,7 @@ struct RobotJoint {
     /// The joint that this one, of one DOF, follows: value = factor * its value + offset.
     std::string leader;
     double factor = 1, offset = 0;
-    std::vector<TimeSamples> drives; ///< the motion that the file asks for, none or one a DOF
+    std::vector<TimeSamples> drives; ///< the motion that the file asks for, none or one per DOF
     std::string where;
 };
 

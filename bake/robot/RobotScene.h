@@ -27,7 +27,7 @@ struct LinkReport {
 
 struct RobotScene {
     SceneModel scene;
-    std::vector<LinkReport> links; ///< one a link
+    std::vector<LinkReport> links; ///< one per link
     std::vector<std::string> notes;
 };
 

@@ -29,8 +29,7 @@ constexpr Attribute restOfDofs = declared(
 constexpr Attribute pathNumbers =
     declared("uniform double[] tss:paths", "rows of value, x, y, z, and a quaternion w, x, y, z, in the "
                                            "joint's frame; linear and slerp between rows");
-constexpr Attribute pathRows =
-    declared("uniform int[] tss:pathRows", "rows of each path", between(2, 1e7));
+constexpr Attribute pathRows = declared("uniform int[] tss:pathRows", "rows of each path", between(2, 1e7));
 constexpr Attribute pathLimits =
     declared("uniform double2[] tss:pathLimits", "limits of each path within its values (all of them)");
 constexpr Attribute pathDrive = declared("double tss:drive:path0", "desired value of a path");
@@ -232,7 +231,7 @@ void writePaths(PrimWriter& prim, const Joint& joint) {
     if (limited) prim.set(pathLimits, Value(Numbers{limits, 2}));
 }
 
-/// One number a DOF, or the fallback for each when the attribute is absent.
+/// One number per DOF, or the fallback for each when the attribute is absent.
 std::vector<double> onePerDof(const PrimReader& prim, const Attribute& attribute, std::size_t count,
                               double fallback) {
     auto numbers = prim.reals(attribute, count);

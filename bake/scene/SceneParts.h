@@ -15,7 +15,7 @@ struct SceneReading {
     PrimIndex index;
     Problems& problems;
     SceneModel scene;
-    std::vector<SplitXform> bodyXforms;                   ///< one a body
+    std::vector<SplitXform> bodyXforms;                   ///< one per body
     std::map<std::string, int> bodyAt, jointAt, muscleAt; ///< by prim path
 
     PrimReader reader(int entry) const {
@@ -41,7 +41,7 @@ struct SceneReading {
 
 void readBodies(SceneReading& reading);
 void writeBodies(Layer& layer, const SceneModel& scene);
-/// Transforms to the world, one an entry.
+/// Transforms to the world, one per entry.
 std::vector<Xform> worldXforms(const SceneReading& reading);
 /// The faces of a Mesh cut into triangles, its points stretched.
 TriangleMesh readMesh(const PrimReader& prim, const SplitXform& xform);

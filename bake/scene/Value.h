@@ -22,8 +22,8 @@ struct Numbers {
 };
 
 /// Any value of a scene file. Arrays of numbers and of equal short tuples of numbers are always held as
-/// Numbers, so that a mesh takes 8 bytes a number; integers beyond 2^53 are kept as such. Objects are sorted
-/// by key.
+/// Numbers, so that a mesh takes 8 bytes per number; integers beyond 2^53 are kept as such. Objects are
+/// sorted by key.
 struct Value {
     using Array = std::vector<Value>;
     using Object = std::map<std::string, Value, std::less<>>;

@@ -7,7 +7,7 @@ namespace tss {
 /// Which sphere pairs can collide somewhere in Q: the paper's collision table Tc (METHOD 2).
 struct CandidatePairs {
     std::vector<SpherePair> pairs; ///< sorted; indices into the whole sphere sets
-    std::vector<double> restGaps;  ///< one a pair (METHOD 2.4), or empty: all 0
+    std::vector<double> restGaps;  ///< one per pair (METHOD 2.4), or empty: all 0
     std::size_t spheresA = 0;      ///< spheres of A in some pair (the paper's Msc of A)
     std::size_t spheresB = 0;      ///< spheres of B in some pair (Msc of B)
 

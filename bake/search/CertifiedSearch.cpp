@@ -19,7 +19,7 @@ namespace tss {
 namespace {
 
 /// What every part of one search shares and none writes.
-struct Problem {
+struct SearchInput {
     const SphereSet &a, &b;
     const SphereTree &treeA, &treeB;
     const MotionRates& rates;
@@ -42,7 +42,7 @@ std::uint64_t effortOfPart(std::uint64_t effort) {
 /// what else was found, so that the parts may run in any order.
 class PartSearch {
 public:
-    PartSearch(const Problem& problem, const std::atomic<bool>& stop)
+    PartSearch(const SearchInput& problem, const std::atomic<bool>& stop)
         : p_(problem), stop_(stop), found_(problem.a.size(), problem.b.size()) {}
 
     void run(const Cell& cell, const std::vector<NodePair>& open) {
@@ -80,30 +80,30 @@ private:
                 [&](NodePair pair, const SphereTree::Node& na, const SphereTree::Node& nb) {
                     ++looks_;
                     const Vec3 x = motion.centrePose() * nb.centre;
-                    const CellMotion::Reach reach = motion.reach(x);
+                    const CellMotion::PointMotion moved = motion.pointMotion(x);
                     const double sum = na.radius + nb.radius;
                     if (na.leaf() && nb.leaf()) {
-                        judgeSpheres(motion, pair, x, reach, left);
+                        judgeSpheres(motion, pair, x, moved, left);
                         return false;
                     }
-                    if ((x - na.centre).norm() - reach.move > sum + p_.margin + p_.rounding) return false;
+                    if ((x - na.centre).norm() - moved.move > sum + p_.margin + p_.rounding) return false;
                     // Smaller balls do not help where the motion is what blurs the answer.
-                    const bool blurred = sum < reach.move && reach.move > p_.tolerance && !finest_;
+                    const bool blurred = sum < moved.move && moved.move > p_.tolerance && !finest_;
                     if (blurred) left.push_back(pair);
                     return !blurred;
                 });
         return left;
     }
 
-    void judgeSpheres(const CellMotion& motion, NodePair nodes, const Vec3& x, const CellMotion::Reach& reach,
-                      std::vector<NodePair>& left) {
+    void judgeSpheres(const CellMotion& motion, NodePair nodes, const Vec3& x,
+                      const CellMotion::PointMotion& moved, std::vector<NodePair>& left) {
         const SpherePair pair{p_.treeA[nodes.a].sphere, p_.treeB[nodes.b].sphere};
         const Sphere &sa = p_.a[pair.a], &sb = p_.b[pair.b];
         const double limit = sa.radius + sb.radius + p_.rule.threshold(pair) + p_.margin;
         if (limit < -p_.rounding || found_.contains(pair) || p_.known.contains(pair)) return;
-        const PairDistanceBounds at(motion, x, reach, sa.centre);
+        const PairDistanceBounds at(motion, x, moved, sa.centre);
         if (at.staysAbove(std::max(limit, 0.0), p_.rounding)) return;
-        if (reach.move <= p_.tolerance || finest_ ||
+        if (moved.move <= p_.tolerance || finest_ ||
             (at.distance <= limit && withinLimits(p_.rates.motion(), motion.centre()))) {
             found_.insert(pair);
             any_ = true;
@@ -112,7 +112,7 @@ private:
         }
     }
 
-    const Problem& p_;
+    const SearchInput& p_;
     const std::atomic<bool>& stop_;
     ConcurrentPairs found_;
     bool any_ = false, finest_ = false;
@@ -143,7 +143,7 @@ struct Found {
     std::vector<SpherePair> pairs;
 };
 
-Found search(const Problem& problem, const Progress& progress) {
+Found search(const SearchInput& problem, const Progress& progress) {
     Found result;
     const auto cells = parts(problem.rates, partCount);
     ConcurrentPairs all(problem.a.size(), problem.b.size());
@@ -179,7 +179,7 @@ double meanRadius(const SphereSet& a, const SphereSet& b) {
 }
 
 /// The smallest gap at the explored poses: nothing can be proven beyond it.
-double smallestGapSeen(const Problem& problem) {
+double smallestGapSeen(const SearchInput& problem) {
     double best = std::numeric_limits<double>::infinity();
     for (const auto& q : exploredPoses(problem.rates.motion(), 512, 1))
         best =
@@ -220,7 +220,8 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
     const double tolerance = std::max(options.tolerance >= 0 ? options.tolerance : 0.01 * meanRadius(a, b),
                                       1e-9 * (treeA[0].radius + treeB[0].radius));
     const std::uint64_t effort = effortOfPart(options.effort);
-    const Problem problem{a, b, treeA, treeB, rates, rule, options.margin, tolerance, known, false, effort};
+    const SearchInput problem{a,         b,     treeA, treeB, rates, rule, options.margin,
+                              tolerance, known, false, effort};
     Found found = search(problem, progress);
     result.certified = found.complete;
     result.explored = found.cells;
@@ -246,7 +247,7 @@ double provenClearance(const SphereSet& a, const SphereSet& b, const Motion& mot
     const SphereTree treeA(a, stop), treeB(b, stop);
     if (poll.stopped()) return 0;
     const ConcurrentPairs none(a.size(), b.size());
-    Problem problem{a, b, treeA, treeB, rates, rule, 0, 0, none, true, effortOfPart(effort)};
+    SearchInput problem{a, b, treeA, treeB, rates, rule, 0, 0, none, true, effortOfPart(effort)};
     const double seen = smallestGapSeen(problem);
     if (!(seen > 0) || !std::isfinite(seen)) return 0;
     for (double share : {0.9, 0.7, 0.5, 0.25, 0.1, 0.01}) {

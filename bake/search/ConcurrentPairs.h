@@ -5,7 +5,7 @@
 
 namespace tss {
 
-/// A set of sphere pairs that threads fill at once: one bit a pair, rows made when first touched.
+/// A set of sphere pairs that threads fill at once: one bit per pair, rows made when first touched.
 class ConcurrentPairs {
 public:
     ConcurrentPairs(std::size_t spheresA, std::size_t spheresB)

@@ -16,10 +16,10 @@ struct PairDistanceBounds {
     double tilt;                       ///< |slope| . h
     std::array<double, maxDofs> slope; ///< y . J: half the slope of |y|^2
 
-    PairDistanceBounds(const CellMotion& cell, const Vec3& x, const CellMotion::Reach& reach,
+    PairDistanceBounds(const CellMotion& cell, const Vec3& x, const CellMotion::PointMotion& moved,
                        const Vec3& centreA)
-        : x(x), y(x - centreA), squared(y.squaredNorm()), distance(std::sqrt(squared)), move(reach.move),
-          remainder(reach.remainder), tilt(0) {
+        : x(x), y(x - centreA), squared(y.squaredNorm()), distance(std::sqrt(squared)), move(moved.move),
+          remainder(moved.remainder), tilt(0) {
         cell.slope(x, y, slope.data());
         for (std::size_t k = 0; k < cell.dofs(); ++k) tilt += std::abs(slope[k]) * cell.half(k);
     }

@@ -20,7 +20,7 @@ double travel(const Motion& motion, const MotionRates& rates, std::size_t k, con
     const double turns =
         motion.dofs[k].kind == DofKind::Rotation ? std::max(1.0, (cell.upper[k] - cell.lower[k]) / 2) : 1;
     const CellMotion moves(rates, cell);
-    return 2 * turns * (moves.reach(moves.centrePose() * centre).move + moves.relativeMove() * radius);
+    return 2 * turns * (moves.pointMotion(moves.centrePose() * centre).move + moves.relativeMove() * radius);
 }
 
 /// lower, ..., rest, ..., upper in about `steps` steps.

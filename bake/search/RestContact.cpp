@@ -135,7 +135,7 @@ private:
         return mesh;
     }
 
-    Growth look(const std::vector<double>& q) const {
+    Growth probe(const std::vector<double>& q) const {
         Growth growth;
         const Pose bToA = pose(motion_, q);
         growth.a = carried(a_, b_, bToA.inverse(), growth.free);
@@ -164,7 +164,7 @@ private:
         std::vector<char> free(poses.size(), 0);
         a_.renew();
         b_.renew();
-        parallelFor(poses.size(), [&](std::size_t i) { grown[i] = look(poses[i]); });
+        parallelFor(poses.size(), [&](std::size_t i) { grown[i] = probe(poses[i]); });
         for (std::size_t i = 0; i < poses.size(); ++i) {
             free[i] = grown[i].free;
             if (!free[i]) continue;

@@ -22,43 +22,43 @@ double squaredDistanceToSegment(const Vec3& x, const Vec3& a, const Vec3& b) {
 }
 
 /// The moving spheres of one muscle, and the skin carried by it.
-struct Reach {
+struct MuscleSweep {
     MuscleTrack spheres;
     std::vector<double> radii;  ///< #nodes blocks of #spheres
     std::vector<double> shares; ///< #spheres: of the motion of the insertion's bone
     MuscleTrack skin;           ///< where it carries each skin vertex; no points when skin is sought at rest
 };
 
-Reach makeReach(const SkinSearchMuscle& muscle, const TriangleMesh& skin, SkinPath path) {
+MuscleSweep makeSweep(const SkinSearchMuscle& muscle, const TriangleMesh& skin, SkinPath path) {
     const Muscle& m = muscle.deformer->muscle();
     const std::vector<double> nodes = activationNodes(m.activationLower, m.activationUpper);
     std::vector<MusclePoint> points;
     for (const Sphere& s : muscle.spheres) points.push_back(muscle.deformer->bind(s.centre));
-    Reach reach{makeTrack(*muscle.deformer, points, nodes), {}, {}, {}};
-    for (const Sphere& s : muscle.spheres) reach.shares.push_back(muscle.deformer->insertionShare(s.centre));
-    for (std::size_t i = 0; i < reach.spheres.thicknesses.size(); ++i)
-        reach.radii.push_back(reach.spheres.thicknesses[i] * muscle.spheres[i % points.size()].radius);
+    MuscleSweep sweep{makeTrack(*muscle.deformer, points, nodes), {}, {}, {}};
+    for (const Sphere& s : muscle.spheres) sweep.shares.push_back(muscle.deformer->insertionShare(s.centre));
+    for (std::size_t i = 0; i < sweep.spheres.thicknesses.size(); ++i)
+        sweep.radii.push_back(sweep.spheres.thicknesses[i] * muscle.spheres[i % points.size()].radius);
     points.clear();
     if (path == SkinPath::Carried)
         for (const Vec3& v : skin.vertices) points.push_back(muscle.deformer->bind(v));
-    reach.skin = makeTrack(*muscle.deformer, points, nodes);
-    return reach;
+    sweep.skin = makeTrack(*muscle.deformer, points, nodes);
+    return sweep;
 }
 
 /// Some activation brings muscle sphere j within `near` (radius of the skin sphere + travel) of the path of
 /// skin vertex v. The path at an activation is the segment from its rest place to where it is carried; over a
 /// stretch of activations the moving end is boxed in by the segment's own motion.
-bool reaches(const Reach& reach, std::size_t j, const Vec3& rest, std::size_t v, double near) {
-    const std::size_t nodes = reach.spheres.nodes.size(), stride = reach.spheres.points;
-    const bool carried = reach.skin.points > 0;
+bool reaches(const MuscleSweep& sweep, std::size_t j, const Vec3& rest, std::size_t v, double near) {
+    const std::size_t nodes = sweep.spheres.nodes.size(), stride = sweep.spheres.points;
+    const bool carried = sweep.skin.points > 0;
     for (std::size_t n = 0; n < nodes; ++n) {
         const std::size_t m = std::min(n + 1, nodes - 1);
-        const Vec3 &a = reach.spheres.positions[n * stride + j], &b = reach.spheres.positions[m * stride + j];
-        double distance = near + std::max(reach.radii[n * stride + j], reach.radii[m * stride + j]);
+        const Vec3 &a = sweep.spheres.positions[n * stride + j], &b = sweep.spheres.positions[m * stride + j];
+        double distance = near + std::max(sweep.radii[n * stride + j], sweep.radii[m * stride + j]);
         double squared = 0;
         if (carried) {
-            const Vec3& from = reach.skin.positions[n * reach.skin.points + v];
-            const Vec3& to = reach.skin.positions[m * reach.skin.points + v];
+            const Vec3& from = sweep.skin.positions[n * sweep.skin.points + v];
+            const Vec3& to = sweep.skin.positions[m * sweep.skin.points + v];
             // Over the stretch the path's end moves by |to - from|: it stays that near to the first path.
             distance += (to - from).norm();
             squared = squaredDistanceOfSegments(a, b, rest, from);
@@ -128,16 +128,17 @@ double betweenStops(const SkinSearchOptions& options, std::size_t m, int stop, c
 
 /// The same while the bones swing. carried: how far muscle j's own contraction may carry the vertex
 /// meanwhile.
-bool reachesSwung(const Reach& reach, std::size_t j, const SwungPaths& paths, double near, double carried) {
-    const std::size_t nodes = reach.spheres.nodes.size(), stride = reach.spheres.points;
+bool reachesSwung(const MuscleSweep& sweep, std::size_t j, const SwungPaths& paths, double near,
+                  double carried) {
+    const std::size_t nodes = sweep.spheres.nodes.size(), stride = sweep.spheres.points;
     for (const std::vector<Vec3>& path : paths)
         for (std::size_t s = 0; s + 1 < path.size(); ++s)
             for (std::size_t n = 0; n < nodes; ++n) {
                 const std::size_t m = std::min(n + 1, nodes - 1);
                 const double distance = near + carried + stepSlack * (path[s + 1] - path[s]).norm() +
-                                        std::max(reach.radii[n * stride + j], reach.radii[m * stride + j]);
-                if (squaredDistanceOfSegments(reach.spheres.positions[n * stride + j],
-                                              reach.spheres.positions[m * stride + j], path[s],
+                                        std::max(sweep.radii[n * stride + j], sweep.radii[m * stride + j]);
+                if (squaredDistanceOfSegments(sweep.spheres.positions[n * stride + j],
+                                              sweep.spheres.positions[m * stride + j], path[s],
                                               path[s + 1]) <= distance * distance)
                     return true;
             }
@@ -145,28 +146,29 @@ bool reachesSwung(const Reach& reach, std::size_t j, const SwungPaths& paths, do
 }
 
 /// Everything that a muscle sphere sweeps.
-Box sweptBox(const Reach& reach, std::size_t j) {
+Box sweptBox(const MuscleSweep& sweep, std::size_t j) {
     Box box;
-    for (std::size_t n = 0; n < reach.spheres.nodes.size(); ++n) {
-        const std::size_t at = n * reach.spheres.points + j;
-        const Vec3 r = Vec3::Constant(reach.radii[at]);
-        box.extend(reach.spheres.positions[at] - r);
-        box.extend(reach.spheres.positions[at] + r);
+    for (std::size_t n = 0; n < sweep.spheres.nodes.size(); ++n) {
+        const std::size_t at = n * sweep.spheres.points + j;
+        const Vec3 r = Vec3::Constant(sweep.radii[at]);
+        box.extend(sweep.spheres.positions[at] - r);
+        box.extend(sweep.spheres.positions[at] + r);
     }
     return box;
 }
 
 /// What the path of a skin vertex sweeps.
-Box pathBox(const Reach& reach, const Vec3& rest, std::size_t v) {
+Box pathBox(const MuscleSweep& sweep, const Vec3& rest, std::size_t v) {
     Box box(rest);
-    for (std::size_t n = 0; n < reach.spheres.nodes.size() && reach.skin.points > 0; ++n)
-        box.extend(reach.skin.positions[n * reach.skin.points + v]);
+    for (std::size_t n = 0; n < sweep.spheres.nodes.size() && sweep.skin.points > 0; ++n)
+        box.extend(sweep.skin.positions[n * sweep.skin.points + v]);
     return box;
 }
 
-std::vector<SpherePair> pairsOfMuscle(const Reach& reach, const SphereSet& spheres, const TriangleMesh& skin,
-                                      const std::vector<Vec3>& normals, const std::vector<double>& radii,
-                                      const SkinSearchOptions& options, std::size_t muscle, int stop) {
+std::vector<SpherePair> pairsOfMuscle(const MuscleSweep& sweep, const SphereSet& spheres,
+                                      const TriangleMesh& skin, const std::vector<Vec3>& normals,
+                                      const std::vector<double>& radii, const SkinSearchOptions& options,
+                                      std::size_t muscle, int stop) {
     const std::span<const double> stray =
         options.stray.empty() ? std::span<const double>() : std::span<const double>(options.stray[muscle]);
     const auto near = [&](std::uint32_t v) {
@@ -178,7 +180,7 @@ std::vector<SpherePair> pairsOfMuscle(const Reach& reach, const SphereSet& spher
     std::vector<double> carried(skin.vertices.size(), 0);
     double widest = 0;
     for (std::size_t v = 0; v < boxes.size(); ++v) {
-        boxes[v] = pathBox(reach, skin.vertices[v], v);
+        boxes[v] = pathBox(sweep, skin.vertices[v], v);
         carried[v] =
             std::max((boxes[v].max() - skin.vertices[v]).norm(), (boxes[v].min() - skin.vertices[v]).norm());
         swung[v] =
@@ -203,8 +205,8 @@ std::vector<SpherePair> pairsOfMuscle(const Reach& reach, const SphereSet& spher
 
     std::vector<std::vector<SpherePair>> found(spheres.size());
     parallelFor(spheres.size(), [&](std::size_t j) {
-        if (insertionOf(options, muscle) >= 0 && stopOf(reach.shares[j]) != stop) return;
-        const Box swept = sweptBox(reach, j);
+        if (insertionOf(options, muscle) >= 0 && stopOf(sweep.shares[j]) != stop) return;
+        const Box swept = sweptBox(sweep, j);
         auto it = std::lower_bound(order.begin(), order.end(), swept.min()[0] - widest,
                                    [&](std::uint32_t v, double x) { return boxes[v].min()[0] < x; });
         for (; it != order.end() && boxes[*it].min()[0] <= swept.max()[0]; ++it) {
@@ -212,8 +214,8 @@ std::vector<SpherePair> pairsOfMuscle(const Reach& reach, const SphereSet& spher
             if (!boxes[v].intersects(swept)) continue;
             const double before = normals[v].dot(spheres[j].centre - skin.vertices[v]);
             if (options.facingOnly && before > spheres[j].radius) continue;
-            if (reaches(reach, j, skin.vertices[v], v, near(v)) ||
-                reachesSwung(reach, j, swung[v], near(v), carried[v]))
+            if (reaches(sweep, j, skin.vertices[v], v, near(v)) ||
+                reachesSwung(sweep, j, swung[v], near(v), carried[v]))
                 found[j].push_back({v, static_cast<std::uint32_t>(j)});
         }
     });
@@ -284,11 +286,11 @@ SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscl
             count.stopped = true;
             break;
         }
-        const Reach reach = makeReach(muscles[m], skin, options.path);
+        const MuscleSweep sweep = makeSweep(muscles[m], skin, options.path);
         const auto first = static_cast<std::uint32_t>(muscleSpheres.size());
         for (int stop = 0; stop < (insertionOf(options, m) < 0 ? 1 : spanStops); ++stop)
             for (SpherePair p :
-                 pairsOfMuscle(reach, muscles[m].spheres, skin, normals, radii, options, m, stop))
+                 pairsOfMuscle(sweep, muscles[m].spheres, skin, normals, radii, options, m, stop))
                 pairs.push_back({p.a, p.b + first});
         muscleSpheres.insert(muscleSpheres.end(), muscles[m].spheres.begin(), muscles[m].spheres.end());
         muscleOf.resize(muscleSpheres.size(), static_cast<std::uint32_t>(m));

@@ -51,7 +51,7 @@ double skinThickness(const TriangleMesh& skin);
 /// their MuscleTrack, linear between its nodes, and each stretch is tested as the capsule it sweeps; the run
 /// time moves them on the same track. Bones swing one joint value at a time, the others at rest; a vertex
 /// moves with the blend of their motions by its shares, linear between the stations but for a tenth of each
-/// step. One skin sphere a vertex; rows of skin out of reach do not exist. restGaps: the negative gap of a
+/// step. One skin sphere per vertex; rows of skin out of reach do not exist. restGaps: the negative gap of a
 /// pair that overlaps at activation 0 (2.4). Same table for any number of threads.
 SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscle>& muscles,
                      const SkinSearchOptions& options, const Progress& progress = {},

@@ -13,7 +13,7 @@ namespace {
 
 enum class Verdict { Hit, Free, Open };
 
-struct Problem {
+struct UndecidedInput {
     const LevelSpheres &a, &b;
     SphereTree treeA, treeB;
     MotionRates rates;
@@ -28,7 +28,8 @@ struct Problem {
 };
 
 /// Whether the pair of inscribed spheres fires for certain all over the cell.
-bool firesEverywhere(const Problem& p, std::uint32_t i, std::uint32_t j, double distance, double move) {
+bool firesEverywhere(const UndecidedInput& p, std::uint32_t i, std::uint32_t j, double distance,
+                     double move) {
     move += p.rounding;
     const double inA = p.a.inner[i], inB = p.b.inner[j];
     // One of them may be a point of a surface, which the other body then has inside; two points say nothing.
@@ -36,7 +37,7 @@ bool firesEverywhere(const Problem& p, std::uint32_t i, std::uint32_t j, double 
 }
 
 /// Sorts out the pairs that can touch in the cell from those inherited.
-Verdict judge(const Problem& p, const CellMotion& motion, const std::vector<NodePair>& inherited,
+Verdict judge(const UndecidedInput& p, const CellMotion& motion, const std::vector<NodePair>& inherited,
               std::vector<NodePair>& open, double& largestMove) {
     std::vector<NodePair> stack(inherited);
     bool hit = false;
@@ -44,7 +45,7 @@ Verdict judge(const Problem& p, const CellMotion& motion, const std::vector<Node
             [&](NodePair pair, const SphereTree::Node& na, const SphereTree::Node& nb) {
                 if (hit) return false;
                 const Vec3 x = motion.centrePose() * nb.centre;
-                const double move = motion.reach(x).move, sum = na.radius + nb.radius;
+                const double move = motion.pointMotion(x).move, sum = na.radius + nb.radius;
                 const double distance = (x - na.centre).norm();
                 if (distance - move > sum + p.options.margin + p.rounding) return false;
                 const bool leaves = na.leaf() && nb.leaf();
@@ -61,7 +62,7 @@ Verdict judge(const Problem& p, const CellMotion& motion, const std::vector<Node
 
 class Decider {
 public:
-    Decider(const Problem& problem, Poll& poll) : p_(problem), poll_(poll) {}
+    Decider(const UndecidedInput& problem, Poll& poll) : p_(problem), poll_(poll) {}
 
     /// What is left of the tree, or nothing.
     std::optional<CellTree> decide(const CellTree& tree, const std::vector<NodePair>& inherited) {
@@ -90,12 +91,12 @@ private:
         return {CellTree{lower, {}}, CellTree{upper, {}}};
     }
 
-    const Problem& p_;
+    const UndecidedInput& p_;
     Poll& poll_;
 };
 
 /// The tree cut into about `count` parts of it, each of its own.
-std::vector<CellTree> pieces(const Problem& p, const CellTree& tree, std::size_t count) {
+std::vector<CellTree> pieces(const UndecidedInput& p, const CellTree& tree, std::size_t count) {
     std::vector<CellTree> now{tree};
     for (int round = 0; round < 16 && now.size() < count; ++round) {
         std::vector<CellTree> next;
@@ -138,7 +139,7 @@ Undecided undecidedCells(const LevelSpheres& a, const LevelSpheres& b, const Mot
     if (a.spheres.empty() || b.spheres.empty()) return {};
     Poll poll(progress, "undecided cells");
     const auto asked = [&] { return poll.stopped(); };
-    const Problem problem{
+    const UndecidedInput problem{
         a, b, SphereTree(a.spheres, asked), SphereTree(b.spheres, asked), MotionRates(motion), options};
     if (poll.stopped() || !report(progress, "undecided cells", 0)) return {from, false};
     const std::vector<CellTree> parts = pieces(problem, from, 64);

@@ -1,6 +1,6 @@
 #include "bake/spheres/MedialSpheres.h"
 
-#include "bake/spheres/Cover.h"
+#include "bake/spheres/PatchCover.h"
 
 #include <algorithm>
 

@@ -7,7 +7,7 @@ namespace tss {
 /// Spheres, each with the radius of the ball about its centre that is inside the solid.
 struct MedialSet {
     SphereSet spheres;
-    std::vector<double> inner; ///< one a sphere
+    std::vector<double> inner; ///< one per sphere
 };
 
 /// Spheres of proven protrusion `protrusion`, or less where a neighbour is near, whose union contains every

@@ -56,7 +56,7 @@ public:
 /// Patches fine enough, each with the sphere found from its own centre, which covers it.
 struct FittedPatches {
     std::vector<Patch> patches;
-    SphereSet candidates;      ///< one a patch
+    SphereSet candidates;      ///< one per patch
     std::vector<double> inner; ///< for each the radius of the ball about its centre that is inside
 };
 

@@ -12,7 +12,7 @@ struct RestNeighbour;
 enum class SphereMethod {
     Medial,    ///< 1.3: balls inside the body, few, coverage by construction (the default)
     Shrinking, ///< 1.3: one plain shrinking ball a triangle, none left out
-    Surface,   ///< 1.2 [paper]: one sphere a vertex
+    Surface,   ///< 1.2 [paper]: one sphere per vertex
     Growth,    ///< 1.1 [paper]: growth from triangle centroids into the body
 };
 

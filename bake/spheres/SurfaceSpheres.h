@@ -5,7 +5,7 @@
 
 namespace tss {
 
-/// [paper] One sphere a vertex, in the order of the vertices (METHOD 1.2). Its radius is that of the rule;
+/// [paper] One sphere per vertex, in the order of the vertices (METHOD 1.2). Its radius is that of the rule;
 /// conservative: at least 1/sqrt(3) of the longest edge of every triangle at the vertex, with which the union
 /// contains the surface (every point of a triangle is that near to a corner). Vertices in no triangle have
 /// none.

@@ -10,7 +10,7 @@ struct TableContact {
     int test = -1;
     Vec3 point = Vec3::Zero();  ///< A's frame, half way between the two sphere surfaces
     Vec3 normal = Vec3::Zero(); ///< unit, A's frame, from A towards B
-    DofValues gradient{};       ///< d gap / d q, one a DOF
+    DofValues gradient{};       ///< d gap / d q, one per DOF
 };
 
 } // namespace tss

@@ -40,7 +40,7 @@ void contact(const ContactTest& test, const MotionFrame& frame, std::size_t dofs
     const auto normal =
         hn::IfThenElse(hn::Gt(distance, hn::Zero(d)), hn::Div(between, divisor), hn::Load(d, unitX));
     const double length = hn::GetLane(distance);
-    out.gap = length - test.reach;
+    out.gap = length - test.contactDistance;
     // The fourth number of each is overwritten by what comes after it, of the gradient if nothing else.
     hn::StoreU(hn::MulAdd(normal, splat(0.5 * length + test.middle), a), d, out.point.data());
     hn::StoreU(normal, d, out.normal.data());

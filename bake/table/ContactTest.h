@@ -7,8 +7,8 @@ namespace tss {
 /// A test as the contact kernels read it: centres with a 1 behind, in their own frames.
 struct alignas(32) ContactTest {
     double a[4], b[4];
-    double reach = 0;  ///< of the gap: sum of radii, and the gap at rest
-    double middle = 0; ///< half of radius A less radius B
+    double contactDistance = 0; ///< of the gap: sum of radii, and the gap at rest
+    double middle = 0;          ///< half of radius A less radius B
 };
 
 /// Gap, point, normal and, of `dofs` DOFs, gradient of one test; `test` is left as it is. A vector kernel of
@@ -19,7 +19,7 @@ inline void plainContact(const ContactTest& test, const MotionFrame& frame, std:
     const Vec3 centre = frame.pose * Vec3(test.b[0], test.b[1], test.b[2]), between = centre - a;
     const double distance = between.norm();
     const Vec3 normal = distance > 0 ? Vec3(between * (1 / distance)) : Vec3::UnitX();
-    out.gap = distance - test.reach;
+    out.gap = distance - test.contactDistance;
     out.normal = normal;
     out.point = a + normal * (0.5 * distance + test.middle);
     // n . (turn x x + slide), with the part that all DOFs share in front.

@@ -50,7 +50,7 @@ void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::
         Nearest<T> nearest{farthest<T>(), hn::BitCast(d, hn::Set(di, -1))};
         for (const T* row = static_cast<const T*>(rows.blocks); row < end; row += Form::columns) {
             const BroadcastColumn<T> column{row};
-            nearest.take(gapOf<T, Form>(p, column), column(Form::reach + 1));
+            nearest.take(gapOf<T, Form>(p, column), column(Form::contactDistance + 1));
         }
         hn::Store(nearest.gap, d, least);
         hn::Store(hn::BitCast(di, nearest.number), di, tests);

@@ -66,9 +66,9 @@ struct Products {
 /// poses.
 Eigen::VectorXd makingErrors(const Motion& motion, std::span<const TablePair> pairs,
                              const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>& squares) {
-    double reach = 0;
-    for (const TablePair& p : pairs) reach = std::max({reach, p.a.norm(), p.b.norm()});
-    const double u = double(std::numeric_limits<Real>::epsilon()), off = poseError(motion, u, reach);
+    double farthest = 0;
+    for (const TablePair& p : pairs) farthest = std::max({farthest, p.a.norm(), p.b.norm()});
+    const double u = double(std::numeric_limits<Real>::epsilon()), off = poseError(motion, u, farthest);
     Eigen::VectorXd errors(static_cast<Eigen::Index>(pairs.size()));
     for (Eigen::Index p = 0; p < errors.size(); ++p) {
         const double most = double(squares.row(p).maxCoeff());
@@ -147,46 +147,47 @@ void factorsAt(const std::vector<DofFactor>& factors, const double* q, double (*
 }
 
 /// Moves the features' zero to their mean over the contact poses.
-void centre(FeatureForm& fold, const std::vector<Interval>& ranges, const std::vector<Interval>& sharedRanges,
+void centre(FeatureForm& form, const std::vector<Interval>& ranges, const std::vector<Interval>& sharedRanges,
             std::span<const std::vector<double>> contacts) {
     double u[FeatureForm::maxDofs][3] = {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}};
     const auto settle = [&](FeatureForm::Feature& f, const Interval& range) {
         double sum = 0;
         for (const std::vector<double>& q : contacts) {
-            factorsAt(fold.factors, q.data(), u);
+            factorsAt(form.factors, q.data(), u);
             sum += product<FeatureForm::maxDofs>(f, u);
         }
         f.centre = contacts.empty() ? 0 : std::clamp(sum / double(contacts.size()), range.low, range.high);
         f.range = std::max(range.high - f.centre, f.centre - range.low);
     };
-    for (std::size_t k = 0; k < fold.features.size(); ++k) {
-        settle(fold.features[k], ranges[k]);
-        fold.constants += fold.weights.col(Eigen::Index(k)) * fold.features[k].centre;
+    for (std::size_t k = 0; k < form.features.size(); ++k) {
+        settle(form.features[k], ranges[k]);
+        form.constants += form.weights.col(Eigen::Index(k)) * form.features[k].centre;
     }
-    for (std::size_t k = 0; k < fold.sharedFeatures.size(); ++k) {
-        settle(fold.sharedFeatures[k], sharedRanges[k]);
-        fold.constants.array() += fold.sharedWeights[k] * fold.sharedFeatures[k].centre;
-    }
-}
-
-/// The constants are sums in double, and lose the squared reach.
-void addConstantErrors(FeatureForm& fold, std::span<const TablePair> pairs) {
-    for (Eigen::Index p = 0; p < fold.constants.size(); ++p) {
-        double sum = std::abs(fold.constants[p]) + pairs[std::size_t(p)].reach * pairs[std::size_t(p)].reach;
-        for (std::size_t k = 0; k < fold.features.size(); ++k)
-            sum += 2 * std::abs(fold.weights(p, Eigen::Index(k)) * fold.features[k].centre);
-        for (std::size_t k = 0; k < fold.sharedFeatures.size(); ++k)
-            sum += 2 * std::abs(fold.sharedWeights[k] * fold.sharedFeatures[k].centre);
-        const double terms = double(fold.features.size() + fold.sharedFeatures.size() + 4);
-        fold.dropped[p] += doubleRoundoff * terms * sum;
+    for (std::size_t k = 0; k < form.sharedFeatures.size(); ++k) {
+        settle(form.sharedFeatures[k], sharedRanges[k]);
+        form.constants.array() += form.sharedWeights[k] * form.sharedFeatures[k].centre;
     }
 }
 
-std::vector<double> products(const FeatureForm& fold, Eigen::Index pair) {
+/// The constants are sums in double, and lose the squared contact distance.
+void addConstantErrors(FeatureForm& form, std::span<const TablePair> pairs) {
+    for (Eigen::Index p = 0; p < form.constants.size(); ++p) {
+        double sum = std::abs(form.constants[p]) +
+                     pairs[std::size_t(p)].contactDistance * pairs[std::size_t(p)].contactDistance;
+        for (std::size_t k = 0; k < form.features.size(); ++k)
+            sum += 2 * std::abs(form.weights(p, Eigen::Index(k)) * form.features[k].centre);
+        for (std::size_t k = 0; k < form.sharedFeatures.size(); ++k)
+            sum += 2 * std::abs(form.sharedWeights[k] * form.sharedFeatures[k].centre);
+        const double terms = double(form.features.size() + form.sharedFeatures.size() + 4);
+        form.dropped[p] += doubleRoundoff * terms * sum;
+    }
+}
+
+std::vector<double> products(const FeatureForm& form, Eigen::Index pair) {
     std::vector<double> c;
-    for (Eigen::Index k = 0; k < fold.weights.cols(); ++k)
-        c.push_back(std::abs(fold.weights(pair, k)) * fold.features[std::size_t(k)].range);
-    if (!fold.sharedFeatures.empty()) c.push_back(fold.sharedRange());
+    for (Eigen::Index k = 0; k < form.weights.cols(); ++k)
+        c.push_back(std::abs(form.weights(pair, k)) * form.features[std::size_t(k)].range);
+    if (!form.sharedFeatures.empty()) c.push_back(form.sharedRange());
     return c;
 }
 
@@ -227,8 +228,8 @@ void FeatureForm::evaluate(const double* q, T* out) const {
 template void FeatureForm::evaluate(const double*, float*) const;
 template void FeatureForm::evaluate(const double*, double*) const;
 
-double FeatureForm::signError(double u, Eigen::Index pair, double reach) const {
-    const double constant = constants(pair) - reach * std::abs(reach);
+double FeatureForm::signError(double u, Eigen::Index pair, double contactDistance) const {
+    const double constant = constants(pair) - contactDistance * std::abs(contactDistance);
     const std::vector<double> c = products(*this, pair);
     const double error = sumError(u, constant, c, 0);
     return sumError(u, constant, c, 4 * error) + dropped(pair);
@@ -243,16 +244,16 @@ std::optional<FeatureForm> makeFeatureForm(const Motion& motion, std::span<const
     if (motion.dofCount() > FeatureForm::maxDofs) return std::nullopt;
     for (const Dof& dof : motion.dofs)
         if (dof.kind == DofKind::Path) return std::nullopt;
-    FeatureForm fold;
-    for (const Dof& dof : motion.dofs) fold.factors.push_back(dofFactor(dof));
-    const Products all = allProducts(motion, pairs, fold.factors);
-    fold.constants = all.weights.col(0);
-    fold.dropped = all.off;
-    if (pairs.empty()) return fold;
+    FeatureForm form;
+    for (const Dof& dof : motion.dofs) form.factors.push_back(dofFactor(dof));
+    const Products all = allProducts(motion, pairs, form.factors);
+    form.constants = all.weights.col(0);
+    form.dropped = all.off;
+    if (pairs.empty()) return form;
 
     // Columns by what they can contribute; those at the level of rounding are left out.
     std::vector<std::pair<double, Eigen::Index>> order;
-    double scale = fold.constants.cwiseAbs().maxCoeff();
+    double scale = form.constants.cwiseAbs().maxCoeff();
     for (Eigen::Index k = 1; k < all.weights.cols(); ++k) {
         const double most = all.weights.col(k).cwiseAbs().maxCoeff() * all.ranges[std::size_t(k)].magnitude();
         order.push_back({most, k});
@@ -264,41 +265,41 @@ std::optional<FeatureForm> makeFeatureForm(const Motion& motion, std::span<const
     std::vector<Eigen::Index> columns;
     for (const auto& [most, k] : order) {
         const auto column = all.weights.col(k);
-        const double reach = all.ranges[std::size_t(k)].magnitude();
+        const double largest = all.ranges[std::size_t(k)].magnitude();
         if (most <= 1e-14 * scale) {
-            fold.dropped += column.cwiseAbs() * reach;
+            form.dropped += column.cwiseAbs() * largest;
             continue;
         }
         const double mean = column.mean();
         const double spread = (column.array() - mean).abs().maxCoeff();
-        if (pairs.size() > 1 && spread * reach <= 1e-14 * scale) {
-            fold.sharedFeatures.push_back(all.features[std::size_t(k)]);
-            fold.sharedWeights.push_back(mean);
+        if (pairs.size() > 1 && spread * largest <= 1e-14 * scale) {
+            form.sharedFeatures.push_back(all.features[std::size_t(k)]);
+            form.sharedWeights.push_back(mean);
             sharedRanges.push_back(all.ranges[std::size_t(k)]);
-            fold.dropped.array() += (column.array() - mean).abs() * reach;
+            form.dropped.array() += (column.array() - mean).abs() * largest;
             continue;
         }
         columns.push_back(k);
-        fold.features.push_back(all.features[std::size_t(k)]);
+        form.features.push_back(all.features[std::size_t(k)]);
         ranges.push_back(all.ranges[std::size_t(k)]);
     }
     if (static_cast<int>(columns.size()) > FeatureForm::maxFeatures) return std::nullopt;
-    fold.weights.resize(fold.constants.size(), Eigen::Index(columns.size()));
+    form.weights.resize(form.constants.size(), Eigen::Index(columns.size()));
     for (std::size_t k = 0; k < columns.size(); ++k)
-        fold.weights.col(Eigen::Index(k)) = all.weights.col(columns[k]);
-    centre(fold, ranges, sharedRanges, contacts);
-    addConstantErrors(fold, pairs);
-    return fold;
+        form.weights.col(Eigen::Index(k)) = all.weights.col(columns[k]);
+    centre(form, ranges, sharedRanges, contacts);
+    addConstantErrors(form, pairs);
+    return form;
 }
 
-double foldMismatch(const FeatureForm& fold, const Motion& motion, std::span<const TablePair> pairs,
-                    std::span<const std::vector<double>> poses) {
+double featureFormMismatch(const FeatureForm& form, const Motion& motion, std::span<const TablePair> pairs,
+                           std::span<const std::vector<double>> poses) {
     double most = 0;
-    Eigen::VectorXd values(Eigen::Index(fold.features.size()) + 1);
+    Eigen::VectorXd values(Eigen::Index(form.features.size()) + 1);
     for (const std::vector<double>& q : poses) {
-        fold.evaluate(q.data(), values.data());
+        form.evaluate(q.data(), values.data());
         const Eigen::VectorXd squares =
-            (fold.constants + fold.weights * values.tail(values.size() - 1)).array() - values[0];
+            (form.constants + form.weights * values.tail(values.size() - 1)).array() - values[0];
         const Pose at = pose(motion, q);
         for (std::size_t p = 0; p < pairs.size(); ++p)
             most = std::max(

@@ -21,7 +21,7 @@ struct FeatureForm {
         double range = 0;                           ///< largest |feature - centre| over the limits
     };
 
-    std::vector<DofFactor> factors; ///< one a DOF
+    std::vector<DofFactor> factors; ///< one per DOF
     std::vector<Feature> features;  ///< those that weigh most first
     std::vector<Feature> sharedFeatures;
     std::vector<double> sharedWeights;
@@ -37,9 +37,9 @@ struct FeatureForm {
     template <class T>
     void evaluate(const double* q, T* out) const;
 
-    /// Bounds of the rounding error of d^2 - reach^2 (where that is about 0) and of d^2 (for distances about
-    /// `distance`), of one pair.
-    double signError(double u, Eigen::Index pair, double reach) const;
+    /// Bounds of the rounding error of d^2 - contactDistance^2 (where that is about 0) and of d^2 (for
+    /// distances about `distance`), of one pair.
+    double signError(double u, Eigen::Index pair, double contactDistance) const;
     double squareError(double u, Eigen::Index pair, double distance) const;
 };
 
@@ -50,7 +50,7 @@ std::optional<FeatureForm> makeFeatureForm(const Motion& motion, std::span<const
 
 /// The largest difference of the fold's squared distances from T(q)'s over some poses (METHOD 4: check
 /// against T(q)).
-double foldMismatch(const FeatureForm& fold, const Motion& motion, std::span<const TablePair> pairs,
-                    std::span<const std::vector<double>> poses);
+double featureFormMismatch(const FeatureForm& form, const Motion& motion, std::span<const TablePair> pairs,
+                           std::span<const std::vector<double>> poses);
 
 } // namespace tss

@@ -18,7 +18,7 @@ GapRanges::GapRanges(const Motion& motion, std::span<const TablePair> pairs)
     for (std::size_t p = 0; p < pairs.size(); ++p) {
         speedBounds(motion, pairs[p].b, &speeds_[p * dofs_]);
         for (std::size_t k = 0; k < dofs_; ++k) weights_[k] = std::max(weights_[k], speeds_[p * dofs_ + k]);
-        reaches.push_back(std::abs(pairs[p].reach));
+        reaches.push_back(std::abs(pairs[p].contactDistance));
         slack_ = std::max(slack_, pairs[p].a.norm() + pairs[p].b.norm() + reaches.back());
     }
     slack_ = 1e-13 * (slack_ + coordinate);
@@ -39,7 +39,7 @@ GapRanges::Range GapRanges::range(std::size_t p, const MotionFrame& frame, const
     const TablePair& pair = pairs_[p];
     const double* speed = &speeds_[p * dofs_];
     const Vec3 centre = frame.pose * pair.b, apart = centre - pair.a;
-    const double distance = apart.norm(), gap = distance - pair.reach;
+    const double distance = apart.norm(), gap = distance - pair.contactDistance;
     double move = 0;
     for (std::size_t k = 0; k < dofs_; ++k) move += speed[k] * half[k];
     const double off = move * wider + slack_;

@@ -36,7 +36,7 @@ private:
     std::span<const TablePair> pairs_;
     std::size_t dofs_;
     std::vector<double> speeds_; ///< #pairs by #DOFs
-    std::vector<double> turns_;  ///< one a DOF
+    std::vector<double> turns_;  ///< one per DOF
     bool paths_ = false;
     DofValues weights_{};
     double slack_ = 0, middleReach_ = 0;

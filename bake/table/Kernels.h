@@ -12,9 +12,9 @@ struct PosePlan;
 struct TableContact;
 
 /// Pairs as the kernels read them, floats or doubles. Blocks of `lanes` pairs, each column of a block
-/// contiguous:
-///   fold:   [constant - reach|reach|] [weights of feature 0] ... [constant] [reach] [number of the test]
-///   direct: [b.x] [b.y] [b.z] [a.x] [a.y] [a.z] [reach|reach|] [reach] [number of the test]
+/// contiguous; D is the distance of the centres at contact:
+///   fold:   [constant - D|D|] [weights of feature 0] ... [constant] [D] [number of the test]
+///   direct: [b.x] [b.y] [b.z] [a.x] [a.y] [a.z] [D|D|] [D] [number of the test]
 /// The number is an integer of the same width. At least one block; lanes beyond the last pair are far away
 /// from everything.
 struct KernelData {
@@ -28,7 +28,7 @@ struct NearBlocks {
     static constexpr std::uint32_t codesPerGroup = 16; ///< as many are compared at once
     static constexpr std::uint32_t headerCodes = 2;    ///< that mean something else
 
-    const std::uint8_t* codes = nullptr; ///< the header, then one a block, 255 to the end of the last group
+    const std::uint8_t* codes = nullptr; ///< the header, then one per block, 255 to the end of the last group
     std::uint32_t groups = 0;
     std::uint8_t limit = 0;
 };
@@ -49,14 +49,14 @@ struct KernelSet {
 
     /// Numbers of the tests whose gap is at most `margin` >= 0, in the order of the blocks, into `out` (room
     /// for all lanes of all blocks). Returns how many; lanes beyond the last pair never qualify.
-    std::uint32_t (*under)(const KernelData& data, const void* pose, double margin,
-                           std::uint32_t* out) = nullptr;
+    std::uint32_t (*testsWithin)(const KernelData& data, const void* pose, double margin,
+                                 std::uint32_t* out) = nullptr;
 
     /// The same of some blocks.
     bool (*hitNear)(const KernelData& data, const void* pose, const NearBlocks& near) = nullptr;
     KernelGap (*gapNear)(const KernelData& data, const void* pose, const NearBlocks& near) = nullptr;
-    std::uint32_t (*underNear)(const KernelData& data, const void* pose, const NearBlocks& near,
-                               double margin, std::uint32_t* out) = nullptr;
+    std::uint32_t (*testsWithinNear)(const KernelData& data, const void* pose, const NearBlocks& near,
+                                     double margin, std::uint32_t* out) = nullptr;
 
     /// Many poses at once against data of lanes 1: value k of pose i at poses[k * stride + i], i up to count
     /// rounded up to 16; so much is written, too. hit: 1 or 0.
@@ -67,10 +67,10 @@ struct KernelSet {
                  float* gap, std::int32_t* test) = nullptr;
 
     /// What FeatureForm::evaluate (PoseRecipe::evaluate after a 0, for direct) makes of a plan for it
-    /// (PosePlan.h). q: one value a DOF. pose: room for TableFeatures::room values. Null in the scalar
+    /// (PosePlan.h). q: one value per DOF. pose: room for TableFeatures::room values. Null in the scalar
     /// kernels and where vectors are too short for it.
     void (*pose)(const PosePlan& plan, const double* q, void* pose) = nullptr;
-    /// The same of many poses at once. q: count rows of one value a DOF; value k of pose i goes to
+    /// The same of many poses at once. q: count rows of one value per DOF; value k of pose i goes to
     /// poses[k * stride + i], stride count rounded up to 16. Null in the scalar kernels.
     void (*poses)(const PosePlan& plan, const double* q, std::uint32_t count, std::uint32_t stride,
                   void* poses) = nullptr;

@@ -24,7 +24,7 @@ struct FoldRow {
         for (std::uint32_t k = 0; k < columns; ++k) sum += row[k + 1] * pose[k * stride];
         return sum;
     }
-    static T reach(const T* row, std::uint32_t columns) { return row[columns + 2]; }
+    static T contactDistance(const T* row, std::uint32_t columns) { return row[columns + 2]; }
     static std::uint32_t width(std::uint32_t columns) { return foldColumns(columns); }
 };
 
@@ -39,7 +39,7 @@ struct DirectRow {
     static T offset(const T* row, const T* p, std::uint32_t s, std::uint32_t c) {
         return square(row, p, s, c) - row[6];
     }
-    static T reach(const T* row, std::uint32_t) { return row[7]; }
+    static T contactDistance(const T* row, std::uint32_t) { return row[7]; }
     static std::uint32_t width(std::uint32_t) { return directColumns; }
 };
 
@@ -92,7 +92,7 @@ KernelGap leastGap(const Rows& rows, const T* pose, std::uint32_t stride) {
     std::int32_t test = -1;
     rows.each([&](const T* row) {
         const T square = Row::square(row, pose + stride, stride, rows.data.columns) - pose[0];
-        const T gap = std::sqrt(std::max(square, T(0))) - Row::reach(row, rows.data.columns);
+        const T gap = std::sqrt(std::max(square, T(0))) - Row::contactDistance(row, rows.data.columns);
         if (gap < best) {
             best = gap;
             test = testOf<T, Row>(row, rows.data);
@@ -102,11 +102,11 @@ KernelGap leastGap(const Rows& rows, const T* pose, std::uint32_t stride) {
 }
 
 template <class T, class Row, class Rows>
-std::uint32_t allUnder(const Rows& rows, const T* pose, double marginWide, std::uint32_t* out) {
+std::uint32_t allTestsWithin(const Rows& rows, const T* pose, double marginWide, std::uint32_t* out) {
     const T margin = static_cast<T>(marginWide);
     std::uint32_t count = 0;
     rows.each([&](const T* row) {
-        const T allowed = margin * (2 * Row::reach(row, rows.data.columns) + margin) + pose[0];
+        const T allowed = margin * (2 * Row::contactDistance(row, rows.data.columns) + margin) + pose[0];
         if (Row::offset(row, pose + 1, 1, rows.data.columns) <= allowed)
             out[count++] = static_cast<std::uint32_t>(testOf<T, Row>(row, rows.data));
     });
@@ -134,13 +134,13 @@ KernelGap gapNear(const KernelData& data, const void* pose, const NearBlocks& ne
 }
 
 template <class T, class Row>
-std::uint32_t under(const KernelData& data, const void* pose, double margin, std::uint32_t* out) {
-    return allUnder<T, Row>(AllRows<T, Row>{data}, static_cast<const T*>(pose), margin, out);
+std::uint32_t testsWithin(const KernelData& data, const void* pose, double margin, std::uint32_t* out) {
+    return allTestsWithin<T, Row>(AllRows<T, Row>{data}, static_cast<const T*>(pose), margin, out);
 }
 template <class T, class Row>
-std::uint32_t underNear(const KernelData& data, const void* pose, const NearBlocks& near, double margin,
-                        std::uint32_t* out) {
-    return allUnder<T, Row>(NearRows<T, Row>{data, near}, static_cast<const T*>(pose), margin, out);
+std::uint32_t testsWithinNear(const KernelData& data, const void* pose, const NearBlocks& near, double margin,
+                              std::uint32_t* out) {
+    return allTestsWithin<T, Row>(NearRows<T, Row>{data, near}, static_cast<const T*>(pose), margin, out);
 }
 
 template <class T, class Row>
@@ -167,10 +167,10 @@ KernelSet kernels() {
     KernelSet set;
     set.hit = hit<T, Row>;
     set.gap = gap<T, Row>;
-    set.under = under<T, Row>;
+    set.testsWithin = testsWithin<T, Row>;
     set.hitNear = hitNear<T, Row>;
     set.gapNear = gapNear<T, Row>;
-    set.underNear = underNear<T, Row>;
+    set.testsWithinNear = testsWithinNear<T, Row>;
     set.hits = hits<T, Row>;
     set.gaps = gaps<T, Row>;
     set.contact = plainContact;

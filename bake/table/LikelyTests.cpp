@@ -14,7 +14,8 @@ std::vector<std::uint32_t> likelyTests(std::span<const TablePair> pairs,
     std::vector<std::vector<bool>> touches(candidates.size(), std::vector<bool>(poses.size()));
     for (std::size_t c = 0; c < candidates.size(); ++c)
         for (std::size_t i = 0; i < poses.size(); ++i)
-            touches[c][i] = centreDistance(pairs[candidates[c]], poses[i].pose) <= pairs[candidates[c]].reach;
+            touches[c][i] =
+                centreDistance(pairs[candidates[c]], poses[i].pose) <= pairs[candidates[c]].contactDistance;
 
     std::vector<std::uint32_t> chosen;
     std::vector<bool> open(poses.size(), true);

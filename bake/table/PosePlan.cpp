@@ -35,10 +35,10 @@ void PosePlan::take(std::span<const DofFactor> factors) {
     }
 }
 
-PosePlan::PosePlan(const FeatureForm& fold) : featureCount(fold.features.size()) {
-    take(fold.factors);
-    features = inFours(fold.features, dofs, {});
-    shared = inFours(fold.sharedFeatures, dofs, fold.sharedWeights);
+PosePlan::PosePlan(const FeatureForm& form) : featureCount(form.features.size()) {
+    take(form.factors);
+    features = inFours(form.features, dofs, {});
+    shared = inFours(form.sharedFeatures, dofs, form.sharedWeights);
 }
 
 PosePlan::PosePlan(const PoseRecipe& recipe) {

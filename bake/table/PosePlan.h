@@ -29,10 +29,10 @@ struct PosePlan {
     std::size_t dofs = 0;
     std::size_t featureCount = 0;
     std::vector<Products> features, shared; ///< of a fold
-    std::vector<Step> steps;                ///< of the direct transform, one a DOF
+    std::vector<Step> steps;                ///< of the direct transform, one per DOF
 
     PosePlan() = default;
-    explicit PosePlan(const FeatureForm& fold);
+    explicit PosePlan(const FeatureForm& form);
     /// Of a recipe without paths, of one DOF at least.
     explicit PosePlan(const PoseRecipe& recipe);
 

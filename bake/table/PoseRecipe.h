@@ -13,7 +13,7 @@ public:
     /// x in B about originB -> T(q) x in A about originA.
     PoseRecipe(const Motion& motion, const Vec3& originA, const Vec3& originB);
 
-    /// q: one value a DOF, finite. out: 12 numbers. Allocates nothing.
+    /// q: one value per DOF, finite. out: 12 numbers. Allocates nothing.
     void evaluate(const double* q, double* out) const;
 
     struct Step {
@@ -25,7 +25,7 @@ public:
     };
     /// There are DOFs, and none is a path.
     bool affine() const;
-    /// One a DOF; T(q) is their product.
+    /// One per DOF; T(q) is their product.
     const std::vector<Step>& steps() const { return steps_; }
 
 private:

@@ -69,9 +69,9 @@ public:
     PreparedTable& operator=(PreparedTable&&) noexcept;
     ~PreparedTable();
 
-    /// Some test touches. q: one finite value a DOF, within the limits. Never false where a gap is <= 0, and
-    /// true only where one is <= signBand(): the kernels reach further by what they may round. Most poses are
-    /// in a cell of the limits that has the answer.
+    /// Some test touches. q: one finite value per DOF, within the limits. Never false where a gap is <= 0,
+    /// and true only where one is <= signBand(): the kernels go farther by what they may round. Most poses
+    /// are in a cell of the limits that has the answer.
     bool hit(const double* q) const {
         if (const Verdict known = verdicts_.atOnce(q); known != Verdict::Ask) return known == Verdict::Touch;
         return hitAsked(q);
@@ -103,7 +103,7 @@ public:
                               std::uint32_t enough = ~0u) const;
     std::uint32_t testsWithin(const double* q, double margin, std::uint32_t* out) const;
 
-    /// Many instances at once. q: count rows of one value a DOF. Allocates when `out` has to grow.
+    /// Many instances at once. q: count rows of one value per DOF. Allocates when `out` has to grow.
     void instanceFeatures(const double* q, std::uint32_t count, InstanceFeatures& out) const;
     /// hit[i] = 1 where instance i touches, else 0. hit: room for f.count.
     void hits(const InstanceFeatures& f, std::uint8_t* hit) const;

@@ -49,7 +49,7 @@ struct FoldForm {
         for (std::uint32_t k = 0; k < M; ++k) sum = hn::MulAdd(column(k + 1), pose[k], sum);
         return sum;
     }
-    static constexpr std::uint32_t reach = M + 2;
+    static constexpr std::uint32_t contactDistance = M + 2;
 };
 
 template <class T>
@@ -75,7 +75,7 @@ struct DirectForm {
         const V<T> z = axis<Column>(p + 8, bx, by, bz, column(5));
         return hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
     }
-    static constexpr std::uint32_t reach = 7;
+    static constexpr std::uint32_t contactDistance = 7;
 };
 
 template <class T>
@@ -152,7 +152,7 @@ struct Nearest {
 template <class T, class Form, class Column>
 HWY_INLINE V<T> gapOf(const V<T>* pose, Column column) {
     const V<T> square = hn::Sub(Form::square(pose + 1, column), pose[0]);
-    return hn::Sub(hn::Sqrt(hn::Max(square, hn::Zero(Lanes<T>()))), column(Form::reach));
+    return hn::Sub(hn::Sqrt(hn::Max(square, hn::Zero(Lanes<T>()))), column(Form::contactDistance));
 }
 
 /// Calls use(FoldForm) of the fold with so many features; not at all where there is none.

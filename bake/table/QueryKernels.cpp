@@ -67,10 +67,10 @@ KernelGap gap(const KernelData& data, const void* pose) {
     const std::size_t step = Form::columns * hn::Lanes(Lanes<T>());
     const T *block = static_cast<const T*>(data.blocks), *end = static_cast<const T*>(data.end);
     const LoadColumn<T> first{block};
-    Nearest<T> nearest{gapOf<T, Form>(p.values, first), first(Form::reach + 1)};
+    Nearest<T> nearest{gapOf<T, Form>(p.values, first), first(Form::contactDistance + 1)};
     for (block += step; block < end; block += step) {
         const LoadColumn<T> column{block};
-        nearest.take(gapOf<T, Form>(p.values, column), column(Form::reach + 1));
+        nearest.take(gapOf<T, Form>(p.values, column), column(Form::contactDistance + 1));
     }
     return leastOf(nearest);
 }
@@ -82,14 +82,14 @@ KernelGap gapNear(const KernelData& data, const void* pose, const NearBlocks& ne
     Nearest<T> nearest{farthest<T>(), hn::BitCast(d, hn::Set(hn::RebindToSigned<Lanes<T>>(), -1))};
     SomeBlocks<T, Form>{data, near}.each([&](const T* block) {
         const LoadColumn<T> column{block};
-        nearest.take(gapOf<T, Form>(p.values, column), column(Form::reach + 1));
+        nearest.take(gapOf<T, Form>(p.values, column), column(Form::contactDistance + 1));
     });
     return leastOf(nearest);
 }
 
 template <class T, class Form, class Blocks>
-HWY_INLINE std::uint32_t allUnder(const Blocks& blocks, const void* pose, double marginWide,
-                                  std::uint32_t* out) {
+HWY_INLINE std::uint32_t allTestsWithin(const Blocks& blocks, const void* pose, double marginWide,
+                                        std::uint32_t* out) {
     const Lanes<T> d;
     const Broadcast<T, Form::values> p(pose);
     const T margin = static_cast<T>(marginWide);
@@ -97,12 +97,12 @@ HWY_INLINE std::uint32_t allUnder(const Blocks& blocks, const void* pose, double
     std::uint32_t count = 0;
     blocks.each([&](const T* block) {
         const LoadColumn<T> column{block};
-        const auto in =
-            hn::Le(Form::offset(p.values + 1, column), hn::MulAdd(column(Form::reach), twice, rest));
+        const auto in = hn::Le(Form::offset(p.values + 1, column),
+                               hn::MulAdd(column(Form::contactDistance), twice, rest));
         if (hn::AllFalse(d, in)) return;
         std::uint8_t bytes[8] = {};
         hn::StoreMaskBits(d, in, bytes);
-        const T* numbers = block + (Form::reach + 1) * hn::Lanes(d);
+        const T* numbers = block + (Form::contactDistance + 1) * hn::Lanes(d);
         for (unsigned bits = bytes[0] | unsigned(bytes[1]) << 8; bits != 0; bits &= bits - 1) {
             hwy::MakeSigned<T> number;
             hwy::CopyBytes<sizeof(T)>(numbers + hwy::Num0BitsBelowLS1Bit_Nonzero32(bits), &number);
@@ -113,13 +113,13 @@ HWY_INLINE std::uint32_t allUnder(const Blocks& blocks, const void* pose, double
 }
 
 template <class T, class Form>
-std::uint32_t under(const KernelData& data, const void* pose, double margin, std::uint32_t* out) {
-    return allUnder<T, Form>(AllBlocks<T, Form>{data}, pose, margin, out);
+std::uint32_t testsWithin(const KernelData& data, const void* pose, double margin, std::uint32_t* out) {
+    return allTestsWithin<T, Form>(AllBlocks<T, Form>{data}, pose, margin, out);
 }
 template <class T, class Form>
-std::uint32_t underNear(const KernelData& data, const void* pose, const NearBlocks& near, double margin,
-                        std::uint32_t* out) {
-    return allUnder<T, Form>(SomeBlocks<T, Form>{data, near}, pose, margin, out);
+std::uint32_t testsWithinNear(const KernelData& data, const void* pose, const NearBlocks& near, double margin,
+                              std::uint32_t* out) {
+    return allTestsWithin<T, Form>(SomeBlocks<T, Form>{data, near}, pose, margin, out);
 }
 
 template <class T, class Form>
@@ -128,10 +128,10 @@ KernelSet kernels() {
     set.lanes = static_cast<std::uint32_t>(hn::Lanes(Lanes<T>()));
     set.hit = hit<T, Form>;
     set.gap = gap<T, Form>;
-    set.under = under<T, Form>;
+    set.testsWithin = testsWithin<T, Form>;
     set.hitNear = hitNear<T, Form>;
     set.gapNear = gapNear<T, Form>;
-    set.underNear = underNear<T, Form>;
+    set.testsWithinNear = testsWithinNear<T, Form>;
     return set;
 }
 

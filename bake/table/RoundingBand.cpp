@@ -27,14 +27,15 @@ double sumError(double u, double constant, std::span<const double> products, dou
     return room * u * error;
 }
 
-double directError(double u, double a, double b, double t, double distance, double reach) {
+double directError(double u, double a, double b, double t, double distance, double contactDistance) {
     // Where the pair is at this distance, t is no longer than a, b and it together.
     t = std::min(t, a + b + distance);
     // Per axis: t and a round, their difference rounds, three products (2 factors, 1 product each; by Cauchy
     // no longer than b together) and three sums round.
     const double axis = u * (5 * (t + a) + 6 * b);
     const double vector = std::sqrt(3.0) * axis;
-    const double squares = u * (4 * (distance + vector) * (distance + vector) + 2 * reach * reach);
+    const double squares =
+        u * (4 * (distance + vector) * (distance + vector) + 2 * contactDistance * contactDistance);
     return room * (2 * distance * vector + vector * vector + squares);
 }
 
@@ -58,7 +59,7 @@ double motionSize(const Motion& motion) {
     return size;
 }
 
-double poseError(const Motion& motion, double u, double reach) {
+double poseError(const Motion& motion, double u, double farthest) {
     double off = 0;
     for (const Dof& dof : motion.dofs) {
         for (const PathRow& row : dof.path) off += std::abs(row.rotation.norm() - 1);
@@ -66,22 +67,22 @@ double poseError(const Motion& motion, double u, double reach) {
     }
     // Per DOF a rotation from sines and cosines and some dozens of products and sums of numbers up to that
     // size.
-    const double size = 2 * reach + motionSize(motion);
+    const double size = 2 * farthest + motionSize(motion);
     return (128 * double(motion.dofCount() + 2) * u + 8 * off) * size * room;
 }
 
-double gapBand(double u, double error, double reach, double gap) {
-    const double distance = std::max(reach + gap, 0.0);
+double gapBand(double u, double error, double contactDistance, double gap) {
+    const double distance = std::max(contactDistance + gap, 0.0);
     const double squared = distance * distance;
     const double whole = error + u * (squared + error);
     const double root = distance + std::sqrt(std::max(0.0, squared - whole));
     const double off = root > 0 ? whole / root : std::sqrt(whole);
-    return room * (off + 2 * u * (distance + std::abs(reach) + std::abs(gap)));
+    return room * (off + 2 * u * (distance + std::abs(contactDistance) + std::abs(gap)));
 }
 
-double signBand(double error, double reach) {
-    const double squared = reach * reach;
-    const double root = std::abs(reach) + std::sqrt(std::max(0.0, squared - error));
+double signBand(double error, double contactDistance) {
+    const double squared = contactDistance * contactDistance;
+    const double root = std::abs(contactDistance) + std::sqrt(std::max(0.0, squared - error));
     return root > 0 ? error / root : std::sqrt(error);
 }
 

@@ -14,23 +14,23 @@ inline constexpr double floatRoundoff = 0x1p-24, doubleRoundoff = 0x1p-53;
 /// sums. The error of values whose exact |sum| is larger is not bounded by this.
 double sumError(double u, double constant, std::span<const double> products, double result);
 
-/// The same for a sum of 12 + 3 products as the direct kernel takes it: |R b + t - a|^2 - reach^2, with
-/// lengths of a, b and t as given, for squared distances up to distance^2.
-double directError(double u, double a, double b, double t, double distance, double reach);
+/// The same for a sum of 12 + 3 products as the direct kernel takes it: |R b + t - a|^2 - contactDistance^2,
+/// with lengths of a, b and t as given, for squared distances up to distance^2.
+double directError(double u, double a, double b, double t, double distance, double contactDistance);
 
 /// T(q) takes no point, anywhere in the limits, farther from A's origin than this and its distance from B's.
 double motionSize(const Motion& motion);
 
 /// How far T(q) y may come out from where it is when it is worked out with roundoff u, whichever way the
-/// DOFs' matrices are multiplied: axes far away leave their roundoffs behind. reach: no point y of B is
+/// DOFs' matrices are multiplied: axes far away leave their roundoffs behind. farthest: no point y of B is
 /// farther from B's origin, and no origin that coordinates are taken from is farther from its body's.
-double poseError(const Motion& motion, double u, double reach);
+double poseError(const Motion& motion, double u, double farthest);
 
-/// By how much a gap found from a squared distance d^2 with error E is off: sqrt(d^2) - reach, with gaps up
-/// to |gap|.
-double gapBand(double u, double error, double reach, double gap);
+/// By how much a gap found from a squared distance d^2 with error E is off: sqrt(d^2) - contact distance,
+/// with gaps up to |gap|.
+double gapBand(double u, double error, double contactDistance, double gap);
 
-/// The gaps at which the sign of d^2 - reach^2 known to E may be wrong.
-double signBand(double error, double reach);
+/// The gaps at which the sign of d^2 - contactDistance^2 known to E may be wrong.
+double signBand(double error, double contactDistance);
 
 } // namespace tss

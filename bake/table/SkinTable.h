@@ -3,8 +3,8 @@
 
 namespace tss {
 
-/// The table of a skin over muscles: which skin spheres some muscle sphere can reach (METHOD 6.2). Skin that
-/// is in no row is not touched at all.
+/// The table of a skin over muscles: which skin spheres some muscle sphere can come to (METHOD 6.2). Skin
+/// that is in no row is not touched at all.
 struct SkinTable {
     Table table; ///< a: skin spheres, b: muscle spheres at activation 0, both in the skin's frame; no DOFs
     std::vector<std::uint32_t> skinVertices; ///< #a: the skin vertex that each skin sphere rides on

@@ -17,7 +17,7 @@ constexpr std::size_t mostCells = 1024, mostCodes = std::size_t(1) << 18;
 /// How often a cell is halved in which it is open whether tests touch, and how many bytes all may take.
 constexpr std::uint32_t mostHalvings = 4;
 constexpr std::size_t mostBytes = std::size_t(1) << 18;
-/// Cells in which a test moves by less than this share of its reach are small enough.
+/// Cells in which a test moves by less than this share of its contact distance are small enough.
 constexpr double smallMove = 0.02;
 /// Codes for the half of a cell's largest move.
 constexpr double codesPerMove = 8;
@@ -298,7 +298,7 @@ private:
     std::size_t cellCount_ = 1, cellHalvings_ = 0;
     std::uint32_t partHalvings_ = 0;
     std::size_t rowCodes_ = codesPerGroup;
-    std::vector<Row> found_;  ///< one a row
+    std::vector<Row> found_;  ///< one per row
     std::vector<Piece> open_; ///< cells in which some tests may touch and none does everywhere
 };
 

@@ -53,7 +53,7 @@ public:
 
     /// The blocks that can hold a gap up to the code `limit` in the cell of that row: limit below nearCode,
     /// or its reachedCode.
-    NearBlocks under(std::uint32_t row, std::uint8_t limit) const {
+    NearBlocks nearBlocks(std::uint32_t row, std::uint8_t limit) const {
         return {rows_.data() + std::size_t(row) * rowCodes_, rowCodes_ / codesPerGroup, limit};
     }
     /// Everywhere in the cell some test's gap is so small. farCode: not known.

@@ -56,15 +56,15 @@ TablePair boundOf(std::span<const TablePair> pairs, std::span<const std::uint32_
     TablePair bound;
     bound.a = middle.head<3>();
     bound.b = middle.tail<3>();
-    bound.reach = -std::numeric_limits<double>::infinity();
+    bound.contactDistance = -std::numeric_limits<double>::infinity();
     double size = 0;
     for (const std::uint32_t test : tests) {
         const TablePair& pair = pairs[test];
         const double off = (pair.a - bound.a).norm() + (pair.b - bound.b).norm();
-        bound.reach = std::max(bound.reach, off + pair.reach);
-        size = std::max(size, pair.a.norm() + pair.b.norm() + off + std::abs(pair.reach));
+        bound.contactDistance = std::max(bound.contactDistance, off + pair.contactDistance);
+        size = std::max(size, pair.a.norm() + pair.b.norm() + off + std::abs(pair.contactDistance));
     }
-    bound.reach += 1e-14 * size; // for the rounding of all that
+    bound.contactDistance += 1e-14 * size; // for the rounding of all that
     return bound;
 }
 

@@ -8,7 +8,8 @@
 namespace tss {
 
 /// A pair of spheres that bounds some pairs from below: at every pose its gap, the distance of its centres
-/// less its reach, is at most the gap of each of them. Its radii are not told apart, only their sum in reach.
+/// less its contact distance, is at most the gap of each of them. Its radii are not told apart, only their
+/// sum in contact distance.
 TablePair boundOf(std::span<const TablePair> pairs);
 
 /// The tests of a large table in clusters of equally many whole blocks, those together whose spheres lie

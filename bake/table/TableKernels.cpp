@@ -15,7 +15,7 @@ namespace tss {
 namespace {
 
 /// What stands for a pair that is none: never under a margin, farther than any other.
-constexpr double farOffset = 3e37, farReach = -1e18;
+constexpr double farOffset = 3e37, farContact = -1e18;
 
 /// Cells pay for more blocks than this, where a query looks at this share of them on average, at most; of
 /// more tests than that they would be too few.
@@ -37,7 +37,7 @@ std::vector<std::vector<double>> nearContact(const Motion& motion, const std::ve
     for (std::size_t i = 0; i < poses.size(); ++i) {
         const Pose at = pose(motion, poses[i]);
         double least = std::numeric_limits<double>::infinity();
-        for (const TablePair& p : pairs) least = std::min(least, centreDistance(p, at) - p.reach);
+        for (const TablePair& p : pairs) least = std::min(least, centreDistance(p, at) - p.contactDistance);
         order.push_back({std::abs(least), i});
     }
     std::sort(order.begin(), order.end());
@@ -46,9 +46,10 @@ std::vector<std::vector<double>> nearContact(const Motion& motion, const std::ve
     return contacts;
 }
 
-/// Error of a squared distance as roundoffs of the squared reach.
-double conditionOf(double u, double error, double reach) {
-    return reach != 0 ? error / (u * reach * reach) : std::numeric_limits<double>::infinity();
+/// Error of a squared distance as roundoffs of the squared contact distance.
+double conditionOf(double u, double error, double contactDistance) {
+    return contactDistance != 0 ? error / (u * contactDistance * contactDistance)
+                                : std::numeric_limits<double>::infinity();
 }
 
 template <class T>
@@ -83,9 +84,9 @@ TableKernels::TableKernels(const Table& table, const PrepareOptions& options)
     for (std::size_t k = 0; k < motion_.dofCount(); ++k)
         farthestT_ += 0.5 * speeds[k] * (motion_.dofs[k].upper - motion_.dofs[k].lower);
     recipe_ = PoseRecipe(motion_, originA_, originB_);
-    double reach = std::max(originA_.norm(), originB_.norm());
-    for (const TablePair& p : pairs_) reach = std::max({reach, p.a.norm(), p.b.norm()});
-    poseError_ = std::max(poseError(motion_, doubleRoundoff, reach), options.poseError);
+    double farthest = std::max(originA_.norm(), originB_.norm());
+    for (const TablePair& p : pairs_) farthest = std::max({farthest, p.a.norm(), p.b.norm()});
+    poseError_ = std::max(poseError(motion_, doubleRoundoff, farthest), options.poseError);
 
     if (options.form != KernelForm::Direct) {
         fold_ = makeFeatureForm(motion_, pairs_, contacts);
@@ -102,13 +103,13 @@ TableKernels::TableKernels(const Table& table, const PrepareOptions& options)
                 for (const TablePair& pair : pairs_)
                     largest = std::max(largest, (p * pair.b - pair.a).squaredNorm());
             }
-            if (!(foldMismatch(*fold_, motion_, pairs_, poses) <= 1e-11 * largest)) fold_.reset();
+            if (!(featureFormMismatch(*fold_, motion_, pairs_, poses) <= 1e-11 * largest)) fold_.reset();
         }
     }
     for (const TablePair& p : pairs_)
         contactTests_.push_back({{p.a.x(), p.a.y(), p.a.z(), 1},
                                  {p.b.x(), p.b.y(), p.b.z(), 1},
-                                 p.reach,
+                                 p.contactDistance,
                                  0.5 * (p.radiusA - p.radiusB)});
     choose(options);
     if (float_)
@@ -117,21 +118,21 @@ TableKernels::TableKernels(const Table& table, const PrepareOptions& options)
         prepareKernels<double>(options.cells);
 }
 
-void TableKernels::Bands::widen(double u, double error, double reach) {
+void TableKernels::Bands::widen(double u, double error, double contactDistance) {
     // A little more, for the rounding of the widened constant itself.
     widening.push_back(1.001 * error);
-    sign = std::max(sign, tss::signBand(2.002 * error, reach));
-    condition = std::max(condition, conditionOf(u, error, reach));
+    sign = std::max(sign, tss::signBand(2.002 * error, contactDistance));
+    condition = std::max(condition, conditionOf(u, error, contactDistance));
 }
 
 TableKernels::Bands TableKernels::foldBands(double u) const {
     Bands bands;
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
-        const double reach = pairs_[p].reach;
-        bands.widen(u, fold_->signError(u, Eigen::Index(p), reach), reach);
+        const double contactDistance = pairs_[p].contactDistance;
+        bands.widen(u, fold_->signError(u, Eigen::Index(p), contactDistance), contactDistance);
         for (double gap : {-depth_, 0.0, margin_}) {
-            const double error = fold_->squareError(u, Eigen::Index(p), std::max(0.0, reach + gap));
-            bands.gap = std::max(bands.gap, tss::gapBand(u, error, reach, gap));
+            const double error = fold_->squareError(u, Eigen::Index(p), std::max(0.0, contactDistance + gap));
+            bands.gap = std::max(bands.gap, tss::gapBand(u, error, contactDistance, gap));
         }
     }
     return bands;
@@ -145,13 +146,14 @@ TableKernels::Bands TableKernels::directBands(double u, std::span<const TablePai
         const auto posed = [&](double distance) {
             return (2 * (distance + poseError_) + poseError_) * poseError_;
         };
-        const double sign =
-            directError(u, a, b, farthestT_, std::abs(p.reach), p.reach) + posed(std::abs(p.reach));
-        bands.widen(u, sign, p.reach);
+        const double sign = directError(u, a, b, farthestT_, std::abs(p.contactDistance), p.contactDistance) +
+                            posed(std::abs(p.contactDistance));
+        bands.widen(u, sign, p.contactDistance);
         for (double gap : {-depth_, 0.0, margin_}) {
-            const double distance = std::max(0.0, p.reach + gap);
-            const double error = directError(u, a, b, farthestT_, distance, p.reach) + posed(distance);
-            bands.gap = std::max(bands.gap, tss::gapBand(u, error, p.reach, gap));
+            const double distance = std::max(0.0, p.contactDistance + gap);
+            const double error =
+                directError(u, a, b, farthestT_, distance, p.contactDistance) + posed(distance);
+            bands.gap = std::max(bands.gap, tss::gapBand(u, error, p.contactDistance, gap));
         }
     }
     return bands;
@@ -216,12 +218,13 @@ void TableKernels::fill(const Widened& rows, std::uint32_t lanes, std::span<cons
         T* block = blocks + place / lanes * step + place % lanes;
         const bool real = place < size;
         const std::size_t i = real && !order.empty() ? order[place] : place;
-        const double reach = real ? rows.pairs[i].reach : farReach;
+        const double contactDistance = real ? rows.pairs[i].contactDistance : farContact;
         *column(block, lanes, columns - 1) = std::bit_cast<T>(real ? Number(i) : Number(-1));
-        *column(block, lanes, columns - 2) = T(reach);
+        *column(block, lanes, columns - 2) = T(contactDistance);
         if (fold_) {
             const double constant = real ? fold_->constants(Eigen::Index(i)) : 0;
-            block[0] = T(real ? constant - reach * std::abs(reach) - rows.by[i] : farOffset);
+            block[0] =
+                T(real ? constant - contactDistance * std::abs(contactDistance) - rows.by[i] : farOffset);
             for (std::uint32_t k = 0; k < data.columns && real; ++k)
                 *column(block, lanes, k + 1) = T(fold_->weights(Eigen::Index(i), k));
             *column(block, lanes, columns - 3) = T(constant);
@@ -231,7 +234,8 @@ void TableKernels::fill(const Widened& rows, std::uint32_t lanes, std::span<cons
             *column(block, lanes, std::uint32_t(k)) = T(rows.pairs[i].b[k] - originB_[k]);
             *column(block, lanes, std::uint32_t(k) + 3) = T(rows.pairs[i].a[k] - originA_[k]);
         }
-        *column(block, lanes, columns - 3) = T(real ? reach * std::abs(reach) + rows.by[i] : -farOffset);
+        *column(block, lanes, columns - 3) =
+            T(real ? contactDistance * std::abs(contactDistance) + rows.by[i] : -farOffset);
     }
 }
 

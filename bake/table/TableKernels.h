@@ -21,18 +21,18 @@ public:
     TableKernels(const TableKernels&) = delete;
     TableKernels& operator=(const TableKernels&) = delete;
 
-    /// Features of a pose. q: one finite value a DOF, within the limits.
+    /// Features of a pose. q: one finite value per DOF, within the limits.
     void features(const double* q, TableFeatures& out) const;
     /// The same from the pose, B to A, 3 by 4, row-major, rotation first: of the direct form without cells
     /// only.
     void features(const PoseRecipe::Matrix& pose, TableFeatures& out) const;
 
     /// Some test touches. Never false where a gap is <= 0, and true only where one is <= signBand(): the
-    /// kernels reach further by what they may round.
+    /// kernels go farther by what they may round.
     bool hit(const TableFeatures& f) const {
         if (cells_.empty()) return clusters_.empty() ? kernels_.hit(data_, f.doubles) : hitInClusters(f);
         if (cells_.allTouch(f.cell)) return true;
-        return kernels_.hitNear(data_, f.doubles, cells_.under(f.cell, TableCells::contactCode));
+        return kernels_.hitNear(data_, f.doubles, cells_.nearBlocks(f.cell, TableCells::contactCode));
     }
 
     /// The same from the values themselves, where the verdict cells do not tell.
@@ -61,7 +61,7 @@ public:
     /// The same from the values themselves, without features where the cell of q has no test to be asked.
     std::uint32_t testsWithin(const double* q, double margin, std::uint32_t* out) const;
 
-    /// Many instances at once. q: count rows of one value a DOF. Allocates when `out` has to grow.
+    /// Many instances at once. q: count rows of one value per DOF. Allocates when `out` has to grow.
     void instanceFeatures(const double* q, std::uint32_t count, InstanceFeatures& out) const;
     /// hit[i] = 1 where instance i touches, else 0. hit: room for f.count.
     void hits(const InstanceFeatures& f, std::uint8_t* hit) const;
@@ -102,8 +102,8 @@ public:
     double signBand() const { return signBand_; }
     /// `gap` is off by no more than this for gaps down to -depth and up to margin of the table.
     double gapBand() const { return gapBand_; }
-    /// Condition of the worst test with this form of kernel: by how many roundoffs of its squared reach the
-    /// squared distance may be off near contact. Infinite where a reach is 0.
+    /// Condition of the worst test with this form of kernel: by how many roundoffs of its squared contact
+    /// distance the squared distance may be off near contact. Infinite where a contact distance is 0.
     double condition() const { return condition_; }
 
     /// For those who check it (verify): the band in which gaps are right, and what the kernels read.
@@ -134,8 +134,8 @@ private:
     struct Bands {
         double sign = 0, gap = 0, condition = 0;
         std::vector<double>
-            widening; ///< per test: what its squared reach gains, so that rounding misses nothing
-        void widen(double u, double error, double reach);
+            widening; ///< per test: what its squared contact distance gains, so that rounding misses nothing
+        void widen(double u, double error, double contactDistance);
     };
 
     KernelGap nearest(const TableFeatures& f) const {
@@ -143,7 +143,7 @@ private:
         const std::uint8_t reached = cells_.reachedCode(f.cell);
         return reached == TableCells::farCode
                    ? kernels_.gap(data_, f.doubles)
-                   : kernels_.gapNear(data_, f.doubles, cells_.under(f.cell, reached));
+                   : kernels_.gapNear(data_, f.doubles, cells_.nearBlocks(f.cell, reached));
     }
     /// Some whole blocks of rows.
     KernelData blocksOf(const KernelData& data, std::size_t rowsEach, std::uint32_t part) const;

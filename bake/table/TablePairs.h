@@ -7,7 +7,7 @@ namespace tss {
 struct TablePair {
     Vec3 a, b; ///< centres, each in its own body's frame
     double radiusA = 0, radiusB = 0;
-    double reach = 0; ///< distance of the centres at contact: radiusA + radiusB + rest gap
+    double contactDistance = 0; ///< distance of the centres at contact: radiusA + radiusB + rest gap
 };
 
 /// In the order of the tests.

@@ -37,9 +37,10 @@ template <class Take>
 void TableKernels::eachNearCluster(const TableFeatures& f, const double& margin, Take take) const {
     GroupList groups;
     ClusterList clusters;
-    const std::uint32_t count = kernels_.under(groupData_, f.doubles, margin, groups.data());
+    const std::uint32_t count = kernels_.testsWithin(groupData_, f.doubles, margin, groups.data());
     for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t near = kernels_.under(clustersOf(groups[i]), f.doubles, margin, clusters.data());
+        const std::uint32_t near =
+            kernels_.testsWithin(clustersOf(groups[i]), f.doubles, margin, clusters.data());
         for (std::uint32_t k = 0; k < near; ++k)
             if (take(clusters[k])) return;
     }
@@ -104,7 +105,7 @@ std::uint32_t TableKernels::testsInClusters(const TableFeatures& f, double margi
                                             std::uint32_t* out, std::uint32_t enough) const {
     std::uint32_t count = 0;
     eachNearCluster(f, clusterReachOf(margin), [&](std::uint32_t cluster) {
-        count += kernels_.under(testsOf(cluster), f.doubles, wide, out + count);
+        count += kernels_.testsWithin(testsOf(cluster), f.doubles, wide, out + count);
         return count > enough;
     });
     return count;
@@ -140,8 +141,8 @@ std::uint32_t TableKernels::testsWithin(const TableFeatures& f, double margin, s
     if (!clusters_.empty()) return testsInClusters(f, margin, wide, out, enough);
     if (!cells_.empty())
         if (const std::uint8_t limit = cells_.code(margin); limit < TableCells::nearCode)
-            return kernels_.underNear(data_, f.doubles, cells_.under(f.cell, limit), wide, out);
-    return kernels_.under(data_, f.doubles, wide, out);
+            return kernels_.testsWithinNear(data_, f.doubles, cells_.nearBlocks(f.cell, limit), wide, out);
+    return kernels_.testsWithin(data_, f.doubles, wide, out);
 }
 
 std::uint32_t TableKernels::testsWithin(const double* q, double margin, std::uint32_t* out) const {

@@ -123,7 +123,7 @@ private:
     std::size_t dofs_ = 0;
     std::array<Axis, 3> axes_{};
     std::vector<std::uint8_t> cells_{askCode};
-    std::vector<std::uint16_t> partsOf_; ///< one a cell: where its parts are, in units of a divided cell's
+    std::vector<std::uint16_t> partsOf_; ///< one per cell: where its parts are, in units of a divided cell's
     std::vector<std::uint8_t> parts_;
     std::vector<Piece> pieces_;
     double unit_ = 0; ///< of clearances

@@ -2,7 +2,7 @@
 
 #include "bake/base/Error.h"
 #include "bake/pipeline/BakeOptions.h"
-#include "bake/tool/Csv.h"
+#include "bake/tool/CsvTable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +42,7 @@ double limit(const std::string& text, const std::string& what, double metersPerU
 }
 
 std::vector<PathRow> readPath(const std::string& file) {
-    const Csv csv = readCsv(file);
+    const CsvTable csv = readCsv(file);
     std::vector<PathRow> rows;
     for (const auto& row : csv.rows) {
         if (row.size() != 4 && row.size() != 7)

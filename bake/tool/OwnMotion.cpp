@@ -1,7 +1,7 @@
 #include "bake/tool/OwnMotion.h"
 
 #include "bake/base/Error.h"
-#include "bake/tool/Csv.h"
+#include "bake/tool/CsvTable.h"
 #include "bake/tool/DofSpec.h"
 
 #include <algorithm>
@@ -63,7 +63,7 @@ std::vector<const Track*> columnsOf(const std::vector<Track>& tracks, const std:
 } // namespace
 
 void applyMotion(SceneModel& scene, const std::string& file) {
-    const Csv csv = readCsv(file);
+    const CsvTable csv = readCsv(file);
     const std::vector<Track> tracks = clearedTracks(scene);
     const bool seconds = !csv.header.empty() && csv.header[0] == "time",
                timed = seconds || (!csv.header.empty() && csv.header[0] == "step");

@@ -6,7 +6,7 @@
 #include "bake/respond/SkinFollowing.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
-#include "bake/tool/Csv.h"
+#include "bake/tool/CsvTable.h"
 #include "bake/tool/DofSpec.h"
 #include "bake/tool/DrivenSteps.h"
 
@@ -30,7 +30,7 @@ std::vector<std::vector<double>> askedSteps(const SceneModel& scene, const PlayA
         for (const Dof& dof : joint.dofs) dofs.push_back(&dof);
     std::vector<std::vector<double>> steps;
     if (!arguments.motion.empty()) {
-        Csv csv = readCsv(arguments.motion);
+        CsvTable csv = readCsv(arguments.motion);
         const bool numbered = !csv.header.empty() && (csv.header[0] == "step" || csv.header[0] == "time");
         std::vector<std::string> names;
         names.reserve(dofs.size());

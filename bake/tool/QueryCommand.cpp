@@ -7,7 +7,7 @@
 #include "bake/table/Query.h"
 #include "bake/tool/ChoosePair.h"
 #include "bake/tool/Command.h"
-#include "bake/tool/Csv.h"
+#include "bake/tool/CsvTable.h"
 #include "bake/tool/DofSpec.h"
 
 #include <fmt/format.h>
@@ -67,7 +67,7 @@ void runAllPairs(const QueryArguments& arguments, const Console& console) {
         throw InputError(Where{arguments.scene, "", scene.pairs[bare.front()].path},
                          fmt::format("{} without a table; expected a scene written by tss bake",
                                      counted(bare.size(), "pair")));
-    const Csv poses = readCsv(arguments.poses, dofs.size());
+    const CsvTable poses = readCsv(arguments.poses, dofs.size());
     checkColumns(poses, names, arguments.poses);
     std::vector<double> values;
     for (const std::vector<double>& row : poses.rows)
@@ -102,7 +102,7 @@ void runQuery(const QueryArguments& arguments, const Console& console) {
         throw InputError(Where{arguments.scene, "", pair.path},
                          "has no table; expected a scene written by tss bake");
     const Motion motion = pairMotion(scene, pair);
-    const Csv poses = readCsv(arguments.poses, motion.dofCount());
+    const CsvTable poses = readCsv(arguments.poses, motion.dofCount());
     std::vector<std::string> names;
     for (const Dof& dof : motion.dofs) names.push_back(dof.name);
     checkColumns(poses, names, arguments.poses);

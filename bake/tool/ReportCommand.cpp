@@ -2,7 +2,7 @@
 #include "bake/report/Report.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
-#include "bake/tool/Csv.h"
+#include "bake/tool/CsvTable.h"
 #include "bake/tool/DofSpec.h"
 
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ std::vector<std::vector<double>> readMotion(const SceneModel& scene, const Repor
         }
     if (!pair) throw InputError(arguments.scene + ": expected a pair of rigid bodies for --motion");
     const Motion motion = pairMotion(scene, *pair);
-    Csv csv = readCsv(arguments.motion, motion.dofCount());
+    CsvTable csv = readCsv(arguments.motion, motion.dofCount());
     for (auto& row : csv.rows)
         for (std::size_t k = 0; k < row.size(); ++k) row[k] = fromUser(motion.dofs[k], row[k]);
     return csv.rows;

@@ -38,7 +38,8 @@ double Apart::largestSquare(const PoseBox& box) const {
 BoxProver::BoxProver(const Models& models, const Claim& claim)
     : m_(models), claim_(claim), moved_(models.treeB.balls.size()) {
     for (const Test& t : claim.tests)
-        if (t.same && t.reach + claim.epsilon >= models.reach(*t.same)) exact_.insert(*t.same);
+        if (t.same && t.contactDistance + claim.epsilon >= models.contactDistance(*t.same))
+            exact_.insert(*t.same);
     leafOf_.resize(models.b.size());
     for (std::size_t n = 0; n < models.treeB.balls.size(); ++n)
         if (models.treeB.balls[n].first < 0) leafOf_[models.treeB.balls[n].sphere] = n;
@@ -78,9 +79,9 @@ const BoxProver::Moved& BoxProver::moved(const PoseBox& box, std::size_t ball, b
     return at;
 }
 
-Apart BoxProver::apart(const PoseBox& box, const MovingPoint& b, const Vec3& centreA, double reach,
+Apart BoxProver::apart(const PoseBox& box, const MovingPoint& b, const Vec3& centreA, double contactDistance,
                        SpherePair pair) {
-    Apart p{b.at - centreA, 0, reach, &b, pair, {}};
+    Apart p{b.at - centreA, 0, contactDistance, &b, pair, {}};
     p.distance = p.y.norm();
     p.slope.resize(box.dofs());
     for (std::size_t k = 0; k < box.dofs(); ++k) p.slope[k] = p.y.dot(b.velocity[k]);
@@ -95,10 +96,10 @@ bool BoxProver::weighTests(const PoseBox& box, const Open& open) {
     for (std::uint32_t k : open.tests) {
         const Test& t = claim_.tests[k];
         points_.push_back(box.carry(t.centreB, true));
-        const Apart here = apart(box, points_.back(), t.centreA, t.reach, {});
-        const double all = t.reach - claim_.depth + claim_.epsilon;
+        const Apart here = apart(box, points_.back(), t.centreA, t.contactDistance, {});
+        const double all = t.contactDistance - claim_.depth + claim_.epsilon;
         if (all >= 0 && here.largestSquare(box) <= all * all) return true;
-        const double most = t.reach + claim_.margin + claim_.epsilon;
+        const double most = t.contactDistance + claim_.margin + claim_.epsilon;
         if (most < 0 || here.leastSquare(box) > most * most) continue;
         near_.push_back(here);
         numbers_.push_back(k);
@@ -108,8 +109,8 @@ bool BoxProver::weighTests(const PoseBox& box, const Open& open) {
 
 void BoxProver::weigh(const PoseBox& box, const Owed& o) {
     const Moved& b = moved(box, leafOf_[o.pair.b], true);
-    const Apart here = apart(box, b, m_.a[o.pair.a].centre, o.reach, o.pair);
-    const double limit = o.reach + claim_.margin;
+    const Apart here = apart(box, b, m_.a[o.pair.a].centre, o.contactDistance, o.pair);
+    const double limit = o.contactDistance + claim_.margin;
     if (here.leastSquare(box) <= limit * limit) owed_.push_back(here);
 }
 
@@ -123,8 +124,8 @@ void BoxProver::openBalls(const PoseBox& box, const std::vector<BallPair>& from)
                    &y = m_.treeB.balls[static_cast<std::size_t>(pair.b)];
         if (x.first < 0 && y.first < 0) {
             const SpherePair spheres{x.sphere, y.sphere};
-            const double reach = m_.reach(spheres);
-            if (reach >= 0 && !exact_.count(spheres)) weigh(box, {spheres, reach});
+            const double contactDistance = m_.contactDistance(spheres);
+            if (contactDistance >= 0 && !exact_.count(spheres)) weigh(box, {spheres, contactDistance});
             continue;
         }
         const Moved& b = moved(box, static_cast<std::size_t>(pair.b), false);
@@ -154,7 +155,7 @@ bool BoxProver::answered(const PoseBox& box, const Apart& p) {
 
 bool BoxProver::answers(const PoseBox& box, const Apart& k, const Apart& p) const {
     if (claim_.depth == 0 && claim_.margin == 0) {
-        const double limit = k.reach + claim_.epsilon;
+        const double limit = k.contactDistance + claim_.epsilon;
         double across = 0, along = 0;
         for (std::size_t l = 0; l < box.dofs(); ++l) {
             across += k.slope[l] * p.slope[l] * box.half(l) * box.half(l);
@@ -162,9 +163,10 @@ bool BoxProver::answers(const PoseBox& box, const Apart& k, const Apart& p) cons
         }
         const double weight = along > 0 ? across / along : 1;
         if (!(limit >= 0) || !(weight > 0) || weight > 10) return false;
-        return largest(box, k, p, weight, weight) <= limit * limit - weight * p.reach * p.reach;
+        return largest(box, k, p, weight, weight) <=
+               limit * limit - weight * p.contactDistance * p.contactDistance;
     }
-    const double more = k.reach - p.reach + claim_.epsilon;
+    const double more = k.contactDistance - p.contactDistance + claim_.epsilon;
     if (p.distance <= 0 || p.distance + more <= 0) return false;
     if (more < 0 && p.distance - p.b->move + more < 0) return false;
     // (|y_p| + more)^2 = |y_p|^2 + 2 more |y_p| + more^2, with |y_p| replaced by its tangent plane from
@@ -219,14 +221,15 @@ bool BoxProver::breaksAt(const std::vector<double>& q, VerifyResult& broken) con
     double models = infinity, table = infinity;
     SpherePair pair;
     for (const Apart& p : owed_) {
-        const double gap = (at * m_.b[p.pair.b].centre - m_.a[p.pair.a].centre).norm() - p.reach;
+        const double gap = (at * m_.b[p.pair.b].centre - m_.a[p.pair.a].centre).norm() - p.contactDistance;
         if (gap < models) {
             models = gap;
             pair = p.pair;
         }
     }
     if (models > claim_.margin) return false;
-    for (const Test& t : claim_.tests) table = std::min(table, (at * t.centreB - t.centreA).norm() - t.reach);
+    for (const Test& t : claim_.tests)
+        table = std::min(table, (at * t.centreB - t.centreA).norm() - t.contactDistance);
     const double promised = std::max(models, -claim_.depth) + claim_.epsilon;
     if (table <= promised) return false;
     broken.pose = q;
@@ -238,7 +241,7 @@ bool BoxProver::breaksAt(const std::vector<double>& q, VerifyResult& broken) con
 void BoxProver::split(const Job& job, const PoseBox& box, std::vector<Job>& halves) const {
     auto open = std::make_shared<Open>();
     open->balls = balls_;
-    for (const Apart& p : owed_) open->pairs.push_back({p.pair, p.reach});
+    for (const Apart& p : owed_) open->pairs.push_back({p.pair, p.contactDistance});
     open->tests = numbers_;
     std::size_t widest = 0;
     double most = -1;

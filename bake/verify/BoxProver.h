@@ -13,7 +13,7 @@ struct BallPair {
 
 struct Owed {
     SpherePair pair;
-    double reach;
+    double contactDistance;
 };
 
 /// What is still to be shown in a box and which tests are near.
@@ -32,12 +32,12 @@ struct Job {
 struct Apart {
     Vec3 y;
     double distance = 0;
-    double reach = 0;
+    double contactDistance = 0;
     const MovingPoint* b = nullptr;
     SpherePair pair;
     std::vector<double> slope; ///< of |y|^2 / 2
 
-    double gap() const { return distance - reach; }
+    double gap() const { return distance - contactDistance; }
     double tilt(const PoseBox& box) const;
     /// Bounds of |y|^2 over the box; the last factors are the bounds' own rounding.
     double leastSquare(const PoseBox& box) const;
@@ -62,7 +62,7 @@ private:
 
     const Moved& moved(const PoseBox& box, std::size_t ball, bool full);
 
-    static Apart apart(const PoseBox& box, const MovingPoint& b, const Vec3& centreA, double reach,
+    static Apart apart(const PoseBox& box, const MovingPoint& b, const Vec3& centreA, double contactDistance,
                        SpherePair pair);
 
     /// True: one test answers for everything in the box.
@@ -75,8 +75,8 @@ private:
     bool answered(const PoseBox& box, const Apart& p);
 
     /// Wherever p owes an answer in the box, test k gives it. Two ways to see it, both about h = |y_k|^2 -
-    /// weight |y_p|^2: p in reach implies k in reach (yes/no), or k is nearer than p less the difference of
-    /// reaches.
+    /// weight |y_p|^2: p in contact implies k in contact (yes/no), or k is nearer than p less the difference
+    /// of distances at contact.
     bool answers(const PoseBox& box, const Apart& k, const Apart& p) const;
 
     /// An upper bound of |y_k|^2 - slope |y_p|^2 where the linear part of p's square counts `slope` times and

@@ -26,15 +26,15 @@ std::string refuteBounds(const PreparedTable& prepared, const std::vector<Exact>
         const Exact& pair = pairs[number];
         const Real off = (pair.a.cast<Real>() - bound.a.cast<Real>()).norm() +
                          (pair.b.cast<Real>() - bound.b.cast<Real>()).norm();
-        if (off + Real(pair.reach) > Real(bound.reach))
+        if (off + Real(pair.contactDistance) > Real(bound.contactDistance))
             return fmt::format("cluster {} has number {}, which its bound does not hold", place / each,
                                number);
     }
     for (std::size_t c = 0; c < bounds.size(); ++c) {
-        const Exact bound{bounds[c].a, bounds[c].b, bounds[c].reach};
+        const Exact bound{bounds[c].a, bounds[c].b, bounds[c].contactDistance};
         const PairErrors errors = directErrors(prepared, StoredRow(prepared, stored.rows, c), bound,
                                                prepared.kernels().farthestT(), posed);
-        if (errors.sign.high > 0 && bound.reach >= 0)
+        if (errors.sign.high > 0 && bound.contactDistance >= 0)
             return fmt::format("cluster {} may be passed over where a test of it touches", c);
     }
     return {};
@@ -52,7 +52,8 @@ std::string refuteClusters(const PreparedTable& prepared, const std::vector<Exac
                                       prepared.kernels().clusterBounds(), posed);
     if (!reason.empty()) return reason;
     std::vector<Exact> bounds;
-    for (const TablePair& bound : clusters.bounds()) bounds.push_back({bound.a, bound.b, bound.reach});
+    for (const TablePair& bound : clusters.bounds())
+        bounds.push_back({bound.a, bound.b, bound.contactDistance});
     reason = refuteBounds(prepared, bounds, {}, clusters.clustersEach(), clusters.groups(),
                           prepared.kernels().groupBounds(), posed);
     if (!reason.empty()) return "of a group of clusters: " + reason;

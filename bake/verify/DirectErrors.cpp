@@ -23,10 +23,12 @@ PairErrors directErrors(const PreparedTable& prepared, const StoredRow& row, con
         const double far = distance + vector;
         return 2 * distance * vector + vector * vector + 4 * u * far * far;
     };
-    const double reach2 = test.reach * std::abs(test.reach);
-    const double off = reach2 - row.fromEnd(3);
-    const double error = squareError(std::abs(test.reach) * (1 + 1e-6)) + 2 * u * std::abs(row.fromEnd(3));
-    return {{off - error, off + error}, squareError(std::max(0.0, test.reach + prepared.kernels().margin()))};
+    const double contactDistance2 = test.contactDistance * std::abs(test.contactDistance);
+    const double off = contactDistance2 - row.fromEnd(3);
+    const double error =
+        squareError(std::abs(test.contactDistance) * (1 + 1e-6)) + 2 * u * std::abs(row.fromEnd(3));
+    return {{off - error, off + error},
+            squareError(std::max(0.0, test.contactDistance + prepared.kernels().margin()))};
 }
 
 namespace {
@@ -58,7 +60,8 @@ DirectPose::DirectPose(const Table& table, const PreparedTable& prepared, const 
     options.cells = CellUse::Never;
     const PreparedTable plain(table, options);
     for (const Exact& t : tests) reach_ = std::max(reach_, (t.b - plain.kernels().originB()).norm());
-    const double size = pathSize(motion_, tests) + plain.kernels().originA().norm() + 2 * plain.kernels().originB().norm();
+    const double size =
+        pathSize(motion_, tests) + plain.kernels().originA().norm() + 2 * plain.kernels().originB().norm();
     rounding_ = poseRounding(motion_, size, 0x1p-53);
     const bool paths = std::any_of(motion_.dofs.begin(), motion_.dofs.end(),
                                    [](const Dof& dof) { return dof.kind == DofKind::Path; });

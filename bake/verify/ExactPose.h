@@ -29,7 +29,7 @@ double poseRounding(const Motion& motion, double size, double u);
 /// One test as it stands in the table.
 struct Exact {
     Vec3 a, b;
-    double reach;
+    double contactDistance;
 };
 
 /// In the order of the table.

@@ -36,7 +36,7 @@ std::size_t productOf(const FeatureForm::Feature& feature, std::size_t dofs) {
 
 /// Squared distances of all tests as polynomials of the products of factors, by their values at three poses a
 /// DOF. #tests by 3^#DOFs.
-/// farthest: the largest of the values, one a test.
+/// farthest: the largest of the values, one per test.
 std::vector<std::vector<Real>> exactProducts(const Motion& motion, const std::vector<Exact>& tests,
                                              std::vector<Real>& farthest) {
     const std::size_t dofs = motion.dofCount();
@@ -132,12 +132,12 @@ PairErrors FeatureFormErrors::of(std::size_t pair, const Exact& test) const {
     away +=
         Real(std::pow(betweenNodes, double(prepared_.dofCount()))) * (2 * distance + rounding_) * rounding_;
 
-    const Real reach2 = Real(test.reach) * std::abs(Real(test.reach));
-    const double off = double(Real(row[0]) - (constant - reach2)); // the widening, less than 0
+    const Real contactDistance2 = Real(test.contactDistance) * std::abs(Real(test.contactDistance));
+    const double off = double(Real(row[0]) - (constant - contactDistance2)); // the widening, less than 0
     const double fixed = double((away + making) * (1 + 1e-9L));
     double sum = rounding(row[0], products, shared, 0);
     sum = rounding(row[0], products, shared, 2 * (sum + std::abs(off) + fixed));
-    const double farthest = test.reach + prepared_.kernels().margin();
+    const double farthest = test.contactDistance + prepared_.kernels().margin();
     const double whole = std::abs(double(Real(row.fromEnd(3)) - constant)) + fixed +
                          rounding(row.fromEnd(3), products, shared, farthest * farthest);
     return {{off - fixed - sum, off + fixed + sum}, whole};

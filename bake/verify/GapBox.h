@@ -25,9 +25,9 @@ private:
     std::vector<SpherePair> tests_;
     double size_ = 0;
     std::uint64_t stamp_ = 0;
-    std::vector<MovingPoint> moving_;    ///< one a sphere of B
+    std::vector<MovingPoint> moving_;    ///< one per sphere of B
     std::vector<std::uint64_t> movedAt_; ///< the stamp for which each is right
-    std::vector<double> low_;            ///< one a test
+    std::vector<double> low_;            ///< one per test
 };
 
 } // namespace tss::verify

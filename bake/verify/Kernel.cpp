@@ -18,13 +18,14 @@ using namespace verify;
 
 namespace {
 
-double gapError(double u, double error, double reach, double gap) {
-    const double distance = std::max(0.0, reach + gap), squared = distance * distance;
-    // The square is rounded once more and the square root once; the reach and the difference once each.
+double gapError(double u, double error, double contactDistance, double gap) {
+    const double distance = std::max(0.0, contactDistance + gap), squared = distance * distance;
+    // The square is rounded once more and the square root once; the contact distance and the difference once
+    // each.
     const double whole = error + u * (squared + error);
     const double near = std::sqrt(std::max(0.0, squared - whole)), far = std::sqrt(squared + whole);
     return std::max(distance - near, far - distance) +
-           u * (2 * far + 2 * std::abs(reach) + std::abs(gap) + distance);
+           u * (2 * far + 2 * std::abs(contactDistance) + std::abs(gap) + distance);
 }
 
 /// How far the gap was off at the worst of some poses; the reason where an answer is wrong.
@@ -43,7 +44,7 @@ double tried(const Table& table, const PreparedTable& prepared, const std::vecto
         const ExactPose at = exactPose(table.motion, {q.begin(), q.end()});
         Real gap = std::numeric_limits<Real>::infinity();
         for (const Exact& t : tests)
-            gap = std::min(gap, (at.at(t.b) - t.a.cast<Real>()).norm() - Real(t.reach));
+            gap = std::min(gap, (at.at(t.b) - t.a.cast<Real>()).norm() - Real(t.contactDistance));
         TableFeatures f;
         prepared.features(q.data(), f);
         if (direct && !direct->agreesAt(prepared, at, f))
@@ -86,16 +87,17 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
         const PairErrors errors = fold ? foldErrors->of(p, test)
                                        : directErrors(prepared, StoredRow(prepared, p), test,
                                                       prepared.kernels().farthestT(), direct->rounding());
-        if (errors.sign.high > 0 && test.reach >= 0)
+        if (errors.sign.high > 0 && test.contactDistance >= 0)
             verdict.reason = fmt::format(
                 "test {} may miss a touch: its squared distance may be {:.3g} scene units squared too large",
                 p, errors.sign.high);
-        // d^2 - reach^2 <= -low means d <= sqrt(reach^2 - low).
-        const double reach = std::max(0.0, test.reach);
-        verdict.early =
-            std::max(verdict.early, std::sqrt(reach * reach - std::min(0.0, errors.sign.low)) - reach);
+        // d^2 - contactDistance^2 <= -low means d <= sqrt(contactDistance^2 - low).
+        const double contactDistance = std::max(0.0, test.contactDistance);
+        verdict.early = std::max(
+            verdict.early,
+            std::sqrt(contactDistance * contactDistance - std::min(0.0, errors.sign.low)) - contactDistance);
         for (double gap : {-prepared.kernels().depth(), 0.0, prepared.kernels().margin()})
-            verdict.gapOff = std::max(verdict.gapOff, gapError(u, errors.square, test.reach, gap));
+            verdict.gapOff = std::max(verdict.gapOff, gapError(u, errors.square, test.contactDistance, gap));
     }
     if (verdict.reason.empty() && verdict.early > prepared.signBand() * (1 + 1e-6))
         verdict.reason = fmt::format(

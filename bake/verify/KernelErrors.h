@@ -32,8 +32,8 @@ struct Bounds {
     double low, high; ///< how far a kernel's number may be below and above the exact one
 };
 
-/// The claim about one pair from the errors of its squared distance less its squared reach (`sign`, where
-/// that is about 0) and of its squared distance (`square`, at gaps asked for).
+/// The claim about one pair from the errors of its squared distance less its squared contact distance
+/// (`sign`, where that is about 0) and of its squared distance (`square`, at gaps asked for).
 struct PairErrors {
     Bounds sign;
     double square;
@@ -52,14 +52,14 @@ private:
     const PreparedTable& prepared_;
     const FeatureForm& fold_;
     double u_;
-    std::vector<Real> farthest_; ///< of the squared distances that `exact_` was made from, one a test
+    std::vector<Real> farthest_; ///< of the squared distances that `exact_` was made from, one per test
     std::vector<std::vector<Real>> exact_;
     double rounding_ = 0;                       ///< of the poses that they come from
     std::vector<std::pair<Real, Real>> ranges_; ///< of the products of factors
     std::vector<std::size_t> columns_, sharedColumns_;
 };
 
-/// Errors of the direct kernel: x = R b + t - a by axes, |x|^2 - reach^2.
+/// Errors of the direct kernel: x = R b + t - a by axes, |x|^2 - contactDistance^2.
 /// posed: how far a point may come out of the pose that the kernel is given.
 PairErrors directErrors(const PreparedTable& prepared, const StoredRow& row, const Exact& test,
                         double farthest, double posed);

@@ -39,7 +39,8 @@ MeshBox::MeshBox(const SurfaceTree& a, const SurfaceTree& b, const Motion& motio
     : a_(a), b_(b), motion_(motion), claim_(claim), size_(size), moved_(b.nodes.size()) {
     // Smaller boxes than this cannot be told from rounding.
     smallest_ = 1e-3 * claim.band;
-    for (const MeshTest& test : claim.tests) largestReach_ = std::max(largestReach_, test.reach);
+    for (const MeshTest& test : claim.tests)
+        largestContact_ = std::max(largestContact_, test.contactDistance);
 }
 
 const MeshBox::Moved& MeshBox::moved(std::int32_t node) {
@@ -74,7 +75,7 @@ bool MeshBox::weighTests(const OpenPairs& open) {
         const double distance = arm.norm();
         Near near;
         near.test = k;
-        near.gap = distance - t.reach;
+        near.gap = distance - t.contactDistance;
         near.normal = distance > 0 ? Vec3(arm / distance) : Vec3::UnitX();
         double tilt = 0, across = b.bend;
         for (std::size_t l = 0; l < box_->dofs(); ++l) {
@@ -184,11 +185,12 @@ bool MeshBox::answered(const Shape& a, const Shape& b, const MovingPoint& at, Ve
         return gap <= limit;
     };
     const std::size_t count =
-        at.move < smallBox * largestReach_ ? near_.size() : std::min(mostTried, near_.size());
+        at.move < smallBox * largestContact_ ? near_.size() : std::min(mostTried, near_.size());
     for (std::size_t n = 0; n < count; ++n) {
         const Near& test = near_[n];
         const MeshTest& t = claim_.tests[test.test];
-        bool yes = a.slab.farthest(t.centreA) + b.slab.farthest(t.centreB) + claim_.near <= t.reach + limit;
+        bool yes = a.slab.farthest(t.centreA) + b.slab.farthest(t.centreB) + claim_.near <=
+                   t.contactDistance + limit;
         if (!yes && !bent) {
             yes = tries(test, -test.normal);
             if (!yes) {
@@ -245,7 +247,7 @@ MeshBox::Verdict MeshBox::weigh(const PiecePair& pair) {
     const bool triangles = a.corners && b.corners && pair.a.cuts == 1 && pair.b.cuts == 1;
     if (divides && !triangles && scale_ > 8 * at.move && scale_ > smallest_) return Verdict::SplitPair;
     Verdict blur = scale_ > 2 * at.move ? Verdict::SplitPair : Verdict::SplitBox;
-    if (scale_ < 2 * largestReach_ && answered(a, b, at, blur)) return Verdict::Done;
+    if (scale_ < 2 * largestContact_ && answered(a, b, at, blur)) return Verdict::Done;
     if (scale_ > 2 * at.move) blur = Verdict::SplitPair;
     if (!divides || scale_ < smallest_) blur = Verdict::SplitBox;
     return blur;
@@ -282,7 +284,7 @@ bool MeshBox::unanswered(const std::vector<double>& q, const std::vector<PiecePa
     const Pose at = tss::pose(motion_, q);
     double least = infinity;
     for (const MeshTest& t : claim_.tests)
-        least = std::min(least, (at * t.centreB - t.centreA).norm() - t.reach);
+        least = std::min(least, (at * t.centreB - t.centreA).norm() - t.contactDistance);
     if (least <= claim_.miss + claim_.band) return false;
     std::vector<PiecePair> stack(pairs);
     while (!stack.empty()) {

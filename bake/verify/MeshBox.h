@@ -21,8 +21,8 @@ struct OpenPairs {
     std::vector<std::uint32_t> tests;
 };
 
-/// Weighs boxes of Q one at a time. Holds what can be used again between them, so one a thread; what it says
-/// of a box depends on that box alone.
+/// Weighs boxes of Q one at a time. Holds what can be used again between them, so one per thread; what it
+/// says of a box depends on that box alone.
 class MeshBox {
 public:
     MeshBox(const SurfaceTree& a, const SurfaceTree& b, const Motion& motion, double size,
@@ -77,11 +77,11 @@ private:
     const SurfaceTree &a_, &b_;
     const Motion& motion_;
     const MeshClaim& claim_;
-    double size_, smallest_, largestReach_ = 0;
+    double size_, smallest_, largestContact_ = 0;
 
     const PoseBox* box_ = nullptr;
     std::uint64_t stamp_ = 0, work_ = 0;
-    std::vector<Moved> moved_; ///< one a node of B
+    std::vector<Moved> moved_; ///< one per node of B
     std::vector<Near> near_;
     double scale_ = 0; ///< reach of the pair that was weighed last
     std::vector<PiecePair> stack_;

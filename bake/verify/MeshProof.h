@@ -13,8 +13,8 @@ namespace tss::verify {
 /// reports contact, its threshold counted.
 struct MeshTest {
     Vec3 centreA = Vec3::Zero(), centreB = Vec3::Zero();
-    double reach = 0;
-    double threshold = 0; ///< what the reach is more than the sum of radii
+    double contactDistance = 0;
+    double threshold = 0; ///< what that is more than the sum of radii
     std::uint32_t sphereA = 0, sphereB = 0;
 };
 std::vector<MeshTest> meshTests(const Table& table);

@@ -52,7 +52,7 @@ Models::Models(const SphereSet& a, const SphereSet& b, const Motion& motion, con
     if (!a.empty() && !b.empty()) extent = treeA.balls.back().radius + treeB.balls.back().radius;
 }
 
-double Models::reach(SpherePair pair) const {
+double Models::contactDistance(SpherePair pair) const {
     const double sum = a[pair.a].radius + b[pair.b].radius;
     if (regionA.empty() || regionB.empty() || !regionA[pair.a] || !regionB[pair.b]) return sum;
     return depth < 0 ? -1 : sum - depth;
@@ -79,7 +79,8 @@ std::vector<Test> matchTests(const Models& models, const Table& table, double ba
             Test test{table.a[i].centre, table.b[j].centre, table.a[i].radius + table.b[j].radius + rest, {}};
             const SpherePair pair{matchA[i].index, matchB[j].index};
             if (matchA[i].same && matchB[j].same) test.same = pair;
-            if (reason.empty() && test.reach > models.reach(pair) + 2 * table.epsilon + band)
+            if (reason.empty() &&
+                test.contactDistance > models.contactDistance(pair) + 2 * table.epsilon + band)
                 reason = "test " + std::to_string(k) + " of the table reports contact before its pair does";
             tests.push_back(test);
         }

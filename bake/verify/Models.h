@@ -17,13 +17,13 @@ struct Models {
     Models(const SphereSet& a, const SphereSet& b, const Motion& motion, const VerifyOptions& options);
 
     /// The distance of centres at which the pair's contact begins; < 0: never.
-    double reach(SpherePair pair) const;
+    double contactDistance(SpherePair pair) const;
 };
 
 /// A test of the table: which spheres, as given in the table, and the distance at which it reports contact.
 struct Test {
     Vec3 centreA, centreB;
-    double reach = 0;
+    double contactDistance = 0;
     std::optional<SpherePair> same; ///< the pair of the whole sets that it is, to the bit
 };
 

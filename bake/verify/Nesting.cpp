@@ -95,7 +95,7 @@ public:
         const MeshTest* deepest = nullptr;
         for (const MeshTest& t : tests_) {
             const MovingPoint at = box.carry(t.centreB, false);
-            const double gap = (at.at - t.centreA).norm() * (1 - 1e-15) - t.reach;
+            const double gap = (at.at - t.centreA).norm() * (1 - 1e-15) - t.contactDistance;
             if (gap - at.move > 0 || gap >= least) continue;
             least = gap;
             deepest = &t;
@@ -109,7 +109,7 @@ public:
         if (!withinLimits(motion_, q)) return false;
         const Pose at = tss::pose(motion_, q);
         const bool fires = std::any_of(tests_.begin(), tests_.end(), [&](const MeshTest& t) {
-            return (at * t.centreB - t.centreA).norm() <= t.reach;
+            return (at * t.centreB - t.centreA).norm() <= t.contactDistance;
         });
         if (!fires || !a_.surface.apart(b_.surface, at, early_ * (1 + 1e-6))) return false;
         const Pose back = at.inverse(Eigen::Isometry);

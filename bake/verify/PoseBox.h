@@ -21,8 +21,8 @@ struct MovingPoint {
     Vec3 at = Vec3::Zero();
     double move = 0; ///< never farther than this from `at`
     double bend = 0; ///< never farther than this from at + velocity . (q - middle); infinite across knots
-    std::array<Vec3, maxDofs> velocity; ///< one a DOF, at the middle; of those asked for
-    std::array<double, maxDofs> sweep;  ///< one a DOF: what it adds to `move` at most
+    std::array<Vec3, maxDofs> velocity; ///< one per DOF, at the middle; of those asked for
+    std::array<double, maxDofs> sweep;  ///< one per DOF: what it adds to `move` at most
 };
 
 /// The rigid motion over one box, worked out by carrying points through the chain DOF by DOF.

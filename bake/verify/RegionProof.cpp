@@ -103,16 +103,16 @@ RegionVerdict judgeRegion(const VerifiedBody& a, const VerifiedBody& b, const Mo
         return verdict;
     }
     int strays = 0;
-    const auto look = [&](const VerifiedBody& body, const std::vector<SurfacePart>& parts,
-                          const VerifiedBody& other, const Pose& toOther) {
+    const auto probe = [&](const VerifiedBody& body, const std::vector<SurfacePart>& parts,
+                           const VerifiedBody& other, const Pose& toOther) {
         for (const auto& piece : pieces(body.mesh, parts)) {
             const double distance = distanceTo(other, piece, toOther);
             if (distance > rounding) verdict.farthest = std::max(verdict.farthest, distance);
             strays += distance > closeShare * smaller + rounding;
         }
     };
-    look(a, region.a, b, rest.inverse(Eigen::Isometry));
-    look(b, region.b, a, rest);
+    probe(a, region.a, b, rest.inverse(Eigen::Isometry));
+    probe(b, region.b, a, rest);
     if (strays > 0)
         verdict.reason = fmt::format(
             "{} connected pieces of the surfaces that it excepts are nowhere near the other body at rest: up "

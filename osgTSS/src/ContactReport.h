@@ -14,7 +14,7 @@ namespace osgTSS {
 /// Tells of the contacts of the joints that one callback resolves below one node.
 class ContactReport {
 public:
-    /// After joints were resolved to q, with these answers, one a group of the plan. What held a joint
+    /// After joints were resolved to q, with these answers, one per group of the plan. What held a joint
     /// touches.
     void tell(const Scene& scene, const tss::JointPlan& plan, const std::vector<double>& q,
               const std::vector<tss::GroupAnswer>& answers, ContactCallback& callback,

@@ -30,7 +30,7 @@ public:
     /// Moves what stands for these vertices of the mesh: three spans of one length, in the mesh's lengths.
     void deform(SkinGeometry& shown, std::span<const std::uint32_t> vertices,
                 std::span<const tss::Vec3> positions, std::span<const tss::Vec3> normals);
-    /// All of them, one a vertex of the mesh.
+    /// All of them, one per vertex of the mesh.
     void deform(SkinGeometry& shown, std::span<const tss::Vec3> positions,
                 std::span<const tss::Vec3> normals);
 

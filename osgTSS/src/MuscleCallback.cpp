@@ -33,7 +33,7 @@ struct Shown {
     int muscle = -1;
     std::shared_ptr<const tss::MuscleDeformer> deformer; ///< null: not to be played
     tss::TriangleMesh mesh;
-    std::optional<DrawnVertices> drawn; ///< of a geometry that the muscle was made from; else one a vertex
+    std::optional<DrawnVertices> drawn; ///< of a geometry that the muscle was made from; else one per vertex
     double activation = std::numeric_limits<double>::quiet_NaN();
 
     tss::Pose far = tss::Pose::Identity(); ///< of the insertion's bone since rest, in the surface's frame

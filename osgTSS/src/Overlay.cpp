@@ -196,7 +196,7 @@ struct DrawnSkin {
     std::vector<tss::UnderSkin> under; ///< the muscles and bones below the skin
     std::vector<Carrier> muscleBodies; ///< one each
     std::vector<std::shared_ptr<const tss::MuscleDeformer>> muscles;
-    std::vector<Rider> riders; ///< one a muscle sphere
+    std::vector<Rider> riders; ///< one per muscle sphere
     osg::observer_ptr<SkinGeometry> shape;
 
     void follow(const Scene& scene, double time, osg::Node& root, const osg::Matrixd& fromRoot) {

@@ -31,8 +31,8 @@ struct Played {
     osg::observer_ptr<SkinGeometry> geometry;
     osg::observer_ptr<osg::Node> frame; ///< of the skin
     double scale = 1;                   ///< from its lengths to the body's
-    std::optional<DrawnVertices> drawn; ///< of a geometry that the skin was made from; else one a vertex
-    std::vector<Bone> bones;            ///< one a muscle or bone below the skin
+    std::optional<DrawnVertices> drawn; ///< of a geometry that the skin was made from; else one per vertex
+    std::vector<Bone> bones;            ///< one per muscle or bone below the skin
     bool riding = false;                ///< some of them moves with a node
     std::unique_ptr<tss::SkinResponse> response;
     osg::observer_ptr<osgAnimation::MorphGeometry> morph; ///< that makes the skin's own shape; null: none

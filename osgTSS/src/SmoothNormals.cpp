@@ -52,7 +52,7 @@ struct Surface {
 };
 
 /// Joins the corners around one place whose triangles share an edge there and are flatter than the crease.
-/// group: one a corner, the index of the first corner of its group.
+/// group: one per corner, the index of the first corner of its group.
 std::vector<std::size_t> groupCorners(const Surface& surface, std::span<const Corner> corners,
                                       double minCosine) {
     tss::UnionFind together(corners.size());

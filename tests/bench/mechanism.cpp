@@ -177,7 +177,7 @@ public:
             const Pose at = pose(asked.of->motion, own);
             for (std::uint32_t i = 0; i < count; ++i) {
                 const TablePair& pair = asked.table->pair(found_[i]);
-                least = std::min(least, centreDistance(pair, at) - pair.reach);
+                least = std::min(least, centreDistance(pair, at) - pair.contactDistance);
             }
         }
         return least;

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     const SceneModel scene = loadScene(argv[1]);
     for (const Pair& pair : scene.pairs) {
         if (!pair.table || (argc > 2 && pair.path != argv[2])) continue;
-        Problem problem;
+        ComparedPair problem;
         problem.table = *pair.table;
         problem.motion = pair.table->motion;
         const std::size_t dofs = problem.motion.dofCount();

@@ -1,5 +1,5 @@
 #include "bake/compare/MinBall.h"
-#include "bake/compare/BallTree.h"
+#include "bake/compare/EnclosingTree.h"
 
 #include <catch2/catch.hpp>
 #include <random>
@@ -64,11 +64,11 @@ TEST_CASE("a ball tree holds each sphere once and each ball holds all spheres be
     std::mt19937_64 random(5);
     const SphereSet spheres = randomBalls(random, 333, 0.1);
     for (const int arity : {2, 4, 8}) {
-        const BallTree tree = buildBallTree(spheres, arity, Enclosure::Balls);
+        const EnclosingTree tree = buildEnclosingTree(spheres, arity, Enclosure::Balls);
         std::vector<std::uint32_t> parent(tree.nodes.size(), 0);
         std::size_t leaves = 0;
         for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
-            const BallTree::Node& node = tree.nodes[i];
+            const EnclosingTree::Node& node = tree.nodes[i];
             CHECK(node.count <= static_cast<std::uint32_t>(arity));
             for (std::uint32_t k = node.first; k < node.first + node.count; ++k) parent[k] = i;
             if (node.count > 0) continue;

@@ -9,9 +9,9 @@
 
 /// A mesh as a whole problem needs it: both sphere sets conservative with a proven protrusion, the table all
 /// pairs that can meet at some of many poses and hence all that the tests below can ask for.
-inline tss::compare::Problem makeProblem(tss::TriangleMesh a, tss::TriangleMesh b, tss::Motion motion,
-                                         double tolerance) {
-    tss::compare::Problem problem{std::move(a), std::move(b), std::move(motion), {}, {}, {}, {}, {}};
+inline tss::compare::ComparedPair makeProblem(tss::TriangleMesh a, tss::TriangleMesh b, tss::Motion motion,
+                                              double tolerance) {
+    tss::compare::ComparedPair problem{std::move(a), std::move(b), std::move(motion), {}, {}, {}, {}, {}};
     tss::SphereOptions options;
     options.tolerance = tolerance;
     const tss::SphereFit fitA = fitSpheres(problem.meshA, options), fitB = fitSpheres(problem.meshB, options);
@@ -36,7 +36,7 @@ inline tss::Motion makeMotion(std::vector<tss::Dof> dofs) {
 }
 
 /// A lid with a knob that turns and slides over a box with a ball on it.
-inline tss::compare::Problem lidOverBall(double tolerance = 0.05) {
+inline tss::compare::ComparedPair lidOverBall(double tolerance = 0.05) {
     using tss::Vec3;
     const auto together = [](tss::TriangleMesh a, const tss::TriangleMesh& b) {
         const int shift = static_cast<int>(a.vertices.size());
@@ -54,8 +54,8 @@ inline tss::compare::Problem lidOverBall(double tolerance = 0.05) {
                        tolerance);
 }
 
-inline tss::compare::Problem lidHinged(double tolerance = 0.05) {
-    tss::compare::Problem problem = lidOverBall(tolerance);
+inline tss::compare::ComparedPair lidHinged(double tolerance = 0.05) {
+    tss::compare::ComparedPair problem = lidOverBall(tolerance);
     problem.motion.dofs.pop_back();
     problem.table.motion = problem.motion;
     return problem;

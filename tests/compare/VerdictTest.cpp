@@ -1,4 +1,4 @@
-#include "bake/compare/BallTree.h"
+#include "bake/compare/EnclosingTree.h"
 #include "bake/table/Query.h"
 #include "tests/compare/Problems.h"
 
@@ -17,7 +17,7 @@ struct Judged {
     int free = 0, touching = 0;
 };
 
-Judged judge(const Problem& problem, std::size_t count) {
+Judged judge(const ComparedPair& problem, std::size_t count) {
     const MeshTruth truth(problem.meshA, problem.meshB);
     Judged judged;
     auto values = randomPoses(problem.motion, count, 11);
@@ -53,7 +53,7 @@ void checkStated(const CollisionMethod& method, const Judged& judged, double sla
 } // namespace
 
 TEST_CASE("each method's verdicts agree with the meshes within its own stated error") {
-    const Problem problem = lidOverBall();
+    const ComparedPair problem = lidOverBall();
     const Judged judged = judge(problem, 300);
     REQUIRE(judged.free > 50);
     REQUIRE(judged.touching > 50);
@@ -76,8 +76,8 @@ TEST_CASE("each method's verdicts agree with the meshes within its own stated er
     for (const FclTree tree : {FclTree::Obbrss, FclTree::Obb, FclTree::Aabb})
         methods.push_back(makeFcl(problem, tree));
     methods.push_back(makeGimpact(problem));
-    const BallTree a = buildBallTree(problem.a, 8, Enclosure::Balls),
-                   b = buildBallTree(problem.b, 8, Enclosure::Balls);
+    const EnclosingTree a = buildEnclosingTree(problem.a, 8, Enclosure::Balls),
+                        b = buildEnclosingTree(problem.b, 8, Enclosure::Balls);
     methods.push_back(makeGapGrid(problem, [&](const PoseQuery& query) { return treesGap(a, b, query.pose); },
                                   65,
                                   {missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)}));
@@ -85,7 +85,7 @@ TEST_CASE("each method's verdicts agree with the meshes within its own stated er
 }
 
 TEST_CASE("methods over the same spheres give one verdict and one gap") {
-    const Problem problem = lidOverBall();
+    const ComparedPair problem = lidOverBall();
     const auto queries = poseQueries(problem.motion, randomPoses(problem.motion, 200, 5));
     const auto reference = makeAllPairs(problem);
     std::vector<std::unique_ptr<CollisionMethod>> same;
@@ -107,7 +107,7 @@ TEST_CASE("methods over the same spheres give one verdict and one gap") {
 }
 
 TEST_CASE("a tree tests fewer spheres than all pairs and counts four products each") {
-    const Problem problem = lidOverBall();
+    const ComparedPair problem = lidOverBall();
     const auto all = makeAllPairs(problem);
     const auto tree = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
     std::uint64_t ofAll = 0, ofTree = 0;
@@ -121,7 +121,7 @@ TEST_CASE("a tree tests fewer spheres than all pairs and counts four products ea
 }
 
 TEST_CASE("a method that only knows the leading DOF is right for a hinge but for one slice") {
-    const Problem problem = lidHinged();
+    const ComparedPair problem = lidHinged();
     const auto model = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
     const Oracle oracle = [&](const PoseQuery& query) { return model->hit(query); };
     const int bins = 128;
@@ -144,7 +144,7 @@ TEST_CASE("a method that only knows the leading DOF is right for a hinge but for
 }
 
 TEST_CASE("mixed regions ask for spheres only where the leading DOF leaves it open") {
-    const Problem problem = lidOverBall();
+    const ComparedPair problem = lidOverBall();
     const auto model = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
     const Oracle oracle = [&](const PoseQuery& query) { return model->hit(query); };
     const auto mixed = makeMixedRegion(problem, oracle, 64, 40, 3,
@@ -161,7 +161,7 @@ TEST_CASE("mixed regions ask for spheres only where the leading DOF leaves it op
 }
 
 TEST_CASE("a grid of gaps comes nearer to the model as it gets finer, always within its bound") {
-    const Problem problem = lidOverBall();
+    const ComparedPair problem = lidOverBall();
     const auto model = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
     const GapOracle oracle = [&](const PoseQuery& query) { return *model->gap(query); };
     const auto queries = poseQueries(problem.motion, randomPoses(problem.motion, 200, 10));

@@ -162,33 +162,33 @@ TEST_CASE("what is not listed for a way stays away from contact all along it") {
     std::size_t listed = 0, asked = 0, nearest = 0;
     for (int i = 0; i < 80; ++i) {
         CAPTURE(i);
-        DofValues q{}, way{};
+        DofValues q{}, step{};
         const std::vector<double> from = nearItself(random, model, limits);
         const double size = std::pow(10.0, between(random, -4, -0.7));
         for (std::size_t k = 0; k < from.size(); ++k) {
             q[k] = from[k];
-            way[k] = between(random, -size, size);
+            step[k] = between(random, -size, size);
         }
         ResponseRoom ws = roomFor(model);
         for (PlacedGroup& group : kept.groups) group.known = false;
         ws.unlist();
         kept.unlist();
-        REQUIRE(listOnWay(model, q, way, ws));
+        REQUIRE(listOnStep(model, q, step, ws));
         // A little before, and here with what is known from there.
         DofValues before = q;
-        for (std::size_t k = 0; k < from.size(); ++k) before[k] -= 0.5 * way[k];
-        REQUIRE(listOnWay(model, before, way, kept));
+        for (std::size_t k = 0; k < from.size(); ++k) before[k] -= 0.5 * step[k];
+        REQUIRE(listOnStep(model, before, step, kept));
         kept.unlist();
-        REQUIRE(listOnWay(model, q, way, kept));
+        REQUIRE(listOnStep(model, q, step, kept));
         REQUIRE(kept.nearCount == ws.nearCount);
         for (std::size_t k = 0; k < ws.nearCount; ++k) REQUIRE(kept.near[k].pair == ws.near[k].pair);
         listed += ws.nearCount;
         for (int part = 0; part <= 5; ++part) {
             DofValues at = q;
-            for (std::size_t k = 0; k < from.size(); ++k) at[k] += part / 5.0 * way[k];
+            for (std::size_t k = 0; k < from.size(); ++k) at[k] += part / 5.0 * step[k];
             for (std::size_t g = 0; g < model.groups.size(); ++g) {
                 const JointModel::Group& group = model.groups[g];
-                placeGroup(model, g, at, way, ws);
+                placeGroup(model, g, at, step, ws);
                 const Pose& pose = ws.groups[g].frame.pose;
                 REQUIRE(pose.matrix() == tss::pose(group.motion, chain.own(g, at)).matrix());
                 if (!group.clustered) continue;

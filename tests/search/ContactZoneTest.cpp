@@ -1,5 +1,5 @@
 #include "bake/base/Parallel.h"
-#include "bake/search/Reach.h"
+#include "bake/search/NearSurface.h"
 #include "bake/search/UndecidedCells.h"
 #include "tests/geometry/TestMeshes.h"
 #include "tests/search/Scenes.h"
@@ -151,9 +151,9 @@ TEST_CASE("every piece of surface that comes near the other body is within reach
     const MeshQuery queryA(a), queryB(b);
     const double margin = seed % 2 ? 0.0 : 0.1, size = 0.05;
     const std::vector<Patch> zoneA =
-        findReach(patchesOf(a), Side::A, queryB, motion, wholeQ(motion), size, margin);
+        findNearSurface(patchesOf(a), Side::A, queryB, motion, wholeQ(motion), size, margin);
     const std::vector<Patch> zoneB =
-        findReach(patchesOf(b), Side::B, queryA, motion, wholeQ(motion), size, margin);
+        findNearSurface(patchesOf(b), Side::B, queryA, motion, wholeQ(motion), size, margin);
     for (const Patch& patch : zoneA) CHECK(patch.radius() <= size);
     const auto distance = [](const std::vector<Patch>& zone, const Vec3& p) {
         TriangleMesh mesh;
@@ -192,15 +192,15 @@ TEST_CASE("a slide brings only the faces that look at each other within reach") 
          {std::tuple(Side::A, &a, &queryB, 0.0), std::tuple(Side::B, &b, &queryA, -0.4)}) {
         double area = 0;
         for (const Patch& patch :
-             findReach(patchesOf(*mesh), side, *other, motion, wholeQ(motion), 0.02, 0)) {
+             findNearSurface(patchesOf(*mesh), side, *other, motion, wholeQ(motion), 0.02, 0)) {
             area += patch.area();
             for (const Vec3& c : patch.corners) CHECK(std::abs(c.x() - x) < 0.2);
         }
         CHECK(area >= 1); // the face, all of it
         CHECK(area < 1.8);
     }
-    CHECK(findReach(patchesOf(a), Side::A, MeshQuery(test::boxMesh({-9, 0, 0}, {-8, 1, 1})), motion,
-                    wholeQ(motion), 0.02, 0)
+    CHECK(findNearSurface(patchesOf(a), Side::A, MeshQuery(test::boxMesh({-9, 0, 0}, {-8, 1, 1})), motion,
+                          wholeQ(motion), 0.02, 0)
               .empty());
 }
 
@@ -213,7 +213,7 @@ TEST_CASE("reach and undecided cells are the same for any number of threads") {
     const auto run = [&](int threads) {
         const ThreadLimit limit(threads);
         std::vector<double> corners;
-        for (const Patch& p : findReach(patchesOf(a), Side::A, b, motion, wholeQ(motion), 0.1, 0))
+        for (const Patch& p : findNearSurface(patchesOf(a), Side::A, b, motion, wholeQ(motion), 0.1, 0))
             corners.insert(corners.end(), {p.corners[0].x(), p.corners[1].y(), p.corners[2].z()});
         return corners;
     };

@@ -65,7 +65,7 @@ TEST_CASE("no point moves farther in a cell, or farther from its tangent, than t
         const CellMotion bound(rates, cell);
         const Vec3 y = random.inBox(2), z = random.inBox(2);
         const Vec3 x0 = bound.centrePose() * y, difference0 = bound.centrePose() * z - x0;
-        const auto reach = bound.reach(x0);
+        const auto moved = bound.pointMotion(x0);
         std::array<std::array<double, maxDofs>, 3> jacobian;
         for (int axis = 0; axis < 3; ++axis) bound.slope(x0, Vec3::Unit(axis), jacobian[axis].data());
         for (int k = 0; k < 20; ++k) {
@@ -76,15 +76,15 @@ TEST_CASE("no point moves farther in a cell, or farther from its tangent, than t
                 for (std::size_t l = 0; l < q.size(); ++l)
                     tangent[axis] += jacobian[axis][l] * (q[l] - bound.centre()[l]);
             INFO("round " << round << " dofs " << dofs);
-            REQUIRE((x - x0).norm() <= reach.move + 1e-12);
-            REQUIRE((x - tangent).norm() <= reach.remainder + 1e-12);
+            REQUIRE((x - x0).norm() <= moved.move + 1e-12);
+            REQUIRE((x - tangent).norm() <= moved.remainder + 1e-12);
             REQUIRE((difference - difference0).norm() <= bound.relativeMove() * difference0.norm() + 1e-12);
-            if (reach.move > 1e-6) tightestMove = std::max(tightestMove, (x - x0).norm() / reach.move);
-            if (reach.remainder > 1e-6)
-                tightestRemainder = std::max(tightestRemainder, (x - tangent).norm() / reach.remainder);
+            if (moved.move > 1e-6) tightestMove = std::max(tightestMove, (x - x0).norm() / moved.move);
+            if (moved.remainder > 1e-6)
+                tightestRemainder = std::max(tightestRemainder, (x - tangent).norm() / moved.remainder);
         }
         const auto share = bound.shares(x0);
-        CHECK(std::accumulate(share.begin(), share.end(), 0.0) == Approx(reach.move).margin(1e-15));
+        CHECK(std::accumulate(share.begin(), share.end(), 0.0) == Approx(moved.move).margin(1e-15));
     }
     // Bounds that nothing ever comes near would be useless.
     CHECK(tightestMove > 0.9);

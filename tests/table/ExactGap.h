@@ -30,7 +30,7 @@ inline Vector moved(const tss::Motion& motion, const std::vector<double>& q, con
 }
 
 inline long double gap(const tss::Motion& motion, const tss::TablePair& pair, const std::vector<double>& q) {
-    return (moved(motion, q, pair.b) - pair.a.cast<long double>()).norm() - pair.reach;
+    return (moved(motion, q, pair.b) - pair.a.cast<long double>()).norm() - pair.contactDistance;
 }
 
 /// The smallest over all pairs.

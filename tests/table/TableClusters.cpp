@@ -20,7 +20,7 @@ Table clustered(Random& random, std::uint64_t seed) {
     return table;
 }
 
-std::vector<std::uint32_t> under(const PreparedTable& table, const TableFeatures& f, double margin) {
+std::vector<std::uint32_t> testsWithin(const PreparedTable& table, const TableFeatures& f, double margin) {
     std::vector<std::uint32_t> tests(table.testRoom());
     tests.resize(table.testsWithin(f, margin, tests.data()));
     std::sort(tests.begin(), tests.end());
@@ -54,8 +54,8 @@ TEST_CASE("a table in clusters answers as without them, to the bit, and misses n
                 REQUIRE(with.hit(q.data()) == with.hit(f));
                 REQUIRE(with.gap(f).gap == without.gap(g).gap);
                 const double margin = random_table::between(random, 0, 0.3);
-                const std::vector<std::uint32_t> near = under(with, f, margin);
-                REQUIRE(near == under(without, g, margin));
+                const std::vector<std::uint32_t> near = testsWithin(with, f, margin);
+                REQUIRE(near == testsWithin(without, g, margin));
                 listed += long(near.size());
                 if (exact::gap(table.motion, pairs, q) <= 0) REQUIRE(with.hit(f));
                 (with.hit(f) ? hits : free) += 1;
@@ -147,7 +147,7 @@ TEST_CASE("tests asked first are those that touch at most poses, each where none
         TablePair pair;
         pair.a = random_table::inBall(random, 1);
         pair.b = random_table::inBall(random, 1);
-        pair.reach = 0.4;
+        pair.contactDistance = 0.4;
         pairs.push_back(pair);
     }
     std::vector<TouchingPose> poses;
@@ -155,7 +155,7 @@ TEST_CASE("tests asked first are those that touch at most poses, each where none
         TouchingPose at{Pose(Eigen::Translation3d(random_table::inBall(random, 1))), 0};
         double least = 0;
         for (std::uint32_t k = 0; k < pairs.size(); ++k)
-            if (const double gap = centreDistance(pairs[k], at.pose) - pairs[k].reach; gap < least)
+            if (const double gap = centreDistance(pairs[k], at.pose) - pairs[k].contactDistance; gap < least)
                 least = gap, at.test = k;
         if (least < 0) poses.push_back(at);
     }
@@ -163,7 +163,7 @@ TEST_CASE("tests asked first are those that touch at most poses, each where none
     const auto ended = [&](std::span<const std::uint32_t> tests) {
         return std::count_if(poses.begin(), poses.end(), [&](const TouchingPose& at) {
             return std::any_of(tests.begin(), tests.end(), [&](std::uint32_t test) {
-                return centreDistance(pairs[test], at.pose) <= pairs[test].reach;
+                return centreDistance(pairs[test], at.pose) <= pairs[test].contactDistance;
             });
         });
     };

@@ -131,7 +131,7 @@ TEST_CASE("clusters made for other spheres are refused, and for the right ones p
         // One that reaches farther, one that lies elsewhere, one too few.
         const std::size_t some = tests.size() / 3;
         std::vector<verify::Exact> larger = tests, moved = tests;
-        larger[some].reach += 1;
+        larger[some].contactDistance += 1;
         moved[some].b.x() += 1;
         CHECK(verify::refuteClusters(prepared, larger, posed) != "");
         CHECK(verify::refuteClusters(prepared, moved, posed) != "");

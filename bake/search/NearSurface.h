@@ -14,8 +14,8 @@ enum class Side { A, B };
 /// kept may stay a few `size` farther than the margin. Patches larger than `size` are halved. patches: of the
 /// body on `side`, in its own frame. other: the mesh of the other body, in its own frame. size: radius of the
 /// patches to end with, scene units, > 0. The same for any number of threads.
-std::vector<Patch> findReach(std::span<const Patch> patches, Side side, const MeshQuery& other,
-                             const Motion& motion, const CellTree& cells, double size, double margin,
-                             const Progress& progress = {});
+std::vector<Patch> findNearSurface(std::span<const Patch> patches, Side side, const MeshQuery& other,
+                                   const Motion& motion, const CellTree& cells, double size, double margin,
+                                   const Progress& progress = {});
 
 } // namespace tss

@@ -5,18 +5,18 @@
 namespace tss::tool {
 
 /// Rows of numbers, each with the same number of columns.
-struct Csv {
+struct CsvTable {
     std::vector<std::string> header; ///< empty when the file has none
     std::vector<std::vector<double>> rows;
 };
 
 /// Reads a CSV file of finite numbers: an optional first line of names, empty lines and lines starting with #
 /// skipped. columns > 0: each row must have so many. Throws InputError with file, line and column.
-Csv readCsv(const std::string& file, std::size_t columns = 0);
+CsvTable readCsv(const std::string& file, std::size_t columns = 0);
 
 /// A first line that names one of `names` in another one's column is not what the columns are taken for:
 /// throws InputError. Names of its own are the writer's affair. first: the column of names[0].
-void checkColumns(const Csv& csv, const std::vector<std::string>& names, const std::string& file,
+void checkColumns(const CsvTable& csv, const std::vector<std::string>& names, const std::string& file,
                   std::size_t first = 0);
 
 } // namespace tss::tool

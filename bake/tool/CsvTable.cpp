@@ -1,4 +1,4 @@
-#include "bake/tool/Csv.h"
+#include "bake/tool/CsvTable.h"
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
@@ -42,8 +42,8 @@ bool isName(const std::string& cell) {
 
 } // namespace
 
-Csv readCsv(const std::string& file, std::size_t columns) {
-    Csv csv;
+CsvTable readCsv(const std::string& file, std::size_t columns) {
+    CsvTable csv;
     std::istringstream stream(readWholeFile(file));
     std::string line;
     for (int number = 1; std::getline(stream, line); ++number) {
@@ -66,7 +66,7 @@ Csv readCsv(const std::string& file, std::size_t columns) {
     return csv;
 }
 
-void checkColumns(const Csv& csv, const std::vector<std::string>& names, const std::string& file,
+void checkColumns(const CsvTable& csv, const std::vector<std::string>& names, const std::string& file,
                   std::size_t first) {
     for (std::size_t k = 0; k < names.size() && first + k < csv.header.size(); ++k) {
         const std::string& found = csv.header[first + k];

@@ -7,7 +7,7 @@
 namespace tss::compare {
 
 /// Two bodies as all methods are given them. B's frame moves in A's by the motion.
-struct Problem {
+struct ComparedPair {
     TriangleMesh meshA, meshB;
     Motion motion;
     SphereSet a, b;       ///< the whole sphere sets (the paper's Ms)

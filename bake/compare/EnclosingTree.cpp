@@ -1,4 +1,4 @@
-#include "bake/compare/BallTree.h"
+#include "bake/compare/EnclosingTree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,9 +31,9 @@ void split(const SphereSet& spheres, std::span<std::uint32_t> range, int levels,
 
 } // namespace
 
-BallTree buildBallTree(const SphereSet& spheres, int arity, Enclosure enclosure) {
+EnclosingTree buildEnclosingTree(const SphereSet& spheres, int arity, Enclosure enclosure) {
     const int levels = arity >= 8 ? 3 : arity >= 4 ? 2 : 1;
-    BallTree tree;
+    EnclosingTree tree;
     if (spheres.empty()) return tree;
     std::vector<std::uint32_t> order(spheres.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -49,7 +49,7 @@ BallTree buildBallTree(const SphereSet& spheres, int arity, Enclosure enclosure)
         below.clear();
         for (const std::uint32_t i : item.range) below.push_back(spheres[i]);
         const Sphere ball = enclosingBall(below, enclosure);
-        BallTree::Node node{ball.centre, ball.radius, 0, 0};
+        EnclosingTree::Node node{ball.centre, ball.radius, 0, 0};
         if (item.range.size() > 1) {
             std::vector<std::span<std::uint32_t>> parts;
             split(spheres, item.range, levels, parts);
@@ -65,7 +65,7 @@ BallTree buildBallTree(const SphereSet& spheres, int arity, Enclosure enclosure)
     return tree;
 }
 
-double treesGap(const BallTree& a, const BallTree& b, const Pose& pose) {
+double treesGap(const EnclosingTree& a, const EnclosingTree& b, const Pose& pose) {
     double best = std::numeric_limits<double>::infinity();
     if (a.nodes.empty() || b.nodes.empty()) return best;
     struct Item {

@@ -8,9 +8,9 @@ namespace tss::compare {
 
 namespace {
 
-class AllPairs final : public CollisionMethodLoop<AllPairs> {
+class AllSpherePairs final : public CollisionMethodLoop<AllSpherePairs> {
 public:
-    explicit AllPairs(const Problem& problem) : problem_(problem) {
+    explicit AllSpherePairs(const ComparedPair& problem) : problem_(problem) {
         description() = {"all-pairs",
                          "all pairs",
                          "every sphere of A against every sphere of B, scalar doubles, first hit out",
@@ -48,13 +48,13 @@ private:
         return false;
     }
 
-    const Problem& problem_;
+    const ComparedPair& problem_;
 };
 
 } // namespace
 
-std::unique_ptr<CollisionMethod> makeAllPairs(const Problem& problem) {
-    return std::make_unique<AllPairs>(problem);
+std::unique_ptr<CollisionMethod> makeAllPairs(const ComparedPair& problem) {
+    return std::make_unique<AllSpherePairs>(problem);
 }
 
 } // namespace tss::compare

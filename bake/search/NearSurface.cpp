@@ -1,4 +1,4 @@
-#include "bake/search/Reach.h"
+#include "bake/search/NearSurface.h"
 
 #include "bake/base/Parallel.h"
 #include "bake/base/Poll.h"
@@ -21,22 +21,22 @@ struct Ball {
 
 /// What all threads share. Marks are only ever set, and whether one is set does not depend on the others:
 /// they save work alone.
-struct Problem {
+struct NearSurfaceInput {
     Side side;
     const MeshQuery& other;
     const MotionRates& rates;
     Bvh tree;
-    std::vector<Ball> balls; ///< one a node; a leaf is one patch, or many where there was no time to divide
+    std::vector<Ball> balls; ///< one per node; a leaf is one patch, or many where there was no time to divide
     double resolution;       ///< the motion in a cell that is small enough to settle a patch
     double margin;
-    std::unique_ptr<std::atomic<char>[]> reached; ///< one a node: all below it is
+    std::unique_ptr<std::atomic<char>[]> reached; ///< one per node: all below it is
     std::vector<std::uint32_t> parents;
     Poll& poll;
     double rounding;                     ///< of distances between the two bodies
     std::atomic<std::uint64_t> tests{0}; ///< balls looked at
 };
 
-void buildTree(Problem& p, std::span<const Patch> patches) {
+void buildTree(NearSurfaceInput& p, std::span<const Patch> patches) {
     std::vector<Eigen::AlignedBox3d> boxes;
     for (const Patch& patch : patches) {
         Eigen::AlignedBox3d box(patch.corners[0]);
@@ -69,30 +69,30 @@ struct Probe {
     double move; ///< of its points against the other mesh in the cell
 };
 
-Probe probe(const Problem& p, const CellMotion& motion, const Pose& inverse, const Ball& ball) {
+Probe probe(const NearSurfaceInput& p, const CellMotion& motion, const Pose& inverse, const Ball& ball) {
     const double spread = motion.relativeMove() * ball.radius;
     if (p.side == Side::B) {
         const Vec3 x = motion.centrePose() * ball.centre;
-        return {x, motion.reach(x).move + spread};
+        return {x, motion.pointMotion(x).move + spread};
     }
     // Say that x of A meets y of B at some pose of the cell. At the centre pose y is elsewhere, at most f(y)
     // from x, f being how far a point of B moves in the cell. What is known is f(x). As f differs between two
     // points by at most rate times their distance, f(y) <= f(x) + rate * f(y), so f(y) <= f(x) / (1 - rate).
     const double rate = motion.relativeMove();
-    const double move = rate < 1 ? (motion.reach(ball.centre).move + spread) / (1 - rate)
+    const double move = rate < 1 ? (motion.pointMotion(ball.centre).move + spread) / (1 - rate)
                                  : std::numeric_limits<double>::infinity();
     return {inverse * ball.centre, move};
 }
 
 class Marker {
 public:
-    explicit Marker(Problem& problem) : p_(problem) {}
+    explicit Marker(NearSurfaceInput& problem) : p_(problem) {}
     ~Marker() { p_.tests += tests_; }
 
     void run(const CellTree& tree, const std::vector<std::uint32_t>& inherited) {
         Cell cell = tree.cell;
         if (!shrinkToPlanes(p_.rates.motion(), cell)) return;
-        if (p_.poll.stopped()) { // what has not been looked at may be within reach
+        if (p_.poll.stopped()) { // what has not been looked at may be near
             for (const std::uint32_t n : inherited) mark(n);
             return;
         }
@@ -154,7 +154,7 @@ private:
                                         share.begin());
     }
 
-    Problem& p_;
+    NearSurfaceInput& p_;
     std::uint64_t tests_ = 0;
 };
 
@@ -183,7 +183,7 @@ struct Kept {
     std::uint64_t tests = 0;
 };
 
-/// The patches that come within reach, judged as they are.
+/// The patches that come near, judged as they are.
 Kept reached(std::span<const Patch> patches, Side side, const MeshQuery& other, const MotionRates& rates,
              const CellTree& cells, double resolution, double margin, Poll& poll) {
     if (patches.empty()) return {};
@@ -191,17 +191,17 @@ Kept reached(std::span<const Patch> patches, Side side, const MeshQuery& other, 
     for (const Patch& patch : patches)
         for (const Vec3& c : patch.corners) own = std::max(own, c.norm());
     const double inA = side == Side::A ? own : other.extent(), inB = side == Side::A ? other.extent() : own;
-    Problem p{side,
-              other,
-              rates,
-              {},
-              {},
-              resolution,
-              margin,
-              {},
-              {},
-              poll,
-              coordinateRounding(rates.motion(), inA, inB)};
+    NearSurfaceInput p{side,
+                       other,
+                       rates,
+                       {},
+                       {},
+                       resolution,
+                       margin,
+                       {},
+                       {},
+                       poll,
+                       coordinateRounding(rates.motion(), inA, inB)};
     buildTree(p, patches);
     const std::vector<std::uint32_t> nodes = topNodes(p.tree, 64);
     parallelFor(nodes.size(), [&](std::size_t i) { Marker(p).run(cells, {nodes[i]}); });
@@ -252,9 +252,9 @@ double largestRadius(std::span<const Patch> patches) {
 
 } // namespace
 
-std::vector<Patch> findReach(std::span<const Patch> patches, Side side, const MeshQuery& other,
-                             const Motion& motion, const CellTree& cells, double size, double margin,
-                             const Progress& progress) {
+std::vector<Patch> findNearSurface(std::span<const Patch> patches, Side side, const MeshQuery& other,
+                                   const Motion& motion, const CellTree& cells, double size, double margin,
+                                   const Progress& progress) {
     const MotionRates rates(motion);
     std::vector<Patch> now(patches.begin(), patches.end());
     Poll poll(progress, "reach");

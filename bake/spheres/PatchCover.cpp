@@ -1,6 +1,6 @@
 // The lazy greedy choice is that of Minoux, "Accelerated greedy algorithms for maximizing submodular set
 // functions", 1978.
-#include "bake/spheres/Cover.h"
+#include "bake/spheres/PatchCover.h"
 
 #include "bake/base/Parallel.h"
 

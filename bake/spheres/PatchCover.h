@@ -17,8 +17,8 @@ struct CoverSets {
     }
 };
 
-/// candidates: one a patch, that covers it. Large ones come first, and those whose own patch `enough` others
-/// kept cover are left out: this bounds the memory by about the number of patches times `enough`, for
+/// candidates: one per patch, that covers it. Large ones come first, and those whose own patch `enough`
+/// others kept cover are left out: this bounds the memory by about the number of patches times `enough`, for
 /// whatever tolerance, and costs few spheres. Asked to stop, it returns none.
 CoverSets coverSets(std::span<const Sphere> candidates, std::span<const Patch> patches,
                     const Progress& progress = {}, int enough = 24);

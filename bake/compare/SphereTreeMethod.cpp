@@ -1,4 +1,4 @@
-#include "bake/compare/BallTree.h"
+#include "bake/compare/EnclosingTree.h"
 #include "bake/compare/Methods.h"
 
 #include <chrono>
@@ -23,11 +23,11 @@ std::string enclosureName(Enclosure enclosure) {
 
 class SphereTreeMethod final : public CollisionMethodLoop<SphereTreeMethod> {
 public:
-    SphereTreeMethod(const Problem& problem, TreeOf of, int arity, Enclosure enclosure) {
+    SphereTreeMethod(const ComparedPair& problem, TreeOf of, int arity, Enclosure enclosure) {
         const auto start = std::chrono::steady_clock::now();
         const bool all = of == TreeOf::All;
-        a_ = buildBallTree(all ? problem.a : problem.table.a, arity, enclosure);
-        b_ = buildBallTree(all ? problem.b : problem.table.b, arity, enclosure);
+        a_ = buildEnclosingTree(all ? problem.a : problem.table.a, arity, enclosure);
+        b_ = buildEnclosingTree(all ? problem.b : problem.table.b, arity, enclosure);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         const std::string how = enclosureName(enclosure);
         const Table& table = problem.table;
@@ -57,12 +57,12 @@ public:
     }
 
 private:
-    BallTree a_, b_;
+    EnclosingTree a_, b_;
 };
 
 } // namespace
 
-std::unique_ptr<CollisionMethod> makeSphereTree(const Problem& problem, TreeOf of, int arity,
+std::unique_ptr<CollisionMethod> makeSphereTree(const ComparedPair& problem, TreeOf of, int arity,
                                                 Enclosure enclosure) {
     return std::make_unique<SphereTreeMethod>(problem, of, arity, enclosure);
 }

@@ -7,7 +7,7 @@
 namespace tss::compare {
 
 /// A tree of balls with any number of children. The children of a node stand side by side, behind it.
-struct BallTree {
+struct EnclosingTree {
     struct Node {
         Vec3 centre = Vec3::Zero();
         double radius = 0;
@@ -21,15 +21,16 @@ struct BallTree {
 
 /// Splits a sphere set top down at the median of the longest axis into `arity` = 2, 4 or 8 children; each
 /// ball contains the spheres below it whole.
-BallTree buildBallTree(const SphereSet& spheres, int arity, Enclosure enclosure);
+EnclosingTree buildEnclosingTree(const SphereSet& spheres, int arity, Enclosure enclosure);
 
 /// Calls visit(node of A, node of B) for what takes the place of a pair that is not one of two leaves: the
 /// larger ball is opened. True, and no more calls, as soon as a visit says so.
 template <class Visit>
-bool openLarger(const BallTree& a, const BallTree& b, std::uint32_t ia, std::uint32_t ib, Visit&& visit) {
-    const BallTree::Node &na = a.nodes[ia], &nb = b.nodes[ib];
+bool openLarger(const EnclosingTree& a, const EnclosingTree& b, std::uint32_t ia, std::uint32_t ib,
+                Visit&& visit) {
+    const EnclosingTree::Node &na = a.nodes[ia], &nb = b.nodes[ib];
     const bool openA = nb.count == 0 || (na.count > 0 && na.radius >= nb.radius);
-    const BallTree::Node& opened = openA ? na : nb;
+    const EnclosingTree::Node& opened = openA ? na : nb;
     for (std::uint32_t k = opened.first; k < opened.first + opened.count; ++k)
         if (openA ? visit(k, ib) : visit(ia, k)) return true;
     return false;
@@ -37,7 +38,7 @@ bool openLarger(const BallTree& a, const BallTree& b, std::uint32_t ia, std::uin
 
 /// Do leaves of the two trees overlap? Depth first, the larger ball opened, first hit out.
 template <class Counter>
-bool treesTouch(const BallTree& a, const BallTree& b, const Pose& pose, Counter& counter) {
+bool treesTouch(const EnclosingTree& a, const EnclosingTree& b, const Pose& pose, Counter& counter) {
     if (a.nodes.empty() || b.nodes.empty()) return false;
     struct Item {
         std::uint32_t a, b;
@@ -65,6 +66,6 @@ bool treesTouch(const BallTree& a, const BallTree& b, const Pose& pose, Counter&
 }
 
 /// Smallest gap of two leaves, best first by branch and bound; +infinity for an empty tree.
-double treesGap(const BallTree& a, const BallTree& b, const Pose& pose);
+double treesGap(const EnclosingTree& a, const EnclosingTree& b, const Pose& pose);
 
 } // namespace tss::compare

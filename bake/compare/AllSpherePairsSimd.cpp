@@ -1,5 +1,5 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "bake/compare/AllPairsSimd.cpp"
+#define HWY_TARGET_INCLUDE "bake/compare/AllSpherePairsSimd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -39,7 +39,7 @@ constexpr std::size_t padding = 16;
 
 class AllPairsSimd final : public CollisionMethodLoop<AllPairsSimd> {
 public:
-    explicit AllPairsSimd(const Problem& problem) : problem_(problem) {
+    explicit AllPairsSimd(const ComparedPair& problem) : problem_(problem) {
         const std::size_t count = (problem.b.size() + padding - 1) / padding * padding;
         // Padding spheres stand far away with radius 0; they never overlap anything of this size.
         Eigen::AlignedBox3d box;
@@ -87,7 +87,7 @@ public:
     }
 
 private:
-    const Problem& problem_;
+    const ComparedPair& problem_;
     Vec3 centre_ = Vec3::Zero(); ///< of B's spheres: floats are finest about it
     std::vector<float> x_, y_, z_, r_;
     bool (*overlaps_)(float, float, float, float, const float*, const float*, const float*, const float*,
@@ -96,7 +96,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<CollisionMethod> makeAllPairsSimd(const Problem& problem) {
+std::unique_ptr<CollisionMethod> makeAllPairsSimd(const ComparedPair& problem) {
     return std::make_unique<AllPairsSimd>(problem);
 }
 
