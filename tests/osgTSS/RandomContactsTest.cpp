@@ -109,9 +109,9 @@ private:
     std::vector<Pair> _pairs;
 };
 
-void check(unsigned int graphs, int settings) {
+void check(unsigned int first, unsigned int graphs, int settings) {
     unsigned long poses = 0, contacts = 0, reported = 0;
-    for (unsigned int seed = 1; seed <= graphs; ++seed) {
+    for (unsigned int seed = first; seed < first + graphs; ++seed) {
         CAPTURE(seed);
         Judged judged(seed);
         for (int setting = 0; setting < settings; ++setting) judged.look();
@@ -128,9 +128,9 @@ void check(unsigned int graphs, int settings) {
 } // namespace
 
 TEST_CASE("tables and proofs of any graph say what FCL finds where OSG draws the bodies") {
-    check(3, 300);
+    check(6, 3, 300);
 }
 
 TEST_CASE("tables and proofs of any graph say what FCL finds, in a million settings", "[.long]") {
-    check(200, 5000);
+    check(1, 200, 5000);
 }

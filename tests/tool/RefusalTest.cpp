@@ -214,7 +214,8 @@ TEST_CASE("columns that are named in another order than the joint has them are r
                 .exit == 0);
     REQUIRE(runTss("bake two.tss -o baked.tss --tolerance 0.5 --quiet", folder.path()).exit == 0);
     const Ran info = runTss("info baked.tss", folder.path());
-    CHECK(info.out.find("rot -5 to 5 degrees, rest 2; trans -1 to 1, rest 0.5") != std::string::npos);
+    CHECK(info.out.find("rot -5 to 5 degrees, rest 2; trans -1 to 1 times 1 m, rest 0.5") !=
+          std::string::npos);
     const auto run = [&](const std::string& header, const std::string& command) {
         writeText(folder.path() / "q.csv", header + "\n" + (command == "query" ? "0,0\n" : "0,0,0\n"));
         return runTss(command + " baked.tss " + (command == "query" ? "--poses" : "--motion") +
