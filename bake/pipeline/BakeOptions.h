@@ -35,7 +35,7 @@ struct BakeOptions {
 };
 
 /// One setting by the name that it has on the command line (without dashes), in scene files
-/// (tss:bake:<name>) and in the node kit.
+/// (tss:bake:NAME) and in the node kit.
 struct BakeOption {
     const char* name;
     std::string about; ///< the line of help; empty: true or false, a flag of its own on the command line
