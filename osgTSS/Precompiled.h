@@ -1,4 +1,5 @@
-// Others' headers that most sources of the node kit include: compiled once for all of them (OSGTSS_PRECOMPILE).
+// Others' headers that most sources of the node kit include: compiled once for all of them
+// (OSGTSS_PRECOMPILE).
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <osg/Geometry>

@@ -44,6 +44,23 @@ for folder in bake/*/; do
         }
     done < <(grep -rE --include='*.h' --include='*.cpp' '^#include "bake/' "$folder")
 done
+# The node kit's own folders, from the lowest: each may include those before it, and what stands in osgTSS/src itself.
+before=""
+for name in draw joints extract update install; do
+    before+=" $name"
+    while IFS=: read -r file include; do
+        target=${include#*\"osgTSS/src/}
+        [[ "$target" != */* || "$before " == *" ${target%%/*} "* ]] || {
+            echo "$file: osgTSS/src/$name may not include ${include#*include }"
+            wrong=1
+        }
+    done < <(grep -rE '^#include "osgTSS/src/' "osgTSS/src/$name")
+done
+if [ "$(ls -d osgTSS/src/*/ | wc -l)" -ne "$(wc -w <<<"$before")" ]; then
+    echo "osgTSS/src: expected its folders to be those that tests/layers.sh names:$before"
+    wrong=1
+fi
+if grep -nE '^#include "osgTSS/src/[a-z]+/' osgTSS/src/*.h osgTSS/src/*.cpp; then wrong=1; fi
 # Nothing in bake/ knows OpenSceneGraph or the node kit, and the kit does not know the report.
 if grep -rnE '^#include [<"]osg' bake; then wrong=1; fi
 if grep -rnE '^#include "bake/(compare|report|tool)/' osgTSS; then wrong=1; fi

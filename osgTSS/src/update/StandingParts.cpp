@@ -1,8 +1,8 @@
 #include "StandingParts.h"
 
-#include "JointNodes.h"
-#include "MovedNodes.h"
-#include "TaggedJoint.h"
+#include "osgTSS/src/extract/MovedNodes.h"
+#include "osgTSS/src/joints/JointNodes.h"
+#include "osgTSS/src/joints/TaggedJoint.h"
 
 #include <osg/AutoTransform>
 #include <osg/Camera>

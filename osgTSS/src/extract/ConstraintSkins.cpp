@@ -1,8 +1,8 @@
-#include "AnimationChannels.h"
 #include "CollectTriangles.h"
 #include "SkeletonMeshes.h"
 #include "SoftParts.h"
 #include "SoftTags.h"
+#include "osgTSS/src/joints/AnimationChannels.h"
 
 #include "bake/base/Error.h"
 

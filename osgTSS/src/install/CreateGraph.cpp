@@ -1,5 +1,5 @@
-#include "BodyGeometry.h"
-#include "BodyNodes.h"
+#include "osgTSS/src/draw/BodyGeometry.h"
+#include "osgTSS/src/draw/BodyNodes.h"
 
 #include <osg/LightSource>
 #include <osg/MatrixTransform>

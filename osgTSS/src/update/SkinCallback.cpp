@@ -1,8 +1,8 @@
-#include "BodyNodes.h"
-#include "DrawnVertices.h"
 #include "PerNode.h"
-#include "SceneCache.h"
-#include "SoftParts.h"
+#include "osgTSS/src/SceneCache.h"
+#include "osgTSS/src/draw/BodyNodes.h"
+#include "osgTSS/src/draw/DrawnVertices.h"
+#include "osgTSS/src/extract/SoftParts.h"
 
 #include "bake/base/Error.h"
 #include "bake/respond/SkinResponse.h"

@@ -1,6 +1,6 @@
-#include "JointNodes.h"
 #include "PerNode.h"
 #include "StandingParts.h"
+#include "osgTSS/src/joints/JointNodes.h"
 
 #include <osg/Node>
 #include <osg/NodeVisitor>

@@ -1,8 +1,8 @@
 #include "InstallSkins.h"
 
-#include "BodyNodes.h"
-#include "DrawnVertices.h"
-#include "SoftParts.h"
+#include "osgTSS/src/draw/BodyNodes.h"
+#include "osgTSS/src/draw/DrawnVertices.h"
+#include "osgTSS/src/extract/SoftParts.h"
 
 #include "bake/base/Error.h"
 #include "bake/model/SourceHash.h"

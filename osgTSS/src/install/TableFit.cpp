@@ -1,5 +1,5 @@
 #include "TableFit.h"
-#include "PointGrid.h"
+#include "osgTSS/src/draw/PointGrid.h"
 
 #include "bake/model/SourceHash.h"
 #include "bake/motion/WholeTurn.h"

@@ -1,5 +1,5 @@
 #pragma once
-#include "BodyNodes.h"
+#include "osgTSS/src/draw/BodyNodes.h"
 
 #include "bake/play/JointPlan.h"
 

@@ -1,6 +1,6 @@
-#include "AnimationChannels.h"
 #include "SkeletonMeshes.h"
 #include "SoftParts.h"
+#include "osgTSS/src/joints/AnimationChannels.h"
 
 #include "bake/base/Error.h"
 #include "bake/model/AddPair.h"

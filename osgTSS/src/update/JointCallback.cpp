@@ -1,8 +1,8 @@
 #include "ContactReport.h"
-#include "JointNodes.h"
 #include "PerNode.h"
-#include "SceneCache.h"
 #include "SkeletonPose.h"
+#include "osgTSS/src/SceneCache.h"
+#include "osgTSS/src/joints/JointNodes.h"
 
 #include <osg/Node>
 #include <osg/Notify>

@@ -1,6 +1,6 @@
 #include "SoftParts.h"
 
-#include "DrawnVertices.h"
+#include "osgTSS/src/draw/DrawnVertices.h"
 
 #include "bake/base/Error.h"
 #include "bake/play/FindFibre.h"

@@ -1,4 +1,4 @@
-#include "SceneCache.h"
+#include "osgTSS/src/SceneCache.h"
 
 #include <osg/Stats>
 #include <osgGA/EventVisitor>

@@ -1,6 +1,6 @@
 #include "BodyNodes.h"
-#include "SceneCache.h"
 #include "SphereGeometry.h"
+#include "osgTSS/src/SceneCache.h"
 
 #include <osg/BlendFunc>
 #include <osg/LineWidth>

@@ -1,8 +1,8 @@
 #include "Machines.h"
 
-#include "BodyNodes.h"
-#include "JointNodes.h"
 #include "TableFit.h"
+#include "osgTSS/src/draw/BodyNodes.h"
+#include "osgTSS/src/joints/JointNodes.h"
 
 #include <osgTSS/JointTransform>
 

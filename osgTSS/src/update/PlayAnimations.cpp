@@ -1,4 +1,4 @@
-#include "AnimationChannels.h"
+#include "osgTSS/src/joints/AnimationChannels.h"
 
 #include <algorithm>
 #include <cmath>

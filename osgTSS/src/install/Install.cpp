@@ -1,7 +1,7 @@
 #include "InstallSkins.h"
-#include "JointNodes.h"
 #include "Machines.h"
 #include "bake/base/UnionFind.h"
+#include "osgTSS/src/joints/JointNodes.h"
 
 #include <osg/NodeVisitor>
 #include <osg/Notify>
