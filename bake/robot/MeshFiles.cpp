@@ -62,10 +62,10 @@ std::string found(const std::string& name, const fs::path& path, const std::vect
     const fs::path real = realPath(path);
     if (std::none_of(within.begin(), within.end(),
                      [&](const fs::path& folder) { return isWithin(real, realPath(folder)); }))
-        throw InputError("mesh \"" + name + "\" lies outside of " + within.front().string() +
+        throw InputError("file \"" + name + "\" lies outside of " + within.front().string() +
                          "; expected it within" + hint);
     std::error_code none;
-    if (!fs::exists(real, none)) throw InputError("mesh \"" + name + "\": no such file, " + real.string());
+    if (!fs::exists(real, none)) throw InputError("file \"" + name + "\": no such file, " + real.string());
     return real.string();
 }
 
@@ -75,12 +75,12 @@ public:
         : folder_(realPath(fs::absolute(file)).parent_path()), packages_(packages) {}
 
     std::string operator()(const std::string& name) const {
-        if (name.empty() || name.find('\0') != name.npos) throw InputError("expected the name of a mesh");
+        if (name.empty() || name.find('\0') != name.npos) throw InputError("expected the name of a file");
         for (const char* scheme : {"package://", "model://"})
             if (name.starts_with(scheme)) return inPackage(name, name.substr(std::string(scheme).size()));
         const auto scheme = name.find("://");
         if (scheme != name.npos && !name.starts_with("file://"))
-            throw InputError("mesh \"" + name +
+            throw InputError("file \"" + name +
                              "\": expected package://, model://, file:// or a path, and no other place");
         const std::string path = scheme == name.npos ? name : name.substr(7);
         std::vector<fs::path> within{homeOf(folder_)};
@@ -93,12 +93,12 @@ private:
         const auto slash = rest.find('/');
         const std::string package = rest.substr(0, slash);
         if (slash == rest.npos || package.empty() || package == "." || package == "..")
-            throw InputError("mesh \"" + name + "\": expected package://NAME/PATH");
+            throw InputError("file \"" + name + "\": expected package://NAME/PATH");
         const auto given = packages_.find(package);
         const fs::path folder =
             given != packages_.end() ? fs::path(given->second) : packageAbove(folder_, package);
         if (folder.empty())
-            throw InputError("mesh \"" + name + "\": no folder of a package " + package + " at or above " +
+            throw InputError("file \"" + name + "\": no folder of a package " + package + " at or above " +
                              folder_.string() + "; say where it is: --package " + package + "=DIR");
         return found(name, folder / rest.substr(slash + 1), {folder}, " its package");
     }

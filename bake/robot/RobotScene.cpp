@@ -1,8 +1,10 @@
 #include "bake/robot/RobotScene.h"
 
+#include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/model/AddPair.h"
 #include "bake/model/ShowMotion.h"
+#include "bake/robot/ReadMsh.h"
 #include "bake/robot/Shapes.h"
 #include "bake/scene/AllPairs.h"
 
@@ -52,7 +54,9 @@ private:
         auto [at, isNew] = meshes_.try_emplace(shape.file);
         if (isNew) {
             std::vector<std::string> leftOut;
-            at->second = importMesh(findMesh_(shape.file), request_.axes, &leftOut);
+            const std::string file = findMesh_(shape.file);
+            at->second =
+                isMsh(file) ? readMsh(readWholeFile(file), file) : importMesh(file, request_.axes, &leftOut);
             for (const std::string& what : leftOut)
                 result_.notes.push_back("left out of " + shape.file + ": " + what);
         }

@@ -6,10 +6,11 @@
 #include "bake/robot/WritePairs.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/SceneFile.h"
+#include "bake/scene/Transforms.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteUsda.h"
-#include "bake/scene/Transforms.h"
 #include "bake/tool/Command.h"
+#include "bake/tool/RobotInput.h"
 #include "bake/tool/UsdInput.h"
 #include "bake/tool/WriteSpheres.h"
 
@@ -23,6 +24,7 @@ namespace tss::tool {
 namespace {
 
 struct ConvertArguments {
+    RobotFile robot; ///< of an input that is one
     std::string input, output;
     bool binary = false, buffers = false, filteredPairs = false;
     double metersPerUnit = 1;
@@ -113,8 +115,10 @@ void writePairsOf(const ConvertArguments& arguments, const Console& console) {
 }
 
 Layer inputLayer(const ConvertArguments& arguments, const Console& console) {
-    if (isUsd(arguments.input)) {
-        const RobotScene made = readUsdScene(arguments.input, {});
+    if (isUsd(arguments.input) || isRobot(arguments.input)) {
+        RobotFile file = arguments.robot;
+        file.input = arguments.input;
+        const RobotScene made = readRobotScene(file);
         for (const std::string& note : made.notes) console.say("note: " + note);
         return layerOf(made.scene);
     }
@@ -127,13 +131,17 @@ Layer inputLayer(const ConvertArguments& arguments, const Console& console) {
 /// An option that does nothing for these files is a mistake.
 void refuseIdleOptions(const ConvertArguments& arguments) {
     const std::string from = extension(arguments.input), to = extension(arguments.output);
-    const bool mesh = from != ".tss" && !isUsd(arguments.input), spheres = to == ".yml" || to == ".yaml";
+    const bool robot = from != ".tss" && !isUsd(arguments.input) && isRobot(arguments.input),
+               mesh = from != ".tss" && !isUsd(arguments.input) && !robot,
+               spheres = to == ".yml" || to == ".yaml";
     const std::map<std::string, std::pair<bool, const char*>> uses = {
         {"--binary", {to == ".tss", "for a .tss to write"}},
         {"--buffers", {to == ".tss", "for a .tss to write"}},
         {"--filtered-pairs",
          {from == ".tss" && (to == ".tss" || to == ".usda"), "for a baked .tss to write as .usda or .tss"}},
         {"--meters-per-unit", {mesh, "for a mesh to read"}},
+        {"--package", {robot, "for a robot's file to read"}},
+        {"--srdf", {robot, "for a robot's file to read"}},
         {"--tolerance", {spheres, "for spheres to write, .yml"}},
         {"--max-spheres", {spheres, "for spheres to write, .yml"}}};
     for (const std::string& option : arguments.given)
@@ -167,11 +175,13 @@ void convert(const ConvertArguments& arguments, const Console& console) {
 } // namespace
 
 void addConvert(Options& app, Console& console) {
-    Options* command =
-        addCommand(app, console, "convert",
-                   ".tss as JSON, binary .tss, .usda; proofs as SRDF or MJCF; meshes become a .tss");
+    Options* command = addCommand(
+        app, console, "convert",
+        ".tss as JSON, binary .tss, .usda; proofs as SRDF or MJCF; robots and meshes become a scene");
     auto arguments = std::make_shared<ConvertArguments>();
-    command->add_option("input", arguments->input, "a .tss, a .usda, or any mesh that assimp reads")
+    command
+        ->add_option("input", arguments->input,
+                     "a .tss, a .usda, a robot's URDF or MJCF, or any mesh that assimp reads")
         ->required();
     command
         ->add_option(
@@ -185,6 +195,7 @@ void addConvert(Options& app, Console& console) {
     command->add_flag(
         "--filtered-pairs", arguments->filteredPairs,
         "of a baked scene: PhysicsFilteredPairsAPI for the pairs that are proven never to meet");
+    addRobotFileOptions(*command, arguments->robot);
     command->add_option("--meters-per-unit", arguments->metersPerUnit, "of a mesh")->capture_default_str();
     command->add_option("--tolerance", arguments->tolerance,
                         "of a .yml: how far a sphere may stick out of its link (1cm)");

@@ -26,7 +26,7 @@ struct MakeArguments {
     std::string output, a, b, offset = "0,0,0", rest, unit = "1", motion, upAxis;
     double metersPerUnit = 1; ///< what `unit` says
     std::vector<std::string> dofs;
-    RobotArguments robot;
+    RobotFile robot;
     WholeSceneArguments whole;
 };
 
@@ -154,11 +154,8 @@ void checkUsage(const MakeArguments& arguments) {
 void make(MakeArguments& arguments, const Console& console) {
     checkUsage(arguments);
     checkOutput(arguments);
-    if (!arguments.robot.input.empty()) {
-        arguments.robot.output = arguments.output;
-        arguments.robot.motion = arguments.motion;
-        return makeRobot(arguments.robot, console);
-    }
+    if (!arguments.robot.input.empty())
+        return makeRobot(arguments.robot, arguments.motion, arguments.output, console);
     arguments.metersPerUnit = parseUnit(arguments.unit);
     if (!arguments.whole.bodies.empty() || !arguments.whole.skins.empty()) {
         arguments.whole.output = arguments.output;
@@ -200,18 +197,11 @@ void make(MakeArguments& arguments, const Console& console) {
 namespace {
 
 void addRobotOptions(Options& command, const std::shared_ptr<MakeArguments>& arguments) {
-    RobotArguments& robot = arguments->robot;
+    RobotFile& robot = arguments->robot;
     Option* input = command.add_option(
         "robot", robot.input,
         "a robot's file, in place of --a, --b and --dof: URDF, MJCF of MuJoCo, or .usda with UsdPhysics");
-    command
-        .add_option(
-            "--package", robot.packages,
-            "NAME=DIR: the folder of package://NAME/...; repeat. Else it is looked for upwards from the file")
-        ->needs(input)
-        ->allow_extra_args(false);
-    command.add_option("--srdf", robot.srdf, "an SRDF: pairs that it switches off are left out")
-        ->needs(input);
+    for (Option* option : addRobotFileOptions(command, robot)) option->needs(input);
     command
         .add_option("--geometry", robot.geometry,
                     "collision or visual: the shapes that a link is made of; the others "

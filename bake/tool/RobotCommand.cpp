@@ -1,71 +1,18 @@
 #include "bake/tool/RobotCommand.h"
 
-#include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/pipeline/BakeOptions.h"
-#include "bake/robot/MeshFiles.h"
 #include "bake/robot/RobotScene.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/DofSpec.h"
 #include "bake/tool/OwnMotion.h"
-#include "bake/tool/UsdInput.h"
-#ifdef OSGTSS_HAVE_URDF
-#include "bake/robot/ReadUrdf.h"
-#endif
-#ifdef OSGTSS_HAVE_MJCF
-#include "bake/robot/ReadMjcf.h"
-#endif
 
-#include <filesystem>
 #include <fmt/format.h>
 
 namespace tss::tool {
 
 namespace {
-
-/// The name of an XML text's first element; empty where it has none.
-std::string rootName(const std::string& text) {
-    for (auto at = text.find('<'); at != text.npos; at = text.find('<', at + 1)) {
-        if (text.compare(at, 4, "<!--") == 0) {
-            at = text.find("-->", at);
-            if (at == text.npos) return "";
-        } else if (text[at + 1] != '?' && text[at + 1] != '!') {
-            return text.substr(at + 1, text.find_first_of(" \t\r\n/>", at) - at - 1);
-        }
-    }
-    return "";
-}
-
-Robot readRobot(const RobotArguments& arguments, [[maybe_unused]] const std::string& text,
-                [[maybe_unused]] const FindMesh& find) {
-    const std::string root = rootName(text);
-    const bool mujoco = root == "mujoco";
-    if (!root.empty() && !mujoco && root != "robot")
-        throw InputError(Where{arguments.input, "", ""},
-                         "expected the <robot> of a URDF or the <mujoco> of an MJCF, found <" + root + ">");
-    if (mujoco) {
-#ifdef OSGTSS_HAVE_MJCF
-        return readMjcf(text, arguments.input,
-                        [&](const std::string& name) { return readWholeFile(find(name)); });
-#endif
-    } else {
-#ifdef OSGTSS_HAVE_URDF
-        return readUrdf(text, arguments.input);
-#endif
-    }
-    throw InputError(Where{arguments.input, "", ""},
-                     std::string("this build reads no ") +
-                         (mujoco ? "MJCF (OSGTSS_MJCF is off)" : "URDF (OSGTSS_URDF is off)"));
-}
-
-Robot readRobot(const RobotArguments& arguments, const FindMesh& find) {
-    Robot robot = readRobot(arguments, readWholeFile(arguments.input), find);
-#ifdef OSGTSS_HAVE_URDF
-    if (!arguments.srdf.empty()) readSrdf(robot, readWholeFile(arguments.srdf), arguments.srdf);
-#endif
-    return robot;
-}
 
 Json sayLinks(const RobotScene& made, const Console& console) {
     Json links = Json::array();
@@ -136,37 +83,18 @@ Json sayScene(const RobotScene& made, const std::string& output, const Console& 
             {"skins", skins},   {"notes", made.notes}};
 }
 
-namespace {
-
-RobotScene robotScene(const RobotArguments& arguments) {
-    RobotSceneRequest request;
-    request.visual = arguments.geometry == "visual";
-    request.pairs = arguments.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
-    if (isUsd(arguments.input)) {
-        if (!arguments.srdf.empty() || !arguments.packages.empty())
-            failUsage(
-                "--srdf and --package",
-                "are for URDF and MJCF; a .usda says which pairs are filtered, and names files beside it");
-        return readUsdScene(arguments.input, request);
-    }
-    const FindMesh find = meshesOf(arguments.input, parsePackages(arguments.packages));
-    const Robot robot = readRobot(arguments, find);
-    return inFile(arguments.input, [&] { return sceneOf(robot, request, find); });
-}
-
-} // namespace
-
-void makeRobot(const RobotArguments& arguments, const Console& console) {
-    RobotScene made = robotScene(arguments);
-    if (!arguments.motion.empty()) {
+void makeRobot(const RobotFile& from, const std::string& motion, const std::string& output,
+               const Console& console) {
+    RobotScene made = readRobotScene(from);
+    if (!motion.empty()) {
         if (made.scene.layer)
             throw InputError(
-                Where{arguments.input, "", ""},
+                Where{from.input, "", ""},
                 "is a scene of osgTSS already, which has its motion in it; --motion is for one to make");
-        applyMotion(made.scene, arguments.motion);
+        applyMotion(made.scene, motion);
     }
-    saveScene(made.scene, arguments.output);
-    console.print(sayScene(made, arguments.output, console));
+    saveScene(made.scene, output);
+    console.print(sayScene(made, output, console));
 }
 
 } // namespace tss::tool

@@ -1,6 +1,9 @@
 #include "bake/robot/MeshFiles.h"
+#include "bake/geometry/MeshAudit.h"
+#include "bake/robot/ReadMsh.h"
 #include "tests/robot/Robots.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <unistd.h>
@@ -53,6 +56,38 @@ TEST_CASE("a mesh of a package is found upwards by folder, by package.xml, or wh
           }).find("--package elsewhere=DIR") != std::string::npos);
     CHECK(refusal([&] { parsePackages({"nonsense"}); }).find("NAME=DIR") != std::string::npos);
     CHECK(refusal([&] { parsePackages({"a=/no/such/folder"}); }).find("no folder") != std::string::npos);
+}
+
+TEST_CASE("MuJoCo's binary mesh is read whole or refused for what is wrong with it") {
+    const auto bytes = [](std::vector<std::int32_t> counts, std::vector<float> numbers,
+                          std::vector<std::int32_t> corners) {
+        std::string text;
+        const auto add = [&](const auto& of) {
+            text.append(reinterpret_cast<const char*>(of.data()), of.size() * 4);
+        };
+        add(counts), add(numbers), add(corners);
+        return text;
+    };
+    // A tetrahedron with a normal and texture coordinates in between, and its first vertex once more.
+    const std::vector<float> numbers = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, /**/ 0, 0, 1, /**/ 5, 6};
+    const std::vector<std::int32_t> corners = {0, 2, 1, 0, 1, 3, 4, 3, 2, 1, 2, 3};
+    const TriangleMesh mesh = readMsh(bytes({5, 1, 1, 4}, numbers, corners), "a.msh");
+    CHECK(mesh.vertices.size() == 4);
+    CHECK(mesh.triangles.size() == 4);
+    CHECK(auditMesh(mesh).signedVolume == Approx(1.0 / 6));
+    const auto refused = [&](const std::string& text, const std::string& words) {
+        const std::string found = refusal([&] { readMsh(text, "a.msh"); });
+        INFO(found);
+        CHECK(found.find("a.msh") != std::string::npos);
+        CHECK(found.find(words) != std::string::npos);
+    };
+    refused("", "16 bytes");
+    refused(bytes({5, 1, 1, 4}, numbers, {0, 2, 1}), "bytes by its counts");
+    refused(bytes({-1, 1, 1, 4}, numbers, corners), "counts of 0 or more");
+    refused(bytes({2147483647, 2147483647, 2147483647, 2147483647}, {}, {}), "bytes by its counts");
+    refused(bytes({5, 1, 1, 4}, numbers, {0, 2, 5, 0, 1, 3, 4, 3, 2, 1, 2, 3}), "face 0 names a vertex");
+    refused(bytes({1, 0, 0, 0}, {0, 0, NAN}, {}), "finite coordinates at vertex 0");
+    refused(bytes({0, 0, 0, 0}, {}, {}), "no triangle");
 }
 
 TEST_CASE("plain paths stay within the package or the parent of the file's folder, through links too") {

@@ -107,6 +107,25 @@ TEST_CASE("a stale proof is no proof: the SRDF is refused and names the pair") {
     CHECK_FALSE(std::filesystem::exists(folder.path() / "arm.srdf"));
 }
 
+TEST_CASE("convert makes of a robot's file the very scene that make does, and refuses what is none") {
+    const Folder folder;
+    writeArm(folder);
+    made("my_arm/arm.urdf -o made.tss", folder);
+    const Ran ran = runTss("convert my_arm/arm.urdf converted.tss", folder.path());
+    INFO(ran.err);
+    REQUIRE(ran.exit == 0);
+    CHECK(readText(folder.path() / "converted.tss") == readText(folder.path() / "made.tss"));
+    std::filesystem::create_directories(folder.path() / "alone");
+    writeText(folder.path() / "alone/arm.urdf", arm);
+    std::filesystem::rename(folder.path() / "my_arm", folder.path() / "moved");
+    CHECK(runTss("convert alone/arm.urdf a.usda", folder.path()).exit == 1);
+    CHECK(runTss("convert alone/arm.urdf a.usda --package my_arm=moved", folder.path()).exit == 0);
+    writeText(folder.path() / "config.xml", "<config/>");
+    CHECK(runTss("convert config.xml c.tss", folder.path()).err.find("cannot be read as a mesh") !=
+          std::string::npos);
+    CHECK(runTss("convert made.tss again.tss --srdf x.srdf", folder.path()).exit == 2); // does nothing
+}
+
 TEST_CASE("what a robot's file needs and has not is exit 1 with the place, and leaves no scene") {
     const Folder folder;
     writeArm(folder);
@@ -127,7 +146,7 @@ TEST_CASE("what a robot's file needs and has not is exit 1 with the place, and l
             "config.xml: expected the <robot> of a URDF or the <mujoco> of an MJCF, found <config>");
     std::filesystem::rename(folder.path() / "my_arm", folder.path() / "moved");
     refused("alone/arm.urdf -o out.tss", 1,
-            "alone/arm.urdf: line 4 (<link upper-arm>): mesh \"package://my_arm/upper.obj\"");
+            "alone/arm.urdf: line 4 (<link upper-arm>): file \"package://my_arm/upper.obj\"");
     refused("alone/arm.urdf -o out.tss", 1, "--package my_arm=DIR");
     CHECK(runTss("make alone/arm.urdf -o found.tss --package my_arm=moved", folder.path()).exit == 0);
     refused("alone/arm.urdf -o out.tss --package my_arm=nowhere", 1, "there is no folder nowhere");

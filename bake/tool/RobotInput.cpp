@@ -1,0 +1,99 @@
+#include "bake/tool/RobotInput.h"
+
+#include "bake/base/AtomicFile.h"
+#include "bake/base/Error.h"
+#include "bake/robot/MeshFiles.h"
+#include "bake/tool/Command.h"
+#include "bake/tool/UsdInput.h"
+#ifdef OSGTSS_HAVE_URDF
+#include "bake/robot/ReadUrdf.h"
+#endif
+#ifdef OSGTSS_HAVE_MJCF
+#include "bake/robot/ReadMjcf.h"
+#endif
+
+#include <filesystem>
+
+namespace tss::tool {
+
+namespace {
+
+/// The name of an XML text's first element; empty where it has none.
+std::string rootName(const std::string& text) {
+    for (auto at = text.find('<'); at != text.npos; at = text.find('<', at + 1)) {
+        if (text.compare(at, 4, "<!--") == 0) {
+            at = text.find("-->", at);
+            if (at == text.npos) return "";
+        } else if (text[at + 1] != '?' && text[at + 1] != '!') {
+            return text.substr(at + 1, text.find_first_of(" \t\r\n/>", at) - at - 1);
+        }
+    }
+    return "";
+}
+
+Robot readRobot(const RobotFile& from, [[maybe_unused]] const std::string& text,
+                [[maybe_unused]] const FindMesh& find) {
+    const std::string root = rootName(text);
+    const bool mujoco = root == "mujoco";
+    if (!root.empty() && !mujoco && root != "robot")
+        throw InputError(Where{from.input, "", ""},
+                         "expected the <robot> of a URDF or the <mujoco> of an MJCF, found <" + root + ">");
+    if (mujoco) {
+#ifdef OSGTSS_HAVE_MJCF
+        return readMjcf(text, from.input, [&](const std::string& name) { return readWholeFile(find(name)); });
+#endif
+    } else {
+#ifdef OSGTSS_HAVE_URDF
+        return readUrdf(text, from.input);
+#endif
+    }
+    throw InputError(Where{from.input, "", ""},
+                     std::string("this build reads no ") +
+                         (mujoco ? "MJCF (OSGTSS_MJCF is off)" : "URDF (OSGTSS_URDF is off)"));
+}
+
+Robot readRobot(const RobotFile& from, const FindMesh& find) {
+    Robot robot = readRobot(from, readWholeFile(from.input), find);
+#ifdef OSGTSS_HAVE_URDF
+    if (!from.srdf.empty()) readSrdf(robot, readWholeFile(from.srdf), from.srdf);
+#endif
+    return robot;
+}
+
+} // namespace
+
+std::array<Option*, 2> addRobotFileOptions(Options& command, RobotFile& file) {
+    return {
+        command
+            .add_option("--package", file.packages,
+                        "NAME=DIR: the folder of package://NAME/...; repeat. Else it is looked for upwards "
+                        "from the file")
+            ->allow_extra_args(false),
+        command.add_option("--srdf", file.srdf, "an SRDF: pairs that it switches off are left out")};
+}
+
+bool isRobot(const std::string& file) {
+    const std::string extension = std::filesystem::path(file).extension().string();
+    if (extension == ".urdf" || extension == ".mjcf" || extension == ".xacro") return true;
+    if (extension != ".xml") return false;
+    const std::string root = rootName(readWholeFile(file));
+    return root == "robot" || root == "mujoco";
+}
+
+RobotScene readRobotScene(const RobotFile& from) {
+    RobotSceneRequest request;
+    request.visual = from.geometry == "visual";
+    request.pairs = from.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
+    if (isUsd(from.input)) {
+        if (!from.srdf.empty() || !from.packages.empty())
+            failUsage(
+                "--srdf and --package",
+                "are for URDF and MJCF; a .usda says which pairs are filtered, and names files beside it");
+        return readUsdScene(from.input, request);
+    }
+    const FindMesh find = meshesOf(from.input, parsePackages(from.packages));
+    const Robot robot = readRobot(from, find);
+    return inFile(from.input, [&] { return sceneOf(robot, request, find); });
+}
+
+} // namespace tss::tool
