@@ -2,6 +2,7 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/geometry/MeshQuery.h"
+#include "bake/respond/SkinHolders.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,9 +25,6 @@ constexpr double touchFirmness = 300, touchFade = 0.03;
 constexpr double besideOver = 0.6;
 /// A share below this counts as none, so that what hardly moves is left alone; the others are lowered by it.
 constexpr double leastShare = 1e-3;
-/// In sizes of the bone: skin that far from every bone that moves stays where it is, when no bone that holds
-/// still is named.
-constexpr double freeDistance = 0.5;
 
 double withoutLeast(double share) {
     return share > leastShare ? (share - leastShare) / (1 - leastShare) : 0;
@@ -63,56 +61,12 @@ std::vector<double> holdOf(const SkinGround& ground, std::size_t m, std::vector<
     return hold;
 }
 
-/// Frames that move somewhere along the swings.
-std::vector<bool> movingFrames(const SkinParameters& p, const std::vector<int>& frames, std::size_t count) {
-    std::vector<bool> moves(count, p.swings.empty());
-    for (const BoneSwing& swing : p.swings)
-        for (const std::vector<Pose>& station : swing)
-            for (std::size_t m = 0; m < station.size(); ++m)
-                if (frames[m] >= 0 && station[m].matrix() != Pose::Identity().matrix())
-                    moves[frames[m]] = true;
-    return moves;
-}
-
-/// The surfaces that stand for a frame: its bones, or its muscles where it has none.
-SkinHolder holderOf(const SkinGround& ground, const std::vector<int>& frames, int frame) {
-    SkinHolder holder{std::vector<double>(ground.skin.vertices.size(), infinite), 0};
-    Eigen::AlignedBox3d box;
-    bool bones = false;
-    for (std::size_t m = 0; m < frames.size(); ++m) bones |= frames[m] == frame && ground.bodies[m]->rigid();
-    for (std::size_t m = 0; m < frames.size(); ++m) {
-        if (frames[m] != frame || ground.bodies[m]->rigid() != bones) continue;
-        box.extend(bounds(ground.bodies[m]->muscle().surface));
-        parallelFor(holder.distance.size(), [&](std::size_t v) {
-            const NearestPoint near = ground.locators[m].nearest(ground.skin.vertices[v], holder.distance[v]);
-            if (near.triangle >= 0) holder.distance[v] = near.distance;
-        });
-    }
-    holder.size = box.isEmpty() ? 0 : box.diagonal().norm();
-    return holder;
-}
-
 std::vector<std::vector<double>> frameShares(const SkinGround& ground, const SkinParameters& p,
                                              const std::vector<int>& frames) {
     const int count = frames.empty() ? 0 : *std::max_element(frames.begin(), frames.end()) + 1;
     if (!p.shares.empty() || count == 0) return p.shares;
-    std::vector<SkinHolder> holders;
-    for (int f = 0; f < count; ++f) holders.push_back(holderOf(ground, frames, f));
-    const std::vector<bool> moves = movingFrames(p, frames, holders.size());
-    bool onSkin = false; // something moves with the skin itself
-    for (std::size_t m = 0; m < frames.size(); ++m)
-        onSkin |= frames[m] < 0 && !ground.bodies[m]->muscle().surface.empty();
-    if (onSkin) {
-        holders.push_back(holderOf(ground, frames, -1));
-        holders.back().size = infinite;
-    } else if (std::find(moves.begin(), moves.end(), false) == moves.end()) {
-        SkinHolder still{std::vector<double>(ground.skin.vertices.size(), 0), infinite};
-        for (const SkinHolder& h : holders)
-            for (std::size_t v = 0; v < still.distance.size(); ++v)
-                still.distance[v] = std::max(still.distance[v], freeDistance * h.size - h.distance[v]);
-        holders.push_back(std::move(still));
-    }
-    std::vector<std::vector<double>> shares = claimedShares(ground.skin, ground.graph, holders);
+    std::vector<std::vector<double>> shares =
+        claimedShares(ground.skin, ground.graph, skinHolders(ground, p, frames));
     shares.resize(static_cast<std::size_t>(count));
     return shares;
 }

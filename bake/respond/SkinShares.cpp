@@ -98,7 +98,9 @@ Claims claim(const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
     const std::vector<std::vector<std::uint32_t>> seeds = seedsOf(holders);
     for (std::uint32_t h = 0; h < holders.size(); ++h) {
         std::vector<double> along(count, infinite);
-        lowerDistances(graph, seeds[h], infinite, along);
+        std::vector<std::uint32_t> sources = seeds[h];
+        sources.insert(sources.end(), holders[h].sure.begin(), holders[h].sure.end());
+        lowerDistances(graph, sources, infinite, along);
         for (std::size_t v = 0; v < count; ++v) {
             if (along[v] < nearest[v]) {
                 second[v] = nearest[v];

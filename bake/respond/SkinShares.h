@@ -5,8 +5,9 @@ namespace tss {
 
 /// What may carry skin: its distance to each vertex and how large it is.
 struct SkinHolder {
-    std::vector<double> distance; ///< #V, >= 0, scene units
-    double size = 0;              ///< diagonal of its bounds, scene units; infinite: no size of its own
+    std::vector<double> distance;    ///< #V, >= 0, scene units
+    double size = 0;                 ///< diagonal of its bounds, scene units; infinite: no size of its own
+    std::vector<std::uint32_t> sure; ///< vertices that are its own, however far
 };
 
 /// Which share of a vertex follows each holder (METHOD 6.5): #holders of #V, >= 0, all of a vertex 1

@@ -1,0 +1,141 @@
+// Skin over parts of the body whose bones are not named.
+#include "bake/respond/SkinResponse.h"
+#include "bake/respond/SkinRig.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+
+using namespace tss;
+
+namespace {
+
+using Box = std::array<int, 6>; ///< x, y, z from, x, y, z to
+
+/// The surface of all cells of size 1 in some boxes, wound outwards.
+TriangleMesh surfaceOf(const std::vector<Box>& boxes) {
+    const auto filled = [&](int x, int y, int z) {
+        return std::any_of(boxes.begin(), boxes.end(), [&](const Box& b) {
+            return x >= b[0] && y >= b[1] && z >= b[2] && x < b[3] && y < b[4] && z < b[5];
+        });
+    };
+    TriangleMesh mesh;
+    std::map<std::array<int, 3>, int> corners;
+    const auto corner = [&](std::array<int, 3> at) {
+        const auto [place, isNew] = corners.try_emplace(at, static_cast<int>(mesh.vertices.size()));
+        if (isNew) mesh.vertices.emplace_back(at[0], at[1], at[2]);
+        return place->second;
+    };
+    std::map<std::array<int, 3>, bool> done;
+    for (const Box& b : boxes)
+        for (int x = b[0]; x < b[3]; ++x)
+            for (int y = b[1]; y < b[4]; ++y)
+                for (int z = b[2]; z < b[5]; ++z) {
+                    if (!done.try_emplace({x, y, z}, true).second) continue;
+                    for (int k = 0; k < 6; ++k) {
+                        const int axis = k / 2, up = k % 2;
+                        std::array<int, 3> beyond{x, y, z};
+                        beyond[axis] += up ? 1 : -1;
+                        if (filled(beyond[0], beyond[1], beyond[2])) continue;
+                        std::array<int, 3> o{x, y, z};
+                        o[axis] += up;
+                        auto p = o, q = o, r = o;
+                        p[(axis + 1) % 3] += 1, r[(axis + 2) % 3] += 1;
+                        q[(axis + 1) % 3] += 1, q[(axis + 2) % 3] += 1;
+                        const int a = corner(o), c = corner(q);
+                        const int d = corner(up ? p : r), e = corner(up ? r : p);
+                        mesh.triangles.emplace_back(a, d, c);
+                        mesh.triangles.emplace_back(a, c, e);
+                    }
+                }
+    return mesh;
+}
+
+/// A trunk along x with two legs below one end. The left one's bones are named.
+const std::vector<Box> animal = {{-10, -6, 20, 40, 6, 30}, {30, 4, 0, 34, 8, 26}, {30, -8, 0, 34, -4, 26}};
+
+std::shared_ptr<const MuscleDeformer> boneOf(double from, double to) {
+    Muscle bone;
+    bone.surface = surfaceOf({{0, 0, 0, 1, 1, 1}});
+    for (Vec3& v : bone.surface.vertices)
+        v = Vec3(31.3 + 1.4 * v.x(), 5.3 + 1.4 * v.y(), from + (to - from) * v.z());
+    bone.activationUpper = 0;
+    return std::make_shared<const MuscleDeformer>(std::move(bone));
+}
+
+/// The farthest that vertices are from where they should be, when the last bone bends by 60 degrees at z
+/// = 20.
+class Bent {
+public:
+    explicit Bent(const std::vector<std::shared_ptr<const MuscleDeformer>>& bones, bool inverted = false)
+        : skin_(surfaceOf(animal)) {
+        if (inverted)
+            for (Tri& t : skin_.triangles) std::swap(t[1], t[2]);
+        const Vec3 joint(32, 6, 20);
+        bend = Eigen::Translation3d(joint) * Eigen::AngleAxisd(M_PI / 3, Vec3::UnitY()) *
+               Eigen::Translation3d(-joint);
+        std::vector<Pose> poses(bones.size(), Pose::Identity());
+        poses.back() = bend;
+        SkinParameters parameters;
+        parameters.swings = {{poses}};
+        SkinTable nothingMet;
+        nothingMet.table.rowOffsets = {0};
+        const auto rig = makeSkinRig(skin_, bones, nothingMet, parameters);
+        SkinResponse response(rig);
+        response.update(std::vector<double>(bones.size(), 0), poses);
+        now_ = skin_.vertices;
+        for (std::size_t k = 0; k < rig->vertices.size(); ++k)
+            now_[rig->vertices[k]] = response.positions()[k];
+    }
+
+    template <class Which>
+    double farthest(const Pose& from, const Which& which) const {
+        double most = 0;
+        int count = 0;
+        for (std::size_t v = 0; v < now_.size(); ++v)
+            if (which(skin_.vertices[v])) {
+                most = std::max(most, (now_[v] - from * skin_.vertices[v]).norm());
+                ++count;
+            }
+        REQUIRE(count > 50);
+        return most;
+    }
+
+    Pose bend;
+
+private:
+    TriangleMesh skin_;
+    std::vector<Vec3> now_;
+};
+
+bool isTrunk(const Vec3& x) {
+    return x.x() < 26 && x.z() >= 20;
+}
+bool isHind(const Vec3& x) {
+    return x.x() < -5;
+}
+bool isRightLeg(const Vec3& x) {
+    return x.y() <= -4 && x.z() < 20;
+}
+bool isLeftFoot(const Vec3& x) {
+    return x.y() >= 4 && x.z() < 6;
+}
+
+} // namespace
+
+TEST_CASE("skin over parts whose bones are not named stays with the bone beside it that holds still") {
+    for (const bool inverted : {false, true}) {
+        const Bent bent({boneOf(20.5, 27), boneOf(1, 19.5)}, inverted);
+        CHECK(bent.farthest(Pose::Identity(), isTrunk) < 1);
+        CHECK(bent.farthest(Pose::Identity(), isHind) < 0.05);
+        CHECK(bent.farthest(Pose::Identity(), isRightLeg) < 0.2);
+        CHECK(bent.farthest(bent.bend, isLeftFoot) < 0.05);
+    }
+}
+
+TEST_CASE("where no bone holds still the trunk stays, and the smaller end of a limb goes along") {
+    const Bent bent({boneOf(10, 19.5)});
+    CHECK(bent.farthest(Pose::Identity(), isTrunk) < 1);
+    CHECK(bent.farthest(Pose::Identity(), isRightLeg) < 0.2);
+    CHECK(bent.farthest(bent.bend, isLeftFoot) < 0.5);
+}
