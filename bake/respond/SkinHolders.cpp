@@ -78,20 +78,21 @@ bool isInverted(const SkinGround& ground, const std::vector<FrameHolder>& holder
     return sum < 0;
 }
 
-/// For each vertex whether it is far from the bone, or the straight way to it leaves the body and goes in
-/// again somewhere else, as from the belly to a leg. Out alone does not count: teeth are not inside.
+/// Leaves those vertices marked that are apart from the bone too: far from it, or the straight way to it
+/// leaves the body and goes in again elsewhere, as from the belly to a leg. Out alone does not count: teeth
+/// are not inside of lips. far: in sizes of the bone.
 void markApart(const SkinGround& ground, const ClosestPointQuery& skin, bool inverted,
                const FrameHolder& holder, double far, std::vector<char>& apart) {
     constexpr double away = 1e-3; // of the way, so that it does not begin in the skin
     parallelFor(apart.size(), [&](std::size_t v) {
         if (!apart[v] || holder.holder.distance[v] > far * holder.extent) return;
-        const Vec3 to = holder.nearest[v];
-        const Vec3 from = ground.skin.vertices[v] + away * (to - ground.skin.vertices[v]);
+        const Vec3 &x = ground.skin.vertices[v], &to = holder.nearest[v];
+        const Vec3 from = x + away * (to - x);
         apart[v] = (inverted ? skin.entered(to, from) : skin.entered(from, to)) >= 0;
     });
 }
 
-/// Skin that hangs together and has no bone below it.
+/// Skin that hangs together and is apart from all bones.
 struct FreePart {
     std::vector<std::uint32_t> vertices;
     bool far = false;             ///< some of it is far from all bones
@@ -171,13 +172,14 @@ std::vector<SkinHolder> skinHolders(const SkinGround& ground, const SkinParamete
         holders.back().holder.size = infinite;
     }
     const auto still = [&](std::size_t h) { return !holders[h].moves; };
-    bool anyStill = false;
-    for (std::size_t h = 0; h < holders.size(); ++h) anyStill |= still(h);
+    std::size_t firstStill = 0;
+    while (firstStill < holders.size() && !still(firstStill)) ++firstStill;
+    const bool anyStill = firstStill < holders.size();
     const FreeParts free = freeParts(ground, holders, anyStill ? farDistance : stillDistance);
     for (const FreePart& part : free.parts)
-        if (const auto at = std::find_if(part.beside.begin(), part.beside.end(), still);
-            at != part.beside.end()) {
-            std::vector<std::uint32_t>& sure = holders[*at].holder.sure;
+        if (anyStill &&
+            (part.beside.size() > 1 || std::any_of(part.beside.begin(), part.beside.end(), still))) {
+            std::vector<std::uint32_t>& sure = holders[firstStill].holder.sure;
             sure.insert(sure.end(), part.vertices.begin(), part.vertices.end());
         }
     std::vector<SkinHolder> made;

@@ -20,6 +20,8 @@ constexpr double seedShare = 0.8;
 /// Distances below this share of the holder's size are alike: that is how thick the tissue on a bone may be
 /// before its hold gets weaker.
 constexpr double closeShare = 0.01;
+/// What is a holder's own for certain is held as if it were no farther than this share of its size.
+constexpr double sureShare = 0.15;
 /// How much a claim weighs against the change of shares along the skin.
 constexpr double claimWeight = 8;
 /// How fast the certainty of a claim grows with the distance from where two claims meet.
@@ -113,6 +115,9 @@ Claims claim(const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
             }
         }
     }
+    std::vector<char> sure(count, 0);
+    for (const SkinHolder& h : holders)
+        for (const std::uint32_t v : h.sure) sure[v] = 1;
     for (std::size_t v = 0; v < count; ++v) {
         if (!std::isfinite(nearest[v])) // a shell without a seed: whatever is nearest has it
             for (std::uint32_t h = 0; h < holders.size(); ++h)
@@ -125,7 +130,8 @@ Claims claim(const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
         const double certainty = std::isfinite(second[v]) && second[v] > 0
                                      ? (second[v] - nearest[v]) / (second[v] + nearest[v])
                                      : 1;
-        const double distance = std::max(own.distance[v], closeShare * size);
+        const double distance = std::max(
+            sure[v] ? std::min(own.distance[v], sureShare * size) : own.distance[v], closeShare * size);
         claims.size.push_back(size);
         claims.weight.push_back(graph.area[v] / (distance * distance) *
                                 std::max(claimWeight * std::pow(certainty, certaintyPower), 1e-9));
