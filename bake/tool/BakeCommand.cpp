@@ -106,8 +106,11 @@ void endIncomplete(const BakeArguments& arguments, const KeptParts& parts, const
                    {"failures", failures},
                    {"notes", parts.notes()}});
     if (parts.signal()) fmt::print(stderr, "tss: interrupted\n");
-    fmt::print(stderr, "tss: {} not baked: {}\n", counted(parts.missing().size(), "pair or skin"),
-               fmt::join(parts.missing(), ", "));
+    const std::vector<std::string>& missing = parts.missing();
+    constexpr std::size_t most = 8; // that are named; --json names all
+    const auto last = missing.begin() + static_cast<std::ptrdiff_t>(std::min(most, missing.size()));
+    fmt::print(stderr, "tss: not baked: {}{}\n", fmt::join(missing.begin(), last, ", "),
+               missing.size() > most ? fmt::format(" and {} more", missing.size() - most) : "");
     if (!written.empty())
         fmt::print(stderr, "tss: what is done is in {}; go on with\n  tss bake {} -o {}\n", written, written,
                    arguments.output);
