@@ -80,21 +80,6 @@ SurfacePoint toPoint(const NearestPoint& near) {
             static_cast<float>(near.distance * near.distance)};
 }
 
-/// From where a row's vertex is before to the vertex, as it stands; in the body's frame.
-Vec3f relativeOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    const SkinScene::Placed& placed = scene.bodies[row.body];
-    Vec3f before = Vec3f::Zero();
-    if (row.meeting == SkinMeeting::SkinOnBody) {
-        const Move* surface = scene.surface.data() + rig.bodies[row.body].first;
-        for (int k = 0; k < 3; ++k) before += row.weights[k] * surface[row.corners[k]].head<3>();
-        return placed.toBody(scene.skin[row.vertex].head<3>()) - before;
-    }
-    for (int k = 0; k < 3; ++k) before += row.weights[k] * scene.skin[row.corners[k]].head<3>();
-    if (row.meeting == SkinMeeting::BodyOnSkin)
-        return scene.surface[row.vertex].head<3>() - placed.toBody(before);
-    return scene.skin[row.vertex].head<3>() - before;
-}
-
 /// Whether what seems this deep in a surface can have come there: by its way since rest, and the overlap
 /// there. What seems deeper is another side of the surface, seen past it.
 float comeThrough(float depth, float most) {
@@ -111,7 +96,7 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     SurfacePoint hit;
     Vec3f way = Vec3f::Zero(); // since rest, past the bone
     if (body.bone()) {
-        way = relativeOf(rig, scene, row) - row.relative;
+        way = relativeOf(rig, scene, row) - rig.apart[row.apart].relative;
         int first = rig.starts[row.first];
         if (row.offset == 0) first = body.locator->entered((x - way).cast<double>(), x.cast<double>());
         if (first < 0) return plane;
@@ -201,7 +186,7 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const Vec3f away = hit.point - x, both = row.within ? smooth : (smooth + own).normalized();
     if (rig.bodies[row.body].bone() && both.dot(away) < 0) {
         offset = -outAtRest(rig, row, hit);
-        trust *= comeThrough(away.norm(), (relativeOf(rig, scene, row) - row.relative).norm() - offset);
+        trust *= comeThrough(away.norm(), (relativeOf(rig, scene, row) - rig.apart[row.apart].relative).norm() - offset);
     }
     if (!(trust > 0)) return plane;
     plane.vertices = 3;
@@ -229,7 +214,7 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     float trust = trustOf(-smooth.dot(own));
     const Vec3f away = x - hit.point, both = (smooth - own).normalized();
     if (both.dot(away) < 0)
-        trust *= comeThrough(away.norm(), (relativeOf(rig, scene, row) - row.relative).norm() - row.offset);
+        trust *= comeThrough(away.norm(), (relativeOf(rig, scene, row) - rig.apart[row.apart].relative).norm() - row.offset);
     if (!(trust > 0)) return plane;
     plane.vertices = 4;
     plane.vertex[0] = row.vertex;
@@ -244,12 +229,34 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
 
 } // namespace
 
+Vec3f relativeOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    const SkinScene::Placed& placed = scene.bodies[row.body];
+    Vec3f before = Vec3f::Zero();
+    if (row.meeting == SkinMeeting::SkinOnBody) {
+        const Move* surface = scene.surface.data() + rig.bodies[row.body].first;
+        for (int k = 0; k < 3; ++k) before += row.weights[k] * surface[row.corners[k]].head<3>();
+        return placed.toBody(scene.skin[row.vertex].head<3>()) - before;
+    }
+    for (int k = 0; k < 3; ++k) before += row.weights[k] * scene.skin[row.corners[k]].head<3>();
+    if (row.meeting == SkinMeeting::BodyOnSkin)
+        return scene.surface[row.vertex].head<3>() - placed.toBody(before);
+    return scene.skin[row.vertex].head<3>() - before;
+}
+
 bool mayMeet(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
     // Of the skin: half of what edges are let change.
     const float strain = row.meeting == SkinMeeting::SkinOnBody ? scene.bodies[row.body].strain : 0.25f;
+    const SkinApart* apart = rig.apart.data() + row.apart;
+    Vec3f expected = apart->relative;
+    if (row.meeting != SkinMeeting::SkinOnSkin) {
+        const TrackPlace& at = scene.bodies[row.body].at;
+        apart += at.node;
+        expected = apart->relative;
+        if (at.t != 0) expected += static_cast<float>(at.t) * (apart[1].relative - expected);
+    }
     // Beside the place that is looked at, a surface has moved by its strain over at most twice the gap.
-    const float free = row.gap * (1 - 2 * strain);
-    return !(free > 0) || (relativeOf(rig, scene, row) - row.relative).squaredNorm() >= free * free;
+    const float free = apart->gap * (1 - 2 * strain);
+    return !(free > 0) || (relativeOf(rig, scene, row) - expected).squaredNorm() >= free * free;
 }
 
 void lookAgain(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinPlane& plane) {

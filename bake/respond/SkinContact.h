@@ -17,7 +17,11 @@ struct SkinPlane {
     bool found() const { return vertices > 0; }
 };
 
-/// Whether what the row is about may have come together since rest.
+/// From the place that a row's vertex is before to the vertex, as they stand; in the body's frame.
+Eigen::Vector3f relativeOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
+
+/// Whether what the row is about may have come together, by how far it is off where its muscle alone, or
+/// nothing, has moved it.
 bool mayMeet(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
 
 /// The plane that a row meets as the scene stands. Surfaces that face another way than the skin, and what

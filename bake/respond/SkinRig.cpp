@@ -271,7 +271,7 @@ Pose SkinRig::local(const Pose& pose) const {
 
 std::size_t SkinRig::bytes() const {
     std::size_t sum =
-        foundation.bytes() + rows.size() * sizeof(SkinRow) + pulls.size() * sizeof(SkinPull) +
+        foundation.bytes() + rows.size() * sizeof(SkinRow) + apart.size() * sizeof(SkinApart) + pulls.size() * sizeof(SkinPull) +
         frameShares.size() * sizeof(SkinFrameShare) + 4 * (pullStart.size() + frameStart.size()) +
         vertices.size() * (2 * sizeof(Vec3) + 2 * sizeof(Move)) + 2 * triangles.size() * sizeof(Tri) +
         fans.fans.size() * sizeof(SkinFan) + 4 * (fans.start.size() + around.size());

@@ -78,6 +78,12 @@ enum class SkinMeeting : std::uint8_t {
     SkinOnSkin, ///< a skin vertex another part of the skin
 };
 
+/// How the two of a row lie where its muscle alone has moved, and everything else is at rest.
+struct SkinApart {
+    Eigen::Vector3f relative = Eigen::Vector3f::Zero(); ///< what meets, from the place that it is before
+    float gap = 0; ///< while they are no farther off that than this, here or on the way to the next, nothing meets
+};
+
 /// A possible contact. Where it is looked for starts from a triangle known beforehand, so that the answer has
 /// no history.
 struct SkinRow {
@@ -89,9 +95,8 @@ struct SkinRow {
     bool turned = false;               ///< within a body that overlaps itself: the surface beside it faces it
     Tri corners{0, 0, 0};              ///< of the place at rest that it is before, and its weights
     Eigen::Vector3f weights = Eigen::Vector3f::Zero();
-    Eigen::Vector3f relative = Eigen::Vector3f::Zero(); ///< from there, at rest
+    std::uint32_t apart = 0; ///< in SkinRig::apart: one at each of the muscle's nodes, else one at rest
     Eigen::Vector3f facing = Eigen::Vector3f::Zero();   ///< SkinOnBody: of a muscle's surface there, unit
-    float gap = 0;    ///< at rest; while nothing has moved by as much, nothing meets
     float offset = 0; ///< signed distance that is kept, at most 0: the overlap at rest
 };
 
@@ -126,6 +131,7 @@ struct SkinRig {
     std::vector<SkinFrameShare> frameShares;
     std::vector<std::vector<std::uint32_t>> frameBlocks; ///< #frames, that it moves
     std::vector<SkinRow> rows;
+    std::vector<SkinApart> apart;
     std::vector<int> starts;
     SkinFoundation foundation;
     SkinSpheres spheres; ///< of the faithful mode

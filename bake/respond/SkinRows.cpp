@@ -153,6 +153,57 @@ float outside(const SkinBody& body, const Move& place) {
     return normal.dot(x - near.point) >= 0 ? distance : -distance;
 }
 
+bool ofMuscle(const SkinRig& rig, const SkinRow& row) {
+    return row.meeting != SkinMeeting::SkinOnSkin && !rig.bodies[row.body].bone();
+}
+
+/// What a row of a muscle keeps of how a scene stands.
+SkinApart apartOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    SkinApart apart{relativeOf(rig, scene, row), 0};
+    const SkinPlane plane = lookUp(rig, scene, row);
+    if (plane.found())
+        apart.gap = std::clamp(plane.distance, 0.0f, apart.relative.norm());
+    else if (row.meeting == SkinMeeting::SkinOnBody)
+        apart.gap = apart.relative.norm(); // else it faces another way now; whatever it comes to is looked at
+    return apart;
+}
+
+/// Each node's gap becomes what holds up to the next one.
+void bridgeNodes(SkinApart* apart, std::size_t nodes) {
+    for (std::size_t n = 0; n + 1 < nodes; ++n) {
+        const float step = (apart[n + 1].relative - apart[n].relative).norm();
+        apart[n].gap = std::max(std::min(apart[n].gap, apart[n + 1].gap) - step / 2, 0.0f);
+    }
+}
+
+/// The overlap at rest, which way the surface faces there, and how far a row that is no muscle's is free.
+void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
+    const bool body = row.meeting == SkinMeeting::SkinOnBody, bone = rig.bodies[row.body].bone();
+    if (body && !bone) {
+        for (int k = 0; k < 3; ++k)
+            row.facing +=
+                row.weights[k] * scene.normals[rig.bodies[row.body].first + row.corners[k]].head<3>();
+        if (row.facing.squaredNorm() > 0) row.facing.normalize();
+    }
+    SkinApart& apart = rig.apart[row.apart];
+    apart.relative = relativeOf(rig, scene, row);
+    row.offset = -1; // whatever the overlap at rest is, it is believed
+    SkinPlane plane = lookUp(rig, scene, row, 0);
+    row.offset = 0;
+    if (body && row.within && plane.found() && plane.distance > 0) {
+        row.turned = true;
+        plane = lookUp(rig, scene, row, 0);
+    }
+    if (body && bone) {
+        // Nothing comes in before it has come as far as the bone is away.
+        apart.gap = std::max(outside(rig.bodies[row.body], scene.skin[row.vertex]), 0.0f);
+        if (plane.found() && apart.gap == 0) row.offset = std::min(plane.distance, 0.0f);
+    } else if (plane.found()) {
+        row.offset = std::min(plane.distance, 0.0f);
+        apart.gap = std::clamp(plane.distance, 0.0f, apart.relative.norm());
+    } // else it faces another way now; whatever it comes to is looked at
+}
+
 } // namespace
 
 std::vector<SkinBefore> skinBefore(const SkinGround& ground, const SkinTable& table) {
@@ -223,44 +274,30 @@ std::vector<bool> addRows(SkinRig& rig, const std::vector<SkinBefore>& before,
 }
 
 void measureRows(SkinRig& rig) {
+    for (SkinRow& row : rig.rows) {
+        row.apart = static_cast<std::uint32_t>(rig.apart.size());
+        rig.apart.resize(rig.apart.size() + (ofMuscle(rig, row) ? rig.bodies[row.body].nodes.size() : 1));
+    }
     SkinScene scene;
-    placeBodies(rig, std::vector<double>(rig.bodies.size(), 0),
-                std::vector<Pose>(rig.bodies.size(), Pose::Identity()), {}, scene);
-    parallelFor(rig.rows.size(), [&](std::size_t r) {
-        SkinRow& row = rig.rows[r];
-        const bool body = row.meeting == SkinMeeting::SkinOnBody;
-        Vec3f at = Vec3f::Zero();
-        for (int k = 0; k < 3; ++k)
-            at += row.weights[k] * (body ? scene.surface[rig.bodies[row.body].first + row.corners[k]]
-                                         : scene.skin[row.corners[k]])
-                                       .head<3>();
-        if (body && !rig.bodies[row.body].bone()) {
-            for (int k = 0; k < 3; ++k)
-                row.facing +=
-                    row.weights[k] * scene.normals[rig.bodies[row.body].first + row.corners[k]].head<3>();
-            if (row.facing.squaredNorm() > 0) row.facing.normalize();
+    std::vector<double> activations(rig.bodies.size(), 0);
+    const std::vector<Pose> poses(rig.bodies.size(), Pose::Identity());
+    placeBodies(rig, activations, poses, {}, scene);
+    parallelFor(rig.rows.size(), [&](std::size_t r) { measureAtRest(rig, scene, rig.rows[r]); });
+    for (std::uint32_t m = 0; m < rig.bodies.size(); ++m) {
+        const std::vector<double>& nodes = rig.bodies[m].nodes;
+        if (rig.bodies[m].bone()) continue;
+        for (std::size_t n = 0; n < nodes.size(); ++n) {
+            activations[m] = nodes[n];
+            placeBodies(rig, activations, poses, {}, scene);
+            parallelFor(rig.rows.size(), [&](std::size_t r) {
+                const SkinRow& row = rig.rows[r];
+                if (row.body == m && ofMuscle(rig, row)) rig.apart[row.apart + n] = apartOf(rig, scene, row);
+            });
         }
-        const bool below = row.meeting == SkinMeeting::BodyOnSkin;
-        row.relative = (below ? scene.surface[row.vertex] : scene.skin[row.vertex]).head<3>() - at;
-        row.offset = -1; // whatever the overlap at rest is, it is believed
-        SkinPlane plane = lookUp(rig, scene, row, 0);
-        row.offset = 0;
-        if (body && row.within && plane.found() && plane.distance > 0) {
-            row.turned = true;
-            plane = lookUp(rig, scene, row, 0);
-        }
-        row.gap = row.relative.norm();
-        if (body && rig.bodies[row.body].bone()) {
-            // Nothing comes in before it has come as far as the bone is away.
-            row.gap = std::max(outside(rig.bodies[row.body], scene.skin[row.vertex]), 0.0f);
-            if (plane.found() && row.gap == 0) row.offset = std::min(plane.distance, 0.0f);
-        } else if (plane.found()) {
-            row.offset = std::min(plane.distance, 0.0f);
-            row.gap = std::clamp(plane.distance, 0.0f, row.gap);
-        } else if (!body) {
-            row.gap = 0; // it faces another way now; whatever it comes to is looked at
-        }
-    });
+        activations[m] = 0;
+        for (const SkinRow& row : rig.rows)
+            if (row.body == m && ofMuscle(rig, row)) bridgeNodes(rig.apart.data() + row.apart, nodes.size());
+    }
 }
 
 } // namespace tss
