@@ -134,23 +134,32 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     return plane;
 }
 
-/// The triangle of the skin to walk from: the nearest of those known.
-int startOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Vec3f& x) {
-    int start = rig.starts[row.first];
-    float least = std::numeric_limits<float>::max();
-    for (std::uint32_t k = row.first; k < row.last && row.last > row.first + 1; ++k) {
+/// Of the triangles of the skin that a row is known to meet, the one whose first corner is nearest to x.
+struct KnownTriangle {
+    int triangle = -1;
+    float squared = std::numeric_limits<float>::max(); ///< distance
+};
+
+KnownTriangle nearestKnown(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Vec3f& x) {
+    KnownTriangle known;
+    for (std::uint32_t k = row.first; k < row.last; ++k) {
         const Tri& t = rig.triangles[rig.starts[k]];
         const float squared = (x - scene.skin[t[0]].head<3>()).squaredNorm();
-        if (!(squared < least)) continue;
-        least = squared;
-        start = rig.starts[k];
+        if (squared < known.squared) known = {rig.starts[k], squared};
     }
-    return start;
+    return known;
+}
+
+/// Where what meets the skin is: a vertex of a body or of the skin itself.
+Vec3f placeBefore(const SkinScene& scene, const SkinRow& row) {
+    if (row.meeting == SkinMeeting::SkinOnSkin) return scene.skin[row.vertex].head<3>();
+    return scene.bodies[row.body].toSkin(scene.surface[row.vertex].head<3>());
 }
 
 SurfacePoint walkSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Vec3f& x) {
     const auto at = [&](int v) -> Vec3f { return scene.skin[v].head<3>(); };
-    return walkDownhill(x, startOf(rig, scene, row, x), rig.triangles, rig.across, at, walkSteps);
+    const int start = nearestKnown(rig, scene, row, x).triangle;
+    return walkDownhill(x, start, rig.triangles, rig.across, at, walkSteps);
 }
 
 /// How far a bone's vertex stuck out at rest, there where it meets the skin now: teeth do, and may again.
@@ -169,7 +178,7 @@ float outAtRest(const SkinRig& rig, const SkinRow& row, const SurfacePoint& hit)
 SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
     SkinPlane plane;
     const SkinScene::Placed& placed = scene.bodies[row.body];
-    const Vec3f x = placed.toSkin(scene.surface[row.vertex].head<3>());
+    const Vec3f x = placeBefore(scene, row);
     Vec3f own = scene.normals[row.vertex].head<3>();
     if (placed.moved) own = placed.turn * own;
     const SurfacePoint hit = walkSkin(rig, scene, row, x);
@@ -204,7 +213,7 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
 
 SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
     SkinPlane plane;
-    const Vec3f x = scene.skin[row.vertex].head<3>();
+    const Vec3f x = placeBefore(scene, row);
     const SurfacePoint hit = walkSkin(rig, scene, row, x);
     const Tri& corners = rig.triangles[hit.triangle];
     // Around a fold's end the walk comes to the vertex itself.
@@ -241,6 +250,10 @@ Vec3f relativeOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row)
     if (row.meeting == SkinMeeting::BodyOnSkin)
         return scene.surface[row.vertex].head<3>() - placed.toBody(before);
     return scene.skin[row.vertex].head<3>() - before;
+}
+
+float distanceToKnown(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    return std::sqrt(nearestKnown(rig, scene, row, placeBefore(scene, row)).squared);
 }
 
 bool mayMeet(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {

@@ -24,6 +24,9 @@ Eigen::Vector3f relativeOf(const SkinRig& rig, const SkinScene& scene, const Ski
 /// nothing, has moved it.
 bool mayMeet(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
 
+/// How far a row that is not SkinOnBody is from the triangles that it is known to meet.
+float distanceToKnown(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
+
 /// The plane that a row meets as the scene stands. Surfaces that face another way than the skin, and what
 /// lies beside a rim, ask for less and then for nothing, without a jump. offset: as SkinRow::offset.
 SkinPlane lookUp(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset);

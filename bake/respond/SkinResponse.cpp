@@ -15,9 +15,9 @@ namespace {
 constexpr int lookUps = 10;
 /// In sizes of the skin: what is not deeper than this needs no further look-up.
 constexpr float settled = 1e-5f;
-/// In sizes of the skin: what faced nothing is looked up again where contacts have moved it by this. Deeper
-/// it does not get into anything unnoticed.
-constexpr float unnoticed = 1e-4f;
+/// In radii of the skin: what was before no body is looked up again where contacts have moved it by this.
+/// Deeper it does not get into a body unnoticed.
+constexpr float unnoticed = 0.2f;
 /// Without new contacts, what is deepest has to get less deep by this factor, or what is asked for is more
 /// than the skin can give, and no further look-up helps.
 constexpr float progress = 0.5f;
@@ -163,19 +163,23 @@ void SkinResponse::State::toRest() {
 SkinResponse::State::Seen SkinResponse::State::seen(const SkinRow& row, const SkinPlane& plane) const {
     Seen seen{plane, {}, 0};
     if (plane.found()) {
-        seen.free = std::max(std::min(plane.gap, plane.distance - row.offset), 0.0f) / 2;
-    } else if (row.meeting == SkinMeeting::BodyOnSkin) {
+        seen.free = std::max(std::min(plane.gap, plane.distance - row.offset) / 2, settled);
+    } else if (row.meeting == SkinMeeting::SkinOnBody) {
+        seen.free = unnoticed * rig_->radius;
+    } else {
+        seen.free = std::max(distanceToKnown(*rig_, scene_, row) / 2, settled);
+    }
+    if (!plane.found() && row.meeting == SkinMeeting::BodyOnSkin) {
         seen.plane.vertices = 3;
         for (int k = 0; k < 3; ++k) {
             seen.plane.vertex[k] = static_cast<std::uint32_t>(row.corners[k]);
             seen.plane.weight[k] = row.weights[k];
         }
-    } else {
+    } else if (!plane.found()) {
         seen.plane.vertices = 1;
         seen.plane.vertex[0] = row.vertex;
         seen.plane.weight[0] = 1;
     }
-    seen.free = std::max(seen.free, plane.found() ? settled : unnoticed);
     seen.place = placeOf(scene_, seen.plane);
     return seen;
 }

@@ -161,10 +161,11 @@ bool ofMuscle(const SkinRig& rig, const SkinRow& row) {
 SkinApart apartOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
     SkinApart apart{relativeOf(rig, scene, row), 0};
     const SkinPlane plane = lookUp(rig, scene, row);
+    apart.gap = apart.relative.norm();
     if (plane.found())
-        apart.gap = std::clamp(plane.distance, 0.0f, apart.relative.norm());
-    else if (row.meeting == SkinMeeting::SkinOnBody)
-        apart.gap = apart.relative.norm(); // else it faces another way now; whatever it comes to is looked at
+        apart.gap = std::clamp(plane.distance, 0.0f, apart.gap);
+    else if (row.meeting == SkinMeeting::BodyOnSkin)
+        apart.gap = distanceToKnown(rig, scene, row);
     return apart;
 }
 
@@ -201,7 +202,9 @@ void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
     } else if (plane.found()) {
         row.offset = std::min(plane.distance, 0.0f);
         apart.gap = std::clamp(plane.distance, 0.0f, apart.relative.norm());
-    } // else it faces another way now; whatever it comes to is looked at
+    } else if (!body) { // it faces another way now, and is far from what it meets
+        apart.gap = distanceToKnown(rig, scene, row);
+    }
 }
 
 } // namespace
