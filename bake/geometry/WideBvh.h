@@ -16,8 +16,8 @@ public:
     template <class Leaf>
     void visitNearest(const Vec3& p, double& best2, const Vec3& facing, Leaf&& leaf) const;
 
-    /// Calls leaf(item) for items whose box the straight way may pass through, until one answers true. Returns
-    /// whether one has.
+    /// Calls leaf(item) for items whose box the straight way may pass through, until one answers true.
+    /// Returns whether one has.
     template <class Leaf>
     bool visitWay(const Vec3& from, const Vec3& to, Leaf&& leaf) const;
 
@@ -86,8 +86,7 @@ bool WideBvh::visitWay(const Vec3& from, const Vec3& to, Leaf&& leaf) const {
     const Eigen::Array3f off =
         Eigen::Array3f::Constant(slack * (start.abs().max(end.abs()).maxCoeff() + size_));
     constexpr float least = 1e-18f; // along no axis is a way quite still, which is cheaper
-    const Eigen::Array3f way = end - start,
-                         perWay = (way.abs() < least).select(least, way).inverse();
+    const Eigen::Array3f way = end - start, perWay = (way.abs() < least).select(least, way).inverse();
     const Eigen::Array3f low = start + off, high = start - off;
     std::array<std::uint32_t, std::tuple_size_v<Stack>> stack;
     std::size_t top = 0;

@@ -195,7 +195,8 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const Vec3f away = hit.point - x, both = row.within ? smooth : (smooth + own).normalized();
     if (rig.bodies[row.body].bone() && both.dot(away) < 0) {
         offset = -outAtRest(rig, row, hit);
-        trust *= comeThrough(away.norm(), (relativeOf(rig, scene, row) - rig.apart[row.apart].relative).norm() - offset);
+        trust *= comeThrough(away.norm(),
+                             (relativeOf(rig, scene, row) - rig.apart[row.apart].relative).norm() - offset);
     }
     if (!(trust > 0)) return plane;
     plane.vertices = 3;
@@ -223,7 +224,8 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     float trust = trustOf(-smooth.dot(own));
     const Vec3f away = x - hit.point, both = (smooth - own).normalized();
     if (both.dot(away) < 0)
-        trust *= comeThrough(away.norm(), (relativeOf(rig, scene, row) - rig.apart[row.apart].relative).norm() - row.offset);
+        trust *= comeThrough(
+            away.norm(), (relativeOf(rig, scene, row) - rig.apart[row.apart].relative).norm() - row.offset);
     if (!(trust > 0)) return plane;
     plane.vertices = 4;
     plane.vertex[0] = row.vertex;
@@ -270,14 +272,6 @@ bool mayMeet(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
     // Beside the place that is looked at, a surface has moved by its strain over at most twice the gap.
     const float free = apart->gap * (1 - 2 * strain);
     return !(free > 0) || (relativeOf(rig, scene, row) - expected).squaredNorm() >= free * free;
-}
-
-void lookAgain(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinPlane& plane) {
-    const SkinPlane now = lookUp(rig, scene, row);
-    plane.gap = now.found() ? now.gap : std::numeric_limits<float>::max();
-    if (now.found()) plane.normal = now.normal;
-    plane.level =
-        now.found() ? plane.normal.dot(placeOf(scene, plane)) - plane.gap : -1e6f; // asks for nothing
 }
 
 SkinPlane lookUp(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {

@@ -3,6 +3,11 @@
 
 namespace tss {
 
+/// In sizes of the skin: places that differ by less are the same.
+constexpr float settled = 1e-5f;
+/// In radii of the skin: what is first met deeper than this was not met from outside.
+constexpr float enterDepth = 0.25f;
+
 /// normal . sum weight_k x_k >= level, x the places of the skin. Run-time lengths.
 struct SkinPlane {
     std::uint32_t vertex[4] = {0, 0, 0, 0};
@@ -36,9 +41,5 @@ inline SkinPlane lookUp(const SkinRig& rig, const SkinScene& scene, const SkinRo
 
 /// Where what a plane holds is, in the skin as it is.
 Eigen::Vector3f placeOf(const SkinScene& scene, const SkinPlane& plane);
-
-/// Turns a plane to what its row meets now. What it pushes stays as it was first found, since it has hardly
-/// slid, and so does its push.
-void lookAgain(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinPlane& plane);
 
 } // namespace tss

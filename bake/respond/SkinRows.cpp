@@ -12,8 +12,6 @@ using Vec3f = Eigen::Vector3f;
 
 /// In radii of the skin: how far from the skin a body's vertex, or another part of the skin, is seen.
 constexpr double seenReach = 3;
-/// In radii: what is first met deeper than this was not met from outside.
-constexpr double enterDepth = 0.25;
 constexpr std::size_t swingStops = 4; ///< of each swing, at which meetings are looked for
 
 /// Activations and poses at which meetings are looked for.
@@ -89,7 +87,7 @@ void meetBodies(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& 
             const NearestPoint near = locator.nearestFacing(x, reach, own);
             if (near.triangle < 0) return;
             const double above = triangleNormal(skin, near.triangle).dot(near.point - x);
-            if (above >= -enterDepth * static_cast<double>(rig.radius)) meet(met, v, near.triangle);
+            if (above >= -static_cast<double>(enterDepth * rig.radius)) meet(met, v, near.triangle);
         });
     }
 }
@@ -98,7 +96,7 @@ void meetBodies(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& 
 void meetFolds(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& skin,
                const ClosestPointQuery& locator, Met& met) {
     const double reach = seenReach * static_cast<double>(rig.radius),
-                 depth = enterDepth * static_cast<double>(rig.radius);
+                 depth = static_cast<double>(enterDepth * rig.radius);
     parallelFor(skin.vertices.size(), [&](std::size_t v) {
         const Vec3 own = scene.normalOf(v).cast<double>();
         const Vec3& x = skin.vertices[v];
