@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/geometry/Bvh.h"
+#include "bake/geometry/WideBvh.h"
 
 namespace tss {
 
@@ -68,11 +68,11 @@ public:
     int entered(const Vec3& from, const Vec3& to) const;
 
 private:
-    template <class Accept>
-    NearestPoint search(const Vec3& x, double range, int first, const Accept& accept) const;
+    Vec3 normal(std::uint32_t t) const;
+    NearestPoint search(const Vec3& x, double range, const Vec3& facing, int first) const;
 
     const TriangleMesh& mesh_;
-    Bvh bvh_;
+    WideBvh bvh_;
 };
 
 } // namespace tss

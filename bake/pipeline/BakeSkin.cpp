@@ -5,7 +5,7 @@
 #include "bake/model/SourceHash.h"
 #include "bake/pipeline/FillPair.h"
 #include "bake/play/SkinSetup.h"
-#include "bake/respond/SkinRig.h"
+#include "bake/respond/SkinMoves.h"
 #include "bake/spheres/GenerateSpheres.h"
 #include "bake/spheres/RoundToFloat.h"
 

@@ -7,6 +7,7 @@
 #include "bake/motion/MuscleSpan.h"
 #include "bake/play/JointPlan.h"
 #include "bake/play/SkinSetup.h"
+#include "bake/respond/SkinCosts.h"
 #include "bake/respond/SkinFollowing.h"
 #include "bake/respond/SkinResponse.h"
 #include "bake/respond/SkinRig.h"
@@ -31,6 +32,7 @@ class Player::State {
 public:
     State(const SceneModel& scene, std::vector<std::string>& warnings);
     std::vector<SkinFollowing> following() const;
+    void charge(std::vector<SkinCosts>& costs);
     Step step(const std::vector<double>& asked, double timeCode);
     std::vector<TriangleMesh> worldMeshes() const;
 
@@ -159,6 +161,10 @@ Player::Step Player::State::step(const std::vector<double>& asked, double timeCo
     return result;
 }
 
+void Player::State::charge(std::vector<SkinCosts>& costs) {
+    for (std::size_t k = 0; k < skins_.size(); ++k) skins_[k].response.charge(&costs[k]);
+}
+
 std::vector<SkinFollowing> Player::State::following() const {
     std::vector<SkinFollowing> result;
     for (const Skin& skin : skins_) result.push_back(skin.follow.at(skin.response.positions(), skin.poses));
@@ -193,6 +199,10 @@ Player::Player(const SceneModel& scene, std::vector<std::string>& warnings)
 Player::Player(Player&&) noexcept = default;
 Player& Player::operator=(Player&&) noexcept = default;
 Player::~Player() = default;
+
+void Player::charge(std::vector<SkinCosts>& costs) {
+    state_->charge(costs);
+}
 
 std::vector<SkinFollowing> Player::following() const {
     return state_->following();

@@ -6,6 +6,7 @@
 
 namespace tss {
 
+struct SkinCosts;
 struct SkinFollowing;
 
 /// A scene in motion: the joints kept out of collision, the skins deformed, as the node kit does it, step by
@@ -33,6 +34,10 @@ public:
     std::vector<SkinFollowing> following() const;
 
     Step step(const std::vector<double>& asked, double timeCode);
+
+    /// From now on each step adds what the parts of the skins' updates cost: one per skin of the scene, which
+    /// must outlive this. That makes the updates themselves a tenth slower.
+    void charge(std::vector<SkinCosts>& costs);
 
     /// Every body's vertices in the world after the last step, skins and muscles deformed.
     std::vector<TriangleMesh> worldMeshes() const;

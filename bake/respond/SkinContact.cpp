@@ -80,21 +80,6 @@ SurfacePoint toPoint(const NearestPoint& near) {
             static_cast<float>(near.distance * near.distance)};
 }
 
-/// From where a row's vertex is before to the vertex, as it stands; in the body's frame.
-Vec3f relativeOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    const SkinScene::Placed& placed = scene.bodies[row.body];
-    Vec3f before = Vec3f::Zero();
-    if (row.meeting == SkinMeeting::SkinOnBody) {
-        const Move* surface = scene.surface.data() + rig.bodies[row.body].first;
-        for (int k = 0; k < 3; ++k) before += row.weights[k] * surface[row.corners[k]].head<3>();
-        return placed.toBody(scene.skin[row.vertex].head<3>()) - before;
-    }
-    for (int k = 0; k < 3; ++k) before += row.weights[k] * scene.skin[row.corners[k]].head<3>();
-    if (row.meeting == SkinMeeting::BodyOnSkin)
-        return scene.surface[row.vertex].head<3>() - placed.toBody(before);
-    return scene.skin[row.vertex].head<3>() - before;
-}
-
 /// Whether what seems this deep in a surface can have come there: by its way since rest, and the overlap
 /// there. What seems deeper is another side of the surface, seen past it.
 float comeThrough(float depth, float most) {
@@ -111,7 +96,7 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     SurfacePoint hit;
     Vec3f way = Vec3f::Zero(); // since rest, past the bone
     if (body.bone()) {
-        way = relativeOf(rig, scene, row) - row.relative;
+        way = relativeOf(rig, scene, row) - rig.apart[row.apart].relative;
         int first = rig.starts[row.first];
         if (row.offset == 0) first = body.locator->entered((x - way).cast<double>(), x.cast<double>());
         if (first < 0) return plane;
@@ -149,23 +134,32 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     return plane;
 }
 
-/// The triangle of the skin to walk from: the nearest of those known.
-int startOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Vec3f& x) {
-    int start = rig.starts[row.first];
-    float least = std::numeric_limits<float>::max();
-    for (std::uint32_t k = row.first; k < row.last && row.last > row.first + 1; ++k) {
+/// Of the triangles of the skin that a row is known to meet, the one whose first corner is nearest to x.
+struct KnownTriangle {
+    int triangle = -1;
+    float squared = std::numeric_limits<float>::max(); ///< distance
+};
+
+KnownTriangle nearestKnown(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Vec3f& x) {
+    KnownTriangle known;
+    for (std::uint32_t k = row.first; k < row.last; ++k) {
         const Tri& t = rig.triangles[rig.starts[k]];
         const float squared = (x - scene.skin[t[0]].head<3>()).squaredNorm();
-        if (!(squared < least)) continue;
-        least = squared;
-        start = rig.starts[k];
+        if (squared < known.squared) known = {rig.starts[k], squared};
     }
-    return start;
+    return known;
+}
+
+/// Where what meets the skin is: a vertex of a body or of the skin itself.
+Vec3f placeBefore(const SkinScene& scene, const SkinRow& row) {
+    if (row.meeting == SkinMeeting::SkinOnSkin) return scene.skin[row.vertex].head<3>();
+    return scene.bodies[row.body].toSkin(scene.surface[row.vertex].head<3>());
 }
 
 SurfacePoint walkSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Vec3f& x) {
     const auto at = [&](int v) -> Vec3f { return scene.skin[v].head<3>(); };
-    return walkDownhill(x, startOf(rig, scene, row, x), rig.triangles, rig.across, at, walkSteps);
+    const int start = nearestKnown(rig, scene, row, x).triangle;
+    return walkDownhill(x, start, rig.triangles, rig.across, at, walkSteps);
 }
 
 /// How far a bone's vertex stuck out at rest, there where it meets the skin now: teeth do, and may again.
@@ -184,7 +178,7 @@ float outAtRest(const SkinRig& rig, const SkinRow& row, const SurfacePoint& hit)
 SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
     SkinPlane plane;
     const SkinScene::Placed& placed = scene.bodies[row.body];
-    const Vec3f x = placed.toSkin(scene.surface[row.vertex].head<3>());
+    const Vec3f x = placeBefore(scene, row);
     Vec3f own = scene.normals[row.vertex].head<3>();
     if (placed.moved) own = placed.turn * own;
     const SurfacePoint hit = walkSkin(rig, scene, row, x);
@@ -201,7 +195,8 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const Vec3f away = hit.point - x, both = row.within ? smooth : (smooth + own).normalized();
     if (rig.bodies[row.body].bone() && both.dot(away) < 0) {
         offset = -outAtRest(rig, row, hit);
-        trust *= comeThrough(away.norm(), (relativeOf(rig, scene, row) - row.relative).norm() - offset);
+        trust *= comeThrough(away.norm(),
+                             (relativeOf(rig, scene, row) - rig.apart[row.apart].relative).norm() - offset);
     }
     if (!(trust > 0)) return plane;
     plane.vertices = 3;
@@ -219,7 +214,7 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
 
 SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
     SkinPlane plane;
-    const Vec3f x = scene.skin[row.vertex].head<3>();
+    const Vec3f x = placeBefore(scene, row);
     const SurfacePoint hit = walkSkin(rig, scene, row, x);
     const Tri& corners = rig.triangles[hit.triangle];
     // Around a fold's end the walk comes to the vertex itself.
@@ -229,7 +224,8 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     float trust = trustOf(-smooth.dot(own));
     const Vec3f away = x - hit.point, both = (smooth - own).normalized();
     if (both.dot(away) < 0)
-        trust *= comeThrough(away.norm(), (relativeOf(rig, scene, row) - row.relative).norm() - row.offset);
+        trust *= comeThrough(
+            away.norm(), (relativeOf(rig, scene, row) - rig.apart[row.apart].relative).norm() - row.offset);
     if (!(trust > 0)) return plane;
     plane.vertices = 4;
     plane.vertex[0] = row.vertex;
@@ -244,20 +240,38 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
 
 } // namespace
 
+Vec3f relativeOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    const SkinScene::Placed& placed = scene.bodies[row.body];
+    Vec3f before = Vec3f::Zero();
+    if (row.meeting == SkinMeeting::SkinOnBody) {
+        const Move* surface = scene.surface.data() + rig.bodies[row.body].first;
+        for (int k = 0; k < 3; ++k) before += row.weights[k] * surface[row.corners[k]].head<3>();
+        return placed.toBody(scene.skin[row.vertex].head<3>()) - before;
+    }
+    for (int k = 0; k < 3; ++k) before += row.weights[k] * scene.skin[row.corners[k]].head<3>();
+    if (row.meeting == SkinMeeting::BodyOnSkin)
+        return scene.surface[row.vertex].head<3>() - placed.toBody(before);
+    return scene.skin[row.vertex].head<3>() - before;
+}
+
+float distanceToKnown(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    return std::sqrt(nearestKnown(rig, scene, row, placeBefore(scene, row)).squared);
+}
+
 bool mayMeet(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
     // Of the skin: half of what edges are let change.
     const float strain = row.meeting == SkinMeeting::SkinOnBody ? scene.bodies[row.body].strain : 0.25f;
+    const SkinApart* apart = rig.apart.data() + row.apart;
+    Vec3f expected = apart->relative;
+    if (row.meeting != SkinMeeting::SkinOnSkin) {
+        const TrackPlace& at = scene.bodies[row.body].at;
+        apart += at.node;
+        expected = apart->relative;
+        if (at.t != 0) expected += static_cast<float>(at.t) * (apart[1].relative - expected);
+    }
     // Beside the place that is looked at, a surface has moved by its strain over at most twice the gap.
-    const float free = row.gap * (1 - 2 * strain);
-    return !(free > 0) || (relativeOf(rig, scene, row) - row.relative).squaredNorm() >= free * free;
-}
-
-void lookAgain(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinPlane& plane) {
-    const SkinPlane now = lookUp(rig, scene, row);
-    plane.gap = now.found() ? now.gap : std::numeric_limits<float>::max();
-    if (now.found()) plane.normal = now.normal;
-    plane.level =
-        now.found() ? plane.normal.dot(placeOf(scene, plane)) - plane.gap : -1e6f; // asks for nothing
+    const float free = apart->gap * (1 - 2 * strain);
+    return !(free > 0) || (relativeOf(rig, scene, row) - expected).squaredNorm() >= free * free;
 }
 
 SkinPlane lookUp(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {

@@ -3,6 +3,11 @@
 
 namespace tss {
 
+/// In sizes of the skin: places that differ by less are the same.
+constexpr float settled = 1e-5f;
+/// In radii of the skin: what is first met deeper than this was not met from outside.
+constexpr float enterDepth = 0.25f;
+
 /// normal . sum weight_k x_k >= level, x the places of the skin. Run-time lengths.
 struct SkinPlane {
     std::uint32_t vertex[4] = {0, 0, 0, 0};
@@ -17,8 +22,15 @@ struct SkinPlane {
     bool found() const { return vertices > 0; }
 };
 
-/// Whether what the row is about may have come together since rest.
+/// From the place that a row's vertex is before to the vertex, as they stand; in the body's frame.
+Eigen::Vector3f relativeOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
+
+/// Whether what the row is about may have come together, by how far it is off where its muscle alone, or
+/// nothing, has moved it.
 bool mayMeet(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
+
+/// How far a row that is not SkinOnBody is from the triangles that it is known to meet.
+float distanceToKnown(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
 
 /// The plane that a row meets as the scene stands. Surfaces that face another way than the skin, and what
 /// lies beside a rim, ask for less and then for nothing, without a jump. offset: as SkinRow::offset.
@@ -29,9 +41,5 @@ inline SkinPlane lookUp(const SkinRig& rig, const SkinScene& scene, const SkinRo
 
 /// Where what a plane holds is, in the skin as it is.
 Eigen::Vector3f placeOf(const SkinScene& scene, const SkinPlane& plane);
-
-/// Turns a plane to what its row meets now. What it pushes stays as it was first found, since it has hardly
-/// slid, and so does its push.
-void lookAgain(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinPlane& plane);
 
 } // namespace tss

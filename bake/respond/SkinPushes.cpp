@@ -10,8 +10,6 @@ namespace {
 constexpr float giveWay = 0.003f;
 /// Sweeps that find out what pushes, and steps of conjugate gradients that then find out how much, in turn.
 constexpr int sweepsBetween = 3, stepsBetween = 8;
-/// In sizes of the skin: the sweeps end when no place changes by more.
-constexpr float settled = 1e-5f;
 /// Of what is lacking at the planes around: how far a push may move any place. Planes that ask for opposite
 /// things would push without bounds.
 constexpr float mostPush = 15;
@@ -228,20 +226,18 @@ float SkinPushes::energy(std::span<const SkinPlane> planes) const {
     return sum;
 }
 
-float SkinPushes::solve(std::span<SkinPlane> planes, std::span<const Move> base, int sweeps) {
+void SkinPushes::solve(std::span<SkinPlane> planes, std::span<const Move> base, int sweeps) {
     if (planes.size() > self_.size()) {
         gather(planes);
         couple();
     }
     prepare(planes, base);
-    float largest = 0;
     for (int done = 0; done < sweeps;) {
-        largest = 0;
+        float largest = 0;
         for (int k = 0; k < sweepsBetween && done < sweeps; ++k, ++done) largest = sweep(planes, k % 2 != 0);
         if (largest <= settled) break;
         done += settle(planes, std::min(stepsBetween, sweeps - done));
     }
-    return largest;
 }
 
 std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, std::span<Move> places,

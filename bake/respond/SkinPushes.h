@@ -14,9 +14,9 @@ public:
     void clear();
 
     /// Solves for planes of a skin that stands as `base`, starting from their pushes. Planes that were there
-    /// at the last call since clear() come first and may have other normals and levels only. sweeps: at most.
-    /// Returns the largest change of a place in the last sweep.
-    float solve(std::span<SkinPlane> planes, std::span<const Move> base, int sweeps);
+    /// at the last call since clear() come first and may have other normals and levels only. sweeps: at most;
+    /// they end when no place changes any more.
+    void solve(std::span<SkinPlane> planes, std::span<const Move> base, int sweeps);
 
     /// Adds the moves by the planes' pushes to #touched places, and marks the blocks of those. Returns how
     /// many planes push.

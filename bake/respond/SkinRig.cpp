@@ -13,14 +13,8 @@ namespace tss {
 namespace {
 
 constexpr std::uint32_t untouched = 0xffffffff;
-constexpr int bodySteps = 16; ///< stretches of a muscle's range that its surface is tabulated over
 /// In lengths of the ground: how far around what may be pushed the skin gives way.
 constexpr double giveReach = 7;
-
-void checkNumber(double value, const char* what) {
-    if (!(value >= 0) || !std::isfinite(value))
-        throw InputError(std::string(what) + " of a skin must be finite and at least 0");
-}
 
 void check(const TriangleMesh& skin, std::size_t bodies, const SkinTable& table) {
     const Table& t = table.table;
@@ -205,52 +199,7 @@ double largestRadius(const Table& table) {
     return radius;
 }
 
-/// What a muscle between two bones swells by while these swing, on top of what its vertices move by: #V.
-void addSwelling(const MuscleDeformer& muscle, int insertion, std::size_t m,
-                 const std::vector<BoneSwing>& swings, std::vector<double>& most) {
-    if (insertion < 0) return;
-    const MuscleSpan span(muscle);
-    double swell = 0;
-    for (const BoneSwing& swing : swings)
-        for (const std::vector<Pose>& station : swing)
-            swell = std::max(swell, std::abs(span.swell(between(station[m], station[insertion]),
-                                                        muscle.muscle().surface.vertices)));
-    for (std::size_t v = 0; v < most.size(); ++v) most[v] += swell * span.swelling()[v].norm();
-}
-
 } // namespace
-
-void checkSkin(const TriangleMesh& skin, std::size_t bodies, const SkinParameters& p) {
-    checkNumber(p.stretchCompliance, "the stretch compliance");
-    checkNumber(p.bendCompliance, "the bend compliance");
-    for (const auto* weights : {&p.tether, &p.attach}) {
-        if (!weights->empty() && weights->size() != skin.vertices.size())
-            throw InputError("tether and attach of a skin need one value a vertex");
-        for (const double w : *weights)
-            if (!(w >= 0 && w <= 1)) throw InputError("tether and attach of a skin lie in [0, 1]");
-    }
-    if (!p.frames.empty() && p.frames.size() != bodies)
-        throw InputError("a skin needs one frame a muscle or bone below it");
-    for (const int frame : p.frames)
-        if (frame < -1 || frame >= static_cast<int>(bodies))
-            throw InputError("a frame of a skin is numbered from 0 and fewer than its bodies");
-    if (!p.insertions.empty() && p.insertions.size() != bodies)
-        throw InputError("a skin needs one insertion a muscle or bone below it");
-    for (const int insertion : p.insertions)
-        if (insertion < -1 || insertion >= static_cast<int>(bodies))
-            throw InputError("the insertion of a muscle under a skin is one of the bodies below it");
-    for (const std::vector<double>& list : p.shares) {
-        if (list.size() != skin.vertices.size())
-            throw InputError("the shares of a skin need one value a vertex");
-        for (const double w : list)
-            if (!(w >= 0 && w <= 1)) throw InputError("the shares of a skin lie in [0, 1]");
-    }
-    for (const BoneSwing& swing : p.swings)
-        for (const std::vector<Pose>& station : swing)
-            if (station.size() != bodies)
-                throw InputError("the swings of the bones under a skin need one pose a muscle or bone");
-    if (p.iterations < 1) throw InputError("a skin needs at least one iteration");
-}
 
 float SkinBody::strainOf(const Move* now) const {
     float most = 0;
@@ -270,53 +219,16 @@ Pose SkinRig::local(const Pose& pose) const {
 }
 
 std::size_t SkinRig::bytes() const {
-    std::size_t sum =
-        foundation.bytes() + rows.size() * sizeof(SkinRow) + pulls.size() * sizeof(SkinPull) +
-        frameShares.size() * sizeof(SkinFrameShare) + 4 * (pullStart.size() + frameStart.size()) +
-        vertices.size() * (2 * sizeof(Vec3) + 2 * sizeof(Move)) + 2 * triangles.size() * sizeof(Tri) +
-        fans.fans.size() * sizeof(SkinFan) + 4 * (fans.start.size() + around.size());
+    std::size_t sum = foundation.bytes() + rows.size() * sizeof(SkinRow) + apart.size() * sizeof(SkinApart) +
+                      pulls.size() * sizeof(SkinPull) + frameShares.size() * sizeof(SkinFrameShare) +
+                      4 * (pullStart.size() + frameStart.size()) +
+                      vertices.size() * (2 * sizeof(Vec3) + 2 * sizeof(Move)) +
+                      2 * triangles.size() * sizeof(Tri) + fans.fans.size() * sizeof(SkinFan) +
+                      4 * (fans.start.size() + around.size());
     for (const SkinBody& body : bodies)
         sum += (body.rest.size() + body.places.size() + body.normals.size()) * sizeof(Move) +
                2 * body.triangles.size() * sizeof(Tri);
     return sum;
-}
-
-SkinMoves skinMoves(const TriangleMesh& skin,
-                    const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
-                    const SkinParameters& parameters) {
-    checkSkin(skin, bodies.size(), parameters);
-    SkinMoves moves;
-    moves.stray.assign(bodies.size(), std::vector<double>(skin.vertices.size(), 0));
-    moves.shares = moves.stray;
-    const SkinGround ground(skin, bodies);
-    const std::vector<int> frames = framesOf(ground, parameters);
-    const SkinCarriage carriage = carrySkin(ground, parameters);
-    std::vector<bool> taken(carriage.frames.size(), false);
-    for (std::size_t m = 0; m < bodies.size(); ++m)
-        if (frames[m] >= 0 && !taken[frames[m]]) {
-            taken[frames[m]] = true;
-            moves.shares[m] = carriage.frames[frames[m]];
-        }
-    for (std::size_t m = 0; m < bodies.size(); ++m) {
-        if (carriage.muscles[m].empty()) continue;
-        const Muscle& muscle = bodies[m]->muscle();
-        std::vector<double> most(muscle.surface.vertices.size(), 0);
-        for (const double node : activationNodes(muscle.activationLower, muscle.activationUpper, bodySteps)) {
-            const std::vector<Vec3> now = bodies[m]->vertices(node);
-            for (std::size_t v = 0; v < most.size(); ++v)
-                most[v] = std::max(most[v], (now[v] - muscle.surface.vertices[v]).norm());
-        }
-        addSwelling(*bodies[m], insertionOf(parameters, m), m, parameters.swings, most);
-        for (std::size_t v = 0; v < skin.vertices.size(); ++v) {
-            if (!(carriage.muscles[m][v] > 0)) continue;
-            double moved = 0;
-            for (const int corner : muscle.surface.triangles[carriage.bound[m][v].triangle])
-                moved = std::max(moved, most[corner]);
-            for (std::size_t other = 0; other < bodies.size(); ++other)
-                if (other != m) moves.stray[other][v] += carriage.muscles[m][v] * moved;
-        }
-    }
-    return moves;
 }
 
 std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,

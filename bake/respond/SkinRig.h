@@ -36,6 +36,8 @@ inline int insertionOf(const SkinParameters& parameters, std::size_t body) {
     return parameters.insertions.empty() ? -1 : parameters.insertions[body];
 }
 
+constexpr int bodySteps = 16; ///< stretches of a muscle's range that its surface is tabulated over
+
 /// Run-time lengths are floats in sizes of the skin, from its middle.
 using Move = Eigen::Vector4f;
 
@@ -78,6 +80,13 @@ enum class SkinMeeting : std::uint8_t {
     SkinOnSkin, ///< a skin vertex another part of the skin
 };
 
+/// How the two of a row lie where its muscle alone has moved, and everything else is at rest.
+struct SkinApart {
+    Eigen::Vector3f relative = Eigen::Vector3f::Zero(); ///< what meets, from the place that it is before
+    float gap =
+        0; ///< while they are no farther off that than this, here or on the way to the next, nothing meets
+};
+
 /// A possible contact. Where it is looked for starts from a triangle known beforehand, so that the answer has
 /// no history.
 struct SkinRow {
@@ -89,9 +98,8 @@ struct SkinRow {
     bool turned = false;               ///< within a body that overlaps itself: the surface beside it faces it
     Tri corners{0, 0, 0};              ///< of the place at rest that it is before, and its weights
     Eigen::Vector3f weights = Eigen::Vector3f::Zero();
-    Eigen::Vector3f relative = Eigen::Vector3f::Zero(); ///< from there, at rest
-    Eigen::Vector3f facing = Eigen::Vector3f::Zero();   ///< SkinOnBody: of a muscle's surface there, unit
-    float gap = 0;    ///< at rest; while nothing has moved by as much, nothing meets
+    std::uint32_t apart = 0; ///< in SkinRig::apart: one at each of the muscle's nodes, else one at rest
+    Eigen::Vector3f facing = Eigen::Vector3f::Zero(); ///< SkinOnBody: of a muscle's surface there, unit
     float offset = 0; ///< signed distance that is kept, at most 0: the overlap at rest
 };
 
@@ -126,6 +134,7 @@ struct SkinRig {
     std::vector<SkinFrameShare> frameShares;
     std::vector<std::vector<std::uint32_t>> frameBlocks; ///< #frames, that it moves
     std::vector<SkinRow> rows;
+    std::vector<SkinApart> apart;
     std::vector<int> starts;
     SkinFoundation foundation;
     SkinSpheres spheres; ///< of the faithful mode
@@ -135,17 +144,6 @@ struct SkinRig {
     std::size_t blocks() const { return (places.size() + block - 1) / block; }
     std::size_t bytes() const;
 };
-
-/// What muscles and bones do to the vertices of a skin, as SkinSearchOptions wants it: one list a body, #V
-/// each.
-struct SkinMoves {
-    std::vector<std::vector<double>> stray;  ///< how far the contraction of the others may move the vertex
-    std::vector<std::vector<double>> shares; ///< of the body's motion that the vertex makes; bodies of one
-                                             ///< frame have it once
-};
-SkinMoves skinMoves(const TriangleMesh& skin,
-                    const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
-                    const SkinParameters& parameters);
 
 /// Throws InputError for parameters that makeSkinRig() would refuse over so many muscles and bones.
 void checkSkin(const TriangleMesh& skin, std::size_t bodies, const SkinParameters& parameters);

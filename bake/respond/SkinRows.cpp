@@ -12,8 +12,6 @@ using Vec3f = Eigen::Vector3f;
 
 /// In radii of the skin: how far from the skin a body's vertex, or another part of the skin, is seen.
 constexpr double seenReach = 3;
-/// In radii: what is first met deeper than this was not met from outside.
-constexpr double enterDepth = 0.25;
 constexpr std::size_t swingStops = 4; ///< of each swing, at which meetings are looked for
 
 /// Activations and poses at which meetings are looked for.
@@ -89,7 +87,7 @@ void meetBodies(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& 
             const NearestPoint near = locator.nearestFacing(x, reach, own);
             if (near.triangle < 0) return;
             const double above = triangleNormal(skin, near.triangle).dot(near.point - x);
-            if (above >= -enterDepth * static_cast<double>(rig.radius)) meet(met, v, near.triangle);
+            if (above >= -static_cast<double>(enterDepth * rig.radius)) meet(met, v, near.triangle);
         });
     }
 }
@@ -98,7 +96,7 @@ void meetBodies(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& 
 void meetFolds(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& skin,
                const ClosestPointQuery& locator, Met& met) {
     const double reach = seenReach * static_cast<double>(rig.radius),
-                 depth = enterDepth * static_cast<double>(rig.radius);
+                 depth = static_cast<double>(enterDepth * rig.radius);
     parallelFor(skin.vertices.size(), [&](std::size_t v) {
         const Vec3 own = scene.normalOf(v).cast<double>();
         const Vec3& x = skin.vertices[v];
@@ -151,6 +149,60 @@ float outside(const SkinBody& body, const Move& place) {
     }
     const auto distance = static_cast<float>(near.distance);
     return normal.dot(x - near.point) >= 0 ? distance : -distance;
+}
+
+bool ofMuscle(const SkinRig& rig, const SkinRow& row) {
+    return row.meeting != SkinMeeting::SkinOnSkin && !rig.bodies[row.body].bone();
+}
+
+/// What a row of a muscle keeps of how a scene stands.
+SkinApart apartOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    SkinApart apart{relativeOf(rig, scene, row), 0};
+    const SkinPlane plane = lookUp(rig, scene, row);
+    apart.gap = apart.relative.norm();
+    if (plane.found())
+        apart.gap = std::clamp(plane.distance, 0.0f, apart.gap);
+    else if (row.meeting == SkinMeeting::BodyOnSkin)
+        apart.gap = distanceToKnown(rig, scene, row);
+    return apart;
+}
+
+/// Each node's gap becomes what holds up to the next one.
+void bridgeNodes(SkinApart* apart, std::size_t nodes) {
+    for (std::size_t n = 0; n + 1 < nodes; ++n) {
+        const float step = (apart[n + 1].relative - apart[n].relative).norm();
+        apart[n].gap = std::max(std::min(apart[n].gap, apart[n + 1].gap) - step / 2, 0.0f);
+    }
+}
+
+/// The overlap at rest, which way the surface faces there, and how far a row that is no muscle's is free.
+void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
+    const bool body = row.meeting == SkinMeeting::SkinOnBody, bone = rig.bodies[row.body].bone();
+    if (body && !bone) {
+        for (int k = 0; k < 3; ++k)
+            row.facing +=
+                row.weights[k] * scene.normals[rig.bodies[row.body].first + row.corners[k]].head<3>();
+        if (row.facing.squaredNorm() > 0) row.facing.normalize();
+    }
+    SkinApart& apart = rig.apart[row.apart];
+    apart.relative = relativeOf(rig, scene, row);
+    row.offset = -1; // whatever the overlap at rest is, it is believed
+    SkinPlane plane = lookUp(rig, scene, row, 0);
+    row.offset = 0;
+    if (body && row.within && plane.found() && plane.distance > 0) {
+        row.turned = true;
+        plane = lookUp(rig, scene, row, 0);
+    }
+    if (body && bone) {
+        // Nothing comes in before it has come as far as the bone is away.
+        apart.gap = std::max(outside(rig.bodies[row.body], scene.skin[row.vertex]), 0.0f);
+        if (plane.found() && apart.gap == 0) row.offset = std::min(plane.distance, 0.0f);
+    } else if (plane.found()) {
+        row.offset = std::min(plane.distance, 0.0f);
+        apart.gap = std::clamp(plane.distance, 0.0f, apart.relative.norm());
+    } else if (!body) { // it faces another way now, and is far from what it meets
+        apart.gap = distanceToKnown(rig, scene, row);
+    }
 }
 
 } // namespace
@@ -223,44 +275,30 @@ std::vector<bool> addRows(SkinRig& rig, const std::vector<SkinBefore>& before,
 }
 
 void measureRows(SkinRig& rig) {
+    for (SkinRow& row : rig.rows) {
+        row.apart = static_cast<std::uint32_t>(rig.apart.size());
+        rig.apart.resize(rig.apart.size() + (ofMuscle(rig, row) ? rig.bodies[row.body].nodes.size() : 1));
+    }
     SkinScene scene;
-    placeBodies(rig, std::vector<double>(rig.bodies.size(), 0),
-                std::vector<Pose>(rig.bodies.size(), Pose::Identity()), {}, scene);
-    parallelFor(rig.rows.size(), [&](std::size_t r) {
-        SkinRow& row = rig.rows[r];
-        const bool body = row.meeting == SkinMeeting::SkinOnBody;
-        Vec3f at = Vec3f::Zero();
-        for (int k = 0; k < 3; ++k)
-            at += row.weights[k] * (body ? scene.surface[rig.bodies[row.body].first + row.corners[k]]
-                                         : scene.skin[row.corners[k]])
-                                       .head<3>();
-        if (body && !rig.bodies[row.body].bone()) {
-            for (int k = 0; k < 3; ++k)
-                row.facing +=
-                    row.weights[k] * scene.normals[rig.bodies[row.body].first + row.corners[k]].head<3>();
-            if (row.facing.squaredNorm() > 0) row.facing.normalize();
+    std::vector<double> activations(rig.bodies.size(), 0);
+    const std::vector<Pose> poses(rig.bodies.size(), Pose::Identity());
+    placeBodies(rig, activations, poses, {}, scene);
+    parallelFor(rig.rows.size(), [&](std::size_t r) { measureAtRest(rig, scene, rig.rows[r]); });
+    for (std::uint32_t m = 0; m < rig.bodies.size(); ++m) {
+        const std::vector<double>& nodes = rig.bodies[m].nodes;
+        if (rig.bodies[m].bone()) continue;
+        for (std::size_t n = 0; n < nodes.size(); ++n) {
+            activations[m] = nodes[n];
+            placeBodies(rig, activations, poses, {}, scene);
+            parallelFor(rig.rows.size(), [&](std::size_t r) {
+                const SkinRow& row = rig.rows[r];
+                if (row.body == m && ofMuscle(rig, row)) rig.apart[row.apart + n] = apartOf(rig, scene, row);
+            });
         }
-        const bool below = row.meeting == SkinMeeting::BodyOnSkin;
-        row.relative = (below ? scene.surface[row.vertex] : scene.skin[row.vertex]).head<3>() - at;
-        row.offset = -1; // whatever the overlap at rest is, it is believed
-        SkinPlane plane = lookUp(rig, scene, row, 0);
-        row.offset = 0;
-        if (body && row.within && plane.found() && plane.distance > 0) {
-            row.turned = true;
-            plane = lookUp(rig, scene, row, 0);
-        }
-        row.gap = row.relative.norm();
-        if (body && rig.bodies[row.body].bone()) {
-            // Nothing comes in before it has come as far as the bone is away.
-            row.gap = std::max(outside(rig.bodies[row.body], scene.skin[row.vertex]), 0.0f);
-            if (plane.found() && row.gap == 0) row.offset = std::min(plane.distance, 0.0f);
-        } else if (plane.found()) {
-            row.offset = std::min(plane.distance, 0.0f);
-            row.gap = std::clamp(plane.distance, 0.0f, row.gap);
-        } else if (!body) {
-            row.gap = 0; // it faces another way now; whatever it comes to is looked at
-        }
-    });
+        activations[m] = 0;
+        for (const SkinRow& row : rig.rows)
+            if (row.body == m && ofMuscle(rig, row)) bridgeNodes(rig.apart.data() + row.apart, nodes.size());
+    }
 }
 
 } // namespace tss

@@ -31,7 +31,7 @@ void placeSurface(const SkinBody& body, double activation, const Pose& far, Skin
     if (placed.activation == activation && placed.far.matrix() == far.matrix()) return;
     placed.activation = activation;
     placed.far = far;
-    const TrackPlace at = locate(body.nodes, activation);
+    const TrackPlace at = placed.at = locate(body.nodes, activation);
     const float t = static_cast<float>(at.t);
     const std::size_t from = at.node * body.count, to = at.t == 0 ? from : from + body.count;
     for (std::uint32_t v = 0; v < body.count; ++v) {

@@ -14,6 +14,7 @@ struct SkinScene {
         bool moved = false;          ///< the two are not the identity
         Pose far = Pose::Identity(); ///< of a muscle's insertion against its origin, run-time lengths
         float strain = 0;
+        TrackPlace at; ///< of the activation, among the body's nodes
 
         Eigen::Vector3f toSkin(const Eigen::Vector3f& x) const { return moved ? turn * x + shift : x; }
         Eigen::Vector3f toBody(const Eigen::Vector3f& x) const {

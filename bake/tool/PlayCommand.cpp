@@ -3,6 +3,7 @@
 #include "bake/model/SourceHash.h"
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/play/Player.h"
+#include "bake/respond/SkinCosts.h"
 #include "bake/respond/SkinFollowing.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
@@ -11,9 +12,11 @@
 #include "bake/tool/DrivenSteps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <numeric>
 
 namespace tss::tool {
 
@@ -21,6 +24,7 @@ namespace {
 
 struct PlayArguments {
     std::string scene, motion, output, meshes;
+    bool timings = false;
 };
 
 /// The asked DOF values of all joints, one row a step; joints in file order, DOFs in the joint's order.
@@ -168,6 +172,33 @@ std::string costText(const SceneModel& scene, std::size_t steps, double joints,
     return text + ", on one core";
 }
 
+/// What the parts of a skin's updates cost, in words and as data. seconds: of this core, for all of them, of
+/// which the parts have their shares, whatever else the machine does meanwhile.
+nlohmann::json sayParts(const SkinModel& skin, const SkinCosts& costs, double seconds,
+                        const Console& console) {
+    // In the order of SkinPart.
+    constexpr std::array<std::pair<const char*, const char*>, skinParts> names{
+        {{"carry", "muscles and bones placed, skin carried"},
+         {"sort", "which contacts may have met"},
+         {"bones", "look-ups at bones"},
+         {"muscles", "look-ups at muscles"},
+         {"folds", "look-ups of the skin at itself"},
+         {"pushes", "contacts solved, skin moved by them"},
+         {"show", "places and normals handed out"}}};
+    const auto updates = static_cast<double>(std::max<std::size_t>(costs.updates, 1));
+    nlohmann::json parts = {{"updates", costs.updates}, {"lookUps", costs.lookUps}};
+    console.say(fmt::format("  {}: {} updates moved it, with {:.0f} look-ups and {:.3g} ms each, of which",
+                            skin.path, costs.updates, static_cast<double>(costs.lookUps) / updates,
+                            1e3 * seconds / updates));
+    const double all = std::accumulate(costs.seconds.begin(), costs.seconds.end(), 0.0);
+    for (std::size_t p = 0; p < skinParts; ++p) {
+        const double each = all > 0 ? costs.seconds[p] / all * seconds / updates : 0;
+        console.say(fmt::format("    {:<40}{:>8.3f} ms", names[p].second, 1e3 * each));
+        parts[names[p].first] = each;
+    }
+    return parts;
+}
+
 void play(const PlayArguments& arguments, const Console& console) {
     refuseOverwriting(arguments.output, {arguments.scene, arguments.motion});
     const SceneModel scene = loadScene(arguments.scene);
@@ -191,6 +222,8 @@ void play(const PlayArguments& arguments, const Console& console) {
             steps.size()));
     for (const std::string& warning : warnings) console.say(warning);
 
+    std::vector<SkinCosts> costs(scene.skins.size());
+    if (arguments.timings) player.charge(costs);
     std::string text = header(scene);
     std::map<std::string, int> statuses;
     double deepest = 0, jointSeconds = 0;
@@ -217,8 +250,11 @@ void play(const PlayArguments& arguments, const Console& console) {
         console.say("  deepest residual of a skin " + lengthText(deepest, scene.metersPerUnit) +
                     ": so far it is in what is below it, beyond its depth at rest");
     nlohmann::json skins = nlohmann::json::array();
-    for (std::size_t k = 0; k < scene.skins.size(); ++k)
+    for (std::size_t k = 0; k < scene.skins.size(); ++k) {
         skins.push_back(sayFollowing(scene, scene.skins[k], following[k], console));
+        if (arguments.timings)
+            skins.back()["costs"] = sayParts(scene.skins[k], costs[k], skinSeconds[k], console);
+    }
     console.print({{"steps", steps.size()},
                    {"statuses", statuses},
                    {"skins", skins},
@@ -243,6 +279,8 @@ void addPlay(Options& app, Console& console) {
                      "how deep it is "
                      "in what is below it, beyond its depth at rest, scene units")
         ->required();
+    command->add_flag("--timings", arguments->timings,
+                      "also what each part of a skin's update costs, which makes the updates a tenth slower");
     command->add_option("--mesh-out", arguments->meshes, "also the posed meshes, like f_%04d.obj");
     command->callback([arguments, &console] { play(*arguments, console); });
 }

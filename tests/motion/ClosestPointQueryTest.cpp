@@ -47,3 +47,35 @@ TEST_CASE("a way has entered a ball where it goes from outside of it to inside o
     const TriangleMesh nothing;
     CHECK(ClosestPointQuery(nothing).entered(Vec3(3, 0, 0), Vec3(-3, 0, 0)) == -1);
 }
+
+TEST_CASE("the nearest triangle that faces a way is found as by looking at all of them") {
+    TriangleMesh mesh = ballMesh(Vec3(0.3, -0.2, 0.1), 1, 2);
+    const TriangleMesh inner = ballMesh(Vec3(0.2, -0.2, 0.1), 0.4, 2);
+    const auto first = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), inner.vertices.begin(), inner.vertices.end());
+    for (const Tri& t : inner.triangles) mesh.triangles.push_back(Tri(t[1], t[0], t[2]).array() + first);
+    mesh.triangles.emplace_back(0, 0, 1); // without area: faces nothing, and may yet be nearest
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> along(-1.6, 1.6);
+    for (const double far : {0.0, 1e4}) { // what a float cannot hold is not passed over
+        TriangleMesh moved = mesh;
+        for (Vec3& v : moved.vertices) v.array() += far;
+        const ClosestPointQuery locator(moved);
+        for (int i = 0; i < 500; ++i) {
+            const Vec3 x = Vec3(along(random), along(random), along(random)).array() + far,
+                       facing(along(random), along(random), along(random));
+            const double range = 0.3 + 0.1 * (i % 10);
+            double nearest = range, nearestFacing = range;
+            for (const Tri& t : moved.triangles) {
+                const Vec3 &a = moved.vertices[t[0]], &b = moved.vertices[t[1]], &c = moved.vertices[t[2]];
+                const Vec3 w = nearestOnTriangle(x, a, b, c);
+                const double d = (x - (w[0] * a + w[1] * b + w[2] * c)).norm();
+                nearest = std::min(nearest, d);
+                if ((b - a).cross(c - a).dot(facing) > 0) nearestFacing = std::min(nearestFacing, d);
+            }
+            const NearestPoint any = locator.nearest(x, range), faces = locator.nearestFacing(x, range, facing);
+            CHECK((any.triangle < 0 ? range : any.distance) == nearest);
+            CHECK((faces.triangle < 0 ? range : faces.distance) == nearestFacing);
+        }
+    }
+}

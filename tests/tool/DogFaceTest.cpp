@@ -58,7 +58,14 @@ TEST_CASE("the skin of the real dog's head follows the frontal mask, and comes b
     CHECK(skin["tests"].get<int>() > 0);
     CHECK(skin["usedA"].get<int>() < skin["spheresA"].get<int>());
 
-    REQUIRE(runTss("play baked.tss -o played.csv --mesh-out f_%02d.obj", folder.path()).exit == 0);
+    const Ran played =
+        runTss("play baked.tss -o played.csv --mesh-out f_%02d.obj --timings --json", folder.path());
+    REQUIRE(played.exit == 0);
+    const Json costs = Json::parse(played.out)["skins"][0]["costs"];
+    CHECK(costs["updates"] == 47); // at rest nothing is done
+    CHECK(costs["lookUps"] > 47);
+    for (const char* part : {"carry", "sort", "muscles", "pushes", "show"}) CHECK(costs[part] > 0);
+    for (const char* part : {"bones", "folds"}) CHECK(costs[part] == 0);
     std::istringstream rows(readText(folder.path() / "played.csv"));
     std::string line;
     std::getline(rows, line);

@@ -1,0 +1,61 @@
+#include "bake/respond/SkinMoves.h"
+
+#include "bake/respond/SkinCarry.h"
+
+namespace tss {
+namespace {
+
+/// What a muscle between two bones swells by while these swing, on top of what its vertices move by: #V.
+void addSwelling(const MuscleDeformer& muscle, int insertion, std::size_t m,
+                 const std::vector<BoneSwing>& swings, std::vector<double>& most) {
+    if (insertion < 0) return;
+    const MuscleSpan span(muscle);
+    double swell = 0;
+    for (const BoneSwing& swing : swings)
+        for (const std::vector<Pose>& station : swing)
+            swell = std::max(swell, std::abs(span.swell(between(station[m], station[insertion]),
+                                                        muscle.muscle().surface.vertices)));
+    for (std::size_t v = 0; v < most.size(); ++v) most[v] += swell * span.swelling()[v].norm();
+}
+
+} // namespace
+
+SkinMoves skinMoves(const TriangleMesh& skin,
+                    const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
+                    const SkinParameters& parameters) {
+    checkSkin(skin, bodies.size(), parameters);
+    SkinMoves moves;
+    moves.stray.assign(bodies.size(), std::vector<double>(skin.vertices.size(), 0));
+    moves.shares = moves.stray;
+    const SkinGround ground(skin, bodies);
+    const std::vector<int> frames = framesOf(ground, parameters);
+    const SkinCarriage carriage = carrySkin(ground, parameters);
+    std::vector<bool> taken(carriage.frames.size(), false);
+    for (std::size_t m = 0; m < bodies.size(); ++m)
+        if (frames[m] >= 0 && !taken[frames[m]]) {
+            taken[frames[m]] = true;
+            moves.shares[m] = carriage.frames[frames[m]];
+        }
+    for (std::size_t m = 0; m < bodies.size(); ++m) {
+        if (carriage.muscles[m].empty()) continue;
+        const Muscle& muscle = bodies[m]->muscle();
+        std::vector<double> most(muscle.surface.vertices.size(), 0);
+        for (const double node : activationNodes(muscle.activationLower, muscle.activationUpper, bodySteps)) {
+            const std::vector<Vec3> now = bodies[m]->vertices(node);
+            for (std::size_t v = 0; v < most.size(); ++v)
+                most[v] = std::max(most[v], (now[v] - muscle.surface.vertices[v]).norm());
+        }
+        addSwelling(*bodies[m], insertionOf(parameters, m), m, parameters.swings, most);
+        for (std::size_t v = 0; v < skin.vertices.size(); ++v) {
+            if (!(carriage.muscles[m][v] > 0)) continue;
+            double moved = 0;
+            for (const int corner : muscle.surface.triangles[carriage.bound[m][v].triangle])
+                moved = std::max(moved, most[corner]);
+            for (std::size_t other = 0; other < bodies.size(); ++other)
+                if (other != m) moves.stray[other][v] += carriage.muscles[m][v] * moved;
+        }
+    }
+    return moves;
+}
+
+} // namespace tss

@@ -1,0 +1,193 @@
+#include "bake/respond/SkinResistance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace tss {
+namespace {
+
+/// Times that contacts are looked up, at most, after the first time where those before have moved the skin
+/// to: new ones are met there, and planes of curved surfaces have turned.
+constexpr int lookUps = 10;
+
+/// Turns a plane to what its row meets now. What it pushes stays as it was first found, since it has hardly
+/// slid, and so does its push.
+void turnTo(const SkinPlane& now, const SkinScene& scene, SkinPlane& plane) {
+    plane.gap = now.found() ? now.gap : std::numeric_limits<float>::max();
+    if (now.found()) plane.normal = now.normal;
+    plane.level =
+        now.found() ? plane.normal.dot(placeOf(scene, plane)) - plane.gap : -1e6f; // asks for nothing
+}
+
+} // namespace
+
+SkinResistance::SkinResistance(const SkinRig& rig, SkinClock& clock)
+    : rig_(rig), clock_(clock), pushes_(rig.foundation), planeOf_(rig.rows.size(), 0),
+      seenOf_(rig.rows.size(), 0), pushed_(rig.blocks(), 0), stirred_(rig.rest.size(), 0) {}
+
+/// What a row that lacks nothing keeps until contacts have moved the skin there.
+void SkinResistance::see(const SkinScene& scene, std::uint32_t r, const SkinPlane& plane) {
+    if (seenOf_[r] == 0) {
+        seenRows_.push_back(r);
+        seenOf_[r] = static_cast<std::uint32_t>(seenRows_.size());
+        seen_.emplace_back();
+    }
+    const SkinRow& row = rig_.rows[r];
+    Seen& seen = seen_[seenOf_[r] - 1];
+    seen.plane = plane;
+    if (plane.found()) {
+        seen.free = std::max(std::min(plane.gap, plane.distance - row.offset) / 2, settled);
+    } else if (row.meeting == SkinMeeting::SkinOnBody) {
+        // Whatever it gets into meanwhile it is still seen to have come into from outside.
+        seen.free = enterDepth * rig_.radius / 2;
+    } else {
+        seen.free = std::max(distanceToKnown(rig_, scene, row) / 2, settled);
+    }
+    if (!plane.found() && row.meeting == SkinMeeting::BodyOnSkin) {
+        seen.plane.vertices = 3;
+        for (int k = 0; k < 3; ++k) {
+            seen.plane.vertex[k] = static_cast<std::uint32_t>(row.corners[k]);
+            seen.plane.weight[k] = row.weights[k];
+        }
+    } else if (!plane.found()) {
+        seen.plane.vertices = 1;
+        seen.plane.vertex[0] = row.vertex;
+        seen.plane.weight[0] = 1;
+    }
+    seen.place = placeOf(scene, seen.plane);
+}
+
+bool SkinResistance::mayPush(const SkinScene& scene, std::uint32_t r) const {
+    if (seenOf_[r] == 0) return mayMeet(rig_, scene, rig_.rows[r]);
+    const Seen& seen = seen_[seenOf_[r] - 1];
+    return (placeOf(scene, seen.plane) - seen.place).squaredNorm() > seen.free * seen.free;
+}
+
+/// What contacts have moved goes back to where it is carried.
+void SkinResistance::takeBack(SkinScene& scene) {
+    for (std::size_t b = 0; b < pushed_.size(); ++b) {
+        if (pushed_[b] == 0) continue;
+        pushed_[b] = 0;
+        const std::size_t last = std::min((b + 1) * SkinRig::block, stirred_.size());
+        for (std::size_t v = b * SkinRig::block; v < last; ++v) {
+            scene.skin[v] = scene.carried[v];
+            stirred_[v] = 0;
+        }
+    }
+}
+
+/// Which vertices contacts have moved from where they were carried to.
+void SkinResistance::findStirred(const SkinScene& scene) {
+    constexpr float still = settled * settled;
+    for (std::size_t b = 0; b < pushed_.size(); ++b) {
+        if (pushed_[b] == 0) continue;
+        const std::size_t last = std::min((b + 1) * SkinRig::block, stirred_.size());
+        for (std::size_t v = b * SkinRig::block; v < last; ++v)
+            stirred_[v] = (scene.skin[v] - scene.carried[v]).squaredNorm() > still;
+    }
+}
+
+/// Whether that is so of any that a row depends on.
+bool SkinResistance::stirred(std::uint32_t r) const {
+    if (lacking_[r]) return true;
+    bool any = false;
+    if (seenOf_[r] > 0) {
+        const SkinPlane& plane = seen_[seenOf_[r] - 1].plane;
+        for (int k = 0; k < plane.vertices; ++k) any = any || stirred_[plane.vertex[k]];
+        return any;
+    }
+    const SkinRow& row = rig_.rows[r];
+    if (row.meeting != SkinMeeting::BodyOnSkin) any = stirred_[row.vertex];
+    if (row.meeting != SkinMeeting::SkinOnBody)
+        for (const int corner : row.corners) any = any || stirred_[corner];
+    return any;
+}
+
+/// Where a plane is found for the choice of the deepest: the node that bears most on it, and what meets.
+std::uint64_t SkinResistance::placeOfChoice(const SkinRow& row, const SkinPlane& plane) const {
+    const SkinFoundation& f = rig_.foundation;
+    const std::uint32_t first = f.start[plane.vertex[0]], last = f.start[plane.vertex[0] + 1];
+    const auto most = std::max_element(f.weight.begin() + first, f.weight.begin() + last);
+    const std::uint64_t node = first == last ? f.nodes : f.node[most - f.weight.begin()];
+    return (node * 3 + static_cast<std::uint64_t>(row.meeting)) * rig_.bodies.size() + row.body;
+}
+
+/// Of the planes that were found, the deepest at each node and body: pushes act through nodes, so that most
+/// of the others are met by it, and what is not is found again at the next look-up.
+void SkinResistance::addDeepest() {
+    std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+        return std::tie(a.place, a.plane.gap, a.row) < std::tie(b.place, b.plane.gap, b.row);
+    });
+    for (std::size_t k = 0; k < found_.size(); ++k) {
+        if (k > 0 && found_[k].place == found_[k - 1].place) continue;
+        rows_.push_back(found_[k].row);
+        planes_.push_back(found_[k].plane);
+        planeOf_[found_[k].row] = static_cast<std::uint32_t>(planes_.size());
+    }
+    found_.clear();
+}
+
+void SkinResistance::clear() {
+    for (const std::uint32_t r : rows_) planeOf_[r] = 0;
+    for (const std::uint32_t r : seenRows_) seenOf_[r] = 0;
+    rows_.clear();
+    seenRows_.clear();
+    planes_.clear();
+    seen_.clear();
+    pushes_.clear();
+    lacking_.assign(rig_.rows.size(), 0);
+}
+
+SkinPlane SkinResistance::timedLookUp(const SkinScene& scene, const SkinRow& row) {
+    if (clock_.costs == nullptr) return lookUp(rig_, scene, row);
+    ++clock_.costs->lookUps;
+    const SkinPart body = rig_.bodies[row.body].bone() ? SkinPart::Bones : SkinPart::Muscles;
+    const SkinClock::Scope scope(clock_, row.meeting == SkinMeeting::SkinOnSkin ? SkinPart::Folds : body);
+    return lookUp(rig_, scene, row);
+}
+
+/// Turns the planes there are and fills found_. again: only what contacts have moved. Returns the most that
+/// one of the planes lacks.
+float SkinResistance::lookUpAll(const SkinScene& scene, bool again) {
+    const SkinClock::Scope scope(clock_, SkinPart::Sort);
+    float lack = 0;
+    for (std::uint32_t r = 0; r < rig_.rows.size(); ++r) {
+        const SkinRow& row = rig_.rows[r];
+        if (planeOf_[r] > 0) {
+            SkinPlane& plane = planes_[planeOf_[r] - 1];
+            turnTo(timedLookUp(scene, row), scene, plane);
+            lack = std::max(lack, -plane.gap);
+            continue;
+        }
+        if ((again && !stirred(r)) || !mayPush(scene, r)) continue;
+        const SkinPlane plane = timedLookUp(scene, row);
+        lacking_[r] = plane.found() && plane.gap < 0;
+        if (lacking_[r])
+            found_.push_back({placeOfChoice(row, plane), r, plane});
+        else
+            see(scene, r, plane);
+    }
+    return lack;
+}
+
+std::size_t SkinResistance::push(SkinScene& scene) {
+    clear();
+    std::size_t pushing = 0;
+    float last = std::numeric_limits<float>::max();
+    for (int round = 0; round < lookUps; ++round) {
+        const float lack = lookUpAll(scene, round > 0);
+        // What is no less deep than before is asked for more than the skin can give.
+        if (found_.empty() && (lack <= settled || lack >= last)) break;
+        last = lack;
+        const SkinClock::Scope scope(clock_, SkinPart::Pushes);
+        addDeepest();
+        pushes_.solve(planes_, scene.carried, rig_.parameters.iterations);
+        takeBack(scene);
+        pushing = pushes_.apply(planes_, scene.skin, pushed_);
+        findStirred(scene);
+    }
+    return pushing;
+}
+
+} // namespace tss
