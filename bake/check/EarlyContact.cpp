@@ -5,6 +5,7 @@
 #include "bake/geometry/MeshQuery.h"
 #include "bake/pipeline/FillPair.h"
 #include "bake/search/ExploredPoses.h"
+#include "bake/table/EarlyBound.h"
 #include "bake/table/Query.h"
 
 #include <algorithm>
@@ -84,8 +85,9 @@ bool heldAtRest(const Table& table, const Motion& motion, const std::vector<doub
 
 std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const Pair& pair) {
     const TriangleMesh &meshA = scene.bodies[pair.bodyA].mesh, &meshB = scene.bodies[pair.bodyB].mesh;
-    if (!pair.table || !(pair.table->boundEarly > 0) || meshA.empty() || meshB.empty()) return std::nullopt;
-    const double early = pair.table->boundEarly, epsilon = pair.table->epsilon;
+    if (!pair.table || !(earlyOfTable(*pair.table) > 0) || meshA.empty() || meshB.empty())
+        return std::nullopt;
+    const double early = earlyOfTable(*pair.table), epsilon = pair.table->epsilon;
     const Motion motion = pairMotion(scene, pair);
     const MeshQuery a(meshA), b(meshB);
     EarlyContact result;

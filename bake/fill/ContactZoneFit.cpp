@@ -348,8 +348,8 @@ ContactZoneFit fitContactZone(const TriangleMesh& a, const TriangleMesh& b, cons
         Refiner refiner(a, b, motion, options, hollow, clearAtRest, progress);
         try {
             ContactZoneFit fit = refiner.run();
-            fit.a.fit.enclosed = nesting.apart(nesting.undecided.a);
-            fit.b.fit.enclosed = nesting.apart(nesting.undecided.b);
+            fit.a.fit.enclosed = nesting.apart();
+            fit.b.fit.enclosed = nesting.apart();
             const HollowBodies& more = refiner.entered();
             if (!more) return fit;
             hollow = {hollow.a || more.a, hollow.b || more.b};

@@ -197,6 +197,13 @@ private:
     double radiusB_ = 0;
 };
 
+/// Nothing in a closed solid is farther from its surface than half its box is wide where it is narrowest.
+double deepestIn(const Solid& solid) {
+    if (solid.hollow() || solid.mesh().vertices.empty()) return 0;
+    return solid.open() ? std::numeric_limits<double>::infinity()
+                        : (0.5 + 1e-9) * bounds(solid.mesh()).sizes().minCoeff();
+}
+
 } // namespace
 
 Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double reach,
@@ -234,7 +241,10 @@ Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double 
                     for (const OpenPart& part : cell.parts) undecided[part.question] = true;
         }
     }
-    return {{found[0], found[1]}, {undecided[0] && !found[0], undecided[1] && !found[1]}, settled * reach};
+    return {{found[0], found[1]},
+            {undecided[0] && !found[0], undecided[1] && !found[1]},
+            settled * reach,
+            std::max(found[0] ? 0 : deepestIn(a), found[1] ? 0 : deepestIn(b))};
 }
 
 } // namespace tss

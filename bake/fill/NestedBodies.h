@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/fill/HollowBodies.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace tss {
@@ -11,10 +12,10 @@ struct Nesting {
     HollowBodies undecided; ///< neither that nor the contrary was shown within the effort
     double settled = 0;     ///< of the others nothing stands inside with surfaces farther apart than this
 
+    double deepest = std::numeric_limits<double>::infinity(); ///< that anything can be in either of the two
+
     /// How far apart the surfaces may be while something stands inside; infinity: not shown.
-    double apart(bool isUndecided) const {
-        return isUndecided ? std::numeric_limits<double>::infinity() : settled;
-    }
+    double apart() const { return undecided ? std::max(settled, deepest) : settled; }
 };
 
 /// Whether a connected part of one body's surface ever stands inside the other body's solid, its openings

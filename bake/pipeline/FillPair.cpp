@@ -116,8 +116,8 @@ PairSpheres fillWhole(const Body& a, const Body& b, const Motion& motion, const 
             findNested(Solid(cleaned(meshOf(a))), Solid(cleaned(meshOf(b))), motion, 2 * tolerance, progress);
     spheres.a = wholeBody(a, options, tolerance, nesting.outer.a, progress);
     spheres.b = wholeBody(b, options, tolerance, nesting.outer.b, progress);
-    spheres.a.enclosed = nesting.apart(nesting.undecided.a);
-    spheres.b.enclosed = nesting.apart(nesting.undecided.b);
+    spheres.a.enclosed = nesting.apart();
+    spheres.b.enclosed = nesting.apart();
     spheres.clearanceAtRest = clearanceAtRest(meshOf(a), meshOf(b), motion);
     return spheres;
 }
@@ -127,9 +127,9 @@ bool asksForCover(const BakeOptions& options) {
 }
 
 /// Over more DOFs than these neither what is within reach nor a cover is found in any time that people have,
-/// or within a budget of seconds.
+/// unless as much as they like is asked for.
 bool manyDofs(const Motion& motion, const BakeOptions& options) {
-    return motion.dofCount() > (options.budget > 0 ? 3u : 6u);
+    return motion.dofCount() > (options.budget == 0 ? 6u : 3u);
 }
 
 /// Rounds the spheres as the file stores them and adds to the protrusion what that makes them stick out more.

@@ -36,10 +36,13 @@ Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std:
     }
     selection.reduced.restGaps = rule.thresholds(pairs);
     selection.certified = true;
-    notes.push_back(
-        fmt::format("which pairs of spheres imply others is too much to find out over {} degrees of "
-                    "freedom{}: all {} that may meet are asked",
-                    task.motion.dofCount(), task.options.budget > 0 ? " in the budget" : "", pairs.size()));
+    notes.push_back(fmt::format(
+        "which pairs of spheres imply others is too much to find out over {} degrees of "
+        "freedom{}: all {} that may meet are asked{}",
+        task.motion.dofCount(), task.options.budget.value_or(0) > 0 ? " in the budget" : "", pairs.size(),
+        task.options.budget == 0 || task.motion.dofCount() > 6
+            ? ""
+            : " (--again --budget 0 searches without a limit)"));
     return selection;
 }
 
@@ -51,7 +54,7 @@ Selection selectCover(const PairTask& task, const CandidatePairs& candidates, st
     cover.gapDepth = task.options.depth;
     cover.gapMargin = task.margin;
     cover.rule = task.ruled.rule;
-    cover.seconds = task.options.budget;
+    cover.seconds = task.options.budget.value_or(0);
     const CoverResult result = certifiedCover(task.spheres.a.spheres, task.spheres.b.spheres,
                                               allListed(candidates, task.options) ? &candidates : nullptr,
                                               task.motion, cover, progress);

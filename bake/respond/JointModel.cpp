@@ -104,6 +104,7 @@ void prepareGroup(const Table& table, JointModel& model) {
     group.clustered = !group.prepared->kernels().clusters().empty();
     if (!group.clustered) return;
     model.clustered = true;
+    group.tree = std::make_shared<PairTree>(table, group.prepared->target());
     const std::span pairs(model.pairs.data() + group.firstPair, group.lastPair - group.firstPair);
     Vec3 lower = pairs[0].b, upper = pairs[0].b;
     for (const JointModel::Pair& pair : pairs) {

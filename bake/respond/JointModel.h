@@ -2,6 +2,8 @@
 #include "bake/motion/JointQp.h"
 #include "bake/motion/MotionFrame.h"
 #include "bake/respond/JointResponder.h"
+#include "bake/respond/KnownNear.h"
+#include "bake/respond/PairTree.h"
 #include "bake/table/PreparedTable.h"
 
 #include <algorithm>
@@ -25,11 +27,12 @@ struct JointModel {
         std::uint32_t firstPair = 0, lastPair = 0;
         int table = 0;
         std::shared_ptr<const PreparedTable> prepared; ///< to cull with, none where that would not pay
-        int chain = -1;             ///< of the model, which begins as its motion does; -1: none
-        bool clustered = false;     ///< its table is in clusters: its pairs are listed for one way at a time
-        DofValues fastest{};        ///< per DOF of the motion: the largest of its pairs' speeds
-        Vec3 middle = Vec3::Zero(); ///< of the centres of B's spheres, in B's frame ...
-        double spread = 0;          ///< ... which are no farther from it than this
+        int chain = -1;         ///< of the model, which begins as its motion does; -1: none
+        bool clustered = false; ///< its table is in clusters: its pairs are listed for one way at a time ...
+        std::shared_ptr<const PairTree> tree; ///< ... from this
+        DofValues fastest{};                  ///< per DOF of the motion: the largest of its pairs' speeds
+        Vec3 middle = Vec3::Zero();           ///< of the centres of B's spheres, in B's frame ...
+        double spread = 0;                    ///< ... which are no farther from it than this
     };
     struct Pair {
         Vec3 a, b; ///< centres, each in its own body's frame
@@ -104,20 +107,6 @@ struct PlacedChain {
     DofValues at;
     std::size_t count = 0; ///< DOFs
     PlacedChain() { before[0] = Pose::Identity(); }
-};
-
-/// What is known of a group in clusters from where it stood before: which tests had a gap of at most `range`
-/// there. It spares asking the table again, and changes no answer.
-struct KnownNear {
-    static constexpr std::uint32_t most = 128, bins = 16;
-    std::vector<std::uint32_t>
-        tests; ///< by the bins of their gaps, each as wide as the others, up to `range`
-    std::array<std::uint32_t, bins> ends{}; ///< of the bins among the tests
-    double range = -std::numeric_limits<double>::infinity();
-    double least = -std::numeric_limits<double>::infinity(); ///< gap of all tests of the table
-    DofValues values{};                                      ///< of its DOFs there
-    Pose pose = Pose::Identity();
-    double more = 0; ///< how much farther than needed is asked, so that there are neither many nor none
 };
 
 /// Bits of JointWorkspace::held().

@@ -257,8 +257,7 @@ JointAnswer JointResponder::Prepared::respond(const double* last, const double* 
     for (PlacedChain& chain : ws.chains) chain.count = 0;
     std::fill(ws.held.begin(), ws.held.end(), std::uint8_t(0));
     if (model_.clustered && ws.knownOf != model_.id) {
-        for (KnownNear& known : ws.known)
-            known.range = known.least = -std::numeric_limits<double>::infinity();
+        for (KnownNear& known : ws.known) known.forget();
         ws.knownOf = model_.id;
     }
     DofValues from{}, to{};

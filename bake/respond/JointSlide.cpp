@@ -156,8 +156,8 @@ bool findLifts(const JointModel& model, const DofValues& q, const DofValues& ste
     return short_;
 }
 
-/// The way of one round of a slide; false where none goes on. corner: whether the joint is known to be where
-/// no way lifts all pairs; set here.
+/// The way of one round of a slide, what can matter on it listed; false where none goes on. corner: whether
+/// the joint is known to be where no way lifts all pairs; set here.
 bool slideStep(const JointModel& model, const DofValues& q, const DofValues& goal, double trust,
                ResponseRoom& ws, bool& corner, DofValues& step) {
     const auto lifted = [](const NearPair& near) { return near.threshold + near.lift; };
@@ -243,10 +243,7 @@ void slide(const JointModel& model, const DofValues& goal, DofValues& q, Respons
         // Pairs are known to be near only where a pose is no farther from the goal than this one.
         DofValues end = q, next = q;
         for (int l = 0; l < model.dofCount; ++l) end[l] += step[l];
-        if (weightedDistance(model, end, goal) < distance) {
-            listOnStep(model, q, step, ws); // were some still new, the way was not made for them
-            advance(model, step, next, ws);
-        }
+        if (weightedDistance(model, end, goal) < distance) advance(model, step, next, ws);
         const double reached = weightedDistance(model, next, goal);
         if (reached < distance - 1e-3 * least) {
             q = next;
@@ -282,7 +279,6 @@ double pushOut(const JointModel& model, DofValues& q, ResponseRoom& ws) {
             if (share < 1e-4 || !listAhead(model, q, step, rows, ws)) break;
         }
         if (share < 1e-4) break;
-        listOnStep(model, q, step, ws);
         for (std::size_t i = 0; i < ws.nearCount; ++i)
             ws.near[i].threshold = gapAt(ws.near[i], std::min(depth, model.leastContactOffset));
         DofValues end = q;

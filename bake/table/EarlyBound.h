@@ -11,4 +11,10 @@ inline double earlyOfSolids(const Table& table) {
     return table.certified && a >= 0 && b >= 0 ? a + b + table.epsilon : -1;
 }
 
+/// The same where that is known, else boundEarly.
+inline double earlyOfTable(const Table& table) {
+    const double solids = earlyOfSolids(table);
+    return solids >= 0 ? solids : table.boundEarly;
+}
+
 } // namespace tss

@@ -75,7 +75,8 @@ bool goesOn(const SceneModel& scene, const BakeArguments& arguments, const Conso
     const auto count = [&](const auto& item) { ++(toBake(scene, item, missing) ? not_ : there); };
     for (const Pair& pair : scene.pairs) count(pair);
     for (const SkinModel& skin : scene.skins) count(skin);
-    if (there == 0 || not_ == 0) return false;
+    // Of what is all baked only what is too coarse is baked again by --finer.
+    if (there == 0 || (not_ == 0 && !arguments.finer)) return false;
     console.say(
         fmt::format("{} of {} baked already: going on with the others (--again: all)", there, there + not_));
     return true;

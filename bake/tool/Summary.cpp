@@ -260,9 +260,15 @@ Json summary(const SceneModel& scene) {
 namespace {
 
 std::string describeEarly(const Json& item, double metersPerUnit) {
-    if (!item["boundEarly"].is_null() || item["earlyOfSolids"].is_null())
-        return length(item["boundEarly"], metersPerUnit);
-    return length(item["earlyOfSolids"], metersPerUnit) + " unless one body stands inside the other";
+    const Json &surfaces = item["boundEarly"], &solids = item["earlyOfSolids"];
+    if (solids.is_null()) return length(surfaces, metersPerUnit);
+    const std::string text = length(solids, metersPerUnit);
+    if (surfaces.is_null()) return text + " unless one body stands inside the other";
+    // Bounds of what is known to stand inside nowhere are as small.
+    return surfaces.get<double>() <= 2 * solids.get<double>()
+               ? length(surfaces, metersPerUnit)
+               : fmt::format("{}, {} where one body stands inside the other", text,
+                             length(surfaces, metersPerUnit));
 }
 
 /// The lines of a pair or skin that has a table.

@@ -235,6 +235,19 @@ Looked lookAt(NestingBox& prover, const Motion& motion, const Box& here, double 
     return looked;
 }
 
+/// Whatever is in a solid without openings is no farther from its surface than half of its narrowest extent.
+double deepestIn(const VerifiedBody& body) {
+    if (!body.solid) return 0;
+    if (body.solid->open()) return infinity;
+    Vec3 lower = Vec3::Constant(infinity), upper = -lower;
+    for (const Tri& t : body.mesh.triangles)
+        for (const int v : t) {
+            lower = lower.cwiseMin(body.mesh.vertices[std::size_t(v)]);
+            upper = upper.cwiseMax(body.mesh.vertices[std::size_t(v)]);
+        }
+    return 0.5 * (upper - lower).minCoeff() * (1 + 1e-12);
+}
+
 } // namespace
 
 NestingResult proveNoNesting(const VerifiedBody& a, const VerifiedBody& b, const Motion& motion, double size,
@@ -242,6 +255,7 @@ NestingResult proveNoNesting(const VerifiedBody& a, const VerifiedBody& b, const
     constexpr std::size_t width = 64;
     constexpr std::uint64_t mostCells = 1'000'000;
     NestingResult result;
+    if (std::max(deepestIn(a), deepestIn(b)) <= early) return result;
     const Components ofA(a.mesh), ofB(b.mesh);
     std::vector<NestingBox> provers(width, NestingBox(a, b, ofA, ofB, motion, tests, early));
     std::vector<Box> boxes{limitsOf(motion)};

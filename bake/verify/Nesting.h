@@ -12,7 +12,8 @@ struct NestingResult {
 };
 
 /// Shows that at no pose at which a test fires a body, or a component of one, is wholly inside the other with
-/// the surfaces more than `early` apart. In a box of Q it is enough that
+/// the surfaces more than `early` apart. Where neither is wide enough for that nothing is asked. In a box of
+/// Q it is enough that
 /// - no test fires in it, or
 /// - the surfaces cross, or are as near as that, all over it, or
 /// - every component of both bodies keeps a point outside the other body, or so near its surface.

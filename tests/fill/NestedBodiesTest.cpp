@@ -5,6 +5,7 @@
 #include "bake/model/AddPair.h"
 #include "bake/pipeline/Bake.h"
 #include "bake/table/Query.h"
+#include "bake/verify/Nesting.h"
 #include "tests/Joints.h"
 #include "tests/geometry/TestMeshes.h"
 
@@ -80,6 +81,30 @@ TEST_CASE("the body that stands still may be the one inside, and a part of a bod
     const Nesting touched = both.nesting(0.2);
     CHECK_FALSE(touched.outer);
     CHECK(decided(touched));
+}
+
+TEST_CASE(
+    "what could not be decided is bounded by how wide the bodies are, and that is proven without a look") {
+    const Through through(-4, 12); // whose middle is outside
+    const Solid large(through.large), small(through.small);
+    const auto never = [](std::string_view, double) { return false; };
+    const Nesting stopped = findNested(large, small, through.motion, 0.1, never);
+    CHECK(stopped.undecided.a);
+    // The ball of radius 2 stands about the other's centre: no deeper than that.
+    CHECK(stopped.apart() > 1.9);
+    CHECK(stopped.apart() < 2.01);
+    TriangleMesh opened = through.large;
+    opened.triangles.erase(opened.triangles.begin(), opened.triangles.begin() + 4);
+    CHECK(std::isinf(findNested(Solid(opened), small, through.motion, 0.1, never).apart()));
+
+    const verify::VerifiedBody a(through.large), b(through.small);
+    const std::vector<verify::MeshTest> tests{{Vec3::Zero(), Vec3(0, 0.3, 0), 2.3, 0, 0, 0}};
+    const auto prove = [&](double early) {
+        return verify::proveNoNesting(a, b, through.motion, 10, tests, early, {});
+    };
+    CHECK(prove(stopped.apart()).reason.empty());
+    CHECK(prove(stopped.apart()).cells == 0);
+    CHECK_FALSE(prove(0.5).reason.empty()); // inside by more
 }
 
 TEST_CASE("planes that keep a body out of another keep that one from being hollow") {

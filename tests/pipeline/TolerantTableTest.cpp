@@ -135,3 +135,32 @@ TEST_CASE("a budget that ends costs tests and not epsilon: all pairs that may me
     CHECK(missed == 0);
     CHECK(verifyOnMeshes(scene.bodies[0].mesh, scene.bodies[1].mesh, table, motion).reason.empty());
 }
+
+TEST_CASE("over four degrees of freedom the fewest tests are not searched for unless that is asked for") {
+    SceneModel scene = lumpyPair(2);
+    Motion motion = swing();
+    while (motion.dofs.size() < 4) {
+        Dof dof = motion.dofs[0];
+        dof.axis = Vec3::Unit(static_cast<Eigen::Index>(motion.dofs.size() % 3));
+        dof.lower = -0.02;
+        dof.upper = 0.02;
+        dof.rest = 0;
+        motion.dofs.push_back(dof);
+    }
+    BakeOptions options;
+    options.tolerance = 0.05;
+    options.atRest = AtRest::Collide;
+    const PairSpheres spheres = fillPair(scene, scene.pairs[0], motion, options);
+    CHECK(spheres.askAll);
+    PairReport report;
+    const PairTable made = tabulatePair(spheres, motion, options, report, {});
+    REQUIRE(made.table);
+    CHECK(made.table->epsilon == 0);
+    CHECK(made.table->boundEarly >= 0);
+    const bool said = std::any_of(report.notes.begin(), report.notes.end(), [](const std::string& note) {
+        return note.find("--budget 0") != std::string::npos;
+    });
+    CHECK(said);
+    options.budget = 0;
+    CHECK_FALSE(fillPair(scene, scene.pairs[0], motion, options).askAll);
+}
