@@ -1,4 +1,4 @@
-#include "Shapes.h"
+#include "../Shapes.h"
 
 #include "bake/motion/MayMeet.h"
 
@@ -37,7 +37,7 @@ TEST_CASE("two bodies that may not meet do so at none of many poses, and those t
     for (int round = 0; round < 300; ++round) {
         const Motion motion = randomMotion(random);
         TriangleMesh moved = box;
-        std::uniform_real_distribution<double> any(-2.5, 2.5);
+        std::uniform_real_distribution<double> any(-1.3, 1.3);
         const Vec3 offset(any(random), any(random), any(random));
         for (Vec3& vertex : moved.vertices) vertex += offset;
         const MeshQuery a(moved);
@@ -59,8 +59,8 @@ TEST_CASE("two bodies that may not meet do so at none of many poses, and those t
         (may ? meet : apart) += 1;
         open += may && nearest > margin + 0.1;
     }
-    CHECK(apart > 50);
-    CHECK(meet > 50);
+    CHECK(apart > 30);
+    CHECK(meet > 30);
     CHECK(open == 0);
 }
 
