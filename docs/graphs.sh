@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Tries graphs that others made as X.tss and prints the tables of docs/OSG.md: what is found in each, what is baked, how
-# long the whole load takes, and whether its first picture is that of X, byte for byte; then, of those with tables, how
+# long the whole load takes, and whether at rest its picture is that of X, byte for byte; then, of those with tables, how
 # often parts are in each other while they move, by FCL on the triangles, without osgTSS and with it.
 #   docs/graphs.sh FOLDER ...    the graphs of docs/graphs.txt that are below the folders, with the options there, and
 #                                all others that lie in the folders themselves, with budget=5
@@ -14,8 +14,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 limit=${SECONDS_EACH:-600}
 
-picture() { # FILE OUT OPTIONS: the first picture; the library path finds textures beside the file
-    timeout "$limit" "$root/build/bin/tss-render" "$1" -o "$2" --frames 1 --size 640x480 --quiet --options "$3" >>"$work/log" 2>&1
+picture() { # FILE OUT OPTIONS: the picture at rest; the library path finds textures beside the file
+    timeout "$limit" "$root/build/bin/tss-render" "$1" -o "$2" --rest --frames 1 --size 640x480 --quiet --options "$3" >>"$work/log" 2>&1
 }
 
 contacts() { # FILE OPTIONS
@@ -61,7 +61,7 @@ for word in "$@"; do
     if [ -d "$word" ]; then folders+=("$word"); else words+=("$word"); fi
 done
 
-echo "| graph | options | joints | pairs | tables | proofs | seconds | first picture | lines said |"
+echo "| graph | options | joints | pairs | tables | proofs | seconds | picture | lines said |"
 echo "|---|---|---|---|---|---|---|---|---|"
 if [ ${#folders[@]} -gt 0 ]; then
     while read -r name options; do
@@ -85,7 +85,7 @@ done
 
 [ -s "$work/contacts" ] || exit 0
 echo
-echo "| graph | options | pairs | tables | proofs | left out | in contact at rest | in contact, without | with osgTSS | ms an update, without | with osgTSS |"
-echo "|---|---|---|---|---|---|---|---|---|---|---|"
+echo "| graph | options | pairs | tables | proofs | left out | in contact at rest | in contact, without | with osgTSS | ms an update, without | with osgTSS | at most |"
+echo "|---|---|---|---|---|---|---|---|---|---|---|---|"
 cat "$work/contacts"
 cat "$work/said" >&2
