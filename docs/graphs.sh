@@ -20,7 +20,7 @@ picture() { # FILE OUT OPTIONS: the picture at rest; the library path finds text
 
 contacts() { # FILE OPTIONS
     timeout "$limit" "$root/build/bin/graph_contacts" "$1" "$2 cache=$work/cache.tss" "${FRAMES:-200}" 2>>"$work/said" |
-        sed "s| cache=$work/cache.tss||" >>"$work/contacts"
+        sed -n "s| cache=$work/cache.tss||; /^|/p" >>"$work/contacts"
     [ "${PIPESTATUS[0]}" -le 1 ] || echo "| $(basename "$1") | \`$2\` | not played |" >>"$work/contacts"
 }
 
