@@ -3,7 +3,7 @@
 #include "bake/base/Parallel.h"
 #include "bake/base/UnionFind.h"
 #include "bake/geometry/Import.h"
-#include "bake/search/CellTools.h"
+#include "bake/motion/CellTools.h"
 
 #include <algorithm>
 #include <array>

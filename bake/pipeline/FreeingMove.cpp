@@ -34,8 +34,8 @@ JointMove firstShift(const FreeingTrial& trial, const std::vector<char>& wanted,
     const auto count = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), char{1}));
     JointMove best = JointMove::Zero();
     std::size_t reached = trial.freeOf(best, wanted);
-    for (double length = firstShare * trial.size(); length <= lastShare * trial.size() && reached < count;
-         length *= growth) {
+    for (double length = firstShare * trial.size();
+         length <= lastShare * trial.size() && reached < count && !trial.late(); length *= growth) {
         JointMove now = JointMove::Zero();
         for (const JointMove& direction : directions()) {
             const std::size_t free = trial.freeOf(length * direction, wanted);
@@ -64,7 +64,7 @@ JointMove better(FreeingTrial& trial, const std::vector<char>& wanted, const Joi
     std::size_t reached = all ? count : trial.freeOf(first, wanted);
     double least = cost(best), step = 0.3 * std::max(first.head<3>().norm(), firstShare * trial.size());
     const double finest = 1e-3 * step, farthest = lastShare * trial.size();
-    for (int k = 0; k < tries && step > finest; ++k) {
+    for (int k = 0; k < tries && step > finest && !trial.late(); ++k) {
         JointMove move = best;
         // A step, and all of it a little shorter.
         for (int i = 0; i < 3; ++i) move[i] += step * normal(random);
@@ -120,33 +120,36 @@ JointMove smallMove(FreeingTrial& trial, std::vector<char>& wanted, JointMove mo
         bool all = !move.isZero() && lengthened(trial, wanted, move);
         if (!all && !axes) move = firstShift(trial, wanted, all);
         if (all || axes) move = better(trial, wanted, move, axes, all);
-        if (!all || trial.addMissed(move, wanted) == 0) break;
+        if (!all || trial.late() || trial.addMissed(move, wanted) == 0) break;
     }
     return move;
 }
 
 } // namespace
 
-std::vector<FreeingMove> freeingMoves(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
-                                      const FreeingOptions& options) {
-    std::vector<FreeingMove> found;
-    FreeingTrial trial(a, b, motion);
+FreeingMoves freeingMoves(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
+                          const FreeingOptions& options) {
+    FreeingMoves found;
+    FreeingTrial trial(a, b, motion, options.seconds);
     if (!trial.overlapsAtRest()) return found;
     std::vector<char> wanted;
     for (const char stop : trial.stops()) wanted.push_back(!stop);
     JointMove move = smallMove(trial, wanted, JointMove::Zero(), false);
+    found.complete = !trial.late();
     if (move.isZero()) return found;
-    found.push_back(trial.measured(move));
-    if (options.axes) {
+    std::vector<FreeingMove>& moves = found.moves;
+    moves.push_back(trial.measured(move));
+    if (options.axes && found.complete) {
         move = smallMove(trial, wanted, move, true);
         settleAxes(motion, move);
         // Where it helps little the axes stay.
         const FreeingMove turned = trial.measured(move);
-        if (turned.free > found.front().free || turned.moved < 0.9 * found.front().moved)
-            found.push_back(turned);
+        if (turned.free > moves.front().free || turned.moved < 0.9 * moves.front().moved)
+            moves.push_back(turned);
+        found.complete = !trial.late();
     }
-    std::erase_if(found, [](const FreeingMove& m) { return m.free == 0; });
-    std::sort(found.begin(), found.end(), [](const FreeingMove& x, const FreeingMove& y) {
+    std::erase_if(moves, [](const FreeingMove& m) { return m.free == 0; });
+    std::sort(moves.begin(), moves.end(), [](const FreeingMove& x, const FreeingMove& y) {
         return x.free + x.stops != y.free + y.stops ? x.free + x.stops > y.free + y.stops : x.moved < y.moved;
     });
     return found;

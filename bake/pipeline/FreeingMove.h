@@ -2,6 +2,7 @@
 #include "bake/geometry/TriangleMesh.h"
 #include "bake/motion/Motion.h"
 
+#include <limits>
 #include <vector>
 
 namespace tss {
@@ -29,7 +30,14 @@ struct FreeingMove {
 };
 
 struct FreeingOptions {
-    bool axes = false; ///< axes may be moved too
+    bool axes = false;                                        ///< axes may be moved too
+    double seconds = std::numeric_limits<double>::infinity(); ///< for looking; then what was found by then
+};
+
+/// Moves, and whether there was time to look for all.
+struct FreeingMoves {
+    std::vector<FreeingMove> moves;
+    bool complete = true;
 };
 
 /// Small moves for surfaces that overlap where the joint rests: first the one that frees most, of such the
@@ -37,8 +45,8 @@ struct FreeingOptions {
 /// joint any room. A pose at which the bodies meet elsewhere than where they overlap at rest (teeth that
 /// bite, METHOD 2.4) is a stop of the joint and need not be freed; all others are, where that is found. They
 /// are found by trying, with the meshes alone: small, not proven to be the smallest. The same for any number
-/// of threads.
-std::vector<FreeingMove> freeingMoves(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
-                                      const FreeingOptions& options = {});
+/// of threads, if complete.
+FreeingMoves freeingMoves(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
+                          const FreeingOptions& options = {});
 
 } // namespace tss

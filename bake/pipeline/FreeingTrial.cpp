@@ -34,8 +34,9 @@ TriangleMesh without(const TriangleMesh& mesh, const std::vector<SurfacePart>& r
 
 } // namespace
 
-FreeingTrial::FreeingTrial(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion)
-    : a_(a), b_(b), motion_(motion), size_(std::min(diagonal(a), diagonal(b))), margin_(marginShare * size_) {
+FreeingTrial::FreeingTrial(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion, double seconds)
+    : seconds_(seconds), a_(a), b_(b), motion_(motion), size_(std::min(diagonal(a), diagonal(b))),
+      margin_(marginShare * size_) {
     values_.push_back(restValues(motion));
     addSweeps(steps, values_);
     if (motion.dofCount() > 1)
@@ -70,14 +71,16 @@ void FreeingTrial::findStops(const TriangleMesh& a, const TriangleMesh& b) {
     options.close = options.near = margin_ / 2;
     options.size = size_ / 200;
     options.poses = 200;
-    const RestRegion region =
-        findRestContact(surfaceA, surfaceB, motion_, touchingDistance(a, b, motion_), options).region;
+    const RestRegion region = findRestContact(surfaceA, surfaceB, motion_, touchingDistance(a, b, motion_),
+                                              options, [&](std::string_view, double) { return !late(); })
+                                  .region;
     const MeshQuery elsewhereA(without(a, region.a)), elsewhereB(without(b, region.b));
     stops_.assign(values_.size(), 0);
     parallelFor(values_.size(), [&](std::size_t k) {
         const double touching = 1e-6 * size_;
-        stops_[k] = k > 0 && (elsewhereA.distanceTo(b_, unmoved_[k], touching) < touching ||
-                              a_.distanceTo(elsewhereB, unmoved_[k], touching) < touching);
+        stops_[k] = k > 0 && !late() &&
+                    (elsewhereA.distanceTo(b_, unmoved_[k], touching) < touching ||
+                     a_.distanceTo(elsewhereB, unmoved_[k], touching) < touching);
     });
 }
 
@@ -102,7 +105,7 @@ bool FreeingTrial::frees(const JointMove& move, const std::vector<char>& wanted)
     const Motion motion = moveMotion(move);
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const std::size_t k = order_[i];
-        if (!wanted[k] || a_.apart(b_, pose(motion, values_[k]), margin_)) continue;
+        if (!wanted[k] || (!late() && a_.apart(b_, pose(motion, values_[k]), margin_))) continue;
         std::rotate(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(i),
                     order_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
         return false;
@@ -114,7 +117,7 @@ std::size_t FreeingTrial::freeOf(const JointMove& move, const std::vector<char>&
     const Motion motion = moveMotion(move);
     std::vector<char> free(values_.size(), 0);
     parallelFor(values_.size(), [&](std::size_t k) {
-        free[k] = wanted[k] && a_.apart(b_, pose(motion, values_[k]), margin_);
+        free[k] = wanted[k] && !late() && a_.apart(b_, pose(motion, values_[k]), margin_);
     });
     return static_cast<std::size_t>(std::count(free.begin(), free.end(), char{1}));
 }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <chrono>
 #include <memory>
 
 namespace tss {
@@ -14,7 +15,10 @@ using JointMove = Eigen::Matrix<double, 6, 1>;
 /// Two bodies at poses spread over the limits of their joint, tried with its B and its axes moved.
 class FreeingTrial {
 public:
-    FreeingTrial(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion);
+    /// seconds: for all of it; later no pose counts as free any more.
+    FreeingTrial(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion, double seconds);
+
+    bool late() const { return Clock::now() - start_ > std::chrono::duration<double>(seconds_); }
 
     double size() const { return size_; }     ///< bounding diagonal of the smaller body
     double margin() const { return margin_; } ///< what counts as apart
@@ -39,10 +43,14 @@ public:
     std::size_t addMissed(const JointMove& move, std::vector<char>& wanted);
 
 private:
+    using Clock = std::chrono::steady_clock;
+
     void addSweeps(int steps, std::vector<std::vector<double>>& into) const;
     void findStops(const TriangleMesh& a, const TriangleMesh& b);
     std::vector<StopBeyond> stopsBeyond(const Motion& motion) const;
 
+    const Clock::time_point start_ = Clock::now();
+    const double seconds_;
     MeshQuery a_, b_;
     Motion motion_;
     double size_, margin_;

@@ -1,6 +1,6 @@
 #include "bake/reduce/CoverCell.h"
 
-#include "bake/search/CellTools.h"
+#include "bake/motion/CellTools.h"
 
 #include <algorithm>
 #include <cmath>

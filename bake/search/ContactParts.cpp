@@ -13,6 +13,7 @@ struct ContactSurface::Probe {
     const Pose& toOther;
     double reach, size;
     const PartSet& known;
+    Poll& poll;
 };
 
 ContactSurface::ContactSurface(const Solid& solid, const MeshQuery& surface)
@@ -26,9 +27,10 @@ ContactSurface::ContactSurface(const Solid& solid, const MeshQuery& surface)
 }
 
 std::vector<SurfacePart> ContactSurface::meeting(const ContactSurface& other, const Pose& toOther,
-                                                 double reach, double size, const PartSet& known) const {
+                                                 double reach, double size, const PartSet& known,
+                                                 Poll& poll) const {
     std::vector<SurfacePart> found;
-    if (!tree_.empty()) visit(Probe{other, toOther, reach, size, known}, 0, found);
+    if (!tree_.empty()) visit(Probe{other, toOther, reach, size, known, poll}, 0, found);
     std::sort(found.begin(), found.end());
     return found;
 }
@@ -53,7 +55,7 @@ void ContactSurface::visit(const Probe& probe, std::uint32_t node, std::vector<S
 
 void ContactSurface::visit(const Probe& probe, SurfacePart part, const Corners& corners,
                            std::vector<SurfacePart>& found) const {
-    if (probe.known.contains(part)) return;
+    if (probe.poll.stopped() || probe.known.contains(part)) return;
     const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3, centre = probe.toOther * middle;
     double radius = 0;
     for (const Vec3& corner : corners) radius = std::max(radius, (corner - middle).norm() * (1 + 1e-12));

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/base/Poll.h"
 #include "bake/geometry/PartSet.h"
 #include "bake/geometry/Solid.h"
 #include "bake/motion/Motion.h"
@@ -18,8 +19,9 @@ public:
     /// The parts of this surface that are inside the other body or within `reach` of its boundary, some a few
     /// `size` farther; what is left out is outside and at least `reach` away. Parts of `known` are left out
     /// too. size: radius below which parts are not cut further, > 0. toOther: from this body's frame.
+    /// Stopped, fewer are found.
     std::vector<SurfacePart> meeting(const ContactSurface& other, const Pose& toOther, double reach,
-                                     double size, const PartSet& known) const;
+                                     double size, const PartSet& known, Poll& poll) const;
 
 private:
     struct Probe;

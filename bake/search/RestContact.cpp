@@ -48,7 +48,7 @@ public:
     Finder(const ContactSurface& a, const ContactSurface& b, const Motion& motion, double touching,
            const RestContactOptions& options, const Progress& progress)
         : a_(a), b_(b), motion_(motion), touching_(touching), options_(options), progress_(progress),
-          rest_(pose(motion, restValues(motion))) {}
+          poll_(progress, "contact at rest"), rest_(pose(motion, restValues(motion))) {}
 
     RestContact run() {
         RestContact result;
@@ -72,7 +72,7 @@ public:
 private:
     Parts meeting(const Side& side, const Side& other, const Pose& toOther) const {
         return side.own.meeting(other.own, toOther, options_.reach,
-                                options_.size > 0 ? options_.size : options_.reach / 2, side.parts);
+                                options_.size > 0 ? options_.size : options_.reach / 2, side.parts, poll_);
     }
 
     void atRest() {
@@ -100,7 +100,7 @@ private:
 
     /// What is near at rest and close to the other's region there joins: spheres of the region stick out.
     void closeBy() {
-        for (bool more = true; more;) {
+        for (bool more = true; more && !poll_.stopped();) {
             a_.renew();
             b_.renew();
             const Parts toA = closeTo(b_, a_, nearA_, rest_.inverse()), toB = closeTo(a_, b_, nearB_, rest_);
@@ -114,7 +114,7 @@ private:
         std::vector<char> close(near.size(), 0);
         if (other.region.triangleCount() > 0)
             parallelFor(near.size(), [&](std::size_t i) {
-                close[i] = !side.parts.contains(near[i]) &&
+                close[i] = !poll_.stopped() && !side.parts.contains(near[i]) &&
                            !other.region.apart(side.queryOf({near[i]}), toOther, options_.close);
             });
         Parts found;
@@ -216,6 +216,7 @@ private:
     const double touching_;
     const RestContactOptions& options_;
     const Progress& progress_;
+    mutable Poll poll_;
     const Pose rest_;
     PoseGrid grid_;
     Parts nearA_, nearB_; ///< near the other body at rest without touching it

@@ -2,7 +2,7 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/base/Poll.h"
-#include "bake/search/CellTools.h"
+#include "bake/motion/CellTools.h"
 #include "bake/search/NodePairs.h"
 
 #include <algorithm>

@@ -73,7 +73,13 @@ public:
 
     Json say(const TriangleMesh& a, const TriangleMesh& b) {
         Json advice = Json::array();
-        const std::vector<FreeingMove> moves = freeingMoves(a, b, motion_, {dofs_});
+        constexpr double seconds = 20;
+        const auto [moves, complete] = freeingMoves(a, b, motion_, {dofs_, seconds});
+        if (!complete)
+            console_.say(fmt::format(
+                "{}: the meshes overlap where the joint rests; the search for moves that "
+                "free it ended after {} s{}",
+                pair_.path, seconds, moves.empty() ? ", and none was found" : ", smaller ones may exist"));
         if (moves.empty()) return advice;
         size_ = std::min(bounds(a).diagonal().norm(), bounds(b).diagonal().norm());
         console_.say(fmt::format(

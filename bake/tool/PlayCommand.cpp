@@ -242,8 +242,9 @@ void play(const PlayArguments& arguments, const Console& console) {
         if (!arguments.meshes.empty())
             writeFileAtomically(numbered(arguments.meshes, k), objText(scene, player.worldMeshes()));
     }
-    writeFileAtomically(arguments.output, text);
-    console.say(fmt::format("{} steps, wrote {}", steps.size(), arguments.output));
+    if (!arguments.output.empty()) writeFileAtomically(arguments.output, text);
+    console.say(fmt::format("{} steps{}", steps.size(),
+                            arguments.output.empty() ? "" : ", wrote " + arguments.output));
     for (const auto& [status, count] : statuses) console.say(fmt::format("  {:<10}{}", status, count));
     console.say(costText(scene, steps.size(), jointSeconds, skinSeconds));
     if (!scene.skins.empty())
@@ -273,12 +274,10 @@ void addPlay(Options& app, Console& console) {
     command->add_option("--motion", arguments->motion,
                         "CSV, one row a step, one column a DOF of the joints in file order (default: the "
                         "scene's own drives)");
-    command
-        ->add_option("-o,--output", arguments->output,
-                     "CSV: step, asked and resolved DOFs, table_gap, status, and of each skin residual_NAME: "
-                     "how deep it is "
-                     "in what is below it, beyond its depth at rest, scene units")
-        ->required();
+    command->add_option("-o,--output", arguments->output,
+                        "CSV: step, asked and resolved DOFs, table_gap, status, and of each skin "
+                        "residual_NAME: how deep it is in what is below it, beyond its depth at rest, scene "
+                        "units (default: only what is said in sum)");
     command->add_flag("--timings", arguments->timings,
                       "also what each part of a skin's update costs, which makes the updates a tenth slower");
     command->add_option("--mesh-out", arguments->meshes, "also the posed meshes, like f_%04d.obj");

@@ -37,6 +37,7 @@ struct Arguments {
     int every = 1;
     int finer = 2;
     bool overlay = false;
+    bool rest = false;
     osgTSS::Speech speech;
 };
 
@@ -159,7 +160,8 @@ void render(const Arguments& arguments) {
         tss::cli::failUsage("--output", "expected one %d for the frame number, as in f_%04d.png, found " +
                                             arguments.output);
     const osg::ref_ptr<osg::Node> scene = load(arguments);
-    const unsigned int frames = framesOf(arguments, *scene, osgTSS::playAnimations(*scene));
+    const unsigned int frames =
+        framesOf(arguments, *scene, arguments.rest ? 0 : osgTSS::playAnimations(*scene));
     if (frames > 1) shot.reach = reachOf(arguments, *scene);
 
     const osgTSS::EglContext context;
@@ -204,6 +206,7 @@ int main(int argc, char** argv) {
     options.add_option("--view", arguments.view,
                        "a camera path, as osgviewer -p reads it, or EYE:AT in scene units, such as "
                        "0,-3,1:0,0,1 (default: from the front, all of the motion in sight)");
+    options.add_flag("--rest", arguments.rest, "animations that nothing plays are not played either");
     options.add_flag("--overlay", arguments.overlay, "show spheres, tested pairs and contacts");
     options.add_option("--options", arguments.options,
                        "further words for the loader, as osgviewer -O takes them");

@@ -170,17 +170,83 @@ TEST_CASE("a joint that is hung elsewhere is let go, and the others are kept") {
     CHECK(yard.reach(1) == Approx(4).margin(1e-3));
 }
 
-TEST_CASE("geometry that comes after install, below a joint or beside all joints, is told of once") {
+TEST_CASE("what comes after install is told of once, where it may touch a body of a pair") {
     Yard yard;
-    const tss::SceneModel model = yard.baked();
-    install(*yard.root, model);
+    install(*yard.root, yard.baked());
     Heard heard;
-    for (int frame = 0; frame < 130; ++frame) yard.reach(0, 1);
-    CHECK(heard.times("when tables were installed") == 0);
-    const bool below = GENERATE(true, false);
-    (below ? yard.arms[0].get() : yard.root.get())->addChild(box(osg::Vec3(1, 0, 0)));
-    for (int frame = 0; frame < 200; ++frame) yard.reach(0, 1);
-    CHECK(heard.times("is other than when tables were installed") == 1);
+    const auto told = [&] {
+        for (int frame = 0; frame < 130; ++frame) yard.reach(0, 1);
+        return heard.times("is other than when tables were installed");
+    };
+    const auto inGroup = [](const osg::ref_ptr<osg::Node>& node) {
+        osg::ref_ptr<osg::MatrixTransform> group = new osg::MatrixTransform;
+        group->setName("Later");
+        group->addChild(node);
+        return group;
+    };
+    REQUIRE(told() == 0);
+    SECTION("below a joint, which carries it against a block") {
+        yard.arms[0]->addChild(box(osg::Vec3(1, 0, 0)));
+        CHECK(told() == 1);
+    }
+    SECTION("below a joint, which carries it past all there is") {
+        yard.arms[0]->addChild(box(osg::Vec3(1, 4, 0)));
+        CHECK(told() == 0);
+    }
+    SECTION("in the way of a joint") {
+        yard.root->addChild(box(osg::Vec3(3, 0, 0)));
+        CHECK(told() == 1);
+    }
+    SECTION("where no joint comes, by more than it is wide") {
+        yard.root->addChild(box(osg::Vec3(3, 1, 0)));
+        yard.root->addChild(box(osg::Vec3(-0.8f, 0, 0)));
+        yard.root->addChild(box(osg::Vec3(11, 9, 0)));
+        CHECK(told() == 0);
+    }
+    SECTION("with a joint of its own, that carries it into the way or not") {
+        const bool far = GENERATE(true, false);
+        const auto slide = dof("Other");
+        slide->setMaxTranslate(osg::Vec3(0, far ? 2.f : 4.f, 0));
+        slide->addChild(box(osg::Vec3(3, 4.5f, 0)));
+        yard.root->addChild(slide);
+        CHECK(told() == (far ? 0 : 1));
+    }
+    SECTION("on the screen") {
+        osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+        camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+        camera->addChild(box(osg::Vec3(3, 0, 0)));
+        yard.root->addChild(camera);
+        CHECK(told() == 0);
+    }
+    SECTION("out of the way at first, and later in it") {
+        const auto group = inGroup(box(osg::Vec3(3, 20, 0)));
+        yard.root->addChild(group);
+        CHECK(told() == 0);
+        group->setMatrix(osg::Matrixd::translate(0, -10, 0));
+        CHECK(told() == 0);
+        group->setMatrix(osg::Matrixd::translate(0, -20, 0));
+        told();
+        CHECK(heard.times("transform \"Later\" stands elsewhere") == 1);
+    }
+    SECTION("a group that is empty at first") {
+        const auto group = inGroup(new osg::Group);
+        yard.root->addChild(group);
+        CHECK(told() == 0);
+        group->getChild(0)->asGroup()->addChild(box(osg::Vec3(3, 0, 0)));
+        CHECK(told() == 1);
+    }
+    SECTION("gone again") {
+        const auto group = inGroup(box(osg::Vec3(3, 20, 0)));
+        yard.root->addChild(group);
+        CHECK(told() == 0);
+        group->removeChild(0u, 1u);
+        yard.root->removeChild(group);
+        CHECK(told() == 0);
+    }
+    SECTION("what tables know goes") {
+        yard.root->removeChild(0u, 1u);
+        CHECK(told() == 1);
+    }
 }
 
 TEST_CASE("a transform that was taken to stand still and is moved after install is told of once") {

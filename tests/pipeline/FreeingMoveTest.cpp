@@ -32,7 +32,7 @@ TEST_CASE("a body that overlaps at rest is freed by a shift a little larger than
     for (const double depth : {0.05, 0.3}) {
         INFO("overlap " << depth);
         const TriangleMesh a = boxMesh({-5, -1, -2}, {5, 1, 0}), b = boxMesh({-1, -1, -depth}, {1, 1, 2});
-        const auto shifts = freeingMoves(a, b, hinge(-0.01, 0.01));
+        const auto shifts = freeingMoves(a, b, hinge(-0.01, 0.01)).moves;
         REQUIRE_FALSE(shifts.empty());
         const FreeingMove& last = shifts.back();
         CHECK(last.freeAtRest);
@@ -47,11 +47,11 @@ TEST_CASE("a body that overlaps at rest is freed by a shift a little larger than
 
 TEST_CASE("bodies that are apart at rest need no shift, and those that nothing frees get none") {
     const TriangleMesh plate = boxMesh({-5, -1, -2}, {5, 1, 0});
-    CHECK(freeingMoves(plate, boxMesh({-1, -1, 0.1}, {1, 1, 2}), hinge(-1, 1)).empty());
+    CHECK(freeingMoves(plate, boxMesh({-1, -1, 0.1}, {1, 1, 2}), hinge(-1, 1)).moves.empty());
     // Through the middle of a plate a hundred times as large.
     const TriangleMesh wall = boxMesh({-100, -100, -1}, {100, 100, 1}),
                        pin = boxMesh({-1, -1, -20}, {1, 1, 20});
-    CHECK(freeingMoves(wall, pin, hinge(-0.1, 0.1)).empty());
+    CHECK(freeingMoves(wall, pin, hinge(-0.1, 0.1)).moves.empty());
 }
 
 TEST_CASE("a joint that overlaps at rest is freed as far as what stops it elsewhere") {
@@ -61,7 +61,7 @@ TEST_CASE("a joint that overlaps at rest is freed as far as what stops it elsewh
     const TriangleMesh lever = boxMesh({0, -0.5, -0.2}, {11, 0.5, 0.5});
     Motion motion = hinge(-0.4, 0.25); // up and down
     motion.dofs[0].origin = Vec3(-1, 0, 0.5);
-    const auto moves = freeingMoves(a, lever, motion);
+    const auto moves = freeingMoves(a, lever, motion).moves;
     REQUIRE(moves.size() == 1);
     const FreeingMove& move = moves.front();
     CHECK(move.freeAtRest);
@@ -80,10 +80,21 @@ TEST_CASE("a joint whose axis is off is freed by a smaller move of its axis than
     motion.dofs[0].origin = Vec3(0, 0, 0.4);
     FreeingOptions axes;
     axes.axes = true;
-    const auto moves = freeingMoves(a, bar, motion, axes);
+    const auto moves = freeingMoves(a, bar, motion, axes).moves;
     REQUIRE_FALSE(moves.empty());
     CHECK(moves.front().axes.norm() > 0.1);
     CHECK(moves.front().free == moves.front().poses);
     for (std::size_t k = 1; k < moves.size(); ++k) CHECK(moves[k].moved > moves[k - 1].moved);
     CHECK(moves.front().motion.dofs[0].origin.isApprox(motion.dofs[0].origin + moves.front().axes));
+}
+
+TEST_CASE("the search for moves ends when its time does, and says so") {
+    const TriangleMesh a = boxMesh({-1, -1, -2}, {1, 1, 0}), b = boxMesh({-1, -1, -0.1}, {1, 1, 1});
+    FreeingOptions options;
+    CHECK(freeingMoves(a, b, hinge(-0.01, 0.01), options).complete);
+    CHECK_FALSE(freeingMoves(a, b, hinge(-0.01, 0.01), options).moves.empty());
+    options.seconds = 0;
+    const FreeingMoves ended = freeingMoves(a, b, hinge(-0.01, 0.01), options);
+    CHECK_FALSE(ended.complete);
+    CHECK(ended.moves.empty());
 }

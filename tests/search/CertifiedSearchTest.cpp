@@ -1,7 +1,7 @@
 #include "bake/search/CertifiedSearch.h"
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
-#include "bake/search/CellTools.h"
+#include "bake/motion/CellTools.h"
 #include "bake/search/SampledSearch.h"
 #include "bake/search/SphereTree.h"
 #include "bake/search/UndecidedCells.h"

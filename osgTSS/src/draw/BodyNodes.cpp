@@ -32,6 +32,12 @@ void tagBody(osg::Node& node, const std::string& bodyPath, double scale) {
     if (scale != 1) node.setUserValue(scaleName, scale);
 }
 
+std::string bodyPath(const osg::Node& node) {
+    std::string path;
+    node.getUserValue(tagName, path);
+    return path;
+}
+
 double bodyScale(const osg::Node& node) {
     double scale = 1;
     node.getUserValue(scaleName, scale);

@@ -14,6 +14,9 @@ namespace osgTSS {
 /// (negative: mirrored). User values, saved and cloned with the node.
 void tagBody(osg::Node& node, const std::string& bodyPath, double scale = 1);
 
+/// The body that a node was tagged with; empty: none.
+std::string bodyPath(const osg::Node& node);
+
 /// The factor that a node was tagged with.
 double bodyScale(const osg::Node& node);
 

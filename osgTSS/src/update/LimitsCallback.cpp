@@ -21,7 +21,7 @@ struct LimitsCallback::Watch {
     std::vector<Joint> joints;
     StandingParts parts;
 
-    Watch(osg::Node& node, const Scene& scene) : model(scene.shareModel()), parts(node) {
+    Watch(osg::Node& node, const Scene& scene) : model(scene.shareModel()), parts(node, *model) {
         const auto nodes = findAllJointNodes(node);
         std::set<int> known;
         for (const tss::Pair& pair : model->pairs) {

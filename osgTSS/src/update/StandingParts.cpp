@@ -1,5 +1,6 @@
 #include "StandingParts.h"
 
+#include "PairBodies.h"
 #include "osgTSS/src/extract/MovedNodes.h"
 #include "osgTSS/src/joints/JointNodes.h"
 #include "osgTSS/src/joints/TaggedJoint.h"
@@ -45,39 +46,38 @@ bool movesOtherwise(osg::Node& node) {
 /// Machine by machine, which is all that joints hold together, and body by body of each.
 class StandingParts::Collect : public osg::NodeVisitor {
 public:
-    Collect(osg::Node& root, std::vector<Part>& parts)
-        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _parts(parts) {
+    Collect(StandingParts& into) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _into(into) {
         setNodeMaskOverride(~0u);
-        collect([&] { root.accept(*this); });
+        collect([&] { into._root.accept(*this); });
     }
 
     void apply(osg::Node& node) override {
         if (dynamic_cast<Overlay*>(&node) || !_seen.insert(&node).second) return;
-        add(node, false);
-        traverse(node);
+        look(node);
     }
     void apply(osg::PagedLOD&) override {}
     void apply(osg::Drawable& drawable) override {
         ++_body->items;
-        if (_seen.insert(&drawable).second) add(drawable, false);
+        ++_body->drawn;
+        if (_seen.insert(&drawable).second) look(drawable);
     }
     void apply(osg::Transform& node) override {
         if (!_seen.insert(&node).second) return;
-        add(node, false);
         if (isJoint(node)) {
             _machine->served = _machine->served || carriesJoint(node);
             ++_body->items;
             Body own, *const above = std::exchange(_body, &own);
-            traverse(node);
+            look(node);
             for (const auto& [place, below] : own.fixed)
                 if (below > 0) _machine->parts.push_back(_machine->all[place]);
             _body = above;
         } else if (movesOtherwise(node)) {
-            collect([&] { traverse(node); });
+            collect([&] { look(node); });
         } else {
-            const std::size_t before = _body->items, place = _machine->all.size();
-            _machine->all.push_back({&node, true, numberOf(node, true)});
-            traverse(node);
+            const std::size_t before = _body->items, drawn = _body->drawn, place = _machine->all.size();
+            _machine->all.push_back({&node, true, _known, numberOf(node, true)});
+            look(node);
+            _machine->all[place].known = _known && _body->drawn > drawn;
             _body->fixed.emplace_back(place, _body->items - before);
         }
     }
@@ -85,6 +85,7 @@ public:
 private:
     struct Body {
         std::size_t items = 0;                                  ///< drawables, and joints of others
+        std::size_t drawn = 0;                                  ///< drawables that tables know
         std::vector<std::pair<std::size_t, std::size_t>> fixed; ///< places in `all`, and items below
     };
     struct Machine {
@@ -93,8 +94,21 @@ private:
         std::vector<Part> parts; ///< what is looked at
     };
 
-    void add(osg::Node& node, bool fixed) {
-        _machine->parts.push_back({&node, fixed, numberOf(node, fixed)});
+    void look(osg::Node& node) {
+        const bool above = std::exchange(_known, _known && !_into._since.contains(&node));
+        Part part{&node, false, _known, numberOf(node, false)};
+        if (osg::Group* group = node.asGroup())
+            for (unsigned int k = 0; k < group->getNumChildren(); ++k) {
+                osg::Node& child = *group->getChild(k);
+                const std::size_t before = _body->drawn;
+                child.accept(*this);
+                const bool known = _known && !_into._since.contains(&child);
+                part.children.emplace_back(&child, known && _body->drawn > before);
+            }
+        else
+            traverse(node);
+        _machine->parts.push_back(std::move(part));
+        _known = above;
     }
 
     /// Of a machine it does not matter where it stands as a whole.
@@ -108,17 +122,18 @@ private:
         if (!own.served) return;
         for (const auto& [place, items] : top.fixed)
             if (items > 0 && items < top.items) own.parts.push_back(own.all[place]);
-        _parts.insert(_parts.end(), own.parts.begin(), own.parts.end());
+        _into._parts.insert(_into._parts.end(), own.parts.begin(), own.parts.end());
     }
 
-    std::vector<Part>& _parts;
+    StandingParts& _into;
     std::set<const osg::Node*> _seen;
+    bool _known = true;
     Body* _body = nullptr;
     Machine* _machine = nullptr;
 };
 
-StandingParts::StandingParts(osg::Node& root) {
-    Collect(root, _parts);
+StandingParts::StandingParts(osg::Node& root, const tss::SceneModel& model) : _root(root), _model(model) {
+    Collect(*this);
 }
 
 std::size_t StandingParts::numberOf(const osg::Node& node, bool fixed) {
@@ -137,18 +152,61 @@ std::size_t StandingParts::numberOf(const osg::Node& node, bool fixed) {
     return number;
 }
 
+/// What is gone is missed by the group that it was in.
+bool StandingParts::isOther(const Part& part) const {
+    return part.node.valid() && numberOf(*part.node, part.fixed) != part.number;
+}
+
+/// Of a group: what is new below it, or gone.
+bool StandingParts::childConcerns(const Part& part, const osg::NodePath& path, PairBodies& bodies) {
+    osg::Group& group = *part.node->asGroup();
+    for (const auto& [child, known] : part.children)
+        if (known && !group.containsNode(child) && bodies.hold(path)) return true;
+    for (unsigned int k = 0; k < group.getNumChildren(); ++k) {
+        osg::Node& child = *group.getChild(k);
+        const auto same = [&](const auto& was) { return was.first == &child; };
+        if (dynamic_cast<Overlay*>(&child) || std::ranges::any_of(part.children, same)) continue;
+        if (bodies.separatedBy(child) || bodies.mayBeMetBy(child, path)) return true;
+        _since.insert(&child);
+    }
+    return false;
+}
+
+/// Says what has come to a body of a pair; empty: nothing has.
+std::string StandingParts::whatConcerns(const Part& part, PairBodies& bodies) {
+    const std::string geometry = "the geometry at node \"" + part.node->getName() + "\" is other than";
+    for (const osg::NodePath& path : pathsFrom(_root, *part.node)) {
+        const osg::NodePath above(path.begin(), path.end() - 1);
+        if (part.node->asGroup() && !part.fixed) {
+            if (childConcerns(part, path, bodies)) return geometry;
+            continue;
+        }
+        const bool carried = part.fixed && bodies.separatedBy(*part.node);
+        if (carried || (part.known && bodies.hold(path)) || bodies.mayBeMetBy(*part.node, above))
+            return part.fixed ? "transform \"" + part.node->getName() + "\" stands elsewhere than" : geometry;
+    }
+    return "";
+}
+
 std::optional<std::string> StandingParts::changed() {
-    for (std::size_t k = (_parts.size() + calls - 1) / calls; k-- > 0;) {
-        const Part& part = _parts[_next];
+    bool other = false;
+    for (std::size_t k = (_parts.size() + calls - 1) / calls; k-- > 0 && !other;) {
+        other = isOther(_parts[_next]);
         _next = (_next + 1) % _parts.size();
-        // What is gone is missed by the group that it was in.
-        if (!part.node.valid() || numberOf(*part.node, part.fixed) == part.number) continue;
-        const std::string what = part.fixed
-                                     ? "transform \"" + part.node->getName() + "\" stands elsewhere than"
-                                     : "the geometry at node \"" + part.node->getName() + "\" is other than";
+    }
+    if (!other) return std::nullopt;
+    PairBodies bodies(_root, _model);
+    for (const Part& part : _parts) {
+        if (!isOther(part)) continue;
+        const std::string what = whatConcerns(part, bodies);
+        if (what.empty()) continue;
         _parts.clear();
         return what;
     }
+    // From here on what is there now is what was there, but for what tables do not know.
+    _parts.clear();
+    _next = 0;
+    Collect(*this);
     return std::nullopt;
 }
 

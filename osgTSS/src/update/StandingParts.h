@@ -1,35 +1,49 @@
 #pragma once
+#include "bake/model/SceneModel.h"
+
 #include <osg/Group>
 #include <osg/observer_ptr>
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace osgTSS {
+
+class PairBodies;
 
 /// What a graph draws, and the transforms that place it, as they were when this was made: tables and proofs
 /// know parts as they were baked. Of what moves by itself, of what osgTSS shows and of what is paged it knows
 /// nothing, nor of a transform that carries all there is alike.
 class StandingParts {
 public:
-    explicit StandingParts(osg::Node& root);
+    /// model: whose pairs have been installed in the graph.
+    StandingParts(osg::Node& root, const tss::SceneModel& model);
 
-    /// Looks at some of it, at all in the course of 64 calls, and says what is other than it was; once, then
-    /// it looks no more.
+    /// Looks at some of it, at all in the course of 64 calls, and says what is other than it was, if that is
+    /// part of a body of a pair or may touch one; once, then it looks no more.
     std::optional<std::string> changed();
 
 private:
     struct Part {
         osg::observer_ptr<osg::Node> node;
         bool fixed; ///< a transform that nothing is known to move
+        bool known; ///< tables know it, or of a transform something below it
         std::size_t number;
+        std::vector<std::pair<osg::Node*, bool>> children{}; ///< and whether tables know what is drawn there
     };
     class Collect;
 
     static std::size_t numberOf(const osg::Node& node, bool fixed);
+    bool isOther(const Part& part) const;
+    std::string whatConcerns(const Part& part, PairBodies& bodies);
+    bool childConcerns(const Part& part, const osg::NodePath& path, PairBodies& bodies);
 
+    osg::Node& _root;
+    const tss::SceneModel& _model;
     std::vector<Part> _parts;
+    std::set<const osg::Node*> _since; ///< what came later, and is of no concern
     std::size_t _next = 0;
 };
 

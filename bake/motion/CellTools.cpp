@@ -1,4 +1,4 @@
-#include "bake/search/CellTools.h"
+#include "bake/motion/CellTools.h"
 
 #include <algorithm>
 #include <cmath>
