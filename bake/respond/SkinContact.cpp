@@ -244,9 +244,12 @@ Vec3f relativeOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row)
     const SkinScene::Placed& placed = scene.bodies[row.body];
     Vec3f before = Vec3f::Zero();
     if (row.meeting == SkinMeeting::SkinOnBody) {
-        const Move* surface = scene.surface.data() + rig.bodies[row.body].first;
+        const Vec3f x = placed.toBody(scene.skin[row.vertex].head<3>());
+        const SkinBody& body = rig.bodies[row.body];
+        if (body.bone()) return x;
+        const Move* surface = scene.surface.data() + body.first;
         for (int k = 0; k < 3; ++k) before += row.weights[k] * surface[row.corners[k]].head<3>();
-        return placed.toBody(scene.skin[row.vertex].head<3>()) - before;
+        return x - before;
     }
     for (int k = 0; k < 3; ++k) before += row.weights[k] * scene.skin[row.corners[k]].head<3>();
     if (row.meeting == SkinMeeting::BodyOnSkin)

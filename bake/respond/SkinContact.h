@@ -22,7 +22,8 @@ struct SkinPlane {
     bool found() const { return vertices > 0; }
 };
 
-/// From the place that a row's vertex is before to the vertex, as they stand; in the body's frame.
+/// From the place that a row's vertex is before to the vertex, as they stand; in the body's frame. Before a
+/// bone, whose places stay in its frame: from there.
 Eigen::Vector3f relativeOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
 
 /// Whether what the row is about may have come together, by how far it is off where its muscle alone, or

@@ -284,20 +284,20 @@ void measureRows(SkinRig& rig) {
     const std::vector<Pose> poses(rig.bodies.size(), Pose::Identity());
     placeBodies(rig, activations, poses, {}, scene);
     parallelFor(rig.rows.size(), [&](std::size_t r) { measureAtRest(rig, scene, rig.rows[r]); });
-    for (std::uint32_t m = 0; m < rig.bodies.size(); ++m) {
+    std::vector<std::vector<std::uint32_t>> rowsOf(rig.bodies.size());
+    for (std::uint32_t r = 0; r < rig.rows.size(); ++r)
+        if (ofMuscle(rig, rig.rows[r])) rowsOf[rig.rows[r].body].push_back(r);
+    for (std::size_t m = 0; m < rig.bodies.size(); ++m) {
         const std::vector<double>& nodes = rig.bodies[m].nodes;
-        if (rig.bodies[m].bone()) continue;
-        for (std::size_t n = 0; n < nodes.size(); ++n) {
+        for (std::size_t n = 0; n < nodes.size() && !rowsOf[m].empty(); ++n) {
             activations[m] = nodes[n];
             placeBodies(rig, activations, poses, {}, scene);
-            parallelFor(rig.rows.size(), [&](std::size_t r) {
-                const SkinRow& row = rig.rows[r];
-                if (row.body == m && ofMuscle(rig, row)) rig.apart[row.apart + n] = apartOf(rig, scene, row);
-            });
+            for (const std::uint32_t r : rowsOf[m])
+                rig.apart[rig.rows[r].apart + n] = apartOf(rig, scene, rig.rows[r]);
         }
         activations[m] = 0;
-        for (const SkinRow& row : rig.rows)
-            if (row.body == m && ofMuscle(rig, row)) bridgeNodes(rig.apart.data() + row.apart, nodes.size());
+        for (const std::uint32_t r : rowsOf[m])
+            bridgeNodes(rig.apart.data() + rig.rows[r].apart, nodes.size());
     }
 }
 

@@ -12,6 +12,7 @@ set(open
     bake/play/Player.h
     bake/play/SkinSetup.h
     bake/respond/JointResponder.h
+    bake/respond/SkinCosts.h
     bake/respond/SkinResponse.h
     bake/scene/SceneFile.h
     bake/table/Contact.h

@@ -2,6 +2,7 @@
 #include "tests/FloatTraps.h"
 
 #include "bake/base/Error.h"
+#include "bake/respond/SkinCosts.h"
 
 #include <catch2/catch.hpp>
 #include <random>
@@ -51,6 +52,27 @@ TEST_CASE("a contracting muscle lifts the skin above it") {
         lift = std::max(lift, response.positions()[i].z() - response.rig().rest[i].z());
     CHECK(lift > 0.01);
     CHECK(lift < 0.1);
+}
+
+TEST_CASE(
+    "what a muscle by itself has moved is hardly looked up, and what an update costs is told while asked") {
+    SkinResponse response(skins::usual().rig());
+    SkinCosts costs;
+    response.charge(&costs);
+    constexpr std::size_t frames = 40;
+    for (std::size_t f = 1; f <= frames; ++f)
+        response.update(std::vector<double>{static_cast<double>(f) / frames});
+    CHECK(costs.updates == frames);
+    CHECK(costs.lookUps < frames * response.rig().rows.size() / 2);
+    for (const SkinPart part : {SkinPart::Carry, SkinPart::Sort, SkinPart::Show})
+        CHECK(costs.seconds[static_cast<std::size_t>(part)] > 0);
+    for (const SkinPart part : {SkinPart::Bones, SkinPart::Folds})
+        CHECK(costs.seconds[static_cast<std::size_t>(part)] == 0);
+    response.charge(nullptr);
+    response.update(std::vector<double>{0.5});
+    CHECK(costs.updates == frames);
+    UNSCOPED_INFO(costs.lookUps << " look-ups of " << response.rig().rows.size() << " rows");
+    CHECK(response.rig().rows.size() > 0);
 }
 
 TEST_CASE("skin keeps the distance to the muscle that it had at rest, up to its thickness") {
