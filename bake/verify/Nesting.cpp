@@ -238,14 +238,7 @@ Looked lookAt(NestingBox& prover, const Motion& motion, const Box& here, double 
 /// Whatever is in a solid without openings is no farther from its surface than half of its narrowest extent.
 double deepestIn(const VerifiedBody& body) {
     if (!body.solid) return 0;
-    if (body.solid->open()) return infinity;
-    Vec3 lower = Vec3::Constant(infinity), upper = -lower;
-    for (const Tri& t : body.mesh.triangles)
-        for (const int v : t) {
-            lower = lower.cwiseMin(body.mesh.vertices[std::size_t(v)]);
-            upper = upper.cwiseMax(body.mesh.vertices[std::size_t(v)]);
-        }
-    return 0.5 * (upper - lower).minCoeff() * (1 + 1e-12);
+    return body.solid->open() ? infinity : 0.5 * bounds(body.solid->mesh()).sizes().minCoeff() * (1 + 1e-12);
 }
 
 } // namespace
