@@ -66,9 +66,8 @@ void PreparedTable::frame(const double* q, MotionFrame& out) const {
     kernels_->frame(q, out);
 }
 
-std::uint32_t PreparedTable::testsWithin(const TableFeatures& f, double margin, std::uint32_t* out,
-                                         std::uint32_t enough) const {
-    return kernels_->testsWithin(f, margin, out, enough);
+std::uint32_t PreparedTable::testsWithin(const TableFeatures& f, double margin, std::uint32_t* out) const {
+    return kernels_->testsWithin(f, margin, out);
 }
 
 std::uint32_t PreparedTable::testsWithin(const double* q, double margin, std::uint32_t* out) const {

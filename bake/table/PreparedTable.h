@@ -97,10 +97,8 @@ public:
 
     /// Numbers of all tests whose gap may be at most margin (>= 0; none is missed within the band), always in
     /// the same order. out: room for testRoom() numbers. Returns how many. From the values no features are
-    /// made where the cell of q has no test to be asked. enough: a large table may stop once it has found
-    /// more than so many.
-    std::uint32_t testsWithin(const TableFeatures& f, double margin, std::uint32_t* out,
-                              std::uint32_t enough = ~0u) const;
+    /// made where the cell of q has no test to be asked.
+    std::uint32_t testsWithin(const TableFeatures& f, double margin, std::uint32_t* out) const;
     std::uint32_t testsWithin(const double* q, double margin, std::uint32_t* out) const;
 
     /// Many instances at once. q: count rows of one value per DOF. Allocates when `out` has to grow.

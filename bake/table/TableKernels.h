@@ -53,10 +53,8 @@ public:
     void frame(const double* q, MotionFrame& out) const;
 
     /// Numbers of all tests whose gap may be at most margin (>= 0; none is missed within the band), always in
-    /// the same order. out: room for testRoom() numbers. Returns how many. enough: a table in clusters stops
-    /// once it has found more than so many.
-    std::uint32_t testsWithin(const TableFeatures& f, double margin, std::uint32_t* out,
-                              std::uint32_t enough = ~0u) const;
+    /// the same order. out: room for testRoom() numbers. Returns how many.
+    std::uint32_t testsWithin(const TableFeatures& f, double margin, std::uint32_t* out) const;
 
     /// The same from the values themselves, without features where the cell of q has no test to be asked.
     std::uint32_t testsWithin(const double* q, double margin, std::uint32_t* out) const;
@@ -157,8 +155,8 @@ private:
     bool hitBeyondLikely(const TableFeatures& f) const;
     std::uint32_t hitsOf(const KernelData& rows, const PoseLanes& poses) const;
     KernelGap nearestInClusters(const TableFeatures& f) const;
-    std::uint32_t testsInClusters(const TableFeatures& f, double margin, double wide, std::uint32_t* out,
-                                  std::uint32_t enough) const;
+    std::uint32_t testsInClusters(const TableFeatures& f, double margin, double wide,
+                                  std::uint32_t* out) const;
     /// What the bounds of clusters are compared with where gaps of tests up to the margin are asked for.
     double clusterReachOf(double margin) const;
     void poseFeatures(const double* q, TableFeatures& out) const;

@@ -102,11 +102,11 @@ KernelGap TableKernels::nearestInClusters(const TableFeatures& f) const {
 }
 
 std::uint32_t TableKernels::testsInClusters(const TableFeatures& f, double margin, double wide,
-                                            std::uint32_t* out, std::uint32_t enough) const {
+                                            std::uint32_t* out) const {
     std::uint32_t count = 0;
     eachNearCluster(f, clusterReachOf(margin), [&](std::uint32_t cluster) {
         count += kernels_.testsWithin(testsOf(cluster), f.doubles, wide, out + count);
-        return count > enough;
+        return false;
     });
     return count;
 }
@@ -135,10 +135,9 @@ double TableKernels::reachOf(double margin) const {
     return margin + 2 * std::max(signBand_, gapBand_) + 2e-6 * margin;
 }
 
-std::uint32_t TableKernels::testsWithin(const TableFeatures& f, double margin, std::uint32_t* out,
-                                        std::uint32_t enough) const {
+std::uint32_t TableKernels::testsWithin(const TableFeatures& f, double margin, std::uint32_t* out) const {
     const double wide = reachOf(margin);
-    if (!clusters_.empty()) return testsInClusters(f, margin, wide, out, enough);
+    if (!clusters_.empty()) return testsInClusters(f, margin, wide, out);
     if (!cells_.empty())
         if (const std::uint8_t limit = cells_.code(margin); limit < TableCells::nearCode)
             return kernels_.testsWithinNear(data_, f.doubles, cells_.nearBlocks(f.cell, limit), wide, out);
