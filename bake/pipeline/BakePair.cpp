@@ -107,6 +107,21 @@ struct PairBaker {
     /// Fill: both bodies with spheres, and how well these fit; then the few tests that answer for all.
     Attempt few() const { return tabulated(measured(fillPair(scene, pair, motion, options, progress))); }
 
+    /// Where nothing but all pairs of spheres would be asked: the proof that coarser spheres never meet, if
+    /// it is soon found.
+    std::optional<Attempt> apart() const {
+        if (!manyDofs(motion, options) || options.depth > 0) return std::nullopt;
+        for (const double tolerance : coarserTolerances(scene, pair, options)) {
+            BakeOptions coarse = options;
+            coarse.tolerance = tolerance;
+            PairSpheres spheres = fillToAskAll(scene, pair, motion, coarse, progress);
+            if (!spheres.askAll || !neverMeet(pairTask(spheres, motion, coarse), progress)) continue;
+            Attempt attempt = tabulated(measured(std::move(spheres)));
+            if (attempt.made.proof) return attempt;
+        }
+        return std::nullopt;
+    }
+
     /// Where the budget ended far from the epsilon asked for: a table that tests every pair of spheres that
     /// may meet, in place of a cover. Of the same spheres, or of coarser ones where these have too many
     /// pairs. Nothing where that table would report contact no later than the cover does.
@@ -159,7 +174,8 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
     const Motion motion = pairMotion(scene, pair);
     checkMotion(motion);
     const PairBaker baker{scene, pair, options, motion, progress};
-    Attempt attempt = baker.few();
+    std::optional<Attempt> apart = baker.apart();
+    Attempt attempt = apart ? std::move(*apart) : baker.few();
     if (std::optional<Attempt> all = baker.allInstead(attempt)) attempt = std::move(*all);
     // Store: with the hash by which a stale table is told.
     pair.table = std::move(attempt.made.table);

@@ -46,6 +46,10 @@ HollowBodies hollowBodies(const Body& a, const Body& b, const PairSpheres& spher
     return {known.a || more.a, known.b || more.b};
 }
 
+double smallerSize(const Body& a, const Body& b) {
+    return std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm());
+}
+
 /// Spheres of two bodies whose surfaces are known never to come near each other, as coarse as shows it: what
 /// can be proven again from the file alone.
 PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, double tolerance,
@@ -54,7 +58,7 @@ PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, dou
     CertifiedSearchOptions apart;
     apart.measureClearance = false;
     apart.effort = 5'000'000;
-    const double smaller = std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm());
+    const double smaller = smallerSize(a, b);
     for (how.tolerance = std::max(tolerance, smaller / 30);;) {
         SphereOptions howA = how, howB = how;
         howA.hollow = hollow.a;
@@ -126,12 +130,6 @@ bool asksForCover(const BakeOptions& options) {
     return options.reduce == ReduceMethod::Cover && options.search == SearchMethod::Certified;
 }
 
-/// Over more DOFs than these neither what is within reach nor a cover is found in any time that people have,
-/// unless as much as they like is asked for.
-bool manyDofs(const Motion& motion, const BakeOptions& options) {
-    return motion.dofCount() > (options.budget == 0 ? 6u : 3u);
-}
-
 /// Rounds the spheres as the file stores them and adds to the protrusion what that makes them stick out more.
 void roundToFloat(SphereFit& fit) {
     double grown = 0;
@@ -141,10 +139,6 @@ void roundToFloat(SphereFit& fit) {
         sphere = rounded;
     }
     fit.protrusion += grown;
-}
-
-double defaultTolerance(const Body& a, const Body& b) {
-    return std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm()) / 500;
 }
 
 /// The figures of a fit; its bounds become those measured where these are better.
@@ -166,7 +160,7 @@ FitRecord measured(const Body& body, SphereFit& fit, const std::optional<std::ve
 PairSpheres fill(const SceneModel& scene, const Pair& pair, const Motion& motion, const BakeOptions& options,
                  bool whole, const Progress& progress) {
     const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
-    const double tolerance = options.tolerance.value_or(defaultTolerance(a, b));
+    const double tolerance = options.tolerance.value_or(smallerSize(a, b) / 500);
     PairSpheres spheres = options.spheres == SphereMethod::Medial
                               ? fillZone(a, b, motion, options, tolerance, whole, progress)
                               : fillWhole(a, b, motion, options, tolerance, progress);
@@ -203,10 +197,22 @@ bool canAskAll(const PairSpheres& spheres, const BakeOptions& options) {
     return asksForCover(options) && spheres.a.spheres.size() * spheres.b.spheres.size() <= options.mostPairs;
 }
 
+bool manyDofs(const Motion& motion, const BakeOptions& options) {
+    return motion.dofCount() > (options.budget == 0 ? 6u : 3u);
+}
+
 PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
                      const BakeOptions& options, const Progress& progress) {
     if (manyDofs(motion, options)) return fillToAskAll(scene, pair, motion, options, progress);
     return fill(scene, pair, motion, options, false, progress);
+}
+
+std::vector<double> coarserTolerances(const SceneModel& scene, const Pair& pair, const BakeOptions& options) {
+    const double size = smallerSize(scene.bodies[pair.bodyA], scene.bodies[pair.bodyB]);
+    std::vector<double> coarser;
+    for (const double share : {30, 60, 120})
+        if (size / share > options.tolerance.value_or(size / 500)) coarser.push_back(size / share);
+    return coarser;
 }
 
 PairSpheres fillToAskAll(const SceneModel& scene, const Pair& pair, const Motion& motion,

@@ -34,6 +34,14 @@ SphereOptions sphereOptions(const BakeOptions& options, double tolerance);
 PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
                      const BakeOptions& options, const Progress& progress = {});
 
+/// Over more DOFs than these neither what is within reach nor a cover is found in any time that people have,
+/// unless as much as they like is asked for.
+bool manyDofs(const Motion& motion, const BakeOptions& options);
+
+/// Coarser than the options ask for, the coarsest first, scene units: spheres that may show in a moment that
+/// two bodies never meet.
+std::vector<double> coarserTolerances(const SceneModel& scene, const Pair& pair, const BakeOptions& options);
+
 /// Fills all of both surfaces, as finely as the options say or as coarsely as leaves all pairs to be asked.
 PairSpheres fillToAskAll(const SceneModel& scene, const Pair& pair, const Motion& motion,
                          const BakeOptions& options, const Progress& progress = {});

@@ -97,6 +97,17 @@ CandidatePairs searchPair(const PairTask& task, const Progress& progress) {
     return searchCertified(a, b, task.motion, certified, progress);
 }
 
+bool neverMeet(const PairTask& task, const Progress& progress) {
+    CertifiedSearchOptions certified;
+    certified.rule = task.ruled.rule;
+    certified.margin = task.margin;
+    certified.measureClearance = false;
+    certified.effort = 5'000'000;
+    const CandidatePairs meeting =
+        searchCertified(task.spheres.a.spheres, task.spheres.b.spheres, task.motion, certified, progress);
+    return meeting.certified && meeting.pairs.empty();
+}
+
 bool allListed(const CandidatePairs& candidates, const BakeOptions& options) {
     return candidates.certified || options.search == SearchMethod::Sampled;
 }

@@ -23,6 +23,9 @@ PairTask pairTask(const PairSpheres& spheres, const Motion& motion, const BakeOp
 /// The pairs of spheres that can meet, or come within the margin (METHOD 2).
 CandidatePairs searchPair(const PairTask& task, const Progress& progress);
 
+/// Whether a short search shows that no two spheres of the task ever meet.
+bool neverMeet(const PairTask& task, const Progress& progress);
+
 /// Whether these are all: a search may run out of effort.
 bool allListed(const CandidatePairs& candidates, const BakeOptions& options);
 

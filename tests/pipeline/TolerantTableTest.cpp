@@ -164,3 +164,23 @@ TEST_CASE("over four degrees of freedom the fewest tests are not searched for un
     options.budget = 0;
     CHECK_FALSE(fillPair(scene, scene.pairs[0], motion, options).askAll);
 }
+
+TEST_CASE("over four degrees of freedom bodies that never meet are proven apart, by coarser spheres than "
+          "asked for") {
+    SceneModel scene = lumpyPair(2);
+    scene.bodies[1].mesh =
+        transformed(scene.bodies[1].mesh, Eigen::Affine3d(Eigen::Translation3d(-2.1, 0, 11.4)));
+    scene.joints[0].dofs = {
+        joints::turn({0, 0, 0}, {0, 0, 1}, -0.8, 0.8), joints::turn({0, 0, 3}, {0, 1, 0}, -1.7, 1.7),
+        joints::turn({0, 0, 3}, {0, 0, 1}, -0.8, 0.8), joints::turn({0.5, 0, 10.5}, {0, 1, 0}, -2.5, 0)};
+    BakeOptions options;
+    options.tolerance = 0.01;
+    PairReport report;
+    bakePair(scene, scene.pairs[0], options, report, {});
+    CHECK_FALSE(scene.pairs[0].table);
+    REQUIRE(scene.pairs[0].proof);
+    CHECK(scene.pairs[0].proof->clearance > 0.05);
+    const Motion motion = pairMotion(scene, scene.pairs[0]);
+    CHECK(verifyOnMeshes(scene.bodies[0].mesh, scene.bodies[1].mesh, *scene.pairs[0].proof, motion)
+              .reason.empty());
+}
