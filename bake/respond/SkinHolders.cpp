@@ -95,7 +95,6 @@ void markApart(const SkinGround& ground, const ClosestPointQuery& skin, bool inv
 /// Skin that hangs together and is apart from all bones.
 struct FreePart {
     std::vector<std::uint32_t> vertices;
-    bool far = false;             ///< some of it is far from all bones
     double area = 0;              ///< scene units squared
     std::set<std::size_t> beside; ///< the holders nearest to what is around it
 };
