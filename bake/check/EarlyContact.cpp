@@ -91,7 +91,7 @@ std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const P
     const Motion motion = pairMotion(scene, pair);
     const MeshQuery a(meshA), b(meshB);
     EarlyContact result;
-    const double size = std::min(bounds(meshA).diagonal().norm(), bounds(meshB).diagonal().norm());
+    const double size = std::min(diagonal(meshA), diagonal(meshB));
     const std::vector<double> rest = restValues(motion);
     result.atRest = clearanceAtRest(meshA, meshB, motion);
     result.close = result.atRest < std::max(size, early) / 1000;

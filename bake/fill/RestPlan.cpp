@@ -91,7 +91,7 @@ private:
 
     double closest() const {
         return closeShare *
-               std::min(bounds(a_.mesh()).diagonal().norm(), bounds(b_.mesh()).diagonal().norm());
+               std::min(diagonal(a_.mesh()), diagonal(b_.mesh()));
     }
 
     double apartBy(double touching) const {

@@ -24,4 +24,9 @@ inline Eigen::AlignedBox3d bounds(const TriangleMesh& mesh) {
     return box;
 }
 
+/// The length of the bounding box's diagonal, in the mesh's units; at least one vertex.
+inline double diagonal(const TriangleMesh& mesh) {
+    return bounds(mesh).diagonal().norm();
+}
+
 } // namespace tss

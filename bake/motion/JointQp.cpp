@@ -2,9 +2,10 @@
 // 1983.
 #include "bake/motion/JointQp.h"
 
+#include "bake/base/Infinity.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace tss {
@@ -77,7 +78,6 @@ struct ActiveSet {
 
 template <int N>
 bool nearest(const QpRows& rows, double tolerance, double* y, QpActive* held) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     ActiveSet<N> active;
     for (int changes = 0; changes < 200;) {
         int worst = -1;

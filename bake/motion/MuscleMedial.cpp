@@ -58,7 +58,7 @@ std::vector<Vec3> medialOffsets(const TriangleMesh& mesh, const ClosestPointQuer
         for (int k = 0; k < 3; ++k) edges += (mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]).norm();
     const double edge =
         mesh.triangles.empty() ? 0 : edges / (3.0 * static_cast<double>(mesh.triangles.size()));
-    const double largest = bounds(mesh).diagonal().norm() / 2;
+    const double largest = diagonal(mesh) / 2;
     // A vertex in a slight dent would touch only a tiny ball: it may sink in by a share of the edge.
     const double slack = 0.1 * edge;
 

@@ -1,6 +1,7 @@
 #include "bake/pipeline/BakePair.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/Infinity.h"
 #include "bake/geometry/PartSet.h"
 #include "bake/model/SourceHash.h"
 #include "bake/pipeline/BoundTable.h"
@@ -9,13 +10,10 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
-#include <limits>
 
 namespace tss {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 FitRecord recorded(FitRecord figures, const SphereFit& fit) {
     figures.coverage = boundOrUnknown(fit.coverage);

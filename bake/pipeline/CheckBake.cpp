@@ -14,10 +14,6 @@ namespace tss {
 
 namespace {
 
-double diagonal(const TriangleMesh& mesh) {
-    return bounds(mesh).diagonal().norm();
-}
-
 /// Throws for a mesh that no spheres can be made for.
 void checkBody(const Body& body) {
     if (body.mesh.empty()) throw InputError(Where{"", "", body.path}, "expected a mesh, the body has none");

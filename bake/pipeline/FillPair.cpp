@@ -47,7 +47,7 @@ HollowBodies hollowBodies(const Body& a, const Body& b, const PairSpheres& spher
 }
 
 double smallerSize(const Body& a, const Body& b) {
-    return std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm());
+    return std::min(diagonal(a.mesh), diagonal(b.mesh));
 }
 
 /// Spheres of two bodies whose surfaces are known never to come near each other, as coarse as shows it: what

@@ -17,10 +17,6 @@ namespace {
 constexpr double marginShare = 1e-3; ///< of the smaller body's diagonal: what counts as apart
 constexpr int steps = 16;            ///< of each DOF through its limits
 
-double diagonal(const TriangleMesh& mesh) {
-    return bounds(mesh).diagonal().norm();
-}
-
 /// The triangles of which no part is in the region.
 TriangleMesh without(const TriangleMesh& mesh, const std::vector<SurfacePart>& region) {
     PartSet parts;

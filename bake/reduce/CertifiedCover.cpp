@@ -1,6 +1,7 @@
 #include "bake/reduce/CertifiedCover.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 #include "bake/reduce/CoverProof.h"
 #include "bake/reduce/LowerBound.h"
@@ -8,13 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tss {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Poses with more answers than this say little about how small a table can be and cost much.
 constexpr std::size_t mostAnswers = 2000;

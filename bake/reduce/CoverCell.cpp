@@ -1,16 +1,14 @@
 #include "bake/reduce/CoverCell.h"
 
+#include "bake/base/Infinity.h"
 #include "bake/motion/CellTools.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tss {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool deeper(const PairInCell& x, const PairInCell& y) {
     return x.gap != y.gap ? x.gap < y.gap : x.contactPair.pair < y.contactPair.pair;

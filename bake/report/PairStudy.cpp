@@ -57,7 +57,7 @@ BakeOptions baseOptions(const SceneModel& scene, const Pair& pair, const Triangl
     BakeOptions options = optionsFor(pair.settings, {}, scene.metersPerUnit);
     options.atRest = AtRest::Collide;
     if (!options.tolerance)
-        options.tolerance = std::min(bounds(a).diagonal().norm(), bounds(b).diagonal().norm()) / 500;
+        options.tolerance = std::min(diagonal(a), diagonal(b)) / 500;
     return options;
 }
 

@@ -13,7 +13,7 @@ namespace tss::reporting {
 namespace {
 
 constexpr int width = 360, height = 270, shades = 60;
-constexpr std::array<std::array<double, 3>, 2> colours{{{224, 178, 92}, {92, 148, 214}}}; // of A and of B
+constexpr std::array<std::array<double, 3>, 2> bodyColours{{{224, 178, 92}, {92, 148, 214}}}; // of A and of B
 
 /// Where to look from, and how large things are drawn.
 struct View {
@@ -84,7 +84,7 @@ public:
 
     std::string png() const {
         std::vector<std::array<std::uint8_t, 3>> palette{{0, 0, 0}};
-        for (const auto& colour : colours)
+        for (const auto& colour : bodyColours)
             for (int shade = 0; shade < shades; ++shade) {
                 std::array<std::uint8_t, 3> entry{};
                 for (std::size_t c = 0; c < 3; ++c)

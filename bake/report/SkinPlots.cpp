@@ -8,14 +8,14 @@ namespace tss::reporting {
 
 namespace {
 
-constexpr double noError = 1e-3; ///< where an error of 0 is drawn, mm
+constexpr double drawnAsNone = 1e-3; ///< where an error of 0 is drawn, mm
 
 void drawMethods(Drawing& drawing, const SkinStudy& study) {
     std::string data, series;
     for (std::size_t k = 0; k < study.methods.size(); ++k) {
         const SkinMethod& m = study.methods[k];
         data += fmt::format("{} {}\n\n\n", m.nanoseconds / 1000,
-                            std::max(noError, study.millimetres * std::max(m.deepestMiss, m.farthestEarly)));
+                            std::max(drawnAsNone, study.millimetres * std::max(m.deepestMiss, m.farthestEarly)));
         series +=
             fmt::format("{}FILE index {} using 1:2 with points pt {} ps 1.4 lw 2 lc rgb \"{}\" title {}",
                         k ? ", " : "", k, m.missed ? 6 : 7, colour(k), quoted(m.name));
@@ -58,11 +58,11 @@ void drawAnswers(Drawing& drawing, const SkinStudy& study) {
     std::string data[2], labels;
     for (const SkinAnswer& a : study.motion.answers) {
         data[a.sweeps > 0 ? 0 : 1] +=
-            fmt::format("{} {} {}\n", a.nanoseconds / 1000, std::max(noError, study.millimetres * a.deepest),
-                        std::max(noError, study.millimetres * a.farthest));
+            fmt::format("{} {} {}\n", a.nanoseconds / 1000, std::max(drawnAsNone, study.millimetres * a.deepest),
+                        std::max(drawnAsNone, study.millimetres * a.farthest));
         if (a.sweeps > 0)
             labels += fmt::format("set label \"{}\" at {},{} offset 0,-0.9 center font \",11\"\n", a.sweeps,
-                                  a.nanoseconds / 1000, std::max(noError, study.millimetres * a.deepest));
+                                  a.nanoseconds / 1000, std::max(drawnAsNone, study.millimetres * a.deepest));
     }
     drawing.draw(
         "answer", data[0] + "\n\n" + data[1],
@@ -76,7 +76,7 @@ void drawAnswers(Drawing& drawing, const SkinStudy& study) {
             "title \"deepest left, the paper's way\", {} with lines dt 3 lw 2 lc rgb \"#444444\" title "
             "\"if the skin stayed at rest\"\n",
             labels, colour(0), colour(1), colour(2),
-            std::max(noError, study.millimetres * study.motion.untouched)),
+            std::max(drawnAsNone, study.millimetres * study.motion.untouched)),
         "Residual depth of the skin in the muscles, and distance to the converged solve, against the time of "
         "an "
         "update, for several numbers of sweeps.",

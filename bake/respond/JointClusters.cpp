@@ -1,5 +1,6 @@
 #include "bake/respond/JointClusters.h"
 
+#include "bake/base/Infinity.h"
 #include "bake/respond/JointAdvance.h"
 #include "bake/respond/NearTests.h"
 #include "bake/table/TableKernels.h"
@@ -10,11 +11,6 @@
 namespace tss {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// What rounding may do to lengths compared here, as a share of them.
-constexpr double hair = 1e-7;
 
 /// Where no more than some pairs are wanted, no more than so many times as many are asked in a table.
 constexpr std::uint32_t askedEach = 16;

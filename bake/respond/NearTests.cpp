@@ -9,9 +9,6 @@ namespace tss {
 
 namespace {
 
-/// What rounding may do to lengths compared here, as a share of them.
-constexpr double hair = 1e-7;
-
 /// By how much the gap of a pair may have changed from one pose to another.
 double changeBetween(const JointModel::Group& group, const Pose& from, const Pose& to) {
     return ((from * group.middle - to * group.middle).norm() +

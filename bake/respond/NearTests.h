@@ -3,6 +3,9 @@
 
 namespace tss {
 
+/// What rounding may do to lengths compared here, as a share of them.
+inline constexpr double hair = 1e-7;
+
 /// How the pairs of a group may come nearer on one way.
 struct Closing {
     double most = 0; ///< of the speed bounds of all pairs

@@ -1,5 +1,6 @@
 #include "bake/respond/SkinCarry.h"
 
+#include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 #include "bake/geometry/MeshQuery.h"
 #include "bake/respond/SkinHolders.h"
@@ -9,8 +10,6 @@
 
 namespace tss {
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Lengths per size of the skin over which it gives way: 4 mm on a head of 0.3 m, the thickness of skin and
 /// what is below it. Never less than an edge, which could not show it.
@@ -35,7 +34,7 @@ double withoutLeast(double share) {
 /// deeper. Raises the firmness of what touches it.
 std::vector<double> holdOf(const SkinGround& ground, std::size_t m, std::vector<double>& firmness) {
     const std::size_t count = ground.skin.vertices.size();
-    std::vector<double> depth(count, infinite), aside(count, 0);
+    std::vector<double> depth(count, infinity), aside(count, 0);
     parallelFor(count, [&](std::size_t v) {
         const Vec3& x = ground.skin.vertices[v];
         const NearestPoint near = ground.locators[m].nearest(x, holdReach * ground.length);
@@ -91,7 +90,7 @@ SkinGround::SkinGround(const TriangleMesh& mesh,
         });
         inside.back().assign(within.begin(), within.end());
     }
-    size = skin.vertices.empty() ? 0 : bounds(skin).diagonal().norm();
+    size = skin.vertices.empty() ? 0 : diagonal(skin);
     if (!(size > 0)) size = 1;
     length = std::max(size / lengthsPerSize, graph.meanEdge);
 }
@@ -136,7 +135,7 @@ SkinCarriage carrySkin(const SkinGround& ground, const SkinParameters& p) {
         parallelFor(count, [&](std::size_t v) {
             share[v] = free(v) * withoutLeast(share[v]);
             if (share[v] > 0)
-                carriage.bound[m][v] = ground.locators[m].nearest(ground.skin.vertices[v], infinite);
+                carriage.bound[m][v] = ground.locators[m].nearest(ground.skin.vertices[v], infinity);
         });
     }
     return carriage;

@@ -99,7 +99,7 @@ SkinFollowing SkinFollowMeasure::at(std::span<const Vec3> positions, std::span<c
         result.bones[m].most = percentile(off, 0.95);
     }
     std::vector<double> edges;
-    const double least = shortestEdge * bounds(skin_).diagonal().norm();
+    const double least = shortestEdge * diagonal(skin_);
     for (const Tri& t : skin_.triangles)
         for (int k = 0; k < 3; ++k) {
             const int i = t[k], j = t[(k + 1) % 3];

@@ -1,5 +1,6 @@
 #include "bake/respond/SkinHolders.h"
 
+#include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 #include "bake/base/UnionFind.h"
 
@@ -9,8 +10,6 @@
 
 namespace tss {
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// In sizes of a bone: skin beyond this is not its own, beside a bone that holds still: a chin is within it
 /// of its teeth.
@@ -28,7 +27,7 @@ struct FrameHolder {
 /// The surfaces that stand for a frame: its bones, or its muscles where it has none.
 FrameHolder holderOf(const SkinGround& ground, const std::vector<int>& frames, int frame) {
     const std::size_t count = ground.skin.vertices.size();
-    FrameHolder made{{std::vector<double>(count, infinite), 0, {}}, ground.skin.vertices};
+    FrameHolder made{{std::vector<double>(count, infinity), 0, {}}, ground.skin.vertices};
     Eigen::AlignedBox3d box;
     bool bones = false;
     for (std::size_t m = 0; m < frames.size(); ++m) bones |= frames[m] == frame && ground.bodies[m]->rigid();
@@ -140,7 +139,7 @@ FreeParts freeParts(const SkinGround& ground, const std::vector<FrameHolder>& ho
 
 /// What holds still though no bone does: the skin far from all bones.
 SkinHolder stillOf(const std::vector<FrameHolder>& holders, const FreeParts& free) {
-    SkinHolder still{std::vector<double>(holders[0].holder.distance.size(), 0), infinite, {}};
+    SkinHolder still{std::vector<double>(holders[0].holder.distance.size(), 0), infinity, {}};
     double longest = 0;
     for (const FrameHolder& h : holders) {
         longest = std::max(longest, stillDistance * h.extent);
@@ -168,7 +167,7 @@ std::vector<SkinHolder> skinHolders(const SkinGround& ground, const SkinParamete
         onSkin |= frames[m] < 0 && !ground.bodies[m]->muscle().surface.empty();
     if (onSkin) {
         holders.push_back(holderOf(ground, frames, -1));
-        holders.back().holder.size = infinite;
+        holders.back().holder.size = infinity;
     }
     const auto still = [&](std::size_t h) { return !holders[h].moves; };
     std::size_t firstStill = 0;

@@ -14,7 +14,7 @@ constexpr int sweepsBetween = 3, stepsBetween = 8;
 /// things would push without bounds.
 constexpr float mostPush = 15;
 /// A step against the limits of the pushes is halved until it helps, down to this share of it.
-constexpr float leastShare = 0.1f;
+constexpr float leastStep = 0.1f;
 
 } // namespace
 
@@ -200,7 +200,7 @@ int SkinPushes::settle(std::span<SkinPlane> planes, int steps) {
     const float before = energy(planes);
     way_.resize(count);
     for (std::size_t r = 0; r < count; ++r) way_[r] = planes[r].push; // from where the way goes
-    for (float share = 1; taken > 0 && share > leastShare; share /= 2) {
+    for (float share = 1; taken > 0 && share > leastStep; share /= 2) {
         for (std::size_t r = 0; r < count; ++r) {
             const float next =
                 step_[r] == 0 ? way_[r] : std::clamp(way_[r] + share * step_[r], 0.0f, most_[r]);

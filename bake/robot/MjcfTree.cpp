@@ -14,7 +14,7 @@ using tinyxml2::XMLElement;
 
 namespace {
 
-constexpr std::size_t mostFiles = 64, mostBytes = 8 << 20, mostElements = 100000, mostClasses = 10000;
+constexpr std::size_t mostFiles = 64, mostBytesInAll = 8 << 20, mostElementsInAll = 100000, mostClasses = 10000;
 constexpr std::size_t longestDefault = 200; ///< characters: a default is copied to each element of its class
 
 const std::set<std::string> orientations = {"quat", "axisangle", "xyaxes", "zaxis", "euler"};
@@ -51,7 +51,7 @@ private:
             throw InputError(placeOf(file_, element), error.message);
         }
         bytes_ += text.size();
-        if (seen_.size() > mostFiles || bytes_ > mostBytes)
+        if (seen_.size() > mostFiles || bytes_ > mostBytesInAll)
             throw InputError(placeOf(file_, element),
                              "expected no more than 64 included files of 8 MiB together");
         const auto other = parseXml(text, name, "");
@@ -188,7 +188,7 @@ double MjcfCompiler::angle(double value) const {
 
 void includeAll(XMLElement& model, const std::string& file, const ReadOther& readOther) {
     Includer(file, readOther).include(model);
-    if (countElements(model) > mostElements)
+    if (countElements(model) > mostElementsInAll)
         throw InputError(Where{file, "", ""}, "expected no more than 100000 elements with what is included");
 }
 

@@ -27,9 +27,9 @@ struct MeshAsset {
     Pose toGeom = Pose::Identity(); ///< of its reference
 };
 
-class Reader {
+class MjcfReader {
 public:
-    Reader(const XMLElement& model, const std::string& file, Robot& robot)
+    MjcfReader(const XMLElement& model, const std::string& file, Robot& robot)
         : file_(file), robot_(robot), compiler_(readCompiler(model, file)) {
         for (auto* e = model.FirstChildElement("asset"); e; e = e->NextSiblingElement("asset"))
             readAssets(*e);
@@ -323,7 +323,7 @@ Robot readMjcf(const std::string& text, const std::string& file, const ReadOther
     Robot robot;
     robot.file = file;
     robot.name = textOf(model, "model", "model");
-    Reader(model, file, robot);
+    MjcfReader(model, file, robot);
     if (robot.links.empty())
         throw InputError(Where{file, "", ""}, "expected at least one <body>, found none");
     settleRobot(robot);

@@ -53,9 +53,9 @@ Pose poseOf(const urdf::Pose& p) {
     return pose;
 }
 
-class Reader {
+class UrdfReader {
 public:
-    Reader(const XMLElement& top, const std::string& file, Robot& robot) : file_(file), robot_(robot) {
+    UrdfReader(const XMLElement& top, const std::string& file, Robot& robot) : file_(file), robot_(robot) {
         for (auto* e = top.FirstChildElement("link"); e; e = e->NextSiblingElement("link")) nameLink(*e);
         for (auto* e = top.FirstChildElement("joint"); e; e = e->NextSiblingElement("joint")) nameJoint(*e);
         checkForest(robot); // what urdfdom makes of a loop is never freed
@@ -183,7 +183,7 @@ Robot readUrdf(const std::string& text, const std::string& file) {
     XMLElement& top = *document->RootElement();
     pruneUrdf(top, file, robot.notes);
     robot.file = file;
-    Reader(top, file, robot);
+    UrdfReader(top, file, robot);
     settleRobot(robot);
     return robot;
 }

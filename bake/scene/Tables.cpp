@@ -79,7 +79,7 @@ const Fields<Table>& tableFields() {
     return fields;
 }
 
-const Fields<SkinTable>& skinFields() {
+const Fields<SkinTable>& skinTableFields() {
     static const Fields<SkinTable> fields{skinVertices, muscleOf,
                                           field("uniform double tss:travel", &SkinTable::travel, 0,
                                                 atLeast(0), "of a skin's table: that of its skin")};
@@ -271,7 +271,7 @@ void readSkinTable(const SceneReading& reading, SkinModel& skin) {
     table.table = readTable(reading, *prim);
     table.skinVertices = prim->indices(skinVertices);
     table.muscleOf = prim->indices(muscleOf);
-    skinFields().read(*prim, table);
+    skinTableFields().read(*prim, table);
     const auto check = [&](const std::vector<std::uint32_t>& indices, std::size_t count, std::size_t below,
                            const Attribute& attribute) {
         if (indices.size() != count)
@@ -344,7 +344,7 @@ void store(Layer& layer, const Owned& owned, bool any, const char* type, const W
 std::vector<SchemaType> tableSchemas() {
     std::vector<SchemaType> types{tableFields().schema("TssTable"), proofFields().schema("TssNeverCollides"),
                                   sphereSchema()};
-    for (const SchemaType& more : {skinFields().schema(""), recordFields().schema("")})
+    for (const SchemaType& more : {skinTableFields().schema(""), recordFields().schema("")})
         types[0].attributes.insert(types[0].attributes.end(), more.attributes.begin(), more.attributes.end());
     return types;
 }
@@ -368,7 +368,7 @@ void storeTables(Layer& layer, const SceneModel& scene) {
         store(layer, skin, skin.table != nullptr, "TssTable", [&](PrimWriter& prim, const std::string& path) {
             prim.set(skinVertices, skin.table->skinVertices);
             prim.set(muscleOf, skin.table->muscleOf);
-            skinFields().write(prim, *skin.table);
+            skinTableFields().write(prim, *skin.table);
             writeTable(layer, prim, path, skin.table->table);
         });
 }

@@ -1,5 +1,6 @@
 #include "bake/spheres/FitMetrics.h"
 
+#include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 #include "bake/spheres/SphereQuery.h"
 
@@ -10,8 +11,6 @@
 namespace tss {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// What one look at a patch tells of the largest distance from it to the union.
 struct Probe {

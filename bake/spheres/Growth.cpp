@@ -17,7 +17,7 @@ struct Lengths {
 };
 
 Lengths lengths(const TriangleMesh& mesh, const GrowthOptions& o) {
-    const double unit = o.relative ? bounds(mesh).diagonal().norm() : 1;
+    const double unit = o.relative ? diagonal(mesh) : 1;
     return {o.start * unit, o.step * unit, o.end * unit, o.maxRadius * unit};
 }
 

@@ -1,5 +1,6 @@
 #include "bake/table/VerdictGrid.h"
 
+#include "bake/base/Infinity.h"
 #include "bake/table/GapRanges.h"
 
 #include <cmath>
@@ -12,7 +13,7 @@ namespace {
 
 /// Cells for one, two and three DOFs: half of what stays in the first level of a processor's cache, or all of
 /// it. So many open ones are divided, 64 bytes each, at most: 64 and 256 kB.
-constexpr std::uint32_t mostCells[] = {512, 1u << 14, 1u << 15};
+constexpr std::uint32_t mostGridCells[] = {512, 1u << 14, 1u << 15};
 constexpr std::size_t mostDivided[] = {0, 1 << 10, 1 << 12};
 /// Looks at a test over a box, all together: some tenths of a second when a table is loaded, and as many for
 /// the pieces of one DOF. Where they end, cells stay open.
@@ -22,7 +23,7 @@ constexpr double enoughOf = 0.25;
 /// What clearances are told in, as a share of the most that gaps change over one cell.
 constexpr double unitOf = 0.25;
 /// How often the values of one DOF are halved to find where contact begins.
-constexpr int mostHalvings = 48;
+constexpr int mostDepth = 48;
 /// More pieces than this are not searched through, and no more parts of a cell looked at for them: contact
 /// that only grazes has its beginning nowhere in particular.
 constexpr std::size_t mostPieces = 32;
@@ -73,7 +74,7 @@ private:
             order_.push_back(k);
             return k;
         };
-        for (std::uint32_t count = 1; count < mostCells[dofs - 1]; count *= 2) cells[halveWidest()] *= 2;
+        for (std::uint32_t count = 1; count < mostGridCells[dofs - 1]; count *= 2) cells[halveWidest()] *= 2;
         cellHalvings_ = order_.size();
         grid_.unit_ = unitOf * std::accumulate(move.begin(), move.end(), 0.0);
         if (mostDivided[dofs - 1] > 0)
@@ -108,7 +109,6 @@ private:
     /// have it.
     GapRanges::Range smallest(const DofValues& centre, const DofValues& half,
                               std::span<const std::uint32_t> list, std::vector<std::uint32_t>& near) const {
-        constexpr double infinity = std::numeric_limits<double>::infinity();
         DofValues way;
         way.fill(1);
         MotionFrame frame;
@@ -230,7 +230,7 @@ private:
         looked_ += list.size();
         if (gap.low > 0) return add(pieces, lower, Verdict::Free);
         if (gap.high <= band_) return add(pieces, lower, Verdict::Touch);
-        if (depth == mostHalvings || !(centre[0] > lower && centre[0] < upper) || ++looks_ > mostLooks)
+        if (depth == mostDepth || !(centre[0] > lower && centre[0] < upper) || ++looks_ > mostLooks)
             return add(pieces, lower, Verdict::Ask);
         bracket(pieces, lower, centre[0], near, depth + 1);
         bracket(pieces, centre[0], upper, near, depth + 1);

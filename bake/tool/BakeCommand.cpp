@@ -57,7 +57,7 @@ void remarkTolerance(const SceneModel& scene, const BakeOptions& options, const 
     constexpr double fine = 2e-5; // of a body's diagonal
     double size = 0;
     for (const Body& body : scene.bodies)
-        if (!body.mesh.vertices.empty()) size = std::max(size, bounds(body.mesh).diagonal().norm());
+        if (!body.mesh.vertices.empty()) size = std::max(size, diagonal(body.mesh));
     if (options.tolerance && *options.tolerance < fine * size)
         console.say(
             fmt::format("note: a tolerance of {} on a body of {} takes very many spheres; is the scene's "

@@ -13,7 +13,7 @@ namespace tss::tool {
 
 namespace {
 
-std::vector<std::string> split(const std::string& line) {
+std::vector<std::string> cellsOf(const std::string& line) {
     std::vector<std::string> cells;
     std::string cell;
     std::istringstream stream(line);
@@ -49,7 +49,7 @@ CsvTable readCsv(const std::string& file, std::size_t columns) {
     for (int number = 1; std::getline(stream, line); ++number) {
         if (!line.empty() && line.back() == '\r') line.pop_back();
         if (line.find_first_not_of(" \t") == std::string::npos || line[0] == '#') continue;
-        const std::vector<std::string> cells = split(line);
+        const std::vector<std::string> cells = cellsOf(line);
         if (csv.rows.empty() && csv.header.empty() && std::all_of(cells.begin(), cells.end(), isName)) {
             csv.header = cells;
             continue;

@@ -16,14 +16,6 @@ namespace {
 
 constexpr double degree = M_PI / 180;
 
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts;
-    std::string part;
-    std::istringstream stream(text);
-    while (std::getline(stream, part, separator)) parts.push_back(part);
-    return parts;
-}
-
 Vec3 parseAxis(const std::string& text, const std::string& what) {
     Vec3 axis = parseVector(text, what);
     if (!(axis.norm() > 0))
@@ -67,6 +59,16 @@ std::string describePath(const Dof& dof) {
 }
 
 } // namespace
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts(1);
+    for (char c : text)
+        if (c == separator)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    return parts;
+}
 
 std::vector<double> parseNumbers(const std::string& text, const std::string& what) {
     std::vector<double> numbers;

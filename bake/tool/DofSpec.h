@@ -20,6 +20,9 @@ std::vector<Dof> parseDofs(const std::vector<std::string>& texts, double metersP
 /// Whether parseDofs() gives this name.
 bool isParsedName(const std::string& name);
 
+/// The parts between separators, empty ones too: at least one.
+std::vector<std::string> split(const std::string& text, char separator);
+
 /// "x,y,z". Throws InputError.
 Vec3 parseVector(const std::string& text, const std::string& what);
 

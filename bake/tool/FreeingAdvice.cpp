@@ -81,7 +81,7 @@ public:
                 "free it ended after {} s{}",
                 pair_.path, seconds, moves.empty() ? ", and none was found" : ", smaller ones may exist"));
         if (moves.empty()) return advice;
-        size_ = std::min(bounds(a).diagonal().norm(), bounds(b).diagonal().norm());
+        size_ = std::min(diagonal(a), diagonal(b));
         console_.say(fmt::format(
             "{}: the meshes overlap where the joint rests. {} out of {}, found by trying, the best first:",
             pair_.path,

@@ -97,7 +97,7 @@ void remarkSizes(const SceneModel& scene, const Console& console) {
     constexpr double house = 10, grain = 1e-3; // metres
     double size = 0;
     for (const Body& body : scene.bodies)
-        if (!body.mesh.vertices.empty()) size = std::max(size, bounds(body.mesh).diagonal().norm());
+        if (!body.mesh.vertices.empty()) size = std::max(size, diagonal(body.mesh));
     size *= scene.metersPerUnit;
     if (size > house || (size > 0 && size < grain))
         console.say(

@@ -39,9 +39,9 @@ Json sayLinks(const RobotScene& made, const Console& console) {
 }
 
 /// A link larger than a house or smaller than a grain: its meshes are mostly in another unit.
-void remarkSizes(const SceneModel& scene, const Console& console) {
+void remarkBodySizes(const SceneModel& scene, const Console& console) {
     for (const Body& body : scene.bodies) {
-        const double units = body.mesh.empty() ? 0 : bounds(body.mesh).diagonal().norm();
+        const double units = body.mesh.empty() ? 0 : diagonal(body.mesh);
         const double size = units * scene.metersPerUnit;
         if (size > 10 || (size > 0 && size < 1e-3))
             console.say(fmt::format("note: {} is {} long if one unit of its meshes is {} m; where it is not, "
@@ -67,7 +67,7 @@ Json sayScene(const RobotScene& made, const std::string& output, const Console& 
                     (joint.dofs.empty() ? "fixed" : describeDofs(motion, made.scene.metersPerUnit)));
     }
     for (const std::string& note : made.notes) console.say("note: " + note);
-    remarkSizes(made.scene, console);
+    remarkBodySizes(made.scene, console);
     Json pairs = Json::array(), muscles = Json::array(), skins = Json::array();
     for (const Pair& pair : made.scene.pairs) pairs.push_back(pair.path);
     for (const MuscleModel& muscle : made.scene.muscles) muscles.push_back(muscle.path);

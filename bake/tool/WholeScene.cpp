@@ -25,16 +25,6 @@ namespace tss::tool {
 
 namespace {
 
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts(1);
-    for (char c : text)
-        if (c == separator)
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    return parts;
-}
-
 /// "NAME=MESH", or MESH that gives its name.
 struct Named {
     std::string name, file;
@@ -189,7 +179,7 @@ public:
         std::string small, large;
         for (const Body& body : scene_.bodies) {
             if (body.mesh.empty()) continue;
-            const double size = bounds(body.mesh).diagonal().norm();
+            const double size = diagonal(body.mesh);
             if (small.empty() || size < least) least = size, small = body.path;
             if (large.empty() || size > most) most = size, large = body.path;
         }
@@ -288,7 +278,7 @@ private:
         constexpr double far = 0.2; // of the skin's size
         const TriangleMesh& mesh = scene_.bodies[skin.body].mesh;
         const MeshQuery query(mesh);
-        const double size = bounds(mesh).diagonal().norm();
+        const double size = diagonal(mesh);
         for (int bone : skin.bones) {
             const Body& body = scene_.bodies[bone];
             if (body.mesh.empty()) continue;

@@ -1,14 +1,13 @@
 #include "bake/verify/BoxProver.h"
 
+#include "bake/base/Infinity.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tss::verify {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A bend is infinite across the knots of a path: of nothing it is nothing all the same.
 double bent(double of, double bend) {

@@ -15,9 +15,9 @@ namespace {
 /// How often a cell is halved where bounds over the whole of it do not suffice.
 constexpr int mostHalvings = 12;
 
-class Checker {
+class CellChecker {
 public:
-    Checker(const Table& table, const PreparedTable& prepared)
+    CellChecker(const Table& table, const PreparedTable& prepared)
         : table_(table), cells_(prepared.kernels().cells()), gaps_(table), block_(gaps_.testCount()),
           all_(gaps_.testCount()) {
         std::iota(all_.begin(), all_.end(), 0u);
@@ -123,7 +123,7 @@ std::string refuteCells(const Table& table, const PreparedTable& prepared) {
                        order))
         return "its blocks do not hold every test once";
     if (prepared.kernels().cells().empty()) return {};
-    return Checker(table, prepared).refute();
+    return CellChecker(table, prepared).refute();
 }
 
 } // namespace tss::verify

@@ -1,18 +1,16 @@
 #include "bake/verify/MeshBox.h"
 
+#include "bake/base/Infinity.h"
 #include "bake/geometry/TriangleDistance.h"
 #include "bake/verify/SeparatingAxis.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 namespace tss::verify {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Pairs that a box keeps open at most before it is halved with the rest as it is.
 constexpr std::size_t mostOpen = 3000;

@@ -12,18 +12,18 @@ namespace tss::verify {
 
 namespace {
 
-struct Job {
+struct MeshJob {
     Box box;
     std::shared_ptr<const OpenPairs> open;
     double share = 1; ///< of Q
 };
 
-struct PartOutcome {
+struct MeshPart {
     MeshBox::Outcome outcome = MeshBox::Outcome::Shown;
     MeshProofResult broken;
     std::uint64_t cells = 0, work = 0;
     double shown = 0; ///< share of Q
-    std::vector<Job> left;
+    std::vector<MeshJob> left;
 };
 
 /// What threads use in turn: large, and good for any part.
@@ -49,12 +49,12 @@ private:
     std::vector<std::unique_ptr<MeshBox>> free_;
 };
 
-PartOutcome runPart(MeshBox& prover, Job job, std::uint64_t work) {
-    PartOutcome part;
+MeshPart runMeshPart(MeshBox& prover, MeshJob job, std::uint64_t work) {
+    MeshPart part;
     part.left.push_back(std::move(job));
     const std::uint64_t from = prover.work();
     while (!part.left.empty() && prover.work() - from < work) {
-        const Job next = std::move(part.left.back());
+        const MeshJob next = std::move(part.left.back());
         part.left.pop_back();
         auto left = std::make_shared<OpenPairs>();
         std::size_t cut = 0;
@@ -65,7 +65,7 @@ PartOutcome runPart(MeshBox& prover, Job job, std::uint64_t work) {
             part.shown += next.share;
         } else if (outcome == MeshBox::Outcome::Split) {
             left->pairs.shrink_to_fit();
-            Job lower{next.box, left, next.share / 2}, upper{next.box, left, next.share / 2};
+            MeshJob lower{next.box, left, next.share / 2}, upper{next.box, left, next.share / 2};
             lower.box.upper[cut] = upper.box.lower[cut] = at;
             part.left.push_back(std::move(lower));
             part.left.push_back(std::move(upper));
@@ -98,9 +98,9 @@ std::vector<std::vector<double>> firstPoses(const Motion& motion) {
 }
 
 /// What the jobs hold, halves that share their pairs counted once.
-double bytesOf(const std::vector<Job>& jobs) {
+double bytesOf(const std::vector<MeshJob>& jobs) {
     double bytes = 0;
-    for (const Job& job : jobs)
+    for (const MeshJob& job : jobs)
         bytes += double(job.open->pairs.size() * sizeof(PiecePair) +
                         job.open->tests.size() * sizeof(std::uint32_t)) /
                  2;
@@ -154,7 +154,7 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
         pool.give(std::move(box));
     }
     for (std::uint32_t k = 0; k < claim.tests.size(); ++k) open->tests.push_back(k);
-    std::vector<Job> jobs{{limitsOf(motion), std::move(open)}};
+    std::vector<MeshJob> jobs{{limitsOf(motion), std::move(open)}};
     double shown = 0, most = 0;
     constexpr std::size_t width = 64;
     while (!jobs.empty()) {
@@ -165,10 +165,10 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
             return result;
         }
         const std::size_t count = std::min(width, jobs.size());
-        std::vector<PartOutcome> parts(count);
+        std::vector<MeshPart> parts(count);
         parallelFor(count, [&](std::size_t k) {
             std::unique_ptr<MeshBox> box = pool.take();
-            parts[k] = runPart(*box, std::move(jobs[jobs.size() - 1 - k]), count < width ? 20'000 : 200'000);
+            parts[k] = runMeshPart(*box, std::move(jobs[jobs.size() - 1 - k]), count < width ? 20'000 : 200'000);
             pool.give(std::move(box));
         });
         jobs.resize(jobs.size() - count);
@@ -176,11 +176,11 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
             result.cells += parts[k].cells;
             result.work += parts[k].work;
             shown += parts[k].shown;
-            for (Job& job : parts[k].left) jobs.push_back(std::move(job));
+            for (MeshJob& job : parts[k].left) jobs.push_back(std::move(job));
         }
         most = std::max(most, bytesOf(jobs));
         result.bytes = most;
-        for (const PartOutcome& part : parts) {
+        for (const MeshPart& part : parts) {
             if (part.outcome == MeshBox::Outcome::Shown) continue;
             result.pose = part.broken.pose;
             result.lag = part.broken.lag;

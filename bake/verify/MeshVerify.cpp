@@ -31,7 +31,7 @@ struct Frame {
         };
         size = reach(meshA, spheresA) + coordinateBound(motion, reach(meshB, spheresB));
         // Of the bodies' own size, and of what a point may be off on its way through far axes.
-        band = 1e-10 * (bounds(meshA).diagonal().norm() + bounds(meshB).diagonal().norm()) +
+        band = 1e-10 * (diagonal(meshA) + diagonal(meshB)) +
                16 * PoseBox(motion, limitsOf(motion), size).error();
     }
 };

@@ -1,18 +1,16 @@
 #include "bake/verify/Nesting.h"
 
+#include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 #include <numeric>
 
 namespace tss::verify {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Points of a connected piece of a surface that lie farthest out, in some directions.
 using Extremes = std::vector<Vec3>;

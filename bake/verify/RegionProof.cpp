@@ -93,7 +93,7 @@ RegionVerdict judgeRegion(const VerifiedBody& a, const VerifiedBody& b, const Mo
     if (region.empty()) return verdict;
     const Pose rest = pose(motion, restValues(motion));
     // Files hold points as floats, and placing them rounds in double.
-    const double smaller = std::min(bounds(a.mesh).diagonal().norm(), bounds(b.mesh).diagonal().norm());
+    const double smaller = std::min(diagonal(a.mesh), diagonal(b.mesh));
     const double far = rest.translation().norm() + bounds(a.mesh).max().cwiseAbs().norm() +
                        bounds(a.mesh).min().cwiseAbs().norm() + bounds(b.mesh).max().cwiseAbs().norm() +
                        bounds(b.mesh).min().cwiseAbs().norm();

@@ -11,7 +11,7 @@ namespace tss::verify {
 namespace {
 
 /// A hair for the rounding of what stands here: of differences of coordinates, and of a few sums.
-constexpr double outward = 1 + 1e-13;
+constexpr double outwardHere = 1 + 1e-13;
 constexpr double hair = 4e-16;
 
 Vec3 unitOr(const Vec3& v, const Vec3& fallback) {
@@ -45,7 +45,7 @@ void hold(Slab& slab, const Points& points) {
         size = std::max(size, p.lpNorm<Eigen::Infinity>());
     }
     for (double* bound : {&slab.half, &slab.radius, &slab.reach})
-        *bound = *bound * outward + hair * (size + slab.reach);
+        *bound = *bound * outwardHere + hair * (size + slab.reach);
 }
 
 /// Cuts a triangle until every piece is one of the parts or has nothing in common with any.
@@ -77,14 +77,14 @@ double Slab::support(const Vec3& direction) const {
     const double along = axis.dot(direction), length = direction.norm();
     const double across = (direction - along * axis).norm();
     return std::min(std::abs(along) * half + across * radius + 1e-15 * length * reach, length * reach) *
-           outward;
+           outwardHere;
 }
 
 double Slab::farthest(const Vec3& p) const {
     const Vec3 arm = centre - p;
     const double along = std::abs(axis.dot(arm));
     const double across = (arm - axis.dot(arm) * axis).norm();
-    return std::min(std::hypot(along + half, across + radius), arm.norm() + reach) * outward +
+    return std::min(std::hypot(along + half, across + radius), arm.norm() + reach) * outwardHere +
            hair * (centre.norm() + p.norm());
 }
 

@@ -15,16 +15,16 @@ namespace {
 
 /// How often a cell or a piece is halved where bounds over the whole of it do not suffice, next to where
 /// contact begins down to what doubles tell apart; and how many parts of one are looked at.
-constexpr int mostHalvings = 60;
+constexpr int mostDepth = 60;
 constexpr int mostLooks = 20000;
 /// A cell is taken so much wider than it is: for what rounding does when it is looked up.
 constexpr double wider = 1e-7;
 
 using List = std::vector<std::uint32_t>;
 
-class Checker {
+class VerdictChecker {
 public:
-    Checker(const Table& table, const PreparedTable& prepared)
+    VerdictChecker(const Table& table, const PreparedTable& prepared)
         : grid_(prepared.verdicts()), dofs_(table.motion.dofCount()), band_(prepared.signBand()),
           gaps_(table) {
         all_.resize(gaps_.testCount());
@@ -111,7 +111,7 @@ private:
         const Box box = boxOf(block);
         const bool single =
             block.size == Place{1, 1, 1} || (withinCell(block) && !grid_.divided(block.first));
-        if (verdict && holds(box, *verdict, clearance, list, single ? 0 : mostHalvings)) return {};
+        if (verdict && holds(box, *verdict, clearance, list, single ? 0 : mostDepth)) return {};
         if (single)
             return fmt::format("the verdict of the cell from part {}, {}, {} is not what the tests say",
                                block.first[0], block.first[1], block.first[2]);
@@ -145,7 +145,7 @@ private:
         double low = std::numeric_limits<double>::infinity();
         for (const std::uint32_t p : list) low = std::min(low, gaps_.low(p));
         if (verdict == Verdict::Touch ? high <= band_ : low > 0 && low >= clearance) return true;
-        if (halvings >= mostHalvings || ++looks_ > mostLooks) return false;
+        if (halvings >= mostDepth || ++looks_ > mostLooks) return false;
         List near;
         for (const std::uint32_t p : list)
             if (gaps_.low(p) <= high) near.push_back(p);
@@ -168,7 +168,7 @@ private:
 } // namespace
 
 std::string refuteVerdicts(const Table& table, const PreparedTable& prepared) {
-    return prepared.verdicts().empty() ? std::string() : Checker(table, prepared).refute();
+    return prepared.verdicts().empty() ? std::string() : VerdictChecker(table, prepared).refute();
 }
 
 } // namespace tss::verify

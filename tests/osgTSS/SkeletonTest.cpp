@@ -233,7 +233,7 @@ TEST_CASE("What is to be ignored is part of no body, and a name that is none is 
         osgTSS::bake(*sitter.root, BakeOptions("ignore=BoundingBox,Bonding tolerance=0.05"));
     CHECK(heard.times("no node is named \"Bonding\"") == 1);
     for (const tss::Body& found : scene->getModel().bodies)
-        if (!found.mesh.empty()) CHECK(tss::bounds(found.mesh).diagonal().norm() < 2);
+        if (!found.mesh.empty()) CHECK(tss::diagonal(found.mesh) < 2);
 }
 
 TEST_CASE("Keys that change the size of a bone cost that bone, by name, and the rest plays", "[osgTSS]") {

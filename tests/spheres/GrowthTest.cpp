@@ -124,9 +124,9 @@ TEST_CASE("triangles met by a sphere seed no sphere of their own unless asked to
 TEST_CASE("the paper's lengths are fractions of the diagonal unless given in units") {
     std::mt19937_64 random(2);
     const TriangleMesh mesh = lumpyMesh(random, 3, 0.3);
-    const double diagonal = bounds(mesh).diagonal().norm();
+    const double size = diagonal(mesh);
     const GrowthOptions paper;
-    GrowthOptions units = lengths(0.01 * diagonal, 0.01 * diagonal, 0.101 * diagonal, 0.02 * diagonal);
+    GrowthOptions units = lengths(0.01 * size, 0.01 * size, 0.101 * size, 0.02 * size);
     CHECK(growSpheres(mesh, paper).size() == growSpheres(mesh, units).size());
     SphereOptions options;
     options.method = SphereMethod::Growth;

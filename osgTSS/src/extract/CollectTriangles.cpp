@@ -110,12 +110,12 @@ bool shrunkToPoint(const osg::Matrixd& m) {
     return true;
 }
 
+} // namespace
+
 double determinant(const osg::Matrixd& m) {
     const osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)), z(m(2, 0), m(2, 1), m(2, 2));
     return (x ^ y) * z;
 }
-
-} // namespace
 
 std::size_t collectTriangles(const osg::Drawable& drawable, const osg::Matrixd& matrix, double scale,
                              tss::TriangleMesh& mesh) {

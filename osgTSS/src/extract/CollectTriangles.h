@@ -13,4 +13,7 @@ namespace osgTSS {
 std::size_t collectTriangles(const osg::Drawable& drawable, const osg::Matrixd& matrix, double scale,
                              tss::TriangleMesh& mesh);
 
+/// Of the upper 3x3 part: below 0 where the matrix mirrors.
+double determinant(const osg::Matrixd& matrix);
+
 } // namespace osgTSS

@@ -1,5 +1,7 @@
 #include "RigParts.h"
 
+#include "CollectTriangles.h"
+
 #include <osg/TriangleIndexFunctor>
 #include <osgTSS/Convert>
 
@@ -16,7 +18,7 @@ namespace {
 /// Vertices nearer than this share of the meshes' size are one.
 constexpr double sameVertex = 1e-6;
 
-struct Corners {
+struct TriangleList {
     std::vector<std::array<unsigned int, 3>> triangles;
     void operator()(unsigned int a, unsigned int b, unsigned int c) { triangles.push_back({a, b, c}); }
 };
@@ -38,11 +40,6 @@ std::vector<osg::Vec3d> verticesOf(osgAnimation::RigGeometry& rig, const osg::Ma
 
 bool finite(const osg::Vec3d& v) {
     return v.valid() && std::isfinite(v.length2());
-}
-
-double determinant(const osg::Matrixd& m) {
-    const osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)), z(m(2, 0), m(2, 1), m(2, 2));
-    return (x ^ y) * z;
 }
 
 using Edge = std::pair<int, int>;
@@ -126,7 +123,7 @@ private:
                     if (vertex < weights.size() && weight > 0) weights[vertex].emplace_back(holder, weight);
             }
         const int loose = static_cast<int>(_p._bones.size() + index);
-        osg::TriangleIndexFunctor<Corners> corners;
+        osg::TriangleIndexFunctor<TriangleList> corners;
         sourceOf(*rig.rig).accept(corners);
         for (const auto& corner : corners.triangles) {
             Triangle triangle{{}, index};

@@ -116,7 +116,7 @@ std::string whyUnfit(const tss::SceneModel& found, const std::vector<int>& joint
         return "the geometry of " + model.bodies[pair.bodyA].path + " is not what its table was made from";
     if (!sameSurface(found.bodies[now.bodyB].mesh, meshB))
         return "the geometry of " + model.bodies[pair.bodyB].path + " is not what its table was made from";
-    const double size = meshA.empty() ? 1 : tss::bounds(meshA).diagonal().norm();
+    const double size = meshA.empty() ? 1 : tss::diagonal(meshA);
     for (std::size_t k = 0; k < is.dofs.size(); ++k) {
         if (!sameDof(is.dofs[k], was.dofs[k], size)) return "the axes of its joint are others";
         if (const std::string why = wider(is.dofs[k], was.dofs[k]); !why.empty()) return why;

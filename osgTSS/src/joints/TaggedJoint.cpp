@@ -22,7 +22,7 @@ const char* const dofsTag = "osgTSS:dofs";
 const char* const pivotTag = "osgTSS:pivot";
 const char* const restTag = "osgTSS:rest";
 
-tss::Vec3 pivotOf(const osg::Node& node) {
+tss::Vec3 taggedPivot(const osg::Node& node) {
     osg::Vec3d pivot;
     osg::Vec3f single;
     if (!node.getUserValue(pivotTag, pivot) && node.getUserValue(pivotTag, single)) pivot = single;
@@ -65,8 +65,8 @@ std::vector<tss::Dof> dofsOf(const osg::Node& node) {
 class TaggedNode : public JointNode {
 public:
     TaggedNode(osg::Transform& node, const std::vector<tss::Dof>& dofs, const osg::Matrixd& rest)
-        : _node(&node), _toRest(osg::Matrixd::translate(toOsg(pivotOf(node))) * rest),
-          _fromPivot(osg::Matrixd::translate(-toOsg(pivotOf(node)))) {
+        : _node(&node), _toRest(osg::Matrixd::translate(toOsg(taggedPivot(node))) * rest),
+          _fromPivot(osg::Matrixd::translate(-toOsg(taggedPivot(node)))) {
         std::vector<int> order;
         for (const tss::Dof& dof : dofs) {
             Eigen::Index axis = 0;
@@ -182,7 +182,7 @@ FoundJoints taggedJoint(osg::Transform& node) {
     if (!similarity)
         throw tss::InputError("its matrix shears, or scales axes differently: expected equal scales");
     tss::Joint joint;
-    joint.frame0.translation() = joint.frame1.translation() = pivotOf(node);
+    joint.frame0.translation() = joint.frame1.translation() = taggedPivot(node);
     joint.dofs = dofsOf(node);
     if (joint.dofs.empty()) throw tss::InputError(std::string(dofsTag) + ": expected a DOF, found none");
     joint.drives.resize(joint.dofs.size());

@@ -157,7 +157,7 @@ private:
         for (const SkinModel& skin : out_.scene.skins) {
             SkinFigures& figures = out_.skins.emplace_back();
             figures.path = skin.path;
-            figures.size = bounds(out_.scene.bodies[skin.body].mesh).diagonal().norm();
+            figures.size = diagonal(out_.scene.bodies[skin.body].mesh);
         }
         std::mt19937_64 random(options_.seed);
         bool free = false;
