@@ -14,10 +14,11 @@ source tests/setup.sh
 
 install_packages build pictures
 parts "building what the pictures need=4" "two scenes, baked and rendered=1" \
-      "building the rest: the report, the examples=3" "error against run time=2"
+      "building the rest: readers, the report, the examples=3" "error against run time=2"
 
-# What only the tests and the report need is not there yet; where it has been built, it stays.
-only_pictures=(-DOSGTSS_TESTS=OFF -DOSGTSS_REPORT=OFF)
+# What the pictures do not need, the tests, the report and the readers of others' files, is not there yet; where it has
+# been built, it stays.
+only_pictures=(-DOSGTSS_TESTS=OFF "${later_parts[@]/%/=OFF}")
 [ ! -f build/CMakeCache.txt ] || only_pictures=()
 part "building what the pictures need" build_release "${only_pictures[@]}" -- tss osgdb_tss osgdb_capture tss-render
 
@@ -67,7 +68,7 @@ say "After $(minutes_since "$started"), packages apart"
 tell_pictures
 
 install_packages report
-part "building the rest: the report, the examples" build_release -DOSGTSS_REPORT=ON
+part "building the rest: readers, the report, the examples" build_release "${later_parts[@]/%/=ON}"
 
 make_reports() {
     local scene

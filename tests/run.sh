@@ -23,7 +23,7 @@ parts "building all=11" "tests=6"
 parts "the report's page in a browser=1" "the API reference, every warning an error=1" \
       "fuzzing the readers of scenes and robots=$((4 + fuzzing / 60))"
 
-part "building all" build_release -DOSGTSS_TESTS=ON -DOSGTSS_REPORT=ON
+part "building all" build_release -DOSGTSS_TESTS=ON "${later_parts[@]/%/=ON}"
 [ -d ../shared/meshes ] || say "../shared/meshes is absent: tests on real meshes say 'skipped, no meshes'"
 
 in_browser() {

@@ -20,6 +20,9 @@ packages_api=(doxygen)
 packages_fuzz=(clang libclang-rt-14-dev)
 packages_browser=(chromium)
 
+# Options of what a scene that is there needs nothing of: the report, and readers of others' files.
+later_parts=(-DOSGTSS_REPORT -DOSGTSS_URDF -DOSGTSS_MJCF -DOSGTSS_USDA)
+
 say() { printf '\n== %s\n' "$*"; }
 
 install_packages() {
