@@ -187,6 +187,10 @@ std::vector<UnderSkin> underSkin(const SceneModel& scene, const SkinModel& skin)
     return under;
 }
 
+const std::string& pathOf(const SceneModel& scene, const UnderSkin& under) {
+    return under.muscle >= 0 ? scene.muscles[under.muscle].path : scene.bodies[under.bone].path;
+}
+
 Pose jointPose(const Joint& joint, std::span<const double> values) {
     Pose pose = joint.frame0;
     for (std::size_t k = 0; k < joint.dofs.size(); ++k) pose = pose * dofPose(joint.dofs[k], values[k]);

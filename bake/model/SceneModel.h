@@ -129,6 +129,8 @@ struct UnderSkin {
 /// What is below a skin, in the order that its table knows: its muscles, then its bones; then the other
 /// bodies that its own weights name, and those that its muscles' insertions move with.
 std::vector<UnderSkin> underSkin(const SceneModel& scene, const SkinModel& skin);
+/// The muscle's prim, or the bone's.
+const std::string& pathOf(const SceneModel& scene, const UnderSkin& under);
 
 /// The motion of a pair: its chain of joints composed, B-local to A-local. The DOFs are the joints' in chain
 /// order; a joint crossed from body1 to body0 is inverted. DOF names are "<joint name>:<dof>" when there are

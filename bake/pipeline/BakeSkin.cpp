@@ -15,17 +15,19 @@ FilledMuscles fillMuscles(const SceneModel& scene, const SkinModel& skin, const 
                           PairReport& report, const Progress& progress) {
     FilledMuscles filled;
     filled.deformers = skinMuscles(scene, skin);
-    for (const auto& deformer : filled.deformers) {
-        const TriangleMesh& surface = deformer->muscle().surface;
+    const std::vector<UnderSkin> under = underSkin(scene, skin);
+    for (std::size_t m = 0; m < under.size(); ++m) {
+        const MuscleDeformer& deformer = *filled.deformers[m];
+        const TriangleMesh& surface = deformer.muscle().surface;
         if (surface.empty()) {
-            filled.searched.push_back({deformer.get(), {}});
+            filled.searched.push_back({&deformer, {}});
             continue;
         }
         const SphereOptions how =
-            sphereOptions(options, options.tolerance.value_or(bounds(surface).diagonal().norm() / 100));
+            sphereOptions(options, options.tolerance.value_or(diagonal(surface) / 100));
         const SphereFit fit = fitSpheres(cleaned(surface), how, progress);
-        if (!fit.note.empty()) report.notes.push_back(fit.note);
-        filled.searched.push_back({deformer.get(), roundToFloat(fit.spheres)});
+        if (!fit.note.empty()) report.notes.push_back(pathOf(scene, under[m]) + ": " + fit.note);
+        filled.searched.push_back({&deformer, roundToFloat(fit.spheres)});
     }
     return filled;
 }

@@ -139,9 +139,8 @@ std::vector<std::shared_ptr<const MuscleDeformer>> skinMuscles(const SceneModel&
         try {
             result.push_back(std::make_shared<const MuscleDeformer>(std::move(muscle)));
         } catch (const InputError& error) {
-            const std::string& path =
-                under.muscle >= 0 ? scene.muscles[under.muscle].path : scene.bodies[under.bone].path;
-            throw InputError(Where{error.where.file, error.where.pointer, path}, error.message);
+            throw InputError(Where{error.where.file, error.where.pointer, pathOf(scene, under)},
+                             error.message);
         }
     }
     return result;
