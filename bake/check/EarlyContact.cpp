@@ -85,9 +85,9 @@ bool heldAtRest(const Table& table, const Motion& motion, const std::vector<doub
 
 std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const Pair& pair) {
     const TriangleMesh &meshA = scene.bodies[pair.bodyA].mesh, &meshB = scene.bodies[pair.bodyB].mesh;
-    if (!pair.table || !(earlyOfTable(*pair.table) > 0) || meshA.empty() || meshB.empty())
-        return std::nullopt;
-    const double early = earlyOfTable(*pair.table), epsilon = pair.table->epsilon;
+    if (!pair.table || meshA.empty() || meshB.empty()) return std::nullopt;
+    const double early = earlyOfTable(*pair.table).value_or(0), epsilon = pair.table->epsilon;
+    if (!(early > 0)) return std::nullopt;
     const Motion motion = pairMotion(scene, pair);
     const MeshQuery a(meshA), b(meshB);
     EarlyContact result;

@@ -39,9 +39,9 @@ void verifyGap(PairVerdict& verdict, const SceneModel& scene, const Pair& pair, 
 /// What a person should know about what was proven of the meshes.
 void addNotes(PairVerdict& verdict, const Pair& pair, double metersPerUnit) {
     const MeshVerdict& meshes = verdict.meshes;
-    if (pair.table && pair.table->boundMiss < 0)
+    if (pair.table && !pair.table->boundMiss)
         verdict.notes.push_back("how late it reports contact is not stated, and nothing is proven of it");
-    if (pair.table && pair.table->boundEarly < 0)
+    if (pair.table && !pair.table->boundEarly)
         verdict.notes.push_back("how early it reports contact is not stated, and nothing is proven of it");
     if (meshes.fillings)
         verdict.notes.push_back(
@@ -82,7 +82,6 @@ PairVerdict verifyPair(const SceneModel& scene, const Pair& pair, const Progress
     verdict.spheresB = record.spheresB;
     verdict.cells = verdict.meshes.cells;
     verdict.band = verdict.meshes.band;
-    verdict.early = verdict.meshes.earlyBound;
     verdict.pose = verdict.meshes.pose;
     verdict.reason = verdict.meshes.reason;
     addNotes(verdict, pair, scene.metersPerUnit);

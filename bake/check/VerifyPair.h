@@ -14,7 +14,6 @@ struct PairVerdict {
     std::vector<std::string> notes; ///< what is not proven, or only under a condition, in words
     std::uint64_t cells = 0;        ///< of Q that the proof took
     double band = 0;                ///< rounding granted, scene units
-    double early = -1;              ///< how near the meshes are where a test fires; -1: not asked for
     MeshVerdict meshes;
     std::size_t spheresA = 0, spheresB = 0; ///< made when it was baked, as the file says
     bool holds() const { return reason.empty(); }

@@ -66,7 +66,7 @@ public:
 
 private:
     std::string claims() {
-        if (table_.certified || table_.boundMiss >= 0 || table_.boundEarly >= 0 || table_.epsilon > 0 ||
+        if (table_.certified || table_.boundMiss || table_.boundEarly || table_.epsilon > 0 ||
             table_.gapDepth > 0 || table_.gapMargin > 0 || !table_.restRegion.empty())
             return "it says that it is certified or states a bound, and none is proven of a skin";
         return {};

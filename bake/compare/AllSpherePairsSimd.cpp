@@ -64,11 +64,11 @@ public:
         // Coordinates and differences are off by a few float steps of the whole size, the root of the
         // squares no more than that again.
         const double band = 16 * 6e-8 * 2 * size;
-        const double miss = missOf(problem.fitA, problem.fitB), early = earlyOf(problem.fitA, problem.fitB);
+        const StatedError spheres{missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)};
         description() = {"all-pairs-simd",
                          "all pairs",
                          "every sphere of A against every sphere of B, float vectors, first hit out",
-                         {miss < 0 ? -1 : miss + band, early < 0 ? -1 : early + band},
+                         spheres.widened(band, band),
                          problem.a.size() * sizeof(Sphere) + count * 4 * sizeof(float),
                          0};
         description().slow = true;

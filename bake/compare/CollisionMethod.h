@@ -28,8 +28,16 @@ inline constexpr std::uint64_t productsPerSphereTest = 4;
 
 /// What a method promises against the meshes; a negative number: it promises nothing.
 struct StatedError {
-    double miss = -1;  ///< a contact of the meshes deeper than this is reported, scene units
-    double early = -1; ///< contact is reported only where the meshes are this near, scene units
+    std::optional<double> miss;  ///< a contact of the meshes deeper than this is reported, scene units
+    std::optional<double> early; ///< contact is reported only where the meshes are this near, scene units
+
+    /// As much more of both as rounding or interpolation adds.
+    StatedError widened(double byMiss, double byEarly) const {
+        StatedError wider = *this;
+        if (miss) *wider.miss += byMiss;
+        if (early) *wider.early += byEarly;
+        return wider;
+    }
 };
 
 /// What every method says about itself.

@@ -11,7 +11,7 @@ struct ComparedPair {
     TriangleMesh meshA, meshB;
     Motion motion;
     SphereSet a, b;       ///< the whole sphere sets (the paper's Ms)
-    FitRecord fitA, fitB; ///< of a and b, or < 0 where it is not known
+    FitRecord fitA, fitB; ///< of a and b, as far as it is known
     Table table;          ///< the reduced pairs, and which spheres of a and b they use
 };
 
@@ -26,11 +26,13 @@ inline std::size_t tableBytes(const Table& table) {
 /// spheres that lack at most `coverage` of each surface the gap there is at most the sum of both, so only
 /// spheres that contain the surface miss nothing; with protrusion, spheres touch where the meshes are as near
 /// as both protrusions together.
-inline double earlyOf(const FitRecord& a, const FitRecord& b) {
-    return a.protrusion < 0 || b.protrusion < 0 ? -1 : a.protrusion + b.protrusion;
+inline std::optional<double> earlyOf(const FitRecord& a, const FitRecord& b) {
+    if (!a.protrusion || !b.protrusion) return std::nullopt;
+    return *a.protrusion + *b.protrusion;
 }
-inline double missOf(const FitRecord& a, const FitRecord& b) {
-    return a.coverage < 0 || b.coverage < 0 ? -1 : std::max(0.0, a.coverage + b.coverage);
+inline std::optional<double> missOf(const FitRecord& a, const FitRecord& b) {
+    if (!a.coverage || !b.coverage) return std::nullopt;
+    return std::max(0.0, *a.coverage + *b.coverage);
 }
 
 } // namespace tss::compare

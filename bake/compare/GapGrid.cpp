@@ -81,14 +81,13 @@ public:
         for (const float v : values_) largest = std::max(largest, std::abs(static_cast<double>(v)));
         band += 1e-6 * largest; // values are floats
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-        this->description() = {
-            "gap-grid-" + std::to_string(points),
-            "C-space grid",
-            "gaps of the sphere model on a regular grid, " + std::to_string(points) +
-                " values a DOF, linear between; the stated error is the Lipschitz bound",
-            {ofOracle.miss < 0 ? -1 : ofOracle.miss + band, ofOracle.early < 0 ? -1 : ofOracle.early + band},
-            values_.size() * sizeof(float),
-            seconds.count()};
+        this->description() = {"gap-grid-" + std::to_string(points),
+                               "C-space grid",
+                               "gaps of the sphere model on a regular grid, " + std::to_string(points) +
+                                   " values a DOF, linear between; the stated error is the Lipschitz bound",
+                               ofOracle.widened(band, band),
+                               values_.size() * sizeof(float),
+                               seconds.count()};
     }
 
     bool hit(const PoseQuery& query) const override { return value(query) <= 0; }

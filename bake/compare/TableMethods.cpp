@@ -11,8 +11,8 @@ namespace {
 
 /// A table that lets pairs overlap as they do at rest promises no contact of the meshes there.
 StatedError statedOf(const Table& table) {
-    return {table.certified && table.restGaps.empty() ? table.boundMiss : -1,
-            table.certified ? table.boundEarly : -1};
+    if (!table.certified) return {};
+    return {table.restGaps.empty() ? table.boundMiss : std::nullopt, table.boundEarly};
 }
 
 /// As the paper runs it: for each sphere of A its row of spheres of B, through indices.
@@ -76,19 +76,17 @@ class KernelTable final : public CollisionMethodLoop<KernelTable> {
 public:
     KernelTable(const Table& table, const std::string& name, const PrepareOptions& options)
         : prepared_(table, options) {
-        const StatedError stated = statedOf(table);
         const double band = prepared_.signBand();
-        description() = {
-            name,
-            "TSS",
-            std::string("the prepared table, ") + tss::name(prepared_.form()) + " kernel in " +
-                tss::name(prepared_.precision()) +
-                (prepared_.kernels().cells().empty()
-                     ? ", features made from q each time"
-                     : ", asked from q: cell, features where it leaves tests, tests"),
-            {stated.miss, stated.early < 0 ? -1 : stated.early + band}, // rounding misses nothing
-            prepared_.bytes(),
-            0};
+        description() = {name,
+                         "TSS",
+                         std::string("the prepared table, ") + tss::name(prepared_.form()) + " kernel in " +
+                             tss::name(prepared_.precision()) +
+                             (prepared_.kernels().cells().empty()
+                                  ? ", features made from q each time"
+                                  : ", asked from q: cell, features where it leaves tests, tests"),
+                         statedOf(table).widened(0, band), // rounding misses nothing
+                         prepared_.bytes(),
+                         0};
     }
     bool hit(const PoseQuery& query) const override { return prepared_.hit(query.q.data()); }
     std::optional<double> gap(const PoseQuery& query) const override {

@@ -153,7 +153,7 @@ FitRecord measured(const Body& body, SphereFit& fit, const std::optional<std::ve
     figures.coverageP95 = boundOrUnknown(metrics.coverageP95);
     figures.protrusionMean = boundOrUnknown(metrics.protrusionMean);
     figures.protrusionP95 = boundOrUnknown(metrics.protrusionP95);
-    figures.volumeRatio = fit.hollow ? -1 : boundOrUnknown(metrics.volumeRatio);
+    if (!fit.hollow) figures.volumeRatio = boundOrUnknown(metrics.volumeRatio);
     return figures;
 }
 
@@ -189,8 +189,8 @@ SphereOptions sphereOptions(const BakeOptions& options, double tolerance) {
     return how;
 }
 
-double boundOrUnknown(double bound) {
-    return std::isfinite(bound) ? bound : -1;
+std::optional<double> boundOrUnknown(double bound) {
+    return std::isfinite(bound) ? std::optional(bound) : std::nullopt;
 }
 
 bool canAskAll(const PairSpheres& spheres, const BakeOptions& options) {

@@ -49,7 +49,7 @@ PairSpheres fillToAskAll(const SceneModel& scene, const Pair& pair, const Motion
 /// Measures how well the spheres fit: their figures, and their bounds where these become better.
 void measureSpheres(const SceneModel& scene, const Pair& pair, PairSpheres& spheres);
 
-/// A bound as a file states it: -1 where none is known.
-double boundOrUnknown(double bound);
+/// A bound as a file states it: none where there is none.
+std::optional<double> boundOrUnknown(double bound);
 
 } // namespace tss

@@ -1,49 +1,50 @@
+#include "bake/report/Columns.h"
 #include "bake/report/Report.h"
-
-#include <fmt/format.h>
 
 namespace tss::reporting {
 
 namespace {
 
-std::string cell(const std::string& text) {
+std::string cell(const Json& value) {
+    if (value.is_null()) return "";
+    if (!value.is_string()) return value.dump();
     std::string out = "\"";
-    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+    for (const char c : value.get<std::string>()) out += c == '"' ? "\"\"" : std::string(1, c);
     return out + "\"";
 }
 
-std::string orEmpty(double value) {
-    return value < 0 ? "" : fmt::format("{}", value);
+/// headings: of the file; what the rows know none of stays empty.
+template <class R>
+std::string lines(const std::string& path, const std::vector<std::string>& headings,
+                  const Columns<R>& columns, const std::vector<R>& rows) {
+    std::string text;
+    for (const R& row : rows) {
+        text += cell(path);
+        for (const std::string& heading : headings) {
+            text += ',';
+            for (const Column<R>& column : columns)
+                if (column.csv == heading) text += cell(column.value(row));
+        }
+        text += '\n';
+    }
+    return text;
 }
 
 } // namespace
 
 std::string csvOf(const Report& report) {
-    std::string text =
-        "pair,method,setting,family,poses,touching,missed,early,nearPoses,nearTouching,nearMissed,nearEarly,"
-        "deepestMissMm,farthestEarlyMm,statedMissMm,statedEarlyMm,firstContactWorstMm,nsMedian,nsLow,nsHigh,"
-        "tests,products,bytes,buildSeconds\n";
-    for (const PairStudy& study : report.pairs)
-        for (const Row& row : study.rows) {
-            const double mm = study.millimetres;
-            text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-                                cell(study.path), cell(row.method), cell(row.setting), cell(row.about.family),
-                                row.uniform.poses, row.uniform.touching, row.uniform.missed,
-                                row.uniform.early, row.near.poses, row.near.touching, row.near.missed,
-                                row.near.early, mm * std::max(row.uniform.deepestMiss, row.near.deepestMiss),
-                                mm * std::max(row.uniform.farthestEarly, row.near.farthestEarly),
-                                orEmpty(row.about.stated.miss * mm), orEmpty(row.about.stated.early * mm),
-                                mm * row.firstContact.worstLength, row.times.median, row.times.low,
-                                row.times.high, orEmpty(row.tests), orEmpty(row.products), row.about.bytes,
-                                row.about.buildSeconds);
+    std::string text = "pair";
+    std::vector<std::string> headings;
+    for (const Column<Row>& column : methodColumns(PairStudy{}))
+        if (!column.csv.empty()) {
+            headings.push_back(column.csv);
+            text += "," + column.csv;
         }
+    text += "\n";
+    for (const PairStudy& study : report.pairs)
+        text += lines(study.path, headings, methodColumns(study), study.rows);
     for (const SkinStudy& study : report.skins)
-        for (const SkinMethod& method : study.methods)
-            text +=
-                fmt::format("{},{},,skin,{},{},{},{},,,,,{},{},,,,{},,,{},{},,\n", cell(study.path),
-                            cell(method.name), study.judged, study.touching, method.missed, method.early,
-                            study.millimetres * method.deepestMiss, study.millimetres * method.farthestEarly,
-                            method.nanoseconds, method.tests, method.products);
+        text += lines(study.path, headings, methodColumns(study), study.methods);
     return text;
 }
 

@@ -1,8 +1,7 @@
 #include "bake/report/Page.h"
 
+#include "bake/report/Columns.h"
 #include "bake/report/Report.h"
-
-#include <nlohmann/json.hpp>
 
 namespace tss::reporting {
 
@@ -24,7 +23,23 @@ std::string base64(const std::string& bytes) {
 } // namespace
 
 std::string pageOf(const Report& report) {
-    auto json = nlohmann::ordered_json::parse(jsonOf(report));
+    Json json = Json::parse(jsonOf(report));
+    for (std::size_t k = 0; k < report.pairs.size(); ++k) {
+        const PairStudy& study = report.pairs[k];
+        const auto own = [&](const Row& row) {
+            return row.method == "tss" && row.setting == study.base.name;
+        };
+        json["pairs"][k]["tables"] = {
+            {"methods", pageTable(methodColumns(study), study.rows, own)},
+            {"models", pageTable(modelColumns(study), modelsOf(study), isBase(study))}};
+    }
+    for (std::size_t k = 0; k < report.skins.size(); ++k) {
+        const SkinStudy& study = report.skins[k];
+        const auto isUsual = [](const SkinAnswer& a) { return a.usual; };
+        json["skins"][k]["tables"] = {
+            {"methods", pageTable(methodColumns(study), study.methods)},
+            {"answers", pageTable(answerColumns(study), study.motion.answers, isUsual)}};
+    }
     for (std::size_t k = 0; k < report.pairPictures.size(); ++k)
         for (const Picture& picture : report.pairPictures[k])
             json["pairs"][k]["pictures"].push_back(

@@ -182,7 +182,7 @@ void drawEpsilon(Drawing& drawing, const PairStudy& study) {
     std::string data;
     for (const BakePoint& point : study.epsilons)
         data += fmt::format("{} {} {}\n", point.epsilon > 0 ? point.epsilon * study.millimetres : least / 4,
-                            point.tests, point.lowerBound > 0 ? fmt::format("{}", point.lowerBound) : "NaN");
+                            point.tests, point.lowerBound ? fmt::format("{}", *point.lowerBound) : "NaN");
     drawing.draw(
         "epsilon", data,
         fmt::format("set logscale x\nset xlabel \"ε, mm (leftmost: 0, lossless)\"\n"

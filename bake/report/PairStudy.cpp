@@ -56,8 +56,7 @@ BakeOptions baseOptions(const SceneModel& scene, const Pair& pair, const Triangl
                         const TriangleMesh& b) {
     BakeOptions options = optionsFor(pair.settings, {}, scene.metersPerUnit);
     options.atRest = AtRest::Collide;
-    if (!options.tolerance)
-        options.tolerance = std::min(diagonal(a), diagonal(b)) / 500;
+    if (!options.tolerance) options.tolerance = std::min(diagonal(a), diagonal(b)) / 500;
     return options;
 }
 
@@ -70,7 +69,7 @@ BakePoint bakePoint(const StudiedModel& studied) {
     point.tolerance = *model.recipe.options.tolerance;
     point.epsilon = model.recipe.options.epsilon;
     const auto sticksOut = [](const FitRecord& fit, const SphereSet& spheres, const TriangleMesh& mesh) {
-        return fit.protrusion >= 0 ? fit.protrusion : protrusionOf(spheres, mesh);
+        return fit.protrusion ? *fit.protrusion : protrusionOf(spheres, mesh);
     };
     const ComparedPair& problem = model.problem;
     point.protrusion = std::max(sticksOut(problem.fitA, problem.a, problem.meshA),
@@ -82,7 +81,7 @@ BakePoint bakePoint(const StudiedModel& studied) {
     point.tests = table.testCount();
     for (const double gap : table.restGaps) point.restTests += gap < 0 ? 1 : 0;
     point.bytes = tableBytes(table);
-    point.lowerBound = static_cast<double>(table.record.lowerBound);
+    if (table.record.lowerBound > 0) point.lowerBound = static_cast<double>(table.record.lowerBound);
     point.sphereSeconds = model.sphereSeconds;
     point.tableSeconds = model.tableSeconds;
     return point;
@@ -327,7 +326,7 @@ PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptio
     study.nearPoses = near.queries().size();
     study.leftOut = uniform.leftOut() + near.leftOut();
     study.earlyBound = model.problem.table.boundEarly;
-    if (study.earlyBound > 0) study.freeWithinBound = uniform.freeWithin(study.earlyBound);
+    if (study.earlyBound) study.freeWithinBound = uniform.freeWithin(*study.earlyBound);
     for (StudiedModel& studied : field) {
         report(progress, study.path + ": building methods, " + studied.model->recipe.name, 0);
         studied.methods =

@@ -1,6 +1,6 @@
 #include "bake/report/Text.h"
 
-#include "bake/base/Degrees.h"
+#include "bake/report/Columns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,48 +44,14 @@ std::size_t place(const std::string& family) {
                                     std::begin(order));
 }
 
-double farthestEarly(const Row& row) {
-    return std::max(row.uniform.farthestEarly, row.near.farthestEarly);
-}
-double deepestMiss(const Row& row) {
-    return std::max(row.uniform.deepestMiss, row.near.deepestMiss);
-}
-
-std::string firstContactText(const PairStudy& study, const Row& row) {
-    if (row.firstContact.motions == row.firstContact.never) return "never";
-    std::string text = number(study.millimetres * row.firstContact.worstLength) + " mm";
-    if (study.leadingUnit == "degrees") text += ", " + number(toDegrees(row.firstContact.worstAngle)) + "°";
-    if (row.firstContact.never)
-        text += fmt::format(" ({} of {} never)", row.firstContact.never, row.firstContact.motions);
-    return text;
-}
-
 std::string methodTable(const PairStudy& study) {
-    const double mm = study.millimetres;
-    std::string text =
-        "| method | missed, uniform | missed, near contact | deepest missed, mm | early, uniform | "
-        "farthest early, mm | promised: miss / early, mm | first contact off by | time a query "
-        "(p10–p90) | tests | bytes | built in, s |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-    std::vector<const Row*> rows;
+    std::vector<Row> rows;
     for (const Row& row : study.rows)
-        if (row.setting.empty() || row.setting == study.base.name) rows.push_back(&row);
-    std::stable_sort(rows.begin(), rows.end(), [](const Row* a, const Row* b) {
-        return place(a->about.family) < place(b->about.family);
+        if (row.setting.empty() || row.setting == study.base.name) rows.push_back(row);
+    std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+        return place(a.about.family) < place(b.about.family);
     });
-    for (const Row* row : rows) {
-        const compare::StatedError& promised = row->about.stated;
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} / {} | {} | {} | {} | {} | {} |\n",
-                            row->method, share(row->uniform.missed, row->uniform.touching),
-                            share(row->near.missed, row->near.touching),
-                            row->misses() ? number(mm * deepestMiss(*row)) : "",
-                            share(row->uniform.early, row->uniform.poses - row->uniform.touching),
-                            row->uniform.early + row->near.early ? number(mm * farthestEarly(*row)) : "",
-                            orDash(mm * promised.miss), orDash(mm * promised.early),
-                            firstContactText(study, *row), timeText(row->times), orDash(row->tests),
-                            bytesText(row->about.bytes), number(row->about.buildSeconds));
-    }
-    return text;
+    return markdownTable(methodColumns(study), rows);
 }
 
 /// What lies on the front of the plot, in words.
@@ -124,16 +90,13 @@ std::string ratioTable(const PairStudy& study) {
             "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
             point.name == study.base.name ? "**" + point.name + "**" : point.name, point.tests,
             share(ours->misses(), ours->uniform.touching + ours->near.touching),
-            ours->misses() ? number(study.millimetres * deepestMiss(*ours)) : "",
+            ours->misses() ? number(study.millimetres * ours->deepestMiss()) : "",
             share(ours->uniform.early, ours->uniform.poses - ours->uniform.touching),
-            ours->uniform.early + ours->near.early ? number(study.millimetres * farthestEarly(*ours)) : "",
+            ours->uniform.early + ours->near.early ? number(study.millimetres * ours->farthestEarly()) : "",
             timeText(ours->times), against(findRow(study, "tss-scalar", point.name)),
             against(findRow(study, "tree-all-8-balls", point.name)), against(fcl), against(bullet));
     };
-    for (const BakePoint& point : study.tolerances) add(point);
-    for (const BakePoint& point : study.epsilons)
-        if (point.name != study.base.name) add(point);
-    for (const BakePoint& point : study.recipes) add(point);
+    for (const BakePoint& point : modelsOf(study)) add(point);
     return text;
 }
 
@@ -184,8 +147,8 @@ std::string advice(const PairStudy& study) {
             "{} mm). {}\n",
             row.method, row.setting, timeText(row.times.median), bytesText(row.about.bytes),
             timeText(table->times.median), bytesText(table->about.bytes), row.misses(),
-            number(mm * deepestMiss(row)), number(mm * farthestEarly(row)), table->misses(),
-            number(mm * deepestMiss(*table)), number(mm * farthestEarly(*table)),
+            number(mm * row.deepestMiss()), number(mm * row.farthestEarly()), table->misses(),
+            number(mm * table->deepestMiss()), number(mm * table->farthestEarly()),
             faster && right ? "**Here the grid wins.**"
             : faster        ? "Quicker, but not as right."
             : right         ? "As right, but not quicker."
@@ -230,10 +193,10 @@ std::string countTable(const PairStudy& study, bool besidePaper) {
     std::string text = head + "\n" + rule + "\n| spheres |" + paper(" 1158 + 812 |") + spheres +
                        "\n| spheres used |" + paper(" 9 + 22 |") + used + "\n| tests a step |" +
                        paper(" 22 |") + tests + "\n| products a step |" + paper(" 88 |") + products + "\n\n";
-    if (ours.lowerBound > 0)
+    if (ours.lowerBound)
         text += fmt::format(
             "No table that gives the answers of these spheres at every pose has fewer than {} tests. ",
-            number(ours.lowerBound));
+            number(*ours.lowerBound));
     const StepStudy& steps = study.steps;
     const auto shareOf = [&](std::size_t part) {
         return 100 * static_cast<double>(part) /
@@ -252,22 +215,7 @@ std::string countTable(const PairStudy& study, bool besidePaper) {
 }
 
 std::string sizeTable(const PairStudy& study) {
-    const double mm = study.millimetres;
-    std::string text = "| model | tolerance, mm | ε, mm | sticks out by, mm | spheres | used | tests | lower "
-                       "bound | bytes | spheres, s | "
-                       "table, s |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
-    const auto add = [&](const BakePoint& p) {
-        text +=
-            fmt::format("| {} | {} | {} | {} | {} + {} | {} + {} | {} | {} | {} | {} | {} |\n",
-                        p.name == study.base.name ? "**" + p.name + "**" : p.name, number(p.tolerance * mm),
-                        number(p.epsilon * mm), number(p.protrusion * mm), p.spheresA, p.spheresB, p.usedA,
-                        p.usedB, p.tests, p.lowerBound > 0 ? number(p.lowerBound) : "–", bytesText(p.bytes),
-                        number(p.sphereSeconds), number(p.tableSeconds));
-    };
-    for (const BakePoint& point : study.tolerances) add(point);
-    for (const BakePoint& point : study.epsilons)
-        if (point.name != study.base.name) add(point);
-    for (const BakePoint& point : study.recipes) add(point);
+    std::string text = markdownTable(modelColumns(study), modelsOf(study), isBase(study));
     text += "\n";
     for (const BakePoint& point : study.recipes)
         text +=
@@ -277,15 +225,8 @@ std::string sizeTable(const PairStudy& study) {
 }
 
 std::string samplingTable(const PairStudy& study) {
-    std::string text =
-        "What tables from a sampled search miss of the poses at which the same spheres collide:\n\n"
-        "| poses explored | reduction | tests | missed, uniform | missed, near contact | table, s |\n"
-        "|---|---|---|---|---|---|\n";
-    for (const SamplingPoint& p : study.sampling)
-        text += fmt::format("| {} | {} | {} | {:.3g} % | {:.3g} % | {} |\n", p.samples,
-                            p.reduce == "none" ? "none" : "co-occurrence (the paper's)", p.tests,
-                            100 * p.missedUniform, 100 * p.missedNear, number(p.seconds));
-    return text;
+    return "What tables from a sampled search miss of the poses at which the same spheres collide:\n\n" +
+           markdownTable(samplingColumns(), study.sampling);
 }
 
 std::string whatTheyAre(const PairStudy& study) {
@@ -312,12 +253,12 @@ std::string facts(const PairStudy& study) {
         "the uniform poses (slow methods at fewer, at least 100). Contact at rest counts as contact, as "
         "the meshes say.",
         study.uniformPoses, study.touchingUniform, study.nearPoses, study.timedPoses);
-    if (study.earlyBound > 0)
+    if (study.earlyBound)
         text += fmt::format(
             " At {} of the {} free ones the meshes are nearer than {} mm, the early bound of the table "
             "with spheres of {}: only there may it report contact early.",
             study.freeWithinBound, study.uniformPoses - study.touchingUniform,
-            number(study.earlyBound * study.millimetres), study.base.name);
+            number(*study.earlyBound * study.millimetres), study.base.name);
     if (study.leftOut)
         text += fmt::format(
             " {} poses were left out: a closed part of one body is wholly inside the other there, which "

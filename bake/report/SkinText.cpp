@@ -1,5 +1,7 @@
 #include "bake/report/Text.h"
 
+#include "bake/report/Columns.h"
+
 #include <fmt/format.h>
 
 namespace tss::reporting {
@@ -28,32 +30,9 @@ std::string countTable(const SkinStudy& study, bool besidePaper) {
                study.productsEllipsoid, withEllipsoids(study.carriedSkin));
 }
 
-std::string methodTable(const SkinStudy& study) {
-    const double mm = study.millimetres;
-    std::string text =
-        "| method | tests a step | products a step | time a step | missed | deepest missed, mm | early | "
-        "farthest early, mm |\n|---|---|---|---|---|---|---|---|\n";
-    for (const SkinMethod& m : study.methods)
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", m.name, number(m.tests),
-                            number(m.products), timeText(m.nanoseconds), m.missed,
-                            m.missed ? number(m.deepestMiss * mm) : "", m.early,
-                            m.early ? number(m.farthestEarly * mm) : "");
-    return text;
-}
-
 std::string answerTable(const SkinStudy& study) {
-    const double mm = study.millimetres;
-    std::string text =
-        "| sweeps an update | time an update | deepest left, mm | mean of the steps, mm | farthest from "
-        "converged, mm | rms from converged, mm | area change |\n|---|---|---|---|---|---|---|\n";
-    for (const SkinAnswer& a : study.motion.answers)
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.2f} % |\n",
-                            a.sweeps == 0 ? "none: spheres push spheres (the paper's way)"
-                            : a.usual     ? fmt::format("**at most {}** (what applications get)", a.sweeps)
-                                          : fmt::format("at most {}", a.sweeps),
-                            timeText(a.nanoseconds), number(a.deepest * mm), number(a.meanDepth * mm),
-                            number(a.farthest * mm), number(a.rms * mm), 100 * a.areaChange);
-    return text;
+    return markdownTable(answerColumns(study), study.motion.answers,
+                         [](const SkinAnswer& a) { return a.usual; });
 }
 
 } // namespace
@@ -75,7 +54,8 @@ std::string skinText(const SkinStudy& study, const std::vector<Plot>& plots, boo
                         "and stick out of it, so "
                         "that sphere methods say so somewhat early; all over the same spheres agree.\n\n",
                         study.activations, number(study.thickness * mm), study.touching, study.judged);
-    text += pictureText(plots, "pareto") + methodTable(study) + "\n" + pictureText(plots, "steps");
+    text += pictureText(plots, "pareto") + markdownTable(methodColumns(study), study.methods) + "\n" +
+            pictureText(plots, "steps");
     for (const SkinMethod& m : study.methods) text += fmt::format("- **{}**: {}.\n", m.name, m.about);
     if (motion.answers.empty())
         return text + "\nNothing of the skin moves.\n\n### What was not run\n\n" + notRunText(study.notRun) +

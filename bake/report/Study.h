@@ -5,7 +5,9 @@
 #include "bake/report/MethodSet.h"
 #include "bake/report/Timing.h"
 
+#include <algorithm>
 #include <functional>
+#include <optional>
 
 namespace tss::reporting {
 
@@ -14,7 +16,7 @@ struct ReportOptions {
     std::vector<std::string> methods;        ///< parts of names wanted; empty: all
     std::vector<std::vector<double>> motion; ///< steps to count tests along, one value per DOF (radians,
                                              ///< scene units); empty: the scene's own drives, or a sweep
-    std::vector<std::string> pairs; ///< prim paths; empty: all
+    std::vector<std::string> pairs;          ///< prim paths; empty: all
     std::uint64_t seed = 20;
     bool besidePaper = false; ///< also the paper's own counts, and what this project set out to reach
 };
@@ -27,8 +29,10 @@ struct Row {
     ErrorFigures uniform, near;
     FirstContact firstContact;
     Times times;
-    double tests = -1, products = -1; ///< a query, mean over the uniform poses; < 0: not countable
+    std::optional<double> tests, products; ///< a query, mean over the uniform poses; none: not countable
 
+    double deepestMiss() const { return std::max(uniform.deepestMiss, near.deepestMiss); }
+    double farthestEarly() const { return std::max(uniform.farthestEarly, near.farthestEarly); }
     double worst() const; ///< scene units: the deepest miss or the farthest early contact, whichever is more
     double wrong() const; ///< share of the uniform poses with a wrong verdict
     std::size_t misses() const { return uniform.missed + near.missed; }
@@ -78,7 +82,8 @@ struct BakePoint {
     double tolerance = 0, epsilon = 0; ///< scene units
     double protrusion = 0;             ///< scene units: no sphere sticks out of its body by more
     std::size_t spheresA = 0, spheresB = 0, usedA = 0, usedB = 0, tests = 0, restTests = 0, bytes = 0;
-    double lowerBound = 0, sphereSeconds = 0, tableSeconds = 0;
+    std::optional<double> lowerBound; ///< of tests for the same answers
+    double sphereSeconds = 0, tableSeconds = 0;
 };
 
 /// Everything about one pair.
@@ -92,11 +97,10 @@ struct PairStudy {
     double clearance = 0;
     std::vector<std::string> notes;
     std::size_t uniformPoses = 0, nearPoses = 0, touchingUniform = 0, timedPoses = 0;
-    std::size_t freeWithinBound =
-        0;                   ///< free uniform poses with the meshes nearer than the base's early bound
-    double earlyBound = -1;  ///< scene units; of the base's table
-    Times fclDirectly;       ///< FCL's OBBRSS trees asked without the interface of the methods
-    std::size_t leftOut = 0; ///< poses with a part wholly inside the other body
+    std::optional<double> earlyBound; ///< scene units; of the base's table
+    std::size_t freeWithinBound = 0;  ///< free uniform poses with the meshes nearer than that
+    Times fclDirectly;                ///< FCL's OBBRSS trees asked without the interface of the methods
+    std::size_t leftOut = 0;          ///< poses with a part wholly inside the other body
     std::vector<Row> rows;
     std::vector<NotRun> notRun;
     StepStudy steps;

@@ -11,10 +11,6 @@ std::string number(double value) {
     return fmt::format("{:.3g}", value);
 }
 
-std::string orDash(double value) {
-    return value < 0 ? "–" : number(value);
-}
-
 std::string timeText(double ns) {
     return ns < 1000 ? number(ns) + " ns" : ns < 1e6 ? number(ns / 1e3) + " µs" : number(ns / 1e6) + " ms";
 }

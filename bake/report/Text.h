@@ -7,8 +7,6 @@ namespace tss::reporting {
 
 /// Three digits, thousands as they are.
 std::string number(double value);
-/// The same, or a dash for what is not known (< 0).
-std::string orDash(double value);
 /// "12.3 ns", "4.5 µs".
 std::string timeText(double nanoseconds);
 /// With the tenth and ninetieth percentile.

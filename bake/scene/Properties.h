@@ -6,6 +6,7 @@
 #include "bake/scene/Schema.h"
 
 #include <functional>
+#include <optional>
 
 namespace tss {
 
@@ -146,12 +147,15 @@ struct Fields : std::vector<Field<T>> {
     }
 };
 
-/// A number, flag or text.
+/// A number, flag or text; of a number that may not be known a negative one says so too.
 template <class T, class Member>
 Field<T> field(std::string_view declaration, Member T::*member, const std::type_identity_t<Member>& fallback,
                Range range, std::string_view meaning) {
     const auto read = [=](const PrimReader& prim, const Attribute& attribute, T& to) {
-        if constexpr (std::is_same_v<Member, double>)
+        if constexpr (std::is_same_v<Member, std::optional<double>>) {
+            const double number = prim.real(attribute, -1);
+            to.*member = number < 0 ? std::nullopt : std::optional(number);
+        } else if constexpr (std::is_same_v<Member, double>)
             to.*member = prim.real(attribute, fallback);
         else if constexpr (std::is_same_v<Member, bool>)
             to.*member = prim.flag(attribute, fallback);
@@ -161,7 +165,10 @@ Field<T> field(std::string_view declaration, Member T::*member, const std::type_
             to.*member = prim.count(attribute, fallback);
     };
     const auto write = [=](PrimWriter& prim, const Attribute& attribute, const T& from) {
-        prim.setUnless(attribute, Value(from.*member), Value(fallback));
+        if constexpr (std::is_same_v<Member, std::optional<double>>)
+            from.*member ? prim.set(attribute, Value(*(from.*member))) : prim.remove(attribute);
+        else
+            prim.setUnless(attribute, Value(from.*member), Value(fallback));
     };
     return {declared(declaration, meaning, range), read, write};
 }

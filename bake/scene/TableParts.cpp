@@ -11,14 +11,18 @@ constexpr Attribute widths = declared("float[] widths", "", atLeast(0));
 constexpr Attribute purpose = declared("uniform token purpose");
 
 /// A figure of both bodies, -1 where it is not known.
-Field<BakeRecord> figure(std::string_view declaration, double FitRecord::*figure, std::string_view meaning) {
+Field<BakeRecord> figure(std::string_view declaration, std::optional<double> FitRecord::*figure,
+                         std::string_view meaning) {
     const auto read = [=](const PrimReader& prim, const Attribute& attribute, BakeRecord& record) {
-        if (const auto two = prim.reals(attribute, 2); two.size() == 2)
-            record.fitA.*figure = two[0], record.fitB.*figure = two[1];
+        const std::vector<double> two = prim.reals(attribute, 2);
+        if (two.size() != 2) return;
+        if (two[0] >= 0) record.fitA.*figure = two[0];
+        if (two[1] >= 0) record.fitB.*figure = two[1];
     };
     const auto write = [=](PrimWriter& prim, const Attribute& attribute, const BakeRecord& record) {
-        const std::vector<double> two{record.fitA.*figure, record.fitB.*figure};
-        prim.setIfAny(attribute, two[0] >= 0 || two[1] >= 0 ? two : std::vector<double>());
+        const std::optional<double> a = record.fitA.*figure, b = record.fitB.*figure;
+        prim.setIfAny(attribute,
+                      a || b ? std::vector<double>{a.value_or(-1), b.value_or(-1)} : std::vector<double>());
     };
     return {declared(declaration, meaning), read, write};
 }

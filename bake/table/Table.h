@@ -22,13 +22,13 @@ struct RestRegion {
 };
 
 /// How well the spheres of one body fit its mesh, over its whole surface, or over the contact zone when the
-/// table was made from one (METHOD 1.5). Lengths in scene units; < 0: not known.
+/// table was made from one (METHOD 1.5). Lengths in scene units; none: not known.
 struct FitRecord {
-    double coverage = -1;   ///< bound: no surface point is farther than this from the union of the spheres
-    double protrusion = -1; ///< bound: no sphere sticks out of the solid by more than this
-    double coverageMean = -1, coverageP95 = -1;     ///< over the surface, sampled
-    double protrusionMean = -1, protrusionP95 = -1; ///< of the bounds of the spheres
-    double volumeRatio = -1;                        ///< union of the spheres to the whole body
+    std::optional<double> coverage; ///< bound: no surface point is farther than this from the spheres' union
+    std::optional<double> protrusion; ///< bound: no sphere sticks out of the solid by more than this
+    std::optional<double> coverageMean, coverageP95;     ///< over the surface, sampled
+    std::optional<double> protrusionMean, protrusionP95; ///< of the bounds of the spheres
+    std::optional<double> volumeRatio;                   ///< union of the spheres to the whole body
 };
 
 /// What went into a table, for those who read about it; the query does not use it.
@@ -57,13 +57,13 @@ struct Table {
 
     Motion motion; ///< the motion and limits it was made for
 
-    double epsilon = 0;     ///< gap of the table <= gap of the sphere models + epsilon, at every pose (3.3)
-    double gapDepth = 0;    ///< gap-true down to this depth ...
-    double gapMargin = 0;   ///< ... and up to this clearance (3.4); both 0: a yes/no table
-    double boundMiss = -1;  ///< contact is reported no later than this depth of the meshes; < 0: not known
-    double boundEarly = -1; ///< contact is reported only when the meshes are this near; < 0: not known
-    bool certified = false; ///< the bounds hold for every pose of the limits, not for samples
-    std::string method;     ///< how it was made, e.g. "medial/certified/cover"
+    double epsilon = 0;   ///< gap of the table <= gap of the sphere models + epsilon, at every pose (3.3)
+    double gapDepth = 0;  ///< gap-true down to this depth ...
+    double gapMargin = 0; ///< ... and up to this clearance (3.4); both 0: a yes/no table
+    std::optional<double> boundMiss;  ///< contact is reported no later than this depth of the meshes
+    std::optional<double> boundEarly; ///< contact is reported only when the meshes are this near
+    bool certified = false;           ///< the bounds hold for every pose of the limits, not for samples
+    std::string method;               ///< how it was made, e.g. "medial/certified/cover"
     BakeRecord record;
     RestRegion restRegion; ///< parts of the surfaces that the bounds say nothing about
 

@@ -61,7 +61,7 @@ T* column(T* block, std::uint32_t lanes, std::uint32_t k) {
 
 TableKernels::TableKernels(const Table& table, const PrepareOptions& options)
     : motion_(table.motion), pairs_(tablePairs(table)), epsilon_(table.epsilon), depth_(table.gapDepth),
-      margin_(table.gapMargin), early_(earlyOfTable(table)) {
+      margin_(table.gapMargin), early_(earlyOfTable(table).value_or(0)) {
     if (!available(options.target))
         throw InputError("kernel '" + std::string(name(options.target)) +
                          "': expected one that this build and this processor have");

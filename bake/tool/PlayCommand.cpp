@@ -199,11 +199,8 @@ nlohmann::json sayParts(const SkinModel& skin, const SkinCosts& costs, double se
     return parts;
 }
 
-void play(const PlayArguments& arguments, const Console& console) {
-    refuseOverwriting(arguments.output, {arguments.scene, arguments.motion});
-    const SceneModel scene = loadScene(arguments.scene);
-    requireFresh(scene, arguments.scene);
-    const auto steps = askedSteps(scene, arguments);
+/// What is played though nothing was baked for it, in words.
+std::vector<std::string> unbaked(const SceneModel& scene) {
     std::vector<std::string> warnings;
     for (const Pair& pair : scene.pairs)
         if (!pair.table && !pair.proof)
@@ -214,6 +211,15 @@ void play(const PlayArguments& arguments, const Console& console) {
             warnings.push_back("skin " + skin.path +
                                " is carried, but not kept out of what is below it: it has no table, tss "
                                "bake makes one");
+    return warnings;
+}
+
+void play(const PlayArguments& arguments, const Console& console) {
+    refuseOverwriting(arguments.output, {arguments.scene, arguments.motion});
+    const SceneModel scene = loadScene(arguments.scene);
+    requireFresh(scene, arguments.scene);
+    const auto steps = askedSteps(scene, arguments);
+    std::vector<std::string> warnings = unbaked(scene);
     Player player = inFile(arguments.scene, [&] { return Player(scene, warnings); });
     const std::size_t outside = countOutside(scene, steps);
     if (outside > 0)

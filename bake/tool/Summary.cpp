@@ -16,8 +16,8 @@ namespace tss::tool {
 
 namespace {
 
-Json knownOrNull(double value) {
-    return value < 0 ? Json() : Json(value);
+Json knownOrNull(const std::optional<double>& value) {
+    return value ? Json(*value) : Json();
 }
 
 /// Bytes that a table's data takes: spheres, CSR and rest gaps.

@@ -65,7 +65,7 @@ std::string verified(const SceneModel& scene, const Pair& pair, Json& json, cons
                       {"shareA", verdict.meshes.exempt.shareA},
                       {"shareB", verdict.meshes.exempt.shareB},
                       {"farthest", verdict.meshes.farthestExempt}};
-    if (verdict.early >= 0) json["early"] = verdict.early;
+    if (verdict.meshes.earlyBound) json["early"] = *verdict.meshes.earlyBound;
     if (verdict.reason.empty() && pair.table) return kernelVerified(*pair.table, json, progress);
     if (verdict.pose.empty()) return verdict.reason;
     json["pose"] = verdict.pose;
@@ -104,14 +104,15 @@ std::string claims(const Pair& pair, double metersPerUnit) {
     if (pair.proof)
         return fmt::format("the meshes stay {} apart", lengthText(pair.proof->clearance, metersPerUnit));
     std::string text;
-    if (pair.table->boundMiss >= 0)
-        text += pair.table->boundMiss > 0
+    const Table& table = *pair.table;
+    if (table.boundMiss)
+        text += *table.boundMiss > 0
                     ? fmt::format("no contact of the meshes missed once a test is {} deep", // as counted
-                                  lengthText(pair.table->boundMiss, metersPerUnit))
+                                  lengthText(*table.boundMiss, metersPerUnit))
                     : std::string("no contact of the meshes missed");
-    if (pair.table->boundEarly >= 0)
+    if (table.boundEarly)
         text += fmt::format("{}reported no earlier than {} apart", text.empty() ? "" : ", ",
-                            lengthText(pair.table->boundEarly, metersPerUnit));
+                            lengthText(*table.boundEarly, metersPerUnit));
     return text.empty() ? "nothing is claimed" : text;
 }
 

@@ -122,14 +122,14 @@ MeshVerdict verifyOnMeshes(const TriangleMesh& meshA, const TriangleMesh& meshB,
     verdict.exempt = exemptShare(meshA, meshB, table.restRegion);
     MeshClaim claim;
     claim.tests = meshTests(table);
-    claim.miss = table.boundMiss;
+    claim.miss = table.boundMiss.value_or(0);
     claim.band = frame.band;
     claim.work = work;
     // First what is soon said.
     if (!takeRegion(verdict, frame, table.restRegion)) return verdict;
-    if (table.boundEarly >= 0) {
+    if (table.boundEarly) {
         EarlyResult early = proveEarly(frame.a, frame.b, motion, frame.size, table.a, table.b, claim.tests,
-                                       table.boundEarly + frame.band, progress);
+                                       *table.boundEarly + frame.band, progress);
         verdict.cells += early.cells;
         verdict.early = early.proven;
         verdict.earlyBound = early.bound;
@@ -138,7 +138,7 @@ MeshVerdict verifyOnMeshes(const TriangleMesh& meshA, const TriangleMesh& meshB,
         verdict.reason = std::move(early.reason);
         verdict.pose = std::move(early.pose);
     }
-    if (verdict.holds() && table.boundMiss >= 0) proveMiss(verdict, frame, table.restRegion, claim, progress);
+    if (verdict.holds() && table.boundMiss) proveMiss(verdict, frame, table.restRegion, claim, progress);
     return verdict;
 }
 

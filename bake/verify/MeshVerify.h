@@ -4,6 +4,7 @@
 #include "bake/verify/RegionProof.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,9 @@ struct MeshVerdict {
     std::vector<double> pose; ///< DOF values that break it, or at which it could not be told; may be empty
     bool miss = false;        ///< shown: no contact of the meshes is missed beyond the stored bound
     bool early = false;       ///< shown: contact is reported only when the meshes are as near as stated
-    double earlyBound = -1;   ///< how near they are, as far as the meshes show it; -1: not asked for
-    bool fillings = false;    ///< what is behind openings of a mesh counts as body in that
+    std::optional<double>
+        earlyBound;        ///< how near they are, as far as the meshes show it; none: not asked for
+    bool fillings = false; ///< what is behind openings of a mesh counts as body in that
     verify::ExemptShare exempt;
     double farthestExempt = 0; ///< no connected piece of that is farther from the other body at rest
     double band = 0;           ///< rounding granted to lengths, scene units
@@ -29,8 +31,8 @@ struct MeshVerdict {
 /// Proves what a certified table says of the meshes, from both alone, with code that nothing else uses
 /// (METHOD 3.6): for every q of Q, that is not empty,
 /// - wherever the surfaces have a common point, the exempt parts between each other excepted, the gap of some
-///   test, counted from its threshold, is at most boundMiss (not asked where boundMiss < 0);
-/// - wherever a test fires the surfaces are at most boundEarly apart (not asked where boundEarly < 0);
+///   test, counted from its threshold, is at most boundMiss (not asked where that is not known);
+/// - wherever a test fires the surfaces are at most boundEarly apart (not asked where that is not known);
 /// and that what is exempt is where the meshes meet at rest. The record, the method and epsilon are not read.
 /// All triangles of the meshes count, those without area as segments and points. Deterministic.
 /// work: give up after about so many comparisons of patches; 0: never.

@@ -264,32 +264,9 @@ void drive(const SceneModel& scene, const Judge& judge, std::size_t steps, doubl
     printTimes("jumps", jumps);
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
-    if (argc < 2)
-        return std::fputs(
-                   "usage: bench_mechanism BAKED.tss [CONFIGURATIONS [NEAR [STEPS [MOST]]]]\n"
-                   "  CONFIGURATIONS at random and NEAR contact, asked of FCL as well; STEPS of the "
-                   "response,\n"
-                   "  each of at most MOST a value (radians, scene units; 0: a fiftieth of what is left)\n",
-                   stderr),
-               2;
-    const std::size_t configurations = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 10000;
-    const std::size_t near = argc > 3 ? std::strtoul(argv[3], nullptr, 10) : 0;
-    const std::size_t steps = argc > 4 ? std::strtoul(argv[4], nullptr, 10) : 0;
-    const double most = argc > 5 ? std::strtod(argv[5], nullptr) : 0.002;
-    const SceneModel scene = loadScene(argv[1]);
-    const Judge judge(scene);
-    if (steps > 0) drive(scene, judge, steps, most);
-    if (steps > 0 && configurations == 0 && near == 0) return 0;
-    const auto start = std::chrono::steady_clock::now();
-    const MechanismQuery query(scene);
-    const std::chrono::duration<double> prepared = std::chrono::steady_clock::now() - start;
+/// What a configuration costs, alone and among many, and FCL on the same; which pairs are named how often.
+void timeAnswers(const SceneModel& scene, const Judge& judge, const MechanismQuery& query) {
     MechanismWorkspace ws = query.workspace();
-    fmt::print("{} tables, {} proofs, {} pairs without; prepared in {:.2f} s\n", query.order().size(),
-               query.provenCount(), query.unanswered().size(), prepared.count());
-
     Configurations draw(scene);
     const std::size_t n = draw.values(), timed = 20000;
     std::vector<double> values(timed * n);
@@ -316,7 +293,7 @@ int main(int argc, char** argv) {
                                          [&](const MechanismAnswer& answer) { return answer.pair == k; });
         const Table& table = *scene.pairs[k].table;
         fmt::print("  {}: {} DOFs, {} tests, early {:.4g}, names {}\n", scene.pairs[k].path,
-                   table.motion.dofCount(), table.testCount(), table.boundEarly, named);
+                   table.motion.dofCount(), table.testCount(), table.boundEarly.value_or(-1), named);
     }
     const std::size_t slow = std::min<std::size_t>(timed, 2000);
     std::size_t met = 0;
@@ -328,6 +305,33 @@ int main(int argc, char** argv) {
     const double fcl = time(slow, 3, {askFcl})[0];
     fmt::print("FCL on {} pairs ({} left out that overlap at rest): {:.0f} ns, {} of {} touch\n",
                judge.truths.size(), judge.left, fcl, met, slow);
+}
 
+} // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 2)
+        return std::fputs(
+                   "usage: bench_mechanism BAKED.tss [CONFIGURATIONS [NEAR [STEPS [MOST]]]]\n"
+                   "  CONFIGURATIONS at random and NEAR contact, asked of FCL as well; STEPS of the "
+                   "response,\n"
+                   "  each of at most MOST a value (radians, scene units; 0: a fiftieth of what is left)\n",
+                   stderr),
+               2;
+    const std::size_t configurations = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 10000;
+    const std::size_t near = argc > 3 ? std::strtoul(argv[3], nullptr, 10) : 0;
+    const std::size_t steps = argc > 4 ? std::strtoul(argv[4], nullptr, 10) : 0;
+    const double most = argc > 5 ? std::strtod(argv[5], nullptr) : 0.002;
+    const SceneModel scene = loadScene(argv[1]);
+    const Judge judge(scene);
+    if (steps > 0) drive(scene, judge, steps, most);
+    if (steps > 0 && configurations == 0 && near == 0) return 0;
+    const auto start = std::chrono::steady_clock::now();
+    const MechanismQuery query(scene);
+    const std::chrono::duration<double> prepared = std::chrono::steady_clock::now() - start;
+    fmt::print("{} tables, {} proofs, {} pairs without; prepared in {:.2f} s\n", query.order().size(),
+               query.provenCount(), query.unanswered().size(), prepared.count());
+
+    timeAnswers(scene, judge, query);
     countMissed(scene, judge, configurations, near);
 }

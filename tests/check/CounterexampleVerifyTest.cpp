@@ -31,7 +31,7 @@ std::optional<std::vector<double>> missed(const SceneModel& scene, const Pair& p
     const Motion motion = pairMotion(scene, pair);
     for (const std::vector<double>& q : randomPoses(motion, 300, 1)) {
         if (!truth.touches(pose(motion, q))) continue;
-        if (!pair.table || query(*pair.table, q).gap > std::max(0.0, pair.table->boundMiss) + 1e-7) return q;
+        if (!pair.table || query(*pair.table, q).gap > pair.table->boundMiss.value_or(0) + 1e-7) return q;
     }
     return std::nullopt;
 }

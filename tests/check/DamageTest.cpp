@@ -61,9 +61,9 @@ public:
             const Pose at = pose(motion_, poses_[k]);
             const double gap = query(table, at).gap;
             judged.touching += touches_[k];
-            judged.missed += touches_[k] && table.boundMiss >= 0 && gap > table.boundMiss + rounding;
-            judged.early += !touches_[k] && table.boundEarly >= 0 && gap <= -rounding &&
-                            truth_.distance(at) > table.boundEarly + rounding;
+            judged.missed += touches_[k] && table.boundMiss && gap > *table.boundMiss + rounding;
+            judged.early += !touches_[k] && table.boundEarly && gap <= -rounding &&
+                            truth_.distance(at) > *table.boundEarly + rounding;
         }
         return judged;
     }

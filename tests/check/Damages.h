@@ -61,13 +61,11 @@ inline void addThreshold(Table& table, double by) {
     for (double& gap : table.restGaps) gap += by;
 }
 
-/// About fifty kinds. `length`: how large a change counts, about the tolerance of the spheres.
-inline std::vector<Damage> kinds(double length) {
+using AddDamage = std::function<void(std::string name, std::function<void(Table&, std::mt19937_64&)> apply)>;
+
+/// Of spheres and thresholds.
+inline void addSizes(double length, const AddDamage& add) {
     using R = std::mt19937_64;
-    std::vector<Damage> all;
-    const auto add = [&](std::string name, std::function<void(Table&, R&)> apply) {
-        all.push_back({std::move(name), std::move(apply)});
-    };
     for (const double factor : {0.5, 0.9, 0.97, 0.99, 1.01, 1.1}) {
         const std::string by = " times " + std::to_string(factor);
         add("radii of A" + by, [=](Table& t, R&) { scaleRadii(t.a, factor); });
@@ -89,6 +87,11 @@ inline std::vector<Damage> kinds(double length) {
             t.restGaps[any(r, t.testCount())] += by * length;
         });
     }
+}
+
+/// Of tests, bounds and limits.
+inline void addClaims(double length, const AddDamage& add) {
+    using R = std::mt19937_64;
     add("one test dropped", [](Table& t, R& r) {
         std::vector<tss::SpherePair> pairs = tss::tests(t);
         std::vector<double> gaps = t.restGaps;
@@ -113,8 +116,8 @@ inline std::vector<Damage> kinds(double length) {
         t.record.fitA.coverage = t.record.fitB.coverage = 0;
     });
     add("boundEarly 0", [](Table& t, R&) { t.boundEarly = 0; });
-    add("boundEarly a half", [](Table& t, R&) { t.boundEarly *= 0.5; });
-    add("all bounds 0", [](Table& t, R&) { t.boundEarly = t.boundMiss = t.epsilon = 0; });
+    add("boundEarly a half", [](Table& t, R&) { *t.boundEarly *= 0.5; });
+    add("all bounds 0", [](Table& t, R&) { t.boundEarly = t.boundMiss = 0, t.epsilon = 0; });
     add("epsilon 0", [](Table& t, R&) { t.epsilon = 0; });
     add("epsilon twice", [](Table& t, R&) { t.epsilon *= 2; });
     add("depth 0", [](Table& t, R&) { t.gapDepth = 0; });
@@ -132,6 +135,16 @@ inline std::vector<Damage> kinds(double length) {
     add("an exempt part of B alone", [](Table& t, R& r) {
         t.restRegion.b = {{std::uint32_t(any(r, 8)), 2}};
     });
+}
+
+/// About fifty kinds. `length`: how large a change counts, about the tolerance of the spheres.
+inline std::vector<Damage> kinds(double length) {
+    std::vector<Damage> all;
+    const AddDamage add = [&](std::string name, std::function<void(Table&, std::mt19937_64&)> apply) {
+        all.push_back({std::move(name), std::move(apply)});
+    };
+    addSizes(length, add);
+    addClaims(length, add);
     return all;
 }
 

@@ -17,8 +17,10 @@ inline tss::compare::ComparedPair makeProblem(tss::TriangleMesh a, tss::Triangle
     const tss::SphereFit fitA = fitSpheres(problem.meshA, options), fitB = fitSpheres(problem.meshB, options);
     problem.a = fitA.spheres;
     problem.b = fitB.spheres;
-    problem.fitA = {fitA.coverage, fitA.protrusion};
-    problem.fitB = {fitB.coverage, fitB.protrusion};
+    problem.fitA.coverage = fitA.coverage;
+    problem.fitA.protrusion = fitA.protrusion;
+    problem.fitB.coverage = fitB.coverage;
+    problem.fitB.protrusion = fitB.protrusion;
     std::vector<tss::SpherePair> all;
     for (std::uint32_t i = 0; i < problem.a.size(); ++i)
         for (std::uint32_t j = 0; j < problem.b.size(); ++j) all.push_back({i, j});

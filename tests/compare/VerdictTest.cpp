@@ -45,7 +45,7 @@ void checkStated(const CollisionMethod& method, const Judged& judged, double sla
     }
     CHECK(method.countHits(judged.queries) == hits);
     if (stated.miss == 0) CHECK(missed == 0);
-    if (stated.early >= 0) CHECK(earliest <= stated.early + slack);
+    if (stated.early) CHECK(earliest <= *stated.early + slack);
     CHECK(hits > 0);
     CHECK(hits < judged.queries.size());
 }
@@ -171,7 +171,7 @@ TEST_CASE("a grid of gaps comes nearer to the model as it gets finer, always wit
         double worst = 0;
         for (const PoseQuery& query : queries)
             worst = std::max(worst, std::abs(*grid->gap(query) - *model->gap(query)));
-        CHECK(worst <= grid->description().stated.miss);
+        CHECK(worst <= grid->description().stated.miss.value());
         CHECK(worst < before);
         before = worst;
     }

@@ -24,7 +24,7 @@ void checkScaled(const Table& table, const Table& base, double factor) {
     same(table.a, base.a);
     same(table.b, base.b);
     CHECK(table.boundMiss == base.boundMiss);
-    CHECK(table.boundEarly == Approx(factor * base.boundEarly).epsilon(1e-4));
+    CHECK(table.boundEarly.value() == Approx(factor * base.boundEarly.value()).epsilon(1e-4));
 }
 
 } // namespace

@@ -170,7 +170,7 @@ TEST_CASE("a body on its way through a closed one is in contact where their surf
         const double distance = a.distanceTo(b, pose(motion, q));
         const bool hit = query(*pair.table, q).hit();
         if (distance == 0) CHECK(hit);
-        if (hit) CHECK(distance <= pair.table->boundEarly);
+        if (hit) CHECK(distance <= pair.table->boundEarly.value());
         touching += distance == 0;
     }
     CHECK(touching > 20);

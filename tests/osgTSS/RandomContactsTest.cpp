@@ -51,13 +51,14 @@ public:
             const tss::Table& table = *pair.of->table;
             const double gap = tss::query(table, q).gap;
             reported += gap <= 0;
-            if (meet && table.boundMiss >= 0 && gap > table.boundMiss + rounding)
-                FAIL(pair.of->path << " meets at a gap of " << gap << ", misses at most " << table.boundMiss);
-            if (!meet && gap <= 0 && table.boundEarly >= 0) {
+            if (meet && table.boundMiss && gap > *table.boundMiss + rounding)
+                FAIL(pair.of->path << " meets at a gap of " << gap << ", misses at most "
+                                   << *table.boundMiss);
+            if (!meet && gap <= 0 && table.boundEarly) {
                 const double distance = pair.truth->distance(at);
-                if (distance > table.boundEarly + rounding)
+                if (distance > *table.boundEarly + rounding)
                     FAIL(pair.of->path << " is said to meet, " << distance << " apart, at most "
-                                       << table.boundEarly);
+                                       << *table.boundEarly);
             }
         }
     }

@@ -91,7 +91,7 @@ Judged judge(const SceneModel& scene, int count, std::uint64_t seed) {
         const bool hit = query(table, q).hit(), contact = touches(at);
         judged.contacts += contact;
         judged.missed += contact && !hit;
-        judged.early += hit && whole.distance(at) > table.boundEarly * (1 + 1e-9);
+        judged.early += hit && whole.distance(at) > table.boundEarly.value() * (1 + 1e-9);
     }
     return judged;
 }

@@ -64,7 +64,7 @@ TEST_CASE("a needle without thickness is met like any other surface") {
             CHECK(hit);
         } else if (hit) {
             ++early;
-            CHECK(distance <= pair.table->boundEarly);
+            CHECK(distance <= pair.table->boundEarly.value());
         }
     }
     CHECK(touching > 50);

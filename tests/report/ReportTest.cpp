@@ -93,11 +93,11 @@ TEST_CASE(
         CHECK(row.times.low <= row.times.median);
         CHECK(row.times.median <= row.times.high);
         if (row.about.stated.miss == 0) CHECK(row.misses() == 0);
-        if (row.about.stated.miss >= 0)
-            CHECK(std::max(row.uniform.deepestMiss, row.near.deepestMiss) <= row.about.stated.miss + 1e-9);
-        if (row.about.stated.early >= 0)
+        if (row.about.stated.miss)
+            CHECK(std::max(row.uniform.deepestMiss, row.near.deepestMiss) <= *row.about.stated.miss + 1e-9);
+        if (row.about.stated.early)
             CHECK(std::max(row.uniform.farthestEarly, row.near.farthestEarly) <=
-                  row.about.stated.early + 1e-9);
+                  *row.about.stated.early + 1e-9);
         ours += row.method == "tss";
         if (row.method == "fcl-obbrss") {
             ++exact;

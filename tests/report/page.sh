@@ -31,7 +31,7 @@ addEventListener("error", event => note("no error, but " + event.message, false)
 const column = (table, k) => [...table.querySelectorAll("tbody tr")].map(line => line.children[k].textContent);
 const table = document.querySelector("table");
 const heads = [...table.querySelectorAll("th")];
-const time = heads.findIndex(head => head.textContent === "time");
+const time = heads.findIndex(head => head.textContent.startsWith("time"));
 const nanoseconds = text => parseFloat(text) * (text.includes("ms") ? 1e6 : text.includes("µs") ? 1e3 : 1);
 const times = () => column(table, time).filter(text => text !== "–").map(nanoseconds);
 const rises = list => list.every((value, k) => k === 0 || list[k - 1] <= value);

@@ -81,7 +81,7 @@ TEST_CASE("a table comes back number by number") {
     CHECK(read.restRegion.depth == 0.1);
     CHECK(read.epsilon == table.epsilon);
     CHECK(read.boundMiss == 0);
-    CHECK(read.boundEarly == -1);
+    CHECK_FALSE(read.boundEarly);
     CHECK(read.certified);
     CHECK(read.method == table.method);
     CHECK(read.record.spheresA == 10);

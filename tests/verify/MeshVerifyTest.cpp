@@ -42,7 +42,7 @@ void refusedWithPose(const Case& c) {
     REQUIRE(verdict.pose.size() == c.motion.dofCount());
     CHECK(withinLimits(c.motion, verdict.pose));
     CHECK(meet(c, verdict.pose));
-    CHECK(query(c.table, verdict.pose).gap > c.table.boundMiss);
+    CHECK(query(c.table, verdict.pose).gap > c.table.boundMiss.value());
 }
 
 /// A box that slides along x into another, each with one ball about its middle: they touch when the middles
@@ -85,7 +85,7 @@ TEST_CASE("a bound on misses is proven as it is stated and not a hair tighter") 
         c.table.boundMiss = miss;
         refusedWithPose(c);
     }
-    c.table.boundMiss = -1; // nothing is claimed
+    c.table.boundMiss.reset(); // nothing is claimed
     CHECK(c.verdict().holds());
     CHECK_FALSE(c.verdict().miss);
 }
@@ -126,7 +126,7 @@ TEST_CASE("segments that triangles without area leave are surface") {
     c.b = {{{1, 0.7, 0}, {1.2, 3, 0}, {1.1, 1.85, 0}}, {{0, 1, 2}}}; // a wire beside the test's ball
     c.motion.dofs.push_back(joints::slide(Vec3::UnitY(), -0.5, 0));
     c.table.motion = c.motion;
-    c.table.boundEarly = -1;
+    c.table.boundEarly.reset();
     refusedWithPose(c);
 }
 
@@ -198,8 +198,8 @@ TEST_CASE("spheres that stick out further than stated are refused") {
     const double out = std::sqrt(0.75); // a ball of that radius holds the box, and sticks out of its faces
     Case c = boxes(out, 2 * (out - 0.5));
     CHECK(c.verdict().early);
-    CHECK(c.verdict().earlyBound == Approx(2 * (out - 0.5)));
-    c.table.boundEarly *= 0.999;
+    CHECK(c.verdict().earlyBound.value() == Approx(2 * (out - 0.5)));
+    *c.table.boundEarly *= 0.999;
     CHECK_FALSE(c.verdict().holds());
     c = boxes(0.5, 0.3);
     c.table.restGaps = {0.2};
@@ -335,7 +335,7 @@ TEST_CASE("what is said does not depend on the number of threads, nor on how oft
     c.b = transformed(lumpyMesh(random, 2, 0.3), Eigen::Affine3d(Eigen::Translation3d(2, 0, 0)));
     c.motion.dofs = {joints::slide(Vec3::UnitX(), -1, 1), joints::turn({2, 0, 0}, Vec3::UnitZ(), -1, 1)};
     c.table.motion = c.motion;
-    c.table.boundEarly = -1;
+    c.table.boundEarly.reset();
     const MeshVerdict first = c.verdict();
     const ThreadLimit one(1);
     const MeshVerdict second = c.verdict();

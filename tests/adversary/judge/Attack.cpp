@@ -72,20 +72,20 @@ public:
 
 private:
     void judgeMiss(const Values& q, const Pose& at, double gap) {
-        if (!claims_ || table_.boundMiss < 0) return;
-        const double late = gap - table_.boundMiss;
+        if (!claims_ || !table_.boundMiss) return;
+        const double late = gap - *table_.boundMiss;
         if (late <= surfaces.rounding(at)) return;
         if (!surfaces.surelyMeet(at)) {
             ++found.doubts;
             return;
         }
         found.latest = std::max(found.latest, late);
-        fail(found.missed, q, fmt::format("contact, gap {:.6g}, boundMiss {:.6g}", gap, table_.boundMiss));
+        fail(found.missed, q, fmt::format("contact, gap {:.6g}, boundMiss {:.6g}", gap, *table_.boundMiss));
     }
 
     void judgeEarly(const Values& q, const Pose& at) {
-        if (!claims_ || table_.boundEarly < 0) return;
-        const double allowed = table_.boundEarly + surfaces.rounding(at);
+        if (!claims_ || !table_.boundEarly) return;
+        const double allowed = *table_.boundEarly + surfaces.rounding(at);
         if (!surfaces.apart(at, allowed)) return;
         const double distance = surfaces.distance(at);
         if (distance <= allowed || surfaces.fillingsNear(at, allowed)) return;
@@ -95,7 +95,7 @@ private:
         }
         found.earliest = std::max(found.earliest, distance);
         fail(found.early, q,
-             fmt::format("reported {:.6g} apart, boundEarly {:.6g}", distance, table_.boundEarly));
+             fmt::format("reported {:.6g} apart, boundEarly {:.6g}", distance, *table_.boundEarly));
     }
 
     /// What a kernel says is held against gaps that are not rounded to double anywhere, T(q) neither, and

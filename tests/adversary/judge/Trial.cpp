@@ -68,7 +68,7 @@ void judgeClaim(const SceneModel& scene, const Pair& pair, Trial& trial) {
     trial.firesAtRest = query(*pair.table, restValues(motion)).hit();
     trial.tests = pair.table->testCount();
     trial.certified = pair.table->certified;
-    trial.missUnknown = trial.certified && pair.table->boundMiss < 0;
+    trial.missUnknown = trial.certified && !pair.table->boundMiss;
 }
 
 void verify(const SceneModel& scene, const TrialOptions& options, Trial& trial) {

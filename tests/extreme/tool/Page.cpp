@@ -31,8 +31,8 @@ std::string pairRow(const Served& served) {
                                   served.scene.holds, pair.verdict.spheresA, pair.verdict.spheresB);
     if (!model.table) return row + fmt::format("never meet | | {} | | | | | {} |\n", proven, steps(pair));
     const KernelFigures& kernel = *pair.kernel;
-    row += fmt::format("{} | {:.3g} / {:.3g} | {} | ", model.table->testCount(), model.table->boundMiss,
-                       model.table->boundEarly, proven);
+    row += fmt::format("{} | {:.3g} / {:.3g} | {} | ", model.table->testCount(),
+                       model.table->boundMiss.value_or(-1), model.table->boundEarly.value_or(-1), proven);
     row += fmt::format("{} {} | {:.3g} | {:.2g} | {:.2g} | {} |\n", tss::name(kernel.form),
                        tss::name(kernel.precision), kernel.condition, kernel.floatBand, kernel.band,
                        steps(pair));

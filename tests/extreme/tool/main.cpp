@@ -62,7 +62,7 @@ int check(int count, char** names) {
         for (const PairFigures& pair : outcome.pairs) {
             fmt::print("  {} spheres {}+{} cells {} band {:.3g} early {:.4g} deepest {:.3g}\n", pair.path,
                        pair.verdict.spheresA, pair.verdict.spheresB, pair.verdict.cells, pair.verdict.band,
-                       pair.verdict.early, pair.deepest);
+                       pair.verdict.meshes.earlyBound.value_or(-1), pair.deepest);
             if (pair.kernel)
                 fmt::print("    {} {} condition {:.3g} float band {:.3g} band {:.3g} tests {}\n",
                            name(pair.kernel->form), name(pair.kernel->precision), pair.kernel->condition,
