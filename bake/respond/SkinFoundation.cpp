@@ -108,70 +108,72 @@ SparseMatrix sheetOn(const TriangleMesh& skin, const SkinGraph& graph, const Wei
     return sheet;
 }
 
-struct Columns {
-    std::vector<std::vector<std::pair<std::uint32_t, float>>> of; ///< #nodes
-};
+using Columns = std::vector<std::vector<std::pair<std::uint32_t, float>>>; ///< #nodes
 
-/// One column after the other, each cut to what it has within a patch around some of the nodes.
+/// The columns of some nodes, each cut to what it has within a patch around them all.
+void solvePatch(const SparseMatrix& sheet, const std::vector<Vec3>& places,
+                std::span<const std::uint32_t> wanted, double reach, Columns& columns) {
+    Eigen::AlignedBox3d box;
+    for (const std::uint32_t n : wanted) box.extend(places[n]);
+    std::vector<std::uint32_t> patch;
+    std::vector<int> local(places.size(), -1);
+    for (std::uint32_t n = 0; n < places.size(); ++n)
+        if (box.squaredExteriorDistance(places[n]) < reach * reach) {
+            local[n] = static_cast<int>(patch.size());
+            patch.push_back(n);
+        }
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t k = 0; k < patch.size(); ++k)
+        for (SparseMatrix::InnerIterator it(sheet, static_cast<Eigen::Index>(patch[k])); it; ++it)
+            if (local[it.row()] >= 0) entries.emplace_back(local[it.row()], static_cast<int>(k), it.value());
+    const auto size = static_cast<Eigen::Index>(patch.size());
+    SparseMatrix part(size, size);
+    part.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLDLT<SparseMatrix> solver(part);
+    for (const std::uint32_t n : wanted) {
+        const Eigen::VectorXd x = solver.solve(Eigen::VectorXd::Unit(size, local[n]));
+        const double peak = x.cwiseAbs().maxCoeff();
+        for (std::size_t k = 0; k < patch.size(); ++k) {
+            const double value = x[static_cast<Eigen::Index>(k)], above = std::abs(value) / peak - columnCut;
+            if (!(above > 0)) continue;
+            columns[n].emplace_back(patch[k], static_cast<float>(std::min(above / columnCut, 1.0) * value));
+        }
+    }
+}
+
+/// What is cut off one of two columns is cut off the other, or the problem of the pushes is not symmetric.
+void cutAlike(Columns& columns) {
+    const auto entryOf = [&](std::uint32_t column, std::uint32_t node) -> float* {
+        auto& list = columns[column];
+        const auto found = std::lower_bound(list.begin(), list.end(), node,
+                                            [](const auto& e, std::uint32_t n) { return e.first < n; });
+        return found == list.end() || found->first != node ? nullptr : &found->second;
+    };
+    for (std::uint32_t n = 0; n < columns.size(); ++n)
+        for (auto& [other, value] : columns[n]) {
+            if (other == n || columns[other].empty()) continue;
+            float* const back = entryOf(other, n);
+            if (back == nullptr)
+                value = 0;
+            else
+                value = *back = std::min(value, *back);
+        }
+    for (auto& column : columns) std::erase_if(column, [](const auto& entry) { return entry.second == 0; });
+}
+
+/// The columns of those that are needed.
 Columns solveColumns(const SparseMatrix& sheet, const std::vector<Vec3>& places,
                      const std::vector<bool>& needed, double reach) {
     std::vector<std::uint32_t> wanted;
     for (const std::uint32_t n : alongCurve(places))
         if (needed[n]) wanted.push_back(n);
-    Columns columns;
-    columns.of.resize(places.size());
+    Columns columns(places.size());
     const std::size_t patches = (wanted.size() + nodesAPatch - 1) / nodesAPatch;
     parallelFor(patches, [&](std::size_t p) {
         const std::size_t first = p * nodesAPatch, last = std::min(first + nodesAPatch, wanted.size());
-        Eigen::AlignedBox3d box;
-        for (std::size_t i = first; i < last; ++i) box.extend(places[wanted[i]]);
-        std::vector<std::uint32_t> patch;
-        std::vector<int> local(places.size(), -1);
-        for (std::uint32_t n = 0; n < places.size(); ++n)
-            if (box.squaredExteriorDistance(places[n]) < reach * reach) {
-                local[n] = static_cast<int>(patch.size());
-                patch.push_back(n);
-            }
-        std::vector<Eigen::Triplet<double>> entries;
-        for (std::size_t k = 0; k < patch.size(); ++k)
-            for (SparseMatrix::InnerIterator it(sheet, static_cast<Eigen::Index>(patch[k])); it; ++it)
-                if (local[it.row()] >= 0)
-                    entries.emplace_back(local[it.row()], static_cast<int>(k), it.value());
-        const auto size = static_cast<Eigen::Index>(patch.size());
-        SparseMatrix part(size, size);
-        part.setFromTriplets(entries.begin(), entries.end());
-        const Eigen::SimplicialLDLT<SparseMatrix> solver(part);
-        for (std::size_t i = first; i < last; ++i) {
-            const Eigen::VectorXd x = solver.solve(Eigen::VectorXd::Unit(size, local[wanted[i]]));
-            const double peak = x.cwiseAbs().maxCoeff();
-            for (std::size_t k = 0; k < patch.size(); ++k) {
-                const double above = std::abs(x[static_cast<Eigen::Index>(k)]) / peak - columnCut;
-                if (!(above > 0)) continue;
-                const double fade = std::min(above / columnCut, 1.0);
-                columns.of[wanted[i]].emplace_back(
-                    patch[k], static_cast<float>(fade * x[static_cast<Eigen::Index>(k)]));
-            }
-        }
+        solvePatch(sheet, places, std::span(wanted).subspan(first, last - first), reach, columns);
     });
-    // What is cut off one of two columns is cut off the other, or the problem of the pushes is not symmetric.
-    for (const std::uint32_t n : wanted)
-        for (auto& [other, value] : columns.of[n]) {
-            if (!needed[other] || other <= n) continue;
-            auto& back = columns.of[other];
-            const auto found =
-                std::find_if(back.begin(), back.end(), [&](const auto& e) { return e.first == n; });
-            if (found == back.end())
-                value = 0;
-            else
-                value = found->second = std::min(value, found->second);
-        }
-    for (const std::uint32_t n : wanted)
-        std::erase_if(columns.of[n], [&](const auto& entry) {
-            if (entry.second == 0 || !needed[entry.first] || entry.first >= n) return entry.second == 0;
-            const auto& back = columns.of[entry.first];
-            return std::find_if(back.begin(), back.end(), [&](const auto& e) { return e.first == n; }) ==
-                   back.end();
-        });
+    cutAlike(columns);
     return columns;
 }
 
@@ -206,7 +208,7 @@ SkinFoundation skinFoundation(const TriangleMesh& skin, const SkinGraph& graph,
     const Columns columns = solveColumns(sheet, places, needed, columnReach * length);
 
     float peak = 0;
-    for (const auto& column : columns.of)
+    for (const auto& column : columns)
         for (const auto& entry : column) peak = std::max(peak, entry.second);
     foundation.start.push_back(0);
     for (const auto& list : weights) {
@@ -217,7 +219,7 @@ SkinFoundation skinFoundation(const TriangleMesh& skin, const SkinGraph& graph,
         foundation.start.push_back(static_cast<std::uint32_t>(foundation.node.size()));
     }
     foundation.columnStart.push_back(0);
-    for (const auto& column : columns.of) {
+    for (const auto& column : columns) {
         for (const auto& [node, value] : column) {
             foundation.columnNode.push_back(node);
             foundation.column.push_back(value / peak);

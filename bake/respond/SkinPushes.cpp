@@ -145,18 +145,26 @@ float SkinPushes::sweep(std::span<SkinPlane> planes, bool backwards) {
         const std::size_t r = backwards ? planes.size() - 1 - k : k; // no end is always the last
         if (!(self_[r] > 0)) continue;                               // nothing there can give way
         const float next = std::clamp(planes[r].push + lack_[r] / ((1 + giveWay) * self_[r]), 0.0f, most_[r]);
-        const float change = next - planes[r].push;
-        if (change == 0) continue;
-        planes[r].push = next;
-        spread(r, change);
-        largest = std::max(largest, std::abs(change) * self_[r]);
+        largest = std::max(largest, std::abs(next - planes[r].push) * self_[r]);
+        setPush(planes[r], r, next);
     }
     return largest;
 }
 
-/// Conjugate gradients over those that push: what lies between opposite pushes is settled in a few steps,
-/// for which sweeps would take thousands. Returns how many steps it took.
-int SkinPushes::settle(std::span<SkinPlane> planes, int steps) {
+/// What all planes would be given, were each push changed by its part of way_.
+void SkinPushes::answer() {
+    answer_.assign(way_.size(), 0);
+    for (std::size_t r = 0; r < way_.size(); ++r) {
+        if (way_[r] == 0) continue;
+        answer_[r] += (1 + giveWay) * self_[r] * way_[r];
+        for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
+            answer_[coupling_[e].index] += matrix_[e] * way_[r];
+    }
+}
+
+/// Conjugate gradients over those that push: fills step_, by which they would lack nothing. Returns how many
+/// steps it took.
+int SkinPushes::findStep(std::span<const SkinPlane> planes, int steps) {
     const std::size_t count = planes.size();
     step_.assign(count, 0);
     way_.assign(count, 0);
@@ -171,13 +179,7 @@ int SkinPushes::settle(std::span<SkinPlane> planes, int steps) {
     const float enough = 1e-8f * size;
     int taken = 0;
     for (; taken < steps && size > enough; ++taken) {
-        answer_.assign(count, 0);
-        for (std::size_t r = 0; r < count; ++r) {
-            if (way_[r] == 0) continue;
-            answer_[r] += (1 + giveWay) * self_[r] * way_[r];
-            for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
-                answer_[coupling_[e].index] += matrix_[e] * way_[r];
-        }
+        answer();
         float curve = 0;
         float least = 0; // of the curvature, were nothing cut off the columns
         for (std::size_t r = 0; r < count; ++r) {
@@ -197,26 +199,29 @@ int SkinPushes::settle(std::span<SkinPlane> planes, int steps) {
             if (inside(planes, r)) way_[r] = left_[r] / self_[r] + next / size * way_[r];
         size = next;
     }
+    return taken;
+}
+
+void SkinPushes::setPush(SkinPlane& plane, std::size_t r, float push) {
+    const float change = push - plane.push;
+    if (change == 0) return;
+    plane.push = push;
+    spread(r, change);
+}
+
+/// Goes as much of step_ as helps.
+void SkinPushes::goStep(std::span<SkinPlane> planes) {
+    const std::size_t count = planes.size();
     const float before = energy(planes);
     way_.resize(count);
-    for (std::size_t r = 0; r < count; ++r) way_[r] = planes[r].push; // from where the way goes
-    for (float share = 1; taken > 0 && share > leastStep; share /= 2) {
-        for (std::size_t r = 0; r < count; ++r) {
-            const float next =
-                step_[r] == 0 ? way_[r] : std::clamp(way_[r] + share * step_[r], 0.0f, most_[r]);
-            const float change = next - planes[r].push;
-            if (change == 0) continue;
-            planes[r].push = next;
-            spread(r, change);
-        }
-        if (!(energy(planes) > before)) return taken;
+    for (std::size_t r = 0; r < count; ++r) way_[r] = planes[r].push; // from where it goes
+    for (float share = 1; share > leastStep; share /= 2) {
+        for (std::size_t r = 0; r < count; ++r)
+            setPush(planes[r], r,
+                    step_[r] == 0 ? way_[r] : std::clamp(way_[r] + share * step_[r], 0.0f, most_[r]));
+        if (!(energy(planes) > before)) return;
     }
-    for (std::size_t r = 0; r < count; ++r)
-        if (planes[r].push != way_[r]) {
-            spread(r, way_[r] - planes[r].push);
-            planes[r].push = way_[r];
-        }
-    return taken;
+    for (std::size_t r = 0; r < count; ++r) setPush(planes[r], r, way_[r]);
 }
 
 /// What the pushes make as small as they can, up to a factor.
@@ -236,7 +241,10 @@ void SkinPushes::solve(std::span<SkinPlane> planes, std::span<const Move> base, 
         float largest = 0;
         for (int k = 0; k < sweepsBetween && done < sweeps; ++k, ++done) largest = sweep(planes, k % 2 != 0);
         if (largest <= settled) break;
-        done += settle(planes, std::min(stepsBetween, sweeps - done));
+        // What lies between opposite pushes is settled in a few steps, for which sweeps would take thousands.
+        const int steps = findStep(planes, std::min(stepsBetween, sweeps - done));
+        if (steps > 0) goStep(planes);
+        done += steps;
     }
 }
 

@@ -35,9 +35,12 @@ private:
     void couple();
     void prepare(std::span<SkinPlane> planes, std::span<const Move> base);
     void spread(std::size_t r, float change);
+    void setPush(SkinPlane& plane, std::size_t r, float push);
     float sweep(std::span<SkinPlane> planes, bool backwards);
     float energy(std::span<const SkinPlane> planes) const;
-    int settle(std::span<SkinPlane> planes, int steps);
+    void answer();
+    int findStep(std::span<const SkinPlane> planes, int steps);
+    void goStep(std::span<SkinPlane> planes);
 
     const SkinFoundation& foundation_;
     std::vector<std::uint32_t> ownStart_, columnStart_, coupleStart_; ///< one per plane and an end
