@@ -14,7 +14,7 @@ namespace tss {
 
 namespace {
 
-/// Looks at a vertex before it is given up, some ten microseconds each.
+/// Looks at a vertex before it is given up, some ten microseconds each in meshes of some thousand triangles.
 constexpr std::uint64_t mostProbes = 400'000;
 
 /// Shares of the reach: surfaces nearer than the first are near enough for spheres to touch, as far as their
@@ -111,14 +111,12 @@ public:
         const CellMotion motion(rates_, cell);
         const Pose inverse = motion.centrePose().inverse();
         std::vector<OpenPart> left;
-        std::array<bool, 2> deep{}; // some part is inside at the centre, as far as its vertices tell
-        for (OpenPart part : given.parts) {
-            bool inside = false;
-            if (outside(motion, inverse, part, inside, result.probes)) continue;
-            deep[part.question] = deep[part.question] || inside;
-            left.push_back(part);
-        }
+        for (OpenPart part : given.parts)
+            if (!outside(motion, inverse, part, result.probes)) left.push_back(part);
         if (left.empty()) return result;
+        std::array<bool, 2> deep{}; // some part is inside at the centre, as far as its vertices tell
+        for (const OpenPart& part : left)
+            if (!deep[part.question]) deep[part.question] = inside(motion, inverse, part, result.probes);
         if ((deep[0] || deep[1]) && judgeSurfaces(motion, deep, result)) return result;
         const std::size_t k = widest(motion);
         if (motion.dofs() == 0 || !(cell.upper[k] > cell.lower[k])) { // nothing left to cut
@@ -131,39 +129,54 @@ public:
     }
 
 private:
+    /// A vertex of a part in the frame of the outer body, at the centre of the cell.
+    Vec3 placeIn(const Question& question, const CellMotion& motion, const Pose& inverse,
+                 const Vec3& vertex) const {
+        return question.outerMoves ? Vec3(inverse * vertex) : motion.centrePose() * vertex;
+    }
+
+    /// How far a vertex may move against the outer body in the cell (for those of A as in findNearSurface()).
+    double moveOf(const Question& question, const CellMotion& motion, const Vec3& vertex) const {
+        if (!question.outerMoves) return motion.pointMotion(motion.centrePose() * vertex).move + rounding_;
+        return motion.relativeMove() < 1
+                   ? motion.pointMotion(vertex).move / (1 - motion.relativeMove()) + rounding_
+                   : std::numeric_limits<double>::infinity();
+    }
+
     /// Some vertex of the part stays outside the outer solid, or near its surface, all over the cell; then it
-    /// is the part's witness. inside: none of them is outside at the centre.
-    bool outside(const CellMotion& motion, const Pose& inverse, OpenPart& part, bool& inside,
-                 std::uint64_t& probes) const {
+    /// is the part's witness.
+    bool outside(const CellMotion& motion, const Pose& inverse, OpenPart& part, std::uint64_t& probes) const {
         const Question& question = questions_[part.question];
+        const Solid& outer = question.outer;
         const Part& vertices = question.parts[part.part];
-        inside = true;
         for (std::uint32_t i = 0; i < vertices.size(); ++i) {
             const std::uint32_t at = (part.witness + i) % static_cast<std::uint32_t>(vertices.size());
-            ++probes;
-            // The vertex in the frame of the outer body, and how far it may move against that in the cell
-            // (for those of A as in findNearSurface()).
-            const Vec3 x = question.outerMoves ? vertices[at] : motion.centrePose() * vertices[at];
-            double move = motion.pointMotion(x).move;
-            if (question.outerMoves)
-                move = motion.relativeMove() < 1 ? move / (1 - motion.relativeMove())
-                                                 : std::numeric_limits<double>::infinity();
-            move += rounding_;
-            const Vec3 place = question.outerMoves ? Vec3(inverse * x) : x;
-            const double distance = question.outer.boundary().distance(place);
-            const bool within = question.outer.inside(place);
-            inside = inside && within;
+            const double move = moveOf(question, motion, vertices[at]);
+            const Vec3 place = placeIn(question, motion, inverse, vertices[at]);
             // To get in it would have to cross the boundary, which is near it then, and is surface where
             // there are no openings.
-            const bool near =
-                question.outer.open()
-                    ? question.surface.distance(place, settled * reach_) + move <= settled * reach_
-                    : (within ? distance : 0) + move <= settled * reach_;
-            if (!near && (within || distance < move)) continue;
+            const double near = settled * reach_ - move;
+            ++probes;
+            bool stays =
+                near > 0 && (outer.open() ? question.surface : outer.boundary()).comesWithin(place, near);
+            if (!stays && ((near > 0 && !outer.open()) || !outer.boundary().comesWithin(place, move)))
+                stays = !outer.inside(place);
+            if (!stays) continue;
             part.witness = at;
             return true;
         }
         return false;
+    }
+
+    /// No vertex of the part is outside the outer solid at the centre of the cell.
+    bool inside(const CellMotion& motion, const Pose& inverse, const OpenPart& part,
+                std::uint64_t& probes) const {
+        const Question& question = questions_[part.question];
+        const Part& vertices = question.parts[part.part];
+        return std::all_of(vertices.begin(), vertices.end(), [&](const Vec3& vertex) {
+            ++probes;
+            return question.outer.inside(placeIn(question, motion, inverse, vertex));
+        });
     }
 
     /// True: the cell is settled, since the surfaces are near each other all over it, or since they are apart
@@ -171,11 +184,13 @@ private:
     bool judgeSurfaces(const CellMotion& motion, const std::array<bool, 2>& deep, CellResult& result) const {
         const double move = motion.pointMotion(motion.centrePose() * centreB_).move +
                             motion.relativeMove() * radiusB_ + rounding_;
-        const double distance = surfaceA_.distanceTo(surfaceB_, motion.centrePose(), reach_);
-        if (distance + move <= settled * reach_) return true;
-        if (!(distance >= apart * reach_)) return false;
+        const auto nearer = [&](double distance) {
+            return !surfaceA_.apart(surfaceB_, motion.centrePose(), distance);
+        };
+        if (move < settled * reach_ && nearer(settled * reach_ - move)) return true;
         // Where the centre lies beyond a plane, a pose of Q is near enough once the cell is small.
         if (!withinLimits(rates_.motion(), motion.centre()) && move > 0.05 * reach_) return false;
+        if (nearer(apart * reach_)) return false;
         result.inside = deep;
         return true;
     }

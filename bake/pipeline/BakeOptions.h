@@ -27,8 +27,8 @@ struct BakeOptions {
     AtRest atRest = AtRest::Offset;
     bool conservative = true; ///< spheres contain the surface; otherwise they are inscribed
     bool keepSpheres = false; ///< store all generated spheres too
-    /// Seconds for each pair's cover; 0: no limit. Not given: no limit up to three DOFs; over more a cover is
-    /// not even begun, nor where a number is given (METHOD 3.3).
+    /// Seconds for each pair's cover; 0: no limit. Not given: no limit up to three DOFs, about a minute of
+    /// one core by work done up to six. Over more than six a cover is not even begun (METHOD 3.3).
     std::optional<double> budget;
     /// As many pairs of spheres a table asks at most where no cover of them is found: few of them in a query,
     /// in clusters, but each takes some 240 bytes in memory.

@@ -198,7 +198,7 @@ bool canAskAll(const PairSpheres& spheres, const BakeOptions& options) {
 }
 
 bool manyDofs(const Motion& motion, const BakeOptions& options) {
-    return motion.dofCount() > (options.budget == 0 ? 6u : 3u);
+    return motion.dofCount() > (options.budget == 0 ? mostCoverDofs : 3);
 }
 
 PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,

@@ -34,6 +34,9 @@ SphereOptions sphereOptions(const BakeOptions& options, double tolerance);
 PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
                      const BakeOptions& options, const Progress& progress = {});
 
+/// Over more DOFs than these no cover is looked for.
+constexpr std::size_t mostCoverDofs = 6;
+
 /// Over more DOFs than these neither what is within reach nor a cover is found in any time that people have,
 /// unless as much as they like is asked for.
 bool manyDofs(const Motion& motion, const BakeOptions& options);

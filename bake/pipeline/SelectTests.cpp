@@ -14,6 +14,9 @@ namespace tss {
 
 namespace {
 
+/// Looks at pairs for the few among all of a table over many DOFs: about a minute of one core.
+constexpr std::uint64_t mostCoverLooks = 2'000'000'000;
+
 SampledSearchOptions sampled(const PairTask& task) {
     SampledSearchOptions search;
     search.samples = static_cast<std::size_t>(task.options.samples);
@@ -40,33 +43,54 @@ Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std:
         "which pairs of spheres imply others is too much to find out over {} degrees of "
         "freedom{}: all {} that may meet are asked{}",
         task.motion.dofCount(), task.options.budget.value_or(0) > 0 ? " in the budget" : "", pairs.size(),
-        task.options.budget == 0 || task.motion.dofCount() > 6
+        task.options.budget == 0 || task.motion.dofCount() > mostCoverDofs
             ? ""
             : " (--again --budget 0 searches without a limit)"));
     return selection;
 }
 
-/// The least that answers like all at every pose.
-Selection selectCover(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes,
-                      const Progress& progress) {
-    CoverOptions cover;
+CoverResult coverOf(const PairTask& task, const CandidatePairs& candidates, CoverOptions cover,
+                    const Progress& progress) {
     cover.epsilon = task.options.epsilon;
     cover.gapDepth = task.options.depth;
     cover.gapMargin = task.margin;
     cover.rule = task.ruled.rule;
     cover.seconds = task.options.budget.value_or(0);
-    const CoverResult result = certifiedCover(task.spheres.a.spheres, task.spheres.b.spheres,
-                                              allListed(candidates, task.options) ? &candidates : nullptr,
-                                              task.motion, cover, progress);
-    if (!std::isfinite(result.epsilon))
-        throw BudgetEnded("the budget ended before any bound was proven: expected a longer --budget, or a "
-                          "coarser --tolerance or --epsilon");
+    return certifiedCover(task.spheres.a.spheres, task.spheres.b.spheres,
+                          allListed(candidates, task.options) ? &candidates : nullptr, task.motion, cover,
+                          progress);
+}
+
+Selection selectionOf(const PairTask& task, const CoverResult& result) {
     Selection selection;
     selection.reduced = result;
     selection.epsilon = result.epsilon;
     selection.certified = task.options.search == SearchMethod::Certified;
     if (selection.certified && result.complete && result.pairs.empty())
         selection.proof = NeverCollides{result.clearance, result.cells, {}, {}, {}};
+    return selection;
+}
+
+/// The least in place of all that may be asked, if it is found within the effort granted.
+std::optional<Selection> selectFew(const PairTask& task, const CandidatePairs& candidates,
+                                   const Progress& progress) {
+    if (!manyDofs(task.motion, task.options) || task.motion.dofCount() > mostCoverDofs) return std::nullopt;
+    CoverOptions cover;
+    cover.coarser = false;
+    if (!task.options.budget) cover.looks = mostCoverLooks;
+    const CoverResult result = coverOf(task, candidates, cover, progress);
+    if (!result.complete) return std::nullopt;
+    return selectionOf(task, result);
+}
+
+/// The least that answers like all at every pose.
+Selection selectCover(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes,
+                      const Progress& progress) {
+    const CoverResult result = coverOf(task, candidates, {}, progress);
+    if (!std::isfinite(result.epsilon))
+        throw BudgetEnded("the budget ended before any bound was proven: expected a longer --budget, or a "
+                          "coarser --tolerance or --epsilon");
+    Selection selection = selectionOf(task, result);
     if (!result.complete)
         notes.push_back(fmt::format("the budget ended first: epsilon {} was reached, not {}",
                                     lengthText(result.epsilon, task.options.metersPerUnit),
@@ -119,7 +143,10 @@ Selection selectTests(const PairTask& task, const CandidatePairs& candidates, st
         selection.proof = NeverCollides{candidates.clearance, candidates.explored, {}, {}, {}};
         return selection;
     }
-    if (task.spheres.askAll) return selectAll(task, candidates, notes);
+    if (task.spheres.askAll) {
+        if (auto few = selectFew(task, candidates, progress)) return *few;
+        return selectAll(task, candidates, notes);
+    }
     switch (task.options.reduce) {
     case ReduceMethod::Cooccurrence:
         selection.reduced = reduceCooccurrence(candidates);

@@ -26,7 +26,7 @@ public:
     CoverSearch(const CoverProblem& problem, const CoverOptions& options, const Progress& progress)
         : problem_(problem), owed_{options.epsilon, options.gapDepth, options.gapMargin}, options_(options),
           cover_(problem) {
-        budget_.cells = options.cells;
+        budget_.looks = options.looks;
         budget_.seconds = options.seconds;
         budget_.progress = progress;
     }
@@ -38,6 +38,9 @@ public:
         if (first.complete) {
             result_.epsilon = owed_.epsilon;
             makeSmaller();
+        } else if (!options_.coarser) {
+            result_.epsilon = infinity;
+            return result_;
         } else {
             result_.epsilon = std::min(epsilonLeft(first.left), relaxEpsilon());
         }
@@ -50,12 +53,14 @@ private:
         CoverBudget part = budget_;
         const std::chrono::duration<double> used = std::chrono::steady_clock::now() - budget_.start;
         if (budget_.seconds > 0) part.seconds = used.count() + share * (budget_.seconds - used.count());
-        if (budget_.cells > 0)
-            part.cells = std::max<std::uint64_t>(
+        if (budget_.looks > 0)
+            part.looks = std::max<std::uint64_t>(
                 1, static_cast<std::uint64_t>(
-                       share * double(budget_.cells - std::min(budget_.cells, result_.cells))));
+                       share * double(budget_.looks - std::min(budget_.looks, result_.looks))));
         CoverProof proof = proveCover(problem_, owed, cover, {wholeProblem(problem_)}, part);
         result_.cells += proof.cells;
+        result_.looks += proof.looks;
+        if (!proof.complete && !options_.coarser) return proof;
         // What a pose demands at a coarser epsilon it demands at the one asked for too, only of fewer pairs.
         const auto more = constraintsAt(problem_, owed_, proof.facts, mostAnswers);
         demands_.insert(demands_.end(), more.begin(), more.end());

@@ -11,7 +11,8 @@ struct CoverOptions {
     double gapMargin = 0;    ///< ... and up to this clearance; both 0: a yes/no table
     ContactRule rule;        ///< of these spheres
     double seconds = 0;      ///< time budget, 0: none. A search cut short by time may differ from run to run
-    std::uint64_t cells = 0; ///< the same in cells of Q: the same result every time
+    std::uint64_t looks = 0; ///< the same in looks at pairs: the same result every time
+    bool coarser = true;     ///< where either ends, a larger epsilon is proven; false: nothing is, infinity
     int rounds = 24; ///< at most so many further proofs to make a proven table smaller; it ends when the
                      ///< table is within 2 % of its lower bound
 };
@@ -25,6 +26,7 @@ struct CoverResult : Reduced {
     bool complete = false;   ///< epsilon is not larger than the one asked for
     double clearance = 0;    ///< no pairs: the sphere models stay farther apart than this (METHOD 2.3)
     std::uint64_t cells = 0; ///< cells of Q looked at, all steps together
+    std::uint64_t looks = 0; ///< at pairs of spheres and of nodes in them
     std::size_t before = 0;  ///< pairs of the first cover, before it was made smaller
     std::size_t forced = 0; ///< pairs taken in cells too small to split, without a pose that shows their need
 };

@@ -92,6 +92,7 @@ bool CellExaminer::weighMembers(const CellMotion& motion, const CellLists& lists
     near_.clear();
     bestMember_ = infinity;
     const auto probe = [&](std::uint32_t k) {
+        ++looks_;
         const ContactPair& pair = members_[k];
         const Moved& b = moved(motion, p_.treeB.leafOf(pair.pair.b));
         const double distance = (b.x - p_.a[pair.pair.a].centre).norm();
@@ -126,6 +127,7 @@ const CellExaminer::Moved& CellExaminer::moved(const CellMotion& motion, std::ui
 }
 
 void CellExaminer::weigh(const CellMotion& motion, const ContactPair& pair) {
+    ++looks_;
     if (inCover_.contains(pair.pair)) return;
     const Moved& b = moved(motion, p_.treeB.leafOf(pair.pair.b));
     if ((b.x - p_.a[pair.pair.a].centre).norm() - b.motion.move >
@@ -141,6 +143,7 @@ void CellExaminer::openNodes(const CellMotion& motion, const std::vector<NodePai
     stack_ = nodes;
     descend(p_.treeA, p_.treeB, stack_,
             [&](NodePair pair, const SphereTree::Node& na, const SphereTree::Node& nb) {
+                ++looks_;
                 if (na.leaf() && nb.leaf()) {
                     ContactPair spheres;
                     if (p_.admit({na.sphere, nb.sphere}, spheres)) weigh(motion, spheres);
@@ -167,6 +170,7 @@ void CellExaminer::dropAnswered(const CellMotion& motion) {
         const double needed = rankNeeded(p, owed_);
         for (const auto& [rank, k] : ranks_) {
             if (rank >= needed) break;
+            ++looks_;
             if (k != recent && dominates(motion, near_[k], p, owed_, p_.band)) {
                 recent = k;
                 return true;
@@ -183,6 +187,7 @@ void CellExaminer::dropAnswered(const CellMotion& motion) {
         const auto place = here_.begin() + static_cast<std::ptrdiff_t>(lead);
         std::iter_swap(place, std::min_element(place, here_.end(), deeper));
         const PairInCell leader = *place;
+        looks_ += here_.size() - lead;
         const auto first = place + 1;
         here_.erase(
             std::remove_if(first, here_.end(),
@@ -239,6 +244,7 @@ std::optional<Counterexample> CellExaminer::counterexampleAt(const CellMotion& m
         q[k] = std::clamp(motion.centre()[k] + offset[k], p_.motion.dofs[k].lower, p_.motion.dofs[k].upper);
     answering = nullptr;
     if (!withinLimits(p_.motion, q)) return {};
+    looks_ += near_.size() + here_.size();
     const Pose at = pose(p_.motion, q);
     double member = infinity;
     for (const PairInCell& pair : near_)
@@ -262,6 +268,7 @@ void CellExaminer::deepestBelow(const CellMotion& motion, ContactPair& best, dou
     const double atMost = std::min(gap, std::nextafter(owed_.margin, infinity));
     leastBelow(p_.treeA, p_.treeB, motion.centrePose(), nodes_, atMost,
                [&](std::uint32_t i, std::uint32_t j) {
+                   ++looks_;
                    ContactPair pair;
                    if (!p_.admit({i, j}, pair)) return infinity;
                    const double own = p_.gap(pair, motion.centrePose());

@@ -49,6 +49,9 @@ public:
     /// the motion of the cell alone. Infinite for an empty cover.
     double epsilonOver(const OpenCell& cell);
 
+    /// At pairs so far, in all cells: what the work grows with.
+    std::uint64_t looks() const { return looks_; }
+
 private:
     bool weighMembers(const CellMotion& motion, const CellLists& lists);
     void openNodes(const CellMotion& motion, const std::vector<NodePair>& nodes);
@@ -83,6 +86,7 @@ private:
     const Moved& moved(const CellMotion& motion, std::uint32_t node);
     std::vector<Moved> moved_;
     std::uint64_t cellNumber_ = 0;
+    mutable std::uint64_t looks_ = 0;
 };
 
 /// The cells that a cover of the whole problem starts from: all of Q, all of both trees.

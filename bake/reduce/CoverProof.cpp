@@ -15,16 +15,18 @@ namespace {
 struct PartResult {
     std::vector<OpenCell> left;
     std::optional<Counterexample> lacking;
-    std::uint64_t cells = 0;
+    std::uint64_t cells = 0, looks = 0;
 };
 
-/// Depth first from one cell, for at most `steps` cells or until something is lacking.
-PartResult runPart(CellExaminer& examiner, const OpenCell& cell, std::uint64_t steps) {
+/// Depth first from one cell, for at most `steps` cells, about `looks` looks, or until something is lacking.
+PartResult runPart(CellExaminer& examiner, const OpenCell& cell, std::uint64_t steps, std::uint64_t looks) {
     PartResult result;
     result.left.push_back(cell);
-    while (!result.left.empty() && result.cells < steps) {
+    const std::uint64_t before = examiner.looks();
+    while (!result.left.empty() && result.cells < steps && result.looks < looks) {
         CellVerdict verdict = examiner.examine(result.left.back());
         ++result.cells;
+        result.looks = examiner.looks() - before;
         if (verdict.lacking) {
             result.lacking = std::move(verdict.lacking);
             break;
@@ -116,8 +118,8 @@ double shareDone(const CoverProblem& problem, const std::vector<OpenCell>& left)
 
 } // namespace
 
-bool CoverBudget::spent(std::uint64_t cellsUsed, double share) const {
-    if (cells > 0 && cellsUsed >= cells) return true;
+bool CoverBudget::spent(std::uint64_t looksUsed, double share) const {
+    if (looks > 0 && looksUsed >= looks) return true;
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     if (seconds > 0 && passed.count() >= seconds) return true;
     return !report(progress, "certified cover", share);
@@ -138,18 +140,21 @@ CoverProof proveCover(const CoverProblem& problem, const ErrorContract& owed, Gr
     proof.left = std::move(cells);
     std::reverse(proof.left.begin(), proof.left.end());
     while (!proof.left.empty()) {
-        if (budget.spent(proof.cells, shareDone(problem, proof.left))) return proof;
+        if (budget.spent(proof.looks, shareDone(problem, proof.left))) return proof;
         const std::size_t count = std::min(width, proof.left.size());
         const std::uint64_t steps = count < width / 4 ? 16 : 256;
+        const std::uint64_t looks =
+            budget.looks > 0 ? (budget.looks - proof.looks) / count + 1 : std::uint64_t(-1);
         std::vector<PartResult> parts(count);
         parallelFor(count, [&](std::size_t k) {
             auto loan = examiners.borrow();
-            parts[k] = runPart(*loan, proof.left[proof.left.size() - 1 - k], steps);
+            parts[k] = runPart(*loan, proof.left[proof.left.size() - 1 - k], steps, looks);
         });
         proof.left.resize(proof.left.size() - count);
         Additions additions(problem, owed, cover, proof);
         for (std::size_t k = count; k-- > 0;) {
             proof.cells += parts[k].cells;
+            proof.looks += parts[k].looks;
             for (OpenCell& cell : parts[k].left) proof.left.push_back(std::move(cell));
         }
         for (const PartResult& part : parts)

@@ -6,15 +6,15 @@
 
 namespace tss {
 
-/// When to stop a search that is not done: after so many cells (the same result every time), after so long
+/// When to stop a search that is not done: after so many looks (the same result every time), after so long
 /// (not the same), or when progress says so. 0: no limit.
 struct CoverBudget {
-    std::uint64_t cells = 0;
+    std::uint64_t looks = 0; ///< at pairs of spheres and of nodes, in all cells together
     double seconds = 0;
     Progress progress;
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 
-    bool spent(std::uint64_t cellsUsed, double share) const;
+    bool spent(std::uint64_t looksUsed, double share) const;
 };
 
 /// The cover as it grows: its members in the order they were taken, and the poses that forced them in.
@@ -48,6 +48,7 @@ struct CoverProof {
     bool complete = false;      ///< every cell is answered
     std::vector<OpenCell> left; ///< cells not yet shown, when it was stopped
     std::uint64_t cells = 0;    ///< cells looked at
+    std::uint64_t looks = 0;    ///< at pairs in them
     std::uint64_t forced = 0;   ///< members taken in cells too small to split, without a pose that needs them
     std::vector<std::vector<double>> facts; ///< poses where the cover lacked an answer
 };

@@ -136,7 +136,8 @@ TEST_CASE("a budget that ends costs tests and not epsilon: all pairs that may me
     CHECK(verifyOnMeshes(scene.bodies[0].mesh, scene.bodies[1].mesh, table, motion).reason.empty());
 }
 
-TEST_CASE("over four degrees of freedom the fewest tests are not searched for unless that is asked for") {
+TEST_CASE(
+    "over four degrees of freedom the fewest tests are searched for, and where that ends all are asked") {
     SceneModel scene = lumpyPair(2);
     Motion motion = swing();
     while (motion.dofs.size() < 4) {
@@ -152,15 +153,24 @@ TEST_CASE("over four degrees of freedom the fewest tests are not searched for un
     options.atRest = AtRest::Collide;
     const PairSpheres spheres = fillPair(scene, scene.pairs[0], motion, options);
     CHECK(spheres.askAll);
-    PairReport report;
-    const PairTable made = tabulatePair(spheres, motion, options, report, {});
-    REQUIRE(made.table);
-    CHECK(made.table->epsilon == 0);
-    CHECK(made.table->boundEarly);
-    const bool said = std::any_of(report.notes.begin(), report.notes.end(), [](const std::string& note) {
-        return note.find("--budget 0") != std::string::npos;
-    });
-    CHECK(said);
+    const auto tabulated = [&](bool allAsked) {
+        PairReport report;
+        const PairTable made = tabulatePair(spheres, motion, options, report, {});
+        REQUIRE(made.table);
+        CHECK(made.table->epsilon == 0);
+        CHECK(made.table->boundMiss == 0);
+        CHECK(made.table->boundEarly);
+        const bool said = std::any_of(report.notes.begin(), report.notes.end(), [](const std::string& note) {
+            return note.find("--budget 0") != std::string::npos;
+        });
+        CHECK(said == allAsked);
+        CHECK((made.table->record.lowerBound == 0) == allAsked);
+        CHECK(verifyOnMeshes(scene.bodies[0].mesh, scene.bodies[1].mesh, *made.table, motion).reason.empty());
+        return made.table->testCount();
+    };
+    const std::size_t few = tabulated(false);
+    options.budget = 1e-9;
+    CHECK(tabulated(true) > 2 * few);
     options.budget = 0;
     CHECK_FALSE(fillPair(scene, scene.pairs[0], motion, options).askAll);
 }

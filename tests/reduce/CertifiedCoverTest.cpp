@@ -141,10 +141,10 @@ TEST_CASE("a search cut short says truthfully how far it got") {
     int cutShort = 0;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         const auto scene = scenes::randomScene(seed, 3, 50);
-        for (std::uint64_t cells : {200u, 2000u, 8000u}) {
-            INFO("seed " << seed << " cells " << cells);
+        for (std::uint64_t looks : {20'000u, 200'000u, 800'000u}) {
+            INFO("seed " << seed << " looks " << looks);
             auto o = colliding();
-            o.cells = cells;
+            o.looks = looks;
             const auto cover = certifiedCover(scene.a, scene.b, nullptr, scene.motion, o);
             cutShort += !cover.complete;
             CHECK(cover.complete == (cover.epsilon == 0));
@@ -153,6 +153,10 @@ TEST_CASE("a search cut short says truthfully how far it got") {
             const auto again = certifiedCover(scene.a, scene.b, nullptr, scene.motion, o);
             CHECK(again.pairs == cover.pairs);
             CHECK(again.epsilon == cover.epsilon);
+            o.coarser = false;
+            const auto whole = certifiedCover(scene.a, scene.b, nullptr, scene.motion, o);
+            CHECK(whole.complete == cover.complete);
+            CHECK((std::isinf(whole.epsilon) && whole.pairs.empty()) == !whole.complete);
         }
     }
     CHECK(cutShort > 3);
@@ -178,7 +182,7 @@ TEST_CASE("chains of 1 to 6 DOFs with paths and coupled limits get a proof, or t
                 scene.motion.planes = {plane};
             }
             auto o = colliding();
-            o.cells = 20000;
+            o.looks = 2'000'000;
             CertifiedSearchOptions search;
             search.effort = 300000;
             const CandidatePairs candidates = searchCertified(scene.a, scene.b, scene.motion, search);

@@ -91,11 +91,12 @@ TEST_CASE("200 random joints of 1 to 4 DOFs: baked, proven, and right at every p
 
 TEST_CASE("a pair over six joints gets the epsilon that its budget reached, and the verifier agrees") {
     int cutShort = 0, answered = 0;
+    std::size_t contacts = 0;
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
         CAPTURE(seed);
         const scenes::Scene scene = scenes::randomScene(seed, 6, 12, true);
         CoverOptions options;
-        options.cells = 30000;
+        options.looks = 10'000'000;
         const CoverResult cover = certifiedCover(scene.a, scene.b, nullptr, scene.motion, options);
         cutShort += !cover.complete;
         CHECK(std::isfinite(cover.epsilon) == !cover.pairs.empty()); // no contact was met in the budget
@@ -109,8 +110,9 @@ TEST_CASE("a pair over six joints gets the epsilon that its budget reached, and 
         scenes::Random random(seed);
         for (int k = 0; k < 2000; ++k) look(scene, table, scenes::randomPose(random, scene.motion), tally);
         CHECK(tally.missed == 0);
-        CHECK(tally.contacts > 0);
+        contacts += tally.contacts;
     }
     CHECK(cutShort > 0);
     CHECK(answered > 1);
+    CHECK(contacts > 0);
 }
