@@ -64,8 +64,6 @@ std::string found(const std::string& name, const fs::path& path, const std::vect
                      [&](const fs::path& folder) { return isWithin(real, realPath(folder)); }))
         throw InputError("file \"" + name + "\" lies outside of " + within.front().string() +
                          "; expected it within" + hint);
-    std::error_code none;
-    if (!fs::exists(real, none)) throw InputError("file \"" + name + "\": no such file, " + real.string());
     return real.string();
 }
 
@@ -84,7 +82,8 @@ public:
                              "\": expected package://, model://, file:// or a path, and no other place");
         const std::string path = scheme == name.npos ? name : name.substr(7);
         std::vector<fs::path> within{homeOf(folder_)};
-        for (const auto& [key, folder] : packages_) within.emplace_back(folder);
+        for (const auto& [key, folder] : packages_)
+            if (!folder.empty()) within.emplace_back(folder);
         return found(name, folder_ / path, within, ", or in the folder of a --package NAME=DIR");
     }
 
@@ -95,11 +94,13 @@ private:
         if (slash == rest.npos || package.empty() || package == "." || package == "..")
             throw InputError("file \"" + name + "\": expected package://NAME/PATH");
         const auto given = packages_.find(package);
+        if (given != packages_.end() && given->second.empty()) return "";
         const fs::path folder =
             given != packages_.end() ? fs::path(given->second) : packageAbove(folder_, package);
         if (folder.empty())
             throw InputError("file \"" + name + "\": no folder of a package " + package + " at or above " +
-                             folder_.string() + "; say where it is: --package " + package + "=DIR");
+                             folder_.string() + "; say where it is: --package " + package +
+                             "=DIR, or leave its meshes out: --package " + package + "=");
         return found(name, folder / rest.substr(slash + 1), {folder}, " its package");
     }
 
@@ -116,7 +117,7 @@ Packages parsePackages(const std::vector<std::string>& texts) {
         if (sign == text.npos || sign == 0)
             throw InputError("--package: expected NAME=DIR, found \"" + text + "\"");
         const std::string folder = text.substr(sign + 1);
-        if (!isFolder(folder)) throw InputError("--package " + text + ": there is no folder " + folder);
+        if (!folder.empty() && !isFolder(folder)) throw InputError("--package " + text + ": there is no folder " + folder);
         packages[text.substr(0, sign)] = folder;
     }
     return packages;

@@ -3,10 +3,10 @@
 
 namespace tss {
 
-/// Folders of packages by name, as on the command line: "NAME=DIR".
+/// Folders of packages by name, as on the command line: "NAME=DIR"; empty: the package is left out.
 using Packages = std::map<std::string, std::string>;
 
-/// "NAME=DIR" parts. Throws InputError for what is none, or where DIR is no folder.
+/// "NAME=DIR" or "NAME=" parts. Throws InputError for what is none, or where DIR is no folder.
 Packages parsePackages(const std::vector<std::string>& texts);
 
 /// Finds the meshes that the robot file `file` names:
@@ -17,7 +17,8 @@ Packages parsePackages(const std::vector<std::string>& texts);
 ///   PATH, file://PATH                        beside the file
 /// No file outside the package, outside the folder given, or, for a plain path, outside the package the file
 /// is in (its folder's parent where it is in none) is read, through links neither. Throws InputError that
-/// says where it was looked for.
+/// says where it was looked for. Empty for a package that is left out; whether there is such a file is not
+/// looked at.
 FindMesh meshesOf(const std::string& file, const Packages& packages);
 
 } // namespace tss

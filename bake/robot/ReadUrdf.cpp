@@ -134,14 +134,18 @@ private:
     void readJoint(const XMLElement& element, RobotJoint joint) {
         const auto model = model_->getJoint(joint.name);
         joint.origin = poseOf(model->parent_to_joint_origin_transform);
-        if (model->type == urdf::Joint::FLOATING || model->type == urdf::Joint::PLANAR) {
-            const char* kind = model->type == urdf::Joint::PLANAR ? "planar" : "floating";
-            robot_.notes.push_back("joint " + joint.name + " (" + joint.where + ") is " + kind +
-                                   ", without limits: left out, " + robot_.links[joint.child].name +
+        const auto leaveOut = [&](const std::string& why) {
+            robot_.notes.push_back("joint " + joint.name + " (" + joint.where + ") " + why + ": left out, " +
+                                   robot_.links[joint.child].name +
                                    " and what hangs on it are tied to nothing");
-            return;
+        };
+        if (model->type == urdf::Joint::PLANAR) return leaveOut("is planar, without limits");
+        if (model->type == urdf::Joint::FLOATING) return leaveOut("is floating, without limits");
+        if (model->type != urdf::Joint::FIXED) {
+            if (const auto& limits = model->limits; limits && limits->lower > limits->upper)
+                return leaveOut("has a lower limit above its upper one");
+            readDof(element, *model, joint);
         }
-        if (model->type != urdf::Joint::FIXED) readDof(element, *model, joint);
         robot_.joints.push_back(std::move(joint));
     }
 
@@ -159,8 +163,6 @@ private:
             dof.lower = model.limits->lower;
             dof.upper = model.limits->upper;
         }
-        if (dof.lower > dof.upper)
-            throw InputError(placeOf(file_, element), "limit: expected lower <= upper");
         if (model.mimic) {
             joint.leader = model.mimic->joint_name;
             joint.factor = model.mimic->multiplier;

@@ -9,11 +9,13 @@
 #include "bake/scene/AllPairs.h"
 
 #include <algorithm>
-#include <set>
+#include <optional>
 
 namespace tss {
 
 namespace {
+
+constexpr std::size_t mostTriangles = 4'000'000;
 
 class SceneMaker {
 public:
@@ -28,9 +30,12 @@ public:
         scene.upAxis = robot_.upAxis;
         scene.defaultPrim = freePrimName(scene, robot_.name.empty() ? "Robot" : robot_.name);
         for (const RobotLink& link : robot_.links) addLink(link);
+        const auto isEmpty = [](const Body& body) { return body.mesh.empty(); };
+        if (!failures_.empty() && std::all_of(scene.bodies.begin(), scene.bodies.end(), isEmpty))
+            throw failures_.front();
         if (!others_.empty())
             result_.notes.push_back("these have no " + std::string(request_.visual ? "visual" : "collision") +
-                                    " geometry, and their other one is taken: " + others_);
+                                    " geometry that can be had, and their other one is taken: " + others_);
         // A joint's parent has its place before the joint's child gets one.
         std::vector<bool> done(robot_.joints.size()), placed(robot_.links.size(), true);
         for (const RobotJoint& joint : robot_.joints) placed[joint.child] = false;
@@ -50,11 +55,11 @@ public:
     }
 
 private:
-    TriangleMesh meshOfFile(const RobotShape& shape) {
+    TriangleMesh meshOfFile(const RobotShape& shape, const std::string& file) {
+        if (file.empty()) throw InputError("file \"" + shape.file + "\": its package is left out");
         auto [at, isNew] = meshes_.try_emplace(shape.file);
         if (isNew) {
             std::vector<std::string> leftOut;
-            const std::string file = findMesh_(shape.file);
             at->second =
                 isMsh(file) ? readMsh(readWholeFile(file), file) : importMesh(file, request_.axes, &leftOut);
             for (const std::string& what : leftOut)
@@ -68,17 +73,40 @@ private:
         return mesh;
     }
 
-    void append(const RobotShape& shape, TriangleMesh& whole) {
+    void append(const RobotShape& shape, const std::string& file, TriangleMesh& whole) {
+        if (shape.kind != RobotShape::Kind::Mesh && shape.size.isZero(0)) return; // a point
         const TriangleMesh mesh = shape.mesh                             ? *shape.mesh
-                                  : shape.kind == RobotShape::Kind::Mesh ? meshOfFile(shape)
+                                  : shape.kind == RobotShape::Kind::Mesh ? meshOfFile(shape, file)
                                                                          : meshOf(shape);
-        constexpr std::size_t most = 4'000'000;
         triangles_ += mesh.triangles.size();
-        if (triangles_ > most)
-            throw InputError("expected no more than " + std::to_string(most) + " triangles in all");
+        if (triangles_ > mostTriangles)
+            throw InputError("expected no more than " + std::to_string(mostTriangles) + " triangles in all");
         const auto offset = static_cast<int>(whole.vertices.size());
         for (const Vec3& v : mesh.vertices) whole.vertices.push_back(shape.place * v);
         for (const Tri& t : mesh.triangles) whole.triangles.emplace_back(t.array() + offset);
+    }
+
+    /// The mesh of all these shapes; none, and why, where one of them cannot be had: of a part of a link nothing
+    /// can be proven.
+    std::optional<TriangleMesh> meshOfShapes(const RobotLink& link, const std::vector<RobotShape>& shapes) {
+        TriangleMesh whole;
+        for (const RobotShape& shape : shapes) {
+            bool isFound = false;
+            try {
+                const bool isNamed = !shape.mesh && shape.kind == RobotShape::Kind::Mesh;
+                const std::string file = isNamed ? findMesh_(shape.file) : "";
+                isFound = true;
+                append(shape, file, whole);
+            } catch (const InputError& error) {
+                const std::string of = error.where.file.empty() ? "" : error.where.file + ": ";
+                const InputError placed(Where{robot_.file, shape.where, "link " + link.name},
+                                        of + error.message);
+                if (!isFound || triangles_ > mostTriangles) throw placed;
+                failures_.push_back(placed);
+                return std::nullopt;
+            }
+        }
+        return whole;
     }
 
     void addLink(const RobotLink& link) {
@@ -87,24 +115,29 @@ private:
         const std::string name = freePrimName(scene, link.name);
         body.path = "/" + scene.defaultPrim + "/" + name;
         if (name != link.name) body.displayName = link.name;
-        const bool other = request_.visual ? link.visual.empty() : link.collision.empty();
-        const bool visual = request_.visual != other;
-        const auto& shapes = visual ? link.visual : link.collision;
-        for (const RobotShape& shape : shapes) {
-            try {
-                append(shape, body.mesh);
-            } catch (const InputError& error) {
-                const std::string of = error.where.file.empty() ? "" : error.where.file + ": ";
-                throw InputError(Where{robot_.file, shape.where, "link " + link.name}, of + error.message);
-            }
-        }
-        if (other && !shapes.empty()) others_ += (others_.empty() ? "" : ", ") + link.name;
+        LinkReport report{body.path, 0, request_.visual};
+        const std::size_t failed = failures_.size();
+        const auto take = [&](bool visual) {
+            const auto& shapes = visual ? link.visual : link.collision;
+            auto mesh = meshOfShapes(link, shapes);
+            if (!mesh || mesh->empty()) return false;
+            body.mesh = *std::move(mesh);
+            report.shapes = shapes.size();
+            report.visual = visual;
+            return true;
+        };
+        if (!take(request_.visual) && take(!request_.visual))
+            others_ += (others_.empty() ? "" : ", ") + link.name;
+        for (std::size_t k = failed; k < failures_.size(); ++k)
+            result_.notes.push_back(std::string("left out: ") + failures_[k].what());
+        if (failures_.size() > failed && body.mesh.empty())
+            result_.notes.push_back("link " + link.name + " has no shape: whether it collides is not known");
         const Vec3 tones[] = {{0.80, 0.79, 0.76}, {0.48, 0.56, 0.64}};
         body.displayColor = link.color.value_or(tones[scene.bodies.size() % 2]);
         body.rigid = true;
         body.placement = link.place;
         scene.bodies.push_back(std::move(body));
-        result_.links.push_back({scene.bodies.back().path, shapes.size(), visual});
+        result_.links.push_back(report);
     }
 
     void addJoint(std::size_t index) {
@@ -201,6 +234,7 @@ private:
     const RobotSceneRequest& request_;
     const FindMesh& findMesh_;
     std::string others_; ///< links that are made of the other kind of shapes
+    std::vector<InputError> failures_; ///< shapes that could not be had
     RobotScene result_;
     std::map<std::string, TriangleMesh> meshes_;
     std::size_t triangles_ = 0;

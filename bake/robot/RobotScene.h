@@ -7,7 +7,8 @@
 
 namespace tss {
 
-/// Where the mesh of a robot's file lies, from its name there. Throws InputError.
+/// Where the mesh of a robot's file lies, from its name there; empty: it is to be left out. Throws InputError
+/// for one that may not be read or of which it is not known where to look.
 using FindMesh = std::function<std::string(const std::string& name)>;
 
 enum class RobotPairs { Neighbours, All };
@@ -32,9 +33,10 @@ struct RobotScene {
 };
 
 /// A scene of a robot: a body a link, its shapes one mesh in the link's frame (the other kind of shapes where
-/// it has none of the wanted one, noted; an Xform where it has none at all), a joint a joint, fixed ones too,
-/// so that every link keeps its name; the pairs of links that move against each other and are not switched
-/// off; and a motion that shows each joint. Throws InputError for a mesh that cannot be read.
+/// it has none of the wanted one or one that cannot be had, noted; an Xform where it has none at all), a joint
+/// a joint, fixed ones too, so that every link keeps its name; the pairs of links that move against each other
+/// and are not switched off; and a motion that shows each joint. Throws InputError as findMesh does, where no
+/// link has a shape that can be had though some name one, and for too many triangles.
 RobotScene sceneOf(const Robot& robot, const RobotSceneRequest& request, const FindMesh& findMesh);
 
 } // namespace tss

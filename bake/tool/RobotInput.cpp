@@ -67,7 +67,8 @@ std::array<Option*, 2> addRobotFileOptions(Options& command, RobotFile& file) {
         command
             .add_option("--package", file.packages,
                         "NAME=DIR: the folder of package://NAME/...; repeat. Else it is looked for upwards "
-                        "from the file")
+                        "from the file. NAME=: left out by name. Other paths, and those of a .usda, may lead "
+                        "into these folders too")
             ->allow_extra_args(false),
         command.add_option("--srdf", file.srdf, "an SRDF: pairs that it switches off are left out")};
 }
@@ -84,14 +85,13 @@ RobotScene readRobotScene(const RobotFile& from) {
     RobotSceneRequest request;
     request.visual = from.geometry == "visual";
     request.pairs = from.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
+    const Packages packages = parsePackages(from.packages);
     if (isUsd(from.input)) {
-        if (!from.srdf.empty() || !from.packages.empty())
-            failUsage(
-                "--srdf and --package",
-                "are for URDF and MJCF; a .usda says which pairs are filtered, and names files beside it");
-        return readUsdScene(from.input, request);
+        if (!from.srdf.empty())
+            failUsage("--srdf", "is for URDF and MJCF; a .usda says itself which pairs are filtered");
+        return readUsdScene(from.input, packages, request);
     }
-    const FindMesh find = meshesOf(from.input, parsePackages(from.packages));
+    const FindMesh find = meshesOf(from.input, packages);
     const Robot robot = readRobot(from, find);
     return inFile(from.input, [&] { return sceneOf(robot, request, find); });
 }

@@ -35,10 +35,14 @@ RobotScene sceneOfOurs(const UsdStage& stage, const std::string& file) {
 
 } // namespace
 
-RobotScene readUsdScene(const std::string& file, const RobotSceneRequest& request) {
-    const OpenUsd open = besideUsd(file);
+RobotScene readUsdScene(const std::string& file, const Packages& packages, const RobotSceneRequest& request) {
+    std::vector<std::string> folders;
+    for (const auto& [name, folder] : packages)
+        if (!folder.empty()) folders.push_back(folder);
+    const OpenUsd open = besideUsd(file, folders);
     const std::string name = std::filesystem::path(file).filename().string();
     const UsdFile first = inFile(file, [&] { return open(name); });
+    if (!first.missing.empty()) throw InputError(Where{file, "", ""}, first.missing);
     UsdStage stage = readStage(first.text, file, open);
     if (stage.ours) return sceneOfOurs(stage, file);
     const FindMesh none = [](const std::string& name) -> std::string { return name; };
@@ -47,7 +51,7 @@ RobotScene readUsdScene(const std::string& file, const RobotSceneRequest& reques
 
 #else
 
-RobotScene readUsdScene(const std::string& file, const RobotSceneRequest&) {
+RobotScene readUsdScene(const std::string& file, const Packages&, const RobotSceneRequest&) {
     throw InputError(Where{file, "", ""}, "this build reads no USD (OSGTSS_USDA is off)");
 }
 

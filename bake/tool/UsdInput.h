@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/robot/RobotScene.h"
+#include "bake/robot/MeshFiles.h"
 
 namespace tss::tool {
 
@@ -7,7 +7,8 @@ namespace tss::tool {
 bool isUsd(const std::string& file);
 
 /// The scene of a `.usda`: as it stands there where it is one of this software, else that of the robot that
-/// its UsdPhysics describes. Throws InputError, also where this build has no reader.
-RobotScene readUsdScene(const std::string& file, const RobotSceneRequest& request);
+/// its UsdPhysics describes. Its files may lie in the folders of the packages too. Throws InputError, also
+/// where this build has no reader.
+RobotScene readUsdScene(const std::string& file, const Packages& packages, const RobotSceneRequest& request);
 
 } // namespace tss::tool

@@ -367,14 +367,19 @@ private:
 
 } // namespace
 
+std::string notUsda(std::string_view text, const std::string& file) {
+    if (text.starts_with("PXR-USDC") || text.starts_with("PK\x03\x04"))
+        return std::string("is a ") + (text[1] == 'X' ? "binary layer" : "package") +
+               " of USD; expected its text form: usdcat -o scene.usda " + file;
+    if (!text.starts_with("#usda 1."))
+        return "expected a layer of USD in text form, which begins with #usda 1.0";
+    return "";
+}
+
 UsdLayer parseUsda(std::string_view text, const std::string& file, const std::string& folder,
                    UsdBudget& budget) {
     const auto refuse = [&](const std::string& message) { throw InputError(Where{file, "", ""}, message); };
-    if (text.starts_with("PXR-USDC") || text.starts_with("PK\x03\x04"))
-        refuse(std::string("is a ") + (text[1] == 'X' ? "binary layer" : "package") +
-               " of USD; expected its text form: usdcat -o scene.usda " + file);
-    if (!text.starts_with("#usda 1."))
-        refuse("expected a layer of USD in text form, which begins with #usda 1.0");
+    if (const std::string problem = notUsda(text, file); !problem.empty()) refuse(problem);
     if (text.size() > budget.text) refuse("expected files of at most 128 MiB in all");
     budget.text -= text.size();
     if (!isUtf8(text) || text.find('\0') != text.npos) refuse("expected text in UTF-8");

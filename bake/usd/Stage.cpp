@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -56,6 +57,14 @@ private:
         throw InputError(Where{layer.file, spec ? "line " + std::to_string(spec->line) : "", path}, message);
     }
 
+    /// What cannot be followed is not in the stage, as in USD, and said.
+    void leaveOut(const UsdLayer& layer, const UsdSpec* spec, const std::string& path,
+                  const std::string& message) {
+        const Where where{layer.file, spec ? "line " + std::to_string(spec->line) : "", path};
+        std::string note = std::string("left out: ") + InputError(where, message).what();
+        if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(std::move(note));
+    }
+
     /// The layer of this file with its sublayers in it.
     UsdLayer& stackOf(const std::string& name, std::vector<std::string> within) {
         if (std::find(within.begin(), within.end(), name) != within.end())
@@ -66,8 +75,9 @@ private:
         for (const std::string& arc : below) {
             if (within.size() > mostArcs)
                 refuse(layer, nullptr, "", "expected at most 64 sublayers in each other");
-            const std::string file = nameOf(layer, nullptr, "", arc.substr(1, arc.size() - 2));
-            UsdLayer copy = stackOf(file, within);
+            const auto file = nameOf(layer, nullptr, "", arc.substr(1, arc.size() - 2));
+            if (!file) continue;
+            UsdLayer copy = stackOf(*file, within);
             for (const UsdSpec& spec : copy.children) spend(copy, costOf(spec));
             remarkUnits(copy);
             mergeSpecs(layer.children, std::move(copy.children));
@@ -75,15 +85,20 @@ private:
         return layer;
     }
 
-    /// The canonical name under which the layer of a file is kept.
-    std::string nameOf(const UsdLayer& from, const UsdSpec* spec, const std::string& path,
-                       const std::string& asset) {
+    /// The canonical name under which the layer of a file is kept; none of a file that holds no text of USD.
+    std::optional<std::string> nameOf(const UsdLayer& from, const UsdSpec* spec, const std::string& path,
+                                      const std::string& asset) {
         if (const auto known = names_.find(asset); known != names_.end()) return known->second;
         UsdFile opened;
         try {
             opened = open_(asset);
         } catch (const InputError& error) {
             refuse(from, spec, path, "@" + asset + "@: " + error.message);
+        }
+        if (opened.missing.empty()) opened.missing = notUsda(opened.text, opened.file);
+        if (!opened.missing.empty()) {
+            leaveOut(from, spec, path, "@" + asset + "@: " + opened.missing);
+            return std::nullopt;
         }
         if (opened.file == canonical_) opened.file.clear();
         if (!files_.contains(opened.file)) {
@@ -188,8 +203,8 @@ private:
                 arcs_.pop_back();
                 return mergeUnder(prim, std::move(weaker));
             }
-        refuse(layer, &spec, path,
-               "the variant set " + set.name + " has no variant \"" + name + "\", which is selected");
+        leaveOut(layer, &spec, path,
+                 "the variant set " + set.name + " has no variant \"" + name + "\", which is selected");
     }
 
     /// "@FILE@", "@FILE@</Prim>" or "/Prim" below what the prim says already.
@@ -199,11 +214,16 @@ private:
         std::string target = arc;
         if (arc.starts_with('@')) {
             const auto end = arc.find('@', 1);
-            layer = &stackOf(nameOf(from, &spec, path, arc.substr(1, end - 1)), {});
+            const auto file = nameOf(from, &spec, path, arc.substr(1, end - 1));
+            if (!file) return;
+            layer = &stackOf(*file, {});
             remarkUnits(*layer);
             target = end + 1 < arc.size() ? arc.substr(end + 2, arc.size() - end - 3) : "";
         }
-        if (target.empty()) target = defaultPrim(from, spec, path, arc, *layer);
+        if (target.empty()) target = defaultPrim(*layer);
+        if (target.empty())
+            return leaveOut(from, &spec, path,
+                            arc + ": expected a path too, as " + layer->file + " has no defaultPrim");
         // What only the arcs of a prim above make of it is looked for in that one, composed.
         std::string above = target;
         const UsdSpec* base = find(*layer, above);
@@ -212,16 +232,16 @@ private:
             base = find(*layer, above);
         }
         const auto missing = [&] {
-            refuse(from, &spec, path, arc + ": there is no prim " + target + " in " + layer->file);
+            leaveOut(from, &spec, path, arc + ": there is no prim " + target + " in " + layer->file);
         };
-        if (!base) missing();
+        if (!base) return missing();
         expectForward(from, spec, path, arc, *layer, base);
         arcs_.push_back({base, above});
         Prim weaker = expand(*layer, *base, above, above == target ? context : Stronger());
         arcs_.pop_back();
         if (above != target) {
             Prim below;
-            if (!takeBelow(weaker, target.substr(above.size()), below)) missing();
+            if (!takeBelow(weaker, target.substr(above.size()), below)) return missing();
             weaker = std::move(below);
         }
         movePaths(weaker, target, path);
@@ -257,14 +277,11 @@ private:
         return true;
     }
 
-    std::string defaultPrim(const UsdLayer& from, const UsdSpec& spec, const std::string& path,
-                            const std::string& arc, const UsdLayer& layer) const {
+    /// The path of a layer's default prim; empty where it has none.
+    static std::string defaultPrim(const UsdLayer& layer) {
         const auto found = layer.metadata.find("defaultPrim");
         const auto* name = found == layer.metadata.end() ? nullptr : found->second.as<std::string>();
-        if (!name)
-            refuse(from, &spec, path,
-                   arc + ": expected a path too, as " + layer.file + " has no defaultPrim");
-        return name->starts_with('/') ? *name : "/" + *name;
+        return !name ? "" : name->starts_with('/') ? *name : "/" + *name;
     }
 
     /// A layer's prims do not change once its sublayers are in it.
@@ -310,24 +327,26 @@ bool isWithin(const std::filesystem::path& path, const std::filesystem::path& fo
 
 } // namespace
 
-OpenUsd besideUsd(const std::string& file) {
+OpenUsd besideUsd(const std::string& file, const std::vector<std::string>& others) {
     namespace fs = std::filesystem;
-    const fs::path folder = fs::weakly_canonical(fs::absolute(file).parent_path());
-    return [folder](const std::string& name) {
+    std::vector<fs::path> folders{fs::weakly_canonical(fs::absolute(file).parent_path())};
+    for (const std::string& folder : others) folders.push_back(fs::weakly_canonical(fs::absolute(folder)));
+    return [folders](const std::string& name) {
+        const fs::path& folder = folders.front();
         if (name.empty() || name.find("://") != name.npos || name.find('[') != name.npos)
             throw InputError("expected a file beside the layer, and no other place");
         std::error_code error;
         const fs::path real = fs::weakly_canonical(folder / name, error);
-        if (error || !isWithin(real, folder))
-            throw InputError("lies outside of " + folder.string() + ", the folder of the first layer");
-        if (!fs::exists(real, error)) throw InputError("no such file, " + real.string());
-        try {
-            if (fs::is_regular_file(real, error) && fs::file_size(real, error) > UsdBudget().text)
-                throw InputError("expected files of at most 128 MiB in all");
-            return UsdFile{real.string(), readWholeFile(real.string())};
-        } catch (const InputError& failed) {
-            throw InputError(failed.message);
-        }
+        if (error || std::none_of(folders.begin(), folders.end(),
+                                  [&](const fs::path& one) { return isWithin(real, one); }))
+            throw InputError("lies outside of " + folder.string() +
+                             ", the folder of the first layer; expected it there or in the folder of a --package "
+                             "NAME=DIR");
+        if (!fs::exists(real, error)) return UsdFile{"", "", "no such file, " + real.string()};
+        if (!fs::is_regular_file(real, error)) return UsdFile{"", "", "is no regular file, " + real.string()};
+        if (fs::file_size(real, error) > UsdBudget().text)
+            throw InputError("expected files of at most 128 MiB in all");
+        return UsdFile{real.string(), readWholeFile(real.string()), ""};
     };
 }
 

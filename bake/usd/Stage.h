@@ -8,13 +8,16 @@ namespace tss {
 /// A layer that another one names: the text, and one name for one file.
 struct UsdFile {
     std::string file, text;
+    std::string missing; ///< why there is no text; empty where there is
 };
 
-/// Opens the file of this name relative to the folder of the first layer. Throws InputError that names it.
+/// Opens the file of this name relative to the folder of the first layer. Throws InputError for one that may
+/// not be read.
 using OpenUsd = std::function<UsdFile(const std::string& name)>;
 
-/// The file beside the first layer, or in a folder below its own, also through links; others are refused.
-OpenUsd besideUsd(const std::string& file);
+/// Files in the first layer's folder or below it, or in one of the others, also through links; no others are
+/// read.
+OpenUsd besideUsd(const std::string& file, const std::vector<std::string>& others = {});
 
 /// A stage: one layer, composed of all that its first one names.
 struct UsdStage {
@@ -27,9 +30,9 @@ struct UsdStage {
 /// references alone, it is kept as it stands; a layer that this software wrote is then the same again. Else
 /// sublayers, inherits, the variants that are selected, references, payloads and specializes are composed in
 /// USD's order of strength, and none of them is left in the layer. A class that a stronger layer overrides
-/// for a weaker one's inherits is not found there. Throws InputError: as parseUsda(), a prim, a variant or a
-/// file that is not there, what leads back to itself, more than 64 arcs in each other, and what makes more
-/// than 65536 prims or 16777216 numbers.
+/// for a weaker one's inherits is not found there. What an arc names that is not there (a file, or one that is
+/// no text of USD, a prim, a variant) is left out, noted. Throws InputError: as parseUsda(), what leads back to
+/// itself, more than 64 arcs in each other, and what makes more than 65536 prims or 16777216 numbers.
 UsdStage readStage(const std::string& text, const std::string& file, const OpenUsd& open);
 
 } // namespace tss

@@ -37,7 +37,8 @@ public:
         remarkRest();
         if (robot_.links.empty()) {
             std::string found;
-            for (const std::string& note : leftOut_.notes()) found += "; " + note;
+            for (const auto& notes : {robot_.notes, leftOut_.notes()})
+                for (const std::string& note : notes) found += "; " + note;
             throw InputError(Where{robot_.file, "", ""},
                              "expected at least one rigid body, collider or mesh, found none" + found);
         }

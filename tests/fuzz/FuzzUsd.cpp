@@ -25,11 +25,13 @@ void require(bool holds, const char* what) {
 /// The bytes themselves under another name, and a layer that leads to both.
 OpenUsd filesOf(const std::string& text) {
     return [&text](const std::string& name) {
-        if (name == "a.usda") return UsdFile{name, text};
-        if (name != "b.usda") throw InputError("no file " + name);
+        if (name == "a.usda") return UsdFile{name, text, ""};
+        if (name == "outside.usda") throw InputError("lies outside");
+        if (name != "b.usda") return UsdFile{"", "", "no such file"};
         return UsdFile{
             name, "#usda 1.0\n( subLayers = [@a.usda@] )\nclass \"B\" ( references = @b.usda@</B/C> ) { def "
-                  "Cube \"C\" ( prepend apiSchemas = [\"PhysicsRigidBodyAPI\"] ) {} }"};
+                  "Cube \"C\" ( prepend apiSchemas = [\"PhysicsRigidBodyAPI\"] ) {} }",
+            ""};
     };
 }
 

@@ -31,7 +31,8 @@ std::string robotOf(const std::string& inside) {
 const std::string limits = "<limit lower='-1' upper='2' effort='1' velocity='1'/>";
 
 RobotScene made(const std::string& text, const RobotSceneRequest& request = {}) {
-    return sceneOf(readUrdf(text, "arm.urdf"), request, noMeshes);
+    const FindMesh find = [](const std::string& name) { return name == "lost.stl" ? name : noMeshes(name); };
+    return sceneOf(readUrdf(text, "arm.urdf"), request, find);
 }
 
 std::string refused(const std::string& text) {
@@ -83,7 +84,7 @@ TEST_CASE("several shapes of a link are one body in the link's frame; visual one
     CHECK(auditMesh(mesh).watertight);
     CHECK((bounds(mesh).max() - Vec3(1.1, 0.1, 2.1)).norm() < 2e-3);
     CHECK((bounds(mesh).min() - Vec3(-0.5, -0.1, -0.1)).norm() < 2e-3);
-    CHECK(hasNote(robot.notes, "no collision geometry, and their other one is taken: eye"));
+    CHECK(hasNote(robot.notes, "no collision geometry that can be had, and their other one is taken: eye"));
     CHECK(robot.links[1].visual);
     CHECK(bodyCalled(robot.scene, "frame").mesh.empty());
     RobotSceneRequest visual;
@@ -157,8 +158,6 @@ TEST_CASE("what a URDF gets wrong is refused with file, line and element") {
          "line 4 (<child>): expected the name of a link, found \"nobody\"");
     says(robotOf(two + aJoint("j", "hinge", "a", "b", "")), "found \"hinge\"");
     says(robotOf(two + aJoint("j", "revolute", "a", "b", "")), "expected an element <limit");
-    says(robotOf(two + aJoint("j", "revolute", "a", "b", "<limit lower='2' upper='1'/>")),
-         "expected lower <= upper");
     says(robotOf(two + aJoint("j", "revolute", "a", "b", "<axis xyz='0 0 0'/>" + limits)),
          "axis that is not zero");
     says(robotOf(two + aJoint("j", "revolute", "a", "b", "<origin xyz='0 nan 0'/>" + limits)),
@@ -178,6 +177,35 @@ TEST_CASE("what a URDF gets wrong is refused with file, line and element") {
          "lengths above 0");
     says(robotOf("<link name='a' name='b'/>"), "not well-formed XML");
     says(robotOf(aLink("caf\xe9")), "UTF-8");
+}
+
+TEST_CASE("a link of which a shape cannot be had has no part of it, but its other shapes, and the others stay") {
+    const std::string lost = "<collision><geometry><mesh filename='lost.stl'/></geometry></collision>";
+    const std::string seen = "<visual><geometry><box size='1 1 1'/></geometry></visual>";
+    const std::string point = "<collision><geometry><box size='0 0 0'/></geometry></collision>";
+    const std::string text = robotOf(
+        aLink("a") + aLink("b", box + lost) + aLink("c", lost + seen) + aLink("d", point) +
+        aJoint("j", "revolute", "a", "b", limits) + aJoint("k", "revolute", "b", "c", limits) +
+        aJoint("l", "revolute", "c", "d", limits));
+    const RobotScene robot = made(text);
+    CHECK(bodyCalled(robot.scene, "b").mesh.empty());
+    CHECK(bodyCalled(robot.scene, "d").mesh.empty());
+    CHECK(bounds(bodyCalled(robot.scene, "c").mesh).sizes().isApprox(Vec3::Ones()));
+    CHECK(robot.links[2].visual);
+    CHECK(robot.scene.pairs.size() == 1); // of a and c
+    CHECK(hasNote(robot.notes, "left out: arm.urdf: line 4 (<link b>): "));
+    CHECK(hasNote(robot.notes, "link b has no shape: whether it collides is not known"));
+    CHECK_FALSE(hasNote(robot.notes, "link c has no shape"));
+    CHECK_FALSE(hasNote(robot.notes, "link d has no shape"));
+    CHECK(refused(robotOf(aLink("a", lost))).find("arm.urdf: line 3 (<link a>): ") != std::string::npos);
+}
+
+TEST_CASE("a joint whose limits are the wrong way round is left out by name") {
+    const RobotScene robot =
+        made(robotOf(aLink("a") + aLink("b") +
+                     aJoint("j", "revolute", "a", "b", "<limit lower='2' upper='1'/>")));
+    CHECK(robot.scene.joints.empty());
+    CHECK(hasNote(robot.notes, "joint j (line 5) has a lower limit above its upper one: left out"));
 }
 
 TEST_CASE("xacro, document types, bombs and depth are refused by name") {

@@ -148,6 +148,9 @@ TEST_CASE("what a robot's file needs and has not is exit 1 with the place, and l
     refused("alone/arm.urdf -o out.tss", 1,
             "alone/arm.urdf: line 4 (<link upper-arm>): file \"package://my_arm/upper.obj\"");
     refused("alone/arm.urdf -o out.tss", 1, "--package my_arm=DIR");
+    const Ran without = runTss("make alone/arm.urdf -o without.tss --package my_arm=", folder.path());
+    CHECK(without.exit == 0);
+    CHECK(without.out.find("its package is left out") != std::string::npos);
     CHECK(runTss("make alone/arm.urdf -o found.tss --package my_arm=moved", folder.path()).exit == 0);
     refused("alone/arm.urdf -o out.tss --package my_arm=nowhere", 1, "there is no folder nowhere");
     refused("alone/arm.urdf -o alone/arm.urdf --package my_arm=moved", 1, "is read here");

@@ -71,6 +71,8 @@ TEST_CASE("a stage reads no file outside of its folder, through links neither, a
         CHECK(ran.err.find("@" + file + "@") != std::string::npos);
         CHECK(ran.err.find("line 2") != std::string::npos);
     }
+    CHECK(made("../secret.usda").err.find("--package NAME=DIR") != std::string::npos);
+    CHECK(runTss("make stage/a.usda -o a.tss --package all=.", folder.path()).exit == 0);
 }
 
 TEST_CASE("a .usda with --srdf or as a mesh's name is refused, and a skin comes back by convert") {

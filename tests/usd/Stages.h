@@ -14,8 +14,8 @@ using Files = std::map<std::string, std::string>;
 inline tss::OpenUsd openIn(const Files& files) {
     return [files](const std::string& name) {
         const auto found = files.find(name);
-        if (found == files.end()) throw tss::InputError("no such file");
-        return tss::UsdFile{name, found->second};
+        if (found == files.end()) return tss::UsdFile{"", "", "no such file"};
+        return tss::UsdFile{name, found->second, ""};
     };
 }
 
