@@ -117,7 +117,8 @@ Packages parsePackages(const std::vector<std::string>& texts) {
         if (sign == text.npos || sign == 0)
             throw InputError("--package: expected NAME=DIR, found \"" + text + "\"");
         const std::string folder = text.substr(sign + 1);
-        if (!folder.empty() && !isFolder(folder)) throw InputError("--package " + text + ": there is no folder " + folder);
+        if (!folder.empty() && !isFolder(folder))
+            throw InputError("--package " + text + ": there is no folder " + folder);
         packages[text.substr(0, sign)] = folder;
     }
     return packages;

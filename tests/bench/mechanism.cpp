@@ -124,11 +124,19 @@ void countMissed(const SceneModel& scene, const Judge& judge, std::size_t config
     missed = 0;
     std::map<std::string, std::size_t> made;
     for (std::size_t i = 0; i < near;) {
-        do draw.next(q.data());
-        while (query.ask(q.data(), ws).verdict != Answer::Free);
         MechanismAnswer answer;
-        do draw.next(other.data());
-        while ((answer = query.ask(other.data(), ws)).verdict != Answer::Contact);
+        const auto drawn = [&](Answer wanted, std::vector<double>& values) {
+            for (int draws = 0; draws < 1000000; ++draws) {
+                draw.next(values.data());
+                if ((answer = query.ask(values.data(), ws)).verdict == wanted) return true;
+            }
+            return false;
+        };
+        if (!drawn(Answer::Free, q) || !drawn(Answer::Contact, other)) {
+            fmt::print("of a million configurations none is free, or none touches: none looked for that just "
+                       "touch\n");
+            break;
+        }
         const auto& [pair, truth] = judge.truths[static_cast<std::size_t>(answer.pair)];
         const auto meets = [&](const std::vector<double>& at) {
             const std::vector<Pose> placed = posedBodies(scene, at);

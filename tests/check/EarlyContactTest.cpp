@@ -5,7 +5,8 @@
 #include "tests/geometry/TestMeshes.h"
 
 #include <catch2/catch.hpp>
-#include <fmt/format.h>
+#include <iomanip>
+#include <sstream>
 
 using namespace tss;
 using namespace tss::test;
@@ -34,7 +35,8 @@ SceneModel slidingBlock(double tolerance, double above = 0.06) {
     Motion motion;
     motion.dofs = {slide};
     const int pair = addPair(scene, 0, 1, motion, "Slide");
-    scene.pairs[pair].settings["tolerance"] = fmt::format("{}", tolerance);
+    scene.pairs[pair].settings["tolerance"] =
+        (std::ostringstream() << std::setprecision(17) << tolerance).str();
     return scene;
 }
 

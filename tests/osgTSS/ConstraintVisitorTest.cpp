@@ -1,3 +1,4 @@
+#include "Extract.h"
 #include "LargeGraph.h"
 #include "Playback.h"
 
@@ -42,12 +43,6 @@ osg::Matrixd randomRigid(std::mt19937_64& random) {
     std::uniform_real_distribution<double> unit(-1, 1);
     return osg::Matrixd::rotate(3 * unit(random), osg::Vec3d(unit(random), unit(random), unit(random) + 2)) *
            osg::Matrixd::translate(5 * unit(random), 5 * unit(random), 5 * unit(random));
-}
-
-tss::SceneModel extract(osg::Node& root, ConstraintVisitor::Pairs pairs = ConstraintVisitor::NEIGHBOURS) {
-    ConstraintVisitor visitor(pairs);
-    root.accept(visitor);
-    return visitor.getModel();
 }
 
 double largestDifference(const osg::Matrixd& a, const osg::Matrixd& b) {

@@ -45,7 +45,8 @@ struct Rig {
     osg::Matrixd matrix() const { return moving->getWorldMatrices().at(0); }
 };
 
-tss::SceneModel extract(osg::Node& root, ConstraintVisitor::Pairs pairs = ConstraintVisitor::NEIGHBOURS) {
+tss::SceneModel extractAndRead(osg::Node& root,
+                               ConstraintVisitor::Pairs pairs = ConstraintVisitor::NEIGHBOURS) {
     ConstraintVisitor visitor(pairs);
     root.accept(visitor);
     return tss::readScene(tss::toLayer(visitor.getModel()), "extracted");
@@ -77,7 +78,7 @@ bool alike(const osg::Matrixd& a, const osg::Matrixd& b) {
 void checkStops(const std::function<Rig()>& make, const std::function<void(Rig&, unsigned int)>& ask,
                 const osg::Vec3d& obstacle, unsigned int frames) {
     Rig free = make(), held = make();
-    tss::SceneModel model = extract(*held.root);
+    tss::SceneModel model = extractAndRead(*held.root);
     REQUIRE(model.joints.size() >= 1);
     REQUIRE(model.pairs.size() == 1);
     addObstacle(model, held, obstacle);
@@ -126,7 +127,7 @@ TEST_CASE(
     rig.moving->setUpdateCallback(animation);
     rig.above->setMatrix(osg::Matrixd::scale(2, 2, 2) * osg::Matrixd::rotate(0.4, 1, 2, 3) *
                          osg::Matrixd::translate(1, 2, 3));
-    const tss::SceneModel model = extract(*rig.root);
+    const tss::SceneModel model = extractAndRead(*rig.root);
     REQUIRE(model.joints.size() == 1);
     REQUIRE(model.joints[0].dofs.size() == 1);
     CHECK(model.joints[0].dofs[0].lower == 1);
@@ -162,7 +163,7 @@ TEST_CASE("a path that scales unequally moves its own body, and is said to be no
     path->insert(1, osg::AnimationPath::ControlPoint(osg::Vec3d(), osg::Quat(), osg::Vec3d(2, 2, 2)));
     Rig rig(new osg::MatrixTransform);
     rig.moving->setUpdateCallback(new osg::AnimationPathCallback(path));
-    const tss::SceneModel model = extract(*rig.root);
+    const tss::SceneModel model = extractAndRead(*rig.root);
     CHECK(model.joints.empty());
     CHECK(model.bodies.size() == 2);
 }
@@ -217,7 +218,7 @@ Rig stacked() {
 
 TEST_CASE("a stack of osgAnimation becomes joints whose limits are the range of the keys") {
     Rig rig = stacked();
-    const tss::SceneModel model = extract(*rig.root);
+    const tss::SceneModel model = extractAndRead(*rig.root);
     REQUIRE(model.joints.size() == 2); // the step between them is fixed
     std::vector<const tss::Dof*> dofs;
     for (const tss::Joint& joint : model.joints)
@@ -280,7 +281,7 @@ TEST_CASE("a tag that cannot be served is no joint, and the path and what was ex
         Rig rig(new osg::MatrixTransform);
         rig.moving->setUserValue("osgTSS:dofs", tag);
         const Heard heard;
-        CHECK(extract(*rig.root).joints.empty());
+        CHECK(extractAndRead(*rig.root).joints.empty());
         CHECK(heard.times("Moving") == 1);
         CHECK(heard.times("osgTSS:dofs") == 1);
     }
@@ -289,7 +290,7 @@ TEST_CASE("a tag that cannot be served is no joint, and the path and what was ex
 TEST_CASE("a DOFTransform as OpenSceneGraph makes it, of scale 0, is no joint, and what helps is told") {
     Rig rig(new osgSim::DOFTransform);
     const Heard heard;
-    CHECK(extract(*rig.root).joints.empty());
+    CHECK(extractAndRead(*rig.root).joints.empty());
     CHECK(heard.times("Moving: it moves, but is no joint") == 1);
     CHECK(heard.times("setCurrentScale(osg::Vec3(1, 1, 1))") == 1);
 }
@@ -305,11 +306,11 @@ TEST_CASE("any two tagged bodies make a pair, and others do not") {
         arm->addChild(new osg::ShapeDrawable(new osg::Sphere(osg::Vec3(1, 0, 0), 0.25f)));
         root->addChild(arm);
     }
-    const tss::SceneModel model = extract(*root, ConstraintVisitor::TAGGED);
+    const tss::SceneModel model = extractAndRead(*root, ConstraintVisitor::TAGGED);
     REQUIRE(model.pairs.size() == 1);
     CHECK(model.bodies[model.pairs[0].bodyA].displayName == "Arm0");
     CHECK(model.bodies[model.pairs[0].bodyB].displayName == "Arm2");
-    CHECK(extract(*root, ConstraintVisitor::SIBLINGS).pairs.size() == 6);
+    CHECK(extractAndRead(*root, ConstraintVisitor::SIBLINGS).pairs.size() == 6);
 }
 
 TEST_CASE("a mirrored joint turns and slides as the graph does") {

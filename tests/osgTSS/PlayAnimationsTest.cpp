@@ -21,11 +21,11 @@ osg::ref_ptr<osgAnimation::Animation> animation(const std::string& name, double 
     return made;
 }
 
-struct Played {
+struct Animated {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     osg::ref_ptr<osgAnimation::BasicAnimationManager> manager = new osgAnimation::BasicAnimationManager;
 
-    Played() {
+    Animated() {
         osg::ref_ptr<osg::Group> below = new osg::Group;
         below->setUpdateCallback(manager);
         root->addChild(below);
@@ -52,7 +52,7 @@ struct Played {
 } // namespace
 
 TEST_CASE("animations that nothing plays are played one after the other, round and round") {
-    Played graph;
+    Animated graph;
     CHECK(osgTSS::playAnimations(*graph.root) == Approx(3.5));
     // From whenever the first traversal is.
     CHECK(graph.playingAt(10) == "walk ");
@@ -65,7 +65,7 @@ TEST_CASE("animations that nothing plays are played one after the other, round a
 }
 
 TEST_CASE("what the application plays is left to it") {
-    Played graph;
+    Animated graph;
     graph.manager->playAnimation(graph.manager->getAnimationList()[1]);
     CHECK(osgTSS::playAnimations(*graph.root) == 0);
     CHECK_FALSE(graph.root->getUpdateCallback());

@@ -1,3 +1,4 @@
+#include "Extract.h"
 #include "Heard.h"
 #include "Sitter.h"
 
@@ -22,12 +23,6 @@ using namespace osgTSS;
 namespace {
 
 const double degree = osg::PI / 180;
-
-tss::SceneModel extract(osg::Node& root, ConstraintVisitor::Pairs pairs = ConstraintVisitor::NEIGHBOURS) {
-    ConstraintVisitor visitor(pairs);
-    root.accept(visitor);
-    return visitor.getModel();
-}
 
 const tss::Joint& joint(const tss::SceneModel& model, const std::string& name) {
     for (const tss::Joint& found : model.joints)

@@ -1,3 +1,5 @@
+#include "SkinShapes.h"
+
 #include "bake/respond/SkinFollowing.h"
 #include "bake/respond/SkinResponse.h"
 
@@ -5,10 +7,11 @@
 #include <cmath>
 
 using namespace tss;
+using skins::boneOf;
+using skins::degree;
 
 namespace {
 
-constexpr double degree = M_PI / 180;
 constexpr int around = 40;
 
 /// A limb or a bone: round about the X axis, of one radius but for its closed ends. Its rings of `around`
@@ -37,13 +40,6 @@ TriangleMesh round(double radius, double from, double to, int rings) {
         mesh.triangles.emplace_back(last, lastRing + k, lastRing + next);
     }
     return mesh;
-}
-
-std::shared_ptr<const MuscleDeformer> boneOf(TriangleMesh mesh) {
-    Muscle bone;
-    bone.surface = std::move(mesh);
-    bone.activationUpper = 0;
-    return std::make_shared<const MuscleDeformer>(std::move(bone));
 }
 
 /// Of the surface that a ring spans.

@@ -1,5 +1,6 @@
 #include "RealSkins.h"
 #include "SkinMeasure.h"
+#include "SkinShapes.h"
 
 #include "bake/geometry/FibreLine.h"
 #include "bake/motion/MuscleVolume.h"
@@ -10,10 +11,10 @@
 #include <iostream>
 
 using namespace tss;
+using skins::boneOf;
+using skins::degree;
 
 namespace {
-
-constexpr double degree = M_PI / 180;
 
 /// A skin over a bone that stays and one that swings about a hinge, by no more than their names.
 struct Jaw {
@@ -26,13 +27,6 @@ struct Jaw {
                     Eigen::Translation3d(-origin));
     }
 };
-
-std::shared_ptr<const MuscleDeformer> boneOf(TriangleMesh mesh) {
-    Muscle bone;
-    bone.surface = std::move(mesh);
-    bone.activationUpper = 0;
-    return std::make_shared<const MuscleDeformer>(std::move(bone));
-}
 
 Jaw realJaw() {
     Jaw jaw{skins::realSkin("dog_face/skin_head.obj"), {}, Vec3(0.30549, 0, 0.68499), Vec3::UnitY()};

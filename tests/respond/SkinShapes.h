@@ -9,6 +9,16 @@
 /// Generated skins over generated muscles, for the tests of the skin.
 namespace skins {
 
+constexpr double degree = M_PI / 180;
+
+/// A bone, as a muscle that does not contract.
+inline std::shared_ptr<const tss::MuscleDeformer> boneOf(tss::TriangleMesh mesh) {
+    tss::Muscle bone;
+    bone.surface = std::move(mesh);
+    bone.activationUpper = 0;
+    return std::make_shared<const tss::MuscleDeformer>(std::move(bone));
+}
+
 /// A sheet of n by n quads over [-size, size]^2, vaulted by `vault` in the middle, split the same way on
 /// either side of x = 0 and y = 0; n even.
 inline tss::TriangleMesh vaultedSheet(int n, double size, double height, double vault) {

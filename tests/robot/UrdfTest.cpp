@@ -30,19 +30,19 @@ std::string robotOf(const std::string& inside) {
 
 const std::string limits = "<limit lower='-1' upper='2' effort='1' velocity='1'/>";
 
-RobotScene made(const std::string& text, const RobotSceneRequest& request = {}) {
+RobotScene madeOfUrdf(const std::string& text, const RobotSceneRequest& request = {}) {
     const FindMesh find = [](const std::string& name) { return name == "lost.stl" ? name : noMeshes(name); };
     return sceneOf(readUrdf(text, "arm.urdf"), request, find);
 }
 
-std::string refused(const std::string& text) {
-    return refusal([&] { made(text); });
+std::string refusedUrdf(const std::string& text) {
+    return refusal([&] { madeOfUrdf(text); });
 }
 
 } // namespace
 
 TEST_CASE("a link's point is where the URDF says, at any value of its joints") {
-    const RobotScene robot = made(robotOf(
+    const RobotScene robot = madeOfUrdf(robotOf(
         aLink("base") + aLink("upper") + aLink("tool") +
         aJoint("shoulder", "revolute", "base", "upper",
                "<origin xyz='0.1 0.2 0.3' rpy='0.4 -0.5 0.6'/><axis xyz='1 2 -2'/>" + limits) +
@@ -78,7 +78,7 @@ TEST_CASE("several shapes of a link are one body in the link's frame; visual one
     const std::string text =
         robotOf(aLink("base", shapes) + aLink("eye", seen) + aLink("frame", "") +
                 aJoint("a", "fixed", "base", "eye", "") + aJoint("b", "fixed", "eye", "frame", ""));
-    const RobotScene robot = made(text);
+    const RobotScene robot = madeOfUrdf(text);
     const TriangleMesh& mesh = bodyCalled(robot.scene, "base").mesh;
     CHECK(auditMesh(mesh).components == 2);
     CHECK(auditMesh(mesh).watertight);
@@ -89,17 +89,17 @@ TEST_CASE("several shapes of a link are one body in the link's frame; visual one
     CHECK(bodyCalled(robot.scene, "frame").mesh.empty());
     RobotSceneRequest visual;
     visual.visual = true;
-    CHECK(bounds(bodyCalled(made(text, visual).scene, "base").mesh).sizes().isApprox(Vec3(9, 9, 9)));
+    CHECK(bounds(bodyCalled(madeOfUrdf(text, visual).scene, "base").mesh).sizes().isApprox(Vec3(9, 9, 9)));
 }
 
 TEST_CASE(
     "fixed joints hold, continuous ones turn once round, floating and planar ones are left out by name") {
     const RobotScene robot =
-        made(robotOf(aLink("base") + aLink("a") + aLink("b") + aLink("c") + aLink("d") +
-                     aJoint("hold", "fixed", "base", "a", "") +
-                     aJoint("wheel", "continuous", "a", "b", "<axis xyz='0 0 1'/>") +
-                     aJoint("swim", "floating", "base", "c", "") +
-                     aJoint("stuck", "revolute", "base", "d", "<limit lower='0.5' upper='0.5'/>")));
+        madeOfUrdf(robotOf(aLink("base") + aLink("a") + aLink("b") + aLink("c") + aLink("d") +
+                           aJoint("hold", "fixed", "base", "a", "") +
+                           aJoint("wheel", "continuous", "a", "b", "<axis xyz='0 0 1'/>") +
+                           aJoint("swim", "floating", "base", "c", "") +
+                           aJoint("stuck", "revolute", "base", "d", "<limit lower='0.5' upper='0.5'/>")));
     CHECK(jointCalled(robot.scene, "hold").dofs.empty());
     CHECK(jointCalled(robot.scene, "stuck").dofs.empty());
     const Dof& wheel = jointCalled(robot.scene, "wheel").dofs.at(0);
@@ -119,7 +119,7 @@ TEST_CASE(
             aJoint("follow", "revolute", "base", "b", "<mimic joint='lead' " + mimic + "/>" + itsLimits));
     };
     const RobotScene robot =
-        made(follower("multiplier='-0.5' offset='0.25'", "<limit lower='-0.5' upper='9'/>"));
+        madeOfUrdf(follower("multiplier='-0.5' offset='0.25'", "<limit lower='-0.5' upper='9'/>"));
     const Joint &lead = jointCalled(robot.scene, "lead"), &joint = jointCalled(robot.scene, "follow");
     CHECK(joint.dofs[0].lower == Approx(-0.5));
     CHECK(joint.dofs[0].upper == Approx(0.75));
@@ -127,22 +127,22 @@ TEST_CASE(
     for (std::size_t k = 0; k < joint.drives[0].values.size(); ++k)
         CHECK(joint.drives[0].values[k] == Approx(std::max(-0.5, 0.25 - 0.5 * lead.drives[0].values[k])));
     CHECK(hasNote(robot.notes, "follow mimics lead"));
-    CHECK(refused(follower("", "<limit lower='5' upper='6'/>")).find("never leads it into its limits") !=
+    CHECK(refusedUrdf(follower("", "<limit lower='5' upper='6'/>")).find("never leads it into its limits") !=
           std::string::npos);
     const std::string circle =
         robotOf(aLink("base") + aLink("a") + aLink("b") +
                 aJoint("one", "revolute", "base", "a", "<mimic joint='two'/>" + limits) +
                 aJoint("two", "revolute", "base", "b", "<mimic joint='one'/>" + limits));
-    CHECK(refused(circle).find("in a circle") != std::string::npos);
+    CHECK(refusedUrdf(circle).find("in a circle") != std::string::npos);
     const std::string nobody =
         robotOf(aLink("base") + aLink("a") +
                 aJoint("one", "revolute", "base", "a", "<mimic joint='nobody'/>" + limits));
-    CHECK(refused(nobody).find("line 5 (<joint one>): mimics \"nobody\"") != std::string::npos);
+    CHECK(refusedUrdf(nobody).find("line 5 (<joint one>): mimics \"nobody\"") != std::string::npos);
 }
 
 TEST_CASE("what a URDF gets wrong is refused with file, line and element") {
     const auto says = [](const std::string& text, const std::string& words) {
-        const std::string message = refused(text);
+        const std::string message = refusedUrdf(text);
         INFO(message);
         CHECK(message.find("arm.urdf") != std::string::npos);
         CHECK(message.find(words) != std::string::npos);
@@ -179,15 +179,16 @@ TEST_CASE("what a URDF gets wrong is refused with file, line and element") {
     says(robotOf(aLink("caf\xe9")), "UTF-8");
 }
 
-TEST_CASE("a link of which a shape cannot be had has no part of it, but its other shapes, and the others stay") {
+TEST_CASE(
+    "a link of which a shape cannot be had has no part of it, but its other shapes, and the others stay") {
     const std::string lost = "<collision><geometry><mesh filename='lost.stl'/></geometry></collision>";
     const std::string seen = "<visual><geometry><box size='1 1 1'/></geometry></visual>";
     const std::string point = "<collision><geometry><box size='0 0 0'/></geometry></collision>";
-    const std::string text = robotOf(
-        aLink("a") + aLink("b", box + lost) + aLink("c", lost + seen) + aLink("d", point) +
-        aJoint("j", "revolute", "a", "b", limits) + aJoint("k", "revolute", "b", "c", limits) +
-        aJoint("l", "revolute", "c", "d", limits));
-    const RobotScene robot = made(text);
+    const std::string text =
+        robotOf(aLink("a") + aLink("b", box + lost) + aLink("c", lost + seen) + aLink("d", point) +
+                aJoint("j", "revolute", "a", "b", limits) + aJoint("k", "revolute", "b", "c", limits) +
+                aJoint("l", "revolute", "c", "d", limits));
+    const RobotScene robot = madeOfUrdf(text);
     CHECK(bodyCalled(robot.scene, "b").mesh.empty());
     CHECK(bodyCalled(robot.scene, "d").mesh.empty());
     CHECK(bounds(bodyCalled(robot.scene, "c").mesh).sizes().isApprox(Vec3::Ones()));
@@ -197,34 +198,34 @@ TEST_CASE("a link of which a shape cannot be had has no part of it, but its othe
     CHECK(hasNote(robot.notes, "link b has no shape: whether it collides is not known"));
     CHECK_FALSE(hasNote(robot.notes, "link c has no shape"));
     CHECK_FALSE(hasNote(robot.notes, "link d has no shape"));
-    CHECK(refused(robotOf(aLink("a", lost))).find("arm.urdf: line 3 (<link a>): ") != std::string::npos);
+    CHECK(refusedUrdf(robotOf(aLink("a", lost))).find("arm.urdf: line 3 (<link a>): ") != std::string::npos);
 }
 
 TEST_CASE("a joint whose limits are the wrong way round is left out by name") {
-    const RobotScene robot =
-        made(robotOf(aLink("a") + aLink("b") +
-                     aJoint("j", "revolute", "a", "b", "<limit lower='2' upper='1'/>")));
+    const RobotScene robot = madeOfUrdf(
+        robotOf(aLink("a") + aLink("b") + aJoint("j", "revolute", "a", "b", "<limit lower='2' upper='1'/>")));
     CHECK(robot.scene.joints.empty());
     CHECK(hasNote(robot.notes, "joint j (line 5) has a lower limit above its upper one: left out"));
 }
 
 TEST_CASE("xacro, document types, bombs and depth are refused by name") {
     const std::string xacro = robotOf("<xacro:include filename='x'/>" + aLink("a"));
-    CHECK(refused(xacro).find("line 3 (<xacro:include>): \"xacro:include\" is xacro") != std::string::npos);
-    CHECK(refused(xacro).find("xacro arm.urdf > arm_expanded.urdf") != std::string::npos);
-    CHECK(refused(robotOf("<link name='${prefix}a'/>")).find("is xacro") != std::string::npos);
+    CHECK(refusedUrdf(xacro).find("line 3 (<xacro:include>): \"xacro:include\" is xacro") !=
+          std::string::npos);
+    CHECK(refusedUrdf(xacro).find("xacro arm.urdf > arm_expanded.urdf") != std::string::npos);
+    CHECK(refusedUrdf(robotOf("<link name='${prefix}a'/>")).find("is xacro") != std::string::npos);
     const std::string bomb =
         "<!DOCTYPE robot [<!ENTITY a \"lol\"><!ENTITY b \"&a;&a;&a;\">]>\n" + robotOf(aLink("&b;"));
-    CHECK(refused(bomb).find("line 1: a document type is not read") != std::string::npos);
+    CHECK(refusedUrdf(bomb).find("line 1: a document type is not read") != std::string::npos);
     std::string deep;
     for (int k = 0; k < 100000; ++k) deep += "<link name='a'>";
-    CHECK(refused("<robot name='x'>" + deep).find("no more than 100 deep") != std::string::npos);
-    CHECK(refused(robotOf("<!-- " + std::string(9 << 20, 'x') + " -->" + aLink("a"))).find("8 MiB") !=
+    CHECK(refusedUrdf("<robot name='x'>" + deep).find("no more than 100 deep") != std::string::npos);
+    CHECK(refusedUrdf(robotOf("<!-- " + std::string(9 << 20, 'x') + " -->" + aLink("a"))).find("8 MiB") !=
           std::string::npos);
 }
 
 TEST_CASE("shapes of others are left out by name, and what is not used does not matter") {
-    const RobotScene robot = made(
+    const RobotScene robot = madeOfUrdf(
         robotOf("<material name='red'><color rgba='1 0 0 1'/></material><gazebo reference='a'><x/></gazebo>"
                 "<transmission name='t'><type>x</type></transmission>" +
                 aLink("a", "<inertial><mass value='junk'/></inertial>"
@@ -237,9 +238,10 @@ TEST_CASE("shapes of others are left out by name, and what is not used does not 
 }
 
 TEST_CASE("names that USD does not know are kept beside, and the scene reads back the same") {
-    const RobotScene robot = made(robotOf(aLink("1 base/link") + aLink("tool-0") +
-                                          aJoint("joint-1", "revolute", "1 base/link", "tool-0",
-                                                 "<origin xyz='0 0 0.5' rpy='0.1 0.2 0.3'/>" + limits)));
+    const RobotScene robot =
+        madeOfUrdf(robotOf(aLink("1 base/link") + aLink("tool-0") +
+                           aJoint("joint-1", "revolute", "1 base/link", "tool-0",
+                                  "<origin xyz='0 0 0.5' rpy='0.1 0.2 0.3'/>" + limits)));
     CHECK(bodyCalled(robot.scene, "tool_0").displayName == "tool-0");
     CHECK(hasNote(robot.notes, "joint joint-1 is called joint_1"));
     const SceneModel again = readScene(std::make_shared<const Layer>(layerOf(robot.scene)), "arm.tss");
@@ -257,10 +259,10 @@ TEST_CASE("pairs are those of neighbours or all, and an SRDF takes some out") {
     const std::string text =
         robotOf(aLink("a") + aLink("b") + aLink("c") + aJoint("j", "revolute", "a", "b", limits) +
                 aJoint("k", "revolute", "b", "c", "<origin xyz='1 0 0'/>" + limits));
-    CHECK(made(text).scene.pairs.size() == 3);
+    CHECK(madeOfUrdf(text).scene.pairs.size() == 3);
     RobotSceneRequest neighbours;
     neighbours.pairs = RobotPairs::Neighbours;
-    CHECK(made(text, neighbours).scene.pairs.size() == 2);
+    CHECK(madeOfUrdf(text, neighbours).scene.pairs.size() == 2);
     Robot robot = readUrdf(text, "arm.urdf");
     readSrdf(robot,
              "<robot name='arm'><group name='g'/><disable_collisions link1='c' link2='a' reason='Never'/>"

@@ -40,9 +40,6 @@ std::string pointerOf(const std::string& path) {
     return pointer;
 }
 
-constexpr const char *layer = "", *mesh = "/Scene/A", *jaw = "/Scene/Jaw", *hinge = "/Scene/Hinge",
-                     *skin = "/Scene/Skin";
-
 Json breakFile(const Broken& broken) {
     Json file = goodFile();
     const Json::json_pointer at(pointerOf(broken.prim) + broken.at);
@@ -81,9 +78,9 @@ TEST_CASE("each broken file is refused with file, pointer and expectation") {
 
 TEST_CASE("a message names the property by its path too") {
     Json file = goodFile();
-    file[Json::json_pointer(pointerOf(hinge) + "/properties/physics:upperLimit/default")] = "abc";
+    file[Json::json_pointer(pointerOf(prims::hinge) + "/properties/physics:upperLimit/default")] = "abc";
     CHECK_THROWS_WITH(parseLayer(file.dump(), "jaw.tss"),
-                      "jaw.tss: " + pointerOf(hinge) +
+                      "jaw.tss: " + pointerOf(prims::hinge) +
                           "/properties/physics:upperLimit/default (</Scene/Hinge.physics:upperLimit>): "
                           "expected a number, found \"abc\"");
 }
@@ -145,10 +142,10 @@ TEST_CASE("validation finds everything that is wrong, not only the first thing")
     const auto set = [&](const char* prim, const std::string& at, const Json& value) {
         file[Json::json_pointer(pointerOf(prim) + at)] = value;
     };
-    set(layer, "/metadata/upAxis", "X");
-    set(mesh, "/properties/points/default/2/1", "a");
-    set(jaw, "/properties/limit:rotY:physics:low/default", "b");
-    set(skin, "/properties/tss:thickness/default", -1);
+    set(prims::layer, "/metadata/upAxis", "X");
+    set(prims::mesh, "/properties/points/default/2/1", "a");
+    set(prims::jaw, "/properties/limit:rotY:physics:low/default", "b");
+    set(prims::skin, "/properties/tss:thickness/default", -1);
     const std::string name = std::string(OSGTSS_BINARY_DIR) + "/wrong.tss";
     writeFileAtomically(name, file.dump());
     const auto errors = validateScene(name);

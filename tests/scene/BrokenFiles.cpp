@@ -1,18 +1,6 @@
 #include "tests/scene/BrokenFiles.h"
 
-namespace {
-
-constexpr const char* jaw = "/Scene/Jaw";
-constexpr const char* hinge = "/Scene/Hinge";
-constexpr const char* ends = "/Scene/Ends";
-constexpr const char* mesh = "/Scene/A";
-constexpr const char* table = "/Scene/Jaw/Table";
-constexpr const char* spheres = "/Scene/Jaw/Table/Spheres0";
-constexpr const char* proof = "/Scene/Ends/Table";
-constexpr const char* muscle = "/Scene/Frontalis";
-constexpr const char* skin = "/Scene/Skin";
-constexpr const char* skinTable = "/Scene/Skin/Table";
-constexpr const char* layer = "";
+namespace prims {
 
 const std::vector<Broken> files = {
     // the layer
@@ -290,8 +278,8 @@ const std::vector<Broken> files = {
     {skinTable, "/properties/tss:muscleOf/default", "[1]", "=", "expected indices below 1, found 1"},
 };
 
-} // namespace
+} // namespace prims
 
 const std::vector<Broken>& brokenFiles() {
-    return files;
+    return prims::files;
 }

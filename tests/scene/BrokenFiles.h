@@ -10,5 +10,20 @@ struct Broken {
     const char* says;  ///< part of the message
 };
 
+/// Prims of that file.
+namespace prims {
+inline constexpr const char* jaw = "/Scene/Jaw";
+inline constexpr const char* hinge = "/Scene/Hinge";
+inline constexpr const char* ends = "/Scene/Ends";
+inline constexpr const char* mesh = "/Scene/A";
+inline constexpr const char* table = "/Scene/Jaw/Table";
+inline constexpr const char* spheres = "/Scene/Jaw/Table/Spheres0";
+inline constexpr const char* proof = "/Scene/Ends/Table";
+inline constexpr const char* muscle = "/Scene/Frontalis";
+inline constexpr const char* skin = "/Scene/Skin";
+inline constexpr const char* skinTable = "/Scene/Skin/Table";
+inline constexpr const char* layer = "";
+} // namespace prims
+
 /// All that is tried, by prim.
 const std::vector<Broken>& brokenFiles();

@@ -186,7 +186,7 @@ TEST_CASE("every piece of surface that comes near the other body is within reach
 TEST_CASE("a slide brings only the faces that look at each other within reach") {
     Motion motion;
     motion.dofs.push_back(joints::slide(Vec3::UnitX(), 0, 0.5));
-    const TriangleMesh a = test::boxMesh({0, 0, 0}, {1, 1, 1}), b = test::boxMesh({-1, 0, 0}, {-0.4, 1, 1});
+    const TriangleMesh a = boxMesh({0, 0, 0}, {1, 1, 1}), b = boxMesh({-1, 0, 0}, {-0.4, 1, 1});
     const MeshQuery queryA(a), queryB(b);
     for (const auto& [side, mesh, other, x] :
          {std::tuple(Side::A, &a, &queryB, 0.0), std::tuple(Side::B, &b, &queryA, -0.4)}) {
@@ -199,7 +199,7 @@ TEST_CASE("a slide brings only the faces that look at each other within reach") 
         CHECK(area >= 1); // the face, all of it
         CHECK(area < 1.8);
     }
-    CHECK(findNearSurface(patchesOf(a), Side::A, MeshQuery(test::boxMesh({-9, 0, 0}, {-8, 1, 1})), motion,
+    CHECK(findNearSurface(patchesOf(a), Side::A, MeshQuery(boxMesh({-9, 0, 0}, {-8, 1, 1})), motion,
                           wholeQ(motion), 0.02, 0)
               .empty());
 }

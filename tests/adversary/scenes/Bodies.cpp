@@ -9,8 +9,6 @@ namespace adversary {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 std::size_t anyTriangle(Random& random, const TriangleMesh& mesh) {
     return static_cast<std::size_t>(random.below(static_cast<int>(mesh.triangles.size())));
 }
@@ -41,7 +39,7 @@ TriangleMesh revolved(const Profile& profile, int segments) {
     for (const auto& [radius, height] : profile) {
         first.push_back(static_cast<int>(mesh.vertices.size()));
         for (int s = 0; s < (radius == 0 ? 1 : segments); ++s) {
-            const double angle = 2 * pi * s / segments;
+            const double angle = 2 * std::numbers::pi * s / segments;
             mesh.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), height);
         }
     }
@@ -73,7 +71,7 @@ TriangleMesh needle(const Vec3& base, const Vec3& tip, double radius, int corner
     const Vec3 way = (tip - base).normalized(), side = way.unitOrthogonal(), other = way.cross(side);
     TriangleMesh mesh;
     for (int k = 0; k < corners; ++k) {
-        const double angle = 2 * pi * k / corners;
+        const double angle = 2 * std::numbers::pi * k / corners;
         mesh.vertices.push_back(base + radius * (std::cos(angle) * side + std::sin(angle) * other));
     }
     mesh.vertices.push_back(tip);
@@ -93,9 +91,9 @@ TriangleMesh shell(double outer, double inner, int level) {
 }
 
 TriangleMesh bowl(double radius, double wall, double opening, int rings, int segments) {
-    Profile profile = arc(radius, 0, pi - opening, rings);
+    Profile profile = arc(radius, 0, std::numbers::pi - opening, rings);
     if (wall > 0) {
-        Profile inner = arc(radius - wall, 0, pi - opening, rings);
+        Profile inner = arc(radius - wall, 0, std::numbers::pi - opening, rings);
         profile.insert(profile.end(), inner.rbegin(), inner.rend());
     }
     return revolved(profile, segments);
@@ -113,7 +111,7 @@ TriangleMesh movedBy(TriangleMesh mesh, const Vec3& way) {
 
 Eigen::Quaterniond anyTurn(Random& random) {
     const Vec3 axis = random.direction();
-    return Eigen::Quaterniond(Eigen::AngleAxisd(random.in(-pi, pi), axis));
+    return Eigen::Quaterniond(Eigen::AngleAxisd(random.in(-std::numbers::pi, std::numbers::pi), axis));
 }
 
 TriangleMesh withSlivers(Random& random, TriangleMesh mesh, int count, double share) {

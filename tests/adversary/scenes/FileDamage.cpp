@@ -11,13 +11,13 @@ namespace {
 /// False where it does not apply.
 using Change = std::function<bool(BakedFile&)>;
 
-struct Kind {
+struct DamageKind {
     std::string name;
     bool hashed;
     Change change;
 };
 
-std::vector<Kind> sphereKinds() {
+std::vector<DamageKind> sphereKinds() {
     return {
         {"radii of A cut by a tenth", false, [](BakedFile& f) { return scaleRadii(f, 0, 0.9); }},
         {"radii of B cut by a tenth", false, [](BakedFile& f) { return scaleRadii(f, 1, 0.9); }},
@@ -53,7 +53,7 @@ std::vector<Kind> sphereKinds() {
     };
 }
 
-std::vector<Kind> testKinds() {
+std::vector<DamageKind> testKinds() {
     return {
         {"a test left out", false,
          [](BakedFile& f) {
@@ -96,7 +96,7 @@ std::vector<Kind> testKinds() {
     };
 }
 
-std::vector<Kind> claimKinds() {
+std::vector<DamageKind> claimKinds() {
     const auto claims = [](const char* name, double value) {
         return [=](BakedFile& f) {
             if (f.claimed(name, 0) == value) return false;
@@ -146,7 +146,7 @@ std::vector<Kind> claimKinds() {
     };
 }
 
-std::vector<Kind> sourceKinds() {
+std::vector<DamageKind> sourceKinds() {
     return {
         {"a limit wider by a tenth", true, [](BakedFile& f) { return widen(f, 0.1); }},
         {"a limit twice as wide", true, [](BakedFile& f) { return widen(f, 1); }},
@@ -195,11 +195,11 @@ std::vector<Kind> sourceKinds() {
     };
 }
 
-const std::vector<Kind>& kindsOfDamage() {
-    static const std::vector<Kind> all = [] {
-        std::vector<Kind> list;
+const std::vector<DamageKind>& kindsOfDamage() {
+    static const std::vector<DamageKind> all = [] {
+        std::vector<DamageKind> list;
         for (const auto make : {sphereKinds, testKinds, claimKinds, sourceKinds})
-            for (Kind& kind : make()) list.push_back(std::move(kind));
+            for (DamageKind& kind : make()) list.push_back(std::move(kind));
         return list;
     }();
     return all;
@@ -210,7 +210,7 @@ const std::vector<Kind>& kindsOfDamage() {
 const std::vector<Damage>& damages() {
     static const std::vector<Damage> all = [] {
         std::vector<Damage> list;
-        for (const Kind& kind : kindsOfDamage()) list.push_back({kind.name, kind.hashed});
+        for (const DamageKind& kind : kindsOfDamage()) list.push_back({kind.name, kind.hashed});
         return list;
     }();
     return all;
