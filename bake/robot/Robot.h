@@ -21,7 +21,8 @@ struct RobotShape {
     std::string file;                         ///< of a mesh: its name as the robot's file has it
     std::shared_ptr<const TriangleMesh> mesh; ///< or the mesh itself, where it stands in the robot's file
     Pose place = Pose::Identity();
-    std::string where; ///< for messages: "line 12"
+    std::string where;   ///< for messages: "line 12"
+    std::string problem; ///< why it cannot be had; empty where it can
 };
 
 struct RobotLink {

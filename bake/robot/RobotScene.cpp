@@ -74,6 +74,7 @@ private:
     }
 
     void append(const RobotShape& shape, const std::string& file, TriangleMesh& whole) {
+        if (!shape.problem.empty()) throw InputError(shape.problem);
         if (shape.kind != RobotShape::Kind::Mesh && shape.size.isZero(0)) return; // a point
         const TriangleMesh mesh = shape.mesh                             ? *shape.mesh
                                   : shape.kind == RobotShape::Kind::Mesh ? meshOfFile(shape, file)
@@ -86,14 +87,15 @@ private:
         for (const Tri& t : mesh.triangles) whole.triangles.emplace_back(t.array() + offset);
     }
 
-    /// The mesh of all these shapes; none, and why, where one of them cannot be had: of a part of a link nothing
-    /// can be proven.
+    /// The mesh of all these shapes; none, and why, where one of them cannot be had: of a part of a link
+    /// nothing can be proven.
     std::optional<TriangleMesh> meshOfShapes(const RobotLink& link, const std::vector<RobotShape>& shapes) {
         TriangleMesh whole;
         for (const RobotShape& shape : shapes) {
             bool isFound = false;
             try {
-                const bool isNamed = !shape.mesh && shape.kind == RobotShape::Kind::Mesh;
+                const bool isNamed =
+                    !shape.mesh && shape.problem.empty() && shape.kind == RobotShape::Kind::Mesh;
                 const std::string file = isNamed ? findMesh_(shape.file) : "";
                 isFound = true;
                 append(shape, file, whole);
@@ -233,7 +235,7 @@ private:
     const Robot& robot_;
     const RobotSceneRequest& request_;
     const FindMesh& findMesh_;
-    std::string others_; ///< links that are made of the other kind of shapes
+    std::string others_;               ///< links that are made of the other kind of shapes
     std::vector<InputError> failures_; ///< shapes that could not be had
     RobotScene result_;
     std::map<std::string, TriangleMesh> meshes_;

@@ -26,6 +26,19 @@ constexpr std::array attributes = {schema::points,
                                    Attribute{"radius", "double"},
                                    Attribute{"height", "double"}};
 
+/// Names that types had before USD 0.7.
+std::string_view plainType(const std::string& name) {
+    for (const char* index : {"PointIndex", "EdgeIndex", "FaceIndex"})
+        if (name.starts_with(index)) return name.ends_with("[]") ? "int[]" : "int";
+    return name;
+}
+
+/// What stands for three numbers of an operation, whatever they are called.
+std::string_view operationType(const ValueType& type) {
+    if (!type.isReal() || type.array || type.width != 3 || type.rows != 1) return {};
+    return type.base == ValueType::Base::Double ? "double3" : "float3";
+}
+
 std::string_view schemaType(const std::string& name) {
     for (const Attribute& attribute : attributes)
         if (name == attribute.name) return attribute.typeName;
@@ -52,12 +65,29 @@ bool normalize(Value& value) {
     return true;
 }
 
+/// As in USD, an operation without its property does nothing.
+void dropLostOperations(Prim& prim, const std::string& path, LeftOut& leftOut) {
+    const auto order = prim.properties.find("xformOpOrder");
+    if (order == prim.properties.end() || !order->second.defaultValue) return;
+    auto* names = order->second.defaultValue->as<Value::Array>();
+    if (!names) return;
+    std::erase_if(*names, [&](const Value& value) {
+        const auto* name = value.as<std::string>();
+        if (!name || name->starts_with("!reset")) return false;
+        const bool lost = !prim.property(name->starts_with("!invert!") ? name->substr(8) : *name);
+        if (lost) leftOut.add("left out: operations of which there is no property", path + "." + *name);
+        return lost;
+    });
+}
+
 void adapt(Prim& prim, const std::string& parent, const std::string& file, LeftOut& leftOut) {
     const std::string path = parent + "/" + prim.name;
+    dropLostOperations(prim, path, leftOut);
     for (auto& [name, property] : prim.properties) {
-        const auto type = valueType(property.typeName);
+        const auto type = valueType(plainType(property.typeName));
         if (!type || property.isRelationship()) continue;
-        const std::string_view wanted = schemaType(name);
+        const std::string_view wanted =
+            name.starts_with("xformOp:") ? operationType(*type) : schemaType(name);
         if (!wanted.empty() && property.typeName != wanted && sameForm(*type, *valueType(wanted))) {
             Problems problems(file);
             property.typeName = wanted;

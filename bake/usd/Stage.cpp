@@ -235,7 +235,8 @@ private:
             leaveOut(from, &spec, path, arc + ": there is no prim " + target + " in " + layer->file);
         };
         if (!base) return missing();
-        expectForward(from, spec, path, arc, *layer, base);
+        if (leadsBack(from, spec, path, arc, *layer, base))
+            return leaveOut(from, &spec, path, arc + ": leads back to itself");
         arcs_.push_back({base, above});
         Prim weaker = expand(*layer, *base, above, above == target ? context : Stronger());
         arcs_.pop_back();
@@ -249,16 +250,16 @@ private:
         mergeUnder(prim, std::move(weaker));
     }
 
-    /// That an arc to `base` leads back neither to what it is followed from, nor to what is above its prim.
-    void expectForward(const UsdLayer& from, const UsdSpec& spec, const std::string& path,
-                       const std::string& arc, const UsdLayer& layer, const UsdSpec* base) {
+    /// An arc to `base` leads back to what it is followed from, or to what is above its prim.
+    bool leadsBack(const UsdLayer& from, const UsdSpec& spec, const std::string& path, const std::string& arc,
+                   const UsdLayer& layer, const UsdSpec* base) {
         bool back =
             std::any_of(arcs_.begin(), arcs_.end(), [&](const auto& open) { return open.first == base; });
         for (std::string above = path; &layer == &from && !above.empty(); above.resize(above.rfind('/')))
             back = back || find(from, above) == base;
-        if (back) refuse(from, &spec, path, arc + ": leads back to itself");
-        if (arcs_.size() >= mostArcs)
+        if (!back && arcs_.size() >= mostArcs)
             refuse(from, &spec, path, arc + ": expected at most 64 arcs in each other");
+        return back;
     }
 
     /// The prim at a path such as /A/B below another one, taken out of it.
@@ -339,9 +340,10 @@ OpenUsd besideUsd(const std::string& file, const std::vector<std::string>& other
         const fs::path real = fs::weakly_canonical(folder / name, error);
         if (error || std::none_of(folders.begin(), folders.end(),
                                   [&](const fs::path& one) { return isWithin(real, one); }))
-            throw InputError("lies outside of " + folder.string() +
-                             ", the folder of the first layer; expected it there or in the folder of a --package "
-                             "NAME=DIR");
+            throw InputError(
+                "lies outside of " + folder.string() +
+                ", the folder of the first layer; expected it there or in the folder of a --package "
+                "NAME=DIR");
         if (!fs::exists(real, error)) return UsdFile{"", "", "no such file, " + real.string()};
         if (!fs::is_regular_file(real, error)) return UsdFile{"", "", "is no regular file, " + real.string()};
         if (fs::file_size(real, error) > UsdBudget().text)

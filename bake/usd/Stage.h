@@ -31,8 +31,9 @@ struct UsdStage {
 /// sublayers, inherits, the variants that are selected, references, payloads and specializes are composed in
 /// USD's order of strength, and none of them is left in the layer. A class that a stronger layer overrides
 /// for a weaker one's inherits is not found there. What an arc names that is not there (a file, or one that is
-/// no text of USD, a prim, a variant) is left out, noted. Throws InputError: as parseUsda(), what leads back to
-/// itself, more than 64 arcs in each other, and what makes more than 65536 prims or 16777216 numbers.
+/// no text of USD, a prim, a variant) is left out, noted. So is one that leads back to itself, or below what is
+/// above its own prim and only there by other arcs. Throws InputError: as parseUsda(), sublayers that lead back to
+/// themselves, more than 64 arcs in each other, and what makes more than 65536 prims or 16777216 numbers.
 UsdStage readStage(const std::string& text, const std::string& file, const OpenUsd& open);
 
 } // namespace tss

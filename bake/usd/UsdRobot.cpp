@@ -174,10 +174,13 @@ private:
         try {
             shape.mesh = std::make_shared<const TriangleMesh>(meshOfGprim(prim, place));
         } catch (const InputError& error) {
-            if (!error.where.path.empty()) throw;
-            throw InputError(Where{robot_.file, "", pathOf(entry)}, error.message);
+            const std::string& path = error.where.path;
+            shape.problem =
+                (path.starts_with(shape.where + ".") ? path.substr(shape.where.size() + 1) + ": " : "") +
+                error.message;
         }
-        if (shape.mesh->empty()) return leftOut_.add("left out: meshes without faces", pathOf(entry));
+        if (shape.mesh && shape.mesh->empty())
+            return leftOut_.add("left out: meshes without faces", pathOf(entry));
         RobotLink& to = link >= 0 ? robot_.links[link] : scenery_;
         if (const auto colors = prim.vectors(schema::displayColor); !colors.empty() && !to.color)
             to.color = colors.front().cwiseMax(0).cwiseMin(1);

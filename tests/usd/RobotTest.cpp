@@ -109,6 +109,28 @@ TEST_CASE("every kind of shape becomes a mesh that encloses it, where its transf
                {-2, -1, -1}, {0, 1, 1}));
 }
 
+TEST_CASE("types of old, operations without a property and meshes that are none do not stop the rest") {
+    const std::string square = "point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]\n"
+                               "int[] faceVertexCounts = [4]\n";
+    const RobotScene made = robotScene(
+        "def Mesh \"old\" { " + square +
+        "PointIndex[] faceVertexIndices = [0, 1, 2, 3]\n"
+        "point3f xformOp:translate = (2, 0, 0)\n uniform token[] xformOpOrder = [\"xformOp:translate\", "
+        "\"xformOp:rotateX\", \"!invert!xformOp:gone\"] }\n"
+        "def Mesh \"bad\" { " +
+        square +
+        "int[] faceVertexIndices = [0, 1, 2] }\n"
+        "def Mesh \"odd\" { point3f[] points = [(0, 0, inf)]\nint[] faceVertexCounts = [1]\nint[] "
+        "faceVertexIndices = [0] }");
+    CHECK(bounds(bodyCalled(made.scene, "old").mesh).max() == Vec3(1, 1, 0));
+    CHECK(bodyCalled(made.scene, "old").placement.translation() == Vec3(2, 0, 0));
+    CHECK(bodyCalled(made.scene, "bad").mesh.empty());
+    CHECK(
+        hasNote(made.notes, "left out: root.usda: /bad (<link bad>): faceVertexIndices: expected 4 indices"));
+    CHECK(hasNote(made.notes, "left out: root.usda: /odd (<link odd>): points: expected a finite number"));
+    CHECK(hasNote(made.notes, "operations of which there is no property: /old.xformOp:rotateX"));
+}
+
 TEST_CASE("the tip of a cone is up along its axis, and a mirrored shape stays outward") {
     const auto only = [](const std::string& prim) {
         return robotScene("def Xform \"R\" ( prepend apiSchemas = [\"PhysicsRigidBodyAPI\"] ) { " + prim +
