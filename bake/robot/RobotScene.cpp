@@ -36,6 +36,9 @@ public:
         if (!others_.empty())
             result_.notes.push_back("these have no " + std::string(request_.visual ? "visual" : "collision") +
                                     " geometry that can be had, and their other one is taken: " + others_);
+        if (!shapeless_.empty())
+            result_.notes.push_back("these have no shape then, and whether they collide is not known: " +
+                                    shapeless_);
         // A joint's parent has its place before the joint's child gets one.
         std::vector<bool> done(robot_.joints.size()), placed(robot_.links.size(), true);
         for (const RobotJoint& joint : robot_.joints) placed[joint.child] = false;
@@ -49,6 +52,7 @@ public:
                 again = done[j] = placed[joint.child] = true;
             }
         }
+        noteSome(renamed_, 3);
         addPairs();
         addMotion();
         return std::move(result_);
@@ -133,7 +137,7 @@ private:
         for (std::size_t k = failed; k < failures_.size(); ++k)
             result_.notes.push_back(std::string("left out: ") + failures_[k].what());
         if (failures_.size() > failed && body.mesh.empty())
-            result_.notes.push_back("link " + link.name + " has no shape: whether it collides is not known");
+            shapeless_ += (shapeless_.empty() ? "" : ", ") + link.name;
         const Vec3 tones[] = {{0.80, 0.79, 0.76}, {0.48, 0.56, 0.64}};
         body.displayColor = link.color.value_or(tones[scene.bodies.size() % 2]);
         body.rigid = true;
@@ -155,9 +159,16 @@ private:
         }
         const std::string name = freePrimName(result_.scene, joint.name.empty() ? "joint" : joint.name);
         if (name != joint.name && !joint.name.empty())
-            result_.notes.push_back("joint " + joint.name + " is called " + name + " in the scene");
+            renamed_.push_back("joint " + joint.name + " is called " + name + " in the scene");
         chains_[index] = addJoints(result_.scene, joint.parent, joint.child, motion, name);
         for (int j : chains_[index]) result_.scene.joints[j].collisionEnabled = true;
+    }
+
+    void noteSome(const std::vector<std::string>& notes, std::size_t most) {
+        result_.notes.insert(result_.notes.end(), notes.begin(),
+                             notes.begin() + std::min(most, notes.size()));
+        if (notes.size() > most)
+            result_.notes.push_back(std::to_string(notes.size() - most) + " more like this one");
     }
 
     bool isWanted(const Pair& pair) const {
@@ -182,12 +193,9 @@ private:
         std::vector<Pair>& pairs = result_.scene.pairs;
         const std::size_t all = pairs.size();
         std::erase_if(pairs, [&](const Pair& pair) { return !isWanted(pair); });
-        constexpr std::size_t most = 10;
-        for (std::size_t k = 0; k < found.notes.size() && k < most; ++k)
-            result_.notes.push_back("no pair: " + found.notes[k]);
-        if (found.notes.size() > most)
-            result_.notes.push_back("no pair: " + std::to_string(found.notes.size() - most) +
-                                    " more for like reasons");
+        std::vector<std::string> unmade;
+        for (const std::string& note : found.notes) unmade.push_back("no pair: " + note);
+        noteSome(unmade, 10);
         if (request_.pairs == RobotPairs::All && pairs.size() < all)
             result_.notes.push_back(std::to_string(all - pairs.size()) +
                                     " pairs are left out, as the robot's files "
@@ -237,6 +245,8 @@ private:
     const FindMesh& findMesh_;
     std::string others_;               ///< links that are made of the other kind of shapes
     std::vector<InputError> failures_; ///< shapes that could not be had
+    std::string shapeless_;            ///< links that have none for that
+    std::vector<std::string> renamed_; ///< joints, as notes
     RobotScene result_;
     std::map<std::string, TriangleMesh> meshes_;
     std::size_t triangles_ = 0;
