@@ -18,10 +18,10 @@ done
 fuzzing=$([ -n "$long" ] && echo 1800 || echo 30)
 
 install_packages build pictures report tests
-parts "building all=11" "tests=6"
+parts "building all=9" "tests=7"
 [ -z "$long" ] || parts "long tests=30"
 parts "the report's page in a browser=1" "the API reference, every warning an error=1" \
-      "fuzzing the readers of scenes and robots=$((4 + fuzzing / 60))"
+      "fuzzing the readers of scenes and robots=$((3 + fuzzing / 60))"
 
 part "building all" build_release -DOSGTSS_TESTS=ON "${later_parts[@]/%/=ON}"
 [ -d ../shared/meshes ] || say "../shared/meshes is absent: tests on real meshes say 'skipped, no meshes'"

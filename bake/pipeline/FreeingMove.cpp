@@ -12,7 +12,7 @@ namespace {
 
 /// Of the smaller body's diagonal: the first shift that is tried, and the last.
 constexpr double firstShare = 1e-3, lastShare = 0.1;
-constexpr double growth = 1.3; ///< from one length to the next
+constexpr double lengthening = 1.3; ///< from one length to the next
 
 /// To the faces, edges and corners of a cube.
 std::vector<JointMove> directions() {
@@ -35,7 +35,7 @@ JointMove firstShift(const FreeingTrial& trial, const std::vector<char>& wanted,
     JointMove best = JointMove::Zero();
     std::size_t reached = trial.freeOf(best, wanted);
     for (double length = firstShare * trial.size();
-         length <= lastShare * trial.size() && reached < count && !trial.late(); length *= growth) {
+         length <= lastShare * trial.size() && reached < count && !trial.late(); length *= lengthening) {
         JointMove now = JointMove::Zero();
         for (const JointMove& direction : directions()) {
             const std::size_t free = trial.freeOf(length * direction, wanted);

@@ -183,9 +183,12 @@ Robot readUrdf(const std::string& text, const std::string& file) {
     const auto document = parseXml(text, file, "robot");
     Robot robot;
     XMLElement& top = *document->RootElement();
-    pruneUrdf(top, file, robot.notes);
+    const std::vector<LostShape> lost = pruneUrdf(top, file);
     robot.file = file;
     UrdfReader(top, file, robot);
+    for (const auto& [name, visual, shape] : lost)
+        for (RobotLink& link : robot.links)
+            if (link.name == name) (visual ? link.visual : link.collision).push_back(shape);
     settleRobot(robot);
     return robot;
 }

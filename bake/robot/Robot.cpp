@@ -10,7 +10,7 @@ namespace tss {
 
 namespace {
 
-Where placeOf(const Robot& robot, const RobotJoint& joint) {
+Where placeOfJoint(const Robot& robot, const RobotJoint& joint) {
     return {robot.file, joint.where, "joint " + joint.name};
 }
 
@@ -33,11 +33,11 @@ void settleFollower(Robot& robot, RobotJoint& joint) {
     for (std::size_t steps = 0;; ++steps) {
         const auto leader = named(joint.leader);
         if (leader == robot.joints.end() || leader->dofs.size() != 1)
-            throw InputError(placeOf(robot, joint),
+            throw InputError(placeOfJoint(robot, joint),
                              "mimics \"" + joint.leader +
                                  "\"; expected another joint that turns or slides within limits");
         if (steps > robot.joints.size())
-            throw InputError(placeOf(robot, joint), "joints mimic each other in a circle");
+            throw InputError(placeOfJoint(robot, joint), "joints mimic each other in a circle");
         if (leader->leader.empty()) break;
         joint.offset += joint.factor * leader->offset;
         joint.factor *= leader->factor;
@@ -48,9 +48,9 @@ void settleFollower(Robot& robot, RobotJoint& joint) {
     const double a = joint.factor * leads.lower + joint.offset, b = joint.factor * leads.upper + joint.offset;
     const double lower = std::max(dof.lower, std::min(a, b)), upper = std::min(dof.upper, std::max(a, b));
     if (!(lower <= upper))
-        throw InputError(placeOf(robot, joint), "mimics \"" + joint.leader +
-                                                    "\", which never leads it into its limits " +
-                                                    rangeText(robot, dof));
+        throw InputError(placeOfJoint(robot, joint), "mimics \"" + joint.leader +
+                                                         "\", which never leads it into its limits " +
+                                                         rangeText(robot, dof));
     dof.lower = lower;
     dof.upper = upper;
     robot.notes.push_back(
@@ -82,7 +82,7 @@ void checkForest(const Robot& robot) {
         const RobotJoint& joint = robot.joints[j];
         int& holder = above[joint.child];
         if (holder >= 0)
-            throw InputError(placeOf(robot, joint),
+            throw InputError(placeOfJoint(robot, joint),
                              "link " + robot.links[joint.child].name + " hangs on joint " +
                                  robot.joints[holder].name +
                                  " too; expected each link to be the child of one joint");
@@ -92,7 +92,7 @@ void checkForest(const Robot& robot) {
         std::size_t steps = 0;
         for (int at = static_cast<int>(link); at >= 0 && above[at] >= 0; at = robot.joints[above[at]].parent)
             if (++steps > robot.links.size())
-                throw InputError(placeOf(robot, robot.joints[above[at]]),
+                throw InputError(placeOfJoint(robot, robot.joints[above[at]]),
                                  "the joints close a loop; expected links that hang on each other as a tree");
     }
 }

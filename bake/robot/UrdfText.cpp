@@ -61,19 +61,27 @@ void spellNumbers(const std::string& file, XMLElement& element, const Kept& kept
     }
 }
 
-void prune(XMLElement& element, const std::string& file, std::vector<std::string>& notes) {
+LostShape lostShape(const std::string& file, const XMLElement& geometry, const XMLElement& element) {
+    const XMLElement& item = *geometry.Parent()->ToElement();
+    LostShape lost{
+        textOf(*item.Parent()->ToElement(), "name"), item.Name() == std::string_view("visual"), {}};
+    lost.shape.where = placeOf(file, element).pointer;
+    lost.shape.problem = std::string("a shape <") + element.Name() + "> is none of URDF's";
+    return lost;
+}
+
+void prune(XMLElement& element, const std::string& file, std::vector<LostShape>& lost) {
     const Kept& kept = keptElements().at(element.Name());
     spellNumbers(file, element, kept);
     for (tinyxml2::XMLNode *child = element.FirstChild(), *next = nullptr; child; child = next) {
         next = child->NextSibling();
         XMLElement* inner = child->ToElement();
         if (inner && kept.children.contains(inner->Name())) {
-            prune(*inner, file, notes);
+            prune(*inner, file, lost);
             continue;
         }
         if (inner && element.Name() == std::string_view("geometry"))
-            notes.push_back("a shape <" + std::string(inner->Name()) + "> (" + placeOf(file, *inner).pointer +
-                            ") is none of URDF's: left out");
+            lost.push_back(lostShape(file, element, *inner));
         element.DeleteChild(child);
     }
 }
@@ -137,9 +145,10 @@ std::set<std::string> expectOnce(const std::string& file, XMLElement& robot, con
 
 } // namespace
 
-void pruneUrdf(XMLElement& robot, const std::string& file, std::vector<std::string>& notes) {
+std::vector<LostShape> pruneUrdf(XMLElement& robot, const std::string& file) {
     expectAttributes(file, robot, {"name"});
-    prune(robot, file, notes);
+    std::vector<LostShape> lost;
+    prune(robot, file, lost);
     const std::set<std::string> links = expectOnce(file, robot, "link");
     expectOnce(file, robot, "joint");
     for (auto* link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link"))
@@ -148,6 +157,7 @@ void pruneUrdf(XMLElement& robot, const std::string& file, std::vector<std::stri
         checkJoint(file, links, *joint);
     if (!robot.FirstChildElement("link"))
         throw InputError(placeOf(file, robot), "expected at least one <link>");
+    return lost;
 }
 
 std::string urdfText(const XMLElement& robot) {

@@ -5,11 +5,18 @@
 
 namespace tss {
 
+/// A shape that is none of URDF's.
+struct LostShape {
+    std::string link;
+    bool visual = false;
+    RobotShape shape; ///< its place in the file and its problem
+};
+
 /// Takes out of the tree of a URDF all that this software does not use (inertias, transmissions, what belongs
-/// to simulators) and shapes that are none of URDF's, these with a note; checks what is left where urdfdom
+/// to simulators) and shapes that are none of URDF's, which it returns; checks what is left where urdfdom
 /// names no line: names that are there once, numbers, types, limits. Throws InputError with file, line and
 /// element.
-void pruneUrdf(tinyxml2::XMLElement& robot, const std::string& file, std::vector<std::string>& notes);
+std::vector<LostShape> pruneUrdf(tinyxml2::XMLElement& robot, const std::string& file);
 
 /// The tree as text for urdfdom, whose own XML reader then meets nothing odd.
 std::string urdfText(const tinyxml2::XMLElement& robot);

@@ -23,7 +23,7 @@ Vec3 parseAxis(const std::string& text, const std::string& what) {
     return axis;
 }
 
-double limit(const std::string& text, const std::string& what, double metersPerUnit, double axisLength) {
+double limitOf(const std::string& text, const std::string& what, double metersPerUnit, double axisLength) {
     const bool unit = !text.empty() && std::isalpha(static_cast<unsigned char>(text.back()));
     if (!unit) return parseNumber(text, what);
     try {
@@ -98,8 +98,8 @@ Dof parseDof(const std::string& text, double metersPerUnit) {
     } else if (kind == "trans" && parts.size() == 4) {
         dof.kind = DofKind::Translation;
         dof.axis = parseAxis(parts[1], what);
-        dof.lower = limit(parts[2], what, metersPerUnit, dof.axis.norm());
-        dof.upper = limit(parts[3], what, metersPerUnit, dof.axis.norm());
+        dof.lower = limitOf(parts[2], what, metersPerUnit, dof.axis.norm());
+        dof.upper = limitOf(parts[3], what, metersPerUnit, dof.axis.norm());
     } else if (kind == "path" && parts.size() == 4) {
         dof.kind = DofKind::Path;
         dof.path = readPath(parts[1]);

@@ -35,8 +35,8 @@ struct Meshes {
     MeshQuery a, b;
 };
 
-void report(const QueryArguments& arguments, const Console& console, std::size_t poses, std::size_t hits,
-            const Json& outsideRows, std::size_t outside, const std::string& madeFor) {
+void sayHits(const QueryArguments& arguments, const Console& console, std::size_t poses, std::size_t hits,
+             const Json& outsideRows, std::size_t outside, const std::string& madeFor) {
     console.say(fmt::format("{} poses, {} hits, wrote {}", poses, hits, arguments.output));
     if (outside > 0)
         console.say(
@@ -87,7 +87,7 @@ void runAllPairs(const QueryArguments& arguments, const Console& console) {
                                                   : "1," + scene.pairs[answer.pair].path + "\n";
     }
     writeFileAtomically(arguments.output, text);
-    report(arguments, console, poses.rows.size(), hits, outsideRows, outside, "tables and proofs were");
+    sayHits(arguments, console, poses.rows.size(), hits, outsideRows, outside, "tables and proofs were");
 }
 
 void runQuery(const QueryArguments& arguments, const Console& console) {
@@ -129,8 +129,8 @@ void runQuery(const QueryArguments& arguments, const Console& console) {
         text += meshes ? fmt::format(",{}\n", meshes->a.distanceTo(meshes->b, pose(motion, q))) : "\n";
     }
     writeFileAtomically(arguments.output, text);
-    report(arguments, console, poses.rows.size(), hits, outsideRows, outside,
-           pair.proof ? "proof was" : "table was");
+    sayHits(arguments, console, poses.rows.size(), hits, outsideRows, outside,
+            pair.proof ? "proof was" : "table was");
 }
 
 } // namespace

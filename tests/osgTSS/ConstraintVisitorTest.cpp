@@ -1,5 +1,5 @@
-#include "Extract.h"
 #include "LargeGraph.h"
+#include "Nodes.h"
 #include "Playback.h"
 
 #include "bake/base/Error.h"
@@ -21,6 +21,7 @@
 #include <random>
 
 using namespace osgTSS;
+using nodes::extract;
 
 namespace {
 

@@ -1,5 +1,5 @@
-#include "Extract.h"
 #include "Heard.h"
+#include "Nodes.h"
 #include "Sitter.h"
 
 #include "bake/base/Error.h"
@@ -19,6 +19,7 @@
 #include <sstream>
 
 using namespace osgTSS;
+using nodes::extract;
 
 namespace {
 

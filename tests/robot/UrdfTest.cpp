@@ -222,7 +222,8 @@ TEST_CASE("xacro, document types, bombs and depth are refused by name") {
           std::string::npos);
 }
 
-TEST_CASE("shapes of others are left out by name, and what is not used does not matter") {
+TEST_CASE(
+    "a link with a shape that is none of URDF's has its other ones, and what is not used does not matter") {
     const RobotScene robot = madeOfUrdf(
         robotOf("<material name='red'><color rgba='1 0 0 1'/></material><gazebo reference='a'><x/></gazebo>"
                 "<transmission name='t'><type>x</type></transmission>" +
@@ -230,9 +231,9 @@ TEST_CASE("shapes of others are left out by name, and what is not used does not 
                            "<visual><geometry><box size='1 1 1'/></geometry><material name='red'/></visual>"
                            "<collision><geometry><capsule radius='1' length='2'/></geometry></collision>" +
                                box)));
-    CHECK(hasNote(robot.notes, "a shape <capsule> (line 3)"));
+    CHECK(hasNote(robot.notes, "left out: arm.urdf: line 3 (<link a>): a shape <capsule> is none of URDF's"));
     CHECK(bodyCalled(robot.scene, "a").displayColor == Vec3(1, 0, 0));
-    CHECK(bounds(bodyCalled(robot.scene, "a").mesh).sizes().isApprox(Vec3(0.1, 0.1, 0.1)));
+    CHECK(bounds(bodyCalled(robot.scene, "a").mesh).sizes().isApprox(Vec3::Ones()));
 }
 
 TEST_CASE("names that USD does not know are kept beside, and the scene reads back the same") {

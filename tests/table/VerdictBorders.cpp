@@ -40,11 +40,11 @@ std::vector<double> somePose(Random& random, const Motion& motion, const Verdict
     return q;
 }
 
-struct Counts {
+struct BorderCounts {
     long poses = 0, touching = 0, known = 0, inParts = 0, inBand = 0;
 };
 
-void judge(const PreparedTable& prepared, const std::vector<double>& q, long double gap, Counts& counts) {
+void judge(const PreparedTable& prepared, const std::vector<double>& q, long double gap, BorderCounts& counts) {
     const VerdictGrid& verdicts = prepared.verdicts();
     const Verdict atOnce = verdicts.atOnce(q.data()), verdict = verdicts.verdict(q.data());
     const bool hit = prepared.hit(q.data());
@@ -60,8 +60,8 @@ void judge(const PreparedTable& prepared, const std::vector<double>& q, long dou
     if (verdicts.clearance(q.data()) > 0 && gap <= 0) FAIL("clearance in contact at " << q[0]);
 }
 
-Counts judgeAll(std::uint64_t firstSeed, int tables, int posesEach) {
-    Counts counts;
+BorderCounts judgeAll(std::uint64_t firstSeed, int tables, int posesEach) {
+    BorderCounts counts;
     for (std::uint64_t seed = firstSeed; seed < firstSeed + std::uint64_t(tables); ++seed) {
         CAPTURE(seed);
         Random random(seed);
@@ -80,7 +80,7 @@ Counts judgeAll(std::uint64_t firstSeed, int tables, int posesEach) {
 } // namespace
 
 TEST_CASE("verdicts hold to the last bit where cells, parts and intervals end, at a million poses") {
-    const Counts counts = judgeAll(1, 50, 20000);
+    const BorderCounts counts = judgeAll(1, 50, 20000);
     CAPTURE(counts.touching, counts.known, counts.inParts, counts.inBand);
     CHECK(counts.poses == 1000000);
     CHECK(counts.touching > 50000);
@@ -90,7 +90,7 @@ TEST_CASE("verdicts hold to the last bit where cells, parts and intervals end, a
 
 TEST_CASE("verdicts hold to the last bit where cells, parts and intervals end, at 10 million poses",
           "[.long]") {
-    const Counts counts = judgeAll(1000, 200, 50000);
+    const BorderCounts counts = judgeAll(1000, 200, 50000);
     WARN(counts.touching << " of " << counts.poses << " poses touch, " << counts.known
                          << " known by the values, " << counts.inParts << " by parts or intervals, "
                          << counts.inBand << " free within the band");

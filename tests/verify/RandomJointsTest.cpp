@@ -14,7 +14,7 @@ struct Tally {
 };
 
 /// The largest rounding that two ways of working out a gap may differ by, on scenes about a unit across.
-constexpr double rounding = 1e-10;
+constexpr double gapRounding = 1e-10;
 
 /// A joint of 1 to 4 DOFs, some of them paths, some coupled, and two clouds of spheres.
 scenes::Scene randomJoint(std::uint64_t seed) {
@@ -35,8 +35,8 @@ void look(const scenes::Scene& scene, const Table& table, const std::vector<doub
     const double models = queryAllPairs(scene.a, scene.b, at).gap, answer = query(table, at).gap;
     ++tally.poses;
     tally.contacts += models <= 0;
-    tally.missed += models <= 0 && answer > std::max(0.0, models) + table.epsilon + rounding;
-    tally.early += answer < models - rounding;
+    tally.missed += models <= 0 && answer > std::max(0.0, models) + table.epsilon + gapRounding;
+    tally.early += answer < models - gapRounding;
 }
 
 void checkJoint(std::uint64_t seed, int poses, Tally& tally) {
