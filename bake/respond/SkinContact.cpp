@@ -72,7 +72,7 @@ void finish(const SkinRig& rig, const SkinScene& scene, const Vec3f& smooth, con
     // What is not quite believed asks for less, so that contacts come and go without a jump.
     plane.gap += (1 - trust) * (std::max(-plane.gap, 0.0f) + rig.radius);
     plane.level = plane.normal.dot(placeOf(scene, plane)) - plane.gap;
-    if (!(trust > 0)) plane.vertices = 0;
+    plane.met = trust > 0;
 }
 
 SurfacePoint toPoint(const NearestPoint& near) {
@@ -88,6 +88,9 @@ float comeThrough(float depth, float most) {
 
 SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
     SkinPlane plane;
+    plane.vertices = 1;
+    plane.vertex[0] = row.vertex;
+    plane.weight[0] = 1;
     const SkinBody& body = rig.bodies[row.body];
     const SkinScene::Placed& placed = scene.bodies[row.body];
     const Vec3f x = placed.toBody(scene.skin[row.vertex].head<3>());
@@ -115,11 +118,9 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     // Skin inside a muscle may be nearest to a side that faces away from it.
     float trust = trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
     const Vec3f away = x - hit.point;
+    plane.near = away.norm();
     if (body.bone() && smooth.dot(away) < 0) trust *= comeThrough(away.norm(), way.norm() - row.offset);
     if (!(trust > 0)) return plane;
-    plane.vertex[0] = row.vertex;
-    plane.weight[0] = 1;
-    plane.vertices = 1;
     const Tri& t = body.triangles[hit.triangle];
     const Move* at = scene.surface.data() + body.first;
     float side = sideOf(hit, at[t[0]].head<3>(), at[t[1]].head<3>(), at[t[2]].head<3>(), smooth, away);
@@ -183,6 +184,12 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     if (placed.moved) own = placed.turn * own;
     const SurfacePoint hit = walkSkin(rig, scene, row, x);
     const Tri& corners = rig.triangles[hit.triangle];
+    plane.vertices = 3;
+    for (int k = 0; k < 3; ++k) {
+        plane.vertex[k] = static_cast<std::uint32_t>(corners[k]);
+        plane.weight[k] = hit.weights[k];
+    }
+    plane.near = std::sqrt(hit.squared);
     const Vec3f smooth = smoothAt(hit, corners, [&](int v) { return scene.normalOf(v); });
     float facing = smooth.dot(own);
     if (row.within) {
@@ -199,11 +206,6 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
                              (relativeOf(rig, scene, row) - rig.apart[row.apart].relative).norm() - offset);
     }
     if (!(trust > 0)) return plane;
-    plane.vertices = 3;
-    for (int k = 0; k < 3; ++k) {
-        plane.vertex[k] = static_cast<std::uint32_t>(corners[k]);
-        plane.weight[k] = hit.weights[k];
-    }
     finish(rig, scene, both, away,
            both.dot(away) >= 0 ? 1.0f
            : row.within        ? -1.0f
@@ -217,8 +219,17 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const Vec3f x = placeBefore(scene, row);
     const SurfacePoint hit = walkSkin(rig, scene, row, x);
     const Tri& corners = rig.triangles[hit.triangle];
+    plane.vertices = 1;
+    plane.vertex[0] = row.vertex;
+    plane.weight[0] = 1;
     // Around a fold's end the walk comes to the vertex itself.
     if ((corners.array() == static_cast<int>(row.vertex)).any()) return plane;
+    plane.vertices = 4;
+    for (int k = 0; k < 3; ++k) {
+        plane.vertex[k + 1] = static_cast<std::uint32_t>(corners[k]);
+        plane.weight[k + 1] = -hit.weights[k];
+    }
+    plane.near = std::sqrt(hit.squared);
     const Vec3f smooth = smoothAt(hit, corners, [&](int v) { return scene.normalOf(v); });
     const Vec3f own = scene.normalOf(row.vertex);
     float trust = trustOf(-smooth.dot(own));
@@ -227,13 +238,6 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
         trust *= comeThrough(
             away.norm(), (relativeOf(rig, scene, row) - rig.apart[row.apart].relative).norm() - row.offset);
     if (!(trust > 0)) return plane;
-    plane.vertices = 4;
-    plane.vertex[0] = row.vertex;
-    plane.weight[0] = 1;
-    for (int k = 0; k < 3; ++k) {
-        plane.vertex[k + 1] = static_cast<std::uint32_t>(corners[k]);
-        plane.weight[k + 1] = -hit.weights[k];
-    }
     finish(rig, scene, both, away, both.dot(away) < 0 ? 0.0f : 1.0f, trust, offset, plane);
     return plane;
 }

@@ -33,28 +33,10 @@ void SkinResistance::see(const SkinScene& scene, std::uint32_t r, const SkinPlan
         seenOf_[r] = static_cast<std::uint32_t>(seenRows_.size());
         seen_.emplace_back();
     }
-    const SkinRow& row = rig_.rows[r];
     Seen& seen = seen_[seenOf_[r] - 1];
     seen.plane = plane;
-    if (plane.found()) {
-        seen.free = std::max(std::min(plane.gap, plane.distance - row.offset) / 2, settled);
-    } else if (row.meeting == SkinMeeting::SkinOnBody) {
-        // Whatever it gets into meanwhile it is still seen to have come into from outside.
-        seen.free = enterDepth * rig_.radius / 2;
-    } else {
-        seen.free = std::max(distanceToKnown(rig_, scene, row) / 2, settled);
-    }
-    if (!plane.found() && row.meeting == SkinMeeting::BodyOnSkin) {
-        seen.plane.vertices = 3;
-        for (int k = 0; k < 3; ++k) {
-            seen.plane.vertex[k] = static_cast<std::uint32_t>(row.corners[k]);
-            seen.plane.weight[k] = row.weights[k];
-        }
-    } else if (!plane.found()) {
-        seen.plane.vertices = 1;
-        seen.plane.vertex[0] = row.vertex;
-        seen.plane.weight[0] = 1;
-    }
+    const float free = plane.found() ? std::min(plane.gap, plane.distance - rig_.rows[r].offset) : 0;
+    seen.free = std::max(free / 2, settled);
     seen.place = placeOf(scene, seen.plane);
 }
 
