@@ -257,7 +257,7 @@ std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, std::span<Move>
         ++pushing;
         Move along = Move::Zero();
         along.head<3>() = planes[r].push * planes[r].normal;
-        for (std::uint32_t e = columnStart_[r]; e < columnStart_[r + 1]; ++e) {
+        for (std::uint32_t e = columnStart_[r], end = columnStart_[r + 1]; e < end; ++e) {
             const std::uint32_t n = column_[e].index;
             if (stamp_[n] != round_) {
                 stamp_[n] = round_;
@@ -268,11 +268,15 @@ std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, std::span<Move>
         }
     }
     std::sort(seen_.begin(), seen_.end());
-    for (const std::uint32_t n : seen_)
-        for (std::uint32_t e = foundation_.nodeStart[n]; e < foundation_.nodeStart[n + 1]; ++e) {
-            places[foundation_.nodeVertex[e]] += foundation_.nodeWeight[e] * nodes_[n];
-            blocks[foundation_.nodeVertex[e] / SkinRig::block] = 1;
+    const std::uint32_t* vertices = foundation_.nodeVertex.data();
+    const float* weights = foundation_.nodeWeight.data();
+    for (const std::uint32_t n : seen_) {
+        const Move move = nodes_[n];
+        for (std::uint32_t e = foundation_.nodeStart[n], end = foundation_.nodeStart[n + 1]; e < end; ++e) {
+            places[vertices[e]] += weights[e] * move;
+            blocks[vertices[e] / SkinRig::block] = 1;
         }
+    }
     seen_.clear();
     return pushing;
 }

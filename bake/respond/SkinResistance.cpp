@@ -95,8 +95,10 @@ void SkinResistance::findStirred(const SkinScene& scene) {
     for (std::size_t b = 0; b < pushed_.size(); ++b) {
         if (pushed_[b] == 0) continue;
         const std::size_t last = std::min((b + 1) * SkinRig::block, stirred_.size());
+        const Move *skin = scene.skin.data(), *carried = scene.carried.data();
+        char* stirred = stirred_.data();
         for (std::size_t v = b * SkinRig::block; v < last; ++v)
-            stirred_[v] = (scene.skin[v] - scene.carried[v]).squaredNorm() > still;
+            stirred[v] = (skin[v] - carried[v]).squaredNorm() > still;
     }
 }
 

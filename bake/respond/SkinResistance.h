@@ -61,9 +61,9 @@ private:
     std::vector<std::uint32_t> seenOf_;   ///< #rows: 1 + its place in seen_, 0: none
     std::vector<char> pushed_;            ///< #blocks: with vertices that contacts may have moved
     std::vector<char> stirred_;           ///< #touched: contacts have moved it
-    std::vector<std::uint32_t> left_;     ///< rows that lacked something when last looked up; another was chosen
-    std::vector<char> isLeft_;            ///< #rows
-    std::vector<std::uint32_t> asked_;    ///< #rows: at which look by its block it was last asked
+    std::vector<std::uint32_t> left_;  ///< rows that lacked something when last looked up; another was chosen
+    std::vector<char> isLeft_;         ///< #rows
+    std::vector<std::uint32_t> asked_; ///< #rows: at which look by its block it was last asked
     std::uint32_t looks_ = 0;
     /// By block, the rows about its vertices: blockRows_[blockStart_[b]] to blockRows_[blockStart_[b + 1]].
     std::vector<std::uint32_t> blockStart_, blockRows_;
