@@ -279,7 +279,9 @@ bool mayMeet(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
     const float strain = row.meeting == SkinMeeting::SkinOnBody ? placed.strain : 0.25f;
     const SkinApart* apart = rig.apart.data() + row.apart + (onSkin ? 0 : placed.at.node);
     // Beside the place that is looked at, a surface has moved by its strain over at most twice the gap.
-    const float free = apart->gap() * (1 - 2 * strain);
+    float free = apart->gap() * (1 - 2 * strain);
+    // At rest nothing is lacking; where a muscle stands by itself something may be.
+    if (onSkin || rig.bodies[row.body].bone()) free = std::max(free, unseen);
     if (!(free > 0)) return true;
     Move expected = apart->lie;
     if (!onSkin && placed.at.t != 0) expected += static_cast<float>(placed.at.t) * (apart[1].lie - expected);

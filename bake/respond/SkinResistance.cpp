@@ -10,9 +10,6 @@ namespace {
 /// Times that contacts are looked up, at most, after the first time where those before have moved the skin
 /// to: new ones are met there, and planes of curved surfaces have turned.
 constexpr int lookUps = 8;
-/// In sizes of the skin: how far a row that met nothing goes before it is looked up again, and so how deep it
-/// may stay unseen: 0.02 mm on a head. At a sixth of it a dog's head takes a tenth longer.
-constexpr float unseen = 6e-5f;
 
 /// Turns a plane to what its row meets now. What it pushes stays as it was first found, since it has hardly
 /// slid, and so does its push.
