@@ -63,8 +63,9 @@ void SkinResistance::see(const SkinScene& scene, std::uint32_t r, const SkinPlan
     }
     Seen& seen = seen_[seenOf_[r] - 1];
     seen.plane = plane;
-    const float free = plane.found() ? std::min(plane.gap, plane.distance - rig_.rows[r].offset) : 0;
-    seen.free = std::max(free / 2, unseen);
+    seen.free = unseen;
+    if (plane.found())
+        seen.free = std::max(std::min(plane.gap, plane.distance - rig_.rows[r].offset) / 2, settled);
     seen.place = placeOf(scene, seen.plane);
 }
 
