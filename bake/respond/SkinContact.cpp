@@ -138,7 +138,6 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     // Skin inside a muscle may be nearest to a side that faces away from it.
     float trust = trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
     const Vec3f away = x - hit.point;
-    plane.near = away.norm();
     if (body.bone() && smooth.dot(away) < 0) trust *= comeThrough(away.norm(), way.norm() - row.offset);
     if (!(trust > 0)) return plane;
     const Tri& t = body.triangles[hit.triangle];
@@ -209,7 +208,6 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
         plane.vertex[k] = static_cast<std::uint32_t>(corners[k]);
         plane.weight[k] = hit.weights[k];
     }
-    plane.near = std::sqrt(hit.squared);
     const Vec3f smooth = smoothAt(hit, corners, [&](int v) { return scene.normalOf(v); });
     float facing = smooth.dot(own);
     if (row.within) {
@@ -249,7 +247,6 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
         plane.vertex[k + 1] = static_cast<std::uint32_t>(corners[k]);
         plane.weight[k + 1] = -hit.weights[k];
     }
-    plane.near = std::sqrt(hit.squared);
     const Vec3f smooth = smoothAt(hit, corners, [&](int v) { return scene.normalOf(v); });
     const Vec3f own = scene.normalOf(row.vertex);
     float trust = trustOf(-smooth.dot(own));

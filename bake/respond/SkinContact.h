@@ -18,10 +18,9 @@ struct SkinPlane {
     int vertices = 0;
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
     float level = 0;
-    float distance = 0;                             ///< signed, as the row's offset is meant
-    float near = std::numeric_limits<float>::max(); ///< how far what was looked at is, met or not
-    float push = 0;                                 ///< >= 0, along the normal
-    float gap = std::numeric_limits<float>::max();  ///< of the skin as it is: < 0 asks for a push
+    float distance = 0;                            ///< signed, as the row's offset is meant
+    float push = 0;                                ///< >= 0, along the normal
+    float gap = std::numeric_limits<float>::max(); ///< of the skin as it is: < 0 asks for a push
     bool met =
         false; ///< else what was looked at is no contact, and normal, level, distance and gap say nothing
 

@@ -164,7 +164,7 @@ SkinApart apartOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row
     if (plane.found())
         apart.gap() = std::clamp(plane.distance, 0.0f, apart.gap());
     else if (row.meeting == SkinMeeting::BodyOnSkin)
-        apart.gap() = std::min(plane.near, distanceToKnown(rig, scene, row));
+        apart.gap() = distanceToKnown(rig, scene, row);
     return apart;
 }
 
@@ -202,7 +202,7 @@ void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
         row.offset = std::min(plane.distance, 0.0f);
         apart.gap() = std::clamp(plane.distance, 0.0f, apart.relative().norm());
     } else if (!body) { // it faces another way now, and is far from what it meets
-        apart.gap() = std::min(plane.near, distanceToKnown(rig, scene, row));
+        apart.gap() = distanceToKnown(rig, scene, row);
     }
 }
 
