@@ -35,6 +35,26 @@ float trustOf(float facing) {
     return smoothStep((facing - leastFacing) / (fullFacing - leastFacing));
 }
 
+/// relativeOf() with a fourth number of 0, so that it is reckoned four at a time.
+inline Move relativePlace(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    const SkinScene::Placed& placed = scene.bodies[row.body];
+    const auto before = [&](const Move* surface) -> Move {
+        return row.weights[0] * surface[row.corners[0]] + row.weights[1] * surface[row.corners[1]] +
+               row.weights[2] * surface[row.corners[2]];
+    };
+    const auto toBody = [&](const Move& x) -> Move {
+        if (!placed.moved) return x;
+        const Vec3f y = placed.toBody(x.head<3>());
+        return {y[0], y[1], y[2], 0};
+    };
+    const Move* skin = scene.skin.data();
+    if (row.meeting == SkinMeeting::BodyOnSkin) return scene.surface[row.vertex] - toBody(before(skin));
+    if (row.meeting == SkinMeeting::SkinOnSkin) return skin[row.vertex] - before(skin);
+    const SkinBody& body = rig.bodies[row.body];
+    const Move x = toBody(skin[row.vertex]);
+    return body.bone() ? x : Move(x - before(scene.surface.data() + body.first));
+}
+
 /// The direction in which a surface pushes: its smooth normal; from beside a rim, or from within a thin edge,
 /// more and more straight to or from its nearest point, without a jump. side: -1 inside, 1 outside, 0: along
 /// the smooth normal.
@@ -72,7 +92,7 @@ void finish(const SkinRig& rig, const SkinScene& scene, const Vec3f& smooth, con
     // What is not quite believed asks for less, so that contacts come and go without a jump.
     plane.gap += (1 - trust) * (std::max(-plane.gap, 0.0f) + rig.radius);
     plane.level = plane.normal.dot(placeOf(scene, plane)) - plane.gap;
-    if (!(trust > 0)) plane.vertices = 0;
+    plane.met = trust > 0;
 }
 
 SurfacePoint toPoint(const NearestPoint& near) {
@@ -88,6 +108,9 @@ float comeThrough(float depth, float most) {
 
 SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
     SkinPlane plane;
+    plane.vertices = 1;
+    plane.vertex[0] = row.vertex;
+    plane.weight[0] = 1;
     const SkinBody& body = rig.bodies[row.body];
     const SkinScene::Placed& placed = scene.bodies[row.body];
     const Vec3f x = placed.toBody(scene.skin[row.vertex].head<3>());
@@ -96,7 +119,7 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     SurfacePoint hit;
     Vec3f way = Vec3f::Zero(); // since rest, past the bone
     if (body.bone()) {
-        way = relativeOf(rig, scene, row) - rig.apart[row.apart].relative;
+        way = relativeOf(rig, scene, row) - rig.apart[row.apart].relative();
         int first = rig.starts[row.first];
         if (row.offset == 0) first = body.locator->entered((x - way).cast<double>(), x.cast<double>());
         if (first < 0) return plane;
@@ -117,9 +140,6 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const Vec3f away = x - hit.point;
     if (body.bone() && smooth.dot(away) < 0) trust *= comeThrough(away.norm(), way.norm() - row.offset);
     if (!(trust > 0)) return plane;
-    plane.vertex[0] = row.vertex;
-    plane.weight[0] = 1;
-    plane.vertices = 1;
     const Tri& t = body.triangles[hit.triangle];
     const Move* at = scene.surface.data() + body.first;
     float side = sideOf(hit, at[t[0]].head<3>(), at[t[1]].head<3>(), at[t[2]].head<3>(), smooth, away);
@@ -183,6 +203,11 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     if (placed.moved) own = placed.turn * own;
     const SurfacePoint hit = walkSkin(rig, scene, row, x);
     const Tri& corners = rig.triangles[hit.triangle];
+    plane.vertices = 3;
+    for (int k = 0; k < 3; ++k) {
+        plane.vertex[k] = static_cast<std::uint32_t>(corners[k]);
+        plane.weight[k] = hit.weights[k];
+    }
     const Vec3f smooth = smoothAt(hit, corners, [&](int v) { return scene.normalOf(v); });
     float facing = smooth.dot(own);
     if (row.within) {
@@ -196,14 +221,9 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     if (rig.bodies[row.body].bone() && both.dot(away) < 0) {
         offset = -outAtRest(rig, row, hit);
         trust *= comeThrough(away.norm(),
-                             (relativeOf(rig, scene, row) - rig.apart[row.apart].relative).norm() - offset);
+                             (relativeOf(rig, scene, row) - rig.apart[row.apart].relative()).norm() - offset);
     }
     if (!(trust > 0)) return plane;
-    plane.vertices = 3;
-    for (int k = 0; k < 3; ++k) {
-        plane.vertex[k] = static_cast<std::uint32_t>(corners[k]);
-        plane.weight[k] = hit.weights[k];
-    }
     finish(rig, scene, both, away,
            both.dot(away) >= 0 ? 1.0f
            : row.within        ? -1.0f
@@ -217,23 +237,24 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const Vec3f x = placeBefore(scene, row);
     const SurfacePoint hit = walkSkin(rig, scene, row, x);
     const Tri& corners = rig.triangles[hit.triangle];
+    plane.vertices = 1;
+    plane.vertex[0] = row.vertex;
+    plane.weight[0] = 1;
     // Around a fold's end the walk comes to the vertex itself.
     if ((corners.array() == static_cast<int>(row.vertex)).any()) return plane;
+    plane.vertices = 4;
+    for (int k = 0; k < 3; ++k) {
+        plane.vertex[k + 1] = static_cast<std::uint32_t>(corners[k]);
+        plane.weight[k + 1] = -hit.weights[k];
+    }
     const Vec3f smooth = smoothAt(hit, corners, [&](int v) { return scene.normalOf(v); });
     const Vec3f own = scene.normalOf(row.vertex);
     float trust = trustOf(-smooth.dot(own));
     const Vec3f away = x - hit.point, both = (smooth - own).normalized();
     if (both.dot(away) < 0)
         trust *= comeThrough(
-            away.norm(), (relativeOf(rig, scene, row) - rig.apart[row.apart].relative).norm() - row.offset);
+            away.norm(), (relativeOf(rig, scene, row) - rig.apart[row.apart].relative()).norm() - row.offset);
     if (!(trust > 0)) return plane;
-    plane.vertices = 4;
-    plane.vertex[0] = row.vertex;
-    plane.weight[0] = 1;
-    for (int k = 0; k < 3; ++k) {
-        plane.vertex[k + 1] = static_cast<std::uint32_t>(corners[k]);
-        plane.weight[k + 1] = -hit.weights[k];
-    }
     finish(rig, scene, both, away, both.dot(away) < 0 ? 0.0f : 1.0f, trust, offset, plane);
     return plane;
 }
@@ -241,20 +262,7 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
 } // namespace
 
 Vec3f relativeOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    const SkinScene::Placed& placed = scene.bodies[row.body];
-    Vec3f before = Vec3f::Zero();
-    if (row.meeting == SkinMeeting::SkinOnBody) {
-        const Vec3f x = placed.toBody(scene.skin[row.vertex].head<3>());
-        const SkinBody& body = rig.bodies[row.body];
-        if (body.bone()) return x;
-        const Move* surface = scene.surface.data() + body.first;
-        for (int k = 0; k < 3; ++k) before += row.weights[k] * surface[row.corners[k]].head<3>();
-        return x - before;
-    }
-    for (int k = 0; k < 3; ++k) before += row.weights[k] * scene.skin[row.corners[k]].head<3>();
-    if (row.meeting == SkinMeeting::BodyOnSkin)
-        return scene.surface[row.vertex].head<3>() - placed.toBody(before);
-    return scene.skin[row.vertex].head<3>() - before;
+    return relativePlace(rig, scene, row).head<3>();
 }
 
 float distanceToKnown(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
@@ -262,19 +270,20 @@ float distanceToKnown(const SkinRig& rig, const SkinScene& scene, const SkinRow&
 }
 
 bool mayMeet(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    const bool onSkin = row.meeting == SkinMeeting::SkinOnSkin;
+    const SkinScene::Placed& placed = scene.bodies[row.body];
     // Of the skin: half of what edges are let change.
-    const float strain = row.meeting == SkinMeeting::SkinOnBody ? scene.bodies[row.body].strain : 0.25f;
-    const SkinApart* apart = rig.apart.data() + row.apart;
-    Vec3f expected = apart->relative;
-    if (row.meeting != SkinMeeting::SkinOnSkin) {
-        const TrackPlace& at = scene.bodies[row.body].at;
-        apart += at.node;
-        expected = apart->relative;
-        if (at.t != 0) expected += static_cast<float>(at.t) * (apart[1].relative - expected);
-    }
+    const float strain = row.meeting == SkinMeeting::SkinOnBody ? placed.strain : 0.25f;
+    const SkinApart* apart = rig.apart.data() + row.apart + (onSkin ? 0 : placed.at.node);
     // Beside the place that is looked at, a surface has moved by its strain over at most twice the gap.
-    const float free = apart->gap * (1 - 2 * strain);
-    return !(free > 0) || (relativeOf(rig, scene, row) - expected).squaredNorm() >= free * free;
+    float free = apart->gap() * (1 - 2 * strain);
+    // At rest nothing is lacking; where a muscle stands by itself something may be.
+    if (onSkin || rig.bodies[row.body].bone()) free = std::max(free, unseen);
+    if (!(free > 0)) return true;
+    Move expected = apart->lie;
+    if (!onSkin && placed.at.t != 0) expected += static_cast<float>(placed.at.t) * (apart[1].lie - expected);
+    const Move off = relativePlace(rig, scene, row) - expected; // and the gap
+    return off[0] * off[0] + off[1] * off[1] + off[2] * off[2] >= free * free;
 }
 
 SkinPlane lookUp(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {

@@ -83,13 +83,19 @@ void SkinPushes::couple() {
     }
     coupleStart_.assign(1, 0);
     coupling_.clear();
+    fours_.clear();
     for (std::uint32_t r = 0; r < count; ++r) {
-        const float* before = before_.data() + std::size_t{r} * (r - 1) / 2;
-        for (std::uint32_t s = 0; s < r; ++s)
-            if (before[s] != 0) coupling_.push_back({s, before[s]});
-        for (std::uint32_t s = r + 1; s < count; ++s)
-            if (const float after = before_[std::size_t{s} * (s - 1) / 2 + r]; after != 0)
-                coupling_.push_back({s, after});
+        for (std::uint32_t first = 0; first < count; first += 4) {
+            Four values = Four::Zero();
+            for (std::uint32_t s = first; s < std::min<std::size_t>(first + 4, count); ++s)
+                if (s != r) {
+                    const std::size_t least = std::min(r, s), most = std::max(r, s);
+                    values[s - first] = before_[most * (most - 1) / 2 + least];
+                }
+            if ((values == 0).all()) continue;
+            coupling_.push_back(values);
+            fours_.push_back(first);
+        }
         coupleStart_.push_back(static_cast<std::uint32_t>(coupling_.size()));
     }
 }
@@ -106,36 +112,52 @@ void SkinPushes::clear() {
 
 /// What each plane still lacks, and how much of it a push of each other one gives: the matrix of the problem.
 void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base) {
-    const std::size_t count = planes.size();
-    lack_.resize(count);
-    asked_.resize(count);
-    matrix_.resize(coupling_.size());
+    const std::size_t count = planes.size(), whole = (count + 3) / 4 * 4;
+    asked_.assign(whole, 0);
+    for (std::vector<float>& normals : normals_) normals.assign(whole, 0);
     for (std::size_t r = 0; r < count; ++r) {
         Eigen::Vector3f now = Eigen::Vector3f::Zero();
         for (int k = 0; k < planes[r].vertices; ++k)
             now += planes[r].weight[k] * base[planes[r].vertex[k]].head<3>();
-        asked_[r] = lack_[r] = planes[r].level - planes[r].normal.dot(now);
-        for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
-            matrix_[e] = coupling_[e].value * planes[r].normal.dot(planes[coupling_[e].index].normal);
+        asked_[r] = planes[r].level - planes[r].normal.dot(now);
+        for (int k = 0; k < 3; ++k) normals_[k][r] = planes[r].normal[k];
     }
-    // No push moves any place by more than a few times what is lacking around its own, which may give way
-    // less than those beside it.
+    lack_ = asked_;
+    matrix_.resize(coupling_.size());
     most_.resize(count);
     for (std::size_t r = 0; r < count; ++r) {
-        float asked = std::max(asked_[r], 0.0f);
-        for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
-            asked = std::max(asked, asked_[coupling_[e].index]);
-        most_[r] = self_[r] > 0 ? mostPush * asked / std::max(self_[r], peak_[r]) : 0;
+        const Eigen::Vector3f& normal = planes[r].normal;
+        Four asked = Four::Constant(std::max(asked_[r], 0.0f));
+        for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e) {
+            const std::uint32_t first = fours_[e];
+            const Four facing = normal[0] * four(normals_[0], first) +
+                                (normal[1] * four(normals_[1], first) + normal[2] * four(normals_[2], first));
+            matrix_[e] = coupling_[e] * facing;
+            asked = asked.max((coupling_[e] != 0).select(four(asked_, first), Four::Zero()));
+        }
+        // No push moves any place by more than a few times what is lacking around its own, which may give way
+        // less than those beside it.
+        most_[r] = self_[r] > 0 ? mostPush * asked.maxCoeff() / std::max(self_[r], peak_[r]) : 0;
+    }
+    for (std::size_t r = 0; r < count; ++r) {
         planes[r].push = std::min(planes[r].push, most_[r]);
         if (planes[r].push > 0) spread(r, planes[r].push);
     }
 }
 
+/// Adds to each plane what `factor` of the row of one of them in the matrix gives it.
+void SkinPushes::addRow(std::size_t r, float factor, std::vector<float>& sums) const {
+    sums[r] += (1 + giveWay) * self_[r] * factor;
+    float* sum = sums.data();
+    const Four* matrix = matrix_.data();
+    const std::uint32_t* fours = fours_.data();
+    for (std::uint32_t e = coupleStart_[r], end = coupleStart_[r + 1]; e < end; ++e)
+        Eigen::Map<Four>(sum + fours[e]) += matrix[e] * factor;
+}
+
 /// Takes from what the planes lack what a change of one push gives them.
 void SkinPushes::spread(std::size_t r, float change) {
-    lack_[r] -= (1 + giveWay) * self_[r] * change;
-    for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
-        lack_[coupling_[e].index] -= matrix_[e] * change;
+    addRow(r, -change, lack_);
 }
 
 /// One push after the other, to what its plane lacks. Returns the largest change of a place.
@@ -153,13 +175,9 @@ float SkinPushes::sweep(std::span<SkinPlane> planes, bool backwards) {
 
 /// What all planes would be given, were each push changed by its part of way_.
 void SkinPushes::answer() {
-    answer_.assign(way_.size(), 0);
-    for (std::size_t r = 0; r < way_.size(); ++r) {
-        if (way_[r] == 0) continue;
-        answer_[r] += (1 + giveWay) * self_[r] * way_[r];
-        for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e)
-            answer_[coupling_[e].index] += matrix_[e] * way_[r];
-    }
+    answer_.assign(asked_.size(), 0);
+    for (std::size_t r = 0; r < way_.size(); ++r)
+        if (way_[r] != 0) addRow(r, way_[r], answer_);
 }
 
 /// Conjugate gradients over those that push: fills step_, by which they would lack nothing. Returns how many
@@ -257,7 +275,7 @@ std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, std::span<Move>
         ++pushing;
         Move along = Move::Zero();
         along.head<3>() = planes[r].push * planes[r].normal;
-        for (std::uint32_t e = columnStart_[r]; e < columnStart_[r + 1]; ++e) {
+        for (std::uint32_t e = columnStart_[r], end = columnStart_[r + 1]; e < end; ++e) {
             const std::uint32_t n = column_[e].index;
             if (stamp_[n] != round_) {
                 stamp_[n] = round_;
@@ -268,11 +286,15 @@ std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, std::span<Move>
         }
     }
     std::sort(seen_.begin(), seen_.end());
-    for (const std::uint32_t n : seen_)
-        for (std::uint32_t e = foundation_.nodeStart[n]; e < foundation_.nodeStart[n + 1]; ++e) {
-            places[foundation_.nodeVertex[e]] += foundation_.nodeWeight[e] * nodes_[n];
-            blocks[foundation_.nodeVertex[e] / SkinRig::block] = 1;
+    const std::uint32_t* vertices = foundation_.nodeVertex.data();
+    const float* weights = foundation_.nodeWeight.data();
+    for (const std::uint32_t n : seen_) {
+        const Move move = nodes_[n];
+        for (std::uint32_t e = foundation_.nodeStart[n], end = foundation_.nodeStart[n + 1]; e < end; ++e) {
+            places[vertices[e]] += weights[e] * move;
+            blocks[vertices[e] / SkinRig::block] = 1;
         }
+    }
     seen_.clear();
     return pushing;
 }

@@ -1,6 +1,8 @@
 #pragma once
 #include "bake/respond/SkinContact.h"
 
+#include <array>
+
 namespace tss {
 
 /// The small problem of the contacts that push (METHOD 6.5): pushes p >= 0 along the planes' normals, so that
@@ -23,6 +25,7 @@ public:
     std::size_t apply(std::span<const SkinPlane> planes, std::span<Move> places, std::span<char> blocks);
 
 private:
+    using Four = Eigen::Array4f;
     struct Entry {
         std::uint32_t index;
         float value;
@@ -35,6 +38,10 @@ private:
     void couple();
     void prepare(std::span<SkinPlane> planes, std::span<const Move> base);
     void spread(std::size_t r, float change);
+    void addRow(std::size_t r, float factor, std::vector<float>& sums) const;
+    Four four(const std::vector<float>& values, std::uint32_t first) const {
+        return Eigen::Map<const Four>(values.data() + first);
+    }
     void setPush(SkinPlane& plane, std::size_t r, float push);
     float sweep(std::span<SkinPlane> planes, bool backwards);
     float energy(std::span<const SkinPlane> planes) const;
@@ -46,11 +53,14 @@ private:
     std::vector<std::uint32_t> ownStart_, columnStart_, coupleStart_; ///< one per plane and an end
     std::vector<Entry> own_;                                          ///< what each plane has of the nodes
     std::vector<Entry> column_;                                       ///< how the nodes move when it pushes
-    std::vector<Entry> coupling_; ///< how much nearer to their goal the other planes come by it
-    std::vector<float> before_;   ///< of plane r with each s < r, at r (r - 1) / 2 + s; the same both ways
-    std::vector<float> peak_;     ///< of each plane: most that its push moves a node
-    std::vector<float> dense_, self_, asked_, lack_, most_, matrix_; ///< matrix_: one per coupling
-    std::vector<float> step_, way_, left_, answer_;                  ///< of conjugate gradients
+    std::vector<Four> coupling_, matrix_; ///< how much nearer to their goal four other planes come by it
+    std::vector<std::uint32_t> fours_;    ///< of coupling_: the first of the four
+    std::vector<float> before_; ///< of plane r with each s < r, at r (r - 1) / 2 + s; the same both ways
+    std::vector<float> peak_;   ///< of each plane: most that its push moves a node
+    std::vector<float> dense_, self_, most_;
+    std::vector<float> asked_, lack_; ///< one per plane, up to whole fours
+    std::array<std::vector<float>, 3> normals_;
+    std::vector<float> step_, way_, left_, answer_; ///< of conjugate gradients
     std::vector<std::uint32_t> seen_, stamp_;
     std::vector<Move> nodes_;
     std::uint32_t round_ = 0;

@@ -9,7 +9,7 @@ namespace {
 
 /// Times that contacts are looked up, at most, after the first time where those before have moved the skin
 /// to: new ones are met there, and planes of curved surfaces have turned.
-constexpr int lookUps = 10;
+constexpr int lookUps = 8;
 
 /// Turns a plane to what its row meets now. What it pushes stays as it was first found, since it has hardly
 /// slid, and so does its push.
@@ -20,11 +20,39 @@ void turnTo(const SkinPlane& now, const SkinScene& scene, SkinPlane& plane) {
         now.found() ? plane.normal.dot(placeOf(scene, plane)) - plane.gap : -1e6f; // asks for nothing
 }
 
+/// Calls what(vertex) for each vertex of the skin that a row is about.
+template <class What>
+void eachVertex(const SkinRow& row, const What& what) {
+    if (row.meeting != SkinMeeting::BodyOnSkin) what(row.vertex);
+    if (row.meeting != SkinMeeting::SkinOnBody)
+        for (const int corner : row.corners) what(static_cast<std::uint32_t>(corner));
+}
+
 } // namespace
 
 SkinResistance::SkinResistance(const SkinRig& rig, SkinClock& clock)
     : rig_(rig), clock_(clock), pushes_(rig.foundation), planeOf_(rig.rows.size(), 0),
-      seenOf_(rig.rows.size(), 0), pushed_(rig.blocks(), 0), stirred_(rig.rest.size(), 0) {}
+      seenOf_(rig.rows.size(), 0), pushed_(rig.blocks(), 0), stirred_(rig.rest.size(), 0),
+      asked_(rig.rows.size(), 0) {
+    listRows();
+}
+
+/// Fills blockStart_ and blockRows_.
+void SkinResistance::listRows() {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> entries;
+    for (std::uint32_t r = 0; r < rig_.rows.size(); ++r)
+        eachVertex(rig_.rows[r], [&](std::uint32_t v) {
+            entries.emplace_back(static_cast<std::uint32_t>(v / SkinRig::block), r);
+        });
+    std::sort(entries.begin(), entries.end());
+    entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
+    blockStart_.assign(rig_.blocks() + 1, 0);
+    for (const auto& [block, row] : entries) {
+        ++blockStart_[block + 1];
+        blockRows_.push_back(row);
+    }
+    for (std::size_t b = 0; b < rig_.blocks(); ++b) blockStart_[b + 1] += blockStart_[b];
+}
 
 /// What a row that lacks nothing keeps until contacts have moved the skin there.
 void SkinResistance::see(const SkinScene& scene, std::uint32_t r, const SkinPlane& plane) {
@@ -33,35 +61,20 @@ void SkinResistance::see(const SkinScene& scene, std::uint32_t r, const SkinPlan
         seenOf_[r] = static_cast<std::uint32_t>(seenRows_.size());
         seen_.emplace_back();
     }
-    const SkinRow& row = rig_.rows[r];
     Seen& seen = seen_[seenOf_[r] - 1];
     seen.plane = plane;
-    if (plane.found()) {
-        seen.free = std::max(std::min(plane.gap, plane.distance - row.offset) / 2, settled);
-    } else if (row.meeting == SkinMeeting::SkinOnBody) {
-        // Whatever it gets into meanwhile it is still seen to have come into from outside.
-        seen.free = enterDepth * rig_.radius / 2;
-    } else {
-        seen.free = std::max(distanceToKnown(rig_, scene, row) / 2, settled);
-    }
-    if (!plane.found() && row.meeting == SkinMeeting::BodyOnSkin) {
-        seen.plane.vertices = 3;
-        for (int k = 0; k < 3; ++k) {
-            seen.plane.vertex[k] = static_cast<std::uint32_t>(row.corners[k]);
-            seen.plane.weight[k] = row.weights[k];
-        }
-    } else if (!plane.found()) {
-        seen.plane.vertices = 1;
-        seen.plane.vertex[0] = row.vertex;
-        seen.plane.weight[0] = 1;
-    }
+    seen.free = unseen;
+    if (plane.found())
+        seen.free = std::max(std::min(plane.gap, plane.distance - rig_.rows[r].offset) / 2, settled);
     seen.place = placeOf(scene, seen.plane);
 }
 
-bool SkinResistance::mayPush(const SkinScene& scene, std::uint32_t r) const {
-    if (seenOf_[r] == 0) return mayMeet(rig_, scene, rig_.rows[r]);
-    const Seen& seen = seen_[seenOf_[r] - 1];
+bool SkinResistance::moved(const SkinScene& scene, const Seen& seen) const {
     return (placeOf(scene, seen.plane) - seen.place).squaredNorm() > seen.free * seen.free;
+}
+
+bool SkinResistance::mayPush(const SkinScene& scene, std::uint32_t r) const {
+    return seenOf_[r] == 0 ? mayMeet(rig_, scene, rig_.rows[r]) : moved(scene, seen_[seenOf_[r] - 1]);
 }
 
 /// What contacts have moved goes back to where it is carried.
@@ -83,24 +96,23 @@ void SkinResistance::findStirred(const SkinScene& scene) {
     for (std::size_t b = 0; b < pushed_.size(); ++b) {
         if (pushed_[b] == 0) continue;
         const std::size_t last = std::min((b + 1) * SkinRig::block, stirred_.size());
+        const Move *skin = scene.skin.data(), *carried = scene.carried.data();
+        char* stirred = stirred_.data();
         for (std::size_t v = b * SkinRig::block; v < last; ++v)
-            stirred_[v] = (scene.skin[v] - scene.carried[v]).squaredNorm() > still;
+            stirred[v] = (skin[v] - carried[v]).squaredNorm() > still;
     }
 }
 
-/// Whether that is so of any that a row depends on.
-bool SkinResistance::stirred(std::uint32_t r) const {
-    if (lacking_[r]) return true;
+/// Whether that is so of any that a plane holds.
+bool SkinResistance::stirred(const SkinPlane& plane) const {
     bool any = false;
-    if (seenOf_[r] > 0) {
-        const SkinPlane& plane = seen_[seenOf_[r] - 1].plane;
-        for (int k = 0; k < plane.vertices; ++k) any = any || stirred_[plane.vertex[k]];
-        return any;
-    }
-    const SkinRow& row = rig_.rows[r];
-    if (row.meeting != SkinMeeting::BodyOnSkin) any = stirred_[row.vertex];
-    if (row.meeting != SkinMeeting::SkinOnBody)
-        for (const int corner : row.corners) any = any || stirred_[corner];
+    for (int k = 0; k < plane.vertices; ++k) any = any || stirred_[plane.vertex[k]];
+    return any;
+}
+
+bool SkinResistance::stirred(const SkinRow& row) const {
+    bool any = false;
+    eachVertex(row, [&](std::uint32_t v) { any = any || stirred_[v]; });
     return any;
 }
 
@@ -120,10 +132,15 @@ void SkinResistance::addDeepest() {
         return std::tie(a.place, a.plane.gap, a.row) < std::tie(b.place, b.plane.gap, b.row);
     });
     for (std::size_t k = 0; k < found_.size(); ++k) {
-        if (k > 0 && found_[k].place == found_[k - 1].place) continue;
-        rows_.push_back(found_[k].row);
+        const std::uint32_t r = found_[k].row;
+        if (k > 0 && found_[k].place == found_[k - 1].place) {
+            left_.push_back(r);
+            isLeft_[r] = 1;
+            continue;
+        }
+        rows_.push_back(r);
         planes_.push_back(found_[k].plane);
-        planeOf_[found_[k].row] = static_cast<std::uint32_t>(planes_.size());
+        planeOf_[r] = static_cast<std::uint32_t>(planes_.size());
     }
     found_.clear();
 }
@@ -136,7 +153,8 @@ void SkinResistance::clear() {
     planes_.clear();
     seen_.clear();
     pushes_.clear();
-    lacking_.assign(rig_.rows.size(), 0);
+    left_.clear();
+    isLeft_.assign(rig_.rows.size(), 0);
 }
 
 SkinPlane SkinResistance::timedLookUp(const SkinScene& scene, const SkinRow& row) {
@@ -147,27 +165,53 @@ SkinPlane SkinResistance::timedLookUp(const SkinScene& scene, const SkinRow& row
     return lookUp(rig_, scene, row);
 }
 
-/// Turns the planes there are and fills found_. again: only what contacts have moved. Returns the most that
-/// one of the planes lacks.
-float SkinResistance::lookUpAll(const SkinScene& scene, bool again) {
+void SkinResistance::lookAt(const SkinScene& scene, std::uint32_t r) {
+    const SkinPlane plane = timedLookUp(scene, rig_.rows[r]);
+    if (plane.found() && plane.gap < 0)
+        found_.push_back({placeOfChoice(rig_.rows[r], plane), r, plane});
+    else
+        see(scene, r, plane);
+}
+
+/// Fills found_ as the skin is carried.
+void SkinResistance::lookUpFirst(const SkinScene& scene) {
+    const SkinClock::Scope scope(clock_, SkinPart::Sort);
+    for (std::uint32_t r = 0; r < rig_.rows.size(); ++r)
+        if (mayMeet(rig_, scene, rig_.rows[r])) lookAt(scene, r);
+}
+
+/// Turns the planes there are and fills found_, by what contacts have moved. Returns the most that one of the
+/// planes lacks.
+float SkinResistance::lookUpAgain(const SkinScene& scene) {
     const SkinClock::Scope scope(clock_, SkinPart::Sort);
     float lack = 0;
-    for (std::uint32_t r = 0; r < rig_.rows.size(); ++r) {
-        const SkinRow& row = rig_.rows[r];
-        if (planeOf_[r] > 0) {
-            SkinPlane& plane = planes_[planeOf_[r] - 1];
-            turnTo(timedLookUp(scene, row), scene, plane);
-            lack = std::max(lack, -plane.gap);
-            continue;
-        }
-        if ((again && !stirred(r)) || !mayPush(scene, r)) continue;
-        const SkinPlane plane = timedLookUp(scene, row);
-        lacking_[r] = plane.found() && plane.gap < 0;
-        if (lacking_[r])
-            found_.push_back({placeOfChoice(row, plane), r, plane});
-        else
-            see(scene, r, plane);
+    for (std::size_t k = 0; k < planes_.size(); ++k) {
+        turnTo(timedLookUp(scene, rig_.rows[rows_[k]]), scene, planes_[k]);
+        lack = std::max(lack, -planes_[k].gap);
     }
+    for (std::size_t k = 0, seen = seen_.size(); k < seen; ++k) {
+        const std::uint32_t r = seenRows_[k];
+        if (planeOf_[r] == 0 && isLeft_[r] == 0 && stirred(seen_[k].plane) && moved(scene, seen_[k]))
+            lookAt(scene, r);
+    }
+    ++looks_;
+    for (std::size_t b = 0; b < pushed_.size(); ++b) {
+        if (pushed_[b] == 0) continue;
+        for (std::uint32_t k = blockStart_[b]; k < blockStart_[b + 1]; ++k) {
+            const std::uint32_t r = blockRows_[k];
+            if (asked_[r] == looks_) continue; // a row is about more than one block
+            asked_[r] = looks_;
+            if (planeOf_[r] == 0 && seenOf_[r] == 0 && isLeft_[r] == 0 && stirred(rig_.rows[r]) &&
+                mayMeet(rig_, scene, rig_.rows[r]))
+                lookAt(scene, r);
+        }
+    }
+    std::erase_if(left_, [&](std::uint32_t r) {
+        if (!mayPush(scene, r)) return false;
+        isLeft_[r] = 0;
+        lookAt(scene, r);
+        return true;
+    });
     return lack;
 }
 
@@ -176,7 +220,11 @@ std::size_t SkinResistance::push(SkinScene& scene) {
     std::size_t pushing = 0;
     float last = std::numeric_limits<float>::max();
     for (int round = 0; round < lookUps; ++round) {
-        const float lack = lookUpAll(scene, round > 0);
+        float lack = 0;
+        if (round == 0)
+            lookUpFirst(scene);
+        else
+            lack = lookUpAgain(scene);
         // What is no less deep than before is asked for more than the skin can give.
         if (found_.empty() && (lack <= settled || lack >= last)) break;
         last = lack;

@@ -34,12 +34,17 @@ private:
         std::uint32_t row = 0;
         SkinPlane plane;
     };
+    void listRows();
     void clear();
-    float lookUpAll(const SkinScene& scene, bool again);
+    void lookUpFirst(const SkinScene& scene);
+    float lookUpAgain(const SkinScene& scene);
+    void lookAt(const SkinScene& scene, std::uint32_t r);
     SkinPlane timedLookUp(const SkinScene& scene, const SkinRow& row);
     void see(const SkinScene& scene, std::uint32_t r, const SkinPlane& plane);
+    bool moved(const SkinScene& scene, const Seen& seen) const;
     bool mayPush(const SkinScene& scene, std::uint32_t r) const;
-    bool stirred(std::uint32_t r) const;
+    bool stirred(const SkinPlane& plane) const;
+    bool stirred(const SkinRow& row) const;
     void findStirred(const SkinScene& scene);
     std::uint64_t placeOfChoice(const SkinRow& row, const SkinPlane& plane) const;
     void addDeepest();
@@ -56,7 +61,12 @@ private:
     std::vector<std::uint32_t> seenOf_;   ///< #rows: 1 + its place in seen_, 0: none
     std::vector<char> pushed_;            ///< #blocks: with vertices that contacts may have moved
     std::vector<char> stirred_;           ///< #touched: contacts have moved it
-    std::vector<char> lacking_;           ///< #rows: when last looked up, another one was chosen
+    std::vector<std::uint32_t> left_;  ///< rows that lacked something when last looked up; another was chosen
+    std::vector<char> isLeft_;         ///< #rows
+    std::vector<std::uint32_t> asked_; ///< #rows: at which look by its block it was last asked
+    std::uint32_t looks_ = 0;
+    /// By block, the rows about its vertices: blockRows_[blockStart_[b]] to blockRows_[blockStart_[b + 1]].
+    std::vector<std::uint32_t> blockStart_, blockRows_;
 };
 
 } // namespace tss

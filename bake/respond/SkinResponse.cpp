@@ -13,6 +13,11 @@ double activationOf(std::span<const double> activations, const SkinBody& body, s
     return std::isnan(a) || body.nodes.empty() ? 0 : std::clamp(a, body.nodes.front(), body.nodes.back());
 }
 
+/// y, z, x: in one instruction, as all of it is taken from one place.
+inline Move turned(const Move& x) {
+    return {x[1], x[2], x[0], x[3]};
+}
+
 } // namespace
 
 /// All of a response: its rig, and what the last update left.
@@ -39,7 +44,6 @@ private:
     SkinResistance resistance_;
     SkinClock clock_;
     std::vector<Vec3> positions_, normals_;
-    std::vector<Move> turned_;              ///< #touched, then the border: y, z, x of the places
     std::vector<char> shown_, shownBefore_; ///< #blocks: places and normals are not those at rest
     std::vector<double> activations_;
     std::vector<Pose> poses_;
@@ -51,10 +55,7 @@ private:
 SkinResponse::State::State(std::shared_ptr<const SkinRig> rig)
     : rig_(std::move(rig)), resistance_(*rig_, clock_), positions_(rig_->rest), normals_(rig_->restNormals),
       shown_(rig_->blocks(), 0), activations_(rig_->bodies.size(), 0),
-      poses_(rig_->bodies.size(), Pose::Identity()) {
-    for (const auto* places : {&rig_->places, &rig_->borderPlaces})
-        for (const Move& x : *places) turned_.emplace_back(x[1], x[2], x[0], 0);
-}
+      poses_(rig_->bodies.size(), Pose::Identity()) {}
 
 /// Takes it over, and returns whether it was that already.
 bool SkinResponse::State::shiftBy(std::span<const Vec3> shift) {
@@ -125,30 +126,40 @@ void SkinResponse::State::toRest() {
 
 /// Places of a block as they are now.
 void SkinResponse::State::showPlaces(std::size_t block) {
-    const std::size_t last = std::min((block + 1) * SkinRig::block, positions_.size());
-    for (std::size_t v = block * SkinRig::block; v < last; ++v) {
-        const Move& x = scene_.skin[v];
-        turned_[v] = Move(x[1], x[2], x[0], 0);
-        if (!rig_->parameters.faithful)
-            positions_[v] = rig_->rest[v] + rig_->size * (x - rig_->places[v]).head<3>().cast<double>();
+    if (rig_->parameters.faithful) return;
+    const std::size_t first = block * SkinRig::block,
+                      last = std::min(first + SkinRig::block, positions_.size());
+    const Move *skin = scene_.skin.data(), *places = rig_->places.data();
+    const double size = rig_->size;
+    const double* rest = rig_->rest[0].data() + 3 * first;
+    double* position = positions_[0].data() + 3 * first;
+    for (std::size_t v = first; v < last; ++v, rest += 3, position += 3) {
+        const Move moved = skin[v] - places[v];
+        for (int k = 0; k < 3; ++k) position[k] = rest[k] + size * static_cast<double>(moved[k]);
     }
 }
 
 void SkinResponse::State::showNormals(std::size_t block) {
     const std::size_t last = std::min((block + 1) * SkinRig::block, positions_.size());
-    const Move *skin = scene_.skin.data(), *turned = turned_.data();
-    const SkinFan* fan = rig_->fans.fans.data() + rig_->fans.start[block * SkinRig::block];
+    const Move* skin = scene_.skin.data();
+    const SkinFan *fans = rig_->fans.fans.data(), *fan = fans + rig_->fans.start[block * SkinRig::block];
+    const std::uint32_t* ends = rig_->fans.start.data() + 1;
+    Vec3* normals = normals_.data();
     for (std::size_t v = block * SkinRig::block; v < last; ++v) {
         Move sum = Move::Zero(); // z, x, y
-        for (const SkinFan* end = rig_->fans.fans.data() + rig_->fans.start[v + 1]; fan != end; ++fan) {
-            const Move spoke = skin[fan->middle] - skin[v], rim = skin[fan->last] - skin[fan->first];
-            sum += spoke.cwiseProduct(turned[fan->last] - turned[fan->first]) -
-                   (turned[fan->middle] - turned[v]).cwiseProduct(rim);
+        const SkinFan* end = fans + ends[v];
+        for (const Move own = skin[v]; fan != end; ++fan) {
+            const Move spoke = skin[fan->middle] - own, rim = skin[fan->last] - skin[fan->first];
+            sum += spoke.cwiseProduct(turned(rim)) - turned(spoke).cwiseProduct(rim);
         }
         const float squared = sum.squaredNorm();
         const float scale = squared > 0 ? 1 / std::sqrt(squared) : 0;
-        normals_[v] = scale > 0 ? Vec3((scale * Eigen::Vector3f(sum[1], sum[2], sum[0])).cast<double>())
-                                : rig_->restNormals[v];
+        sum *= scale;
+        if (scale > 0)
+            normals[v] =
+                Vec3(static_cast<double>(sum[1]), static_cast<double>(sum[2]), static_cast<double>(sum[0]));
+        else
+            normals[v] = rig_->restNormals[v];
     }
 }
 
@@ -158,8 +169,9 @@ void SkinResponse::State::show() {
     shownBefore_.swap(shown_);
     shown_.assign(rig_->blocks(), 0);
     for (std::size_t b = 0; b < shown_.size(); ++b)
-        for (std::uint32_t k = rig_->aroundStart[b]; k < rig_->aroundStart[b + 1]; ++k)
-            if (scene_.live[b] != 0 || resistance_.pushed(b)) shown_[rig_->around[k]] = 1;
+        if (scene_.live[b] != 0 || resistance_.pushed(b))
+            for (std::uint32_t k = rig_->aroundStart[b]; k < rig_->aroundStart[b + 1]; ++k)
+                shown_[rig_->around[k]] = 1;
     for (std::size_t b = 0; b < shown_.size(); ++b)
         if (shown_[b] != 0 || shownBefore_[b] != 0) showPlaces(b);
     for (std::size_t b = 0; b < shown_.size(); ++b) {

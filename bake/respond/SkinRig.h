@@ -82,9 +82,13 @@ enum class SkinMeeting : std::uint8_t {
 
 /// How the two of a row lie where its muscle alone has moved, and everything else is at rest.
 struct SkinApart {
-    Eigen::Vector3f relative = Eigen::Vector3f::Zero(); ///< what meets, from the place that it is before
-    float gap =
-        0; ///< while they are no farther off that than this, here or on the way to the next, nothing meets
+    /// x, y, z: what meets, from the place that it is before. w: while they are no farther off that than
+    /// this, here or on the way to the next, nothing meets.
+    Move lie = Move::Zero();
+
+    Eigen::Vector3f relative() const { return lie.head<3>(); }
+    float gap() const { return lie[3]; }
+    float& gap() { return lie[3]; }
 };
 
 /// A possible contact. Where it is looked for starts from a triangle known beforehand, so that the answer has

@@ -157,21 +157,22 @@ bool ofMuscle(const SkinRig& rig, const SkinRow& row) {
 
 /// What a row of a muscle keeps of how a scene stands.
 SkinApart apartOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    SkinApart apart{relativeOf(rig, scene, row), 0};
+    SkinApart apart;
+    apart.lie.head<3>() = relativeOf(rig, scene, row);
     const SkinPlane plane = lookUp(rig, scene, row);
-    apart.gap = apart.relative.norm();
+    apart.gap() = apart.relative().norm();
     if (plane.found())
-        apart.gap = std::clamp(plane.distance, 0.0f, apart.gap);
+        apart.gap() = std::clamp(plane.distance, 0.0f, apart.gap());
     else if (row.meeting == SkinMeeting::BodyOnSkin)
-        apart.gap = distanceToKnown(rig, scene, row);
+        apart.gap() = distanceToKnown(rig, scene, row);
     return apart;
 }
 
 /// Each node's gap becomes what holds up to the next one.
 void bridgeNodes(SkinApart* apart, std::size_t nodes) {
     for (std::size_t n = 0; n + 1 < nodes; ++n) {
-        const float step = (apart[n + 1].relative - apart[n].relative).norm();
-        apart[n].gap = std::max(std::min(apart[n].gap, apart[n + 1].gap) - step / 2, 0.0f);
+        const float step = (apart[n + 1].relative() - apart[n].relative()).norm();
+        apart[n].gap() = std::max(std::min(apart[n].gap(), apart[n + 1].gap()) - step / 2, 0.0f);
     }
 }
 
@@ -185,7 +186,7 @@ void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
         if (row.facing.squaredNorm() > 0) row.facing.normalize();
     }
     SkinApart& apart = rig.apart[row.apart];
-    apart.relative = relativeOf(rig, scene, row);
+    apart.lie.head<3>() = relativeOf(rig, scene, row);
     row.offset = -1; // whatever the overlap at rest is, it is believed
     SkinPlane plane = lookUp(rig, scene, row, 0);
     row.offset = 0;
@@ -195,13 +196,13 @@ void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
     }
     if (body && bone) {
         // Nothing comes in before it has come as far as the bone is away.
-        apart.gap = std::max(outside(rig.bodies[row.body], scene.skin[row.vertex]), 0.0f);
-        if (plane.found() && apart.gap == 0) row.offset = std::min(plane.distance, 0.0f);
+        apart.gap() = std::max(outside(rig.bodies[row.body], scene.skin[row.vertex]), 0.0f);
+        if (plane.found() && apart.gap() == 0) row.offset = std::min(plane.distance, 0.0f);
     } else if (plane.found()) {
         row.offset = std::min(plane.distance, 0.0f);
-        apart.gap = std::clamp(plane.distance, 0.0f, apart.relative.norm());
+        apart.gap() = std::clamp(plane.distance, 0.0f, apart.relative().norm());
     } else if (!body) { // it faces another way now, and is far from what it meets
-        apart.gap = distanceToKnown(rig, scene, row);
+        apart.gap() = distanceToKnown(rig, scene, row);
     }
 }
 

@@ -34,12 +34,16 @@ void placeSurface(const SkinBody& body, double activation, const Pose& far, Skin
     const TrackPlace at = placed.at = locate(body.nodes, activation);
     const float t = static_cast<float>(at.t);
     const std::size_t from = at.node * body.count, to = at.t == 0 ? from : from + body.count;
+    const auto mix = [t](const Move* a, const Move* b, std::uint32_t v) -> Move {
+        return a[v] + t * (b[v] - a[v]);
+    };
+    const Move *places = body.places.data(), *normals = body.normals.data(), *rest = body.rest.data();
+    Move *surface = scene.surface.data() + body.first, *moves = scene.moves.data() + body.first,
+         *surfaceNormals = scene.normals.data() + body.first;
     for (std::uint32_t v = 0; v < body.count; ++v) {
-        const Move place = body.places[from + v] + t * (body.places[to + v] - body.places[from + v]);
-        scene.surface[body.first + v] = place;
-        scene.normals[body.first + v] =
-            body.normals[from + v] + t * (body.normals[to + v] - body.normals[from + v]);
-        scene.moves[body.first + v] = place - body.rest[v];
+        surface[v] = mix(places + from, places + to, v);
+        surfaceNormals[v] = mix(normals + from, normals + to, v);
+        moves[v] = surface[v] - rest[v];
     }
     placed.strain = body.strain[at.node];
     if (at.t != 0) placed.strain = std::max(placed.strain, body.strain[at.node + 1]);
@@ -70,14 +74,18 @@ Move turned(const SkinRig& rig, SkinScene& scene, std::size_t v, const Move& sum
 void placeBlock(const SkinRig& rig, std::size_t block, bool turns, std::span<const Vec3> shift,
                 SkinScene& scene) {
     const std::size_t last = std::min((block + 1) * SkinRig::block, rig.places.size());
+    // By pointers, that what is written is known not to change them.
+    const Move *rest = rig.places.data(), *restNormals = rig.placeNormals.data(), *moves = scene.moves.data();
+    Move *carried = scene.carried.data(), *skin = scene.skin.data(), *normals = scene.skinNormals.data();
+    const std::uint32_t* pullEnd = rig.pullStart.data() + 1;
+    const SkinPull* pull = rig.pulls.data() + rig.pullStart[block * SkinRig::block];
     for (std::size_t v = block * SkinRig::block; v < last; ++v) {
         Move sum = Move::Zero();
-        for (std::uint32_t k = rig.pullStart[v]; k < rig.pullStart[v + 1]; ++k)
-            sum += rig.pulls[k].share * scene.moves[rig.pulls[k].from];
+        for (const SkinPull* end = rig.pulls.data() + pullEnd[v]; pull != end; ++pull)
+            sum += pull->share * moves[pull->from];
         if (!shift.empty()) sum.head<3>() += (shift[v] / rig.size).cast<float>();
-        scene.skinNormals[v] = rig.placeNormals[v];
-        scene.carried[v] = turns ? turned(rig, scene, v, sum) : Move(rig.places[v] + sum);
-        scene.skin[v] = scene.carried[v];
+        normals[v] = restNormals[v];
+        carried[v] = skin[v] = turns ? turned(rig, scene, v, sum) : Move(rest[v] + sum);
     }
 }
 

@@ -52,6 +52,10 @@ SurfacePoint walkDownhill(const Eigen::Vector3f& x, int start, const std::vector
         if (d < best.squared) best = {triangle, w, p, d};
     };
     look(start);
+    int before = -1; // is farther
+    const auto lookAt = [&](int triangle) {
+        if (triangle != before) look(triangle);
+    };
     for (int step = 0; step < steps; ++step) {
         const int from = best.triangle;
         const Eigen::Vector3f w = best.weights;
@@ -60,12 +64,13 @@ SurfacePoint walkDownhill(const Eigen::Vector3f& x, int start, const std::vector
         if ((w.array() > 0).count() == 1) {
             int corner = 0;
             w.maxCoeff(&corner);
-            lookAround(from, corner, triangles, across, look);
+            lookAround(from, corner, triangles, across, lookAt);
         } else {
             for (int k = 0; k < 3; ++k)
-                if (w[(k + 2) % 3] <= 0 && across[from][k] >= 0) look(across[from][k]);
+                if (w[(k + 2) % 3] <= 0 && across[from][k] >= 0) lookAt(across[from][k]);
         }
         if (best.triangle == from) break;
+        before = from;
     }
     return best;
 }
