@@ -69,7 +69,6 @@ private:
             const std::string bare = slash == file.npos ? file : file.substr(slash + 1);
             const std::string name = textOf(*e, "name", bare.substr(0, bare.find_last_of('.')));
             if (file.empty()) {
-                leaveOut("meshes without a file", name);
                 fileless_.insert(name);
                 continue;
             }
@@ -120,7 +119,7 @@ private:
         shape.where = placeOf(file_, geom).pointer;
         shape.place = placeOfElement(geom, file_, compiler_);
         if (shape.kind == RobotShape::Kind::Mesh) return readMesh(geom, shape);
-        if (geom.Attribute("mesh")) return leaveOut("geoms fitted to a mesh", name), false;
+        if (geom.Attribute("mesh")) return shape.problem = "a geom fitted to a mesh is not read", true;
         const std::size_t count = kind->second.second;
         const auto ends = numbersOf(file_, geom, "fromto", 6, 6);
         auto size = numbersOf(file_, geom, "size", 1, 3);
@@ -140,7 +139,7 @@ private:
         const std::string name = textOf(geom, "mesh");
         const auto mesh = meshes_.find(name);
         if (mesh == meshes_.end()) {
-            if (fileless_.contains(name)) return false;
+            if (fileless_.contains(name)) return shape.problem = "mesh \"" + name + "\" has no file", true;
             throw InputError(placeOf(file_, geom),
                              "mesh: expected the name of a mesh of <asset>, found \"" + name + "\"");
         }

@@ -143,11 +143,12 @@ TEST_CASE("what is not served is left out by name, and the rest comes in") {
                       "<joint name='spin'/></body><replicate count='3'><body name='e'/></replicate></body>") +
                 "<equality><weld name='glue'/></equality>"));
     CHECK(robot.scene.bodies.size() >= 4);
-    for (const char* words :
-         {"geoms of type plane: floor", "free joints: the bodies are tied to nothing: a",
-          "meshes without a file: shell", "slides without limits: the bodies are tied to nothing: b",
-          "bodies made by replicate", "glue", "balls, which are taken as three turns"})
+    for (const char* words : {"geoms of type plane: floor", "free joints: the bodies are tied to nothing: a",
+                              "(<link a>): mesh \"shell\" has no file",
+                              "slides without limits: the bodies are tied to nothing: b",
+                              "bodies made by replicate", "glue", "balls, which are taken as three turns"})
         CHECK(hasNote(robot.notes, words));
+    CHECK(bodyCalled(robot.scene, "a").mesh.empty()); // with its ball alone nothing could be proven
     const Dof& spin = jointCalled(robot.scene, "spin").dofs[0];
     CHECK(spin.upper - spin.lower == Approx(2 * std::numbers::pi));
     CHECK(jointCalled(robot.scene, "round").dofs.size() == 3);
