@@ -1,0 +1,123 @@
+#include "bake/model/Kinematics.h"
+#include "bake/play/Player.h"
+#include "bake/play/SkinSetup.h"
+#include "bake/respond/SkinContact.h"
+#include "bake/respond/SkinResponse.h"
+#include "bake/scene/SceneFile.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <numeric>
+#include <random>
+
+using namespace tss;
+
+namespace {
+
+std::vector<double> drivenTo(const SceneModel& scene, double time) {
+    std::vector<double> values;
+    for (const Joint& joint : scene.joints)
+        for (std::size_t dof = 0; dof < joint.dofs.size(); ++dof) {
+            const bool driven = dof < joint.drives.size() && !joint.drives[dof].empty();
+            values.push_back(driven ? joint.drives[dof].at(time) : joint.dofs[dof].rest);
+        }
+    return values;
+}
+
+/// An animated scene with one skin, and what the skin is asked at each time code.
+struct Played {
+    explicit Played(const std::string& file)
+        : scene(loadScene(std::string(OSGTSS_SOURCE_DIR) + "/scenes/" + file)),
+          response(skinRig(scene, scene.skins.at(0))) {
+        SceneModel joints = scene;
+        joints.skins.clear();
+        std::vector<std::string> warnings;
+        Player player(joints, warnings);
+        for (double time = scene.startTimeCode; time <= scene.endTimeCode; ++time) {
+            const std::vector<double> values = player.step(drivenTo(scene, time), time).values;
+            poses.push_back(skinPoses(scene, scene.skins[0], posedBodies(scene, values)));
+            poses.back().resize(response.rig().bodies.size(), Pose::Identity());
+            activations.push_back(skinActivations(scene, scene.skins[0], time));
+        }
+    }
+    SceneModel scene;
+    SkinResponse response;
+    std::vector<std::vector<Pose>> poses;
+    std::vector<std::vector<double>> activations;
+};
+
+struct Lacking {
+    double mean = 0;      ///< of the most that one lacks at each step, millimetres
+    std::size_t rows = 0; ///< that lack more than 0.05 mm, over all steps
+};
+
+/// What rows of contact lack where an animated skin stands, each of them looked up at each step.
+Lacking lackingOf(Played played) {
+    SkinResponse& response = played.response;
+    const SkinRig& rig = response.rig();
+    SkinScene stand;
+    Lacking result;
+    for (std::size_t step = 0; step < played.poses.size(); ++step) {
+        response.update(played.activations[step], played.poses[step]);
+        placeBodies(rig, played.activations[step], played.poses[step], {}, stand);
+        for (std::size_t v = 0; v < rig.rest.size(); ++v)
+            stand.skin[v].head<3>() =
+                rig.places[v].head<3>() + ((response.positions()[v] - rig.rest[v]) / rig.size).cast<float>();
+        double most = 0;
+        for (const SkinRow& row : rig.rows) {
+            const SkinPlane plane = lookUp(rig, stand, row);
+            const double lack = plane.found() ? -rig.size * static_cast<double>(plane.gap) : 0;
+            most = std::max(most, lack);
+            result.rows += lack > 0.05;
+        }
+        result.mean += most;
+        std::copy(stand.carried.begin(), stand.carried.end(), stand.skin.begin());
+    }
+    result.mean /= static_cast<double>(played.poses.size());
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("what contacts have moved is seen wherever it has come to") {
+    // What is left are rows that ask for opposite things: lips between teeth. Rows that stayed unseen where
+    // others had moved their skin to made it 0.39 mm and 403 rows on dog_head.
+    const Lacking head = lackingOf(Played("dog_head_baked.tss")),
+                  lips = lackingOf(Played("dog_lips_baked.tss"));
+    WARN("lacking at worst, mean over the steps: dog_head "
+         << head.mean << " mm, " << head.rows << " rows by more than 0.05 mm; dog_lips " << lips.mean
+         << " mm, " << lips.rows << " rows");
+    CHECK(head.mean < 0.2);
+    CHECK(head.rows < 320);
+    CHECK(lips.mean < 0.1);
+    CHECK(lips.rows < 40);
+}
+
+TEST_CASE("an animated skin stands the same wherever it comes from") {
+    for (const char* file :
+         {"dog_face_baked.tss", "dog_head_baked.tss", "dog_lips_baked.tss", "dog_ears_baked.tss"}) {
+        Played played(file);
+        const std::size_t steps = played.poses.size();
+        std::vector<std::vector<Vec3>> stood;
+        for (std::size_t step = 0; step < steps; ++step) {
+            played.response.update(played.activations[step], played.poses[step]);
+            const auto places = played.response.positions();
+            stood.emplace_back(places.begin(), places.end());
+        }
+        double off = 0;
+        std::size_t steppedOff = 0;
+        std::vector<std::size_t> order(steps);
+        std::iota(order.begin(), order.end(), std::size_t(0));
+        std::shuffle(order.begin(), order.end(), std::mt19937_64(1));
+        for (const std::size_t step : order) {
+            played.response.update(played.activations[step], played.poses[step]);
+            double here = 0;
+            for (std::size_t v = 0; v < stood[step].size(); ++v)
+                here = std::max(here, (played.response.positions()[v] - stood[step][v]).norm());
+            steppedOff += here > 0;
+            off = std::max(off, here);
+        }
+        INFO(file << ": " << steppedOff << " of " << steps << " steps stand elsewhere, by up to " << off);
+        CHECK(off == 0);
+    }
+}
