@@ -61,13 +61,14 @@ public:
 private:
     TriangleMesh meshOfFile(const RobotShape& shape, const std::string& file) {
         if (file.empty()) throw InputError("file \"" + shape.file + "\": its package is left out");
-        auto [at, isNew] = meshes_.try_emplace(shape.file);
-        if (isNew) {
+        auto at = meshes_.find(shape.file);
+        if (at == meshes_.end()) {
             std::vector<std::string> leftOut;
-            at->second =
+            TriangleMesh read =
                 isMsh(file) ? readMsh(readWholeFile(file), file) : importMesh(file, request_.axes, &leftOut);
             for (const std::string& what : leftOut)
                 result_.notes.push_back("left out of " + shape.file + ": " + what);
+            at = meshes_.emplace(shape.file, std::move(read)).first;
         }
         TriangleMesh mesh = at->second;
         if (!(shape.size.cwiseAbs().minCoeff() > 0)) throw InputError("mesh: expected a scale that is not 0");

@@ -186,6 +186,7 @@ TEST_CASE(
     const std::string point = "<collision><geometry><box size='0 0 0'/></geometry></collision>";
     const std::string text =
         robotOf(aLink("a") + aLink("b", box + lost) + aLink("c", lost + seen) + aLink("d", point) +
+                aLink("e", lost + box) + aJoint("m", "revolute", "a", "e", limits) +
                 aJoint("j", "revolute", "a", "b", limits) + aJoint("k", "revolute", "b", "c", limits) +
                 aJoint("l", "revolute", "c", "d", limits));
     const RobotScene robot = madeOfUrdf(text);
@@ -195,7 +196,7 @@ TEST_CASE(
     CHECK(robot.links[2].visual);
     CHECK(robot.scene.pairs.size() == 1); // of a and c
     CHECK(hasNote(robot.notes, "left out: arm.urdf: line 4 (<link b>): "));
-    CHECK(robot.notes.back() == "these have no shape then, and whether they collide is not known: b");
+    CHECK(robot.notes.back() == "these have no shape then, and whether they collide is not known: b, e");
     CHECK(refusedUrdf(robotOf(aLink("a", lost))).find("arm.urdf: line 3 (<link a>): ") != std::string::npos);
 }
 
