@@ -29,13 +29,15 @@ public:
 
     std::size_t triangleCount() const { return corners_.size(); }
 
-    /// No point of the mesh is farther from the origin of its frame.
-    double extent() const {
-        return bvh_.empty()
-                   ? 0
-                   : origin_.norm() +
-                         bvh_.nodes[0].lower.cwiseAbs().cwiseMax(bvh_.nodes[0].upper.cwiseAbs()).norm();
+    /// A ball that holds the mesh.
+    const Vec3& centre() const { return origin_; }
+    double radius() const {
+        return bvh_.empty() ? 0
+                            : bvh_.nodes[0].lower.cwiseAbs().cwiseMax(bvh_.nodes[0].upper.cwiseAbs()).norm();
     }
+
+    /// No point of the mesh is farther from the origin of its frame.
+    double extent() const { return bvh_.empty() ? 0 : origin_.norm() + radius(); }
 
     /// The nearest point of the mesh to p, if it is nearer than `within`.
     ClosestPoint closest(const Vec3& p, double within = std::numeric_limits<double>::infinity()) const;

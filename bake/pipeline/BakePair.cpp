@@ -2,10 +2,13 @@
 
 #include "bake/base/Error.h"
 #include "bake/base/Infinity.h"
+#include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/PartSet.h"
 #include "bake/model/SourceHash.h"
 #include "bake/pipeline/BoundTable.h"
 #include "bake/pipeline/SelectTests.h"
+#include "bake/search/RestContact.h"
+#include "bake/search/SurfacesApart.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -105,6 +108,18 @@ struct PairBaker {
     /// Fill: both bodies with spheres, and how well these fit; then the few tests that answer for all.
     Attempt few() const { return tabulated(measured(fillPair(scene, pair, motion, options, progress))); }
 
+    /// The proof that the surfaces never meet, where it is found without any spheres.
+    std::optional<PairTable> surfacesNeverMeet() const {
+        if (options.spheres != SphereMethod::Medial || options.search != SearchMethod::Certified)
+            return std::nullopt;
+        const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;
+        const auto apart = surfacesApart(MeshQuery(cleaned(a)), MeshQuery(cleaned(b)), motion,
+                                         touchingDistance(a, b, motion), progress);
+        if (!apart) return std::nullopt;
+        return PairTable{nullptr, std::make_shared<NeverCollides>(NeverCollides{
+                                      apart->clearance, apart->cells, "surfaces/certified", {}, {}})};
+    }
+
     /// Where nothing but all pairs of spheres would be asked: the proof that coarser spheres never meet, if
     /// it is soon found.
     std::optional<Attempt> apart() const {
@@ -172,14 +187,20 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
     const Motion motion = pairMotion(scene, pair);
     checkMotion(motion);
     const PairBaker baker{scene, pair, options, motion, progress};
-    std::optional<Attempt> apart = baker.apart();
-    Attempt attempt = apart ? std::move(*apart) : baker.few();
-    if (std::optional<Attempt> all = baker.allInstead(attempt)) attempt = std::move(*all);
+    PairTable made;
+    if (std::optional<PairTable> never = baker.surfacesNeverMeet()) {
+        made = std::move(*never);
+    } else {
+        std::optional<Attempt> apart = baker.apart();
+        Attempt attempt = apart ? std::move(*apart) : baker.few();
+        if (std::optional<Attempt> all = baker.allInstead(attempt)) attempt = std::move(*all);
+        made = std::move(attempt.made);
+        report.epsilon = attempt.report.epsilon;
+        std::move(attempt.report.notes.begin(), attempt.report.notes.end(), std::back_inserter(report.notes));
+    }
     // Store: with the hash by which a stale table is told.
-    pair.table = std::move(attempt.made.table);
-    pair.proof = std::move(attempt.made.proof);
-    report.epsilon = attempt.report.epsilon;
-    std::move(attempt.report.notes.begin(), attempt.report.notes.end(), std::back_inserter(report.notes));
+    pair.table = std::move(made.table);
+    pair.proof = std::move(made.proof);
     if (pair.table) {
         noteExempt(scene.bodies[pair.bodyA], pair.table->restRegion.a, report.notes);
         noteExempt(scene.bodies[pair.bodyB], pair.table->restRegion.b, report.notes);

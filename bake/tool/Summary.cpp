@@ -321,7 +321,8 @@ std::string describeItem(const Json& item, double metersPerUnit) {
     }
     if (const auto stale = item["stale"].get<std::string>(); !stale.empty())
         text += "  stale        " + stale + ": bake it again\n";
-    text += fmt::format("  spheres      {} + {}\n", item["spheresA"].dump(), item["spheresB"].dump());
+    if (item["spheresA"] != 0 || item["spheresB"] != 0)
+        text += fmt::format("  spheres      {} + {}\n", item["spheresA"].dump(), item["spheresB"].dump());
     if (item.value("neverCollides", false)) {
         text += fmt::format("  never collide: the surfaces stay {} apart over the whole motion{}; no "
                             "table, no callback\n",

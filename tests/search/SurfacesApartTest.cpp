@@ -1,0 +1,73 @@
+#include "bake/search/SurfacesApart.h"
+
+#include "bake/base/Parallel.h"
+#include "tests/Joints.h"
+#include "tests/geometry/TestMeshes.h"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+
+using namespace tss;
+using namespace tss::test;
+
+namespace {
+
+constexpr double touching = 1e-9;
+
+/// A ball of radius 1 about the origin and one of 0.5 that goes round it, its centre `out` from the axis.
+std::optional<SurfacesApart> round(double out, double from, double to,
+                                   const std::vector<LimitPlane>& planes = {}) {
+    Motion motion;
+    motion.dofs = {joints::turn(Vec3(0.05, 0, 0), Vec3::UnitZ(), from, to)};
+    motion.planes = planes;
+    return surfacesApart(MeshQuery(ballMesh(Vec3::Zero(), 1, 3)),
+                         MeshQuery(ballMesh({out + 0.05, 0, 0}, 0.5, 3)), motion, touching);
+}
+
+} // namespace
+
+TEST_CASE("surfaces that pass close all the way round are proven apart, by at least half of their distance") {
+    // Where the turn brings it nearest, half way round, its centre is 1.46 from the other's.
+    constexpr double pi = std::numbers::pi;
+    const auto apart = round(1.56, -pi, pi);
+    REQUIRE(apart);
+    CHECK(apart->clearance > 0.005);
+    CHECK(apart->clearance < 0.03); // polyhedra, a little inside their balls
+    CHECK(round(1.51 + 0.0002, -0.2, 0.2));
+}
+
+TEST_CASE("surfaces that touch at one pose alone are not apart, unless a limit plane keeps it off") {
+    constexpr double pi = std::numbers::pi;
+    CHECK_FALSE(round(1.48, -pi, pi));
+    CHECK(round(1.48, -0.5, 0.5));
+    CHECK(round(1.48, -pi, pi, {{{1}, 0.5}, {{-1}, 0.5}}));
+}
+
+TEST_CASE("a body inside another, surfaces apart, is apart; a joint without freedom has one pose to ask") {
+    Motion motion;
+    motion.dofs = {joints::slide(Vec3::UnitX(), -0.4, 0.4), joints::slide(Vec3::UnitY(), -0.4, 0.4)};
+    const MeshQuery outer(ballMesh(Vec3::Zero(), 1, 3)), inner(ballMesh(Vec3::Zero(), 0.2, 2));
+    const auto inside = surfacesApart(outer, inner, motion, touching);
+    REQUIRE(inside);
+    CHECK(inside->clearance < 1 - 0.2 - std::hypot(0.4, 0.4));
+    motion.dofs.clear();
+    REQUIRE(surfacesApart(outer, inner, motion, touching));
+    CHECK(surfacesApart(outer, inner, motion, touching)->clearance > 0.5);
+    CHECK_FALSE(surfacesApart(outer, outer, motion, touching));
+    CHECK_FALSE(surfacesApart(outer, MeshQuery(TriangleMesh{}), motion, touching));
+}
+
+TEST_CASE("the proof that surfaces stay apart is the same for any number of threads, and can be stopped") {
+    Motion motion;
+    motion.dofs = {joints::turn(Vec3::Zero(), Vec3::UnitZ(), -1, 1),
+                   joints::turn(Vec3(1, 0, 0), Vec3::UnitY(), -1, 1)};
+    const MeshQuery a(ballMesh(Vec3::Zero(), 1, 3)), b(ballMesh({2.2, 0, 0}, 0.5, 3));
+    const auto many = surfacesApart(a, b, motion, touching);
+    const ThreadLimit limit(1);
+    const auto one = surfacesApart(a, b, motion, touching);
+    REQUIRE(many);
+    REQUIRE(one);
+    CHECK(one->clearance == many->clearance);
+    CHECK(one->cells == many->cells);
+    CHECK_FALSE(surfacesApart(a, b, motion, touching, [](std::string_view, double) { return false; }));
+}
