@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 namespace tss {
 
@@ -53,9 +52,11 @@ void PartSet::insert(SurfacePart part) {
     in_.insert(key(part.triangle, part.cuts));
     for (std::uint32_t cuts = part.cuts; cuts > 0; cuts >>= 1)
         if (!above_.insert(key(part.triangle, cuts)).second) break;
-    // Where both halves are in, the whole is, and is found at once.
-    if (part.cuts > 1 && in_.count(key(part.triangle, part.cuts ^ 1u)))
+    // Two halves become the whole.
+    if (part.cuts > 1 && in_.erase(key(part.triangle, part.cuts ^ 1u)) > 0) {
+        in_.erase(key(part.triangle, part.cuts));
         insert({part.triangle, part.cuts >> 1});
+    }
 }
 
 bool PartSet::contains(SurfacePart part) const {
@@ -65,28 +66,20 @@ bool PartSet::contains(SurfacePart part) const {
     return false;
 }
 
+bool PartSet::holds(SurfacePart part) const {
+    return in_.count(key(part.triangle, part.cuts)) > 0;
+}
+
 bool PartSet::reaches(SurfacePart part) const {
     return above_.count(key(part.triangle, part.cuts)) > 0;
 }
 
 std::vector<SurfacePart> PartSet::merged() const {
-    std::map<std::uint32_t, std::set<std::uint32_t, std::greater<>>> open;
-    for (const std::uint64_t part : in_)
-        open[static_cast<std::uint32_t>(part >> 32)].insert(static_cast<std::uint32_t>(part));
     std::vector<SurfacePart> parts;
-    for (auto& [triangle, cuts] : open) {
-        // A part has more digits than what it is a part of: the last cut come first.
-        while (!cuts.empty()) {
-            const std::uint32_t last = *cuts.begin();
-            cuts.erase(cuts.begin());
-            bool inside = false;
-            for (std::uint32_t whole = last >> 1; whole > 0; whole >>= 1) inside |= cuts.count(whole) > 0;
-            if (inside) continue;
-            if (last > 1 && cuts.erase(last ^ 1u) > 0)
-                cuts.insert(last >> 1);
-            else
-                parts.push_back({triangle, last});
-        }
+    for (const std::uint64_t one : in_) {
+        const SurfacePart part{static_cast<std::uint32_t>(one >> 32), static_cast<std::uint32_t>(one)};
+        const bool whole = part.cuts == 1 || !contains({part.triangle, part.cuts >> 1});
+        if (whole) parts.push_back(part);
     }
     std::sort(parts.begin(), parts.end());
     return parts;

@@ -16,6 +16,9 @@ public:
     /// All of the part lies in the set, as one part of it.
     bool contains(SurfacePart part) const;
 
+    /// The same, asked of a part whose wholes are known not to be.
+    bool holds(SurfacePart part) const;
+
     /// Some part in the set is this one or a part of it.
     bool reaches(SurfacePart part) const;
 
@@ -23,7 +26,9 @@ public:
     std::vector<SurfacePart> merged() const;
 
 private:
-    std::unordered_set<std::uint64_t> in_, above_; ///< the parts, and all of which they are parts
+    std::unordered_set<std::uint64_t> in_; ///< the parts; perhaps others inside them, but no two halves
+    std::unordered_set<std::uint64_t>
+        above_; ///< all parts that were put in, and all of which these are parts
 };
 
 /// The two halves of a part, in the order of halves(). Its cuts must be fewer than mostCuts.

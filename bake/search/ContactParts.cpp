@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace tss {
 
@@ -40,8 +41,10 @@ void ContactSurface::visit(const Probe& probe, std::uint32_t node, std::vector<S
     const Vec3 centre = probe.toOther * Vec3(0.5 * (at.lower + at.upper));
     const double radius = 0.5 * (at.upper - at.lower).norm() * (1 + 1e-12);
     // Where the boundary is farther away, all of it is on one side.
-    const bool near = probe.other.solid_.boundary().comesWithin(centre, radius + probe.reach);
-    if (!near && !probe.other.inside(centre)) return;
+    if (!probe.other.solid_.boundary().comesWithin(centre, radius + probe.reach)) {
+        if (probe.other.inside(centre)) addAll(probe, node, found);
+        return;
+    }
     if (at.count == 0) {
         visit(probe, at.first, found);
         visit(probe, at.first + 1, found);
@@ -49,29 +52,58 @@ void ContactSurface::visit(const Probe& probe, std::uint32_t node, std::vector<S
     }
     for (std::uint32_t i = 0; i < at.count; ++i) {
         const SurfacePart whole{tree_.items[at.first + i], 1};
-        visit(probe, whole, corners(mesh(), whole), found);
+        visit(probe, whole, corners(mesh(), whole), nullptr, found);
     }
 }
 
-void ContactSurface::visit(const Probe& probe, SurfacePart part, const Corners& corners,
+void ContactSurface::addAll(const Probe& probe, std::uint32_t node, std::vector<SurfacePart>& found) const {
+    const Bvh::Node& at = tree_.nodes[node];
+    for (std::uint32_t child = 0; at.count == 0 && child < 2; ++child) addAll(probe, at.first + child, found);
+    for (std::uint32_t i = 0; i < at.count; ++i) {
+        const SurfacePart whole{tree_.items[at.first + i], 1};
+        if (!probe.known.holds(whole)) found.push_back(whole);
+    }
+}
+
+/// A part on the way down to its halves.
+struct ContactSurface::Cut {
+    Vec3 centre;         ///< in the other body's frame
+    double distance = 0; ///< of the centre from the other's boundary is at least this
+    Cut* whole = nullptr;
+    std::optional<bool> inside = {}; ///< the centre, in the other body
+};
+
+/// Asked of the whole where the boundary does not run between its centre and this one.
+bool ContactSurface::isInside(const Probe& probe, Cut& cut) const {
+    if (!cut.inside) {
+        const bool same =
+            cut.whole && (cut.centre - cut.whole->centre).norm() * (1 + 1e-9) < cut.whole->distance;
+        cut.inside = same ? isInside(probe, *cut.whole) : probe.other.inside(cut.centre);
+    }
+    return *cut.inside;
+}
+
+void ContactSurface::visit(const Probe& probe, SurfacePart part, const Corners& corners, Cut* whole,
                            std::vector<SurfacePart>& found) const {
-    if (probe.poll.stopped() || probe.known.contains(part)) return;
-    const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3, centre = probe.toOther * middle;
+    if (probe.poll.stopped() || probe.known.holds(part)) return;
+    const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3;
     double radius = 0;
     for (const Vec3& corner : corners) radius = std::max(radius, (corner - middle).norm() * (1 + 1e-12));
-    const double distance = probe.other.solid_.boundary().distance(centre, radius + probe.reach);
+    Cut cut{probe.toOther * middle, radius + probe.reach, whole};
+    const double distance = probe.other.solid_.boundary().distance(cut.centre, cut.distance);
     if (!std::isfinite(distance)) {
-        if (probe.other.inside(centre)) found.push_back(part);
+        if (isInside(probe, cut)) found.push_back(part);
         return;
     }
-    const bool whole = distance + radius <= probe.reach && !probe.known.reaches(part);
-    if (whole || radius <= probe.size || part.cuts >> (mostCuts - 1)) {
+    cut.distance = distance;
+    const bool all = distance + radius <= probe.reach && !probe.known.reaches(part);
+    if (all || radius <= probe.size || part.cuts >> (mostCuts - 1)) {
         found.push_back(part);
         return;
     }
     const std::array<SurfacePart, 2> parts = halves(part);
     const std::array<Corners, 2> both = halves(corners);
-    for (int k = 0; k < 2; ++k) visit(probe, parts[k], both[k], found);
+    for (int k = 0; k < 2; ++k) visit(probe, parts[k], both[k], &cut, found);
 }
 
 std::vector<std::vector<SurfacePart>> connected(const TriangleMesh& mesh,

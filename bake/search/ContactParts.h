@@ -25,9 +25,12 @@ public:
 
 private:
     struct Probe;
+    struct Cut;
     void visit(const Probe& probe, std::uint32_t node, std::vector<SurfacePart>& found) const;
-    void visit(const Probe& probe, SurfacePart part, const Corners& corners,
+    void addAll(const Probe& probe, std::uint32_t node, std::vector<SurfacePart>& found) const;
+    void visit(const Probe& probe, SurfacePart part, const Corners& corners, Cut* whole,
                std::vector<SurfacePart>& found) const;
+    bool isInside(const Probe& probe, Cut& cut) const;
     bool inside(const Vec3& x) const { return bounds_.contains(x) && solid_.inside(x); }
 
     const Solid& solid_;
