@@ -1,5 +1,7 @@
 #include "bake/respond/SkinShares.h"
 
+#include "bake/base/Parallel.h"
+
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
@@ -30,6 +32,11 @@ constexpr int certaintyPower = 8;
 /// fold where two holders meet at a point, as at the corner of a mouth. Without a unit.
 constexpr double steepShare = 3;
 constexpr int steepRounds = 3; ///< of solves that see the slope of the one before
+/// Where bones would draw a triangle together to less than this share of its area, or turn it over, it is
+/// made stiffer by this factor, so many times at most: a little is left for muscles and contacts to take, and
+/// what gets stiff slowly disturbs little around it.
+constexpr double leastArea = 0.15, stiffer = 1.2;
+constexpr int stifferRounds = 16;
 
 struct Claims {
     std::vector<std::uint32_t> holder; ///< #V
@@ -141,7 +148,7 @@ Claims claim(const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
 
 /// How much stiffer each triangle gets by the slopes of the shares in it.
 void stiffen(const TriangleMesh& skin, const Claims& claims, const std::vector<std::vector<double>>& shares,
-             std::vector<double>& softness) {
+             std::vector<double>& stiffness) {
     for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
         const Tri& t = skin.triangles[i];
         const Vec3 u = skin.vertices[t[1]] - skin.vertices[t[0]],
@@ -154,39 +161,88 @@ void stiffen(const TriangleMesh& skin, const Claims& claims, const std::vector<s
             slope += (du * v - dv * u).squaredNorm() / squared / 2; // both sides of a border have it
         }
         const double size = claims.size[t[0]] / steepShare;
-        softness[i] = (softness[i] + 1 + slope * size * size) / 2;
+        stiffness[i] = (stiffness[i] + 1 + slope * size * size) / 2;
     }
 }
+
+/// Makes those triangles stiffer that a motion draws together too much, or turns over. Returns whether there
+/// are any.
+bool stiffenDrawn(const TriangleMesh& skin, const std::vector<std::vector<double>>& shares,
+                  const SkinStrokes& strokes, std::vector<double>& stiffness) {
+    std::vector<char> drawn(skin.triangles.size(), 0);
+    std::vector<Pose> poses(skin.vertices.size());
+    for (const std::vector<DualPose>& motion : strokes.motions) {
+        parallelFor(poses.size(), [&](std::size_t v) {
+            const double free = strokes.tether.empty() ? 1 : 1 - strokes.tether[v];
+            PoseBlend blend;
+            for (std::size_t h = 0; h < motion.size(); ++h) blend.add(free * shares[h][v], motion[h]);
+            poses[v] = blend.pose();
+        });
+        for (std::size_t i = 0; i < drawn.size(); ++i) {
+            const Tri& t = skin.triangles[i];
+            Vec3 rest[3], now[3];
+            for (int k = 0; k < 3; ++k) now[k] = poses[t[k]] * (rest[k] = skin.vertices[t[k]]);
+            const Vec3 before = poses[t[0]].linear() * (rest[1] - rest[0]).cross(rest[2] - rest[0]),
+                       after = (now[1] - now[0]).cross(now[2] - now[0]);
+            if (after.dot(before) < leastArea * before.squaredNorm()) drawn[i] = 1;
+        }
+    }
+    for (std::size_t i = 0; i < drawn.size(); ++i)
+        if (drawn[i]) stiffness[i] *= stiffer;
+    return std::find(drawn.begin(), drawn.end(), 1) != drawn.end();
+}
+
+/// The shares are spread by the claims over triangles of some stiffness.
+class Spread {
+public:
+    Spread(const TriangleMesh& skin, const Claims& claims)
+        : skin_(skin), claims_(claims), hold_(rows(), rows()) {
+        hold_.setIdentity();
+        for (Eigen::Index v = 0; v < rows(); ++v) hold_.coeffRef(v, v) = claims.weight[v];
+    }
+
+    void solve(std::span<const double> stiffness, std::vector<std::vector<double>>& shares) {
+        const SparseMatrix system = skinLaplacian(skin_, stiffness) + hold_;
+        if (!analyzed_) solver_.analyzePattern(system);
+        analyzed_ = true;
+        solver_.factorize(system);
+        for (std::size_t h = 0; h < shares.size(); ++h) {
+            Eigen::VectorXd right = Eigen::VectorXd::Zero(rows());
+            for (Eigen::Index v = 0; v < rows(); ++v)
+                if (claims_.holder[v] == h) right[v] = claims_.weight[v];
+            const Eigen::VectorXd solved = solver_.solve(right);
+            for (Eigen::Index v = 0; v < rows(); ++v) shares[h][v] = std::clamp(solved[v], 0.0, 1.0);
+        }
+    }
+
+private:
+    Eigen::Index rows() const { return static_cast<Eigen::Index>(claims_.holder.size()); }
+
+    const TriangleMesh& skin_;
+    const Claims& claims_;
+    SparseMatrix hold_;
+    Eigen::SimplicialLDLT<SparseMatrix> solver_;
+    bool analyzed_ = false;
+};
 
 } // namespace
 
 std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const SkinGraph& graph,
-                                               const std::vector<SkinHolder>& holders) {
+                                               const std::vector<SkinHolder>& holders,
+                                               const SkinStrokes& strokes) {
     const std::size_t count = graph.vertices();
     std::vector<std::vector<double>> shares(holders.size(), std::vector<double>(count, 1));
     if (holders.size() < 2 || count == 0) return shares;
     const Claims claims = claim(graph, holders);
-    std::vector<double> softness(skin.triangles.size(), 1);
-    const auto rows = static_cast<Eigen::Index>(count);
-    Eigen::SimplicialLDLT<SparseMatrix> solver;
-    for (int round = 0; round <= steepRounds; ++round) {
-        SparseMatrix system = skinLaplacian(skin, softness);
-        SparseMatrix hold(rows, rows);
-        hold.setIdentity();
-        for (Eigen::Index v = 0; v < rows; ++v) hold.coeffRef(v, v) = claims.weight[v];
-        system += hold;
-        if (round == 0) solver.analyzePattern(system);
-        solver.factorize(system);
-        for (std::size_t h = 0; h < holders.size(); ++h) {
-            Eigen::VectorXd right = Eigen::VectorXd::Zero(rows);
-            for (Eigen::Index v = 0; v < rows; ++v)
-                if (claims.holder[v] == h) right[v] = claims.weight[v];
-            const Eigen::VectorXd solved = solver.solve(right);
-            for (std::size_t v = 0; v < count; ++v)
-                shares[h][v] = std::clamp(solved[static_cast<Eigen::Index>(v)], 0.0, 1.0);
-        }
-        if (round < steepRounds) stiffen(skin, claims, shares, softness);
+    std::vector<double> stiffness(skin.triangles.size(), 1);
+    Spread spread(skin, claims);
+    spread.solve(stiffness, shares);
+    for (int round = 0; round < steepRounds; ++round) {
+        stiffen(skin, claims, shares, stiffness);
+        spread.solve(stiffness, shares);
     }
+    for (int round = 0; round < stifferRounds && stiffenDrawn(skin, shares, strokes, stiffness); ++round)
+        spread.solve(stiffness, shares);
     return shares;
 }
 
