@@ -219,14 +219,16 @@ std::size_t SkinResistance::push(SkinScene& scene) {
     clear();
     std::size_t pushing = 0;
     float last = std::numeric_limits<float>::max();
+    int stalled = 0;
     for (int round = 0; round < lookUps; ++round) {
         float lack = 0;
         if (round == 0)
             lookUpFirst(scene);
         else
             lack = lookUpAgain(scene);
-        // What is no less deep than before is asked for more than the skin can give.
-        if (found_.empty() && (lack <= settled || lack >= last)) break;
+        // What is twice no less deep than before is asked for more than the skin can give.
+        stalled = lack < last ? 0 : stalled + 1;
+        if (found_.empty() && (lack <= settled || stalled > 1)) break;
         last = lack;
         const SkinClock::Scope scope(clock_, SkinPart::Pushes);
         addDeepest();
