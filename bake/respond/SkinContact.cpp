@@ -92,7 +92,7 @@ void finish(const SkinRig& rig, const SkinScene& scene, const Vec3f& smooth, con
     // What is not quite believed asks for less, so that contacts come and go without a jump.
     plane.gap += (1 - trust) * (std::max(-plane.gap, 0.0f) + rig.radius);
     plane.level = plane.normal.dot(placeOf(scene, plane)) - plane.gap;
-    plane.met = trust > 0;
+    plane.found = trust > 0;
 }
 
 SurfacePoint toPoint(const NearestPoint& near) {
@@ -106,6 +106,11 @@ float comeThrough(float depth, float most) {
     return most > 0 ? 1 - smoothStep((depth - most) / most) : 0;
 }
 
+/// What meets since rest, as seen from what it is before.
+Vec3f wayOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    return relativeOf(rig, scene, row) - rig.apart[row.apart].relative();
+}
+
 SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
     SkinPlane plane;
     plane.vertices = 1;
@@ -117,9 +122,9 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     Vec3f own = scene.normalOf(row.vertex);
     if (placed.moved) own = placed.turn.transpose() * own;
     SurfacePoint hit;
-    Vec3f way = Vec3f::Zero(); // since rest, past the bone
+    Vec3f way = Vec3f::Zero();
     if (body.bone()) {
-        way = relativeOf(rig, scene, row) - rig.apart[row.apart].relative();
+        way = wayOf(rig, scene, row);
         int first = rig.starts[row.first];
         if (row.offset == 0) first = body.locator->entered((x - way).cast<double>(), x.cast<double>());
         if (first < 0) return plane;
@@ -221,8 +226,7 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
         const SkinBody& body = rig.bodies[row.body];
         const std::uint32_t v = row.vertex - body.first;
         offset = std::min(aboveAtRest(rig, body.rest[v].head<3>(), body.normals[v].head<3>(), hit), 0.0f);
-        trust *= comeThrough(away.norm(),
-                             (relativeOf(rig, scene, row) - rig.apart[row.apart].relative()).norm() - offset);
+        trust *= comeThrough(away.norm(), wayOf(rig, scene, row).norm() - offset);
     }
     if (!(trust > 0)) return plane;
     finish(rig, scene, both, away,
@@ -253,8 +257,7 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     float trust = trustOf(-smooth.dot(own));
     const Vec3f away = x - hit.point, both = (smooth - own).normalized();
     if (both.dot(away) < 0) {
-        trust *= comeThrough(
-            away.norm(), (relativeOf(rig, scene, row) - rig.apart[row.apart].relative()).norm() - row.offset);
+        trust *= comeThrough(away.norm(), wayOf(rig, scene, row).norm() - row.offset);
         // What it was behind at rest is the other side of its own layer.
         trust *= comeThrough(
             aboveAtRest(rig, rig.places[row.vertex].head<3>(), -rig.placeNormals[row.vertex].head<3>(), hit),

@@ -1,5 +1,6 @@
 #include "bake/respond/SkinShares.h"
 
+#include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 
 #include <Eigen/SparseCholesky>
@@ -47,7 +48,7 @@ struct Claims {
 /// For each vertex how much farther than a holder the nearest other one is; infinite for the only one.
 std::vector<double> contrastOf(const std::vector<SkinHolder>& holders, std::size_t index) {
     const std::vector<double>& own = holders[index].distance;
-    std::vector<double> contrast(own.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> contrast(own.size(), infinity);
     for (std::size_t h = 0; h < holders.size(); ++h)
         for (std::size_t v = 0; v < own.size() && h != index; ++v)
             contrast[v] = std::min(contrast[v], holders[h].distance[v] - own[v]);
@@ -99,17 +100,16 @@ std::vector<std::vector<std::uint32_t>> seedsOf(const std::vector<SkinHolder>& h
 }
 
 Claims claim(const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
-    constexpr double infinite = std::numeric_limits<double>::infinity();
     const std::size_t count = graph.vertices();
-    std::vector<double> nearest(count, infinite), second(count, infinite);
+    std::vector<double> nearest(count, infinity), second(count, infinity);
     Claims claims{std::vector<std::uint32_t>(count, 0), {}, {}};
     std::vector<std::uint32_t> rival(count, 0);
     const std::vector<std::vector<std::uint32_t>> seeds = seedsOf(holders);
     for (std::uint32_t h = 0; h < holders.size(); ++h) {
-        std::vector<double> along(count, infinite);
+        std::vector<double> along(count, infinity);
         std::vector<std::uint32_t> sources = seeds[h];
         sources.insert(sources.end(), holders[h].sure.begin(), holders[h].sure.end());
-        lowerDistances(graph, sources, infinite, along);
+        lowerDistances(graph, sources, infinity, along);
         for (std::size_t v = 0; v < count; ++v) {
             if (along[v] < nearest[v]) {
                 second[v] = nearest[v];

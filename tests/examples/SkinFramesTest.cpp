@@ -67,7 +67,7 @@ Lacking lackingOf(Played played) {
         double most = 0;
         for (const SkinRow& row : rig.rows) {
             const SkinPlane plane = lookUp(rig, stand, row);
-            const double lack = plane.found() ? -rig.size * static_cast<double>(plane.gap) : 0;
+            const double lack = plane.found ? -rig.size * static_cast<double>(plane.gap) : 0;
             most = std::max(most, lack);
             result.rows += lack > 0.05;
         }
