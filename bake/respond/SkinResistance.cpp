@@ -16,8 +16,7 @@ constexpr int lookUps = 8;
 void turnTo(const SkinPlane& now, const SkinScene& scene, SkinPlane& plane) {
     plane.gap = now.found ? now.gap : std::numeric_limits<float>::max();
     if (now.found) plane.normal = now.normal;
-    plane.level =
-        now.found ? plane.normal.dot(placeOf(scene, plane)) - plane.gap : -1e6f; // asks for nothing
+    plane.level = now.found ? plane.normal.dot(placeOf(scene, plane)) - plane.gap : -1e6f; // asks for nothing
 }
 
 /// Calls what(vertex) for each vertex of the skin that a row is about.
