@@ -192,39 +192,6 @@ bool stiffenDrawn(const TriangleMesh& skin, const std::vector<std::vector<double
     return std::find(drawn.begin(), drawn.end(), 1) != drawn.end();
 }
 
-/// The shares are spread by the claims over triangles of some stiffness.
-class Spread {
-public:
-    Spread(const TriangleMesh& skin, const Claims& claims)
-        : skin_(skin), claims_(claims), hold_(rows(), rows()) {
-        hold_.setIdentity();
-        for (Eigen::Index v = 0; v < rows(); ++v) hold_.coeffRef(v, v) = claims.weight[v];
-    }
-
-    void solve(std::span<const double> stiffness, std::vector<std::vector<double>>& shares) {
-        const SparseMatrix system = skinLaplacian(skin_, stiffness) + hold_;
-        if (!analyzed_) solver_.analyzePattern(system);
-        analyzed_ = true;
-        solver_.factorize(system);
-        for (std::size_t h = 0; h < shares.size(); ++h) {
-            Eigen::VectorXd right = Eigen::VectorXd::Zero(rows());
-            for (Eigen::Index v = 0; v < rows(); ++v)
-                if (claims_.holder[v] == h) right[v] = claims_.weight[v];
-            const Eigen::VectorXd solved = solver_.solve(right);
-            for (Eigen::Index v = 0; v < rows(); ++v) shares[h][v] = std::clamp(solved[v], 0.0, 1.0);
-        }
-    }
-
-private:
-    Eigen::Index rows() const { return static_cast<Eigen::Index>(claims_.holder.size()); }
-
-    const TriangleMesh& skin_;
-    const Claims& claims_;
-    SparseMatrix hold_;
-    Eigen::SimplicialLDLT<SparseMatrix> solver_;
-    bool analyzed_ = false;
-};
-
 } // namespace
 
 std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const SkinGraph& graph,
@@ -234,15 +201,30 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
     std::vector<std::vector<double>> shares(holders.size(), std::vector<double>(count, 1));
     if (holders.size() < 2 || count == 0) return shares;
     const Claims claims = claim(graph, holders);
+    const auto rows = static_cast<Eigen::Index>(count);
+    SparseMatrix hold(rows, rows);
+    hold.setIdentity();
+    for (Eigen::Index v = 0; v < rows; ++v) hold.coeffRef(v, v) = claims.weight[v];
     std::vector<double> stiffness(skin.triangles.size(), 1);
-    Spread spread(skin, claims);
-    spread.solve(stiffness, shares);
+    Eigen::SimplicialLDLT<SparseMatrix> solver;
+    solver.analyzePattern(skinLaplacian(skin, stiffness) + hold);
+    const auto spread = [&] {
+        solver.factorize(skinLaplacian(skin, stiffness) + hold);
+        for (std::size_t h = 0; h < holders.size(); ++h) {
+            Eigen::VectorXd right = Eigen::VectorXd::Zero(rows);
+            for (Eigen::Index v = 0; v < rows; ++v)
+                if (claims.holder[v] == h) right[v] = claims.weight[v];
+            const Eigen::VectorXd solved = solver.solve(right);
+            for (Eigen::Index v = 0; v < rows; ++v) shares[h][v] = std::clamp(solved[v], 0.0, 1.0);
+        }
+    };
+    spread();
     for (int round = 0; round < steepRounds; ++round) {
         stiffen(skin, claims, shares, stiffness);
-        spread.solve(stiffness, shares);
+        spread();
     }
     for (int round = 0; round < stifferRounds && stiffenDrawn(skin, shares, strokes, stiffness); ++round)
-        spread.solve(stiffness, shares);
+        spread();
     return shares;
 }
 
