@@ -1,8 +1,10 @@
 #include "bake/motion/MuscleSpan.h"
 
+#include "bake/motion/MuscleMedial.h"
 #include "bake/motion/MuscleVolume.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tss {
 namespace {
@@ -23,8 +25,10 @@ MuscleSpan::MuscleSpan(const MuscleDeformer& muscle, double unit)
     : triangles_(muscle.muscle().surface.triangles), shares_(muscle.insertionShares()),
       gradients_(shares_.size(), Vec3::Zero()) {
     const std::vector<MusclePoint>& points = muscle.surfacePoints();
+    const TriangleMesh& surface = muscle.muscle().surface;
+    swelling_ = medialOffsets(surface, ClosestPointQuery(surface), vertexNormals(surface));
     for (std::size_t v = 0; v < points.size(); ++v)
-        swelling_.push_back(4 * shares_[v] * (1 - shares_[v]) / unit * points[v].offset);
+        swelling_[v] *= 2 * std::sqrt(std::max(shares_[v] * (1 - shares_[v]), 0.0)) / unit;
     // The mean of the gradients in the triangles around, by area.
     std::vector<double> area(shares_.size(), 0);
     for (const Tri& t : triangles_) {

@@ -23,7 +23,7 @@ public:
     /// bit.
     double carry(const Pose& far, std::span<Vec3> places, std::span<Vec3> normals = {}) const;
 
-    /// #V: away from the fibre line or the medial surface.
+    /// #V: away from the medial surface, whatever the muscle's form.
     const std::vector<Vec3>& swelling() const { return swelling_; }
 
 private:

@@ -64,8 +64,15 @@ std::vector<std::vector<double>> frameShares(const SkinGround& ground, const Ski
                                              const std::vector<int>& frames) {
     const int count = frames.empty() ? 0 : *std::max_element(frames.begin(), frames.end()) + 1;
     if (!p.shares.empty() || count == 0) return p.shares;
+    SkinStrokes strokes{{}, p.tether};
+    for (const BoneSwing& swing : p.swings) {
+        if (swing.empty()) continue;
+        std::vector<DualPose>& motion = strokes.motions.emplace_back(static_cast<std::size_t>(count));
+        for (std::size_t m = 0; m < frames.size(); ++m)
+            if (frames[m] >= 0) motion[static_cast<std::size_t>(frames[m])] = DualPose(swing.back()[m]);
+    }
     std::vector<std::vector<double>> shares =
-        claimedShares(ground.skin, ground.graph, skinHolders(ground, p, frames));
+        claimedShares(ground.skin, ground.graph, skinHolders(ground, p, frames), strokes);
     shares.resize(static_cast<std::size_t>(count));
     return shares;
 }

@@ -92,7 +92,7 @@ void finish(const SkinRig& rig, const SkinScene& scene, const Vec3f& smooth, con
     // What is not quite believed asks for less, so that contacts come and go without a jump.
     plane.gap += (1 - trust) * (std::max(-plane.gap, 0.0f) + rig.radius);
     plane.level = plane.normal.dot(placeOf(scene, plane)) - plane.gap;
-    plane.met = trust > 0;
+    plane.found = trust > 0;
 }
 
 SurfacePoint toPoint(const NearestPoint& near) {
@@ -106,6 +106,11 @@ float comeThrough(float depth, float most) {
     return most > 0 ? 1 - smoothStep((depth - most) / most) : 0;
 }
 
+/// What meets since rest, as seen from what it is before.
+Vec3f wayOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    return relativeOf(rig, scene, row) - rig.apart[row.apart].relative();
+}
+
 SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
     SkinPlane plane;
     plane.vertices = 1;
@@ -117,9 +122,9 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     Vec3f own = scene.normalOf(row.vertex);
     if (placed.moved) own = placed.turn.transpose() * own;
     SurfacePoint hit;
-    Vec3f way = Vec3f::Zero(); // since rest, past the bone
+    Vec3f way = Vec3f::Zero();
     if (body.bone()) {
-        way = relativeOf(rig, scene, row) - rig.apart[row.apart].relative();
+        way = wayOf(rig, scene, row);
         int first = rig.starts[row.first];
         if (row.offset == 0) first = body.locator->entered((x - way).cast<double>(), x.cast<double>());
         if (first < 0) return plane;
@@ -182,17 +187,15 @@ SurfacePoint walkSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow&
     return walkDownhill(x, start, rig.triangles, rig.across, at, walkSteps);
 }
 
-/// How far a bone's vertex stuck out at rest, there where it meets the skin now: teeth do, and may again.
-float outAtRest(const SkinRig& rig, const SkinRow& row, const SurfacePoint& hit) {
-    const SkinBody& body = rig.bodies[row.body];
-    const std::uint32_t v = row.vertex - body.first;
+/// How far the skin lay above something at rest, there where the two meet now; 0 where it lay beside it.
+/// place, normal: its own at rest.
+float aboveAtRest(const SkinRig& rig, const Vec3f& place, const Vec3f& normal, const SurfacePoint& hit) {
     const Tri& corners = rig.triangles[hit.triangle];
-    Vec3f away = -body.rest[v].head<3>();
+    Vec3f away = -place;
     for (int k = 0; k < 3; ++k) away += hit.weights[k] * rig.places[corners[k]].head<3>();
     const Vec3f smooth = smoothAt(hit, corners, [&](int c) { return rig.placeNormals[c].head<3>(); });
-    const float out = -(smooth + body.normals[v].head<3>()).normalized().dot(away);
-    // Straight before that place, and not beside it.
-    return out > 0 ? out * smoothStep(2 * out / away.norm() - 0.5f) : 0;
+    const float above = (smooth + normal).normalized().dot(away);
+    return above == 0 ? 0 : above * smoothStep(2 * std::abs(above) / away.norm() - 0.5f);
 }
 
 SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
@@ -219,9 +222,11 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     float trust = trustOf(facing);
     const Vec3f away = hit.point - x, both = row.within ? smooth : (smooth + own).normalized();
     if (rig.bodies[row.body].bone() && both.dot(away) < 0) {
-        offset = -outAtRest(rig, row, hit);
-        trust *= comeThrough(away.norm(),
-                             (relativeOf(rig, scene, row) - rig.apart[row.apart].relative()).norm() - offset);
+        // Teeth stick out at rest, and may again.
+        const SkinBody& body = rig.bodies[row.body];
+        const std::uint32_t v = row.vertex - body.first;
+        offset = std::min(aboveAtRest(rig, body.rest[v].head<3>(), body.normals[v].head<3>(), hit), 0.0f);
+        trust *= comeThrough(away.norm(), wayOf(rig, scene, row).norm() - offset);
     }
     if (!(trust > 0)) return plane;
     finish(rig, scene, both, away,
@@ -251,9 +256,13 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const Vec3f own = scene.normalOf(row.vertex);
     float trust = trustOf(-smooth.dot(own));
     const Vec3f away = x - hit.point, both = (smooth - own).normalized();
-    if (both.dot(away) < 0)
+    if (both.dot(away) < 0) {
+        trust *= comeThrough(away.norm(), wayOf(rig, scene, row).norm() - row.offset);
+        // What it was behind at rest is the other side of its own layer.
         trust *= comeThrough(
-            away.norm(), (relativeOf(rig, scene, row) - rig.apart[row.apart].relative()).norm() - row.offset);
+            aboveAtRest(rig, rig.places[row.vertex].head<3>(), -rig.placeNormals[row.vertex].head<3>(), hit),
+            enterDepth * rig.radius);
+    }
     if (!(trust > 0)) return plane;
     finish(rig, scene, both, away, both.dot(away) < 0 ? 0.0f : 1.0f, trust, offset, plane);
     return plane;

@@ -21,10 +21,7 @@ struct SkinPlane {
     float distance = 0;                            ///< signed, as the row's offset is meant
     float push = 0;                                ///< >= 0, along the normal
     float gap = std::numeric_limits<float>::max(); ///< of the skin as it is: < 0 asks for a push
-    bool met =
-        false; ///< else what was looked at is no contact, and normal, level, distance and gap say nothing
-
-    bool found() const { return met; }
+    bool found = false; ///< else it is no contact, and normal, level, distance and gap say nothing
 };
 
 /// From the place that a row's vertex is before to the vertex, as they stand; in the body's frame. Before a

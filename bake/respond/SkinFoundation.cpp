@@ -1,5 +1,6 @@
 #include "bake/respond/SkinFoundation.h"
 
+#include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 
 #include <Eigen/SparseCholesky>
@@ -23,41 +24,6 @@ constexpr double columnCut = 3e-3;
 constexpr double columnReach = 7;
 constexpr std::size_t nodesAPatch = 48; ///< columns that are solved on one patch of the skin
 
-/// Vertices with their distances within a limit of one vertex; its lists are kept between calls.
-class Surroundings {
-public:
-    explicit Surroundings(const SkinGraph& graph)
-        : graph_(graph), distance_(graph.vertices(), std::numeric_limits<double>::infinity()) {}
-
-    const std::vector<std::uint32_t>& of(std::uint32_t source, double limit) {
-        for (const std::uint32_t v : found_) distance_[v] = std::numeric_limits<double>::infinity();
-        found_.assign(1, source);
-        heap_.assign(1, {distance_[source] = 0, source});
-        while (!heap_.empty()) {
-            std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
-            const auto [d, v] = heap_.back();
-            heap_.pop_back();
-            if (d > distance_[v]) continue;
-            for (std::uint32_t e = graph_.start[v]; e < graph_.start[v + 1]; ++e) {
-                const double through = d + graph_.length[e];
-                const std::uint32_t w = graph_.neighbour[e];
-                if (through >= limit || through >= distance_[w]) continue;
-                if (!std::isfinite(distance_[w])) found_.push_back(w);
-                heap_.emplace_back(distance_[w] = through, w);
-                std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
-            }
-        }
-        return found_;
-    }
-    double distance(std::uint32_t v) const { return distance_[v]; }
-
-private:
-    const SkinGraph& graph_;
-    std::vector<double> distance_;
-    std::vector<std::uint32_t> found_;
-    std::vector<std::pair<double, std::uint32_t>> heap_;
-};
-
 using Weights = std::vector<std::vector<std::pair<std::uint32_t, double>>>; ///< #V: nodes and weights
 
 /// Nodes no nearer to each other than `spacing`, along the skin, and each vertex's weights of those around,
@@ -65,16 +31,17 @@ using Weights = std::vector<std::vector<std::pair<std::uint32_t, double>>>; ///<
 Weights chooseNodes(const SkinGraph& graph, const std::vector<bool>& near, double spacing,
                     std::vector<std::uint32_t>& at) {
     Weights weights(graph.vertices());
-    Surroundings around(graph);
+    std::vector<double> distance(graph.vertices(), infinity);
     std::vector<bool> covered(graph.vertices(), false);
     for (std::uint32_t v = 0; v < graph.vertices(); ++v) {
         if (covered[v] || !near[v]) continue;
         const auto index = static_cast<std::uint32_t>(at.size());
         at.push_back(v);
-        for (const std::uint32_t w : around.of(v, nodeReach * spacing)) {
-            const double t = around.distance(w) / (nodeReach * spacing);
-            if (around.distance(w) < spacing) covered[w] = true;
-            if (near[w]) weights[w].emplace_back(index, (1 - t * t) * (1 - t * t));
+        for (const std::uint32_t w : lowerDistances(graph, std::span(&v, 1), nodeReach * spacing, distance)) {
+            const double t = distance[w] / (nodeReach * spacing);
+            if (distance[w] < spacing) covered[w] = true;
+            if (near[w] && t < 1) weights[w].emplace_back(index, (1 - t * t) * (1 - t * t));
+            distance[w] = infinity;
         }
     }
     for (auto& list : weights) {
@@ -191,7 +158,7 @@ SkinFoundation skinFoundation(const TriangleMesh& skin, const SkinGraph& graph,
     std::vector<std::uint32_t> sources;
     for (std::uint32_t v = 0; v < pushed.size(); ++v)
         if (pushed[v]) sources.push_back(v);
-    std::vector<double> distance(graph.vertices(), std::numeric_limits<double>::infinity());
+    std::vector<double> distance(graph.vertices(), infinity);
     lowerDistances(graph, sources, columnReach * length, distance);
     std::vector<bool> near;
     for (const double d : distance) near.push_back(std::isfinite(d));

@@ -58,8 +58,9 @@ SkinGraph skinGraph(const TriangleMesh& skin) {
     return graph;
 }
 
-void lowerDistances(const SkinGraph& graph, std::span<const std::uint32_t> sources, double limit,
-                    std::vector<double>& distance) {
+std::vector<std::uint32_t> lowerDistances(const SkinGraph& graph, std::span<const std::uint32_t> sources,
+                                          double limit, std::vector<double>& distance) {
+    std::vector<std::uint32_t> lowered;
     using Item = std::pair<double, std::uint32_t>;
     std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
     for (const std::uint32_t v : sources)
@@ -68,6 +69,7 @@ void lowerDistances(const SkinGraph& graph, std::span<const std::uint32_t> sourc
         const auto [d, v] = queue.top();
         queue.pop();
         if (d > distance[v]) continue;
+        lowered.push_back(v);
         for (std::uint32_t e = graph.start[v]; e < graph.start[v + 1]; ++e) {
             const double through = d + graph.length[e];
             const std::uint32_t w = graph.neighbour[e];
@@ -75,6 +77,7 @@ void lowerDistances(const SkinGraph& graph, std::span<const std::uint32_t> sourc
             queue.push({distance[w] = through, w});
         }
     }
+    return lowered;
 }
 
 SparseMatrix skinLaplacian(const TriangleMesh& skin, std::span<const double> softness) {

@@ -25,9 +25,9 @@ struct SkinGraph {
 SkinGraph skinGraph(const TriangleMesh& skin);
 
 /// Lowers each distance to that along the edges from a source, as far as it is at most `limit`. distance: #V,
-/// infinite where nothing is known.
-void lowerDistances(const SkinGraph& graph, std::span<const std::uint32_t> sources, double limit,
-                    std::vector<double>& distance);
+/// infinite where nothing is known. Returns the vertices whose distance it has lowered.
+std::vector<std::uint32_t> lowerDistances(const SkinGraph& graph, std::span<const std::uint32_t> sources,
+                                          double limit, std::vector<double>& distance);
 
 /// The cotangent Laplacian, symmetric, its rows summing to zero, without a unit. Angles beyond a right one
 /// and slivers keep a small weight above 0, so that what is spread by it stays between its bounds. softness:

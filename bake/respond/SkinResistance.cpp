@@ -14,10 +14,9 @@ constexpr int lookUps = 8;
 /// Turns a plane to what its row meets now. What it pushes stays as it was first found, since it has hardly
 /// slid, and so does its push.
 void turnTo(const SkinPlane& now, const SkinScene& scene, SkinPlane& plane) {
-    plane.gap = now.found() ? now.gap : std::numeric_limits<float>::max();
-    if (now.found()) plane.normal = now.normal;
-    plane.level =
-        now.found() ? plane.normal.dot(placeOf(scene, plane)) - plane.gap : -1e6f; // asks for nothing
+    plane.gap = now.found ? now.gap : std::numeric_limits<float>::max();
+    if (now.found) plane.normal = now.normal;
+    plane.level = now.found ? plane.normal.dot(placeOf(scene, plane)) - plane.gap : -1e6f; // asks for nothing
 }
 
 /// Calls what(vertex) for each vertex of the skin that a row is about.
@@ -64,7 +63,7 @@ void SkinResistance::see(const SkinScene& scene, std::uint32_t r, const SkinPlan
     Seen& seen = seen_[seenOf_[r] - 1];
     seen.plane = plane;
     seen.free = unseen;
-    if (plane.found())
+    if (plane.found)
         seen.free = std::max(std::min(plane.gap, plane.distance - rig_.rows[r].offset) / 2, settled);
     seen.place = placeOf(scene, seen.plane);
 }
@@ -167,7 +166,7 @@ SkinPlane SkinResistance::timedLookUp(const SkinScene& scene, const SkinRow& row
 
 void SkinResistance::lookAt(const SkinScene& scene, std::uint32_t r) {
     const SkinPlane plane = timedLookUp(scene, rig_.rows[r]);
-    if (plane.found() && plane.gap < 0)
+    if (plane.found && plane.gap < 0)
         found_.push_back({placeOfChoice(rig_.rows[r], plane), r, plane});
     else
         see(scene, r, plane);
@@ -219,14 +218,16 @@ std::size_t SkinResistance::push(SkinScene& scene) {
     clear();
     std::size_t pushing = 0;
     float last = std::numeric_limits<float>::max();
+    int stalled = 0;
     for (int round = 0; round < lookUps; ++round) {
         float lack = 0;
         if (round == 0)
             lookUpFirst(scene);
         else
             lack = lookUpAgain(scene);
-        // What is no less deep than before is asked for more than the skin can give.
-        if (found_.empty() && (lack <= settled || lack >= last)) break;
+        // What is twice no less deep than before is asked for more than the skin can give.
+        stalled = lack < last ? 0 : stalled + 1;
+        if (found_.empty() && (lack <= settled || stalled > 1)) break;
         last = lack;
         const SkinClock::Scope scope(clock_, SkinPart::Pushes);
         addDeepest();

@@ -26,12 +26,6 @@ public:
     explicit State(std::shared_ptr<const SkinRig> rig);
     SkinUpdate update(std::span<const double> activations, std::span<const Pose> poses,
                       std::span<const Vec3> shift);
-    std::span<const Vec3> positions() const { return positions_; }
-    std::span<const Vec3> normals() const { return normals_; }
-    const SkinRig& rig() const { return *rig_; }
-    void charge(SkinCosts* costs) { clock_.costs = costs; }
-
-private:
     bool shiftBy(std::span<const Vec3> shift);
     void deform();
     void toRest();
@@ -197,23 +191,23 @@ SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<c
 }
 
 std::span<const std::uint32_t> SkinResponse::vertices() const {
-    return state_->rig().vertices;
+    return state_->rig_->vertices;
 }
 
 std::span<const Vec3> SkinResponse::positions() const {
-    return state_->positions();
+    return state_->positions_;
 }
 
 std::span<const Vec3> SkinResponse::normals() const {
-    return state_->normals();
+    return state_->normals_;
 }
 
 const SkinRig& SkinResponse::rig() const {
-    return state_->rig();
+    return *state_->rig_;
 }
 
 void SkinResponse::charge(SkinCosts* costs) {
-    state_->charge(costs);
+    state_->clock_.costs = costs;
 }
 
 } // namespace tss

@@ -1,6 +1,7 @@
 #include "bake/respond/SkinRig.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 #include "bake/respond/SkinRows.h"
 #include "bake/respond/SkinWalk.h"
@@ -35,7 +36,7 @@ void check(const TriangleMesh& skin, std::size_t bodies, const SkinTable& table)
 std::vector<std::uint32_t> touch(SkinRig& rig, const SkinGround& ground, const SkinCarriage& carriage,
                                  const std::vector<std::uint32_t>& pushed) {
     const std::size_t count = ground.skin.vertices.size();
-    std::vector<double> distance(count, std::numeric_limits<double>::infinity());
+    std::vector<double> distance(count, infinity);
     lowerDistances(ground.graph, pushed, rig.parameters.faithful ? 0 : giveReach * ground.length, distance);
     for (const auto* lists : {&carriage.frames, &carriage.muscles})
         for (const auto& list : *lists)

@@ -161,7 +161,7 @@ SkinApart apartOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row
     apart.lie.head<3>() = relativeOf(rig, scene, row);
     const SkinPlane plane = lookUp(rig, scene, row);
     apart.gap() = apart.relative().norm();
-    if (plane.found())
+    if (plane.found)
         apart.gap() = std::clamp(plane.distance, 0.0f, apart.gap());
     else if (row.meeting == SkinMeeting::BodyOnSkin)
         apart.gap() = distanceToKnown(rig, scene, row);
@@ -190,15 +190,15 @@ void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
     row.offset = -1; // whatever the overlap at rest is, it is believed
     SkinPlane plane = lookUp(rig, scene, row, 0);
     row.offset = 0;
-    if (body && row.within && plane.found() && plane.distance > 0) {
+    if (body && row.within && plane.found && plane.distance > 0) {
         row.turned = true;
         plane = lookUp(rig, scene, row, 0);
     }
     if (body && bone) {
         // Nothing comes in before it has come as far as the bone is away.
         apart.gap() = std::max(outside(rig.bodies[row.body], scene.skin[row.vertex]), 0.0f);
-        if (plane.found() && apart.gap() == 0) row.offset = std::min(plane.distance, 0.0f);
-    } else if (plane.found()) {
+        if (plane.found && apart.gap() == 0) row.offset = std::min(plane.distance, 0.0f);
+    } else if (plane.found) {
         row.offset = std::min(plane.distance, 0.0f);
         apart.gap() = std::clamp(plane.distance, 0.0f, apart.relative().norm());
     } else if (!body) { // it faces another way now, and is far from what it meets

@@ -1,5 +1,8 @@
 #include "bake/respond/SkinShares.h"
 
+#include "bake/base/Infinity.h"
+#include "bake/base/Parallel.h"
+
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
@@ -30,6 +33,11 @@ constexpr int certaintyPower = 8;
 /// fold where two holders meet at a point, as at the corner of a mouth. Without a unit.
 constexpr double steepShare = 3;
 constexpr int steepRounds = 3; ///< of solves that see the slope of the one before
+/// Where bones would draw a triangle together to less than this share of its area, or turn it over, it is
+/// made stiffer by this factor, so many times at most: a little is left for muscles and contacts to take, and
+/// what gets stiff slowly disturbs little around it.
+constexpr double leastArea = 0.15, stiffer = 1.2;
+constexpr int stifferRounds = 16;
 
 struct Claims {
     std::vector<std::uint32_t> holder; ///< #V
@@ -40,7 +48,7 @@ struct Claims {
 /// For each vertex how much farther than a holder the nearest other one is; infinite for the only one.
 std::vector<double> contrastOf(const std::vector<SkinHolder>& holders, std::size_t index) {
     const std::vector<double>& own = holders[index].distance;
-    std::vector<double> contrast(own.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> contrast(own.size(), infinity);
     for (std::size_t h = 0; h < holders.size(); ++h)
         for (std::size_t v = 0; v < own.size() && h != index; ++v)
             contrast[v] = std::min(contrast[v], holders[h].distance[v] - own[v]);
@@ -92,17 +100,16 @@ std::vector<std::vector<std::uint32_t>> seedsOf(const std::vector<SkinHolder>& h
 }
 
 Claims claim(const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
-    constexpr double infinite = std::numeric_limits<double>::infinity();
     const std::size_t count = graph.vertices();
-    std::vector<double> nearest(count, infinite), second(count, infinite);
+    std::vector<double> nearest(count, infinity), second(count, infinity);
     Claims claims{std::vector<std::uint32_t>(count, 0), {}, {}};
     std::vector<std::uint32_t> rival(count, 0);
     const std::vector<std::vector<std::uint32_t>> seeds = seedsOf(holders);
     for (std::uint32_t h = 0; h < holders.size(); ++h) {
-        std::vector<double> along(count, infinite);
+        std::vector<double> along(count, infinity);
         std::vector<std::uint32_t> sources = seeds[h];
         sources.insert(sources.end(), holders[h].sure.begin(), holders[h].sure.end());
-        lowerDistances(graph, sources, infinite, along);
+        lowerDistances(graph, sources, infinity, along);
         for (std::size_t v = 0; v < count; ++v) {
             if (along[v] < nearest[v]) {
                 second[v] = nearest[v];
@@ -141,7 +148,7 @@ Claims claim(const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
 
 /// How much stiffer each triangle gets by the slopes of the shares in it.
 void stiffen(const TriangleMesh& skin, const Claims& claims, const std::vector<std::vector<double>>& shares,
-             std::vector<double>& softness) {
+             std::vector<double>& stiffness) {
     for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
         const Tri& t = skin.triangles[i];
         const Vec3 u = skin.vertices[t[1]] - skin.vertices[t[0]],
@@ -154,39 +161,70 @@ void stiffen(const TriangleMesh& skin, const Claims& claims, const std::vector<s
             slope += (du * v - dv * u).squaredNorm() / squared / 2; // both sides of a border have it
         }
         const double size = claims.size[t[0]] / steepShare;
-        softness[i] = (softness[i] + 1 + slope * size * size) / 2;
+        stiffness[i] = (stiffness[i] + 1 + slope * size * size) / 2;
     }
+}
+
+/// Makes those triangles stiffer that a motion draws together too much, or turns over. Returns whether there
+/// are any.
+bool stiffenDrawn(const TriangleMesh& skin, const std::vector<std::vector<double>>& shares,
+                  const SkinStrokes& strokes, std::vector<double>& stiffness) {
+    std::vector<char> drawn(skin.triangles.size(), 0);
+    std::vector<Pose> poses(skin.vertices.size());
+    for (const std::vector<DualPose>& motion : strokes.motions) {
+        parallelFor(poses.size(), [&](std::size_t v) {
+            const double free = strokes.tether.empty() ? 1 : 1 - strokes.tether[v];
+            PoseBlend blend;
+            for (std::size_t h = 0; h < motion.size(); ++h) blend.add(free * shares[h][v], motion[h]);
+            poses[v] = blend.pose();
+        });
+        for (std::size_t i = 0; i < drawn.size(); ++i) {
+            const Tri& t = skin.triangles[i];
+            Vec3 rest[3], now[3];
+            for (int k = 0; k < 3; ++k) now[k] = poses[t[k]] * (rest[k] = skin.vertices[t[k]]);
+            const Vec3 before = poses[t[0]].linear() * (rest[1] - rest[0]).cross(rest[2] - rest[0]),
+                       after = (now[1] - now[0]).cross(now[2] - now[0]);
+            if (after.dot(before) < leastArea * before.squaredNorm()) drawn[i] = 1;
+        }
+    }
+    for (std::size_t i = 0; i < drawn.size(); ++i)
+        if (drawn[i]) stiffness[i] *= stiffer;
+    return std::find(drawn.begin(), drawn.end(), 1) != drawn.end();
 }
 
 } // namespace
 
 std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const SkinGraph& graph,
-                                               const std::vector<SkinHolder>& holders) {
+                                               const std::vector<SkinHolder>& holders,
+                                               const SkinStrokes& strokes) {
     const std::size_t count = graph.vertices();
     std::vector<std::vector<double>> shares(holders.size(), std::vector<double>(count, 1));
     if (holders.size() < 2 || count == 0) return shares;
     const Claims claims = claim(graph, holders);
-    std::vector<double> softness(skin.triangles.size(), 1);
     const auto rows = static_cast<Eigen::Index>(count);
+    SparseMatrix hold(rows, rows);
+    hold.setIdentity();
+    for (Eigen::Index v = 0; v < rows; ++v) hold.coeffRef(v, v) = claims.weight[v];
+    std::vector<double> stiffness(skin.triangles.size(), 1);
     Eigen::SimplicialLDLT<SparseMatrix> solver;
-    for (int round = 0; round <= steepRounds; ++round) {
-        SparseMatrix system = skinLaplacian(skin, softness);
-        SparseMatrix hold(rows, rows);
-        hold.setIdentity();
-        for (Eigen::Index v = 0; v < rows; ++v) hold.coeffRef(v, v) = claims.weight[v];
-        system += hold;
-        if (round == 0) solver.analyzePattern(system);
-        solver.factorize(system);
+    solver.analyzePattern(skinLaplacian(skin, stiffness) + hold);
+    const auto spread = [&] {
+        solver.factorize(skinLaplacian(skin, stiffness) + hold);
         for (std::size_t h = 0; h < holders.size(); ++h) {
             Eigen::VectorXd right = Eigen::VectorXd::Zero(rows);
             for (Eigen::Index v = 0; v < rows; ++v)
                 if (claims.holder[v] == h) right[v] = claims.weight[v];
             const Eigen::VectorXd solved = solver.solve(right);
-            for (std::size_t v = 0; v < count; ++v)
-                shares[h][v] = std::clamp(solved[static_cast<Eigen::Index>(v)], 0.0, 1.0);
+            for (Eigen::Index v = 0; v < rows; ++v) shares[h][v] = std::clamp(solved[v], 0.0, 1.0);
         }
-        if (round < steepRounds) stiffen(skin, claims, shares, softness);
+    };
+    spread();
+    for (int round = 0; round < steepRounds; ++round) {
+        stiffen(skin, claims, shares, stiffness);
+        spread();
     }
+    for (int round = 0; round < stifferRounds && stiffenDrawn(skin, shares, strokes, stiffness); ++round)
+        spread();
     return shares;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/motion/PoseBlend.h"
 #include "bake/respond/SkinGraph.h"
 
 namespace tss {
@@ -10,13 +11,20 @@ struct SkinHolder {
     std::vector<std::uint32_t> sure; ///< vertices that are its own, however far
 };
 
+/// How far the holders go, and how firmly vertices stay whatever their shares are.
+struct SkinStrokes {
+    std::vector<std::vector<DualPose>> motions; ///< of #holders or fewer each, since rest; others hold still
+    std::span<const double> tether;             ///< #V in [0,1]; empty: 0
+};
+
 /// Which share of a vertex follows each holder (METHOD 6.5): #holders of #V, >= 0, all of a vertex 1
 /// together. Whose a vertex is, is not a matter of the nearest: a closed upper lip lies on the lower teeth.
 /// Vertices much nearer to one holder than to any other are its seeds; every other vertex is claimed by the
 /// holder whose seeds are nearest along the skin; the claims are spread by a linear solve, softly where two
-/// meet and where the shares would change too fast.
+/// meet and where the shares would change too fast or a stroke would turn the skin over.
 std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const SkinGraph& graph,
-                                               const std::vector<SkinHolder>& holders);
+                                               const std::vector<SkinHolder>& holders,
+                                               const SkinStrokes& strokes = {});
 
 /// Spreads values over the skin so that they change over lengths of `reach`, within their bounds. firmness:
 /// #V, >= 1, how much more than usual a vertex keeps of its own value. values: lists of #V.

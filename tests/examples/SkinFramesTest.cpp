@@ -2,6 +2,7 @@
 #include "bake/play/Player.h"
 #include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinContact.h"
+#include "bake/respond/SkinFollowing.h"
 #include "bake/respond/SkinResponse.h"
 #include "bake/scene/SceneFile.h"
 
@@ -66,7 +67,7 @@ Lacking lackingOf(Played played) {
         double most = 0;
         for (const SkinRow& row : rig.rows) {
             const SkinPlane plane = lookUp(rig, stand, row);
-            const double lack = plane.found() ? -rig.size * static_cast<double>(plane.gap) : 0;
+            const double lack = plane.found ? -rig.size * static_cast<double>(plane.gap) : 0;
             most = std::max(most, lack);
             result.rows += lack > 0.05;
         }
@@ -87,8 +88,8 @@ TEST_CASE("what contacts have moved is seen wherever it has come to") {
     WARN("lacking at worst, mean over the steps: dog_head "
          << head.mean << " mm, " << head.rows << " rows by more than 0.05 mm; dog_lips " << lips.mean
          << " mm, " << lips.rows << " rows");
-    CHECK(head.mean < 0.2);
-    CHECK(head.rows < 320);
+    CHECK(head.mean < 0.12);
+    CHECK(head.rows < 190);
     CHECK(lips.mean < 0.1);
     CHECK(lips.rows < 40);
 }
@@ -119,5 +120,22 @@ TEST_CASE("an animated skin stands the same wherever it comes from") {
         }
         INFO(file << ": " << steppedOff << " of " << steps << " steps stand elsewhere, by up to " << off);
         CHECK(off == 0);
+    }
+}
+
+TEST_CASE("no animated skin turns a triangle over") {
+    for (const char* file :
+         {"dog_face_baked.tss", "dog_head_baked.tss", "dog_lips_baked.tss", "dog_ears_baked.tss"}) {
+        Played played(file);
+        const SkinModel& skin = played.scene.skins[0];
+        const auto bodies = skinMuscles(played.scene, skin);
+        const SkinFollowMeasure measure(played.scene.bodies[skin.body].mesh, bodies, played.response.rig());
+        SkinFollowing worst;
+        for (std::size_t step = 0; step < played.poses.size(); ++step) {
+            played.response.update(played.activations[step], played.poses[step]);
+            worst.worsen(measure.at(played.response.positions(), played.poses[step]));
+        }
+        INFO(file);
+        CHECK(worst.turnedOver == 0);
     }
 }

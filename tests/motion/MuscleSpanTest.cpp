@@ -139,3 +139,27 @@ TEST_CASE("a ring between two bones is split where its line says") {
     CHECK(box.max().z() == Approx(1.15).margin(0.05));
     CHECK(box.min().z() == Approx(-1.65).margin(0.05));
 }
+
+TEST_CASE("a flat muscle that is drawn together across its line swells to its sides and not over itself") {
+    test::BentEllipsoid shape;
+    shape.halfWidth = 1.5;
+    shape.halfHeight = 0.2;
+    shape.sectors = 48;
+    Muscle flat = test::bentEllipsoid(shape);
+    flat.spans = true;
+    for (const Vec3& v : flat.surface.vertices) {
+        const double t = std::clamp((v.y() + 1) / 2, 0.0, 1.0);
+        flat.insertionShares.push_back(t * t * (3 - 2 * t));
+    }
+    const MuscleDeformer muscle(flat);
+    std::vector<Vec3> places = muscle.vertices(0.0);
+    MuscleSpan(muscle).carry(Pose(Eigen::Translation3d(0, -1, 0)), places);
+    CHECK(enclosedVolume(places, flat.surface.triangles) == Approx(muscle.restVolume()).epsilon(1e-9));
+    for (const Tri& t : flat.surface.triangles) {
+        const auto normal = [&](const std::vector<Vec3>& x) {
+            return (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).normalized();
+        };
+        const Vec3 before = normal(flat.surface.vertices);
+        if (std::abs(before.z()) > 0.5) CHECK(normal(places).z() * before.z() > 0);
+    }
+}
