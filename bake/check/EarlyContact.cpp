@@ -1,7 +1,6 @@
 #include "bake/check/EarlyContact.h"
 
 #include "bake/base/Parallel.h"
-#include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/MeshQuery.h"
 #include "bake/pipeline/FillPair.h"
 #include "bake/search/ExploredPoses.h"

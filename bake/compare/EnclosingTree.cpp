@@ -1,7 +1,6 @@
 #include "bake/compare/EnclosingTree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <queue>
 

@@ -3,7 +3,6 @@
 #include "bake/base/Degrees.h"
 #include "bake/report/Text.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace tss::reporting {

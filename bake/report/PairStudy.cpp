@@ -5,7 +5,6 @@
 #include "bake/geometry/MeshAudit.h"
 
 #include <chrono>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace tss::reporting {

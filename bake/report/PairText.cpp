@@ -3,7 +3,6 @@
 #include "bake/report/Columns.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace tss::reporting {

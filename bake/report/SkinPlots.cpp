@@ -1,7 +1,6 @@
 #include "bake/report/Drawing.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace tss::reporting {

@@ -3,7 +3,6 @@
 #include "bake/base/Degrees.h"
 #include "bake/base/Parallel.h"
 
-#include <chrono>
 #include <cmath>
 #include <random>
 

@@ -7,7 +7,6 @@
 #include "bake/table/Query.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numbers>
 #include <set>

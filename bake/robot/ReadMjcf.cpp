@@ -4,7 +4,6 @@
 #include "bake/robot/MjcfTree.h"
 #include "bake/robot/Xml.h"
 
-#include <algorithm>
 #include <numbers>
 #include <set>
 

@@ -3,7 +3,6 @@
 #include "bake/robot/UrdfText.h"
 #include "bake/robot/Xml.h"
 
-#include <cmath>
 #include <console_bridge/console.h>
 #include <numbers>
 #include <urdf_parser/urdf_parser.h>

@@ -4,7 +4,6 @@
 #include "bake/base/Error.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tss {
 

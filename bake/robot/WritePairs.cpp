@@ -3,7 +3,6 @@
 #include "bake/scene/Properties.h"
 #include "bake/scene/SceneFile.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 

@@ -6,7 +6,6 @@
 #include "bake/search/PoseGrid.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace tss {

@@ -1,7 +1,6 @@
 #include "bake/tool/Interrupt.h"
 
 #include <csignal>
-#include <initializer_list>
 
 namespace tss::tool {
 

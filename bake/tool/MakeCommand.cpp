@@ -13,7 +13,6 @@
 #include "bake/tool/WholeScene.h"
 
 #include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <numbers>

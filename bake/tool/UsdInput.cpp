@@ -1,6 +1,5 @@
 #include "bake/tool/UsdInput.h"
 
-#include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/scene/ReadScene.h"
 #ifdef OSGTSS_HAVE_USDA

@@ -5,7 +5,6 @@
 
 #include <osgTSS/Convert>
 
-#include <cmath>
 #include <limits>
 #include <numeric>
 
