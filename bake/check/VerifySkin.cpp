@@ -200,8 +200,7 @@ private:
         if (!verdict_.holds()) return;
         verdict_.notes.push_back(
             fmt::format("looked at with the skin and the bones at rest, each muscle by itself at {} "
-                        "activations together: its tests are all there, and late by up to {}, "
-                        "{} at rest",
+                        "activations together: its tests are all there, and late by up to {}, {} at rest",
                         verdict_.states, lengthText(verdict_.late, metersPerUnit_),
                         lengthText(verdict_.lateAtRest, metersPerUnit_)));
         verdict_.notes.push_back("nothing is proven of a skin that moves, of several muscles at once or of "

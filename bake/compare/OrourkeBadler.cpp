@@ -92,9 +92,8 @@ std::unique_ptr<CollisionMethod> makeOrourkeBadler(const ComparedPair& problem) 
     Description description{
         "orourke-badler",
         "O'Rourke-Badler",
-        "the largest ball resting against each triangle's middle from inside, largest first, those "
-        "kept that come nearer "
-        "than 0.1 % of the diagonal to a middle that no other does; " +
+        "the largest ball resting against each triangle's middle from inside, largest first, those kept that "
+        "come nearer than 0.1 % of the diagonal to a middle that no other does; " +
             std::to_string(a.size()) + " + " + std::to_string(b.size()) +
             " balls, tree of 8; inscribed, so that shallow contacts are missed",
         {miss, leafProtrusion(trees.a, solidA) + leafProtrusion(trees.b, solidB)},

@@ -136,8 +136,7 @@ std::string describe(const TriangleMesh& mesh, std::size_t open, bool hollow) {
     std::string s;
     if (hollow && open == 0)
         s = "the other body stands inside without touching: it counts as hollow, spheres cover its surface "
-            "from "
-            "both sides";
+            "from both sides";
     else if (hollow)
         s = fmt::format("{} open or misoriented edges, and the other body stands inside without touching: it "
                         "counts as hollow, spheres cover its surface from both sides",

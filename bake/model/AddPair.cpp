@@ -171,9 +171,8 @@ std::vector<int> addJoints(SceneModel& scene, int bodyA, int bodyB, const Motion
     const auto frame = commonFrame(motion, axes);
     if (!frame && motion.dofs.size() > 1) {
         if (!motion.planes.empty())
-            throw InputError(
-                "limit planes couple DOFs that one joint cannot hold: expected DOFs with one centre, "
-                "along the axes of one frame");
+            throw InputError("limit planes couple DOFs that one joint cannot hold: expected DOFs with one "
+                             "centre, along the axes of one frame");
         return addChain(scene, bodyA, bodyB, motion, name);
     }
     const Pose frame0 = frame ? *frame : motion.dofs[0].frame;

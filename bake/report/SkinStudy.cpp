@@ -139,9 +139,9 @@ SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const Report
     study.carriedTests = carried.table->table.testCount();
 
     runSkinMethods(settingOf(mesh, skin, atRest, muscles, study), study);
-    study.notRun.push_back({"FCL, Bullet on the skin",
-                            "they answer for triangles of two rigid meshes; here each skin vertex "
-                            "needs its own verdict on a surface that deforms"});
+    study.notRun.push_back(
+        {"FCL, Bullet on the skin", "they answer for triangles of two rigid meshes; here each skin vertex "
+                                    "needs its own verdict on a surface that deforms"});
     study.notRun.push_back({"angular region, allowed paths, C-space grid",
                             "one activation a muscle would fit a grid, but each of the vertices needs one of "
                             "its own: that is a stored animation, not a test"});

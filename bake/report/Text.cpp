@@ -47,13 +47,11 @@ std::string markdownOf(const Report& report) {
         "# Error against run time: {}\n\n"
         "Made by `tss report {}{}`, seed {}, in {:.0f} s on {} ({} cores), {}, {}, kernels in {}; {}.\n\n"
         "All methods answer the same question about the same poses in one process: does the moving body "
-        "touch "
-        "the other? They take turns on one thread after a warm-up; times are medians over the rounds, with "
-        "the "
-        "tenth and ninetieth percentile. Each query is given its DOF values and its pose, made beforehand, "
-        "and "
-        "a method starts from whichever of them it needs. The truth is the meshes' own (FCL, exact triangle "
-        "tests). Error figures are the same in every run with this seed; times are this machine's.\n\n",
+        "touch the other? They take turns on one thread after a warm-up; times are medians over the rounds, "
+        "with the tenth and ninetieth percentile. Each query is given its DOF values and its pose, made "
+        "beforehand, and a method starts from whichever of them it needs. The truth is the meshes' own (FCL, "
+        "exact triangle tests). Error figures are the same in every run with this seed; times are this "
+        "machine's.\n\n",
         report.scene, report.scene, report.options.quick ? " --quick" : "", report.options.seed,
         report.seconds, machine.processor, machine.cores, machine.compiler, machine.build, machine.vectors,
         machine.libraries);
@@ -62,10 +60,9 @@ std::string markdownOf(const Report& report) {
         text += pairText(report.pairs[k], report.pairPlots[k], report.options.besidePaper);
     for (std::size_t k = 0; k < report.skins.size(); ++k)
         text += skinText(report.skins[k], report.skinPlots[k], report.options.besidePaper);
-    return text +
-           "## Licence\n\nThe minimal enclosing balls and the Delaunay balls of this report come from "
-           "CGAL, which is GPL-3.0-or-later: a `tss` built with `OSGTSS_REPORT` may be passed on under "
-           "that licence only. Nothing else of osgTSS links it.\n";
+    return text + "## Licence\n\nThe minimal enclosing balls and the Delaunay balls of this report come from "
+                  "CGAL, which is GPL-3.0-or-later: a `tss` built with `OSGTSS_REPORT` may be passed on "
+                  "under that licence only. Nothing else of osgTSS links it.\n";
 }
 
 } // namespace tss::reporting

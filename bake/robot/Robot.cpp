@@ -54,8 +54,8 @@ void settleFollower(Robot& robot, RobotJoint& joint) {
     dof.upper = upper;
     robot.notes.push_back(
         "joint " + joint.name + " mimics " + joint.leader + ": " + rangeText(robot, dof) +
-        " are left it. The scene's motion couples them; a table lets each move by itself, so "
-        "what is proven never to meet holds, and some contacts of it may need both apart");
+        " are left it. The scene's motion couples them; a table lets each move by itself, so what is proven "
+        "never to meet holds, and some contacts of it may need both apart");
 }
 
 void settleHeld(Robot& robot, RobotJoint& joint) {

@@ -199,8 +199,7 @@ private:
         noteSome(unmade, 10);
         if (request_.pairs == RobotPairs::All && pairs.size() < all)
             result_.notes.push_back(std::to_string(all - pairs.size()) +
-                                    " pairs are left out, as the robot's files "
-                                    "switch their collision off");
+                                    " pairs are left out, as the robot's files switch their collision off");
     }
 
     /// The file's own motion, or one that shows each joint.

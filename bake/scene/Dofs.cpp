@@ -14,18 +14,17 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 constexpr Attribute dofOrder =
-    declared("uniform token[] tss:dofOrder",
-             "order of the DOFs in T(q), all that are free: `rotX` ... `transZ`, `path0`, ...; else slides "
-             "before turns, X before Z");
+    declared("uniform token[] tss:dofOrder", "order of the DOFs in T(q), all that are free: `rotX` ... "
+                                             "`transZ`, `path0`, ...; else slides before turns, X before Z");
 constexpr Attribute dofNames = declared("uniform token[] tss:dofNames", "other names for them");
 constexpr Attribute dofScale =
     declared("uniform double[] tss:dofScale", "distance of one unit of a slide's value; not 0, 1 for turns "
                                               "and paths. Limits and drives of the file stay distances");
-constexpr Attribute restOfDofs = declared(
-    "uniform double[] tss:rest",
-    "value of each DOF where the joint rests: motions start there, and what overlaps there is excepted (0, "
-    "or the limit nearest to it). It must meet limits and planes. Where the bodies stand at which value the "
-    "joint's frames say");
+constexpr Attribute restOfDofs =
+    declared("uniform double[] tss:rest",
+             "value of each DOF where the joint rests: motions start there, and what overlaps there is "
+             "excepted (0, or the limit nearest to it). It must meet limits and planes. Where the bodies "
+             "stand at which value the joint's frames say");
 constexpr Attribute pathNumbers =
     declared("uniform double[] tss:paths", "rows of value, x, y, z, and a quaternion w, x, y, z, in the "
                                            "joint's frame; linear and slerp between rows");

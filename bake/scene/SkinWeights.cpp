@@ -29,8 +29,8 @@ Shape shapeOf(const PrimReader& prim, const Attribute& attribute) {
             shape.influences = static_cast<std::size_t>(*size);
         else
             prim.problem(attribute,
-                         "expected an elementSize, the number of influences a vertex, that is a "
-                         "whole number of at least 1, found ",
+                         "expected an elementSize, the number of influences a vertex, that is a whole number "
+                         "of at least 1, found ",
                          describe(found->second));
     }
     if (const auto found = property.other.find("interpolation"); found != property.other.end()) {

@@ -11,9 +11,9 @@ constexpr Attribute spheres0 = declared(
     "rel tss:spheres0", "the used spheres of body 0, `Points` with `purpose = guide`; `widths` are "
                         "diameters. Numbers are floats, and what is proven is proven for these floats");
 constexpr Attribute spheres1 = declared("rel tss:spheres1", "the same of body 1");
-constexpr Attribute rowOffsets =
-    declared("uniform int[] tss:rowOffsets", "sparse rows: sphere i of body 0 is tested against the spheres "
-                                             "`columns[rowOffsets[i]]` ... of body 1");
+constexpr Attribute rowOffsets = declared(
+    "uniform int[] tss:rowOffsets",
+    "sparse rows: sphere i of body 0 is tested against the spheres `columns[rowOffsets[i]]` ... of body 1");
 constexpr Attribute columns = declared("uniform int[] tss:columns", "see `tss:rowOffsets`");
 constexpr Attribute restParts[2][2] = {
     {declared("uniform int[] tss:restTriangles0",

@@ -59,11 +59,10 @@ void remarkTolerance(const SceneModel& scene, const BakeOptions& options, const 
     for (const Body& body : scene.bodies)
         if (!body.mesh.vertices.empty()) size = std::max(size, diagonal(body.mesh));
     if (options.tolerance && *options.tolerance < fine * size)
-        console.say(
-            fmt::format("note: a tolerance of {} on a body of {} takes very many spheres; is the scene's "
-                        "unit {} m long?",
-                        lengthText(*options.tolerance, scene.metersPerUnit),
-                        lengthText(size, scene.metersPerUnit), scene.metersPerUnit));
+        console.say(fmt::format(
+            "note: a tolerance of {} on a body of {} takes very many spheres; is the scene's unit {} m long?",
+            lengthText(*options.tolerance, scene.metersPerUnit), lengthText(size, scene.metersPerUnit),
+            scene.metersPerUnit));
 }
 
 /// Where some have tables and others have none, a bake goes on with these.

@@ -101,10 +101,10 @@ void writePairsOf(const ConvertArguments& arguments, const Console& console) {
                                      ? srdfOf(scene, evidence, source)
                                      : mjcfExcludesOf(scene, evidence, source);
     writeFileAtomically(arguments.output, written.text);
-    console.say(fmt::format(
-        "wrote {}: {} proven never to meet, {} adjacent, {} fixed and overlapping; left on: {} that "
-        "meet, {} open",
-        arguments.output, written.never, written.adjacent, written.always, written.meets, written.open));
+    console.say(fmt::format("wrote {}: {} proven never to meet, {} adjacent, {} fixed and overlapping; left "
+                            "on: {} that meet, {} open",
+                            arguments.output, written.never, written.adjacent, written.always, written.meets,
+                            written.open));
     console.print({{"input", arguments.input},
                    {"output", arguments.output},
                    {"never", written.never},
@@ -184,11 +184,10 @@ void addConvert(Options& app, Console& console) {
                      "a .tss, a .usda, a robot's URDF or MJCF, or any mesh that assimp reads")
         ->required();
     command
-        ->add_option(
-            "output", arguments->output,
-            "a .tss or .usda; of a baked scene also an .srdf, or an .xml of MuJoCo's <exclude>s: the pairs "
-            "that are proven never to meet, and those that are joined; or a .yml of cuRobo's collision "
-            "spheres")
+        ->add_option("output", arguments->output,
+                     "a .tss or .usda; of a baked scene also an .srdf, or an .xml of MuJoCo's <exclude>s: "
+                     "the pairs that are proven never to meet, and those that are joined; or a .yml of "
+                     "cuRobo's collision spheres")
         ->required();
     command->add_flag("--binary", arguments->binary, "write the binary twin of .tss (CBOR)");
     command->add_flag("--buffers", arguments->buffers, "big arrays of a .tss into a file beside it");

@@ -76,10 +76,10 @@ public:
         constexpr double seconds = 20;
         const auto [moves, complete] = freeingMoves(a, b, motion_, {dofs_, seconds});
         if (!complete)
-            console_.say(fmt::format(
-                "{}: the meshes overlap where the joint rests; the search for moves that "
-                "free it ended after {} s{}",
-                pair_.path, seconds, moves.empty() ? ", and none was found" : ", smaller ones may exist"));
+            console_.say(fmt::format("{}: the meshes overlap where the joint rests; the search for moves "
+                                     "that free it ended after {} s{}",
+                                     pair_.path, seconds,
+                                     moves.empty() ? ", and none was found" : ", smaller ones may exist"));
         if (moves.empty()) return advice;
         size_ = std::min(diagonal(a), diagonal(b));
         console_.say(fmt::format(

@@ -99,10 +99,9 @@ void remarkSizes(const SceneModel& scene, const Console& console) {
         if (!body.mesh.vertices.empty()) size = std::max(size, diagonal(body.mesh));
     size *= scene.metersPerUnit;
     if (size > house || (size > 0 && size < grain))
-        console.say(
-            fmt::format("note: the meshes are {} long if one of their units is {} m; if they are not, "
-                        "say what it is: --meters-per-unit 0.001 for millimetres",
-                        lengthText(size, 1), scene.metersPerUnit));
+        console.say(fmt::format("note: the meshes are {} long if one of their units is {} m; if they are "
+                                "not, say what it is: --meters-per-unit 0.001 for millimetres",
+                                lengthText(size, 1), scene.metersPerUnit));
 }
 
 /// Limits that small are mostly radians.
@@ -202,9 +201,9 @@ void addRobotOptions(Options& command, const std::shared_ptr<MakeArguments>& arg
         "a robot's file, in place of --a, --b and --dof: URDF, MJCF of MuJoCo, or .usda with UsdPhysics");
     for (Option* option : addRobotFileOptions(command, robot)) option->needs(input);
     command
-        .add_option("--geometry", robot.geometry,
-                    "collision or visual: the shapes that a link is made of; the others "
-                    "where it has none of these")
+        .add_option(
+            "--geometry", robot.geometry,
+            "collision or visual: the shapes that a link is made of; the others where it has none of these")
         ->among({"collision", "visual"})
         ->needs(input)
         ->capture_default_str();
@@ -231,15 +230,12 @@ void addWholeSceneOptions(Options& command, const std::shared_ptr<MakeArguments>
         "[NAME=]MESH: a rigid body; repeat. All meshes lie as they do where every joint is at 0");
     add("--joint", whole.joints,
         "NAME=PARENT,CHILD:DOF[;DOF...][;offset:X,Y,Z]: a joint of two bodies, its DOFs as for --dof; the "
-        "child, with "
-        "what hangs on it, is moved by the offset first; repeat");
+        "child, with what hangs on it, is moved by the offset first; repeat");
     Option* skin = add("--skin", whole.skins, "[NAME=]MESH: a skin over the bodies and muscles");
     add("--bone", whole.bones, "BODY: a body that the skin lies on; repeat (default: all)")->needs(skin);
     add("--muscle", whole.muscles,
         "[NAME=]MESH[,from=BODY,to=BODY,contract=0.15,sheet|ring]: a muscle; its fibre line is found from "
-        "its "
-        "mesh, the end at "
-        "its `from` body stays, which it moves with; repeat");
+        "its mesh, the end at its `from` body stays, which it moves with; repeat");
 }
 
 } // namespace
@@ -264,10 +260,9 @@ void addMake(Options& app, Console& console) {
     command->add_option("--rest", arguments->rest,
                         "DOF values at which the joint rests: where a motion starts, and meshes that overlap "
                         "are free (default 0, or the limit next to it). The meshes lie as they do at 0");
-    command->add_option(
-        "--motion", arguments->motion,
-        "a CSV file, the motion that the scene plays: a line of names (time or step, joints, muscles), "
-        "then degrees, units of a value, or activations. Else each moves in turn");
+    command->add_option("--motion", arguments->motion,
+                        "a CSV file, the motion that the scene plays: a line of names (time or step, joints, "
+                        "muscles), then degrees, units of a value, or activations. Else each moves in turn");
     command->add_option("--up-axis", arguments->upAxis, "Y or Z (default Z; Y where all meshes are glTF)")
         ->among({"Y", "Z"});
     addRobotOptions(*command, arguments);

@@ -149,10 +149,9 @@ nlohmann::json sayFollowing(const SceneModel& scene, const SkinModel& skin, cons
         const SkinFollowing::OnBone& bone = worst.bones[m];
         if (bone.vertices == 0) continue;
         const std::string& path = scene.bodies[under[m].body].path;
-        console.say(
-            fmt::format("    on {} alone, {} vertices: off its motion by {:.2g} on average, 95 % within "
-                        "{:.2g} (thousandths of the bones' size)",
-                        path, bone.vertices, bone.mean, bone.most));
+        console.say(fmt::format("    on {} alone, {} vertices: off its motion by {:.2g} on average, 95 % "
+                                "within {:.2g} (thousandths of the bones' size)",
+                                path, bone.vertices, bone.mean, bone.most));
         bones.push_back(
             {{"bone", path}, {"vertices", bone.vertices}, {"mean", bone.mean}, {"within95", bone.most}});
     }
@@ -208,9 +207,9 @@ std::vector<std::string> unbaked(const SceneModel& scene) {
                                " is not kept apart: it has no table, tss bake makes one");
     for (const SkinModel& skin : scene.skins)
         if (!skin.table)
-            warnings.push_back("skin " + skin.path +
-                               " is carried, but not kept out of what is below it: it has no table, tss "
-                               "bake makes one");
+            warnings.push_back(
+                "skin " + skin.path +
+                " is carried, but not kept out of what is below it: it has no table, tss bake makes one");
     return warnings;
 }
 
@@ -280,10 +279,10 @@ void addPlay(Options& app, Console& console) {
     command->add_option("--motion", arguments->motion,
                         "CSV, one row a step, one column a DOF of the joints in file order (default: the "
                         "scene's own drives)");
-    command->add_option("-o,--output", arguments->output,
-                        "CSV: step, asked and resolved DOFs, table_gap, status, and of each skin "
-                        "residual_NAME: how deep it is in what is below it, beyond its depth at rest, scene "
-                        "units (default: only what is said in sum)");
+    command->add_option(
+        "-o,--output", arguments->output,
+        "CSV: step, asked and resolved DOFs, table_gap, status, and of each skin residual_NAME: how deep it "
+        "is in what is below it, beyond its depth at rest, scene units (default: only what is said in sum)");
     command->add_flag("--timings", arguments->timings,
                       "also what each part of a skin's update costs, which makes the updates a tenth slower");
     command->add_option("--mesh-out", arguments->meshes, "also the posed meshes, like f_%04d.obj");

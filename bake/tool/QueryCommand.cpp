@@ -38,10 +38,9 @@ void sayHits(const QueryArguments& arguments, const Console& console, std::size_
              const Json& outsideRows, std::size_t outside, const std::string& madeFor) {
     console.say(fmt::format("{} poses, {} hits, wrote {}", poses, hits, arguments.output));
     if (outside > 0)
-        console.say(
-            fmt::format("{} poses, the first in row {}, lie outside the limits that the {} made for: no "
-                        "bound holds there, and they are not among the hits",
-                        outside, outsideRows[0].get<std::size_t>() + 1, madeFor));
+        console.say(fmt::format("{} poses, the first in row {}, lie outside the limits that the {} made for: "
+                                "no bound holds there, and they are not among the hits",
+                                outside, outsideRows[0].get<std::size_t>() + 1, madeFor));
     console.print({{"poses", poses},
                    {"hits", hits},
                    {"outsideLimits", outside},
@@ -142,12 +141,11 @@ void addQuery(Options& app, Console& console) {
     command->add_option("--poses", arguments->poses, "CSV, one column a DOF: degrees, or the DOF's own unit")
         ->required();
     command
-        ->add_option(
-            "-o,--output", arguments->output,
-            "CSV: table_gap,hit,pair,px,py,pz,nx,ny,nz; lengths in scene units, point and normal in body A's "
-            "frame. table_gap is that of the table's spheres: where it is above 0 it is no distance of the "
-            "meshes. Beyond the limits no bound holds: --json lists such rows, and of a pair that never "
-            "collides their table_gap is nan")
+        ->add_option("-o,--output", arguments->output,
+                     "CSV: table_gap,hit,pair,px,py,pz,nx,ny,nz; lengths in scene units, point and normal in "
+                     "body A's frame. table_gap is that of the table's spheres: where it is above 0 it is no "
+                     "distance of the meshes. Beyond the limits no bound holds: --json lists such rows, and "
+                     "of a pair that never collides their table_gap is nan")
         ->required();
     command->add_flag(
         "--distance", arguments->distance,
@@ -155,9 +153,8 @@ void addQuery(Options& app, Console& console) {
     command
         ->add_flag("--all-pairs", arguments->allPairs,
                    "whether any pair of the scene touches: one column for each DOF of all joints, in the "
-                   "order of the "
-                   "file; CSV: hit,pair, one that touches. Nan: outside the limits of some pair, and no "
-                   "other one touches")
+                   "order of the file; CSV: hit,pair, one that touches. Nan: outside the limits of some "
+                   "pair, and no other one touches")
         ->excludes(command->get_option("--pair"))
         ->excludes(command->get_option("--distance"));
     command->callback([arguments, &console] { runQuery(*arguments, console); });

@@ -63,14 +63,13 @@ Robot readRobot(const RobotFile& from, const FindMesh& find) {
 } // namespace
 
 std::array<Option*, 2> addRobotFileOptions(Options& command, RobotFile& file) {
-    return {
-        command
-            .add_option("--package", file.packages,
-                        "NAME=DIR: the folder of package://NAME/...; repeat. Else it is looked for upwards "
-                        "from the file. NAME=: left out by name. Other paths, and those of a .usda, may lead "
-                        "into these folders too")
-            ->allow_extra_args(false),
-        command.add_option("--srdf", file.srdf, "an SRDF: pairs that it switches off are left out")};
+    return {command
+                .add_option("--package", file.packages,
+                            "NAME=DIR: the folder of package://NAME/...; repeat. Else it is looked for "
+                            "upwards from the file. NAME=: left out by name. Other paths, and those of a "
+                            ".usda, may lead into these folders too")
+                ->allow_extra_args(false),
+            command.add_option("--srdf", file.srdf, "an SRDF: pairs that it switches off are left out")};
 }
 
 bool isRobot(const std::string& file) {

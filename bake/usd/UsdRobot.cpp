@@ -313,10 +313,9 @@ private:
             const Pose stands = robot_.links[joint.child].place;
             const double size = 1 + should.translation().norm() + stands.translation().norm();
             if ((should.matrix() - stands.matrix()).cwiseAbs().maxCoeff() > 1e-3 * size)
-                leftOut_.add(
-                    "bodies that the file shows elsewhere than their joint has them at 0; values count from "
-                    "the joint's frames",
-                    robot_.links[joint.child].name);
+                leftOut_.add("bodies that the file shows elsewhere than their joint has them at 0; values "
+                             "count from the joint's frames",
+                             robot_.links[joint.child].name);
         }
     }
 

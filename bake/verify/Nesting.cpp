@@ -267,11 +267,10 @@ NestingResult proveNoNesting(const VerifiedBody& a, const VerifiedBody& b, const
             if (part.outcome == Outcome::Shown) continue;
             if (part.outcome != Outcome::Split) {
                 result.pose = part.pose;
-                result.reason =
-                    part.outcome == Outcome::Broken
-                        ? "at a pose it reports contact though one body is inside the other and the "
-                          "surfaces are farther apart than the stored bound"
-                        : "near a pose it cannot be told whether one body is inside the other";
+                result.reason = part.outcome == Outcome::Broken
+                                    ? "at a pose it reports contact though one body is inside the other and "
+                                      "the surfaces are farther apart than the stored bound"
+                                    : "near a pose it cannot be told whether one body is inside the other";
                 return result;
             }
             for (const bool upper : {false, true}) {

@@ -72,9 +72,9 @@ osgTSS::Shot shotOf(const Arguments& arguments) {
     for (double number = 0; file >> number;) numbers.push_back(number);
     // The path's own reader would wait forever for the end of what is no number.
     if (numbers.empty() || numbers.size() % 8 != 0 || !file.eof())
-        throw tss::InputError({arguments.view, "", ""},
-                              "expected a camera path as osgviewer -p reads it, or EYE:AT, six numbers "
-                              "as in 0,-3,1:0,0,1");
+        throw tss::InputError(
+            {arguments.view, "", ""},
+            "expected a camera path as osgviewer -p reads it, or EYE:AT, six numbers as in 0,-3,1:0,0,1");
     shot.view = new osg::AnimationPath;
     for (std::size_t k = 0; k < numbers.size(); k += 8) {
         const double* n = &numbers[k]; // time, x, y, z, and the rotation
