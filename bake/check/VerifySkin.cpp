@@ -184,7 +184,7 @@ private:
             }
             late[v] = told - distance;
         });
-        const double latest = *std::max_element(late.begin(), late.end());
+        const double latest = *std::ranges::max_element(late);
         verdict_.late = std::max(verdict_.late, latest);
         if (track.nodes[node] == 0) verdict_.lateAtRest = std::max(verdict_.lateAtRest, latest);
     }

@@ -130,8 +130,7 @@ int CommandLine::parse(int argc, char** argv) {
 bool CommandLine::mistyped(const std::string& word) const {
     const auto commands = app_->get_subcommands([](const CLI::App*) { return true; });
     const auto named = [&](const CLI::App* command) { return command->get_name() == word; };
-    if (commands.empty() || word.starts_with('-') || std::any_of(commands.begin(), commands.end(), named))
-        return false;
+    if (commands.empty() || word.starts_with('-') || std::ranges::any_of(commands, named)) return false;
     std::string names;
     for (const CLI::App* command : commands) names += " " + command->get_name();
     std::fprintf(stderr, "%s: \"%s\" is no command; expected one of%s\n", app_->get_name().c_str(),

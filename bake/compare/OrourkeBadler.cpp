@@ -52,7 +52,7 @@ namespace {
 SphereSet keepLargest(const TriangleMesh& mesh, const SphereSet& resting, double near) {
     std::vector<std::uint32_t> order(resting.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+    std::ranges::sort(order, [&](std::uint32_t i, std::uint32_t j) {
         return resting[i].radius != resting[j].radius ? resting[i].radius > resting[j].radius : i < j;
     });
     std::vector<Eigen::AlignedBox3d> boxes;

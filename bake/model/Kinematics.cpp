@@ -28,7 +28,7 @@ std::vector<int> findWay(const std::vector<Joint>& joints, int from, int to, int
         way.push_back(j);
         body = joints[j].body0 == body ? joints[j].body1 : joints[j].body0;
     }
-    std::reverse(way.begin(), way.end());
+    std::ranges::reverse(way);
     return way;
 }
 
@@ -50,14 +50,13 @@ Dof placed(const Dof& dof, const Pose& place) {
 }
 
 bool oneTurn(const std::vector<PathRow>& rows) {
-    return std::all_of(rows.begin(), rows.end(), [&](const PathRow& row) {
-        return row.rotation.coeffs() == rows.front().rotation.coeffs();
-    });
+    return std::ranges::all_of(
+        rows, [&](const PathRow& row) { return row.rotation.coeffs() == rows.front().rotation.coeffs(); });
 }
 
 bool onePlace(const std::vector<PathRow>& rows) {
-    return std::all_of(rows.begin(), rows.end(),
-                       [&](const PathRow& row) { return row.translation == rows.front().translation; });
+    return std::ranges::all_of(
+        rows, [&](const PathRow& row) { return row.translation == rows.front().translation; });
 }
 
 /// The path's inverse at the same values, all that is linear between its rows: `after` is what of it is left
@@ -174,13 +173,12 @@ std::vector<UnderSkin> underSkin(const SceneModel& scene, const SkinModel& skin)
     }
     for (const int bone : skin.bones) under.push_back({-1, bone, bone, -1});
     for (const int joint : skin.weights.joints)
-        if (std::find(skin.bones.begin(), skin.bones.end(), joint) == skin.bones.end())
-            under.push_back({-1, -1, joint, -1});
+        if (std::ranges::find(skin.bones, joint) == skin.bones.end()) under.push_back({-1, -1, joint, -1});
     for (std::size_t m = 0; m < skin.muscles.size(); ++m) {
         const int bone = scene.muscles[static_cast<std::size_t>(skin.muscles[m])].insertionBone;
         if (bone < 0) continue;
         const auto moves = [&](const UnderSkin& u) { return u.bone == bone; };
-        auto found = std::find_if(under.begin(), under.end(), moves);
+        auto found = std::ranges::find_if(under, moves);
         if (found == under.end()) found = under.insert(under.end(), UnderSkin{-1, -1, bone, -1});
         under[m].insertion = static_cast<int>(found - under.begin());
     }

@@ -115,7 +115,7 @@ std::size_t FreeingTrial::freeOf(const JointMove& move, const std::vector<char>&
     parallelFor(values_.size(), [&](std::size_t k) {
         free[k] = wanted[k] && !late() && a_.apart(b_, pose(motion, values_[k]), margin_);
     });
-    return static_cast<std::size_t>(std::count(free.begin(), free.end(), char{1}));
+    return static_cast<std::size_t>(std::ranges::count(free, char{1}));
 }
 
 std::size_t FreeingTrial::addMissed(const JointMove& move, std::vector<char>& wanted) {

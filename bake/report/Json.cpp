@@ -44,12 +44,11 @@ Json jsonOf(const PairStudy& study) {
     for (const StepSeries& series : study.steps.series)
         steps["series"].push_back({{"name", series.name}, {"tests", series.tests}});
     json["steps"] = steps;
-    json["angularRegion"] = {
-        {"unit", study.leadingUnit},
-        {"spheres", jsonOf(study.region.spheres)},
-        {"meshes", jsonOf(study.region.meshes)},
-        {"stepsInSpheres", std::count(study.steps.inRegion.begin(), study.steps.inRegion.end(), char{1})},
-        {"stepsInMeshes", study.steps.inMeshRegion}};
+    json["angularRegion"] = {{"unit", study.leadingUnit},
+                             {"spheres", jsonOf(study.region.spheres)},
+                             {"meshes", jsonOf(study.region.meshes)},
+                             {"stepsInSpheres", std::ranges::count(study.steps.inRegion, char{1})},
+                             {"stepsInMeshes", study.steps.inMeshRegion}};
     json["sampling"] = jsonOf(samplingColumns(), study.sampling);
     json["base"] = study.base.name;
     const Columns<BakePoint> models = modelColumns(study);

@@ -83,7 +83,7 @@ double protrusionOf(const SphereSet& spheres, const TriangleMesh& mesh) {
     std::vector<double> each(spheres.size(), 0.0);
     parallelFor(each.size(),
                 [&](std::size_t i) { each[i] = solid.protrusion(spheres[i].centre, spheres[i].radius); });
-    return each.empty() ? 0 : *std::max_element(each.begin(), each.end());
+    return each.empty() ? 0 : *std::ranges::max_element(each);
 }
 
 } // namespace tss::reporting

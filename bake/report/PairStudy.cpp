@@ -270,7 +270,7 @@ std::vector<const Row*> paretoFront(const std::vector<Row>& rows, const std::fun
     std::vector<const Row*> sorted, front;
     for (const Row& row : rows)
         if (x(row) > 0) sorted.push_back(&row);
-    std::stable_sort(sorted.begin(), sorted.end(), [&](const Row* a, const Row* b) { return x(*a) < x(*b); });
+    std::ranges::stable_sort(sorted, [&](const Row* a, const Row* b) { return x(*a) < x(*b); });
     for (const Row* row : sorted)
         if (front.empty() || y(*row) < y(*front.back())) front.push_back(row);
     return front;

@@ -47,9 +47,8 @@ std::string methodTable(const PairStudy& study) {
     std::vector<Row> rows;
     for (const Row& row : study.rows)
         if (row.setting.empty() || row.setting == study.base.name) rows.push_back(row);
-    std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
-        return place(a.about.family) < place(b.about.family);
-    });
+    std::ranges::stable_sort(
+        rows, [](const Row& a, const Row& b) { return place(a.about.family) < place(b.about.family); });
     return markdownTable(methodColumns(study), rows);
 }
 
@@ -135,7 +134,7 @@ std::string advice(const PairStudy& study) {
         if (row.about.family != "C-space grid") continue;
         const Row* table = findRow(study, "tss", row.setting);
         const auto named = [&](const BakePoint& point) { return point.name == row.setting; };
-        if (!table || std::none_of(study.tolerances.begin(), study.tolerances.end(), named)) continue;
+        if (!table || std::ranges::none_of(study.tolerances, named)) continue;
         const bool faster = row.times.median < table->times.median,
                    right = row.worst() <= 1.1 * table->worst();
         if (faster && right && (!winner || row.times.median < winner->times.median)) winner = &row;
@@ -199,8 +198,8 @@ std::string countTable(const PairStudy& study, bool besidePaper) {
         "Steps in the angular region of collision: {:.0f} % of {} along {} by the meshes, {:.0f} % by the "
         "spheres of {}{}.{}\n",
         shareOf(steps.inMeshRegion), steps.leading.size(), steps.motion,
-        shareOf(static_cast<std::size_t>(std::count(steps.inRegion.begin(), steps.inRegion.end(), char{1}))),
-        ours.name, paper(" (the paper: 22 %)"),
+        shareOf(static_cast<std::size_t>(std::ranges::count(steps.inRegion, char{1}))), ours.name,
+        paper(" (the paper: 22 %)"),
         paper(" The pairs and their limits are not the same: the counts say of what size such tables are, "
               "not which method is better."));
     return text;
@@ -225,7 +224,7 @@ std::string whatTheyAre(const PairStudy& study) {
     std::string text;
     std::vector<std::string> said;
     for (const Row& row : study.rows) {
-        if (std::find(said.begin(), said.end(), row.method) != said.end()) continue;
+        if (std::ranges::find(said, row.method) != said.end()) continue;
         if (!row.setting.empty() && row.setting != study.base.name) continue;
         said.push_back(row.method);
         text += fmt::format("- **{}**: {}.\n", row.method, row.about.about);

@@ -17,7 +17,7 @@ namespace {
 std::string stemOf(const std::string& path, bool alone) {
     if (alone) return "";
     std::string stem = path.substr(1);
-    std::replace(stem.begin(), stem.end(), '/', '-');
+    std::ranges::replace(stem, '/', '-');
     return stem + "-";
 }
 
@@ -26,8 +26,7 @@ void checkPaths(const SceneModel& scene, const ReportOptions& options, const std
         throw InputError(Where{file, "", ""}, "expected a scene with a pair or a skin to report on");
     for (const std::string& path : options.pairs) {
         const auto same = [&](const auto& item) { return item.path == path; };
-        if (std::none_of(scene.pairs.begin(), scene.pairs.end(), same) &&
-            std::none_of(scene.skins.begin(), scene.skins.end(), same))
+        if (std::ranges::none_of(scene.pairs, same) && std::ranges::none_of(scene.skins, same))
             throw InputError(Where{file, "", path}, "no pair and no skin of this path in the scene");
     }
 }
@@ -69,8 +68,7 @@ Report makeReport(const SceneModel& scene, const std::string& sceneFile, const s
     result.machine = thisMachine();
     result.options = options;
     const auto wanted = [&](const std::string& path) {
-        return options.pairs.empty() ||
-               std::find(options.pairs.begin(), options.pairs.end(), path) != options.pairs.end();
+        return options.pairs.empty() || std::ranges::find(options.pairs, path) != options.pairs.end();
     };
     for (const Pair& pair : scene.pairs) {
         if (!wanted(pair.path)) continue;

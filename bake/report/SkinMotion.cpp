@@ -27,8 +27,7 @@ std::vector<Activations> motionOf(const SceneModel& scene, const SkinModel& skin
             asked.push_back(skinActivations(scene, skin,
                                             scene.startTimeCode +
                                                 (scene.endTimeCode - scene.startTimeCode) * s / (steps - 1)));
-        animated =
-            std::any_of(asked.begin(), asked.end(), [&](const Activations& a) { return a != asked[0]; });
+        animated = std::ranges::any_of(asked, [&](const Activations& a) { return a != asked[0]; });
     }
     inWords = animated ? "the scene's own animation" : "all activations up and down again";
     if (animated) return asked;
@@ -172,7 +171,7 @@ SkinAnswer answerOf(const Played& played, std::shared_ptr<const SkinRig> rig, st
                 answer.areaChange, std::abs(areaOf(positions, played.rig.triangles) / played.restArea - 1));
     }
     answer.rms = std::sqrt(squares / (steps * static_cast<double>(played.rig.vertices.size())));
-    std::sort(times.begin(), times.end());
+    std::ranges::sort(times);
     if (!times.empty()) answer.nanoseconds = times[times.size() / 2];
     return answer;
 }
@@ -207,7 +206,7 @@ SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, 
         studyStep(study, played, muscles, s);
     }
     std::vector<int> settings{0, 1, 2, 4, 8, 16, 32, 64, 128};
-    if (std::find(settings.begin(), settings.end(), usual) == settings.end()) settings.push_back(usual);
+    if (std::ranges::find(settings, usual) == settings.end()) settings.push_back(usual);
     for (const int sweeps : settings) {
         std::vector<double> perStep;
         study.answers.push_back(answerOf(played, rigOf(sweeps), perStep));

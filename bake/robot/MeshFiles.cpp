@@ -60,8 +60,8 @@ fs::path homeOf(const fs::path& robotFolder) {
 std::string found(const std::string& name, const fs::path& path, const std::vector<fs::path>& within,
                   const std::string& hint) {
     const fs::path real = realPath(path);
-    if (std::none_of(within.begin(), within.end(),
-                     [&](const fs::path& folder) { return isWithin(real, realPath(folder)); }))
+    if (std::ranges::none_of(within,
+                             [&](const fs::path& folder) { return isWithin(real, realPath(folder)); }))
         throw InputError("file \"" + name + "\" lies outside of " + within.front().string() +
                          "; expected it within" + hint);
     return real.string();

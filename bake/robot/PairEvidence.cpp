@@ -84,7 +84,7 @@ Tried nearestPose(const Meshes& meshes, const Motion& motion, const Table* table
     if (table) { // the poses that the table calls the deepest
         std::vector<std::pair<double, std::size_t>> order;
         for (std::size_t i = 0; i < poses.size(); ++i) order.emplace_back(query(*table, poses[i]).gap, i);
-        std::sort(order.begin(), order.end());
+        std::ranges::sort(order);
         std::vector<std::vector<double>> best;
         for (std::size_t i = 0; i < std::min(measured, order.size()); ++i)
             best.push_back(poses[order[i].second]);
@@ -97,13 +97,13 @@ Tried nearestPose(const Meshes& meshes, const Motion& motion, const Table* table
         tried.push_back(std::move(next));
     }
     const auto nearer = [](const Tried& a, const Tried& b) { return a.distance < b.distance; };
-    std::sort(tried.begin(), tried.end(), nearer);
+    std::ranges::sort(tried, nearer);
     tried.resize(std::min(tried.size(), descents));
     for (Tried& one : tried) {
         descend(meshes, motion, one);
         if (one.distance == 0) return one;
     }
-    return *std::min_element(tried.begin(), tried.end(), nearer);
+    return *std::ranges::min_element(tried, nearer);
 }
 
 class Collector {
@@ -175,9 +175,8 @@ private:
     void addOther(int a, int b, bool joined) {
         if (found_.contains({a, b})) return;
         const auto chain = findChain(scene_.joints, a, b);
-        const bool rigid = chain && !chain->empty() && std::all_of(chain->begin(), chain->end(), [&](int j) {
-                               return scene_.joints[j].dofs.empty();
-                           });
+        const bool rigid = chain && !chain->empty() &&
+                           std::ranges::all_of(*chain, [&](int j) { return scene_.joints[j].dofs.empty(); });
         if (!rigid && !joined) return;
         PairEvidence& evidence = at(a, b);
         evidence.adjacent = joined;

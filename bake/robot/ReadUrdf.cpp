@@ -195,8 +195,7 @@ Robot readUrdf(const std::string& text, const std::string& file) {
 void readSrdf(Robot& robot, const std::string& text, const std::string& file) {
     const auto document = parseXml(text, file, "robot");
     const auto has = [&](const std::string& name) {
-        return std::any_of(robot.links.begin(), robot.links.end(),
-                           [&](const RobotLink& link) { return link.name == name; });
+        return std::ranges::any_of(robot.links, [&](const RobotLink& link) { return link.name == name; });
     };
     const XMLElement& top = *document->RootElement();
     if (const std::string name = textOf(top, "name"); name != robot.name)

@@ -26,8 +26,7 @@ std::string rangeText(const Robot& robot, const Dof& dof) {
 /// The limits that a follower has, through others that follow too.
 void settleFollower(Robot& robot, RobotJoint& joint) {
     const auto named = [&](const std::string& name) {
-        return std::find_if(robot.joints.begin(), robot.joints.end(),
-                            [&](const RobotJoint& j) { return j.name == name; });
+        return std::ranges::find_if(robot.joints, [&](const RobotJoint& j) { return j.name == name; });
     };
     for (std::size_t steps = 0;; ++steps) {
         const auto leader = named(joint.leader);
@@ -59,8 +58,7 @@ void settleFollower(Robot& robot, RobotJoint& joint) {
 }
 
 void settleHeld(Robot& robot, RobotJoint& joint) {
-    const bool held =
-        std::all_of(joint.dofs.begin(), joint.dofs.end(), [](const Dof& d) { return d.lower == d.upper; });
+    const bool held = std::ranges::all_of(joint.dofs, [](const Dof& d) { return d.lower == d.upper; });
     if (joint.dofs.empty() || !held) return;
     for (const Dof& dof : joint.dofs) joint.origin = joint.origin * dofPose(dof, dof.lower);
     robot.notes.push_back("joint " + joint.name + " (" + joint.where + ") has the limits " +

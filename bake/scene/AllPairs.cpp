@@ -14,20 +14,19 @@ namespace {
 
 bool isSoft(const SceneModel& scene, int body) {
     const auto stands = [body](const auto& item) { return item.body == body; };
-    return std::any_of(scene.skins.begin(), scene.skins.end(), stands) ||
-           std::any_of(scene.muscles.begin(), scene.muscles.end(), stands);
+    return std::ranges::any_of(scene.skins, stands) || std::ranges::any_of(scene.muscles, stands);
 }
 
 /// A body that some enabled joint holds counts as rigid, as it does for pairs that are named.
 bool canCollide(const SceneModel& scene, int body) {
     if (scene.bodies[body].mesh.empty() || isSoft(scene, body)) return false;
-    return std::any_of(scene.joints.begin(), scene.joints.end(), [body](const Joint& joint) {
+    return std::ranges::any_of(scene.joints, [body](const Joint& joint) {
         return joint.enabled && (joint.body0 == body || joint.body1 == body);
     });
 }
 
 bool isPair(const SceneModel& scene, int a, int b) {
-    return std::any_of(scene.pairs.begin(), scene.pairs.end(), [&](const Pair& pair) {
+    return std::ranges::any_of(scene.pairs, [&](const Pair& pair) {
         return (pair.bodyA == a && pair.bodyB == b) || (pair.bodyA == b && pair.bodyB == a);
     });
 }
@@ -42,11 +41,9 @@ std::string freePath(const SceneModel& scene, const Pair& pair) {
     const std::string wanted = a + "_" + nameOf(scene.bodies[pair.bodyB].path);
     const auto taken = [&](const std::string& path) {
         const auto same = [&](const auto& item) { return item.path == path; };
-        return (scene.layer && findPrim(*scene.layer, path)) ||
-               std::any_of(scene.bodies.begin(), scene.bodies.end(), same) ||
-               std::any_of(scene.joints.begin(), scene.joints.end(), same) ||
-               std::any_of(scene.muscles.begin(), scene.muscles.end(), same) ||
-               std::any_of(scene.pairs.begin(), scene.pairs.end(), same);
+        return (scene.layer && findPrim(*scene.layer, path)) || std::ranges::any_of(scene.bodies, same) ||
+               std::ranges::any_of(scene.joints, same) || std::ranges::any_of(scene.muscles, same) ||
+               std::ranges::any_of(scene.pairs, same);
     };
     std::string path = wanted;
     for (int k = 2; taken(path); ++k) path = wanted + std::to_string(k);
@@ -87,7 +84,7 @@ std::optional<Pair> pairOf(const SceneModel& scene, int a, int b, std::vector<st
     std::string why = obstacle(scene, pair);
     if (!why.empty() && chain->size() > 1) { // a path may be crossed in one direction only
         std::swap(pair.bodyA, pair.bodyB);
-        std::reverse(pair.joints.begin(), pair.joints.end());
+        std::ranges::reverse(pair.joints);
         if (obstacle(scene, pair).empty()) why.clear();
     }
     if (!why.empty()) {

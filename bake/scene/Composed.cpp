@@ -53,7 +53,7 @@ Value joinedSchemas(const Value& stronger, const Value& weaker) {
         if (const auto op = ops->find("delete"); op != ops->end()) taken = listItems(op->second);
     }
     const auto has = [](const std::vector<std::string>& list, const std::string& item) {
-        return std::find(list.begin(), list.end(), item) != list.end();
+        return std::ranges::find(list, item) != list.end();
     };
     for (const std::string& item : listItems(weaker))
         if (!has(items, item) && !has(taken, item)) items.push_back(item);
@@ -144,7 +144,7 @@ void Composer::addReference(const std::string& target, const Place& at, Composed
     const Prim* const base = found == all_.end() ? nullptr : found->second.first;
     if (!base)
         problems_.add(place, "expected the path of a prim of this file, found \"", target, "\"");
-    else if (std::find(open_.begin(), open_.end(), base) != open_.end())
+    else if (std::ranges::find(open_, base) != open_.end())
         problems_.add(place, "expected a reference that does not lead back to this prim, found \"", target,
                       "\"");
     else if (open_.size() >= deepest)

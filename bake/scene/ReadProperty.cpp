@@ -38,7 +38,7 @@ bool isPropertyName(std::string_view name) {
 void LayerReader::checkList(const Value& value, const Place& place, const char* wanted) {
     if (const auto* ops = value.as<Value::Object>()) {
         for (const auto& [key, items] : *ops) {
-            if (std::find(listOps.begin(), listOps.end(), key) == listOps.end())
+            if (std::ranges::find(listOps, key) == listOps.end())
                 problems.add(place / key, "expected prepend, append, delete or explicit, found \"", key,
                              "\"");
             else if (items.as<Value::Object>())

@@ -37,7 +37,7 @@ void readBones(const SceneReading& reading, const PrimReader& prim, SkinModel& s
     for (const std::string& path : prim.targets(schema::bones)) {
         const int bone = reading.body(prim, schema::bones, path);
         if (bone < 0) continue;
-        const bool again = std::find(skin.bones.begin(), skin.bones.end(), bone) != skin.bones.end();
+        const bool again = std::ranges::find(skin.bones, bone) != skin.bones.end();
         const char* wanted = bone == skin.body                         ? "another body than the skin"
                              : reading.scene.bodies[bone].mesh.empty() ? "a mesh with faces"
                              : again                                   ? "each bone once"

@@ -130,7 +130,7 @@ void bakeFiner(SceneModel& scene, const BakeRequest& request, KeptParts& parts, 
     for (const Pair& pair : scene.pairs) {
         if (!parts.complete()) return;
         const auto& asked = request.pairs;
-        if (!asked.empty() && std::find(asked.begin(), asked.end(), pair.path) == asked.end()) continue;
+        if (!asked.empty() && std::ranges::find(asked, pair.path) == asked.end()) continue;
         const std::optional<EarlyContact> early = measureEarlyContact(scene, pair);
         if (!early || !early->coarse() || early->tolerance <= 0) continue;
         console.say(fmt::format("{}: contact reported at {:.0f} % of the poses where nothing touches: again, "

@@ -53,7 +53,7 @@ std::vector<PathRow> readPath(const std::string& file) {
 
 std::string describePath(const Dof& dof) {
     const auto turns = [](const PathRow& row) { return row.rotation.vec().norm() > 0; };
-    const bool any = std::any_of(dof.path.begin(), dof.path.end(), turns);
+    const bool any = std::ranges::any_of(dof.path, turns);
     return fmt::format(" ({} rows, {})", dof.path.size(), any ? "with rotation" : "no rotation");
 }
 

@@ -24,8 +24,8 @@ std::vector<std::vector<double>> drivenSteps(const SceneModel& scene) {
 
 void addResiduals(Json& summary, const SceneModel& scene) {
     constexpr auto patience = std::chrono::seconds(20);
-    const bool baked = std::any_of(scene.skins.begin(), scene.skins.end(),
-                                   [](const SkinModel& skin) { return skin.table != nullptr; });
+    const bool baked =
+        std::ranges::any_of(scene.skins, [](const SkinModel& skin) { return skin.table != nullptr; });
     const auto steps = drivenSteps(scene);
     if (!baked || steps.size() < 2) return;
     std::vector<std::string> warnings; // of the pairs; `tss play` tells them

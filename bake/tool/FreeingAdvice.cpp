@@ -45,12 +45,10 @@ enum class Form { TwoMeshes, Joint, None };
 Form formOf(const SceneModel& scene, const Pair& pair) {
     const auto parsed = [&](int joint) {
         const std::vector<Dof>& dofs = scene.joints[joint].dofs;
-        return std::all_of(dofs.begin(), dofs.end(), [](const Dof& dof) { return isParsedName(dof.name); });
+        return std::ranges::all_of(dofs, [](const Dof& dof) { return isParsedName(dof.name); });
     };
-    const auto solid = std::count_if(scene.bodies.begin(), scene.bodies.end(),
-                                     [](const Body& b) { return !b.mesh.empty(); });
-    if (pair.joints.size() == scene.joints.size() && solid == 2 &&
-        std::all_of(pair.joints.begin(), pair.joints.end(), parsed))
+    const auto solid = std::ranges::count_if(scene.bodies, [](const Body& b) { return !b.mesh.empty(); });
+    if (pair.joints.size() == scene.joints.size() && solid == 2 && std::ranges::all_of(pair.joints, parsed))
         return Form::TwoMeshes;
     const bool asMade = scene.bodies[pair.bodyA].placement.linear().isIdentity(1e-6);
     return asMade && pair.joints.size() == 1 && scene.joints[pair.joints[0]].body0 == pair.bodyA ? Form::Joint
@@ -67,8 +65,8 @@ public:
         if ((atZero.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-6) form_ = formOf(scene, pair);
         if (form_ != Form::None) already_ = atZero.translation();
         if (form_ == Form::TwoMeshes) a_ = 'A', b_ = 'B';
-        dofs_ = form_ != Form::None && std::none_of(motion_.dofs.begin(), motion_.dofs.end(),
-                                                    [](const Dof& dof) { return dof.kind == DofKind::Path; });
+        dofs_ = form_ != Form::None &&
+                std::ranges::none_of(motion_.dofs, [](const Dof& dof) { return dof.kind == DofKind::Path; });
     }
 
     Json say(const TriangleMesh& a, const TriangleMesh& b) {

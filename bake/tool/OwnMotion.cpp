@@ -45,15 +45,15 @@ std::vector<const Track*> columnsOf(const std::vector<Track>& tracks, const std:
                                     std::size_t first, const std::string& file) {
     std::vector<const Track*> columns;
     for (std::size_t k = first; k < header.size(); ++k) {
-        const auto found = std::find_if(tracks.begin(), tracks.end(),
-                                        [&](const Track& track) { return track.name == header[k]; });
+        const auto found =
+            std::ranges::find_if(tracks, [&](const Track& track) { return track.name == header[k]; });
         if (found == tracks.end()) {
             std::string names;
             for (const Track& track : tracks) names += (names.empty() ? "" : ", ") + track.name;
             throw InputError(Where{file, "", ""},
                              "no joint or muscle is called \"" + header[k] + "\"; expected some of " + names);
         }
-        if (std::find(columns.begin(), columns.end(), &*found) != columns.end())
+        if (std::ranges::find(columns, &*found) != columns.end())
             throw InputError(Where{file, "", ""}, "expected one column of " + header[k]);
         columns.push_back(&*found);
     }

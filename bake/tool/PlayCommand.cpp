@@ -56,7 +56,7 @@ std::vector<std::vector<double>> askedSteps(const SceneModel& scene, const PlayA
 
 /// How many steps ask for a pose outside of a joint's limits or planes.
 std::size_t countOutside(const SceneModel& scene, const std::vector<std::vector<double>>& steps) {
-    return static_cast<std::size_t>(std::count_if(steps.begin(), steps.end(), [&](const auto& row) {
+    return static_cast<std::size_t>(std::ranges::count_if(steps, [&](const auto& row) {
         std::size_t first = 0;
         for (const Joint& joint : scene.joints) {
             std::vector<double> slack;

@@ -59,8 +59,7 @@ void addTable(Json& json, const Table& table) {
     json["earlyOfSolids"] = knownOrNull(earlyOfSolids(table));
     json["epsilon"] = table.epsilon;
     json["certified"] = table.certified;
-    json["overlapAtRest"] =
-        std::count_if(table.restGaps.begin(), table.restGaps.end(), [](double g) { return g < 0; });
+    json["overlapAtRest"] = std::ranges::count_if(table.restGaps, [](double g) { return g < 0; });
     json["method"] = table.method;
     json["bytes"] = bytes(table);
 }

@@ -77,7 +77,7 @@ void mergeMetadata(Value::Object& stronger, Value::Object weaker) {
     for (auto& [key, value] : weaker) {
         const auto [at, isNew] = stronger.try_emplace(key, std::move(value));
         if (isNew) continue;
-        if (std::find(listKeys.begin(), listKeys.end(), key) != listKeys.end())
+        if (std::ranges::find(listKeys, key) != listKeys.end())
             at->second = joinedLists(at->second, value);
         else
             mergeDictionary(at->second, value);

@@ -58,8 +58,8 @@ static void mergeSpec(UsdSpec& stronger, UsdSpec weaker) {
     mergeUnder(stronger.prim, std::move(weaker.prim));
     mergeSpecs(stronger.children, std::move(weaker.children));
     for (UsdVariantSet& set : weaker.variantSets) {
-        const auto same = std::find_if(stronger.variantSets.begin(), stronger.variantSets.end(),
-                                       [&](const UsdVariantSet& s) { return s.name == set.name; });
+        const auto same = std::ranges::find_if(stronger.variantSets,
+                                               [&](const UsdVariantSet& s) { return s.name == set.name; });
         if (same == stronger.variantSets.end())
             stronger.variantSets.push_back(std::move(set));
         else
@@ -88,7 +88,7 @@ bool needsComposition(const UsdSpec& spec) {
         if (spec.prim.metadata.contains(key)) return true;
     for (const std::string& arc : arcsOf(spec.prim, "references"))
         if (arc.starts_with('@')) return true;
-    return std::any_of(spec.children.begin(), spec.children.end(), needsComposition);
+    return std::ranges::any_of(spec.children, needsComposition);
 }
 
 } // namespace tss

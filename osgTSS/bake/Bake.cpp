@@ -58,7 +58,7 @@ public:
 
 private:
     void tag(osg::Node& node, const std::vector<std::string>& names, const char* value) {
-        if (std::find(names.begin(), names.end(), node.getName()) == names.end()) return;
+        if (std::ranges::find(names, node.getName()) == names.end()) return;
         node.setUserValue(value, true);
         used.insert(node.getName());
     }

@@ -20,8 +20,7 @@ std::vector<int> weld(const std::vector<Vec3>& vertices) {
     std::vector<int> order(vertices.size()), representative(vertices.size());
     std::iota(order.begin(), order.end(), 0);
     const auto key = [&](int i) { return std::array{vertices[i].x(), vertices[i].y(), vertices[i].z()}; };
-    std::sort(order.begin(), order.end(),
-              [&](int i, int j) { return std::pair(key(i), i) < std::pair(key(j), j); });
+    std::ranges::sort(order, [&](int i, int j) { return std::pair(key(i), i) < std::pair(key(j), j); });
     for (std::size_t k = 0; k < order.size(); ++k) {
         const bool same = k > 0 && key(order[k]) == key(order[k - 1]);
         representative[order[k]] = same ? representative[order[k - 1]] : order[k];
@@ -60,7 +59,7 @@ std::vector<std::size_t> groupCorners(const Surface& surface, std::span<const Co
     std::vector<std::pair<int, std::size_t>> spokes;
     for (std::size_t c = 0; c < corners.size(); ++c)
         for (int step : {1, 2}) spokes.emplace_back(surface.at(corners[c].triangle, corners[c].k + step), c);
-    std::sort(spokes.begin(), spokes.end());
+    std::ranges::sort(spokes);
     for (std::size_t first = 0; first < spokes.size();) {
         std::size_t end = first;
         while (end < spokes.size() && spokes[end].first == spokes[first].first) ++end;
@@ -95,8 +94,7 @@ ShadedMesh shade(const tss::TriangleMesh& mesh, double creaseAngle) {
         result.triangles.push_back(mesh.triangles[t]);
         for (int k = 0; k < 3; ++k) corners.push_back({surface.at(t, k), t, k});
     }
-    std::stable_sort(corners.begin(), corners.end(),
-                     [](const Corner& a, const Corner& b) { return a.place < b.place; });
+    std::ranges::stable_sort(corners, [](const Corner& a, const Corner& b) { return a.place < b.place; });
     const double minCosine = std::cos(creaseAngle);
     for (std::size_t first = 0; first < corners.size();) {
         std::size_t end = first;

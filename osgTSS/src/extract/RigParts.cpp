@@ -56,7 +56,7 @@ std::vector<std::vector<int>> loopsOf(const std::set<Edge>& edges) {
             at = next->second;
             left.erase(next);
             // Where the way meets itself a loop is done.
-            const auto before = std::find(way.begin(), way.end(), at);
+            const auto before = std::ranges::find(way, at);
             if (before != way.end()) {
                 loops.emplace_back(before, way.end());
                 way.erase(before + 1, way.end());
@@ -127,9 +127,8 @@ private:
         sourceOf(*rig.rig).accept(corners);
         for (const auto& corner : corners.triangles) {
             Triangle triangle{{}, index};
-            const bool good = std::all_of(corner.begin(), corner.end(), [&](unsigned int v) {
-                return v < points.size() && finite(points[v]);
-            });
+            const bool good = std::ranges::all_of(
+                corner, [&](unsigned int v) { return v < points.size() && finite(points[v]); });
             if (!good) {
                 ++part(rig.place.body, index).dropped;
                 continue;
@@ -189,11 +188,11 @@ private:
                 holders[holder] += weight;
             }
         const auto lighter = [](const auto& a, const auto& b) { return a.second < b.second; };
-        triangle.body = std::max_element(bodies.begin(), bodies.end(), lighter)->first;
+        triangle.body = std::ranges::max_element(bodies, lighter)->first;
         std::erase_if(holders, [&](const auto& entry) {
             return _holders[static_cast<std::size_t>(entry.first)].place.body != triangle.body;
         });
-        const int main = std::max_element(holders.begin(), holders.end(), lighter)->first;
+        const int main = std::ranges::max_element(holders, lighter)->first;
         Part& of = part(triangle.body, triangle.rig);
         tss::Tri corners;
         for (int k = 0; k < 3; ++k)

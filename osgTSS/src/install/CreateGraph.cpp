@@ -112,8 +112,8 @@ private:
     JointTransform* makeJoint(const tss::Joint& joint) {
         osg::ref_ptr<JointTransform> transform = new JointTransform(joint);
         transform->setName(lastName(joint.path));
-        const bool driven = std::any_of(joint.drives.begin(), joint.drives.end(),
-                                        [](const tss::TimeSamples& drive) { return !drive.empty(); });
+        const bool driven =
+            std::ranges::any_of(joint.drives, [](const tss::TimeSamples& drive) { return !drive.empty(); });
         if (driven) transform->addUpdateCallback(new DriveCallback(&_scene));
         group(joint.body0)->addChild(transform);
         return transform;

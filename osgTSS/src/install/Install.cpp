@@ -42,13 +42,12 @@ osg::Node* lowestAbove(osg::Node& root, const std::vector<osg::Node*>& nodes) {
         for (const osg::NodePath& path : node->getParentalNodePaths(&root)) {
             if (first) common = path;
             first = false;
-            std::erase_if(common,
-                          [&](osg::Node* n) { return std::find(path.begin(), path.end(), n) == path.end(); });
+            std::erase_if(common, [&](osg::Node* n) { return std::ranges::find(path, n) == path.end(); });
         }
     if (common.empty()) return &root;
     // A rigged mesh is deformed within its skeleton, after the bones.
-    const bool bones = std::any_of(nodes.begin(), nodes.end(),
-                                   [](osg::Node* node) { return dynamic_cast<osgAnimation::Bone*>(node); });
+    const bool bones =
+        std::ranges::any_of(nodes, [](osg::Node* node) { return dynamic_cast<osgAnimation::Bone*>(node); });
     const auto skeleton = std::find_if(common.rbegin(), common.rend(), [](osg::Node* node) {
         return dynamic_cast<osgAnimation::Skeleton*>(node);
     });
@@ -80,7 +79,7 @@ void installGroup(osg::Node& root, Scene& scene, const std::vector<PairPlace>& g
     std::vector<std::string> paths;
     for (const PairPlace& place : group) {
         const std::string& path = model.pairs[place.pair].path;
-        if (std::find(paths.begin(), paths.end(), path) != paths.end()) {
+        if (std::ranges::find(paths, path) != paths.end()) {
             OSG_WARN << "osgTSS: pair " << path
                      << ": several machines of one name share joints; one is served" << std::endl;
             continue;

@@ -62,14 +62,14 @@ std::vector<int> Machines::candidates(const Extraction& in, int joint) const {
         }
         for (std::size_t j = 0; j < nodes.size(); ++j)
             if (ordinal(nodes, static_cast<int>(j)) == place &&
-                std::find(tagged->second.begin(), tagged->second.end(), nodes[j]) != tagged->second.end())
+                std::ranges::find(tagged->second, nodes[j]) != tagged->second.end())
                 found.push_back(static_cast<int>(j));
     }
     for (std::size_t j = 0; j < nodes.size(); ++j) {
         const std::string& name = in.found->joints[j].path;
         const bool same = name == path || (!_modelJoints.contains(name) &&
                                            (tail(name) == tail(path) || furtherOne(tail(name), tail(path))));
-        if (same && std::find(found.begin(), found.end(), static_cast<int>(j)) == found.end())
+        if (same && std::ranges::find(found, static_cast<int>(j)) == found.end())
             found.push_back(static_cast<int>(j));
     }
     return found;
@@ -85,7 +85,7 @@ void Machines::extend(const Extraction& in, const tss::Pair& pair, std::vector<i
         if (!chain.empty()) {
             const tss::Joint &a = in.found->joints[chain.back()], &b = in.found->joints[next];
             const bool touch = a.body0 == b.body0 || a.body0 == b.body1 || a.body1 == b.body0;
-            if (!touch || std::find(chain.begin(), chain.end(), next) != chain.end()) continue;
+            if (!touch || std::ranges::find(chain, next) != chain.end()) continue;
         }
         chain.push_back(next);
         extend(in, pair, chain, chains);
@@ -153,8 +153,8 @@ void Machines::tag(const PairPlace& place) const {
         const tss::Joint& joint = _model.joints[pair.joints[k]];
         const bool carries = [&] {
             const auto tagged = _tagged.find(joint.path);
-            return tagged != _tagged.end() && std::find(tagged->second.begin(), tagged->second.end(),
-                                                        place.joints[k]) != tagged->second.end();
+            return tagged != _tagged.end() &&
+                   std::ranges::find(tagged->second, place.joints[k]) != tagged->second.end();
         }();
         if (carries) continue; // it and its bodies are named already
         tagJoint(*place.joints[k], joint.path);

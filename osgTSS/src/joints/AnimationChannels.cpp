@@ -72,7 +72,7 @@ public:
         for (osg::Callback* callback = node.getUpdateCallback(); callback;
              callback = callback->getNestedCallback())
             if (auto* manager = dynamic_cast<AnimationManagerBase*>(callback))
-                if (std::find(found.begin(), found.end(), manager) == found.end()) found.push_back(manager);
+                if (std::ranges::find(found, manager) == found.end()) found.push_back(manager);
         traverse(node);
     }
     std::vector<AnimationManagerBase*> found;
@@ -118,7 +118,7 @@ std::vector<double> keyTimes(const Channel& channel) {
                 Vec4CubicBezierKeyframeContainer>(*container, times);
     if (times.empty() && container && container->size() > 0)
         times = {channel.getStartTime(), channel.getEndTime()};
-    std::sort(times.begin(), times.end());
+    std::ranges::sort(times);
     return times;
 }
 

@@ -41,7 +41,7 @@ public:
             const std::vector<double> keys = keyTimes(*channel);
             all.insert(all.end(), keys.begin(), keys.end());
         }
-        std::sort(all.begin(), all.end());
+        std::ranges::sort(all);
         all.erase(std::unique(all.begin(), all.end()), all.end());
         return all;
     }

@@ -180,7 +180,7 @@ public:
         const std::vector<double> values = asked();
         for (int turn = 0; turn < 2; ++turn)
             for (int i = 0; i < 3; ++i) {
-                const bool known = std::any_of(_slots.begin(), _slots.end(), [&](const DofSlot& slot) {
+                const bool known = std::ranges::any_of(_slots, [&](const DofSlot& slot) {
                     return slot.rotation == (turn == 1) && slot.component == i;
                 });
                 const float value = (turn ? _node->getCurrentHPR() : _node->getCurrentTranslate())[i];

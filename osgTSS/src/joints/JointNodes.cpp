@@ -61,7 +61,7 @@ public:
 private:
     void add(const std::string& path, osg::Node& node) {
         std::vector<osg::Node*>& nodes = found[path];
-        if (std::find(nodes.begin(), nodes.end(), &node) == nodes.end()) nodes.push_back(&node);
+        if (std::ranges::find(nodes, &node) == nodes.end()) nodes.push_back(&node);
     }
 };
 

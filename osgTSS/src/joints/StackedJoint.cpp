@@ -41,7 +41,7 @@ public:
 
 private:
     static bool has(const tss::Joint& joint, const tss::Dof& dof) {
-        return std::any_of(joint.dofs.begin(), joint.dofs.end(), [&](const tss::Dof& other) {
+        return std::ranges::any_of(joint.dofs, [&](const tss::Dof& other) {
             return other.kind == dof.kind && other.axis == dof.axis;
         });
     }

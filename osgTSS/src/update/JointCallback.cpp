@@ -29,7 +29,7 @@ struct BoundJoint {
     bool inPlace() const {
         for (std::size_t k = path.size(); k-- > 1;) {
             const osg::Node::ParentList& parents = path[k]->getParents();
-            if (std::find(parents.begin(), parents.end(), path[k - 1]) == parents.end()) return false;
+            if (std::ranges::find(parents, path[k - 1]) == parents.end()) return false;
         }
         return true;
     }
@@ -65,7 +65,7 @@ struct JointCallback::Binding {
             const Binding* before);
 
     bool stillGood(const Scene& scene) const {
-        return model == scene.shareModel() && std::all_of(bound.begin(), bound.end(), [](const auto& entry) {
+        return model == scene.shareModel() && std::ranges::all_of(bound, [](const auto& entry) {
                    const BoundJoint& joint = entry.second;
                    return !joint.access || (joint.access->valid() && joint.inPlace());
                });
@@ -139,7 +139,7 @@ void JointCallback::Binding::choose(const Scene& scene, const std::vector<std::s
         const int pair = tss::findPair(*model, path);
         if (pair < 0 || !model->pairs[pair].table) continue;
         const std::vector<int>& of = model->pairs[pair].joints;
-        if (std::all_of(of.begin(), of.end(), [&](int j) { return bound[j].access && bound[j].served; }))
+        if (std::ranges::all_of(of, [&](int j) { return bound[j].access && bound[j].served; }))
             served.push_back(path);
     }
     plan = scene.getCache().plan(served);
