@@ -146,7 +146,7 @@ EnclosingTree buildHubbard(const TriangleMesh& mesh, const Solid& solid, int lev
     Merging merging(surface);
     for (int l = levels; l >= 0; --l) {
         merging.mergeDownTo(std::size_t{1} << (3 * l));
-        auto& of = owner[static_cast<std::size_t>(l)];
+        auto& of = owner[l];
         for (std::uint32_t e = 0; e < elementCount; ++e) of.push_back(merging.find(e));
     }
     std::vector<std::vector<std::uint32_t>> open(1, std::vector<std::uint32_t>(elementCount));

@@ -156,7 +156,7 @@ std::vector<JointDof> pairDofs(const SceneModel& scene, const Pair& pair) {
     std::vector<JointDof> dofs;
     int body = pair.bodyA;
     for (int index : pair.joints) {
-        const Joint& joint = scene.joints[static_cast<std::size_t>(index)];
+        const Joint& joint = scene.joints[index];
         const bool backwards = joint.body0 != body;
         for (std::size_t k = 0; k < joint.dofs.size(); ++k)
             dofs.push_back({index, backwards ? joint.dofs.size() - 1 - k : k});
@@ -175,7 +175,7 @@ std::vector<UnderSkin> underSkin(const SceneModel& scene, const SkinModel& skin)
     for (const int joint : skin.weights.joints)
         if (std::ranges::find(skin.bones, joint) == skin.bones.end()) under.push_back({-1, -1, joint, -1});
     for (std::size_t m = 0; m < skin.muscles.size(); ++m) {
-        const int bone = scene.muscles[static_cast<std::size_t>(skin.muscles[m])].insertionBone;
+        const int bone = scene.muscles[skin.muscles[m]].insertionBone;
         if (bone < 0) continue;
         const auto moves = [&](const UnderSkin& u) { return u.bone == bone; };
         auto found = std::ranges::find_if(under, moves);

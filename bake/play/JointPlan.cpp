@@ -30,7 +30,7 @@ Placed place(const SceneModel& scene, int pair, JointPlan& plan) {
     }
     for (const JointDof& dof : pairDofs(scene, scene.pairs[pair])) {
         const auto at = std::ranges::find(plan.joints, dof.joint);
-        placed.slots.push_back(plan.firstValue[static_cast<std::size_t>(at - plan.joints.begin())] + dof.dof);
+        placed.slots.push_back(plan.firstValue[at - plan.joints.begin()] + dof.dof);
     }
     return placed;
 }

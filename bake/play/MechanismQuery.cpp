@@ -185,7 +185,7 @@ void MechanismQuery::Prepared::findOrder() {
         double most = -1;
         for (auto t = next; t != tables_.end(); ++t) {
             std::size_t ended = 0;
-            const std::vector<bool>& its = touching[static_cast<std::size_t>(t - tables_.begin())];
+            const std::vector<bool>& its = touching[t - tables_.begin()];
             for (std::size_t i = 0; i < samples; ++i) ended += open[i] && its[i];
             const double gain = (static_cast<double>(ended) + 1e-3) / costOf(t->table, t->placed);
             if (gain > most) most = gain, best = t;

@@ -83,7 +83,7 @@ std::vector<std::vector<double>> sharesOf(const SceneModel& scene, const SkinMod
     std::vector<std::size_t> frameOf;
     for (const int joint : weights.joints) {
         const auto found = std::ranges::find_if(under, [&](const UnderSkin& u) { return u.bone == joint; });
-        frameOf.push_back(static_cast<std::size_t>(frames[static_cast<std::size_t>(found - under.begin())]));
+        frameOf.push_back(static_cast<std::size_t>(frames[found - under.begin()]));
     }
     const std::size_t count = meshOf(scene, skin).vertices.size();
     shares.assign(static_cast<std::size_t>(*std::ranges::max_element(frames) + 1),
@@ -183,14 +183,14 @@ std::vector<Pose> skinPoses(const SceneModel& scene, const SkinModel& skin,
     std::vector<Pose> poses;
     bool any = false;
     const Pose& skinRest = scene.bodies.at(static_cast<std::size_t>(skin.body)).placement;
-    const Pose& skinNow = placements[static_cast<std::size_t>(skin.body)];
+    const Pose& skinNow = placements[skin.body];
     for (const UnderSkin& under : underSkin(scene, skin)) {
         const int bone = under.bone;
         poses.push_back(Pose::Identity());
         if (bone < 0) continue;
         any = true;
-        const Pose& boneRest = scene.bodies[static_cast<std::size_t>(bone)].placement;
-        const Pose& boneNow = placements[static_cast<std::size_t>(bone)];
+        const Pose& boneRest = scene.bodies[bone].placement;
+        const Pose& boneNow = placements[bone];
         const bool still = boneNow.matrix() == boneRest.matrix() && skinNow.matrix() == skinRest.matrix();
         if (!still) poses.back() = skinNow.inverse() * boneNow * boneRest.inverse() * skinRest;
     }

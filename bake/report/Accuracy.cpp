@@ -28,13 +28,11 @@ std::vector<Vec3> oneOfEach(const TriangleMesh& mesh) {
     std::vector<int> parent(mesh.vertices.size());
     std::iota(parent.begin(), parent.end(), 0);
     const auto find = [&](int v) {
-        while (parent[static_cast<std::size_t>(v)] != v)
-            v = parent[static_cast<std::size_t>(v)] =
-                parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(v)])];
+        while (parent[v] != v) v = parent[v] = parent[parent[v]];
         return v;
     };
     for (const Tri& t : mesh.triangles)
-        for (const int k : {1, 2}) parent[static_cast<std::size_t>(find(t[k]))] = find(t[0]);
+        for (const int k : {1, 2}) parent[find(t[k])] = find(t[0]);
     std::vector<Vec3> points;
     std::vector<char> seen(parent.size(), 0);
     for (const Tri& t : mesh.triangles) {

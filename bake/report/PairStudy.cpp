@@ -161,8 +161,8 @@ void measureRows(PairStudy& study, const std::vector<StudiedModel>& field, const
 void describe(PairStudy& study, const SceneModel& scene, const Pair& pair, const Motion& motion) {
     const auto last = [](const std::string& path) { return path.substr(path.rfind('/') + 1); };
     study.path = pair.path;
-    study.nameA = last(scene.bodies[static_cast<std::size_t>(pair.bodyA)].path);
-    study.nameB = last(scene.bodies[static_cast<std::size_t>(pair.bodyB)].path);
+    study.nameA = last(scene.bodies[pair.bodyA].path);
+    study.nameB = last(scene.bodies[pair.bodyB].path);
     study.millimetres = 1000 * scene.metersPerUnit;
     for (const Dof& dof : motion.dofs) {
         const double factor = dof.kind == DofKind::Rotation ? toDegrees(1) : 1;
@@ -290,8 +290,8 @@ PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptio
     checkMotion(motion);
     describe(study, scene, pair, motion);
     const auto finish = [&] { study.seconds = std::chrono::duration<double>(Clock::now() - start).count(); };
-    const TriangleMesh a = cleaned(scene.bodies[static_cast<std::size_t>(pair.bodyA)].mesh);
-    const TriangleMesh b = cleaned(scene.bodies[static_cast<std::size_t>(pair.bodyB)].mesh);
+    const TriangleMesh a = cleaned(scene.bodies[pair.bodyA].mesh);
+    const TriangleMesh b = cleaned(scene.bodies[pair.bodyB].mesh);
     study.trianglesA = a.triangles.size();
     study.trianglesB = b.triangles.size();
 

@@ -81,10 +81,8 @@ double deepestBeyond(const std::vector<double>& now, const std::vector<double>& 
 double areaOf(std::span<const Vec3> positions, const std::vector<Tri>& triangles) {
     double area = 0;
     for (const Tri& t : triangles) {
-        const Vec3& a = positions[static_cast<std::size_t>(t[0])];
-        area += 0.5 * (positions[static_cast<std::size_t>(t[1])] - a)
-                          .cross(positions[static_cast<std::size_t>(t[2])] - a)
-                          .norm();
+        const Vec3& a = positions[t[0]];
+        area += 0.5 * (positions[t[1]] - a).cross(positions[t[2]] - a).norm();
     }
     return area;
 }
@@ -104,8 +102,7 @@ std::vector<std::vector<Vec3>> convergedSteps(const SceneModel& scene, const Ski
                                               const Muscles& muscles, const std::vector<Activations>& asked) {
     SkinParameters parameters = skinParameters(scene, skin);
     parameters.iterations = 2000;
-    SkinResponse response(makeSkinRig(scene.bodies[static_cast<std::size_t>(skin.body)].mesh, muscles,
-                                      *skin.table, parameters));
+    SkinResponse response(makeSkinRig(scene.bodies[skin.body].mesh, muscles, *skin.table, parameters));
     std::vector<std::vector<Vec3>> steps;
     for (const Activations& activations : asked) {
         response.update(activations);
@@ -183,7 +180,7 @@ SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, 
     SkinMotionStudy study;
     const std::vector<Activations> asked = motionOf(scene, skin, muscles, quick ? 37 : 73, study.motion);
     study.steps = asked.size();
-    const TriangleMesh& mesh = scene.bodies[static_cast<std::size_t>(skin.body)].mesh;
+    const TriangleMesh& mesh = scene.bodies[skin.body].mesh;
     const auto rigOf = [&](int sweeps) {
         SkinParameters parameters = skinParameters(scene, skin);
         if (sweeps > 0) parameters.iterations = sweeps;

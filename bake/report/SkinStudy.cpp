@@ -122,7 +122,7 @@ SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const Report
     study.path = skin.path;
     study.millimetres = 1000 * scene.metersPerUnit;
     study.activations = options.quick ? 9 : 33;
-    const TriangleMesh& mesh = scene.bodies[static_cast<std::size_t>(skin.body)].mesh;
+    const TriangleMesh& mesh = scene.bodies[skin.body].mesh;
     const BakeOptions settings = optionsFor(skin.settings, {}, scene.metersPerUnit);
     PairReport notes;
     const MusclesInMotion muscles = musclesInMotion(scene, skin, settings, notes);
@@ -139,9 +139,9 @@ SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const Report
     study.carriedTests = carried.table->table.testCount();
 
     runSkinMethods(settingOf(mesh, skin, atRest, muscles, study), study);
-    study.notRun.push_back(
-        {"FCL, Bullet on the skin", "they answer for triangles of two rigid meshes; here each skin vertex "
-                                    "needs its own verdict on a surface that deforms"});
+    study.notRun.push_back({"FCL, Bullet on the skin",
+                            "they answer for triangles of two rigid meshes; here each skin vertex "
+                            "needs its own verdict on a surface that deforms"});
     study.notRun.push_back({"angular region, allowed paths, C-space grid",
                             "one activation a muscle would fit a grid, but each of the vertices needs one of "
                             "its own: that is a stored animation, not a test"});

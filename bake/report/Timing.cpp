@@ -22,7 +22,7 @@ double secondsOf(const compare::CollisionMethod& method, std::span<const compare
 }
 
 double at(const std::vector<double>& sorted, double share) {
-    return sorted[static_cast<std::size_t>(std::round(share * static_cast<double>(sorted.size() - 1)))];
+    return sorted[std::size_t(std::round(share * static_cast<double>(sorted.size() - 1)))];
 }
 
 } // namespace

@@ -102,7 +102,7 @@ const Fields<BakeRecord>& recordFields();
 template <class Items>
 std::vector<std::string> pathsOf(const Items& items, const std::vector<int>& indices) {
     std::vector<std::string> paths;
-    for (int index : indices) paths.push_back(items[static_cast<std::size_t>(index)].path);
+    for (int index : indices) paths.push_back(items[index].path);
     return paths;
 }
 

@@ -251,11 +251,7 @@ std::vector<JointCallback::Answer> JointCallback::getAnswers(const osg::Node& no
     for (std::size_t g = 0; binding && g < binding->found.size(); ++g) {
         const tss::JointAnswer& found = binding->found[g];
         const std::string path =
-            found.table < 0
-                ? ""
-                : binding->model
-                      ->pairs[(*binding->plan)->groups[g].pairs[static_cast<std::size_t>(found.table)]]
-                      .path;
+            found.table < 0 ? "" : binding->model->pairs[(*binding->plan)->groups[g].pairs[found.table]].path;
         answers.push_back({found.status, found.gap, path, found.test});
     }
     return answers;

@@ -31,14 +31,14 @@ public:
             _found.emplace_back().skeleton = skeleton;
         } else if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node);
                    bone && _in >= 0 && updated(*bone)) {
-            _found[static_cast<std::size_t>(_in)].bones.emplace_back(bone);
+            _found[_in].bones.emplace_back(bone);
         }
         traverse(node);
         _in = above;
     }
     void apply(osg::Geometry& drawable) override {
         if (auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable); rig && _in >= 0)
-            _found[static_cast<std::size_t>(_in)].rigs.emplace_back(rig);
+            _found[_in].rigs.emplace_back(rig);
     }
 
 private:
