@@ -2,10 +2,10 @@
 
 #include "bake/base/Error.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
-#include <filesystem>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -82,6 +82,10 @@ std::string readWholeFile(const std::string& file) {
     }
     content.resize(have);
     return content;
+}
+
+bool isWithin(const std::filesystem::path& path, const std::filesystem::path& folder) {
+    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
 } // namespace tss

@@ -1,9 +1,9 @@
 #ifdef OSGTSS_IMPORT
 #include "bake/geometry/NearbyFiles.h"
 
+#include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <fstream>
 
@@ -17,10 +17,6 @@ fs::path realPath(const fs::path& path) {
     std::error_code error;
     const fs::path whole = fs::absolute(path, error), real = fs::weakly_canonical(whole, error);
     return error ? whole.lexically_normal() : real;
-}
-
-bool isWithin(const fs::path& path, const fs::path& folder) {
-    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
 /// Little-endian, as glTF has it.

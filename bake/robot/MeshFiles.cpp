@@ -22,11 +22,6 @@ fs::path realPath(const fs::path& path) {
     return error ? path.lexically_normal() : real;
 }
 
-bool isWithin(const fs::path& path, const fs::path& folder) {
-    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
-    return end == folder.end();
-}
-
 /// The name that a package.xml gives; empty where the folder has none.
 std::string packageName(const fs::path& folder) {
     std::error_code none;

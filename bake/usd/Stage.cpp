@@ -319,10 +319,6 @@ private:
     std::size_t prims_ = 0, numbers_ = 0;
 };
 
-bool isWithin(const std::filesystem::path& path, const std::filesystem::path& folder) {
-    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
-}
-
 } // namespace
 
 OpenUsd besideUsd(const std::string& file, const std::vector<std::string>& others) {
