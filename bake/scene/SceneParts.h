@@ -76,10 +76,6 @@ std::vector<SchemaType> muscleSchemas();
 
 void readSkins(SceneReading& reading);
 void writeSkins(Layer& layer, const SceneModel& scene);
-/// The weights that a skin of so many vertices brings along.
-SkinWeights readSkinWeights(const SceneReading& reading, const PrimReader& prim, std::size_t vertices);
-void writeSkinWeights(PrimWriter& prim, const SceneModel& scene, const SkinWeights& weights);
-SchemaType skinWeightsSchema();
 std::vector<SchemaType> skinSchemas();
 
 /// Tables and proofs of pairs and skins. Into a layer of the same scene, of which everything else stays as it
