@@ -32,8 +32,10 @@ std::vector<int> findWay(const std::vector<Joint>& joints, int from, int to, int
     return way;
 }
 
-std::string primName(const std::string& path) {
-    return path.substr(path.rfind('/') + 1);
+template <class Items>
+int indexOf(const Items& items, const std::string& path) {
+    const auto found = std::ranges::find(items, path, &Items::value_type::path);
+    return found == items.end() ? -1 : static_cast<int>(found - items.begin());
 }
 
 /// The DOF of a joint, with its axis as seen from A: x -> place * D * place^-1.
@@ -141,15 +143,27 @@ Motion pairMotion(const SceneModel& scene, const Pair& pair) {
 }
 
 int findBody(const SceneModel& scene, const std::string& path) {
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-        if (scene.bodies[i].path == path) return static_cast<int>(i);
-    return -1;
+    return indexOf(scene.bodies, path);
 }
 
 int findPair(const SceneModel& scene, const std::string& path) {
-    for (std::size_t i = 0; i < scene.pairs.size(); ++i)
-        if (scene.pairs[i].path == path) return static_cast<int>(i);
-    return -1;
+    return indexOf(scene.pairs, path);
+}
+
+bool hasPath(const SceneModel& scene, const std::string& path) {
+    return indexOf(scene.bodies, path) >= 0 || indexOf(scene.joints, path) >= 0 ||
+           indexOf(scene.muscles, path) >= 0 || indexOf(scene.pairs, path) >= 0;
+}
+
+double largestDiagonal(const SceneModel& scene) {
+    double largest = 0;
+    for (const Body& body : scene.bodies)
+        if (!body.mesh.vertices.empty()) largest = std::max(largest, diagonal(body.mesh));
+    return largest;
+}
+
+std::string primName(const std::string& path) {
+    return path.substr(path.rfind('/') + 1);
 }
 
 std::vector<JointDof> pairDofs(const SceneModel& scene, const Pair& pair) {

@@ -159,10 +159,9 @@ void measureRows(PairStudy& study, const std::vector<StudiedModel>& field, const
 }
 
 void describe(PairStudy& study, const SceneModel& scene, const Pair& pair, const Motion& motion) {
-    const auto last = [](const std::string& path) { return path.substr(path.rfind('/') + 1); };
     study.path = pair.path;
-    study.nameA = last(scene.bodies[pair.bodyA].path);
-    study.nameB = last(scene.bodies[pair.bodyB].path);
+    study.nameA = primName(scene.bodies[pair.bodyA].path);
+    study.nameB = primName(scene.bodies[pair.bodyB].path);
     study.millimetres = 1000 * scene.metersPerUnit;
     for (const Dof& dof : motion.dofs) {
         const double factor = dof.kind == DofKind::Rotation ? toDegrees(1) : 1;

@@ -15,10 +15,6 @@ namespace tss {
 
 namespace {
 
-std::string nameOf(const std::string& path) {
-    return path.substr(path.rfind('/') + 1);
-}
-
 /// The values of a pair's chain, in the order of its motion.
 std::string poseText(const SceneModel& scene, const Pair& pair, const Motion& motion,
                      const std::vector<double>& q) {
@@ -30,7 +26,7 @@ std::string poseText(const SceneModel& scene, const Pair& pair, const Motion& mo
             const bool turns = motion.dofs[k].kind == DofKind::Rotation;
             char value[40];
             std::snprintf(value, sizeof value, "%.6g", turns ? q[k] * 180 / std::numbers::pi : q[k]);
-            text += (text.empty() ? "" : ", ") + nameOf(joint.path) +
+            text += (text.empty() ? "" : ", ") + primName(joint.path) +
                     (joint.dofs.size() > 1 ? ":" + motion.dofs[k].name : "") + " " + value;
         }
     }
@@ -193,7 +189,7 @@ private:
 } // namespace
 
 std::string originalName(const Body& body) {
-    return body.displayName.empty() ? nameOf(body.path) : body.displayName;
+    return body.displayName.empty() ? primName(body.path) : body.displayName;
 }
 
 std::vector<PairEvidence> evidenceOf(const SceneModel& scene) {

@@ -31,22 +31,12 @@ bool isPair(const SceneModel& scene, int a, int b) {
     });
 }
 
-std::string nameOf(const std::string& path) {
-    return path.substr(path.rfind('/') + 1);
-}
-
 /// A path beside the first body that nothing has yet.
 std::string freePath(const SceneModel& scene, const Pair& pair) {
-    const std::string& a = scene.bodies[pair.bodyA].path;
-    const std::string wanted = a + "_" + nameOf(scene.bodies[pair.bodyB].path);
-    const auto taken = [&](const std::string& path) {
-        const auto same = [&](const auto& item) { return item.path == path; };
-        return (scene.layer && findPrim(*scene.layer, path)) || std::ranges::any_of(scene.bodies, same) ||
-               std::ranges::any_of(scene.joints, same) || std::ranges::any_of(scene.muscles, same) ||
-               std::ranges::any_of(scene.pairs, same);
-    };
+    const std::string wanted = scene.bodies[pair.bodyA].path + "_" + primName(scene.bodies[pair.bodyB].path);
     std::string path = wanted;
-    for (int k = 2; taken(path); ++k) path = wanted + std::to_string(k);
+    for (int k = 2; hasPath(scene, path) || (scene.layer && findPrim(*scene.layer, path)); ++k)
+        path = wanted + std::to_string(k);
     return path;
 }
 

@@ -12,14 +12,10 @@ namespace osgTSS {
 
 namespace {
 
-std::string tail(const std::string& path) {
-    return path.substr(path.rfind('/') + 1);
-}
-
 /// "Gun2" is a further "Gun".
-bool furtherOne(const std::string& name, const std::string& first) {
-    return name.size() > first.size() && name.compare(0, first.size(), first) == 0 &&
-           name.find_first_not_of("0123456789", first.size()) == std::string::npos;
+bool sameKind(const std::string& path, const std::string& other) {
+    const std::string name = tss::primName(path), first = tss::primName(other);
+    return name.starts_with(first) && name.find_first_not_of("0123456789", first.size()) == name.npos;
 }
 
 /// Which of the joints of its node a found joint is.
@@ -67,8 +63,7 @@ std::vector<int> Machines::candidates(const Extraction& in, int joint) const {
     }
     for (std::size_t j = 0; j < nodes.size(); ++j) {
         const std::string& name = in.found->joints[j].path;
-        const bool same = name == path || (!_modelJoints.contains(name) &&
-                                           (tail(name) == tail(path) || furtherOne(tail(name), tail(path))));
+        const bool same = name == path || (!_modelJoints.contains(name) && sameKind(name, path));
         if (same && std::ranges::find(found, static_cast<int>(j)) == found.end())
             found.push_back(static_cast<int>(j));
     }
