@@ -107,16 +107,14 @@ std::string jsonOf(const Report& report) {
               {"times", {{"seconds", report.seconds}}},
               {"pairs", Json::array()},
               {"skins", Json::array()}};
-    for (std::size_t k = 0; k < report.pairs.size(); ++k) {
-        Json pair = jsonOf(report.pairs[k]);
-        for (const Plot& plot : report.pairPlots[k]) pair["plots"].push_back(plot.file);
-        json["pairs"].push_back(std::move(pair));
-    }
-    for (std::size_t k = 0; k < report.skins.size(); ++k) {
-        Json skin = jsonOf(report.skins[k]);
-        for (const Plot& plot : report.skinPlots[k]) skin["plots"].push_back(plot.file);
-        json["skins"].push_back(std::move(skin));
-    }
+    const auto add = [&](const char* kind, const auto& studies, const auto& plots) {
+        for (std::size_t k = 0; k < studies.size(); ++k) {
+            Json& study = json[kind].emplace_back(jsonOf(studies[k]));
+            for (const Plot& plot : plots[k]) study["plots"].push_back(plot.file);
+        }
+    };
+    add("pairs", report.pairs, report.pairPlots);
+    add("skins", report.skins, report.skinPlots);
     return json.dump(1) + "\n";
 }
 

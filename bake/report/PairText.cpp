@@ -9,10 +9,6 @@ namespace tss::reporting {
 
 namespace {
 
-std::string share(std::size_t part, std::size_t whole) {
-    return whole == 0 ? "–" : part == 0 ? "0" : fmt::format("{} of {}", part, whole);
-}
-
 const Row* findRow(const PairStudy& study, const std::string& method, const std::string& setting) {
     for (const Row& row : study.rows)
         if (row.method == method && row.setting == setting) return &row;
@@ -86,9 +82,9 @@ std::string ratioTable(const PairStudy& study) {
         text += fmt::format(
             "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
             point.name == study.base.name ? "**" + point.name + "**" : point.name, point.tests,
-            share(ours->misses(), ours->uniform.touching + ours->near.touching),
+            shareText(ours->misses(), ours->uniform.touching + ours->near.touching),
             ours->misses() ? number(study.millimetres * ours->deepestMiss()) : "",
-            share(ours->uniform.early, ours->uniform.poses - ours->uniform.touching),
+            shareText(ours->uniform.early, ours->uniform.poses - ours->uniform.touching),
             ours->uniform.early + ours->near.early ? number(study.millimetres * ours->farthestEarly()) : "",
             timeText(ours->times), against(findRow(study, "tss-scalar", point.name)),
             against(findRow(study, "tree-all-8-balls", point.name)), against(fcl), against(bullet));

@@ -28,6 +28,10 @@ std::string bytesText(std::size_t bytes) {
     return fmt::format("{} MB", bytes / 1000000);
 }
 
+std::string shareText(std::size_t part, std::size_t whole) {
+    return whole == 0 ? "–" : part == 0 ? "0" : fmt::format("{} of {}", part, whole);
+}
+
 std::string notRunText(const std::vector<NotRun>& notRun) {
     std::string text;
     for (const NotRun& entry : notRun) text += fmt::format("- {}: {}.\n", entry.method, entry.reason);
