@@ -1,6 +1,7 @@
 #include "StackedJoint.h"
 
 #include "StackedDof.h"
+#include "osgTSS/src/CallbackOf.h"
 
 #include "bake/base/Error.h"
 
@@ -98,10 +99,7 @@ private:
 osgAnimation::UpdateMatrixTransform* stackOf(osg::Node& node) {
     if (!dynamic_cast<osg::MatrixTransform*>(&node) || dynamic_cast<osgAnimation::Bone*>(&node))
         return nullptr;
-    for (osg::Callback* callback = node.getUpdateCallback(); callback;
-         callback = callback->getNestedCallback())
-        if (auto* found = dynamic_cast<osgAnimation::UpdateMatrixTransform*>(callback)) return found;
-    return nullptr;
+    return callbackOf<osgAnimation::UpdateMatrixTransform>(node.getUpdateCallback());
 }
 
 FoundJoints stackedJoints(osgAnimation::UpdateMatrixTransform& animation, const AnimationChannels& channels,

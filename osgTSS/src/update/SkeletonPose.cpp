@@ -1,21 +1,11 @@
 #include "SkeletonPose.h"
 
+#include "osgTSS/src/CallbackOf.h"
+
 #include <osg/NodeVisitor>
 #include <osgAnimation/UpdateBone>
 
 namespace osgTSS {
-
-namespace {
-
-/// A bone without such a callback keeps the matrix in the skeleton that it has.
-bool updated(osg::Node& node) {
-    for (osg::Callback* callback = node.getUpdateCallback(); callback;
-         callback = callback->getNestedCallback())
-        if (dynamic_cast<osgAnimation::UpdateBone*>(callback)) return true;
-    return false;
-}
-
-} // namespace
 
 class SkeletonPose::Collect : public osg::NodeVisitor {
 public:
@@ -30,7 +20,8 @@ public:
             _in = static_cast<int>(_found.size());
             _found.emplace_back().skeleton = skeleton;
         } else if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node);
-                   bone && _in >= 0 && updated(*bone)) {
+                   bone && _in >= 0 && callbackOf<osgAnimation::UpdateBone>(bone->getUpdateCallback())) {
+            // One without such a callback keeps the matrix in the skeleton that it has.
             _found[_in].bones.emplace_back(bone);
         }
         traverse(node);
