@@ -57,22 +57,15 @@ Option* Option::positive() {
 Options* Options::add_subcommand(const std::string& name, const std::string& description) {
     return &commands_.emplace_back(*app_.add_subcommand(name, description));
 }
-Option* Options::add_option(const std::string& name, std::string& value, const std::string& description) {
+template <class Value>
+Option* Options::add_option(const std::string& name, Value& value, const std::string& description) {
     return keep(app_.add_option(name, value, description));
 }
-Option* Options::add_option(const std::string& name, std::vector<std::string>& values,
-                            const std::string& description) {
-    return keep(app_.add_option(name, values, description));
-}
-Option* Options::add_option(const std::string& name, int& value, const std::string& description) {
-    return keep(app_.add_option(name, value, description));
-}
-Option* Options::add_option(const std::string& name, double& value, const std::string& description) {
-    return keep(app_.add_option(name, value, description));
-}
-Option* Options::add_option(const std::string& name, std::uint64_t& value, const std::string& description) {
-    return keep(app_.add_option(name, value, description));
-}
+template Option* Options::add_option(const std::string&, std::string&, const std::string&);
+template Option* Options::add_option(const std::string&, std::vector<std::string>&, const std::string&);
+template Option* Options::add_option(const std::string&, int&, const std::string&);
+template Option* Options::add_option(const std::string&, double&, const std::string&);
+template Option* Options::add_option(const std::string&, std::uint64_t&, const std::string&);
 Option* Options::add_option(const std::string& name, const std::function<void(const std::string&)>& given,
                             const std::string& description) {
     return keep(app_.add_option_function<std::string>(name, given, description));

@@ -55,9 +55,7 @@ std::string tally(const Json& pairs) {
 /// A tolerance so fine for the size of a body is mostly one in another unit, and takes hours.
 void remarkTolerance(const SceneModel& scene, const BakeOptions& options, const Console& console) {
     constexpr double fine = 2e-5; // of a body's diagonal
-    double size = 0;
-    for (const Body& body : scene.bodies)
-        if (!body.mesh.vertices.empty()) size = std::max(size, diagonal(body.mesh));
+    const double size = largestDiagonal(scene);
     if (options.tolerance && *options.tolerance < fine * size)
         console.say(fmt::format(
             "note: a tolerance of {} on a body of {} takes very many spheres; is the scene's unit {} m long?",

@@ -11,7 +11,6 @@
 #include "bake/scene/WriteUsda.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/RobotInput.h"
-#include "bake/tool/UsdInput.h"
 #include "bake/tool/WriteSpheres.h"
 
 #include <filesystem>

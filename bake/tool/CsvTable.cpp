@@ -3,6 +3,7 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/pipeline/BakeOptions.h"
+#include "bake/tool/DofSpec.h"
 
 #include <algorithm>
 #include <cctype>
@@ -66,15 +67,22 @@ CsvTable readCsv(const std::string& file, std::size_t columns) {
     return csv;
 }
 
-void checkColumns(const CsvTable& csv, const std::vector<std::string>& names, const std::string& file,
+void checkColumns(const CsvTable& csv, const std::vector<Dof>& dofs, const std::string& file,
                   std::size_t first) {
-    for (std::size_t k = 0; k < names.size() && first + k < csv.header.size(); ++k) {
+    for (std::size_t k = 0; k < dofs.size() && first + k < csv.header.size(); ++k) {
         const std::string& found = csv.header[first + k];
-        if (found != names[k] && std::ranges::find(names, found) != names.end())
+        if (found != dofs[k].name && std::ranges::find(dofs, found, &Dof::name) != dofs.end())
             throw InputError(Where{file, "", ""}, "column " + std::to_string(first + k + 1) +
-                                                      ": expected the degree of freedom \"" + names[k] +
+                                                      ": expected the degree of freedom \"" + dofs[k].name +
                                                       "\", found \"" + found + "\"");
     }
+}
+
+std::vector<std::vector<double>> readPoses(const std::string& file, const std::vector<Dof>& dofs) {
+    CsvTable csv = readCsv(file, dofs.size());
+    checkColumns(csv, dofs, file);
+    for (std::vector<double>& row : csv.rows) row = fromUser(dofs, row);
+    return csv.rows;
 }
 
 } // namespace tss::tool

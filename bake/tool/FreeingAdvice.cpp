@@ -3,6 +3,7 @@
 #include "bake/geometry/MeshAudit.h"
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/pipeline/FreeingMove.h"
+#include "bake/robot/PairEvidence.h"
 #include "bake/tool/DofSpec.h"
 
 #include <algorithm>
@@ -35,10 +36,6 @@ std::string dofText(const Dof& dof, double size) {
     return fmt::format("rot:{}:{}:{}", vectorText(dof.origin, size), vectorText(dof.axis, 1), limits);
 }
 
-std::string bareName(const Body& body) {
-    return body.displayName.empty() ? body.path.substr(body.path.rfind('/') + 1) : body.displayName;
-}
-
 /// How the scene was made, as far as it shows: which options of `tss make` move B.
 enum class Form { TwoMeshes, Joint, None };
 
@@ -59,7 +56,7 @@ class Adviser {
 public:
     Adviser(const SceneModel& scene, const Pair& pair, const Console& console)
         : unit_(scene.metersPerUnit), pair_(pair), console_(console), motion_(pairMotion(scene, pair)),
-          a_(bareName(scene.bodies[pair.bodyA])), b_(bareName(scene.bodies[pair.bodyB])) {
+          a_(originalName(scene.bodies[pair.bodyA])), b_(originalName(scene.bodies[pair.bodyB])) {
         // What `tss make` has made: B has the axes of A, moved by the offset.
         const Pose atZero = pose(motion_, std::vector<double>(motion_.dofCount(), 0.0));
         if ((atZero.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-6) form_ = formOf(scene, pair);
@@ -101,8 +98,7 @@ private:
         if (dofs_ && dofs)
             for (const Dof& dof : motion.dofs) texts.push_back(dofText(dof, size_));
         if (form_ == Form::Joint)
-            return fmt::format("--joint '{}={},{}:{};offset:{}'",
-                               pair_.path.substr(pair_.path.rfind('/') + 1), a_, b_,
+            return fmt::format("--joint '{}={},{}:{};offset:{}'", primName(pair_.path), a_, b_,
                                dofs_ ? fmt::format("{}", fmt::join(texts, ";")) : "DOFS AS GIVEN", by);
         std::string text = "--b-offset=" + by;
         for (const std::string& dof : texts) text += " --dof " + dof;

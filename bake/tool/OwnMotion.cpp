@@ -18,10 +18,6 @@ struct Track {
     std::function<double(double)> fromUser;
 };
 
-std::string bareName(const std::string& path) {
-    return path.substr(path.rfind('/') + 1);
-}
-
 /// All of a scene, each without samples.
 std::vector<Track> clearedTracks(SceneModel& scene) {
     std::vector<Track> tracks;
@@ -29,13 +25,13 @@ std::vector<Track> clearedTracks(SceneModel& scene) {
         joint.drives.assign(joint.dofs.size(), {});
         for (std::size_t k = 0; k < joint.dofs.size(); ++k) {
             const Dof& dof = joint.dofs[k];
-            tracks.push_back({bareName(joint.path) + (joint.dofs.size() > 1 ? ":" + dof.name : ""),
+            tracks.push_back({primName(joint.path) + (joint.dofs.size() > 1 ? ":" + dof.name : ""),
                               &joint.drives[k], [&dof](double value) { return fromUser(dof, value); }});
         }
     }
     for (MuscleModel& muscle : scene.muscles) {
         muscle.activation = {};
-        tracks.push_back({bareName(muscle.path), &muscle.activation, [](double value) { return value; }});
+        tracks.push_back({primName(muscle.path), &muscle.activation, [](double value) { return value; }});
     }
     return tracks;
 }

@@ -29,29 +29,20 @@ struct PlayArguments {
 
 /// The asked DOF values of all joints, one row a step; joints in file order, DOFs in the joint's order.
 std::vector<std::vector<double>> askedSteps(const SceneModel& scene, const PlayArguments& arguments) {
-    std::vector<const Dof*> dofs;
-    for (const Joint& joint : scene.joints)
-        for (const Dof& dof : joint.dofs) dofs.push_back(&dof);
-    std::vector<std::vector<double>> steps;
-    if (!arguments.motion.empty()) {
-        CsvTable csv = readCsv(arguments.motion);
-        const bool numbered = !csv.header.empty() && (csv.header[0] == "step" || csv.header[0] == "time");
-        std::vector<std::string> names;
-        names.reserve(dofs.size());
-        for (const Dof* dof : dofs) names.push_back(dof->name);
-        checkColumns(csv, names, arguments.motion, numbered ? 1 : 0);
-        for (auto& row : csv.rows) {
-            if (numbered) row.erase(row.begin());
-            if (row.size() != dofs.size())
-                throw InputError(Where{arguments.motion, "", ""},
-                                 fmt::format("expected {} columns, one a DOF of the scene's joints, found {}",
-                                             dofs.size(), row.size()));
-            for (std::size_t k = 0; k < dofs.size(); ++k) row[k] = fromUser(*dofs[k], row[k]);
-            steps.push_back(row);
-        }
-        return steps;
+    if (arguments.motion.empty()) return drivenSteps(scene);
+    const std::vector<Dof> dofs = dofsOf(scene);
+    CsvTable csv = readCsv(arguments.motion);
+    const bool numbered = !csv.header.empty() && (csv.header[0] == "step" || csv.header[0] == "time");
+    checkColumns(csv, dofs, arguments.motion, numbered ? 1 : 0);
+    for (std::vector<double>& row : csv.rows) {
+        if (numbered) row.erase(row.begin());
+        if (row.size() != dofs.size())
+            throw InputError(Where{arguments.motion, "", ""},
+                             fmt::format("expected {} columns, one a DOF of the scene's joints, found {}",
+                                         dofs.size(), row.size()));
+        row = fromUser(dofs, row);
     }
-    return drivenSteps(scene);
+    return csv.rows;
 }
 
 /// How many steps ask for a pose outside of a joint's limits or planes.
@@ -85,7 +76,7 @@ std::string objText(const SceneModel& scene, const std::vector<TriangleMesh>& me
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         if (meshes[k].empty()) continue;
         const std::string& path = scene.bodies[k].path;
-        text += fmt::format("g {}\n", path.substr(path.rfind('/') + 1));
+        text += fmt::format("g {}\n", primName(path));
         for (const Vec3& x : meshes[k].vertices) text += fmt::format("v {} {} {}\n", x.x(), x.y(), x.z());
         for (const Tri& t : meshes[k].triangles)
             text += fmt::format("f {} {} {}\n", first + t[0], first + t[1], first + t[2]);
@@ -115,11 +106,9 @@ std::string header(const SceneModel& scene) {
     for (const char* prefix : {"asked_", ""})
         for (const Joint& joint : scene.joints)
             for (const Dof& dof : joint.dofs)
-                text +=
-                    fmt::format(",{}{}:{}", prefix, joint.path.substr(joint.path.rfind('/') + 1), dof.name);
+                text += fmt::format(",{}{}:{}", prefix, primName(joint.path), dof.name);
     text += ",table_gap,status";
-    for (const SkinModel& skin : scene.skins)
-        text += fmt::format(",residual_{}", skin.path.substr(skin.path.rfind('/') + 1));
+    for (const SkinModel& skin : scene.skins) text += fmt::format(",residual_{}", primName(skin.path));
     return text + "\n";
 }
 

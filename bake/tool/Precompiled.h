@@ -1,4 +1,5 @@
-// Others' headers that most sources of the command include: compiled once for all of them (OSGTSS_PRECOMPILE).
+// Others' headers that most sources of the command include: compiled once for all of them
+// (OSGTSS_PRECOMPILE).
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <fmt/format.h>

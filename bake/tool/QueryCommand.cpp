@@ -8,7 +8,7 @@
 #include "bake/tool/ChoosePair.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/CsvTable.h"
-#include "bake/tool/DofSpec.h"
+#include "bake/tool/DrivenSteps.h"
 
 #include <fmt/format.h>
 
@@ -53,30 +53,21 @@ void runAllPairs(const QueryArguments& arguments, const Console& console) {
     using Verdict = MechanismAnswer::Verdict;
     const SceneModel scene = loadScene(arguments.scene);
     requireFresh(scene, arguments.scene);
-    std::vector<const Dof*> dofs;
-    std::vector<std::string> names;
-    for (const Joint& joint : scene.joints)
-        for (const Dof& dof : joint.dofs) {
-            dofs.push_back(&dof);
-            names.push_back(dof.name);
-        }
     const MechanismQuery mechanism(scene);
     if (const std::vector<int>& bare = mechanism.unanswered(); !bare.empty())
         throw InputError(Where{arguments.scene, "", scene.pairs[bare.front()].path},
                          fmt::format("{} without a table; expected a scene written by tss bake",
                                      counted(bare.size(), "pair")));
-    const CsvTable poses = readCsv(arguments.poses, dofs.size());
-    checkColumns(poses, names, arguments.poses);
+    const std::vector<std::vector<double>> poses = readPoses(arguments.poses, dofsOf(scene));
     std::vector<double> values;
-    for (const std::vector<double>& row : poses.rows)
-        for (std::size_t k = 0; k < dofs.size(); ++k) values.push_back(fromUser(*dofs[k], row[k]));
-    std::vector<MechanismAnswer> answers(poses.rows.size());
+    for (const std::vector<double>& row : poses) values.insert(values.end(), row.begin(), row.end());
+    std::vector<MechanismAnswer> answers(poses.size());
     MechanismWorkspace workspace = mechanism.workspace();
     mechanism.ask(values.data(), answers.size(), answers.data(), workspace);
     std::string text = "hit,pair\n";
     std::size_t hits = 0, outside = 0;
     Json outsideRows = Json::array();
-    for (std::size_t row = 0; row < poses.rows.size(); ++row) {
+    for (std::size_t row = 0; row < poses.size(); ++row) {
         const MechanismAnswer& answer = answers[row];
         if (answer.verdict == Verdict::Beyond && ++outside <= mostRowsNamed) outsideRows.push_back(row);
         hits += answer.verdict == Verdict::Contact;
@@ -85,35 +76,27 @@ void runAllPairs(const QueryArguments& arguments, const Console& console) {
                                                   : "1," + scene.pairs[answer.pair].path + "\n";
     }
     writeFileAtomically(arguments.output, text);
-    sayHits(arguments, console, poses.rows.size(), hits, outsideRows, outside, "tables and proofs were");
+    sayHits(arguments, console, poses.size(), hits, outsideRows, outside, "tables and proofs were");
 }
 
 void runQuery(const QueryArguments& arguments, const Console& console) {
-    if (arguments.allPairs) {
-        refuseOverwriting(arguments.output, {arguments.scene, arguments.poses});
-        return runAllPairs(arguments, console);
-    }
     refuseOverwriting(arguments.output, {arguments.scene, arguments.poses});
+    if (arguments.allPairs) return runAllPairs(arguments, console);
     const SceneModel scene = loadScene(arguments.scene);
     const Pair& pair = chooseFreshPair(scene, arguments.pair, arguments.scene);
     if (!pair.table && !pair.proof)
         throw InputError(Where{arguments.scene, "", pair.path},
                          "has no table; expected a scene written by tss bake");
     const Motion motion = pairMotion(scene, pair);
-    const CsvTable poses = readCsv(arguments.poses, motion.dofCount());
-    std::vector<std::string> names;
-    for (const Dof& dof : motion.dofs) names.push_back(dof.name);
-    checkColumns(poses, names, arguments.poses);
-
+    const std::vector<std::vector<double>> poses = readPoses(arguments.poses, motion.dofs);
     const std::unique_ptr<const Meshes> meshes =
         arguments.distance ? std::make_unique<const Meshes>(scene, pair) : nullptr;
     std::string text =
         std::string("table_gap,hit,pair,px,py,pz,nx,ny,nz") + (meshes ? ",distance" : "") + "\n";
     std::size_t hits = 0, outside = 0;
     Json outsideRows = Json::array();
-    for (std::size_t row = 0; row < poses.rows.size(); ++row) {
-        std::vector<double> q = poses.rows[row];
-        for (std::size_t k = 0; k < q.size(); ++k) q[k] = fromUser(motion.dofs[k], q[k]);
+    for (std::size_t row = 0; row < poses.size(); ++row) {
+        const std::vector<double>& q = poses[row];
         const bool out = beyondLimits(motion, q);
         if (out && ++outside <= mostRowsNamed) outsideRows.push_back(row);
         if (pair.proof) { // within the limits they never meet: no test is made; beyond nothing is known
@@ -127,7 +110,7 @@ void runQuery(const QueryArguments& arguments, const Console& console) {
         text += meshes ? fmt::format(",{}\n", meshes->a.distanceTo(meshes->b, pose(motion, q))) : "\n";
     }
     writeFileAtomically(arguments.output, text);
-    sayHits(arguments, console, poses.rows.size(), hits, outsideRows, outside,
+    sayHits(arguments, console, poses.size(), hits, outsideRows, outside,
             pair.proof ? "proof was" : "table was");
 }
 
