@@ -20,26 +20,10 @@ bool isInstanceable(const Prim& prim) {
     return flag && *flag;
 }
 
-/// A path at or below one prim as the same below another; any other path stays.
-void moveBelow(std::string& path, const std::string& from, const std::string& to) {
-    if (path.starts_with(from) &&
-        (path.size() == from.size() || path[from.size()] == '/' || path[from.size()] == '.'))
-        path.replace(0, from.size(), to);
-}
-
-void moveTargets(Value& targets, const std::string& from, const std::string& to) {
-    if (auto* array = targets.as<Value::Array>()) {
-        for (Value& item : *array)
-            if (auto* path = item.as<std::string>()) moveBelow(*path, from, to);
-    } else if (auto* ops = targets.as<Value::Object>()) {
-        for (auto& [op, items] : *ops) moveTargets(items, from, to);
-    }
-}
-
 void moveAll(Composed& prim, const std::string& from, const std::string& to) {
     moveBelow(prim.place.path, from, to);
     for (auto& [name, property] : prim.prim.properties)
-        if (property.targetPaths) moveTargets(*property.targetPaths, from, to);
+        if (property.targetPaths) moveBelow(*property.targetPaths, from, to);
     for (Composed& child : prim.children) moveAll(child, from, to);
 }
 
@@ -77,19 +61,9 @@ void merge(Composed& stronger, Composed weaker) {
             property.other.swap(own->second.other), property.other.merge(own->second.other);
         prim.properties[name] = std::move(property);
     }
-    std::vector<Composed> children = std::move(weaker.children);
-    std::map<std::string, std::size_t> places;
-    for (std::size_t i = 0; i < children.size(); ++i) places[children[i].prim.name] = i;
-    for (Composed& child : stronger.children) {
-        const auto same = places.find(child.prim.name);
-        if (same == places.end()) {
-            children.push_back(std::move(child));
-        } else {
-            merge(child, std::move(children[same->second]));
-            children[same->second] = std::move(child);
-        }
-    }
-    stronger.children = std::move(children);
+    mergeChildren(
+        stronger.children, std::move(weaker.children),
+        [](const Composed& child) -> const std::string& { return child.prim.name; }, merge);
 }
 
 /// The prim has internal references: metadata "references", paths of prims of the same layer.

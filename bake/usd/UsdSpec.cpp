@@ -3,7 +3,6 @@
 #include "bake/usd/MergePrims.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace tss {
 
@@ -68,18 +67,9 @@ static void mergeSpec(UsdSpec& stronger, UsdSpec weaker) {
 }
 
 void mergeSpecs(std::vector<UsdSpec>& stronger, std::vector<UsdSpec> weaker) {
-    std::unordered_map<std::string, std::size_t> places;
-    for (std::size_t i = 0; i < weaker.size(); ++i) places[weaker[i].prim.name] = i;
-    for (UsdSpec& spec : stronger) {
-        const auto same = places.find(spec.prim.name);
-        if (same == places.end()) {
-            weaker.push_back(std::move(spec));
-        } else {
-            mergeSpec(spec, std::move(weaker[same->second]));
-            weaker[same->second] = std::move(spec);
-        }
-    }
-    stronger = std::move(weaker);
+    mergeChildren(
+        stronger, std::move(weaker),
+        [](const UsdSpec& child) -> const std::string& { return child.prim.name; }, mergeSpec);
 }
 
 bool needsComposition(const UsdSpec& spec) {
