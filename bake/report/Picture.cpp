@@ -1,12 +1,14 @@
 #include "bake/report/Picture.h"
 
 #include "bake/base/Degrees.h"
-#include "bake/report/Png.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <png.h>
+#include <stdexcept>
 
 namespace tss::reporting {
 
@@ -80,16 +82,28 @@ public:
         }
     }
 
+    /// The bytes of a PNG file; what is not covered is transparent.
     std::string png() const {
-        std::vector<std::array<std::uint8_t, 3>> palette{{0, 0, 0}};
+        std::vector<std::uint8_t> colours{0, 0, 0, 0};
         for (const auto& colour : bodyColours)
             for (int shade = 0; shade < shades; ++shade) {
-                std::array<std::uint8_t, 3> entry{};
-                for (std::size_t c = 0; c < 3; ++c)
-                    entry[c] = static_cast<std::uint8_t>(colour[c] * (0.25 + 0.75 * shade / (shades - 1.0)));
-                palette.push_back(entry);
+                for (const double channel : colour)
+                    colours.push_back(
+                        static_cast<std::uint8_t>(channel * (0.25 + 0.75 * shade / (shades - 1.0))));
+                colours.push_back(255);
             }
-        return pngOf(pixels_, width, height, palette);
+        png_image image{};
+        image.version = PNG_IMAGE_VERSION;
+        image.width = width;
+        image.height = height;
+        image.format = PNG_FORMAT_RGBA_COLORMAP;
+        image.colormap_entries = static_cast<png_uint_32>(colours.size() / 4);
+        png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+        std::string out(size, '\0');
+        if (png_image_write_to_memory(&image, out.data(), &size, 0, pixels_.data(), 0, colours.data()) == 0)
+            throw std::logic_error(std::string("a picture cannot be written: ") + image.message);
+        out.resize(size);
+        return out;
     }
 
 private:
