@@ -1,9 +1,9 @@
 #include "InstallSkins.h"
 #include "Machines.h"
 #include "bake/base/UnionFind.h"
+#include "osgTSS/src/EachNode.h"
 #include "osgTSS/src/joints/JointNodes.h"
 
-#include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osgAnimation/Bone>
 #include <osgAnimation/Skeleton>
@@ -54,24 +54,18 @@ osg::Node* lowestAbove(osg::Node& root, const std::vector<osg::Node*>& nodes) {
     return bones && skeleton != common.rend() ? *skeleton : common.back();
 }
 
-class RemoveCallbacks : public osg::NodeVisitor {
-public:
-    RemoveCallbacks() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-
-    void apply(osg::Node& node) override {
-        osg::ref_ptr<osg::Callback> callback = node.getUpdateCallback();
-        while (callback) {
-            osg::ref_ptr<osg::Callback> next = callback->getNestedCallback();
-            const bool ours = dynamic_cast<JointCallback*>(callback.get()) ||
-                              dynamic_cast<LimitsCallback*>(callback.get()) ||
-                              (dynamic_cast<MuscleCallback*>(callback.get()) && !node.asDrawable()) ||
-                              dynamic_cast<SkinCallback*>(callback.get());
-            if (ours) node.removeUpdateCallback(callback);
-            callback = next;
-        }
-        traverse(node);
+void removeCallbacks(osg::Node& node) {
+    osg::ref_ptr<osg::Callback> callback = node.getUpdateCallback();
+    while (callback) {
+        osg::ref_ptr<osg::Callback> next = callback->getNestedCallback();
+        const bool ours = dynamic_cast<JointCallback*>(callback.get()) ||
+                          dynamic_cast<LimitsCallback*>(callback.get()) ||
+                          (dynamic_cast<MuscleCallback*>(callback.get()) && !node.asDrawable()) ||
+                          dynamic_cast<SkinCallback*>(callback.get());
+        if (ours) node.removeUpdateCallback(callback);
+        callback = next;
     }
-};
+}
 
 void installGroup(osg::Node& root, Scene& scene, const std::vector<PairPlace>& group, Installed& installed) {
     const tss::SceneModel& model = scene.getModel();
@@ -149,8 +143,7 @@ Installed install(osg::Node& root, const tss::SceneModel& model) {
 }
 
 void uninstall(osg::Node& root) {
-    RemoveCallbacks visitor;
-    root.accept(visitor);
+    eachNode(root, removeCallbacks);
     restoreDrawables(root);
 }
 
