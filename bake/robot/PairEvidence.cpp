@@ -155,14 +155,14 @@ private:
         evidence.baked = pair.table || pair.proof;
         evidence.adjacent = joinedTo(pair.bodyA).contains(pair.bodyB);
         if (pair.proof && pair.proof->restRegion.empty()) {
-            evidence.verdict = PairVerdict::Never;
+            evidence.verdict = Meeting::Never;
             evidence.clearance = pair.proof->clearance;
             return;
         }
         const Meshes meshes(scene_.bodies[pair.bodyA].mesh, scene_.bodies[pair.bodyB].mesh);
         const Motion motion = pairMotion(scene_, pair);
         const Tried nearest = nearestPose(meshes, motion, pair.table.get());
-        evidence.verdict = nearest.distance == 0 ? PairVerdict::Meets : PairVerdict::Open;
+        evidence.verdict = nearest.distance == 0 ? Meeting::Meets : Meeting::Open;
         evidence.clearance = nearest.distance;
         evidence.pose = poseText(scene_, pair, motion, nearest.q);
     }
@@ -179,7 +179,7 @@ private:
         if (!rigid) return;
         const Pose bToA = scene_.bodies[a].placement.inverse(Eigen::Isometry) * scene_.bodies[b].placement;
         evidence.clearance = Meshes(scene_.bodies[a].mesh, scene_.bodies[b].mesh).distance(bToA);
-        evidence.verdict = evidence.clearance > 0 ? PairVerdict::Never : PairVerdict::Always;
+        evidence.verdict = evidence.clearance > 0 ? Meeting::Never : Meeting::Always;
     }
 
     const SceneModel& scene_;
