@@ -124,17 +124,16 @@ void expectSmallFaces(const aiScene& scene, const std::string& file) {
     for (unsigned m = 0; m < scene.mNumMeshes; ++m)
         for (unsigned f = 0; f < scene.mMeshes[m]->mNumFaces; ++f)
             if (const unsigned corners = scene.mMeshes[m]->mFaces[f].mNumIndices; corners > most)
-                throw InputError(Where{file, "", ""}, "has a face of " + std::to_string(corners) +
-                                                          " corners; expected at most " +
-                                                          std::to_string(most));
+                throw InputError(Where{file}, "has a face of " + std::to_string(corners) +
+                                                  " corners; expected at most " + std::to_string(most));
 }
 
 const aiScene& readFile(Assimp::Importer& importer, const std::string& file,
                         std::vector<std::string>* leftOut) {
     std::error_code error;
-    if (!std::filesystem::exists(file, error)) throw InputError(Where{file, "", ""}, "no such file");
+    if (!std::filesystem::exists(file, error)) throw InputError(Where{file}, "no such file");
     if (!std::filesystem::is_regular_file(file, error))
-        throw InputError(Where{file, "", ""}, "not a file, a mesh file was expected");
+        throw InputError(Where{file}, "not a file, a mesh file was expected");
     expectWholeGlb(file);
     expectEndedPly(file);
     auto* files = new NearbyFiles(file);
@@ -144,7 +143,7 @@ const aiScene& readFile(Assimp::Importer& importer, const std::string& file,
     if (scene) expectSmallFaces(*scene, file);
     if (scene) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
     if (!scene || !scene->mRootNode)
-        throw InputError(Where{file, "", ""},
+        throw InputError(Where{file},
                          "cannot be read as a mesh: " +
                              (files->refused().empty() ? importer.GetErrorString() : files->refused()));
     if (leftOut) *leftOut = leftOutOf(*scene);
@@ -160,7 +159,7 @@ TriangleMesh checked(const TriangleMesh& mesh, const std::string& file) {
 }
 
 [[noreturn]] void refuseEmpty(const std::string& file) {
-    throw InputError(Where{file, "", ""}, "holds no triangle, a mesh with faces was expected");
+    throw InputError(Where{file}, "holds no triangle, a mesh with faces was expected");
 }
 
 } // namespace
@@ -189,11 +188,11 @@ std::vector<ImportedNode> importNodes(const std::string& file, std::vector<std::
 #else
 
 TriangleMesh importMesh(const std::string& file, MeshAxes, std::vector<std::string>*) {
-    throw InputError(Where{file, "", ""}, "this build reads no mesh files (OSGTSS_IMPORT is off)");
+    throw InputError(Where{file}, "this build reads no mesh files (OSGTSS_IMPORT is off)");
 }
 
 std::vector<ImportedNode> importNodes(const std::string& file, std::vector<std::string>*) {
-    throw InputError(Where{file, "", ""}, "this build reads no mesh files (OSGTSS_IMPORT is off)");
+    throw InputError(Where{file}, "this build reads no mesh files (OSGTSS_IMPORT is off)");
 }
 
 #endif

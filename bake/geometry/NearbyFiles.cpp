@@ -60,7 +60,7 @@ void expectEndedPly(const std::string& file) {
     stream.read(begin.data(), most);
     begin.resize(static_cast<std::size_t>(stream.gcount()));
     if ((begin.starts_with("ply") || begin.starts_with("PLY")) && begin.find("end_header") == begin.npos)
-        throw InputError(Where{file, "", ""}, "cannot be read as a mesh: its header has no line end_header");
+        throw InputError(Where{file}, "cannot be read as a mesh: its header has no line end_header");
 }
 
 void expectWholeGlb(const std::string& file) {
@@ -75,8 +75,8 @@ void expectWholeGlb(const std::string& file) {
         stream.seekg(static_cast<std::streamoff>(at));
         const std::uint64_t length = readNumber(stream), left = size - at - ofChunk;
         if (length > left)
-            throw InputError(Where{file, "", ""}, "is cut short: a chunk has " + std::to_string(length) +
-                                                      " bytes, and " + std::to_string(left) + " are left");
+            throw InputError(Where{file}, "is cut short: a chunk has " + std::to_string(length) +
+                                              " bytes, and " + std::to_string(left) + " are left");
         at += ofChunk + length;
     }
 }

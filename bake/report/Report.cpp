@@ -23,7 +23,7 @@ std::string stemOf(const std::string& path, bool alone) {
 
 void checkPaths(const SceneModel& scene, const ReportOptions& options, const std::string& file) {
     if (scene.pairs.empty() && scene.skins.empty())
-        throw InputError(Where{file, "", ""}, "expected a scene with a pair or a skin to report on");
+        throw InputError(Where{file}, "expected a scene with a pair or a skin to report on");
     for (const std::string& path : options.pairs) {
         const auto same = [&](const auto& item) { return item.path == path; };
         if (std::ranges::none_of(scene.pairs, same) && std::ranges::none_of(scene.skins, same))
@@ -61,7 +61,7 @@ Report makeReport(const SceneModel& scene, const std::string& sceneFile, const s
     checkMethods(options.methods);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error) throw InputError(Where{folder, "", ""}, "cannot make the folder: " + error.message());
+    if (error) throw InputError(Where{folder}, "cannot make the folder: " + error.message());
     const auto start = std::chrono::steady_clock::now();
     Report result;
     result.scene = std::filesystem::path(sceneFile).filename().string();

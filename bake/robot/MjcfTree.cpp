@@ -190,7 +190,7 @@ double MjcfCompiler::angle(double value) const {
 void includeAll(XMLElement& model, const std::string& file, const ReadOther& readOther) {
     Includer(file, readOther).include(model);
     if (countElements(model) > mostElementsInAll)
-        throw InputError(Where{file, "", ""}, "expected no more than 100000 elements with what is included");
+        throw InputError(Where{file}, "expected no more than 100000 elements with what is included");
 }
 
 MjcfCompiler readCompiler(const XMLElement& model, const std::string& file) {

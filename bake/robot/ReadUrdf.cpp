@@ -34,7 +34,7 @@ urdf::ModelInterfaceSharedPtr parse(const XMLElement& top, const std::string& fi
     } catch (const std::exception& error) {
         thrown = error.what();
     }
-    throw InputError(Where{file, "", ""}, "is no URDF that can be read: " + messages.all + thrown);
+    throw InputError(Where{file}, "is no URDF that can be read: " + messages.all + thrown);
 }
 
 Vec3 vector(const urdf::Vector3& v) {

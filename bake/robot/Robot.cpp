@@ -72,7 +72,7 @@ void settleHeld(Robot& robot, RobotJoint& joint) {
 void checkForest(const Robot& robot) {
     constexpr std::size_t most = 500;
     if (robot.links.size() > most)
-        throw InputError(Where{robot.file, "", ""},
+        throw InputError(Where{robot.file},
                          "expected no more than 500 links, found " + std::to_string(robot.links.size()));
     std::vector<int> above(robot.links.size(), -1); // the joint that holds a link
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {

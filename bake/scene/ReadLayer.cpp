@@ -296,7 +296,7 @@ bool isPropertyName(std::string_view name) {
 
 Layer parseLayer(std::string_view text, const std::string& fileName, Problems& problems) {
     if (text.starts_with("#usda"))
-        throw InputError(Where{fileName, "", ""},
+        throw InputError(Where{fileName},
                          "is a layer of USD; `tss convert` or `tss make` makes a scene of it, a .tss");
     Value root = looksLikeCbor(text) ? parseCbor(text, fileName) : parseJson(text, fileName);
     BufferReader buffers(fileName, problems);

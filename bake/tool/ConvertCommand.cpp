@@ -71,7 +71,7 @@ Layer meshLayer(const ConvertArguments& arguments, const Console& console) {
 /// Spheres of each body for cuRobo.
 void writeSpheresOf(const ConvertArguments& arguments, const Console& console) {
     if (extension(arguments.input) != ".tss")
-        throw InputError(Where{arguments.input, "", ""}, "expected a scene, whose bodies get spheres");
+        throw InputError(Where{arguments.input}, "expected a scene, whose bodies get spheres");
     const SceneModel scene = loadScene(arguments.input);
     SphereOptions options;
     options.tolerance =
@@ -92,7 +92,7 @@ void writeSpheresOf(const ConvertArguments& arguments, const Console& console) {
 /// What a planner or a simulator need not test, from the proofs of a baked scene.
 void writePairsOf(const ConvertArguments& arguments, const Console& console) {
     if (extension(arguments.input) != ".tss")
-        throw InputError(Where{arguments.input, "", ""}, "expected a baked scene, whose proofs are written");
+        throw InputError(Where{arguments.input}, "expected a baked scene, whose proofs are written");
     const SceneModel scene = loadScene(arguments.input);
     const auto evidence = inFile(arguments.input, [&] { return evidenceOf(scene); });
     const std::string source = std::filesystem::path(arguments.input).filename().string();
@@ -165,7 +165,7 @@ void convert(const ConvertArguments& arguments, const Console& console) {
     else if (extension(arguments.output) == ".tss")
         saveLayer(layer, arguments.output, encoding);
     else
-        throw InputError(Where{arguments.output, "", ""},
+        throw InputError(Where{arguments.output},
                          "expected a name that ends in .tss, .usda, .srdf, .xml or .yml");
     console.say("wrote " + arguments.output);
     console.print(result);

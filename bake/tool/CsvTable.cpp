@@ -72,9 +72,9 @@ void checkColumns(const CsvTable& csv, const std::vector<Dof>& dofs, const std::
     for (std::size_t k = 0; k < dofs.size() && first + k < csv.header.size(); ++k) {
         const std::string& found = csv.header[first + k];
         if (found != dofs[k].name && std::ranges::find(dofs, found, &Dof::name) != dofs.end())
-            throw InputError(Where{file, "", ""}, "column " + std::to_string(first + k + 1) +
-                                                      ": expected the degree of freedom \"" + dofs[k].name +
-                                                      "\", found \"" + found + "\"");
+            throw InputError(Where{file}, "column " + std::to_string(first + k + 1) +
+                                              ": expected the degree of freedom \"" + dofs[k].name +
+                                              "\", found \"" + found + "\"");
     }
 }
 

@@ -38,7 +38,7 @@ std::vector<PathRow> readPath(const std::string& file) {
     for (const auto& row : csv.rows) {
         if (row.size() != 4 && row.size() != 7)
             throw InputError(
-                Where{file, "", ""},
+                Where{file},
                 "expected 4 or 7 columns: value,tx,ty,tz, and for rotation rx,ry,rz, an axis times degrees");
         PathRow path;
         path.value = row[0];

@@ -117,7 +117,7 @@ void checkOutput(const MakeArguments& arguments) {
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     for (const char* mesh : {".obj", ".stl", ".ply", ".off", ".dae", ".fbx", ".gltf", ".glb", ".3ds"})
         if (extension == mesh)
-            throw InputError(Where{arguments.output, "", ""},
+            throw InputError(Where{arguments.output},
                              "is the name of a mesh; expected one of a scene, such as jaw.tss");
 }
 

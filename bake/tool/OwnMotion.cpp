@@ -46,11 +46,11 @@ std::vector<const Track*> columnsOf(const std::vector<Track>& tracks, const std:
         if (found == tracks.end()) {
             std::string names;
             for (const Track& track : tracks) names += (names.empty() ? "" : ", ") + track.name;
-            throw InputError(Where{file, "", ""},
+            throw InputError(Where{file},
                              "no joint or muscle is called \"" + header[k] + "\"; expected some of " + names);
         }
         if (std::ranges::find(columns, &*found) != columns.end())
-            throw InputError(Where{file, "", ""}, "expected one column of " + header[k]);
+            throw InputError(Where{file}, "expected one column of " + header[k]);
         columns.push_back(&*found);
     }
     return columns;
@@ -68,17 +68,17 @@ void applyMotion(SceneModel& scene, const std::string& file) {
         for (const Track& track : tracks) columns.push_back(&track);
     else
         columns = columnsOf(tracks, csv.header, timed, file);
-    if (csv.rows.empty()) throw InputError(Where{file, "", ""}, "expected at least one row");
+    if (csv.rows.empty()) throw InputError(Where{file}, "expected at least one row");
     double before = 0;
     for (std::size_t r = 0; r < csv.rows.size(); ++r) {
         const std::vector<double>& row = csv.rows[r];
         if (row.size() != columns.size() + timed)
-            throw InputError(Where{file, "", ""}, "expected " + std::to_string(columns.size() + timed) +
-                                                      " columns, found " + std::to_string(row.size()));
+            throw InputError(Where{file}, "expected " + std::to_string(columns.size() + timed) +
+                                              " columns, found " + std::to_string(row.size()));
         const double time = !timed    ? static_cast<double>(r)
                             : seconds ? row[0] * scene.timeCodesPerSecond
                                       : row[0];
-        if (r > 0 && !(time > before)) throw InputError(Where{file, "", ""}, "expected times that rise");
+        if (r > 0 && !(time > before)) throw InputError(Where{file}, "expected times that rise");
         before = time;
         if (r == 0) scene.startTimeCode = time;
         scene.endTimeCode = time;

@@ -37,7 +37,7 @@ std::vector<std::vector<double>> askedSteps(const SceneModel& scene, const PlayA
     for (std::vector<double>& row : csv.rows) {
         if (numbered) row.erase(row.begin());
         if (row.size() != dofs.size())
-            throw InputError(Where{arguments.motion, "", ""},
+            throw InputError(Where{arguments.motion},
                              fmt::format("expected {} columns, one a DOF of the scene's joints, found {}",
                                          dofs.size(), row.size()));
         row = fromUser(dofs, row);

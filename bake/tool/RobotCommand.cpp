@@ -96,7 +96,7 @@ void makeRobot(const RobotFile& from, const std::string& motion, const std::stri
     if (!motion.empty()) {
         if (made.scene.layer)
             throw InputError(
-                Where{from.input, "", ""},
+                Where{from.input},
                 "is a scene of osgTSS already, which has its motion in it; --motion is for one to make");
         applyMotion(made.scene, motion);
     }

@@ -40,7 +40,7 @@ Robot readRobot(const RobotFile& from, [[maybe_unused]] const std::string& text,
     const std::string root = rootName(text);
     const bool mujoco = root == "mujoco";
     if (!root.empty() && !mujoco && root != "robot")
-        throw InputError(Where{from.input, "", ""},
+        throw InputError(Where{from.input},
                          "expected the <robot> of a URDF or the <mujoco> of an MJCF, found <" + root + ">");
     if (mujoco) {
 #ifdef OSGTSS_HAVE_MJCF
@@ -51,7 +51,7 @@ Robot readRobot(const RobotFile& from, [[maybe_unused]] const std::string& text,
         return readUrdf(text, from.input);
 #endif
     }
-    throw InputError(Where{from.input, "", ""},
+    throw InputError(Where{from.input},
                      std::string("this build reads no ") +
                          (mujoco ? "MJCF (OSGTSS_MJCF is off)" : "URDF (OSGTSS_URDF is off)"));
 }
@@ -87,7 +87,7 @@ RobotScene readUsdScene(const std::string& file, const Packages& packages, const
     const OpenUsd open = besideUsd(file, folders);
     const std::string name = std::filesystem::path(file).filename().string();
     const UsdFile first = inFile(file, [&] { return open(name); });
-    if (!first.missing.empty()) throw InputError(Where{file, "", ""}, first.missing);
+    if (!first.missing.empty()) throw InputError(Where{file}, first.missing);
     UsdStage stage = readStage(first.text, file, open);
     if (stage.ours) return sceneOfOurs(stage, file);
     const FindMesh none = [](const std::string& name) -> std::string { return name; };
@@ -97,7 +97,7 @@ RobotScene readUsdScene(const std::string& file, const Packages& packages, const
 #else
 
 RobotScene readUsdScene(const std::string& file, const Packages&, const RobotSceneRequest&) {
-    throw InputError(Where{file, "", ""}, "this build reads no USD (OSGTSS_USDA is off)");
+    throw InputError(Where{file}, "this build reads no USD (OSGTSS_USDA is off)");
 }
 
 #endif

@@ -181,8 +181,7 @@ void verify(const std::string& file, double budget, Console& console) {
     for (const SkinModel& skin : scene.skins)
         if (skin.table) bad += !verifyOne(file, scene, skin, result, console, Budget(budget));
     if (result["pairs"].empty() && result["skins"].empty())
-        throw InputError(Where{file, "", ""},
-                         "nothing to verify; expected a scene with a baked pair or skin");
+        throw InputError(Where{file}, "nothing to verify; expected a scene with a baked pair or skin");
     if (result["pairs"].empty())
         console.say(fmt::format("nothing is proven: {} looked at, and no pair of rigid bodies has a table",
                                 counted(result["skins"].size(), "skin")));

@@ -377,7 +377,7 @@ std::string notUsda(std::string_view text, const std::string& file) {
 
 UsdLayer parseUsda(std::string_view text, const std::string& file, const std::string& folder,
                    UsdBudget& budget) {
-    const auto refuse = [&](const std::string& message) { throw InputError(Where{file, "", ""}, message); };
+    const auto refuse = [&](const std::string& message) { throw InputError(Where{file}, message); };
     if (const std::string problem = notUsda(text, file); !problem.empty()) refuse(problem);
     if (text.size() > budget.text) refuse("expected files of at most 128 MiB in all");
     budget.text -= text.size();

@@ -67,7 +67,7 @@ private:
     /// The layer of this file with its sublayers in it.
     UsdLayer& stackOf(const std::string& name, std::vector<std::string> within) {
         if (std::ranges::find(within, name) != within.end())
-            throw InputError(Where{files_[name]->file, "", ""}, "subLayers: leads back to itself");
+            throw InputError(Where{files_[name]->file}, "subLayers: leads back to itself");
         UsdLayer& layer = layerOf(name);
         within.push_back(name);
         const std::vector<std::string> below = std::exchange(layer.subLayers, {});
