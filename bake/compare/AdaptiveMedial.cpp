@@ -83,8 +83,8 @@ void mergeDown(const MedialSurface& surface, std::vector<Elements>& parts) {
             }
         balls[first] = joinBalls(balls[first], balls[second]);
         parts[first].insert(parts[first].end(), parts[second].begin(), parts[second].end());
-        balls.erase(balls.begin() + static_cast<std::ptrdiff_t>(second));
-        parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(second));
+        balls.erase(balls.begin() + second);
+        parts.erase(parts.begin() + second);
     }
 }
 

@@ -102,8 +102,7 @@ bool FreeingTrial::frees(const JointMove& move, const std::vector<char>& wanted)
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const std::size_t k = order_[i];
         if (!wanted[k] || (!late() && a_.apart(b_, pose(motion, values_[k]), margin_))) continue;
-        std::rotate(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(i),
-                    order_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+        std::rotate(order_.begin(), order_.begin() + i, order_.begin() + i + 1);
         return false;
     }
     return true;

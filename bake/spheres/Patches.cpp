@@ -128,7 +128,7 @@ Outlook lookAhead(const Solid& solid, std::span<const Patch> patches, const Patc
     }
     const double n = double(descents), mean = std::accumulate(counts.begin(), counts.end(), 0.0) / n;
     // A few descents into a tight corner say next to all, and not surely: cut down to what others say too.
-    const auto most = counts.begin() + static_cast<std::ptrdiff_t>(15 * descents / 16);
+    const auto most = counts.begin() + 15 * descents / 16;
     std::nth_element(counts.begin(), most, counts.end());
     double low = 0, squares = 0;
     for (const double count : counts) {

@@ -106,7 +106,7 @@ void endIncomplete(const BakeArguments& arguments, const KeptParts& parts, const
     if (parts.signal()) fmt::print(stderr, "tss: interrupted\n");
     const std::vector<std::string>& missing = parts.missing();
     constexpr std::size_t most = 8; // that are named; --json names all
-    const auto last = missing.begin() + static_cast<std::ptrdiff_t>(std::min(most, missing.size()));
+    const auto last = missing.begin() + std::min(most, missing.size());
     fmt::print(stderr, "tss: not baked: {}{}\n", fmt::join(missing.begin(), last, ", "),
                missing.size() > most ? fmt::format(" and {} more", missing.size() - most) : "");
     if (!written.empty())

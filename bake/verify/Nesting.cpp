@@ -203,8 +203,7 @@ std::size_t widest(const PoseBox& box, const Extremes& points) {
         const MovingPoint at = box.carry(p, false);
         for (std::size_t k = 0; k < box.dofs(); ++k) moves[k] += at.sweep[k];
     }
-    return std::size_t(std::max_element(moves.begin(), moves.begin() + std::ptrdiff_t(box.dofs())) -
-                       moves.begin());
+    return std::size_t(std::max_element(moves.begin(), moves.begin() + box.dofs()) - moves.begin());
 }
 
 enum class Outcome { Shown, Split, Broken, Undecided };

@@ -130,9 +130,9 @@ JointCallback::Binding::Binding(osg::Node& owner, const Scene& scene,
 void JointCallback::Binding::choose(const Scene& scene, const std::vector<std::string>& pairPaths) {
     std::map<int, std::vector<double>> at;
     for (std::size_t j = 0; plan && j < (*plan)->joints.size() && !q.empty(); ++j) {
-        const auto first = q.begin() + static_cast<std::ptrdiff_t>((*plan)->firstValue[j]);
+        const auto first = q.begin() + ((*plan)->firstValue[j]);
         const auto count = model->joints[(*plan)->joints[j]].dofs.size();
-        at[(*plan)->joints[j]] = std::vector<double>(first, first + static_cast<std::ptrdiff_t>(count));
+        at[(*plan)->joints[j]] = std::vector<double>(first, first + count);
     }
     served.clear();
     for (const std::string& path : pairPaths) {
@@ -209,7 +209,7 @@ void JointCallback::Binding::tellBeyond() {
 void JointCallback::Binding::show() const {
     auto next = q.begin();
     for (JointNode* joint : joints) {
-        const auto end = next + static_cast<std::ptrdiff_t>(joint->dofCount());
+        const auto end = next + (joint->dofCount());
         joint->show(std::vector<double>(next, end));
         next = end;
     }
