@@ -2,10 +2,10 @@
 
 #include "bake/base/Error.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
-#include <filesystem>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,7 +14,7 @@ namespace tss {
 namespace {
 
 [[noreturn]] void fail(const std::string& file, const std::string& what) {
-    throw InputError(Where{file, "", ""}, what + ": " + std::strerror(errno));
+    throw InputError(Where{file}, what + ": " + std::strerror(errno));
 }
 
 /// Closes on the way out, and removes the file again unless it was kept.
@@ -38,7 +38,7 @@ void writeFileAtomically(const std::string& file, std::string_view content) {
     struct stat status {};
     const bool exists = ::stat(target.c_str(), &status) == 0;
     if (exists && !S_ISREG(status.st_mode))
-        throw InputError(Where{file, "", ""}, "cannot be written: expected a regular file");
+        throw InputError(Where{file}, "cannot be written: expected a regular file");
 
     Temporary temporary;
     std::string pattern = target + ".XXXXXX";
@@ -69,8 +69,7 @@ std::string readWholeFile(const std::string& file) {
     if (open.descriptor < 0) fail(file, "cannot be read");
     struct stat status {};
     if (::fstat(open.descriptor, &status) != 0) fail(file, "cannot be read");
-    if (!S_ISREG(status.st_mode))
-        throw InputError(Where{file, "", ""}, "cannot be read: expected a regular file");
+    if (!S_ISREG(status.st_mode)) throw InputError(Where{file}, "cannot be read: expected a regular file");
     std::string content(static_cast<std::size_t>(status.st_size), '\0');
     std::size_t have = 0;
     while (have < content.size()) {
@@ -82,6 +81,10 @@ std::string readWholeFile(const std::string& file) {
     }
     content.resize(have);
     return content;
+}
+
+bool isWithin(const std::filesystem::path& path, const std::filesystem::path& folder) {
+    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
 } // namespace tss

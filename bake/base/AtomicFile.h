@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -10,5 +11,8 @@ void writeFileAtomically(const std::string& file, std::string_view content);
 
 /// The whole content of a regular file. Throws InputError with the file and the system's reason.
 std::string readWholeFile(const std::string& file);
+
+/// A path is that of a folder, or of something below it; both are canonical.
+bool isWithin(const std::filesystem::path& path, const std::filesystem::path& folder);
 
 } // namespace tss

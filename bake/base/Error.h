@@ -6,9 +6,9 @@ namespace tss {
 
 /// Where in the input something is wrong. Empty members are not known or do not apply.
 struct Where {
-    std::string file;    ///< file name as the user gave it
-    std::string pointer; ///< JSON pointer inside the file, e.g. /primChildren/0/properties/points
-    std::string path;    ///< prim or property path, e.g. /Jaw/Hinge.physics:lowerLimit
+    std::string file{};    ///< file name as the user gave it
+    std::string pointer{}; ///< JSON pointer inside the file, e.g. /primChildren/0/properties/points
+    std::string path{};    ///< prim or property path, e.g. /Jaw/Hinge.physics:lowerLimit
 };
 
 /// The input is at fault: what is wrong, where, and what was expected. The only exception that bake/ lets out

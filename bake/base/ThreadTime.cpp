@@ -1,7 +1,5 @@
 #include "bake/base/ThreadTime.h"
 
-#include <ctime>
-
 namespace tss {
 
 double threadSeconds() {

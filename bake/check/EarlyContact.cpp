@@ -1,7 +1,6 @@
 #include "bake/check/EarlyContact.h"
 
 #include "bake/base/Parallel.h"
-#include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/MeshQuery.h"
 #include "bake/pipeline/FillPair.h"
 #include "bake/search/ExploredPoses.h"
@@ -29,12 +28,12 @@ double roundedDown(double length) {
 
 double shareBelow(const std::vector<double>& lengths, double limit) {
     if (lengths.empty()) return 0;
-    const auto below = std::count_if(lengths.begin(), lengths.end(), [&](double l) { return l < limit; });
+    const auto below = std::ranges::count_if(lengths, [&](double l) { return l < limit; });
     return static_cast<double>(below) / static_cast<double>(lengths.size());
 }
 
 double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    const auto middle = values.begin() + values.size() / 2;
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
@@ -73,7 +72,7 @@ bool heldAtRest(const Table& table, const Motion& motion, const std::vector<doub
     }
     bool any = false;
     for (const std::vector<int>& way : ways) {
-        if (std::all_of(way.begin(), way.end(), [](int turn) { return turn == 0; })) continue;
+        if (std::ranges::all_of(way, [](int turn) { return turn == 0; })) continue;
         const std::optional<bool> stop = stopped(table, motion, rest, way);
         if (stop == false) return false;
         any |= stop.has_value();

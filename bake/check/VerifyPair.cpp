@@ -48,8 +48,7 @@ void addNotes(PairVerdict& verdict, const Pair& pair, double metersPerUnit) {
             "what is behind openings of a mesh counts as body in the bound on early reports");
     if (meshes.exempt.areaA + meshes.exempt.areaB > 0) {
         verdict.notes.push_back(fmt::format("nothing is proven of contact between the parts of the surfaces "
-                                            "that overlap at rest: {:.3g} % of A "
-                                            "with {:.3g} % of B",
+                                            "that overlap at rest: {:.3g} % of A with {:.3g} % of B",
                                             100 * meshes.exempt.shareA, 100 * meshes.exempt.shareB));
         if (meshes.farthestExempt > 0)
             verdict.notes.push_back(

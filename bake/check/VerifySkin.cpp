@@ -184,7 +184,7 @@ private:
             }
             late[v] = told - distance;
         });
-        const double latest = *std::max_element(late.begin(), late.end());
+        const double latest = *std::ranges::max_element(late);
         verdict_.late = std::max(verdict_.late, latest);
         if (track.nodes[node] == 0) verdict_.lateAtRest = std::max(verdict_.lateAtRest, latest);
     }
@@ -200,8 +200,7 @@ private:
         if (!verdict_.holds()) return;
         verdict_.notes.push_back(
             fmt::format("looked at with the skin and the bones at rest, each muscle by itself at {} "
-                        "activations together: its tests are all there, and late by up to {}, "
-                        "{} at rest",
+                        "activations together: its tests are all there, and late by up to {}, {} at rest",
                         verdict_.states, lengthText(verdict_.late, metersPerUnit_),
                         lengthText(verdict_.lateAtRest, metersPerUnit_)));
         verdict_.notes.push_back("nothing is proven of a skin that moves, of several muscles at once or of "

@@ -57,22 +57,15 @@ Option* Option::positive() {
 Options* Options::add_subcommand(const std::string& name, const std::string& description) {
     return &commands_.emplace_back(*app_.add_subcommand(name, description));
 }
-Option* Options::add_option(const std::string& name, std::string& value, const std::string& description) {
+template <class Value>
+Option* Options::add_option(const std::string& name, Value& value, const std::string& description) {
     return keep(app_.add_option(name, value, description));
 }
-Option* Options::add_option(const std::string& name, std::vector<std::string>& values,
-                            const std::string& description) {
-    return keep(app_.add_option(name, values, description));
-}
-Option* Options::add_option(const std::string& name, int& value, const std::string& description) {
-    return keep(app_.add_option(name, value, description));
-}
-Option* Options::add_option(const std::string& name, double& value, const std::string& description) {
-    return keep(app_.add_option(name, value, description));
-}
-Option* Options::add_option(const std::string& name, std::uint64_t& value, const std::string& description) {
-    return keep(app_.add_option(name, value, description));
-}
+template Option* Options::add_option(const std::string&, std::string&, const std::string&);
+template Option* Options::add_option(const std::string&, std::vector<std::string>&, const std::string&);
+template Option* Options::add_option(const std::string&, int&, const std::string&);
+template Option* Options::add_option(const std::string&, double&, const std::string&);
+template Option* Options::add_option(const std::string&, std::uint64_t&, const std::string&);
 Option* Options::add_option(const std::string& name, const std::function<void(const std::string&)>& given,
                             const std::string& description) {
     return keep(app_.add_option_function<std::string>(name, given, description));
@@ -130,8 +123,7 @@ int CommandLine::parse(int argc, char** argv) {
 bool CommandLine::mistyped(const std::string& word) const {
     const auto commands = app_->get_subcommands([](const CLI::App*) { return true; });
     const auto named = [&](const CLI::App* command) { return command->get_name() == word; };
-    if (commands.empty() || word.starts_with('-') || std::any_of(commands.begin(), commands.end(), named))
-        return false;
+    if (commands.empty() || word.starts_with('-') || std::ranges::any_of(commands, named)) return false;
     std::string names;
     for (const CLI::App* command : commands) names += " " + command->get_name();
     std::fprintf(stderr, "%s: \"%s\" is no command; expected one of%s\n", app_->get_name().c_str(),

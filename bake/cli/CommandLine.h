@@ -43,12 +43,9 @@ public:
     Options(const Options&) = delete;
 
     Options* add_subcommand(const std::string& name, const std::string& description);
-    Option* add_option(const std::string& name, std::string& value, const std::string& description);
-    Option* add_option(const std::string& name, std::vector<std::string>& values,
-                       const std::string& description);
-    Option* add_option(const std::string& name, int& value, const std::string& description);
-    Option* add_option(const std::string& name, double& value, const std::string& description);
-    Option* add_option(const std::string& name, std::uint64_t& value, const std::string& description);
+    /// Value: a text, several, an int, a double or a std::uint64_t.
+    template <class Value>
+    Option* add_option(const std::string& name, Value& value, const std::string& description);
     /// Hears of the text that is given.
     Option* add_option(const std::string& name, const std::function<void(const std::string&)>& given,
                        const std::string& description);

@@ -32,7 +32,7 @@ std::vector<std::uint32_t> spread(const MedialSurface& surface, const Elements& 
             if (left[k] > left[worst]) worst = k;
         }
         const std::uint32_t next = surface.ballOf[region[worst]];
-        if (std::find(seeds.begin(), seeds.end(), next) != seeds.end()) break;
+        if (std::ranges::find(seeds, next) != seeds.end()) break;
         seeds.push_back(next);
     }
     return seeds;
@@ -83,8 +83,8 @@ void mergeDown(const MedialSurface& surface, std::vector<Elements>& parts) {
             }
         balls[first] = joinBalls(balls[first], balls[second]);
         parts[first].insert(parts[first].end(), parts[second].begin(), parts[second].end());
-        balls.erase(balls.begin() + static_cast<std::ptrdiff_t>(second));
-        parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(second));
+        balls.erase(balls.begin() + second);
+        parts.erase(parts.begin() + second);
     }
 }
 
@@ -93,7 +93,7 @@ std::vector<Vec3> centresUnder(const MedialSurface& surface, const Elements& par
     std::vector<std::uint32_t> balls;
     const std::size_t stride = std::max<std::size_t>(1, part.size() / 12);
     for (std::size_t k = 0; k < part.size(); k += stride) balls.push_back(surface.ballOf[part[k]]);
-    std::sort(balls.begin(), balls.end(), [&](std::uint32_t i, std::uint32_t j) {
+    std::ranges::sort(balls, [&](std::uint32_t i, std::uint32_t j) {
         const double ri = surface.balls[i].radius, rj = surface.balls[j].radius;
         return ri != rj ? ri > rj : i < j;
     });

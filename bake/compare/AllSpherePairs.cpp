@@ -2,8 +2,6 @@
 
 #include "bake/table/Query.h"
 
-#include <cmath>
-
 namespace tss::compare {
 
 namespace {

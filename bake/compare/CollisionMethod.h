@@ -2,7 +2,6 @@
 #include "bake/motion/Motion.h"
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>

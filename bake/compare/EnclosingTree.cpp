@@ -1,7 +1,6 @@
 #include "bake/compare/EnclosingTree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <queue>
 
@@ -20,7 +19,7 @@ void split(const SphereSet& spheres, std::span<std::uint32_t> range, int levels,
     for (const std::uint32_t i : range) box.extend(spheres[i].centre);
     int axis = 0;
     box.sizes().maxCoeff(&axis);
-    const auto middle = range.begin() + static_cast<std::ptrdiff_t>(range.size() / 2);
+    const auto middle = range.begin() + range.size() / 2;
     std::nth_element(range.begin(), middle, range.end(), [&](std::uint32_t i, std::uint32_t j) {
         const double x = spheres[i].centre[axis], y = spheres[j].centre[axis];
         return x != y ? x < y : i < j;

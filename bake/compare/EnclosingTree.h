@@ -2,8 +2,6 @@
 #include "bake/compare/CollisionMethod.h"
 #include "bake/compare/MinBall.h"
 
-#include <limits>
-
 namespace tss::compare {
 
 /// A tree of balls with any number of children. The children of a node stand side by side, behind it.

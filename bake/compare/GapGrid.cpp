@@ -58,7 +58,7 @@ public:
         std::size_t count = 1;
         double band = 0;
         for (int k = D; k-- > 0;) {
-            const Dof& dof = problem.motion.dofs[static_cast<std::size_t>(k)];
+            const Dof& dof = problem.motion.dofs[k];
             const double range = dof.upper - dof.lower;
             const int n = range > 0 ? points : 2; // a DOF that is held still has two equal layers
             axes_[k] = {dof.lower, range > 0 ? (n - 1) / range : 0, n - 2, count};
@@ -71,7 +71,7 @@ public:
             PoseQuery query{std::vector<double>(D), Pose::Identity()};
             for (int k = 0; k < D; ++k) {
                 const std::size_t at = i / axes_[k].stride % static_cast<std::size_t>(axes_[k].last + 2);
-                query.q[static_cast<std::size_t>(k)] =
+                query.q[k] =
                     axes_[k].lower + (axes_[k].scale > 0 ? static_cast<double>(at) / axes_[k].scale : 0);
             }
             query.pose = pose(problem.motion, query.q);
@@ -106,7 +106,7 @@ private:
         std::array<float, D> t;
         std::size_t base = 0;
         for (int k = 0; k < D; ++k) {
-            const double x = (query.q[static_cast<std::size_t>(k)] - axes_[k].lower) * axes_[k].scale;
+            const double x = (query.q[k] - axes_[k].lower) * axes_[k].scale;
             const int cell = std::clamp(static_cast<int>(x), 0, axes_[k].last);
             t[k] = static_cast<float>(x - cell);
             base += static_cast<std::size_t>(cell) * axes_[k].stride;

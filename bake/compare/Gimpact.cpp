@@ -32,6 +32,10 @@ struct GimpactBody {
                2 * (indices.size() / 3) * sizeof(BT_QUANTIZED_BVH_NODE);
     }
 
+    btCollisionObjectWrapper wrapped() const {
+        return {nullptr, shape.get(), &object, object.getWorldTransform(), -1, -1};
+    }
+
     std::vector<btScalar> points;
     std::vector<int> indices;
     std::unique_ptr<btTriangleIndexVertexArray> array;
@@ -59,10 +63,7 @@ public:
         b_ = std::make_unique<GimpactBody>(problem.meshB, centre_, scale_);
         dispatcher_ = std::make_unique<btCollisionDispatcher>(&configuration_);
         btGImpactCollisionAlgorithm::registerAlgorithm(dispatcher_.get());
-        const btCollisionObjectWrapper a(nullptr, a_->shape.get(), &a_->object,
-                                         a_->object.getWorldTransform(), -1, -1);
-        const btCollisionObjectWrapper b(nullptr, b_->shape.get(), &b_->object,
-                                         b_->object.getWorldTransform(), -1, -1);
+        const btCollisionObjectWrapper a = a_->wrapped(), b = b_->wrapped();
         algorithm_ = dispatcher_->findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         // Single precision, boxes quantised to 16 bits outwards: the triangles are judged in floats.
@@ -81,20 +82,15 @@ public:
     }
 
     bool hit(const PoseQuery& query) const override {
-        const Eigen::Matrix3d r = query.pose.linear();
+        const Eigen::Matrix3d turn = query.pose.linear();
         // x' = R x + t with x = centre + y / scale
-        const Vec3 t = (r * centre_ + query.pose.translation() - centre_) * scale_;
-        const btMatrix3x3 rotation(
-            static_cast<btScalar>(r(0, 0)), static_cast<btScalar>(r(0, 1)), static_cast<btScalar>(r(0, 2)),
-            static_cast<btScalar>(r(1, 0)), static_cast<btScalar>(r(1, 1)), static_cast<btScalar>(r(1, 2)),
-            static_cast<btScalar>(r(2, 0)), static_cast<btScalar>(r(2, 1)), static_cast<btScalar>(r(2, 2)));
-        b_->object.setWorldTransform(
-            btTransform(rotation, btVector3(static_cast<btScalar>(t.x()), static_cast<btScalar>(t.y()),
-                                            static_cast<btScalar>(t.z()))));
-        const btCollisionObjectWrapper a(nullptr, a_->shape.get(), &a_->object,
-                                         a_->object.getWorldTransform(), -1, -1);
-        const btCollisionObjectWrapper b(nullptr, b_->shape.get(), &b_->object,
-                                         b_->object.getWorldTransform(), -1, -1);
+        const Vec3 shift = (turn * centre_ + query.pose.translation() - centre_) * scale_;
+        const Eigen::Matrix<btScalar, 3, 3> r = turn.cast<btScalar>();
+        const Eigen::Matrix<btScalar, 3, 1> t = shift.cast<btScalar>();
+        const btMatrix3x3 rotation(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1),
+                                   r(2, 2));
+        b_->object.setWorldTransform(btTransform(rotation, btVector3(t.x(), t.y(), t.z())));
+        const btCollisionObjectWrapper a = a_->wrapped(), b = b_->wrapped();
         AnyContact result(&a, &b);
         algorithm_->processCollision(&a, &b, dispatchInfo_, &result);
         return result.touched;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <numeric>
 #include <queue>
 #include <set>
@@ -111,7 +110,7 @@ private:
         for (std::uint32_t i = 0; i < clusters_.size(); ++i)
             if (clusters_[i].alive) alive.push_back(i);
         for (int axis = 0; axis < 3; ++axis) {
-            std::sort(alive.begin(), alive.end(), [&](std::uint32_t i, std::uint32_t j) {
+            std::ranges::sort(alive, [&](std::uint32_t i, std::uint32_t j) {
                 const double x = clusters_[i].ball.centre[axis], y = clusters_[j].ball.centre[axis];
                 return x != y ? x < y : i < j;
             });
@@ -147,7 +146,7 @@ EnclosingTree buildHubbard(const TriangleMesh& mesh, const Solid& solid, int lev
     Merging merging(surface);
     for (int l = levels; l >= 0; --l) {
         merging.mergeDownTo(std::size_t{1} << (3 * l));
-        auto& of = owner[static_cast<std::size_t>(l)];
+        auto& of = owner[l];
         for (std::uint32_t e = 0; e < elementCount; ++e) of.push_back(merging.find(e));
     }
     std::vector<std::vector<std::uint32_t>> open(1, std::vector<std::uint32_t>(elementCount));
@@ -157,7 +156,7 @@ EnclosingTree buildHubbard(const TriangleMesh& mesh, const Solid& solid, int lev
     for (std::size_t node = 0, level = 0, levelEnd = 1; level < static_cast<std::size_t>(levels); ++level) {
         for (; node < levelEnd; ++node) {
             auto& elements = elementsOf[node];
-            std::sort(elements.begin(), elements.end(), [&](std::uint32_t i, std::uint32_t j) {
+            std::ranges::sort(elements, [&](std::uint32_t i, std::uint32_t j) {
                 return std::pair(owner[level + 1][i], i) < std::pair(owner[level + 1][j], j);
             });
             std::vector<std::vector<std::uint32_t>> parts;

@@ -96,7 +96,7 @@ double leafProtrusion(const EnclosingTree& tree, const Solid& solid) {
         const EnclosingTree::Node& node = tree.nodes[i];
         if (node.count == 0) each[i] = solid.protrusion(node.centre, node.radius);
     });
-    return each.empty() ? 0 : *std::max_element(each.begin(), each.end());
+    return each.empty() ? 0 : *std::ranges::max_element(each);
 }
 
 MedialSurface medialSurface(const TriangleMesh& mesh, const Solid& solid) {

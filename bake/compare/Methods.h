@@ -4,7 +4,7 @@
 #include "bake/compare/MinBall.h"
 
 #include <functional>
-#include <vector>
+#include <memory>
 
 /// The methods of METHOD 7, each made by one function and living in a file of its name. They keep what they
 /// need by reference to the problem, which must outlive them.

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <numeric>
 
 namespace tss::compare {
@@ -53,7 +52,7 @@ namespace {
 SphereSet keepLargest(const TriangleMesh& mesh, const SphereSet& resting, double near) {
     std::vector<std::uint32_t> order(resting.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+    std::ranges::sort(order, [&](std::uint32_t i, std::uint32_t j) {
         return resting[i].radius != resting[j].radius ? resting[i].radius > resting[j].radius : i < j;
     });
     std::vector<Eigen::AlignedBox3d> boxes;
@@ -93,9 +92,8 @@ std::unique_ptr<CollisionMethod> makeOrourkeBadler(const ComparedPair& problem) 
     Description description{
         "orourke-badler",
         "O'Rourke-Badler",
-        "the largest ball resting against each triangle's middle from inside, largest first, those "
-        "kept that come nearer "
-        "than 0.1 % of the diagonal to a middle that no other does; " +
+        "the largest ball resting against each triangle's middle from inside, largest first, those kept that "
+        "come nearer than 0.1 % of the diagonal to a middle that no other does; " +
             std::to_string(a.size()) + " + " + std::to_string(b.size()) +
             " balls, tree of 8; inscribed, so that shallow contacts are missed",
         {miss, leafProtrusion(trees.a, solidA) + leafProtrusion(trees.b, solidB)},

@@ -103,7 +103,7 @@ public:
         bins_ = makeBins(problem, oracle, bins, samples, seed);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         const auto share = [&](Bin bin) {
-            return std::to_string(100 * std::count(bins_.bins.begin(), bins_.bins.end(), bin) / bins);
+            return std::to_string(100 * std::ranges::count(bins_.bins, bin) / bins);
         };
         description() = {"mixed-region-" + inside_->description().name,
                          "motion regions",

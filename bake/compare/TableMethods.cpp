@@ -3,8 +3,6 @@
 #include "bake/table/Query.h"
 #include "bake/table/TableKernels.h"
 
-#include <cmath>
-
 namespace tss::compare {
 
 namespace {

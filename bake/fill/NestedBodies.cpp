@@ -251,7 +251,7 @@ Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double 
             stopped = probes > mostProbes ||
                       !report(progress, "nested bodies", double(probes) / double(mostProbes));
             if (!stopped) continue;
-            cells.erase(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(first + results.size()));
+            cells.erase(cells.begin(), cells.begin() + (first + results.size()));
             for (const std::vector<OpenCell>* left : {&cells, &halves})
                 for (const OpenCell& cell : *left)
                     for (const OpenPart& part : cell.parts) undecided[part.question] = true;

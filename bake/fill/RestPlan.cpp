@@ -89,10 +89,7 @@ public:
 private:
     double reach() const { return 2.5 * options_.tolerance + options_.epsilon; }
 
-    double closest() const {
-        return closeShare *
-               std::min(diagonal(a_.mesh()), diagonal(b_.mesh()));
-    }
+    double closest() const { return closeShare * std::min(diagonal(a_.mesh()), diagonal(b_.mesh())); }
 
     double apartBy(double touching) const {
         const double distance = surfaceA_.distanceTo(surfaceB_, bToA_);
@@ -103,8 +100,8 @@ private:
         if (apart > options_.epsilon * (1 + 1e-6)) return true;
         if (options_.atRest == AtRest::Collide) return false;
         throw InputError(
-            fmt::format("the meshes are {:.4g} apart at rest, and a table with --epsilon {:.4g}, "
-                        "both in scene units, would report contact there: expected a smaller epsilon",
+            fmt::format("the meshes are {:.4g} apart at rest, and a table with --epsilon {:.4g}, both in "
+                        "scene units, would report contact there: expected a smaller epsilon",
                         apart, options_.epsilon));
     }
 

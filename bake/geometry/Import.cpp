@@ -1,16 +1,18 @@
 #include "bake/geometry/Import.h"
 
+#include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <numeric>
 
 #ifdef OSGTSS_IMPORT
-#include "bake/geometry/NearbyFiles.h"
-
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -55,11 +57,94 @@ TriangleMesh welded(const TriangleMesh& mesh) {
 
 namespace {
 
+namespace fs = std::filesystem;
+
+fs::path realPath(const fs::path& path) {
+    std::error_code error;
+    const fs::path whole = fs::absolute(path, error), real = fs::weakly_canonical(whole, error);
+    return error ? whole.lexically_normal() : real;
+}
+
+/// The files that an importer may open: regular ones, in the folder of the mesh file or below it, also
+/// through links. A pipe is not waited for, and no path leads out.
+class NearbyFiles : public Assimp::DefaultIOSystem {
+public:
+    /// file: the mesh file, as the user gave it.
+    explicit NearbyFiles(const std::string& file)
+        : file_(file), folder_(realPath(fs::absolute(file).parent_path())),
+          realFolder_(realPath(file).parent_path()) {}
+
+    bool Exists(const char* file) const override {
+        std::error_code none;
+        return whyNot(file).empty() && fs::is_regular_file(file, none);
+    }
+    /// Null for a file that may not be opened.
+    Assimp::IOStream* Open(const char* file, const char* mode) override {
+        const std::string why = whyNot(file);
+        if (why.empty()) return DefaultIOSystem::Open(file, mode);
+        refused_ = why;
+        return nullptr;
+    }
+
+    /// The last file that was asked for and may not be opened, and why; empty where there was none.
+    const std::string& refused() const { return refused_; }
+
+private:
+    /// Empty for a file that may be opened; else why not.
+    std::string whyNot(const std::string& file) const {
+        if (fs::path(file) == file_) return "";
+        const fs::path real = realPath(file);
+        if (!isWithin(real, folder_) && !isWithin(real, realFolder_))
+            return file + " lies outside of " + folder_.string() + ", the folder of the mesh";
+        std::error_code none;
+        return fs::exists(real, none) && !fs::is_regular_file(real, none) ? file + " is not a regular file"
+                                                                          : "";
+    }
+
+    fs::path file_, folder_, realFolder_;
+    std::string refused_;
+};
+
+/// Little-endian, as glTF has it.
+std::uint32_t readNumber(std::istream& stream) {
+    unsigned char bytes[4] = {};
+    stream.read(reinterpret_cast<char*>(bytes), 4);
+    return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
+}
+
+/// A PLY whose header has no end, for which an importer would look for ever. Throws InputError.
+void expectEndedPly(const std::string& file) {
+    constexpr std::size_t most = 1 << 16; // of a header
+    std::ifstream stream(file, std::ios::binary);
+    std::string begin(most, '\0');
+    stream.read(begin.data(), most);
+    begin.resize(static_cast<std::size_t>(stream.gcount()));
+    if ((begin.starts_with("ply") || begin.starts_with("PLY")) && begin.find("end_header") == begin.npos)
+        throw InputError(Where{file}, "cannot be read as a mesh: its header has no line end_header");
+}
+
+/// A binary glTF whose chunks say that they are longer than the file is, which an importer would make room
+/// for. Throws InputError.
+void expectWholeGlb(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    char magic[4] = {};
+    stream.read(magic, 4);
+    if (!stream || std::string(magic, 4) != "glTF") return; // what it is the importer says
+    std::error_code error;
+    const std::uint64_t size = fs::file_size(file, error);
+    constexpr std::uint64_t header = 12, ofChunk = 8; // version and length; a chunk's length and type
+    for (std::uint64_t at = header; !error && at + ofChunk <= size;) {
+        stream.seekg(static_cast<std::streamoff>(at));
+        const std::uint64_t length = readNumber(stream), left = size - at - ofChunk;
+        if (length > left)
+            throw InputError(Where{file}, "is cut short: a chunk has " + std::to_string(length) +
+                                              " bytes, and " + std::to_string(left) + " are left");
+        at += ofChunk + length;
+    }
+}
+
 Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
-    Eigen::Matrix4d result;
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column) result(row, column) = m[row][column];
-    return result;
+    return Eigen::Matrix<ai_real, 4, 4, Eigen::RowMajor>::Map(m[0]).cast<double>();
 }
 
 void append(const aiMesh& source, const Eigen::Matrix4d& transform, TriangleMesh& mesh) {
@@ -124,17 +209,16 @@ void expectSmallFaces(const aiScene& scene, const std::string& file) {
     for (unsigned m = 0; m < scene.mNumMeshes; ++m)
         for (unsigned f = 0; f < scene.mMeshes[m]->mNumFaces; ++f)
             if (const unsigned corners = scene.mMeshes[m]->mFaces[f].mNumIndices; corners > most)
-                throw InputError(Where{file, "", ""}, "has a face of " + std::to_string(corners) +
-                                                          " corners; expected at most " +
-                                                          std::to_string(most));
+                throw InputError(Where{file}, "has a face of " + std::to_string(corners) +
+                                                  " corners; expected at most " + std::to_string(most));
 }
 
 const aiScene& readFile(Assimp::Importer& importer, const std::string& file,
                         std::vector<std::string>* leftOut) {
     std::error_code error;
-    if (!std::filesystem::exists(file, error)) throw InputError(Where{file, "", ""}, "no such file");
-    if (!std::filesystem::is_regular_file(file, error))
-        throw InputError(Where{file, "", ""}, "not a file, a mesh file was expected");
+    if (!fs::exists(file, error)) throw InputError(Where{file}, "no such file");
+    if (!fs::is_regular_file(file, error))
+        throw InputError(Where{file}, "not a file, a mesh file was expected");
     expectWholeGlb(file);
     expectEndedPly(file);
     auto* files = new NearbyFiles(file);
@@ -144,7 +228,7 @@ const aiScene& readFile(Assimp::Importer& importer, const std::string& file,
     if (scene) expectSmallFaces(*scene, file);
     if (scene) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
     if (!scene || !scene->mRootNode)
-        throw InputError(Where{file, "", ""},
+        throw InputError(Where{file},
                          "cannot be read as a mesh: " +
                              (files->refused().empty() ? importer.GetErrorString() : files->refused()));
     if (leftOut) *leftOut = leftOutOf(*scene);
@@ -160,7 +244,7 @@ TriangleMesh checked(const TriangleMesh& mesh, const std::string& file) {
 }
 
 [[noreturn]] void refuseEmpty(const std::string& file) {
-    throw InputError(Where{file, "", ""}, "holds no triangle, a mesh with faces was expected");
+    throw InputError(Where{file}, "holds no triangle, a mesh with faces was expected");
 }
 
 } // namespace
@@ -189,11 +273,11 @@ std::vector<ImportedNode> importNodes(const std::string& file, std::vector<std::
 #else
 
 TriangleMesh importMesh(const std::string& file, MeshAxes, std::vector<std::string>*) {
-    throw InputError(Where{file, "", ""}, "this build reads no mesh files (OSGTSS_IMPORT is off)");
+    throw InputError(Where{file}, "this build reads no mesh files (OSGTSS_IMPORT is off)");
 }
 
 std::vector<ImportedNode> importNodes(const std::string& file, std::vector<std::string>*) {
-    throw InputError(Where{file, "", ""}, "this build reads no mesh files (OSGTSS_IMPORT is off)");
+    throw InputError(Where{file}, "this build reads no mesh files (OSGTSS_IMPORT is off)");
 }
 
 #endif

@@ -95,7 +95,7 @@ double seam(const TriangleMesh& mesh, const std::vector<OpenEdge>& open) {
     std::vector<double> lengths;
     lengths.reserve(open.size());
     for (const OpenEdge& e : open) lengths.push_back((mesh.vertices[e.to] - mesh.vertices[e.from]).norm());
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    const auto middle = lengths.begin() + lengths.size() / 2;
     std::nth_element(lengths.begin(), middle, lengths.end());
     return std::max(0.01 * *middle, 1e-6 * diagonal(mesh));
 }
@@ -136,8 +136,7 @@ std::string describe(const TriangleMesh& mesh, std::size_t open, bool hollow) {
     std::string s;
     if (hollow && open == 0)
         s = "the other body stands inside without touching: it counts as hollow, spheres cover its surface "
-            "from "
-            "both sides";
+            "from both sides";
     else if (hollow)
         s = fmt::format("{} open or misoriented edges, and the other body stands inside without touching: it "
                         "counts as hollow, spheres cover its surface from both sides",

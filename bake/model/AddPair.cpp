@@ -142,21 +142,9 @@ std::string freePrimName(const SceneModel& scene, const std::string& wanted) {
     std::string name;
     for (char c : wanted) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
     if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0]))) name = "_" + name;
-    const auto taken = [&](const std::string& candidate) {
-        const std::string path = parentOf(scene) + candidate;
-        for (const Body& body : scene.bodies)
-            if (body.path == path) return true;
-        for (const Joint& joint : scene.joints)
-            if (joint.path == path) return true;
-        for (const MuscleModel& muscle : scene.muscles)
-            if (muscle.path == path) return true;
-        for (const Pair& pair : scene.pairs)
-            if (pair.path == path) return true;
-        return false;
-    };
-    if (!taken(name)) return name;
-    for (int k = 2;; ++k)
-        if (!taken(name + std::to_string(k))) return name + std::to_string(k);
+    std::string free = name;
+    for (int k = 2; hasPath(scene, parentOf(scene) + free); ++k) free = name + std::to_string(k);
+    return free;
 }
 
 std::vector<int> addJoints(SceneModel& scene, int bodyA, int bodyB, const Motion& motion,
@@ -171,9 +159,8 @@ std::vector<int> addJoints(SceneModel& scene, int bodyA, int bodyB, const Motion
     const auto frame = commonFrame(motion, axes);
     if (!frame && motion.dofs.size() > 1) {
         if (!motion.planes.empty())
-            throw InputError(
-                "limit planes couple DOFs that one joint cannot hold: expected DOFs with one centre, "
-                "along the axes of one frame");
+            throw InputError("limit planes couple DOFs that one joint cannot hold: expected DOFs with one "
+                             "centre, along the axes of one frame");
         return addChain(scene, bodyA, bodyB, motion, name);
     }
     const Pose frame0 = frame ? *frame : motion.dofs[0].frame;

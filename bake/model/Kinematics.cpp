@@ -28,12 +28,14 @@ std::vector<int> findWay(const std::vector<Joint>& joints, int from, int to, int
         way.push_back(j);
         body = joints[j].body0 == body ? joints[j].body1 : joints[j].body0;
     }
-    std::reverse(way.begin(), way.end());
+    std::ranges::reverse(way);
     return way;
 }
 
-std::string primName(const std::string& path) {
-    return path.substr(path.rfind('/') + 1);
+template <class Items>
+int indexOf(const Items& items, const std::string& path) {
+    const auto found = std::ranges::find(items, path, &Items::value_type::path);
+    return found == items.end() ? -1 : static_cast<int>(found - items.begin());
 }
 
 /// The DOF of a joint, with its axis as seen from A: x -> place * D * place^-1.
@@ -50,14 +52,13 @@ Dof placed(const Dof& dof, const Pose& place) {
 }
 
 bool oneTurn(const std::vector<PathRow>& rows) {
-    return std::all_of(rows.begin(), rows.end(), [&](const PathRow& row) {
-        return row.rotation.coeffs() == rows.front().rotation.coeffs();
-    });
+    return std::ranges::all_of(
+        rows, [&](const PathRow& row) { return row.rotation.coeffs() == rows.front().rotation.coeffs(); });
 }
 
 bool onePlace(const std::vector<PathRow>& rows) {
-    return std::all_of(rows.begin(), rows.end(),
-                       [&](const PathRow& row) { return row.translation == rows.front().translation; });
+    return std::ranges::all_of(
+        rows, [&](const PathRow& row) { return row.translation == rows.front().translation; });
 }
 
 /// The path's inverse at the same values, all that is linear between its rows: `after` is what of it is left
@@ -142,22 +143,34 @@ Motion pairMotion(const SceneModel& scene, const Pair& pair) {
 }
 
 int findBody(const SceneModel& scene, const std::string& path) {
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-        if (scene.bodies[i].path == path) return static_cast<int>(i);
-    return -1;
+    return indexOf(scene.bodies, path);
 }
 
 int findPair(const SceneModel& scene, const std::string& path) {
-    for (std::size_t i = 0; i < scene.pairs.size(); ++i)
-        if (scene.pairs[i].path == path) return static_cast<int>(i);
-    return -1;
+    return indexOf(scene.pairs, path);
+}
+
+bool hasPath(const SceneModel& scene, const std::string& path) {
+    return indexOf(scene.bodies, path) >= 0 || indexOf(scene.joints, path) >= 0 ||
+           indexOf(scene.muscles, path) >= 0 || indexOf(scene.pairs, path) >= 0;
+}
+
+double largestDiagonal(const SceneModel& scene) {
+    double largest = 0;
+    for (const Body& body : scene.bodies)
+        if (!body.mesh.vertices.empty()) largest = std::max(largest, diagonal(body.mesh));
+    return largest;
+}
+
+std::string primName(const std::string& path) {
+    return path.substr(path.rfind('/') + 1);
 }
 
 std::vector<JointDof> pairDofs(const SceneModel& scene, const Pair& pair) {
     std::vector<JointDof> dofs;
     int body = pair.bodyA;
     for (int index : pair.joints) {
-        const Joint& joint = scene.joints[static_cast<std::size_t>(index)];
+        const Joint& joint = scene.joints[index];
         const bool backwards = joint.body0 != body;
         for (std::size_t k = 0; k < joint.dofs.size(); ++k)
             dofs.push_back({index, backwards ? joint.dofs.size() - 1 - k : k});
@@ -174,13 +187,12 @@ std::vector<UnderSkin> underSkin(const SceneModel& scene, const SkinModel& skin)
     }
     for (const int bone : skin.bones) under.push_back({-1, bone, bone, -1});
     for (const int joint : skin.weights.joints)
-        if (std::find(skin.bones.begin(), skin.bones.end(), joint) == skin.bones.end())
-            under.push_back({-1, -1, joint, -1});
+        if (std::ranges::find(skin.bones, joint) == skin.bones.end()) under.push_back({-1, -1, joint, -1});
     for (std::size_t m = 0; m < skin.muscles.size(); ++m) {
-        const int bone = scene.muscles[static_cast<std::size_t>(skin.muscles[m])].insertionBone;
+        const int bone = scene.muscles[skin.muscles[m]].insertionBone;
         if (bone < 0) continue;
         const auto moves = [&](const UnderSkin& u) { return u.bone == bone; };
-        auto found = std::find_if(under.begin(), under.end(), moves);
+        auto found = std::ranges::find_if(under, moves);
         if (found == under.end()) found = under.insert(under.end(), UnderSkin{-1, -1, bone, -1});
         under[m].insertion = static_cast<int>(found - under.begin());
     }

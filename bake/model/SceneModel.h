@@ -141,4 +141,13 @@ Motion pairMotion(const SceneModel& scene, const Pair& pair);
 int findBody(const SceneModel& scene, const std::string& path);
 int findPair(const SceneModel& scene, const std::string& path);
 
+/// Whether a body, joint, muscle or pair has this prim path.
+bool hasPath(const SceneModel& scene, const std::string& path);
+
+/// The largest diagonal of a body's mesh, scene units; 0 where none has a mesh.
+double largestDiagonal(const SceneModel& scene);
+
+/// The last name of a prim path.
+std::string primName(const std::string& path);
+
 } // namespace tss

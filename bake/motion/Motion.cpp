@@ -1,7 +1,6 @@
 #include "bake/motion/Motion.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tss {
 

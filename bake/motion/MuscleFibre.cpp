@@ -3,7 +3,6 @@
 #include "bake/base/Error.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tss {
 namespace {

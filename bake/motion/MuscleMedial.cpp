@@ -1,7 +1,6 @@
 #include "bake/motion/MuscleMedial.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace tss {
 namespace {

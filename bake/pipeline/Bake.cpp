@@ -18,15 +18,13 @@ using Clock = std::chrono::steady_clock;
 void checkPaths(const SceneModel& scene, const BakeRequest& request) {
     for (const std::string& path : request.pairs) {
         const auto same = [&](const auto& item) { return item.path == path; };
-        if (std::none_of(scene.pairs.begin(), scene.pairs.end(), same) &&
-            std::none_of(scene.skins.begin(), scene.skins.end(), same))
+        if (std::ranges::none_of(scene.pairs, same) && std::ranges::none_of(scene.skins, same))
             throw InputError(Where{"", "", path}, "no pair and no skin of this path in the scene");
     }
 }
 
 bool wanted(const BakeRequest& request, const std::string& path) {
-    return request.pairs.empty() ||
-           std::find(request.pairs.begin(), request.pairs.end(), path) != request.pairs.end();
+    return request.pairs.empty() || std::ranges::find(request.pairs, path) != request.pairs.end();
 }
 
 bool hasTable(const Pair& pair) {

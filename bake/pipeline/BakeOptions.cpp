@@ -34,8 +34,7 @@ constexpr std::array<Word<bool>, 2> flagWords{{{"true", true}, {"false", false}}
 
 template <class Value, std::size_t count>
 std::string wordOf(const std::array<Word<Value>, count>& words, Value value) {
-    return std::find_if(words.begin(), words.end(), [&](const auto& word) { return word.second == value; })
-        ->first;
+    return std::ranges::find_if(words, [&](const auto& word) { return word.second == value; })->first;
 }
 
 template <class Value, std::size_t count>
@@ -80,7 +79,7 @@ GrowthOptions growth(const std::string& text, double metersPerUnit) {
     const auto plain = [](const std::string& part) {
         return part.find_first_not_of("+-.0123456789eE") == std::string::npos;
     };
-    const auto fractions = std::count_if(parts.begin(), parts.end(), plain);
+    const auto fractions = std::ranges::count_if(parts, plain);
     if (parts.size() != 4 || (fractions != 0 && fractions != 4))
         throw InputError(
             "--growth: expected START,STEP,END,MAXRADIUS, all fractions of the bounding diagonal or all "

@@ -50,8 +50,8 @@ void noteFit(const Body& body, const SphereFit& fit, std::vector<std::string>& n
     if (!fit.note.empty()) notes.push_back(body.path + ": " + fit.note);
     if (!std::isfinite(fit.enclosed))
         notes.push_back(body.path +
-                        ": whether the other body ever stands inside without touching could not be "
-                        "decided for all poses: how early contact may be reported is not known");
+                        ": whether the other body ever stands inside without touching could not be decided "
+                        "for all poses: how early contact may be reported is not known");
 }
 
 /// Bounds that are true of next to nothing are to be known as that.

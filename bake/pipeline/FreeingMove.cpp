@@ -31,7 +31,7 @@ std::vector<JointMove> directions() {
 /// The first shift, of growing lengths, that frees all that is wanted; where none does, the one that frees
 /// most of it.
 JointMove firstShift(const FreeingTrial& trial, const std::vector<char>& wanted, bool& all) {
-    const auto count = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), char{1}));
+    const auto count = static_cast<std::size_t>(std::ranges::count(wanted, char{1}));
     JointMove best = JointMove::Zero();
     std::size_t reached = trial.freeOf(best, wanted);
     for (double length = firstShare * trial.size();
@@ -59,7 +59,7 @@ JointMove better(FreeingTrial& trial, const std::vector<char>& wanted, const Joi
     };
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
-    const auto count = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), char{1}));
+    const auto count = static_cast<std::size_t>(std::ranges::count(wanted, char{1}));
     JointMove best = first;
     std::size_t reached = all ? count : trial.freeOf(first, wanted);
     double least = cost(best), step = 0.3 * std::max(first.head<3>().norm(), firstShare * trial.size());
@@ -149,7 +149,7 @@ FreeingMoves freeingMoves(const TriangleMesh& a, const TriangleMesh& b, const Mo
         found.complete = !trial.late();
     }
     std::erase_if(moves, [](const FreeingMove& m) { return m.free == 0; });
-    std::sort(moves.begin(), moves.end(), [](const FreeingMove& x, const FreeingMove& y) {
+    std::ranges::sort(moves, [](const FreeingMove& x, const FreeingMove& y) {
         return x.free + x.stops != y.free + y.stops ? x.free + x.stops > y.free + y.stops : x.moved < y.moved;
     });
     return found;

@@ -102,8 +102,7 @@ bool FreeingTrial::frees(const JointMove& move, const std::vector<char>& wanted)
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const std::size_t k = order_[i];
         if (!wanted[k] || (!late() && a_.apart(b_, pose(motion, values_[k]), margin_))) continue;
-        std::rotate(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(i),
-                    order_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+        std::rotate(order_.begin(), order_.begin() + i, order_.begin() + i + 1);
         return false;
     }
     return true;
@@ -115,7 +114,7 @@ std::size_t FreeingTrial::freeOf(const JointMove& move, const std::vector<char>&
     parallelFor(values_.size(), [&](std::size_t k) {
         free[k] = wanted[k] && !late() && a_.apart(b_, pose(motion, values_[k]), margin_);
     });
-    return static_cast<std::size_t>(std::count(free.begin(), free.end(), char{1}));
+    return static_cast<std::size_t>(std::ranges::count(free, char{1}));
 }
 
 std::size_t FreeingTrial::addMissed(const JointMove& move, std::vector<char>& wanted) {

@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 
 #include <chrono>
-#include <memory>
 
 namespace tss {
 

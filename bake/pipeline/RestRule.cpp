@@ -41,8 +41,7 @@ void checkRest(const PairSpheres& spheres, const Motion& motion, const BakeOptio
                      });
     if (least <= options.epsilon)
         throw InputError(
-            fmt::format("the meshes are {} apart at rest, and their spheres, rounded as files hold them, "
-                        "{}: "
+            fmt::format("the meshes are {} apart at rest, and their spheres, rounded as files hold them, {}: "
                         "expected coordinates nearer to the origin, or a rest pose with more clearance",
                         lengthText(spheres.clearanceAtRest, options.metersPerUnit),
                         lengthText(least, options.metersPerUnit)));
@@ -57,9 +56,8 @@ void noteRest(const PairSpheres& spheres, const RuleAtRest& ruled, const Motion&
     const std::vector<double> rest = restValues(motion);
     const SphereTree a(spheres.a.spheres), b(spheres.b.spheres);
     if (smallestGap(a, b, pose(motion, rest), 1) > options.epsilon) return;
-    notes.push_back(fmt::format("the meshes are {} apart at rest, these spheres are not: "
-                                "contact there; --spheres medial makes them apart, others may with a "
-                                "--tolerance below {}",
+    notes.push_back(fmt::format("the meshes are {} apart at rest, these spheres are not: contact there; "
+                                "--spheres medial makes them apart, others may with a --tolerance below {}",
                                 lengthText(spheres.clearanceAtRest, options.metersPerUnit),
                                 lengthText(spheres.clearanceAtRest / 2, options.metersPerUnit)));
 }

@@ -39,13 +39,13 @@ Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std:
     }
     selection.reduced.restGaps = rule.thresholds(pairs);
     selection.certified = true;
-    notes.push_back(fmt::format(
-        "which pairs of spheres imply others is too much to find out over {} degrees of "
-        "freedom{}: all {} that may meet are asked{}",
-        task.motion.dofCount(), task.options.budget.value_or(0) > 0 ? " in the budget" : "", pairs.size(),
-        task.options.budget == 0 || task.motion.dofCount() > mostCoverDofs
-            ? ""
-            : " (--again --budget 0 searches without a limit)"));
+    notes.push_back(fmt::format("which pairs of spheres imply others is too much to find out over {} degrees "
+                                "of freedom{}: all {} that may meet are asked{}",
+                                task.motion.dofCount(),
+                                task.options.budget.value_or(0) > 0 ? " in the budget" : "", pairs.size(),
+                                task.options.budget == 0 || task.motion.dofCount() > mostCoverDofs
+                                    ? ""
+                                    : " (--again --budget 0 searches without a limit)"));
     return selection;
 }
 

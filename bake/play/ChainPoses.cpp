@@ -33,8 +33,8 @@ ChainPoses::ChainPoses(const SceneModel& scene, const std::vector<int>& pairs) {
     for (const int pair : pairs)
         for (const int joint : scene.pairs[pair].joints) {
             const std::vector<Dof>& dofs = scene.joints[joint].dofs;
-            wanted[joint] = std::none_of(dofs.begin(), dofs.end(),
-                                         [](const Dof& dof) { return dof.kind == DofKind::Path; });
+            wanted[joint] =
+                std::ranges::none_of(dofs, [](const Dof& dof) { return dof.kind == DofKind::Path; });
         }
     std::vector<std::size_t> firstValue;
     std::size_t count = 0;
@@ -79,7 +79,7 @@ ChainPoses::ChainPoses(const SceneModel& scene, const std::vector<int>& pairs) {
 }
 
 bool ChainPoses::links(const Pair& pair) const {
-    return std::all_of(pair.joints.begin(), pair.joints.end(), [&](int joint) { return served_[joint]; });
+    return std::ranges::all_of(pair.joints, [&](int joint) { return served_[joint]; });
 }
 
 double ChainPoses::error(const Pair& pair, double farthest) const {

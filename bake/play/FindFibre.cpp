@@ -17,7 +17,7 @@ std::vector<Vec3> findFibre(const SceneModel& scene, const MuscleModel& muscle) 
     const MeshQuery query(bone.mesh);
     const Pose toBone = bone.placement.inverse(Eigen::Isometry) * body.placement;
     if (query.distance(toBone * fibre.back()) < query.distance(toBone * fibre.front()))
-        std::reverse(fibre.begin(), fibre.end());
+        std::ranges::reverse(fibre);
     return fibre;
 }
 

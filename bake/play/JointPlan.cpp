@@ -23,14 +23,14 @@ struct Placed {
 Placed place(const SceneModel& scene, int pair, JointPlan& plan) {
     Placed placed{pair, {}};
     for (int joint : scene.pairs[pair].joints) {
-        if (std::find(plan.joints.begin(), plan.joints.end(), joint) != plan.joints.end()) continue;
+        if (std::ranges::find(plan.joints, joint) != plan.joints.end()) continue;
         plan.joints.push_back(joint);
         plan.firstValue.push_back(plan.valueCount);
         plan.valueCount += scene.joints[joint].dofs.size();
     }
     for (const JointDof& dof : pairDofs(scene, scene.pairs[pair])) {
-        const auto at = std::find(plan.joints.begin(), plan.joints.end(), dof.joint);
-        placed.slots.push_back(plan.firstValue[static_cast<std::size_t>(at - plan.joints.begin())] + dof.dof);
+        const auto at = std::ranges::find(plan.joints, dof.joint);
+        placed.slots.push_back(plan.firstValue[at - plan.joints.begin()] + dof.dof);
     }
     return placed;
 }
@@ -38,15 +38,14 @@ Placed place(const SceneModel& scene, int pair, JointPlan& plan) {
 void addGroup(const SceneModel& scene, const std::vector<Placed>& tables, JointPlan& plan) {
     std::vector<std::size_t> slots;
     for (const Placed& table : tables) slots.insert(slots.end(), table.slots.begin(), table.slots.end());
-    std::sort(slots.begin(), slots.end());
+    std::ranges::sort(slots);
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
     std::vector<TableOnJoint> entries;
     std::vector<int> pairs;
     for (const Placed& table : tables) {
         TableOnJoint entry{scene.pairs[table.pair].table.get(), {}};
         for (std::size_t slot : table.slots)
-            entry.dofs.push_back(
-                static_cast<int>(std::find(slots.begin(), slots.end(), slot) - slots.begin()));
+            entry.dofs.push_back(static_cast<int>(std::ranges::find(slots, slot) - slots.begin()));
         entries.push_back(entry);
         pairs.push_back(table.pair);
     }
@@ -62,9 +61,8 @@ std::vector<std::vector<Placed>> grouped(const std::vector<Placed>& tables) {
     for (const Placed& table : tables) {
         std::size_t best = groups.size(), fewest = 0;
         for (std::size_t g = 0; g < groups.size(); ++g) {
-            const auto more = static_cast<std::size_t>(
-                std::count_if(table.slots.begin(), table.slots.end(),
-                              [&](std::size_t slot) { return !slots[g].contains(slot); }));
+            const auto more = static_cast<std::size_t>(std::ranges::count_if(
+                table.slots, [&](std::size_t slot) { return !slots[g].contains(slot); }));
             if (slots[g].size() + more > maxDofs || (best < groups.size() && more >= fewest)) continue;
             best = g;
             fewest = more;

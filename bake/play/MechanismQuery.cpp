@@ -107,7 +107,7 @@ MechanismQuery::Prepared::Prepared(const SceneModel& scene, const std::vector<in
 
     if (!order.empty()) {
         std::vector<int> sorted = order;
-        std::sort(sorted.begin(), sorted.end());
+        std::ranges::sort(sorted);
         if (sorted != withTable) throw InputError("order: expected each pair that has a table, once");
         withTable = order;
     }
@@ -185,7 +185,7 @@ void MechanismQuery::Prepared::findOrder() {
         double most = -1;
         for (auto t = next; t != tables_.end(); ++t) {
             std::size_t ended = 0;
-            const std::vector<bool>& its = touching[static_cast<std::size_t>(t - tables_.begin())];
+            const std::vector<bool>& its = touching[t - tables_.begin()];
             for (std::size_t i = 0; i < samples; ++i) ended += open[i] && its[i];
             const double gain = (static_cast<double>(ended) + 1e-3) / costOf(t->table, t->placed);
             if (gain > most) most = gain, best = t;
@@ -214,9 +214,8 @@ bool MechanismQuery::Prepared::within(const double* values) const {
         in &= static_cast<int>(values[k] >= lower_[k]) & static_cast<int>(values[k] <= upper_[k]);
     if (in == 0) return false;
     if (!planes_) return true;
-    return std::none_of(parts_.begin(), parts_.end(), [&](const Part& part) {
-        return !part.motion.planes.empty() && beyond(part, values);
-    });
+    return std::ranges::none_of(
+        parts_, [&](const Part& part) { return !part.motion.planes.empty() && beyond(part, values); });
 }
 
 const double* MechanismQuery::Prepared::ownValues(const Part& part, const double* values,
@@ -257,8 +256,8 @@ const double* MechanismQuery::Prepared::limited(const double* values, MechanismW
 }
 
 MechanismAnswer MechanismQuery::Prepared::untouched(const double* values, bool within) const {
-    const bool out = !within && std::any_of(parts_.begin(), parts_.end(),
-                                            [&](const Part& part) { return beyond(part, values); });
+    const bool out =
+        !within && std::ranges::any_of(parts_, [&](const Part& part) { return beyond(part, values); });
     return {out ? MechanismAnswer::Verdict::Beyond : MechanismAnswer::Verdict::Free, -1};
 }
 
@@ -286,9 +285,8 @@ void MechanismQuery::Prepared::ask(const double* values, std::size_t count, Mech
             continue;
         }
         answers[i] = {MechanismAnswer::Verdict::Free, -1};
-        const auto touching = std::find_if(tables_.begin(), tables_.end(), [&](const Asked& asked) {
-            return !asked.placed && touchesUnplaced(asked, values);
-        });
+        const auto touching = std::ranges::find_if(
+            tables_, [&](const Asked& asked) { return !asked.placed && touchesUnplaced(asked, values); });
         if (touching != tables_.end()) {
             answers[i] = {MechanismAnswer::Verdict::Contact, parts_[touching->part].pair};
             continue;

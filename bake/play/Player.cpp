@@ -100,7 +100,7 @@ std::vector<double> Player::State::clamped(const std::vector<double>& asked) con
 Pose Player::State::farOf(const Skin& skin, std::size_t m) {
     const int insertion = skin.response.rig().bodies[m].insertion;
     if (insertion < 0 || skin.poses.empty()) return Pose::Identity();
-    return between(skin.poses[m], skin.poses[static_cast<std::size_t>(insertion)]);
+    return between(skin.poses[m], skin.poses[insertion]);
 }
 
 std::vector<double> Player::State::depths(const Skin& skin, std::span<const Vec3> positions) const {
@@ -140,8 +140,7 @@ Player::Step Player::State::step(const std::vector<double>& asked, double timeCo
     for (const Pair& pair : scene_.pairs) {
         if (!pair.table) continue;
         std::vector<double> q;
-        for (const JointDof& dof : pairDofs(scene_, pair))
-            q.push_back(values_[first[static_cast<std::size_t>(dof.joint)] + dof.dof]);
+        for (const JointDof& dof : pairDofs(scene_, pair)) q.push_back(values_[first[dof.joint] + dof.dof]);
         result.gap = std::min(result.gap, query(*pair.table, pose(pair.table->motion, q)).gap);
     }
 

@@ -65,9 +65,8 @@ std::vector<int> framesOf(const SceneModel& scene, const SkinModel& skin) {
     std::vector<int> bones, frames;
     const std::vector<int>& joints = skin.weights.joints;
     for (const UnderSkin& under : underSkin(scene, skin)) {
-        const bool carries =
-            under.body >= 0 || std::find(joints.begin(), joints.end(), under.bone) != joints.end();
-        const auto known = std::find(bones.begin(), bones.end(), under.bone);
+        const bool carries = under.body >= 0 || std::ranges::find(joints, under.bone) != joints.end();
+        const auto known = std::ranges::find(bones, under.bone);
         frames.push_back(under.bone < 0 || !carries ? -1 : static_cast<int>(known - bones.begin()));
         if (frames.back() >= 0 && known == bones.end()) bones.push_back(under.bone);
     }
@@ -83,12 +82,11 @@ std::vector<std::vector<double>> sharesOf(const SceneModel& scene, const SkinMod
     const std::vector<UnderSkin> under = underSkin(scene, skin);
     std::vector<std::size_t> frameOf;
     for (const int joint : weights.joints) {
-        const auto found =
-            std::find_if(under.begin(), under.end(), [&](const UnderSkin& u) { return u.bone == joint; });
-        frameOf.push_back(static_cast<std::size_t>(frames[static_cast<std::size_t>(found - under.begin())]));
+        const auto found = std::ranges::find_if(under, [&](const UnderSkin& u) { return u.bone == joint; });
+        frameOf.push_back(static_cast<std::size_t>(frames[found - under.begin()]));
     }
     const std::size_t count = meshOf(scene, skin).vertices.size();
-    shares.assign(static_cast<std::size_t>(*std::max_element(frames.begin(), frames.end()) + 1),
+    shares.assign(static_cast<std::size_t>(*std::ranges::max_element(frames) + 1),
                   std::vector<double>(count, 0));
     for (std::size_t i = 0; i < weights.indices.size(); ++i) {
         double& share = shares[frameOf.at(weights.indices[i])].at(i / weights.influences);
@@ -185,14 +183,14 @@ std::vector<Pose> skinPoses(const SceneModel& scene, const SkinModel& skin,
     std::vector<Pose> poses;
     bool any = false;
     const Pose& skinRest = scene.bodies.at(static_cast<std::size_t>(skin.body)).placement;
-    const Pose& skinNow = placements[static_cast<std::size_t>(skin.body)];
+    const Pose& skinNow = placements[skin.body];
     for (const UnderSkin& under : underSkin(scene, skin)) {
         const int bone = under.bone;
         poses.push_back(Pose::Identity());
         if (bone < 0) continue;
         any = true;
-        const Pose& boneRest = scene.bodies[static_cast<std::size_t>(bone)].placement;
-        const Pose& boneNow = placements[static_cast<std::size_t>(bone)];
+        const Pose& boneRest = scene.bodies[bone].placement;
+        const Pose& boneNow = placements[bone];
         const bool still = boneNow.matrix() == boneRest.matrix() && skinNow.matrix() == skinRest.matrix();
         if (!still) poses.back() = skinNow.inverse() * boneNow * boneRest.inverse() * skinRest;
     }

@@ -184,7 +184,7 @@ void CellExaminer::dropAnswered(const CellMotion& motion) {
     exact.epsilon = 0;
     constexpr std::size_t leaders = 4;
     for (std::size_t lead = 0; lead < std::min(leaders, here_.size()); ++lead) {
-        const auto place = here_.begin() + static_cast<std::ptrdiff_t>(lead);
+        const auto place = here_.begin() + lead;
         std::iter_swap(place, std::min_element(place, here_.end(), deeper));
         const PairInCell leader = *place;
         looks_ += here_.size() - lead;
@@ -290,9 +290,8 @@ std::size_t CellExaminer::widestDof(const CellMotion& motion) const {
                                           [](const auto& p, const auto& q) { return p.move < q.move; });
     const Vec3 x = here_.front().move >= 0.5 * fastest->move ? here_.front().x : fastest->x;
     const auto share = motion.shares(x);
-    return static_cast<std::size_t>(
-        std::max_element(share.begin(), share.begin() + static_cast<std::ptrdiff_t>(motion.dofs())) -
-        share.begin());
+    return static_cast<std::size_t>(std::max_element(share.begin(), share.begin() + motion.dofs()) -
+                                    share.begin());
 }
 
 CellVerdict CellExaminer::split(const OpenCell& cell, const CellMotion& motion, std::uint32_t seen) const {

@@ -1,8 +1,5 @@
 #include "bake/reduce/CoverProblem.h"
 
-#include <cmath>
-#include <limits>
-
 namespace tss {
 
 namespace {

@@ -28,13 +28,11 @@ std::vector<Vec3> oneOfEach(const TriangleMesh& mesh) {
     std::vector<int> parent(mesh.vertices.size());
     std::iota(parent.begin(), parent.end(), 0);
     const auto find = [&](int v) {
-        while (parent[static_cast<std::size_t>(v)] != v)
-            v = parent[static_cast<std::size_t>(v)] =
-                parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(v)])];
+        while (parent[v] != v) v = parent[v] = parent[parent[v]];
         return v;
     };
     for (const Tri& t : mesh.triangles)
-        for (const int k : {1, 2}) parent[static_cast<std::size_t>(find(t[k]))] = find(t[0]);
+        for (const int k : {1, 2}) parent[find(t[k])] = find(t[0]);
     std::vector<Vec3> points;
     std::vector<char> seen(parent.size(), 0);
     for (const Tri& t : mesh.triangles) {
@@ -46,8 +44,7 @@ std::vector<Vec3> oneOfEach(const TriangleMesh& mesh) {
 }
 
 bool anyInside(const Solid& solid, const std::vector<Vec3>& points, const Pose& toSolid) {
-    return std::any_of(points.begin(), points.end(),
-                       [&](const Vec3& point) { return solid.inside(toSolid * point); });
+    return std::ranges::any_of(points, [&](const Vec3& point) { return solid.inside(toSolid * point); });
 }
 
 std::vector<double> along(const ClosingMotion& motion, double share) {
@@ -126,7 +123,7 @@ double JudgedPoses::clearance(std::size_t pose) const {
 std::size_t JudgedPoses::freeWithin(double distance) const {
     std::vector<char> within(queries_.size(), 0);
     parallelFor(queries_.size(), [&](std::size_t i) { within[i] = !touches(i) && clearance(i) < distance; });
-    return static_cast<std::size_t>(std::count(within.begin(), within.end(), char{1}));
+    return static_cast<std::size_t>(std::ranges::count(within, char{1}));
 }
 
 double JudgedPoses::depth(std::size_t pose) const {

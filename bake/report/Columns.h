@@ -15,8 +15,8 @@ struct Column {
     std::string json;  ///< place in the row's object of report.json, parts parted by '/'; empty: not there
     std::string csv;   ///< heading in report.csv; empty: not there
     std::string title; ///< heading in report.md and on the page, with its unit; empty: not there
-    std::function<Json(const Row&)> value;       ///< null: not known
-    std::function<std::string(const Row&)> text; ///< as it is read; none: the value, three digits
+    std::function<Json(const Row&)> value;         ///< null: not known
+    std::function<std::string(const Row&)> text{}; ///< as it is read; none: the value, three digits
 };
 template <class Row>
 using Columns = std::vector<Column<Row>>;

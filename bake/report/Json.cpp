@@ -44,12 +44,11 @@ Json jsonOf(const PairStudy& study) {
     for (const StepSeries& series : study.steps.series)
         steps["series"].push_back({{"name", series.name}, {"tests", series.tests}});
     json["steps"] = steps;
-    json["angularRegion"] = {
-        {"unit", study.leadingUnit},
-        {"spheres", jsonOf(study.region.spheres)},
-        {"meshes", jsonOf(study.region.meshes)},
-        {"stepsInSpheres", std::count(study.steps.inRegion.begin(), study.steps.inRegion.end(), char{1})},
-        {"stepsInMeshes", study.steps.inMeshRegion}};
+    json["angularRegion"] = {{"unit", study.leadingUnit},
+                             {"spheres", jsonOf(study.region.spheres)},
+                             {"meshes", jsonOf(study.region.meshes)},
+                             {"stepsInSpheres", std::ranges::count(study.steps.inRegion, char{1})},
+                             {"stepsInMeshes", study.steps.inMeshRegion}};
     json["sampling"] = jsonOf(samplingColumns(), study.sampling);
     json["base"] = study.base.name;
     const Columns<BakePoint> models = modelColumns(study);
@@ -108,16 +107,14 @@ std::string jsonOf(const Report& report) {
               {"times", {{"seconds", report.seconds}}},
               {"pairs", Json::array()},
               {"skins", Json::array()}};
-    for (std::size_t k = 0; k < report.pairs.size(); ++k) {
-        Json pair = jsonOf(report.pairs[k]);
-        for (const Plot& plot : report.pairPlots[k]) pair["plots"].push_back(plot.file);
-        json["pairs"].push_back(std::move(pair));
-    }
-    for (std::size_t k = 0; k < report.skins.size(); ++k) {
-        Json skin = jsonOf(report.skins[k]);
-        for (const Plot& plot : report.skinPlots[k]) skin["plots"].push_back(plot.file);
-        json["skins"].push_back(std::move(skin));
-    }
+    const auto add = [&](const char* kind, const auto& studies, const auto& plots) {
+        for (std::size_t k = 0; k < studies.size(); ++k) {
+            Json& study = json[kind].emplace_back(jsonOf(studies[k]));
+            for (const Plot& plot : plots[k]) study["plots"].push_back(plot.file);
+        }
+    };
+    add("pairs", report.pairs, report.pairPlots);
+    add("skins", report.skins, report.skinPlots);
     return json.dump(1) + "\n";
 }
 

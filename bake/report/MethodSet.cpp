@@ -55,7 +55,7 @@ public:
 
 private:
     bool wanted(const std::string& name) const {
-        return only_.empty() || std::any_of(only_.begin(), only_.end(), [&](const std::string& part) {
+        return only_.empty() || std::ranges::any_of(only_, [&](const std::string& part) {
                    return name.find(part) != std::string::npos;
                });
     }

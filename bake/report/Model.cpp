@@ -50,8 +50,8 @@ std::unique_ptr<Model> makeModel(const SceneModel& scene, const Pair& pair, cons
     auto model = std::make_unique<Model>();
     model->recipe = recipe;
     model->problem.motion = pairMotion(scene, pair);
-    model->problem.meshA = cleaned(scene.bodies[static_cast<std::size_t>(pair.bodyA)].mesh);
-    model->problem.meshB = cleaned(scene.bodies[static_cast<std::size_t>(pair.bodyB)].mesh);
+    model->problem.meshA = cleaned(scene.bodies[pair.bodyA].mesh);
+    model->problem.meshB = cleaned(scene.bodies[pair.bodyB].mesh);
     const auto start = Clock::now();
     model->spheres =
         std::make_shared<PairSpheres>(fillPair(scene, pair, model->problem.motion, recipe.options));
@@ -83,7 +83,7 @@ double protrusionOf(const SphereSet& spheres, const TriangleMesh& mesh) {
     std::vector<double> each(spheres.size(), 0.0);
     parallelFor(each.size(),
                 [&](std::size_t i) { each[i] = solid.protrusion(spheres[i].centre, spheres[i].radius); });
-    return each.empty() ? 0 : *std::max_element(each.begin(), each.end());
+    return each.empty() ? 0 : *std::ranges::max_element(each);
 }
 
 } // namespace tss::reporting

@@ -63,18 +63,18 @@ void drawErrors(Drawing& drawing, const PairStudy& study, const std::string& nam
         for (const Row* row : best) data += fmt::format("{} {}\n", x.value(*row), y.value(*row));
         if (!best.empty()) {
             data += fmt::format("{} {}\n", 3 * x.value(*best.back()), y.value(*best.back()));
-            series += fmt::format(", FILE index {} using 1:2 with steps lw 1.5 dt 2 lc rgb \"#444444\" title "
-                                  "\"Pareto front\"",
-                                  index);
+            series += fmt::format(
+                ", FILE index {} using 1:2 with steps lw 1.5 dt 2 lc rgb \"#444444\" title \"Pareto front\"",
+                index);
         }
     }
     series += ", NaN with points pt 6 lw 1.5 lc rgb \"#444444\" title \"hollow: misses contacts\"";
-    drawing.draw(name, data,
-                 powersOfTen("xy") +
-                     fmt::format("set xlabel {}\nset ylabel {}\nset yrange [{}:*]\nset title {} "
-                                 "noenhanced\nplot {}\n",
-                                 quoted(x.label), quoted(y.label), bottom * 0.5, quoted(title), series),
-                 caption, 1100, 620);
+    drawing.draw(
+        name, data,
+        powersOfTen("xy") +
+            fmt::format("set xlabel {}\nset ylabel {}\nset yrange [{}:*]\nset title {} noenhanced\nplot {}\n",
+                        quoted(x.label), quoted(y.label), bottom * 0.5, quoted(title), series),
+        caption, 1100, 620);
 }
 
 void drawSteps(Drawing& drawing, const PairStudy& study) {
@@ -105,15 +105,13 @@ void drawSteps(Drawing& drawing, const PairStudy& study) {
             colour(k), quoted(steps.series[k].name),
             k + 1 < steps.series.size() ? "1" : "(8,8)"); // the last may lie on the one before
     script += "FILE using 1:($4 > 0 ? 0.35 : NaN) with points pt 5 ps 0.5 lc rgb \"#f0a0a0\" title \"in the "
-              "angular "
-              "region\", FILE using 1:($3 > 0 ? 0.25 : NaN) with points pt 5 ps 0.5 lc rgb \"#dd181f\" title "
-              "\"meshes touch\"\n";
-    drawing.draw(
-        "steps", data, script,
-        "Sphere tests a step along the motion (the paper's Figure 2j). Sphere trees and all pairs "
-        "stop at the first hit; the table is counted with all of its tests, of which its kernels leave out "
-        "what cannot matter at the step.",
-        1100, 560);
+              "angular region\", FILE using 1:($3 > 0 ? 0.25 : NaN) with points pt 5 ps 0.5 lc rgb "
+              "\"#dd181f\" title \"meshes touch\"\n";
+    drawing.draw("steps", data, script,
+                 "Sphere tests a step along the motion (the paper's Figure 2j). Sphere trees and all pairs "
+                 "stop at the first hit; the table is counted with all of its tests, of which its kernels "
+                 "leave out what cannot matter at the step.",
+                 1100, 560);
 }
 
 void drawRegion(Drawing& drawing, const PairStudy& study) {
@@ -128,16 +126,14 @@ void drawRegion(Drawing& drawing, const PairStudy& study) {
             meshes.lower, meshes.upper);
     drawing.draw(
         "region", data,
-        fmt::format("set xlabel {}\nset ylabel \"poses that collide, %\"\nset yrange [0:105]\n"
-                    "set title \"Angular region of collision\"\n{}"
-                    "plot FILE using 1:2 with lines lw 2 lc rgb \"#0060ad\" title \"spheres of {}\", "
-                    "FILE using 1:3 with lines lw 2 lc rgb \"#dd181f\" title \"meshes\", "
-                    "NaN with lines lw 10 lc rgb \"#fbe3e4\" title \"region of the meshes\"\n",
-                    quoted(fmt::format("{}, {}", study.leadingDof, study.leadingUnit)), shaded,
-                    study.base.name),
+        fmt::format(
+            "set xlabel {}\nset ylabel \"poses that collide, %\"\nset yrange [0:105]\n"
+            "set title \"Angular region of collision\"\n{}plot FILE using 1:2 with lines lw 2 lc rgb "
+            "\"#0060ad\" title \"spheres of {}\", FILE using 1:3 with lines lw 2 lc rgb \"#dd181f\" title "
+            "\"meshes\", NaN with lines lw 10 lc rgb \"#fbe3e4\" title \"region of the meshes\"\n",
+            quoted(fmt::format("{}, {}", study.leadingDof, study.leadingUnit)), shaded, study.base.name),
         "Share of poses that collide by the leading DOF, the other DOFs anywhere in their limits (the "
-        "paper's "
-        "Figure 2i).");
+        "paper's Figure 2i).");
 }
 
 void drawSampling(Drawing& drawing, const PairStudy& study) {
@@ -153,8 +149,7 @@ void drawSampling(Drawing& drawing, const PairStudy& study) {
         data += points + "\n\n";
         for (const int column : {2, 3})
             series += fmt::format(
-                "{}FILE index {} using 1:{} with linespoints lw 2 pt {} dt {} lc rgb \"{}\" title "
-                "\"{}, {}\"",
+                "{}FILE index {} using 1:{} with linespoints lw 2 pt {} dt {} lc rgb \"{}\" title \"{}, {}\"",
                 series.empty() ? "" : ", ", index, column, column == 2 ? 7 : 6, column == 2 ? 1 : 2,
                 colour(index), reduce == "none" ? "sampled search alone" : "with the paper's reduction",
                 column == 2 ? "uniform poses" : "near contact");
@@ -187,9 +182,8 @@ void drawEpsilon(Drawing& drawing, const PairStudy& study) {
         "epsilon", data,
         fmt::format("set logscale x\nset xlabel \"ε, mm (leftmost: 0, lossless)\"\n"
                     "set ylabel \"tests a step\"\nset yrange [0:{}]\nset title \"Table size against ε\"\n"
-                    "plot FILE using 1:2 with linespoints lw 2 pt 7 lc rgb \"#0060ad\" title \"tests\", "
-                    "FILE using 1:3 with linespoints lw 2 dt 2 pt 6 lc rgb \"#5b5b5b\" title "
-                    "\"lower bound\"\n",
+                    "plot FILE using 1:2 with linespoints lw 2 pt 7 lc rgb \"#0060ad\" title \"tests\", FILE "
+                    "using 1:3 with linespoints lw 2 dt 2 pt 6 lc rgb \"#5b5b5b\" title \"lower bound\"\n",
                     1.15 * most),
         "Tests a step against ε, with the bound below which no table of the same answers can be.");
 }
@@ -205,10 +199,9 @@ void drawBake(Drawing& drawing, const PairStudy& study) {
         "set y2label \"tests a step\"\nset ytics nomirror\nset y2tics\nset y2range [0.5:*]\n"
         "set key outside top center horizontal\n"
         "set title \"Bake time and table size against the number of spheres\" offset 0,1\nset tmargin 5\n"
-        "plot FILE using 1:2 with linespoints lw 2 pt 7 lc rgb \"#0060ad\" title \"spheres, s\", "
-        "FILE using 1:3 with linespoints lw 2 pt 7 lc rgb \"#dd181f\" title \"table, s\", "
-        "FILE using 1:4 axes x1y2 with linespoints lw 2 dt 2 pt 6 lc rgb \"#2a8c2a\" title \"tests "
-        "(right)\"\n",
+        "plot FILE using 1:2 with linespoints lw 2 pt 7 lc rgb \"#0060ad\" title \"spheres, s\", FILE using "
+        "1:3 with linespoints lw 2 pt 7 lc rgb \"#dd181f\" title \"table, s\", FILE using 1:4 axes x1y2 with "
+        "linespoints lw 2 dt 2 pt 6 lc rgb \"#2a8c2a\" title \"tests (right)\"\n",
         "Seconds to make spheres and table, and the table's tests, as the tolerance falls.");
 }
 
@@ -230,17 +223,14 @@ std::vector<Plot> drawPlots(const PairStudy& study, const std::string& folder, c
         true,
         fmt::format(
             "Worst error against the meshes (deepest contact missed or farthest early contact, at uniform "
-            "and near-contact poses) against the time of a query, every method with every setting. "
-            "Methods with no error, or less, stand at {} mm. Nothing beats in both what lies on the "
-            "Pareto front.",
+            "and near-contact poses) against the time of a query, every method with every setting. Methods "
+            "with no error, or less, stand at {} mm. Nothing beats in both what lies on the Pareto front.",
             noError));
-    drawErrors(
-        drawing, study, "verdicts", fmt::format("Wrong verdicts against run time: {}", against), time, wrong,
-        noneWrong, true,
-        fmt::format(
-            "How often a method is wrong, against its time: contacts missed and early ones together, of "
-            "all uniform poses. None stands at {} %.",
-            noneWrong));
+    drawErrors(drawing, study, "verdicts", fmt::format("Wrong verdicts against run time: {}", against), time,
+               wrong, noneWrong, true,
+               fmt::format("How often a method is wrong, against its time: contacts missed and early ones "
+                           "together, of all uniform poses. None stands at {} %.",
+                           noneWrong));
     drawErrors(drawing, study, "memory", fmt::format("Error against memory: {}", against), memory, worst,
                noError, true, "The worst errors against what each method keeps in memory.");
     drawSteps(drawing, study);

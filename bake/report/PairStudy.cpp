@@ -5,7 +5,6 @@
 #include "bake/geometry/MeshAudit.h"
 
 #include <chrono>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace tss::reporting {
@@ -160,10 +159,9 @@ void measureRows(PairStudy& study, const std::vector<StudiedModel>& field, const
 }
 
 void describe(PairStudy& study, const SceneModel& scene, const Pair& pair, const Motion& motion) {
-    const auto last = [](const std::string& path) { return path.substr(path.rfind('/') + 1); };
     study.path = pair.path;
-    study.nameA = last(scene.bodies[static_cast<std::size_t>(pair.bodyA)].path);
-    study.nameB = last(scene.bodies[static_cast<std::size_t>(pair.bodyB)].path);
+    study.nameA = primName(scene.bodies[pair.bodyA].path);
+    study.nameB = primName(scene.bodies[pair.bodyB].path);
     study.millimetres = 1000 * scene.metersPerUnit;
     for (const Dof& dof : motion.dofs) {
         const double factor = dof.kind == DofKind::Rotation ? toDegrees(1) : 1;
@@ -271,7 +269,7 @@ std::vector<const Row*> paretoFront(const std::vector<Row>& rows, const std::fun
     std::vector<const Row*> sorted, front;
     for (const Row& row : rows)
         if (x(row) > 0) sorted.push_back(&row);
-    std::stable_sort(sorted.begin(), sorted.end(), [&](const Row* a, const Row* b) { return x(*a) < x(*b); });
+    std::ranges::stable_sort(sorted, [&](const Row* a, const Row* b) { return x(*a) < x(*b); });
     for (const Row* row : sorted)
         if (front.empty() || y(*row) < y(*front.back())) front.push_back(row);
     return front;
@@ -291,8 +289,8 @@ PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptio
     checkMotion(motion);
     describe(study, scene, pair, motion);
     const auto finish = [&] { study.seconds = std::chrono::duration<double>(Clock::now() - start).count(); };
-    const TriangleMesh a = cleaned(scene.bodies[static_cast<std::size_t>(pair.bodyA)].mesh);
-    const TriangleMesh b = cleaned(scene.bodies[static_cast<std::size_t>(pair.bodyB)].mesh);
+    const TriangleMesh a = cleaned(scene.bodies[pair.bodyA].mesh);
+    const TriangleMesh b = cleaned(scene.bodies[pair.bodyB].mesh);
     study.trianglesA = a.triangles.size();
     study.trianglesB = b.triangles.size();
 

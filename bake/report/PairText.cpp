@@ -3,16 +3,11 @@
 #include "bake/report/Columns.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace tss::reporting {
 
 namespace {
-
-std::string share(std::size_t part, std::size_t whole) {
-    return whole == 0 ? "–" : part == 0 ? "0" : fmt::format("{} of {}", part, whole);
-}
 
 const Row* findRow(const PairStudy& study, const std::string& method, const std::string& setting) {
     for (const Row& row : study.rows)
@@ -48,9 +43,8 @@ std::string methodTable(const PairStudy& study) {
     std::vector<Row> rows;
     for (const Row& row : study.rows)
         if (row.setting.empty() || row.setting == study.base.name) rows.push_back(row);
-    std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
-        return place(a.about.family) < place(b.about.family);
-    });
+    std::ranges::stable_sort(
+        rows, [](const Row& a, const Row& b) { return place(a.about.family) < place(b.about.family); });
     return markdownTable(methodColumns(study), rows);
 }
 
@@ -74,10 +68,9 @@ std::string frontText(const PairStudy& study) {
 std::string ratioTable(const PairStudy& study) {
     const Row* fcl = findMeshRow(study, "fcl-obbrss");
     const Row* bullet = findMeshRow(study, "bullet-gimpact");
-    std::string text =
-        "| spheres | tests | missed | deepest missed, mm | early, uniform | farthest early, mm | "
-        "time a query (p10–p90) | its loop over indices | sphere tree of all | FCL, OBB and RSS | "
-        "Bullet GImpact |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+    std::string text = "| spheres | tests | missed | deepest missed, mm | early, uniform | farthest early, "
+                       "mm | time a query (p10–p90) | its loop over indices | sphere tree of all | FCL, OBB "
+                       "and RSS | Bullet GImpact |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
     const auto add = [&](const BakePoint& point) {
         const Row* ours = findRow(study, "tss", point.name);
         if (!ours || !(ours->times.median > 0)) return;
@@ -89,9 +82,9 @@ std::string ratioTable(const PairStudy& study) {
         text += fmt::format(
             "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
             point.name == study.base.name ? "**" + point.name + "**" : point.name, point.tests,
-            share(ours->misses(), ours->uniform.touching + ours->near.touching),
+            shareText(ours->misses(), ours->uniform.touching + ours->near.touching),
             ours->misses() ? number(study.millimetres * ours->deepestMiss()) : "",
-            share(ours->uniform.early, ours->uniform.poses - ours->uniform.touching),
+            shareText(ours->uniform.early, ours->uniform.poses - ours->uniform.touching),
             ours->uniform.early + ours->near.early ? number(study.millimetres * ours->farthestEarly()) : "",
             timeText(ours->times), against(findRow(study, "tss-scalar", point.name)),
             against(findRow(study, "tree-all-8-balls", point.name)), against(fcl), against(bullet));
@@ -119,10 +112,10 @@ std::string goalsText(const PairStudy& study, bool goals) {
     if (goals) text += ". ";
     const Row* fcl = findMeshRow(study, "fcl-obbrss");
     if (fcl && study.fclDirectly.median > 0)
-        text += fmt::format(
-            "FCL is not slowed down by being asked through this report: its row takes {} times what it "
-            "takes when called directly ({}).",
-            number(fcl->times.median / study.fclDirectly.median), timeText(study.fclDirectly.median));
+        text += fmt::format("FCL is not slowed down by being asked through this report: its row takes {} "
+                            "times what it takes when called directly ({}).",
+                            number(fcl->times.median / study.fclDirectly.median),
+                            timeText(study.fclDirectly.median));
     return text.empty() ? text : text + "\n";
 }
 
@@ -137,14 +130,13 @@ std::string advice(const PairStudy& study) {
         if (row.about.family != "C-space grid") continue;
         const Row* table = findRow(study, "tss", row.setting);
         const auto named = [&](const BakePoint& point) { return point.name == row.setting; };
-        if (!table || std::none_of(study.tolerances.begin(), study.tolerances.end(), named)) continue;
+        if (!table || std::ranges::none_of(study.tolerances, named)) continue;
         const bool faster = row.times.median < table->times.median,
                    right = row.worst() <= 1.1 * table->worst();
         if (faster && right && (!winner || row.times.median < winner->times.median)) winner = &row;
         text += fmt::format(
-            "- {} over the spheres of {}: {} and {} against the table's {} and {}; it misses {} "
-            "contacts, the deepest by {} mm, and is early by {} mm at most (the table: {}, {} and "
-            "{} mm). {}\n",
+            "- {} over the spheres of {}: {} and {} against the table's {} and {}; it misses {} contacts, "
+            "the deepest by {} mm, and is early by {} mm at most (the table: {}, {} and {} mm). {}\n",
             row.method, row.setting, timeText(row.times.median), bytesText(row.about.bytes),
             timeText(table->times.median), bytesText(table->about.bytes), row.misses(),
             number(mm * row.deepestMiss()), number(mm * row.farthestEarly()), table->misses(),
@@ -160,17 +152,13 @@ std::string advice(const PairStudy& study) {
               "of gaps** here: its time does not depend on the shape. It knows no contact point, its memory "
               "grows with the power of the DOFs, and what it promises between its points is little.\n\n"
             : "\nA **grid of gaps** does not win here by the figures above.\n\n";
-    return text + "Take the **table** where the motion is constrained and known when baking, every frame "
-                  "asks, and it "
-                  "must be known how wrong an answer can be; it also gives gap, contact point, normal and "
-                  "gradient. Take a "
-                  "**mesh tree** (FCL, Bullet) where the motion is free, or where the exact answer of the "
-                  "triangles is "
-                  "wanted and its time does not matter. A **sphere tree** serves where spheres are wanted "
-                  "and the motion "
-                  "is not known beforehand. **Angular regions** and **allowed paths** are next to free of "
-                  "cost, and right "
-                  "for a single DOF only.\n";
+    return text +
+           "Take the **table** where the motion is constrained and known when baking, every frame asks, and "
+           "it must be known how wrong an answer can be; it also gives gap, contact point, normal and "
+           "gradient. Take a **mesh tree** (FCL, Bullet) where the motion is free, or where the exact answer "
+           "of the triangles is wanted and its time does not matter. A **sphere tree** serves where spheres "
+           "are wanted and the motion is not known beforehand. **Angular regions** and **allowed paths** are "
+           "next to free of cost, and right for a single DOF only.\n";
 }
 
 /// What a table is made of; besidePaper: with the paper's own pair beside it.
@@ -206,11 +194,10 @@ std::string countTable(const PairStudy& study, bool besidePaper) {
         "Steps in the angular region of collision: {:.0f} % of {} along {} by the meshes, {:.0f} % by the "
         "spheres of {}{}.{}\n",
         shareOf(steps.inMeshRegion), steps.leading.size(), steps.motion,
-        shareOf(static_cast<std::size_t>(std::count(steps.inRegion.begin(), steps.inRegion.end(), char{1}))),
-        ours.name, paper(" (the paper: 22 %)"),
-        paper(
-            " The pairs and their limits are not the same: the counts say of what size such tables are, not "
-            "which method is better."));
+        shareOf(static_cast<std::size_t>(std::ranges::count(steps.inRegion, char{1}))), ours.name,
+        paper(" (the paper: 22 %)"),
+        paper(" The pairs and their limits are not the same: the counts say of what size such tables are, "
+              "not which method is better."));
     return text;
 }
 
@@ -233,7 +220,7 @@ std::string whatTheyAre(const PairStudy& study) {
     std::string text;
     std::vector<std::string> said;
     for (const Row& row : study.rows) {
-        if (std::find(said.begin(), said.end(), row.method) != said.end()) continue;
+        if (std::ranges::find(said, row.method) != said.end()) continue;
         if (!row.setting.empty() && row.setting != study.base.name) continue;
         said.push_back(row.method);
         text += fmt::format("- **{}**: {}.\n", row.method, row.about.about);
@@ -247,23 +234,20 @@ std::string facts(const PairStudy& study) {
     for (std::size_t k = 0; k < study.dofs.size(); ++k) text += (k ? ", " : " by ") + study.dofs[k];
     text += ".\n\n";
     if (study.neverCollides) return text;
-    text += fmt::format(
-        "Judged at {} poses spread uniformly over the limits, {} of them touching, and at {} poses near "
-        "contact, both ends of segments bisected to a millionth of the limits; timed at the first {} of "
-        "the uniform poses (slow methods at fewer, at least 100). Contact at rest counts as contact, as "
-        "the meshes say.",
-        study.uniformPoses, study.touchingUniform, study.nearPoses, study.timedPoses);
+    text += fmt::format("Judged at {} poses spread uniformly over the limits, {} of them touching, and at {} "
+                        "poses near contact, both ends of segments bisected to a millionth of the limits; "
+                        "timed at the first {} of the uniform poses (slow methods at fewer, at least 100). "
+                        "Contact at rest counts as contact, as the meshes say.",
+                        study.uniformPoses, study.touchingUniform, study.nearPoses, study.timedPoses);
     if (study.earlyBound)
-        text += fmt::format(
-            " At {} of the {} free ones the meshes are nearer than {} mm, the early bound of the table "
-            "with spheres of {}: only there may it report contact early.",
-            study.freeWithinBound, study.uniformPoses - study.touchingUniform,
-            number(*study.earlyBound * study.millimetres), study.base.name);
+        text += fmt::format(" At {} of the {} free ones the meshes are nearer than {} mm, the early bound of "
+                            "the table with spheres of {}: only there may it report contact early.",
+                            study.freeWithinBound, study.uniformPoses - study.touchingUniform,
+                            number(*study.earlyBound * study.millimetres), study.base.name);
     if (study.leftOut)
-        text += fmt::format(
-            " {} poses were left out: a closed part of one body is wholly inside the other there, which "
-            "is contact for solids and none for surfaces.",
-            study.leftOut);
+        text += fmt::format(" {} poses were left out: a closed part of one body is wholly inside the other "
+                            "there, which is contact for solids and none for surfaces.",
+                            study.leftOut);
     return text + "\n\n";
 }
 
@@ -273,36 +257,30 @@ std::string pairText(const PairStudy& study, const std::vector<Plot>& plots, boo
     std::string text = fmt::format("## {}\n\n", study.path) + facts(study);
     if (study.neverCollides)
         return text +
-               fmt::format(
-                   "The two can never meet within these limits: their surfaces stay {} mm apart at every "
-                   "pose, proven. No table is needed and no method has anything to find.\n\n",
-                   number(study.clearance * study.millimetres));
-    text += (besidePaper ? "### Beside the paper\n\n" : "### The table\n\n") +
-            countTable(study, besidePaper) + "\n### Error against run time\n\n" +
-            pictureText(plots, "pareto") + frontText(study) + pictureText(plots, "verdicts") +
-            fmt::format("All methods, those on spheres with the spheres of {}:\n\n", study.base.name) +
-            methodTable(study) +
-            "\nMissed: poses where the meshes touch and the method says free; how deep: the deepest vertex "
-            "of one mesh "
-            "inside the other, 0 where only edges cross. Early: free poses where it says contact; how far: "
-            "the distance "
-            "of the meshes. Promised: what holds for every pose within the limits, – where nothing is "
-            "promised. First "
-            "contact: along straight ways from a free to a touching pose, how far the farthest point of the "
-            "moving body "
-            "is at worst from where the meshes first touch";
+               fmt::format("The two can never meet within these limits: their surfaces stay {} mm apart at "
+                           "every pose, proven. No table is needed and no method has anything to find.\n\n",
+                           number(study.clearance * study.millimetres));
+    text +=
+        (besidePaper ? "### Beside the paper\n\n" : "### The table\n\n") + countTable(study, besidePaper) +
+        "\n### Error against run time\n\n" + pictureText(plots, "pareto") + frontText(study) +
+        pictureText(plots, "verdicts") +
+        fmt::format("All methods, those on spheres with the spheres of {}:\n\n", study.base.name) +
+        methodTable(study) +
+        "\nMissed: poses where the meshes touch and the method says free; how deep: the deepest vertex of "
+        "one mesh inside the other, 0 where only edges cross. Early: free poses where it says contact; how "
+        "far: the distance of the meshes. Promised: what holds for every pose within the limits, – where "
+        "nothing is promised. First contact: along straight ways from a free to a touching pose, how far the "
+        "farthest point of the moving body is at worst from where the meshes first touch";
     text += study.leadingUnit == "degrees" ? fmt::format(", and the angle of {} in between", study.leadingDof)
                                            : "";
     text +=
-        ". Tests: of two spheres, a query, 4 products each as the paper counts; a table is counted with "
-        "all of its tests, of which its kernels leave out what cannot matter at the pose; the others stop at "
-        "the "
+        ". Tests: of two spheres, a query, 4 products each as the paper counts; a table is counted with all "
+        "of its tests, of which its kernels leave out what cannot matter at the pose; the others stop at the "
         "first hit.\n\n### How much quicker, at which error\n\n"
         "The table for each model, and how many times its time others take. The loop over indices is the "
-        "same table "
-        "as the paper runs it, the sphere tree stands on the same spheres; FCL answers for the triangles "
-        "exactly, Bullet in single precision. With ε above 0 a yes/no table is silent where its own nearest "
-        "pair is still up to ε apart while others touch, however deep those are.\n\n" +
+        "same table as the paper runs it, the sphere tree stands on the same spheres; FCL answers for the "
+        "triangles exactly, Bullet in single precision. With ε above 0 a yes/no table is silent where its "
+        "own nearest pair is still up to ε apart while others touch, however deep those are.\n\n" +
         ratioTable(study) + "\n" + goalsText(study, besidePaper) + "\n### When to choose what\n\n" +
         advice(study) + "\n### Along a motion\n\n" + pictureText(plots, "steps") +
         pictureText(plots, "region");

@@ -1,12 +1,14 @@
 #include "bake/report/Picture.h"
 
 #include "bake/base/Degrees.h"
-#include "bake/report/Png.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <png.h>
+#include <stdexcept>
 
 namespace tss::reporting {
 
@@ -25,7 +27,7 @@ struct View {
 /// A in the world, and B where the joint has these values.
 std::array<Pose, 2> posesAt(const SceneModel& scene, const Pair& pair, const Motion& motion,
                             const std::vector<double>& values) {
-    const Pose& a = scene.bodies[static_cast<std::size_t>(pair.bodyA)].placement;
+    const Pose& a = scene.bodies[pair.bodyA].placement;
     return {a, Pose(a * pose(motion, values))};
 }
 
@@ -43,7 +45,7 @@ View viewOf(const SceneModel& scene, const Pair& pair, const Motion& motion, std
     Vec3 eye = scene.upAxis == 'Y' ? Vec3::UnitZ() : Vec3(-Vec3::UnitY());
     if (motion.dofs.size() > leadingDof && motion.dofs[leadingDof].kind == DofKind::Rotation) {
         const Dof& dof = motion.dofs[leadingDof];
-        const Pose& a = scene.bodies[static_cast<std::size_t>(pair.bodyA)].placement;
+        const Pose& a = scene.bodies[pair.bodyA].placement;
         const Vec3 axis = (a.linear() * motion.base.linear() * dof.frame.linear() * dof.axis).normalized();
         if (axis.allFinite()) eye = axis.dot(eye) < 0 ? Vec3(-axis) : axis;
     }
@@ -54,9 +56,8 @@ View viewOf(const SceneModel& scene, const Pair& pair, const Motion& motion, std
     for (const auto& values : poses) {
         const auto placed = posesAt(scene, pair, motion, values);
         for (const int k : {0, 1})
-            for (const Vec3& v :
-                 scene.bodies[static_cast<std::size_t>(k ? pair.bodyB : pair.bodyA)].mesh.vertices)
-                box.extend(view.axes * (placed[static_cast<std::size_t>(k)] * v));
+            for (const Vec3& v : scene.bodies[k ? pair.bodyB : pair.bodyA].mesh.vertices)
+                box.extend(view.axes * (placed[k] * v));
     }
     if (box.isEmpty()) return view;
     view.middle = box.center();
@@ -73,8 +74,7 @@ public:
         for (const Tri& t : mesh.triangles) {
             std::array<Vec3, 3> corner;
             for (std::size_t k = 0; k < 3; ++k) {
-                const Vec3 x =
-                    view_.axes * (pose * mesh.vertices[static_cast<std::size_t>(t[int(k)])]) - view_.middle;
+                const Vec3 x = view_.axes * (pose * mesh.vertices[t[int(k)]]) - view_.middle;
                 corner[k] = {width / 2.0 + view_.pixels * x.x(), height / 2.0 - view_.pixels * x.y(),
                              view_.pixels * x.z()};
             }
@@ -82,16 +82,28 @@ public:
         }
     }
 
+    /// The bytes of a PNG file; what is not covered is transparent.
     std::string png() const {
-        std::vector<std::array<std::uint8_t, 3>> palette{{0, 0, 0}};
+        std::vector<std::uint8_t> colours{0, 0, 0, 0};
         for (const auto& colour : bodyColours)
             for (int shade = 0; shade < shades; ++shade) {
-                std::array<std::uint8_t, 3> entry{};
-                for (std::size_t c = 0; c < 3; ++c)
-                    entry[c] = static_cast<std::uint8_t>(colour[c] * (0.25 + 0.75 * shade / (shades - 1.0)));
-                palette.push_back(entry);
+                for (const double channel : colour)
+                    colours.push_back(
+                        static_cast<std::uint8_t>(channel * (0.25 + 0.75 * shade / (shades - 1.0))));
+                colours.push_back(255);
             }
-        return pngOf(pixels_, width, height, palette);
+        png_image image{};
+        image.version = PNG_IMAGE_VERSION;
+        image.width = width;
+        image.height = height;
+        image.format = PNG_FORMAT_RGBA_COLORMAP;
+        image.colormap_entries = static_cast<png_uint_32>(colours.size() / 4);
+        png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+        std::string out(size, '\0');
+        if (png_image_write_to_memory(&image, out.data(), &size, 0, pixels_.data(), 0, colours.data()) == 0)
+            throw std::logic_error(std::string("a picture cannot be written: ") + image.message);
+        out.resize(size);
+        return out;
     }
 
 private:
@@ -154,8 +166,8 @@ std::vector<Picture> picturesOf(const SceneModel& scene, const Pair& pair, std::
     for (std::size_t k = 0; k < poses.size(); ++k) {
         const auto placed = posesAt(scene, pair, motion, poses[k]);
         Canvas canvas(view);
-        canvas.draw(scene.bodies[static_cast<std::size_t>(pair.bodyA)].mesh, placed[0], 0);
-        canvas.draw(scene.bodies[static_cast<std::size_t>(pair.bodyB)].mesh, placed[1], 1);
+        canvas.draw(scene.bodies[pair.bodyA].mesh, placed[0], 0);
+        canvas.draw(scene.bodies[pair.bodyB].mesh, placed[1], 1);
         pictures.push_back({captions[k], canvas.png()});
     }
     return pictures;

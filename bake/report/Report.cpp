@@ -17,17 +17,16 @@ namespace {
 std::string stemOf(const std::string& path, bool alone) {
     if (alone) return "";
     std::string stem = path.substr(1);
-    std::replace(stem.begin(), stem.end(), '/', '-');
+    std::ranges::replace(stem, '/', '-');
     return stem + "-";
 }
 
 void checkPaths(const SceneModel& scene, const ReportOptions& options, const std::string& file) {
     if (scene.pairs.empty() && scene.skins.empty())
-        throw InputError(Where{file, "", ""}, "expected a scene with a pair or a skin to report on");
+        throw InputError(Where{file}, "expected a scene with a pair or a skin to report on");
     for (const std::string& path : options.pairs) {
         const auto same = [&](const auto& item) { return item.path == path; };
-        if (std::none_of(scene.pairs.begin(), scene.pairs.end(), same) &&
-            std::none_of(scene.skins.begin(), scene.skins.end(), same))
+        if (std::ranges::none_of(scene.pairs, same) && std::ranges::none_of(scene.skins, same))
             throw InputError(Where{file, "", path}, "no pair and no skin of this path in the scene");
     }
 }
@@ -62,15 +61,14 @@ Report makeReport(const SceneModel& scene, const std::string& sceneFile, const s
     checkMethods(options.methods);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error) throw InputError(Where{folder, "", ""}, "cannot make the folder: " + error.message());
+    if (error) throw InputError(Where{folder}, "cannot make the folder: " + error.message());
     const auto start = std::chrono::steady_clock::now();
     Report result;
     result.scene = std::filesystem::path(sceneFile).filename().string();
     result.machine = thisMachine();
     result.options = options;
     const auto wanted = [&](const std::string& path) {
-        return options.pairs.empty() ||
-               std::find(options.pairs.begin(), options.pairs.end(), path) != options.pairs.end();
+        return options.pairs.empty() || std::ranges::find(options.pairs, path) != options.pairs.end();
     };
     for (const Pair& pair : scene.pairs) {
         if (!wanted(pair.path)) continue;

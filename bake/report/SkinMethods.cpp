@@ -56,8 +56,8 @@ struct RefittedTree {
             return std::tuple(a.centre.x(), a.centre.y(), a.centre.z(), a.radius) <
                    std::tuple(b.centre.x(), b.centre.y(), b.centre.z(), b.radius);
         };
-        std::sort(order.begin(), order.end(),
-                  [&](std::uint32_t i, std::uint32_t j) { return less(spheres[i], spheres[j]); });
+        std::ranges::sort(order,
+                          [&](std::uint32_t i, std::uint32_t j) { return less(spheres[i], spheres[j]); });
         std::vector<char> taken(spheres.size(), 0);
         leafOf.assign(tree.nodes.size(), 0);
         for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
@@ -152,10 +152,10 @@ void judge(SkinMethod& method, const SkinSetting& setting, const Method& run) {
             run(step, found);
             rounds.push_back(1e9 * (threadSeconds() - start));
         }
-        std::sort(rounds.begin(), rounds.end());
+        std::ranges::sort(rounds);
         times.push_back(rounds[2]);
     }
-    std::sort(times.begin(), times.end());
+    std::ranges::sort(times);
     method.nanoseconds = times[times.size() / 2];
 }
 

@@ -27,8 +27,7 @@ std::vector<Activations> motionOf(const SceneModel& scene, const SkinModel& skin
             asked.push_back(skinActivations(scene, skin,
                                             scene.startTimeCode +
                                                 (scene.endTimeCode - scene.startTimeCode) * s / (steps - 1)));
-        animated =
-            std::any_of(asked.begin(), asked.end(), [&](const Activations& a) { return a != asked[0]; });
+        animated = std::ranges::any_of(asked, [&](const Activations& a) { return a != asked[0]; });
     }
     inWords = animated ? "the scene's own animation" : "all activations up and down again";
     if (animated) return asked;
@@ -82,10 +81,8 @@ double deepestBeyond(const std::vector<double>& now, const std::vector<double>& 
 double areaOf(std::span<const Vec3> positions, const std::vector<Tri>& triangles) {
     double area = 0;
     for (const Tri& t : triangles) {
-        const Vec3& a = positions[static_cast<std::size_t>(t[0])];
-        area += 0.5 * (positions[static_cast<std::size_t>(t[1])] - a)
-                          .cross(positions[static_cast<std::size_t>(t[2])] - a)
-                          .norm();
+        const Vec3& a = positions[t[0]];
+        area += 0.5 * (positions[t[1]] - a).cross(positions[t[2]] - a).norm();
     }
     return area;
 }
@@ -105,8 +102,7 @@ std::vector<std::vector<Vec3>> convergedSteps(const SceneModel& scene, const Ski
                                               const Muscles& muscles, const std::vector<Activations>& asked) {
     SkinParameters parameters = skinParameters(scene, skin);
     parameters.iterations = 2000;
-    SkinResponse response(makeSkinRig(scene.bodies[static_cast<std::size_t>(skin.body)].mesh, muscles,
-                                      *skin.table, parameters));
+    SkinResponse response(makeSkinRig(scene.bodies[skin.body].mesh, muscles, *skin.table, parameters));
     std::vector<std::vector<Vec3>> steps;
     for (const Activations& activations : asked) {
         response.update(activations);
@@ -172,7 +168,7 @@ SkinAnswer answerOf(const Played& played, std::shared_ptr<const SkinRig> rig, st
                 answer.areaChange, std::abs(areaOf(positions, played.rig.triangles) / played.restArea - 1));
     }
     answer.rms = std::sqrt(squares / (steps * static_cast<double>(played.rig.vertices.size())));
-    std::sort(times.begin(), times.end());
+    std::ranges::sort(times);
     if (!times.empty()) answer.nanoseconds = times[times.size() / 2];
     return answer;
 }
@@ -184,7 +180,7 @@ SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, 
     SkinMotionStudy study;
     const std::vector<Activations> asked = motionOf(scene, skin, muscles, quick ? 37 : 73, study.motion);
     study.steps = asked.size();
-    const TriangleMesh& mesh = scene.bodies[static_cast<std::size_t>(skin.body)].mesh;
+    const TriangleMesh& mesh = scene.bodies[skin.body].mesh;
     const auto rigOf = [&](int sweeps) {
         SkinParameters parameters = skinParameters(scene, skin);
         if (sweeps > 0) parameters.iterations = sweeps;
@@ -207,7 +203,7 @@ SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, 
         studyStep(study, played, muscles, s);
     }
     std::vector<int> settings{0, 1, 2, 4, 8, 16, 32, 64, 128};
-    if (std::find(settings.begin(), settings.end(), usual) == settings.end()) settings.push_back(usual);
+    if (std::ranges::find(settings, usual) == settings.end()) settings.push_back(usual);
     for (const int sweeps : settings) {
         std::vector<double> perStep;
         study.answers.push_back(answerOf(played, rigOf(sweeps), perStep));

@@ -1,7 +1,6 @@
 #include "bake/report/Drawing.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace tss::reporting {
@@ -14,8 +13,9 @@ void drawMethods(Drawing& drawing, const SkinStudy& study) {
     std::string data, series;
     for (std::size_t k = 0; k < study.methods.size(); ++k) {
         const SkinMethod& m = study.methods[k];
-        data += fmt::format("{} {}\n\n\n", m.nanoseconds / 1000,
-                            std::max(drawnAsNone, study.millimetres * std::max(m.deepestMiss, m.farthestEarly)));
+        data +=
+            fmt::format("{} {}\n\n\n", m.nanoseconds / 1000,
+                        std::max(drawnAsNone, study.millimetres * std::max(m.deepestMiss, m.farthestEarly)));
         series +=
             fmt::format("{}FILE index {} using 1:2 with points pt {} ps 1.4 lw 2 lc rgb \"{}\" title {}",
                         k ? ", " : "", k, m.missed ? 6 : 7, colour(k), quoted(m.name));
@@ -24,13 +24,12 @@ void drawMethods(Drawing& drawing, const SkinStudy& study) {
         "pareto", data,
         fmt::format(
             "set logscale xy\nset xlabel \"time a step, µs (median)\"\nset ylabel \"worst error, mm\"\n"
-            "set title \"Which skin spheres touch: error against run time\"\nset offsets graph 0.1, "
-            "graph 0.1, graph 0.3, graph 0.3\nplot {}, NaN with points pt 6 lw 2 lc rgb \"#444444\" "
-            "title \"hollow: misses contacts\"\n",
+            "set title \"Which skin spheres touch: error against run time\"\nset offsets graph 0.1, graph "
+            "0.1, graph 0.3, graph 0.3\nplot {}, NaN with points pt 6 lw 2 lc rgb \"#444444\" title "
+            "\"hollow: misses contacts\"\n",
             series),
         "Worst error against the muscles' surfaces (deepest contact missed or farthest early contact) "
-        "against "
-        "the time of a step.",
+        "against the time of a step.",
         900, 480);
 }
 
@@ -44,22 +43,21 @@ void drawSteps(Drawing& drawing, const SkinStudy& study) {
     for (std::size_t k = 0; k < study.methods.size(); ++k)
         series += fmt::format("{}FILE using 1:{} with linespoints pt {} ps 0.6 lw 2 lc rgb \"{}\" title {}",
                               k ? ", " : "", k + 2, k + 4, colour(k), quoted(study.methods[k].name));
-    drawing.draw(
-        "steps", data,
-        fmt::format("set logscale y\nset format y \"10^{{%L}}\"\nset termoption enhanced\nset xlabel "
-                    "\"activation\"\nset ylabel \"tests a step\"\nset title \"Tests a "
-                    "step as the muscles contract\"\nplot {}\n",
-                    series),
-        "Tests a step over the activation (the paper's Figure 2j): of two spheres, or of a sphere and an "
-        "ellipsoid, which takes some ten times the products.");
+    drawing.draw("steps", data,
+                 fmt::format("set logscale y\nset format y \"10^{{%L}}\"\nset termoption enhanced\nset "
+                             "xlabel \"activation\"\nset ylabel \"tests a step\"\nset title \"Tests a step "
+                             "as the muscles contract\"\nplot {}\n",
+                             series),
+                 "Tests a step over the activation (the paper's Figure 2j): of two spheres, or of a sphere "
+                 "and an ellipsoid, which takes some ten times the products.");
 }
 
 void drawAnswers(Drawing& drawing, const SkinStudy& study) {
     std::string data[2], labels;
     for (const SkinAnswer& a : study.motion.answers) {
-        data[a.sweeps > 0 ? 0 : 1] +=
-            fmt::format("{} {} {}\n", a.nanoseconds / 1000, std::max(drawnAsNone, study.millimetres * a.deepest),
-                        std::max(drawnAsNone, study.millimetres * a.farthest));
+        data[a.sweeps > 0 ? 0 : 1] += fmt::format("{} {} {}\n", a.nanoseconds / 1000,
+                                                  std::max(drawnAsNone, study.millimetres * a.deepest),
+                                                  std::max(drawnAsNone, study.millimetres * a.farthest));
         if (a.sweeps > 0)
             labels += fmt::format("set label \"{}\" at {},{} offset 0,-0.9 center font \",11\"\n", a.sweeps,
                                   a.nanoseconds / 1000, std::max(drawnAsNone, study.millimetres * a.deepest));
@@ -69,17 +67,15 @@ void drawAnswers(Drawing& drawing, const SkinStudy& study) {
         fmt::format(
             "set logscale xy\nset xlabel \"time an update, µs (median)\"\nset ylabel \"mm\"\n"
             "set title \"What is left of overlap against the time of an update (numbers: sweeps)\"\n"
-            "set offsets graph 0.1, graph 0.1, graph 0.15, graph 0.15\n{}"
-            "plot FILE index 0 using 1:2 with linespoints lw 2 pt 7 lc rgb \"{}\" title \"deepest "
-            "left\", FILE index 0 using 1:3 with linespoints lw 2 dt 2 pt 6 lc rgb \"{}\" title "
-            "\"farthest from converged\", FILE index 1 using 1:2 with points pt 5 ps 1.3 lc rgb \"{}\" "
-            "title \"deepest left, the paper's way\", {} with lines dt 3 lw 2 lc rgb \"#444444\" title "
-            "\"if the skin stayed at rest\"\n",
+            "set offsets graph 0.1, graph 0.1, graph 0.15, graph 0.15\n{}plot FILE index 0 using 1:2 with "
+            "linespoints lw 2 pt 7 lc rgb \"{}\" title \"deepest left\", FILE index 0 using 1:3 with "
+            "linespoints lw 2 dt 2 pt 6 lc rgb \"{}\" title \"farthest from converged\", FILE index 1 using "
+            "1:2 with points pt 5 ps 1.3 lc rgb \"{}\" title \"deepest left, the paper's way\", {} with "
+            "lines dt 3 lw 2 lc rgb \"#444444\" title \"if the skin stayed at rest\"\n",
             labels, colour(0), colour(1), colour(2),
             std::max(drawnAsNone, study.millimetres * study.motion.untouched)),
         "Residual depth of the skin in the muscles, and distance to the converged solve, against the time of "
-        "an "
-        "update, for several numbers of sweeps.",
+        "an update, for several numbers of sweeps.",
         1000, 520);
 }
 
@@ -98,8 +94,7 @@ void drawDepth(Drawing& drawing, const SkinStudy& study) {
         "set key outside top center horizontal\nset tmargin 5\nset title \"Overlap along the motion\" offset "
         "0,1\nplot FILE using 1:3 with lines lw 2 lc rgb \"#dd181f\" title \"if the skin stayed at rest\", "
         "FILE using 1:4 with lines lw 2 lc rgb \"#0060ad\" title \"left by the response\", FILE using 1:2 "
-        "axes "
-        "x1y2 with lines lw 1.5 dt 2 lc rgb \"#5b5b5b\" title \"activation (right)\"\n",
+        "axes x1y2 with lines lw 1.5 dt 2 lc rgb \"#5b5b5b\" title \"activation (right)\"\n",
         "How much deeper than at rest the deepest skin vertex is in a muscle, step by step.");
 }
 

@@ -122,7 +122,7 @@ SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const Report
     study.path = skin.path;
     study.millimetres = 1000 * scene.metersPerUnit;
     study.activations = options.quick ? 9 : 33;
-    const TriangleMesh& mesh = scene.bodies[static_cast<std::size_t>(skin.body)].mesh;
+    const TriangleMesh& mesh = scene.bodies[skin.body].mesh;
     const BakeOptions settings = optionsFor(skin.settings, {}, scene.metersPerUnit);
     PairReport notes;
     const MusclesInMotion muscles = musclesInMotion(scene, skin, settings, notes);

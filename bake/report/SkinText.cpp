@@ -22,12 +22,11 @@ std::string countTable(const SkinStudy& study, bool besidePaper) {
     const auto withEllipsoids = [&](std::size_t spheres) {
         return study.productsEllipsoid * static_cast<double>(spheres * study.muscles);
     };
-    return text +
-           fmt::format(
-               "| products a step, the same skin spheres against one bent ellipsoid a muscle |{} {:.0f} "
-               "({} × {:.0f}) | {:.0f} |\n",
-               paper(" 2870 (70 × 41) |"), withEllipsoids(study.usedSkin), study.usedSkin * study.muscles,
-               study.productsEllipsoid, withEllipsoids(study.carriedSkin));
+    return text + fmt::format("| products a step, the same skin spheres against one bent ellipsoid a muscle "
+                              "|{} {:.0f} ({} × {:.0f}) | {:.0f} |\n",
+                              paper(" 2870 (70 × 41) |"), withEllipsoids(study.usedSkin),
+                              study.usedSkin * study.muscles, study.productsEllipsoid,
+                              withEllipsoids(study.carriedSkin));
 }
 
 std::string answerTable(const SkinStudy& study) {
@@ -47,12 +46,10 @@ std::string skinText(const SkinStudy& study, const std::vector<Plot>& plots, boo
     if (besidePaper) text += "\nThe meshes are not the same: the counts say of what size such tables are.\n";
     text += fmt::format("\n### Which skin spheres touch a muscle\n\n"
                         "The paper's question, at {} activations: which of the skin's spheres, one a vertex "
-                        "at its rest place with a "
-                        "radius of {} mm, touch a muscle? The truth is the distance of the vertex to the "
-                        "muscle's surface: within the "
-                        "radius at {} of {} vertices and activations. The spheres stand in for the surface "
-                        "and stick out of it, so "
-                        "that sphere methods say so somewhat early; all over the same spheres agree.\n\n",
+                        "at its rest place with a radius of {} mm, touch a muscle? The truth is the distance "
+                        "of the vertex to the muscle's surface: within the radius at {} of {} vertices and "
+                        "activations. The spheres stand in for the surface and stick out of it, so that "
+                        "sphere methods say so somewhat early; all over the same spheres agree.\n\n",
                         study.activations, number(study.thickness * mm), study.touching, study.judged);
     text += pictureText(plots, "pareto") + markdownTable(methodColumns(study), study.methods) + "\n" +
             pictureText(plots, "steps");
@@ -60,20 +57,18 @@ std::string skinText(const SkinStudy& study, const std::vector<Plot>& plots, boo
     if (motion.answers.empty())
         return text + "\nNothing of the skin moves.\n\n### What was not run\n\n" + notRunText(study.notRun) +
                "\n";
-    text += fmt::format(
-        "\n### What the skin does about it\n\nPlayed over {} steps along {}; {} of the vertices can move, "
-        "at most {} mm. The muscles keep their volume to {:.1e} of it. ",
-        motion.steps, motion.motion, motion.touched, number(motion.farthestMove * mm), motion.muscleVolume);
+    text += fmt::format("\n### What the skin does about it\n\nPlayed over {} steps along {}; {} of the "
+                        "vertices can move, at most {} mm. The muscles keep their volume to {:.1e} of it. ",
+                        motion.steps, motion.motion, motion.touched, number(motion.farthestMove * mm),
+                        motion.muscleVolume);
     text += motion.untouched > 0
-                ? fmt::format(
-                      "Deepest left: how much deeper than at rest a skin vertex is in a muscle; it would be "
-                      "{} mm "
-                      "if the skin stayed where it is, and is {} mm in the converged solve, the same problem "
-                      "solved until nothing moves.\n\n",
-                      number(motion.untouched * mm), number(motion.converged * mm))
+                ? fmt::format("Deepest left: how much deeper than at rest a skin vertex is in a muscle; it "
+                              "would be {} mm if the skin stayed where it is, and is {} mm in the converged "
+                              "solve, the same problem solved until nothing moves.\n\n",
+                              number(motion.untouched * mm), number(motion.converged * mm))
                 : "In this motion no muscle comes deeper into the skin than it is at rest, even if the skin "
-                  "stayed where "
-                  "it is: there is no overlap to resolve, the muscles only carry the skin along.\n\n";
+                  "stayed where it is: there is no overlap to resolve, the muscles only carry the skin "
+                  "along.\n\n";
     if (motion.untouched > 0) text += pictureText(plots, "answer");
     text += answerTable(study) + "\n" + pictureText(plots, "depth");
     return text + "### What was not run\n\n" + notRunText(study.notRun) + "\n";

@@ -3,7 +3,6 @@
 #include "bake/base/Degrees.h"
 #include "bake/base/Parallel.h"
 
-#include <chrono>
 #include <cmath>
 #include <random>
 
@@ -29,7 +28,7 @@ std::vector<std::vector<double>> motionSteps(const SceneModel& scene, const Pair
     const Motion& motion = problem.motion;
     std::vector<std::vector<double>> values;
     if (pair.joints.size() == 1) {
-        const Joint& joint = scene.joints[static_cast<std::size_t>(pair.joints[0])];
+        const Joint& joint = scene.joints[pair.joints[0]];
         bool driven = joint.body0 == pair.bodyA && joint.drives.size() == motion.dofCount();
         for (std::size_t k = 0; driven && k < joint.drives.size(); ++k) driven = !joint.drives[k].empty();
         if (driven && scene.endTimeCode > scene.startTimeCode) {
@@ -76,7 +75,7 @@ RegionCurve regionOf(const Motion& motion, std::size_t leading, int bins, int sa
     RegionCurve region;
     for (int k = 0; k < bins; ++k) {
         region.middle.push_back((dof.lower + step * (k + 0.5)) * degreesPer(dof));
-        region.share.push_back(static_cast<double>(hits[static_cast<std::size_t>(k)]) / samples);
+        region.share.push_back(static_cast<double>(hits[k]) / samples);
         if (region.share.back() == 0) continue;
         if (region.upper == region.lower) region.lower = (dof.lower + step * k) * degreesPer(dof);
         region.upper = (dof.lower + step * (k + 1)) * degreesPer(dof);

@@ -28,6 +28,10 @@ std::string bytesText(std::size_t bytes) {
     return fmt::format("{} MB", bytes / 1000000);
 }
 
+std::string shareText(std::size_t part, std::size_t whole) {
+    return whole == 0 ? "–" : part == 0 ? "0" : fmt::format("{} of {}", part, whole);
+}
+
 std::string notRunText(const std::vector<NotRun>& notRun) {
     std::string text;
     for (const NotRun& entry : notRun) text += fmt::format("- {}: {}.\n", entry.method, entry.reason);
@@ -47,13 +51,11 @@ std::string markdownOf(const Report& report) {
         "# Error against run time: {}\n\n"
         "Made by `tss report {}{}`, seed {}, in {:.0f} s on {} ({} cores), {}, {}, kernels in {}; {}.\n\n"
         "All methods answer the same question about the same poses in one process: does the moving body "
-        "touch "
-        "the other? They take turns on one thread after a warm-up; times are medians over the rounds, with "
-        "the "
-        "tenth and ninetieth percentile. Each query is given its DOF values and its pose, made beforehand, "
-        "and "
-        "a method starts from whichever of them it needs. The truth is the meshes' own (FCL, exact triangle "
-        "tests). Error figures are the same in every run with this seed; times are this machine's.\n\n",
+        "touch the other? They take turns on one thread after a warm-up; times are medians over the rounds, "
+        "with the tenth and ninetieth percentile. Each query is given its DOF values and its pose, made "
+        "beforehand, and a method starts from whichever of them it needs. The truth is the meshes' own (FCL, "
+        "exact triangle tests). Error figures are the same in every run with this seed; times are this "
+        "machine's.\n\n",
         report.scene, report.scene, report.options.quick ? " --quick" : "", report.options.seed,
         report.seconds, machine.processor, machine.cores, machine.compiler, machine.build, machine.vectors,
         machine.libraries);
@@ -62,10 +64,9 @@ std::string markdownOf(const Report& report) {
         text += pairText(report.pairs[k], report.pairPlots[k], report.options.besidePaper);
     for (std::size_t k = 0; k < report.skins.size(); ++k)
         text += skinText(report.skins[k], report.skinPlots[k], report.options.besidePaper);
-    return text +
-           "## Licence\n\nThe minimal enclosing balls and the Delaunay balls of this report come from "
-           "CGAL, which is GPL-3.0-or-later: a `tss` built with `OSGTSS_REPORT` may be passed on under "
-           "that licence only. Nothing else of osgTSS links it.\n";
+    return text + "## Licence\n\nThe minimal enclosing balls and the Delaunay balls of this report come from "
+                  "CGAL, which is GPL-3.0-or-later: a `tss` built with `OSGTSS_REPORT` may be passed on "
+                  "under that licence only. Nothing else of osgTSS links it.\n";
 }
 
 } // namespace tss::reporting

@@ -22,7 +22,7 @@ double secondsOf(const compare::CollisionMethod& method, std::span<const compare
 }
 
 double at(const std::vector<double>& sorted, double share) {
-    return sorted[static_cast<std::size_t>(std::round(share * static_cast<double>(sorted.size() - 1)))];
+    return sorted[std::size_t(std::round(share * static_cast<double>(sorted.size() - 1)))];
 }
 
 } // namespace
@@ -60,7 +60,7 @@ std::vector<Times> timeMethods(const std::vector<const compare::CollisionMethod*
     [[maybe_unused]] volatile std::size_t sink = hits; // so that no loop is left out
     for (std::size_t m = 0; m < methods.size(); ++m) {
         std::vector<double>& sorted = plans[m].nanoseconds;
-        std::sort(sorted.begin(), sorted.end());
+        std::ranges::sort(sorted);
         times[m] = {at(sorted, 0.5), at(sorted, 0.1), at(sorted, 0.9), plans[m].rounds,
                     plans[m].queries.size()};
     }

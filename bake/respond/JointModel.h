@@ -7,7 +7,6 @@
 #include "bake/table/PreparedTable.h"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 
 namespace tss {

@@ -1,7 +1,6 @@
 #include "bake/respond/PairTree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace tss {

@@ -4,7 +4,6 @@
 #include <Eigen/SparseCore>
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "bake/respond/SkinResistance.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace tss {

@@ -22,11 +22,6 @@ fs::path realPath(const fs::path& path) {
     return error ? path.lexically_normal() : real;
 }
 
-bool isWithin(const fs::path& path, const fs::path& folder) {
-    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
-    return end == folder.end();
-}
-
 /// The name that a package.xml gives; empty where the folder has none.
 std::string packageName(const fs::path& folder) {
     std::error_code none;
@@ -60,8 +55,8 @@ fs::path homeOf(const fs::path& robotFolder) {
 std::string found(const std::string& name, const fs::path& path, const std::vector<fs::path>& within,
                   const std::string& hint) {
     const fs::path real = realPath(path);
-    if (std::none_of(within.begin(), within.end(),
-                     [&](const fs::path& folder) { return isWithin(real, realPath(folder)); }))
+    if (std::ranges::none_of(within,
+                             [&](const fs::path& folder) { return isWithin(real, realPath(folder)); }))
         throw InputError("file \"" + name + "\" lies outside of " + within.front().string() +
                          "; expected it within" + hint);
     return real.string();

@@ -14,7 +14,8 @@ using tinyxml2::XMLElement;
 
 namespace {
 
-constexpr std::size_t mostFiles = 64, mostBytesInAll = 8 << 20, mostElementsInAll = 100000, mostClasses = 10000;
+constexpr std::size_t mostFiles = 64, mostBytesInAll = 8 << 20, mostElementsInAll = 100000,
+                      mostClasses = 10000;
 constexpr std::size_t longestDefault = 200; ///< characters: a default is copied to each element of its class
 
 const std::set<std::string> orientations = {"quat", "axisangle", "xyaxes", "zaxis", "euler"};
@@ -148,8 +149,8 @@ private:
             const ClassDefaults& defaults = classCalled(*e, textOf(*e, "class", childClass));
             const auto own = defaults.find(name);
             if (own == defaults.end()) continue;
-            const bool placed = std::any_of(orientations.begin(), orientations.end(),
-                                            [&](const std::string& o) { return e->Attribute(o.c_str()); });
+            const bool placed = std::ranges::any_of(
+                orientations, [&](const std::string& o) { return e->Attribute(o.c_str()); });
             for (const auto& [attribute, value] : own->second)
                 if (!e->Attribute(attribute.c_str()) && !(placed && orientations.contains(attribute)))
                     e->SetAttribute(attribute.c_str(), value.c_str());
@@ -189,7 +190,7 @@ double MjcfCompiler::angle(double value) const {
 void includeAll(XMLElement& model, const std::string& file, const ReadOther& readOther) {
     Includer(file, readOther).include(model);
     if (countElements(model) > mostElementsInAll)
-        throw InputError(Where{file, "", ""}, "expected no more than 100000 elements with what is included");
+        throw InputError(Where{file}, "expected no more than 100000 elements with what is included");
 }
 
 MjcfCompiler readCompiler(const XMLElement& model, const std::string& file) {
@@ -197,8 +198,7 @@ MjcfCompiler readCompiler(const XMLElement& model, const std::string& file) {
     for (auto* e = model.FirstChildElement("compiler"); e; e = e->NextSiblingElement("compiler")) {
         const auto expect = [&](const char* attribute, std::initializer_list<const char*> words) {
             const std::string text = textOf(*e, attribute);
-            if (!text.empty() &&
-                std::none_of(words.begin(), words.end(), [&](const char* w) { return text == w; }))
+            if (!text.empty() && std::ranges::none_of(words, [&](const char* w) { return text == w; }))
                 throw InputError(placeOf(file, *e), std::string(attribute) + ": expected " + *words.begin() +
                                                         ", found \"" + text + "\"");
             return text;

@@ -2,7 +2,6 @@
 #include "bake/motion/Motion.h"
 #include "bake/robot/ReadMjcf.h"
 
-#include <map>
 #include <tinyxml2.h>
 
 namespace tss {

@@ -7,7 +7,6 @@
 #include "bake/table/Query.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numbers>
 #include <set>
@@ -15,10 +14,6 @@
 namespace tss {
 
 namespace {
-
-std::string nameOf(const std::string& path) {
-    return path.substr(path.rfind('/') + 1);
-}
 
 /// The values of a pair's chain, in the order of its motion.
 std::string poseText(const SceneModel& scene, const Pair& pair, const Motion& motion,
@@ -31,7 +26,7 @@ std::string poseText(const SceneModel& scene, const Pair& pair, const Motion& mo
             const bool turns = motion.dofs[k].kind == DofKind::Rotation;
             char value[40];
             std::snprintf(value, sizeof value, "%.6g", turns ? q[k] * 180 / std::numbers::pi : q[k]);
-            text += (text.empty() ? "" : ", ") + nameOf(joint.path) +
+            text += (text.empty() ? "" : ", ") + primName(joint.path) +
                     (joint.dofs.size() > 1 ? ":" + motion.dofs[k].name : "") + " " + value;
         }
     }
@@ -85,7 +80,7 @@ Tried nearestPose(const Meshes& meshes, const Motion& motion, const Table* table
     if (table) { // the poses that the table calls the deepest
         std::vector<std::pair<double, std::size_t>> order;
         for (std::size_t i = 0; i < poses.size(); ++i) order.emplace_back(query(*table, poses[i]).gap, i);
-        std::sort(order.begin(), order.end());
+        std::ranges::sort(order);
         std::vector<std::vector<double>> best;
         for (std::size_t i = 0; i < std::min(measured, order.size()); ++i)
             best.push_back(poses[order[i].second]);
@@ -98,13 +93,13 @@ Tried nearestPose(const Meshes& meshes, const Motion& motion, const Table* table
         tried.push_back(std::move(next));
     }
     const auto nearer = [](const Tried& a, const Tried& b) { return a.distance < b.distance; };
-    std::sort(tried.begin(), tried.end(), nearer);
+    std::ranges::sort(tried, nearer);
     tried.resize(std::min(tried.size(), descents));
     for (Tried& one : tried) {
         descend(meshes, motion, one);
         if (one.distance == 0) return one;
     }
-    return *std::min_element(tried.begin(), tried.end(), nearer);
+    return *std::ranges::min_element(tried, nearer);
 }
 
 class Collector {
@@ -160,14 +155,14 @@ private:
         evidence.baked = pair.table || pair.proof;
         evidence.adjacent = joinedTo(pair.bodyA).contains(pair.bodyB);
         if (pair.proof && pair.proof->restRegion.empty()) {
-            evidence.verdict = PairVerdict::Never;
+            evidence.verdict = Meeting::Never;
             evidence.clearance = pair.proof->clearance;
             return;
         }
         const Meshes meshes(scene_.bodies[pair.bodyA].mesh, scene_.bodies[pair.bodyB].mesh);
         const Motion motion = pairMotion(scene_, pair);
         const Tried nearest = nearestPose(meshes, motion, pair.table.get());
-        evidence.verdict = nearest.distance == 0 ? PairVerdict::Meets : PairVerdict::Open;
+        evidence.verdict = nearest.distance == 0 ? Meeting::Meets : Meeting::Open;
         evidence.clearance = nearest.distance;
         evidence.pose = poseText(scene_, pair, motion, nearest.q);
     }
@@ -176,16 +171,15 @@ private:
     void addOther(int a, int b, bool joined) {
         if (found_.contains({a, b})) return;
         const auto chain = findChain(scene_.joints, a, b);
-        const bool rigid = chain && !chain->empty() && std::all_of(chain->begin(), chain->end(), [&](int j) {
-                               return scene_.joints[j].dofs.empty();
-                           });
+        const bool rigid = chain && !chain->empty() &&
+                           std::ranges::all_of(*chain, [&](int j) { return scene_.joints[j].dofs.empty(); });
         if (!rigid && !joined) return;
         PairEvidence& evidence = at(a, b);
         evidence.adjacent = joined;
         if (!rigid) return;
         const Pose bToA = scene_.bodies[a].placement.inverse(Eigen::Isometry) * scene_.bodies[b].placement;
         evidence.clearance = Meshes(scene_.bodies[a].mesh, scene_.bodies[b].mesh).distance(bToA);
-        evidence.verdict = evidence.clearance > 0 ? PairVerdict::Never : PairVerdict::Always;
+        evidence.verdict = evidence.clearance > 0 ? Meeting::Never : Meeting::Always;
     }
 
     const SceneModel& scene_;
@@ -195,7 +189,7 @@ private:
 } // namespace
 
 std::string originalName(const Body& body) {
-    return body.displayName.empty() ? nameOf(body.path) : body.displayName;
+    return body.displayName.empty() ? primName(body.path) : body.displayName;
 }
 
 std::vector<PairEvidence> evidenceOf(const SceneModel& scene) {

@@ -4,7 +4,7 @@
 namespace tss {
 
 /// What is known of the collision of two bodies.
-enum class PairVerdict {
+enum class Meeting {
     Never,  ///< proven for every pose within the limits
     Always, ///< fixed to each other, and the meshes overlap
     Meets,  ///< the meshes meet at a pose that is known
@@ -13,7 +13,7 @@ enum class PairVerdict {
 
 struct PairEvidence {
     int bodyA = -1, bodyB = -1;
-    PairVerdict verdict = PairVerdict::Open;
+    Meeting verdict = Meeting::Open;
     bool adjacent = false; ///< joined by a joint, perhaps with links between that have no geometry
     bool baked = false;    ///< there is a proof or a table
     double clearance = 0;  ///< scene units. Never: proven, at every pose. Open: the least that was found

@@ -4,7 +4,6 @@
 #include "bake/robot/MjcfTree.h"
 #include "bake/robot/Xml.h"
 
-#include <algorithm>
 #include <numbers>
 #include <set>
 
@@ -323,8 +322,7 @@ Robot readMjcf(const std::string& text, const std::string& file, const ReadOther
     robot.file = file;
     robot.name = textOf(model, "model", "model");
     MjcfReader(model, file, robot);
-    if (robot.links.empty())
-        throw InputError(Where{file, "", ""}, "expected at least one <body>, found none");
+    if (robot.links.empty()) throw InputError(Where{file}, "expected at least one <body>, found none");
     settleRobot(robot);
     return robot;
 }

@@ -15,7 +15,7 @@ bool isMsh(const std::string& file) {
 
 TriangleMesh readMsh(const std::string& bytes, const std::string& file) {
     const auto refuse = [&](const std::string& message) {
-        throw InputError(Where{file, "", ""}, "as a mesh of MuJoCo (MSH): " + message);
+        throw InputError(Where{file}, "as a mesh of MuJoCo (MSH): " + message);
     };
     std::array<std::int32_t, 4> counts; // vertices, normals, texture coordinates, faces
     if (bytes.size() < sizeof counts) refuse("expected 16 bytes of counts at the beginning");

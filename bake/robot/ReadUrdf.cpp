@@ -3,7 +3,6 @@
 #include "bake/robot/UrdfText.h"
 #include "bake/robot/Xml.h"
 
-#include <cmath>
 #include <console_bridge/console.h>
 #include <numbers>
 #include <urdf_parser/urdf_parser.h>
@@ -35,7 +34,7 @@ urdf::ModelInterfaceSharedPtr parse(const XMLElement& top, const std::string& fi
     } catch (const std::exception& error) {
         thrown = error.what();
     }
-    throw InputError(Where{file, "", ""}, "is no URDF that can be read: " + messages.all + thrown);
+    throw InputError(Where{file}, "is no URDF that can be read: " + messages.all + thrown);
 }
 
 Vec3 vector(const urdf::Vector3& v) {
@@ -196,8 +195,7 @@ Robot readUrdf(const std::string& text, const std::string& file) {
 void readSrdf(Robot& robot, const std::string& text, const std::string& file) {
     const auto document = parseXml(text, file, "robot");
     const auto has = [&](const std::string& name) {
-        return std::any_of(robot.links.begin(), robot.links.end(),
-                           [&](const RobotLink& link) { return link.name == name; });
+        return std::ranges::any_of(robot.links, [&](const RobotLink& link) { return link.name == name; });
     };
     const XMLElement& top = *document->RootElement();
     if (const std::string name = textOf(top, "name"); name != robot.name)

@@ -4,7 +4,6 @@
 #include "bake/base/Error.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tss {
 
@@ -27,8 +26,7 @@ std::string rangeText(const Robot& robot, const Dof& dof) {
 /// The limits that a follower has, through others that follow too.
 void settleFollower(Robot& robot, RobotJoint& joint) {
     const auto named = [&](const std::string& name) {
-        return std::find_if(robot.joints.begin(), robot.joints.end(),
-                            [&](const RobotJoint& j) { return j.name == name; });
+        return std::ranges::find_if(robot.joints, [&](const RobotJoint& j) { return j.name == name; });
     };
     for (std::size_t steps = 0;; ++steps) {
         const auto leader = named(joint.leader);
@@ -55,13 +53,12 @@ void settleFollower(Robot& robot, RobotJoint& joint) {
     dof.upper = upper;
     robot.notes.push_back(
         "joint " + joint.name + " mimics " + joint.leader + ": " + rangeText(robot, dof) +
-        " are left it. The scene's motion couples them; a table lets each move by itself, so "
-        "what is proven never to meet holds, and some contacts of it may need both apart");
+        " are left it. The scene's motion couples them; a table lets each move by itself, so what is proven "
+        "never to meet holds, and some contacts of it may need both apart");
 }
 
 void settleHeld(Robot& robot, RobotJoint& joint) {
-    const bool held =
-        std::all_of(joint.dofs.begin(), joint.dofs.end(), [](const Dof& d) { return d.lower == d.upper; });
+    const bool held = std::ranges::all_of(joint.dofs, [](const Dof& d) { return d.lower == d.upper; });
     if (joint.dofs.empty() || !held) return;
     for (const Dof& dof : joint.dofs) joint.origin = joint.origin * dofPose(dof, dof.lower);
     robot.notes.push_back("joint " + joint.name + " (" + joint.where + ") has the limits " +
@@ -75,7 +72,7 @@ void settleHeld(Robot& robot, RobotJoint& joint) {
 void checkForest(const Robot& robot) {
     constexpr std::size_t most = 500;
     if (robot.links.size() > most)
-        throw InputError(Where{robot.file, "", ""},
+        throw InputError(Where{robot.file},
                          "expected no more than 500 links, found " + std::to_string(robot.links.size()));
     std::vector<int> above(robot.links.size(), -1); // the joint that holds a link
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {

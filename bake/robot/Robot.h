@@ -2,7 +2,6 @@
 #include "bake/model/TimeSamples.h"
 #include "bake/motion/Motion.h"
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>

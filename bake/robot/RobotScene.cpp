@@ -31,8 +31,7 @@ public:
         scene.defaultPrim = freePrimName(scene, robot_.name.empty() ? "Robot" : robot_.name);
         for (const RobotLink& link : robot_.links) addLink(link);
         const auto isEmpty = [](const Body& body) { return body.mesh.empty(); };
-        if (!failures_.empty() && std::all_of(scene.bodies.begin(), scene.bodies.end(), isEmpty))
-            throw failures_.front();
+        if (!failures_.empty() && std::ranges::all_of(scene.bodies, isEmpty)) throw failures_.front();
         if (!others_.empty())
             result_.notes.push_back("these have no " + std::string(request_.visual ? "visual" : "collision") +
                                     " geometry that can be had, and their other one is taken: " + others_);
@@ -179,8 +178,8 @@ private:
         for (const auto& [a, b] : robot_.unpaired)
             if (same(indexOf(a), indexOf(b))) return false;
         if (request_.pairs == RobotPairs::All) return true;
-        return std::any_of(robot_.joints.begin(), robot_.joints.end(),
-                           [&](const RobotJoint& joint) { return same(joint.parent, joint.child); });
+        return std::ranges::any_of(robot_.joints,
+                                   [&](const RobotJoint& joint) { return same(joint.parent, joint.child); });
     }
 
     int indexOf(const std::string& link) const {
@@ -199,15 +198,14 @@ private:
         noteSome(unmade, 10);
         if (request_.pairs == RobotPairs::All && pairs.size() < all)
             result_.notes.push_back(std::to_string(all - pairs.size()) +
-                                    " pairs are left out, as the robot's files "
-                                    "switch their collision off");
+                                    " pairs are left out, as the robot's files switch their collision off");
     }
 
     /// The file's own motion, or one that shows each joint.
     void addMotion() {
         const auto driven = [](const RobotJoint& joint) { return !joint.drives.empty(); };
         SceneModel& scene = result_.scene;
-        if (std::none_of(robot_.joints.begin(), robot_.joints.end(), driven)) {
+        if (std::ranges::none_of(robot_.joints, driven)) {
             addShowMotion(scene);
             return coupleMotion();
         }
@@ -228,9 +226,8 @@ private:
         for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
             const RobotJoint& joint = robot_.joints[j];
             if (joint.leader.empty() || joint.dofs.empty()) continue;
-            const auto leader =
-                std::find_if(robot_.joints.begin(), robot_.joints.end(),
-                             [&](const RobotJoint& other) { return other.name == joint.leader; });
+            const auto leader = std::ranges::find_if(
+                robot_.joints, [&](const RobotJoint& other) { return other.name == joint.leader; });
             if (leader == robot_.joints.end() || leader->dofs.empty()) continue;
             Joint& follower = joints[chains_[j].front()];
             TimeSamples drive = joints[chains_[leader - robot_.joints.begin()].front()].drives[0];

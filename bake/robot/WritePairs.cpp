@@ -3,7 +3,6 @@
 #include "bake/scene/Properties.h"
 #include "bake/scene/SceneFile.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -41,14 +40,14 @@ std::string millimetres(double length, double metersPerUnit) {
 std::string reasonText(const SceneModel& scene, const PairEvidence& pair) {
     const std::string length = millimetres(pair.clearance, scene.metersPerUnit);
     switch (pair.verdict) {
-    case PairVerdict::Never:
+    case Meeting::Never:
         return pair.baked ? "proven apart by at least " + length + " at every pose within the limits"
                           : "fixed to each other, " + length + " apart";
-    case PairVerdict::Always:
+    case Meeting::Always:
         return "fixed to each other, and their meshes overlap";
-    case PairVerdict::Meets:
+    case Meeting::Meets:
         return "the meshes meet, as at " + pair.pose;
-    case PairVerdict::Open:
+    case Meeting::Open:
         break;
     }
     if (pair.pose.empty()) return "not a pair of the scene";
@@ -59,8 +58,8 @@ std::string reasonText(const SceneModel& scene, const PairEvidence& pair) {
 /// The reason of an SRDF; empty where the pair stays on.
 std::string reasonOf(const PairEvidence& pair) {
     if (pair.adjacent) return "Adjacent";
-    if (pair.verdict == PairVerdict::Never) return "Never";
-    if (pair.verdict == PairVerdict::Always) return "Always";
+    if (pair.verdict == Meeting::Never) return "Never";
+    if (pair.verdict == Meeting::Always) return "Always";
     return "";
 }
 
@@ -72,7 +71,7 @@ void count(const PairEvidence& pair, PairsWritten& written) {
         ++written.never;
     else if (reason == "Always")
         ++written.always;
-    else if (pair.verdict == PairVerdict::Meets)
+    else if (pair.verdict == Meeting::Meets)
         ++written.meets;
     else
         ++written.open;
@@ -124,7 +123,7 @@ PairsWritten mjcfExcludesOf(const SceneModel& scene, const std::vector<PairEvide
 Layer withFilteredPairs(const SceneModel& scene, const std::vector<PairEvidence>& evidence) {
     std::map<int, std::vector<std::string>> partners;
     for (const PairEvidence& pair : evidence)
-        if (pair.verdict == PairVerdict::Never) partners[pair.bodyA].push_back(scene.bodies[pair.bodyB].path);
+        if (pair.verdict == Meeting::Never) partners[pair.bodyA].push_back(scene.bodies[pair.bodyB].path);
     Layer layer = layerOf(scene);
     for (const auto& [body, paths] : partners) {
         Prim* prim = findPrim(layer, scene.bodies[body].path);

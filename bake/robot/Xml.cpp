@@ -82,9 +82,9 @@ Where placeOf(const std::string& file, const XMLElement& element) {
 
 std::unique_ptr<tinyxml2::XMLDocument> parseXml(const std::string& text, const std::string& file,
                                                 const std::string& root) {
-    if (text.size() > mostBytes) throw InputError(Where{file, "", ""}, "expected no more than 8 MiB of XML");
+    if (text.size() > mostBytes) throw InputError(Where{file}, "expected no more than 8 MiB of XML");
     if (!isUtf8(text) || text.find('\0') != std::string::npos)
-        throw InputError(Where{file, "", ""}, "expected text in UTF-8");
+        throw InputError(Where{file}, "expected text in UTF-8");
     auto document = std::make_unique<tinyxml2::XMLDocument>();
     if (document->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
         if (const auto at = text.find("<!DOCTYPE"); at != text.npos)
@@ -96,7 +96,7 @@ std::unique_ptr<tinyxml2::XMLDocument> parseXml(const std::string& text, const s
     for (const auto* node = document->FirstChild(); node; node = node->NextSibling())
         if (node->ToUnknown()) refuseDocumentType(file, node->GetLineNum());
     const XMLElement* top = document->RootElement();
-    if (!top) throw InputError(Where{file, "", ""}, "expected an element <" + root + ">, found none");
+    if (!top) throw InputError(Where{file}, "expected an element <" + root + ">, found none");
     int count = 0;
     checkElement(file, *top, 1, count);
     if (!root.empty() && top->Name() != root)

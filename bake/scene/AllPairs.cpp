@@ -14,42 +14,29 @@ namespace {
 
 bool isSoft(const SceneModel& scene, int body) {
     const auto stands = [body](const auto& item) { return item.body == body; };
-    return std::any_of(scene.skins.begin(), scene.skins.end(), stands) ||
-           std::any_of(scene.muscles.begin(), scene.muscles.end(), stands);
+    return std::ranges::any_of(scene.skins, stands) || std::ranges::any_of(scene.muscles, stands);
 }
 
 /// A body that some enabled joint holds counts as rigid, as it does for pairs that are named.
 bool canCollide(const SceneModel& scene, int body) {
     if (scene.bodies[body].mesh.empty() || isSoft(scene, body)) return false;
-    return std::any_of(scene.joints.begin(), scene.joints.end(), [body](const Joint& joint) {
+    return std::ranges::any_of(scene.joints, [body](const Joint& joint) {
         return joint.enabled && (joint.body0 == body || joint.body1 == body);
     });
 }
 
 bool isPair(const SceneModel& scene, int a, int b) {
-    return std::any_of(scene.pairs.begin(), scene.pairs.end(), [&](const Pair& pair) {
+    return std::ranges::any_of(scene.pairs, [&](const Pair& pair) {
         return (pair.bodyA == a && pair.bodyB == b) || (pair.bodyA == b && pair.bodyB == a);
     });
 }
 
-std::string nameOf(const std::string& path) {
-    return path.substr(path.rfind('/') + 1);
-}
-
 /// A path beside the first body that nothing has yet.
 std::string freePath(const SceneModel& scene, const Pair& pair) {
-    const std::string& a = scene.bodies[pair.bodyA].path;
-    const std::string wanted = a + "_" + nameOf(scene.bodies[pair.bodyB].path);
-    const auto taken = [&](const std::string& path) {
-        const auto same = [&](const auto& item) { return item.path == path; };
-        return (scene.layer && findPrim(*scene.layer, path)) ||
-               std::any_of(scene.bodies.begin(), scene.bodies.end(), same) ||
-               std::any_of(scene.joints.begin(), scene.joints.end(), same) ||
-               std::any_of(scene.muscles.begin(), scene.muscles.end(), same) ||
-               std::any_of(scene.pairs.begin(), scene.pairs.end(), same);
-    };
+    const std::string wanted = scene.bodies[pair.bodyA].path + "_" + primName(scene.bodies[pair.bodyB].path);
     std::string path = wanted;
-    for (int k = 2; taken(path); ++k) path = wanted + std::to_string(k);
+    for (int k = 2; hasPath(scene, path) || (scene.layer && findPrim(*scene.layer, path)); ++k)
+        path = wanted + std::to_string(k);
     return path;
 }
 
@@ -87,7 +74,7 @@ std::optional<Pair> pairOf(const SceneModel& scene, int a, int b, std::vector<st
     std::string why = obstacle(scene, pair);
     if (!why.empty() && chain->size() > 1) { // a path may be crossed in one direction only
         std::swap(pair.bodyA, pair.bodyB);
-        std::reverse(pair.joints.begin(), pair.joints.end());
+        std::ranges::reverse(pair.joints);
         if (obstacle(scene, pair).empty()) why.clear();
     }
     if (!why.empty()) {

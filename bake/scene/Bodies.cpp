@@ -203,10 +203,9 @@ void writeBodies(Layer& layer, const SceneModel& scene) {
     std::iota(order.begin(), order.end(), std::size_t(0));
     const auto depth = [&](std::size_t i) {
         const std::string& path = scene.bodies[i].path;
-        return std::count(path.begin(), path.end(), '/');
+        return std::ranges::count(path, '/');
     };
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return depth(a) < depth(b); });
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return depth(a) < depth(b); });
     for (std::size_t i : order) writeBody(layer, scene, scene.bodies[i]);
 }
 

@@ -14,18 +14,17 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 constexpr Attribute dofOrder =
-    declared("uniform token[] tss:dofOrder",
-             "order of the DOFs in T(q), all that are free: `rotX` ... `transZ`, `path0`, ...; else slides "
-             "before turns, X before Z");
+    declared("uniform token[] tss:dofOrder", "order of the DOFs in T(q), all that are free: `rotX` ... "
+                                             "`transZ`, `path0`, ...; else slides before turns, X before Z");
 constexpr Attribute dofNames = declared("uniform token[] tss:dofNames", "other names for them");
 constexpr Attribute dofScale =
     declared("uniform double[] tss:dofScale", "distance of one unit of a slide's value; not 0, 1 for turns "
                                               "and paths. Limits and drives of the file stay distances");
-constexpr Attribute restOfDofs = declared(
-    "uniform double[] tss:rest",
-    "value of each DOF where the joint rests: motions start there, and what overlaps there is excepted (0, "
-    "or the limit nearest to it). It must meet limits and planes. Where the bodies stand at which value the "
-    "joint's frames say");
+constexpr Attribute restOfDofs =
+    declared("uniform double[] tss:rest",
+             "value of each DOF where the joint rests: motions start there, and what overlaps there is "
+             "excepted (0, or the limit nearest to it). It must meet limits and planes. Where the bodies "
+             "stand at which value the joint's frames say");
 constexpr Attribute pathNumbers =
     declared("uniform double[] tss:paths", "rows of value, x, y, z, and a quaternion w, x, y, z, in the "
                                            "joint's frame; linear and slerp between rows");
@@ -104,7 +103,7 @@ std::vector<std::string> readOrder(const PrimReader& prim) {
                          token, "\"");
         else if (!seen.insert(token).second)
             prim.problem(dofOrder, "expected each DOF once, found \"", token, "\" again");
-        else if (dof.kind != DofKind::Path && std::find(free.begin(), free.end(), token) == free.end())
+        else if (dof.kind != DofKind::Path && std::ranges::find(free, token) == free.end())
             prim.problem(dofOrder, "expected DOFs that the joint leaves free, found \"", token,
                          "\", which is locked");
         else
@@ -156,9 +155,7 @@ void writeLimits(PrimWriter& prim, const Dof& dof, const DofSlots& slots) {
 
 void lockTheRest(PrimWriter& prim, const std::vector<DofSlots>& free) {
     for (const char* token : dofTokens) {
-        if (std::any_of(free.begin(), free.end(),
-                        [&](const DofSlots& slots) { return slots.token == token; }))
-            continue;
+        if (std::ranges::any_of(free, [&](const DofSlots& slots) { return slots.token == token; })) continue;
         addApi(prim.prim(), std::string("PhysicsLimitAPI:") + token);
         const DofSlots locked("PhysicsJoint", token, 1);
         prim.set(locked.lowest(), Value(1.0));
@@ -310,7 +307,7 @@ void writeOurs(PrimWriter& prim, const Joint& joint, const std::vector<DofSlots>
         rests.push_back(dof.kind == DofKind::Rotation ? toDegrees(dof.rest) : dof.rest);
     }
     const auto all = [](const std::vector<double>& values, double value) {
-        return std::all_of(values.begin(), values.end(), [&](double v) { return v == value; });
+        return std::ranges::all_of(values, [&](double v) { return v == value; });
     };
     if (jointType(joint) == "PhysicsJoint") prim.set(dofOrder, tokens);
     if (names != tokens) prim.set(dofNames, names);
@@ -326,7 +323,7 @@ void readDofs(const PrimReader& prim, Joint& joint) {
     const auto order = readOrder(prim);
     const auto scales = readScales(prim, order);
     const auto isPath = [](const std::string& token) { return token.starts_with("path"); };
-    const auto paths = std::any_of(order.begin(), order.end(), isPath) ? readPaths(prim) : Paths();
+    const auto paths = std::ranges::any_of(order, isPath) ? readPaths(prim) : Paths();
     const auto rests = onePerDof(prim, restOfDofs, order.size(), 0);
     auto names = prim.texts(dofNames);
     if (prim.has(dofNames) && names.size() != order.size())

@@ -24,8 +24,7 @@ auto* find(Prims& prims, std::string_view path) {
     decltype(level->data()) found = nullptr;
     while (!path.empty()) {
         const std::string_view name = takeName(path);
-        const auto it =
-            std::find_if(level->begin(), level->end(), [&](const Prim& p) { return p.name == name; });
+        const auto it = std::ranges::find_if(*level, [&](const Prim& p) { return p.name == name; });
         if (name.empty() || it == level->end()) return decltype(found)(nullptr);
         found = &*it;
         level = &it->children;
@@ -37,7 +36,7 @@ void appendItems(const Value::Object& ops, const char* key, std::vector<std::str
     const auto op = ops.find(key);
     if (op == ops.end()) return;
     for (const std::string& item : listItems(op->second))
-        if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(item);
+        if (std::ranges::find(items, item) == items.end()) items.push_back(item);
 }
 
 } // namespace
@@ -69,7 +68,7 @@ Prim& makePrim(Layer& layer, std::string_view path, const std::string& typeName)
         if (!isPrimName(name))
             throw InputError({"", "", std::string(whole)},
                              "expected a prim path of names [A-Za-z_][A-Za-z0-9_]*");
-        auto it = std::find_if(level->begin(), level->end(), [&](const Prim& p) { return p.name == name; });
+        auto it = std::ranges::find_if(*level, [&](const Prim& p) { return p.name == name; });
         if (it == level->end()) {
             Prim made;
             made.name = name;
@@ -107,7 +106,7 @@ bool hasApi(const Prim& prim, std::string_view api) {
     const auto schemas = prim.metadata.find("apiSchemas");
     if (schemas == prim.metadata.end()) return false;
     const auto items = listItems(schemas->second);
-    return std::find(items.begin(), items.end(), api) != items.end();
+    return std::ranges::find(items, api) != items.end();
 }
 
 void addApi(Prim& prim, const std::string& api) {
@@ -125,6 +124,21 @@ void addApi(Prim& prim, const std::string& api) {
     list.as<Value::Array>()->emplace_back(api);
 }
 
+void moveBelow(std::string& path, const std::string& from, const std::string& to) {
+    if (path.starts_with(from) &&
+        (path.size() == from.size() || path[from.size()] == '/' || path[from.size()] == '.'))
+        path.replace(0, from.size(), to);
+}
+
+void moveBelow(Value& paths, const std::string& from, const std::string& to) {
+    if (auto* array = paths.as<Value::Array>()) {
+        for (Value& item : *array)
+            if (auto* path = item.as<std::string>()) moveBelow(*path, from, to);
+    } else if (auto* ops = paths.as<Value::Object>()) {
+        for (auto& [op, items] : *ops) moveBelow(items, from, to);
+    }
+}
+
 std::size_t numbersIn(const Property& property) {
     const auto count = [](const Value& value) {
         const Numbers* numbers = value.as<Numbers>();
@@ -139,7 +153,7 @@ std::size_t numbersIn(const Property& property) {
 bool isPrimName(std::string_view name) {
     const auto letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; };
     if (name.empty() || !letter(name[0])) return false;
-    return std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+    return std::ranges::all_of(name, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
 }
 
 } // namespace tss

@@ -71,6 +71,30 @@ bool hasApi(const Prim& prim, std::string_view api);
 /// Prepends the schema to the prim's list unless it has it.
 void addApi(Prim& prim, const std::string& api);
 
+/// A path at or below one prim as the same below another; any other path stays.
+void moveBelow(std::string& path, const std::string& from, const std::string& to);
+/// The same of each path of a list.
+void moveBelow(Value& paths, const std::string& from, const std::string& to);
+
+/// Children of a weaker prim under those of a stronger one: two of one name become one, merge(stronger,
+/// weaker), in the weaker one's place; what the stronger one alone has comes behind.
+template <class Child, class Name, class Merge>
+void mergeChildren(std::vector<Child>& stronger, std::vector<Child> weaker, const Name& name,
+                   const Merge& merge) {
+    std::map<std::string, std::size_t> places;
+    for (std::size_t i = 0; i < weaker.size(); ++i) places[name(weaker[i])] = i;
+    for (Child& child : stronger) {
+        const auto same = places.find(name(child));
+        if (same == places.end()) {
+            weaker.push_back(std::move(child));
+        } else {
+            merge(child, std::move(weaker[same->second]));
+            weaker[same->second] = std::move(child);
+        }
+    }
+    stronger = std::move(weaker);
+}
+
 /// How many numbers, or other single values, the property has in all.
 std::size_t numbersIn(const Property& property);
 

@@ -86,7 +86,7 @@ BakeSettings readSettings(const PrimReader& prim) {
     for (const auto& [name, property] : prim.prim().properties) {
         if (!name.starts_with(schema::bakePrefix)) continue;
         std::string key = name.substr(schema::bakePrefix.size());
-        std::replace(key.begin(), key.end(), '_', '-');
+        std::ranges::replace(key, '_', '-');
         const Attribute attribute{name, "string"};
         if (prim.value(attribute)) settings[key] = prim.text(attribute);
     }
@@ -98,7 +98,7 @@ void writeSettings(Prim& prim, const BakeSettings& settings) {
                   [](const auto& property) { return property.first.starts_with(schema::bakePrefix); });
     for (const auto& [key, text] : settings) {
         std::string name = joined(schema::bakePrefix, key);
-        std::replace(name.begin(), name.end(), '-', '_');
+        std::ranges::replace(name, '-', '_');
         PrimWriter(prim).set(Attribute{name, "string", true}, Value(text));
     }
 }

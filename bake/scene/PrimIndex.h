@@ -1,9 +1,19 @@
 #pragma once
-#include "bake/scene/Composed.h"
+#include "bake/scene/Layer.h"
+#include "bake/scene/Problems.h"
 
 #include <deque>
+#include <map>
 
 namespace tss {
+
+/// A prim with what the prims that it references give it, as in USD: its own type, metadata, properties and
+/// children are stronger than theirs, and their paths inside of themselves become paths inside of it.
+struct Composed {
+    Prim prim; ///< without children
+    Place place;
+    std::vector<Composed> children;
+};
 
 /// A prim of the scene with where it stands.
 struct PrimEntry {
@@ -13,6 +23,8 @@ struct PrimEntry {
     bool visible = true;   ///< neither it nor a parent says `invisible`
     bool composed = false; ///< it or a parent has references
 };
+
+class Composer;
 
 /// All prims that take part in the scene, parents before children, in the order of the file, with what their
 /// references give them. Classes, overs and what is not active do not take part, nor what is below them.

@@ -76,10 +76,6 @@ std::vector<SchemaType> muscleSchemas();
 
 void readSkins(SceneReading& reading);
 void writeSkins(Layer& layer, const SceneModel& scene);
-/// The weights that a skin of so many vertices brings along.
-SkinWeights readSkinWeights(const SceneReading& reading, const PrimReader& prim, std::size_t vertices);
-void writeSkinWeights(PrimWriter& prim, const SceneModel& scene, const SkinWeights& weights);
-SchemaType skinWeightsSchema();
 std::vector<SchemaType> skinSchemas();
 
 /// Tables and proofs of pairs and skins. Into a layer of the same scene, of which everything else stays as it
@@ -102,7 +98,7 @@ const Fields<BakeRecord>& recordFields();
 template <class Items>
 std::vector<std::string> pathsOf(const Items& items, const std::vector<int>& indices) {
     std::vector<std::string> paths;
-    for (int index : indices) paths.push_back(items[static_cast<std::size_t>(index)].path);
+    for (int index : indices) paths.push_back(items[index].path);
     return paths;
 }
 

@@ -49,7 +49,7 @@ std::size_t distance(const std::string& a, const std::string& b) {
 void remark(const std::string& name, const std::string& part, const std::vector<std::string>& known,
             const Place& place, Problems& problems) {
     constexpr std::size_t longest = 64;
-    if (std::find(known.begin(), known.end(), part) != known.end() || name.size() > longest) return;
+    if (std::ranges::find(known, part) != known.end() || name.size() > longest) return;
     const std::string* nearest = nullptr;
     std::size_t least = std::max<std::size_t>(2, part.size() / 5) + 1;
     for (const std::string& candidate : known)

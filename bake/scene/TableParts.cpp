@@ -46,10 +46,9 @@ const Fields<BakeRecord>& recordFields() {
               "pairs of spheres that can meet"),
         field("uniform uint64 tss:lowerBound", &BakeRecord::lowerBound, 0, anyNumber,
               "no table with the same answers has fewer tests"),
-        figure(
-            "uniform double[] tss:coverage", &FitRecord::coverage,
-            "of either body, a proven bound: how far the surface (of the contact zone, where spheres stand "
-            "there alone) is outside of the spheres; -1: not known"),
+        figure("uniform double[] tss:coverage", &FitRecord::coverage,
+               "of either body, a proven bound: how far the surface (of the contact zone, where spheres "
+               "stand there alone) is outside of the spheres; -1: not known"),
         figure("uniform double[] tss:protrusion", &FitRecord::protrusion,
                "the same: how far the spheres stick out of the body"),
         figure("uniform double[] tss:coverageMean", &FitRecord::coverageMean, "its mean, sampled"),

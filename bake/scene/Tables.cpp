@@ -11,9 +11,9 @@ constexpr Attribute spheres0 = declared(
     "rel tss:spheres0", "the used spheres of body 0, `Points` with `purpose = guide`; `widths` are "
                         "diameters. Numbers are floats, and what is proven is proven for these floats");
 constexpr Attribute spheres1 = declared("rel tss:spheres1", "the same of body 1");
-constexpr Attribute rowOffsets =
-    declared("uniform int[] tss:rowOffsets", "sparse rows: sphere i of body 0 is tested against the spheres "
-                                             "`columns[rowOffsets[i]]` ... of body 1");
+constexpr Attribute rowOffsets = declared(
+    "uniform int[] tss:rowOffsets",
+    "sparse rows: sphere i of body 0 is tested against the spheres `columns[rowOffsets[i]]` ... of body 1");
 constexpr Attribute columns = declared("uniform int[] tss:columns", "see `tss:rowOffsets`");
 constexpr Attribute restParts[2][2] = {
     {declared("uniform int[] tss:restTriangles0",
@@ -152,9 +152,7 @@ std::vector<SurfacePart> readParts(const PrimReader& prim, const Attribute (&att
 }
 
 RestRegion readRegion(const SceneReading& reading, const PrimReader& prim, const Pair& pair) {
-    const auto mesh = [&](int body) -> const TriangleMesh& {
-        return reading.scene.bodies[static_cast<std::size_t>(body)].mesh;
-    };
+    const auto mesh = [&](int body) -> const TriangleMesh& { return reading.scene.bodies[body].mesh; };
     RestRegion region;
     region.a = readParts(prim, restParts[0], mesh(pair.bodyA));
     region.b = readParts(prim, restParts[1], mesh(pair.bodyB));
@@ -281,8 +279,8 @@ void readSkinTable(const SceneReading& reading, SkinModel& skin) {
             if (index >= below)
                 return prim->problem(attribute, "expected indices below ", below, ", found ", index);
     };
-    check(table.skinVertices, table.table.a.size(),
-          reading.scene.bodies[static_cast<std::size_t>(skin.body)].mesh.vertices.size(), skinVertices);
+    check(table.skinVertices, table.table.a.size(), reading.scene.bodies[skin.body].mesh.vertices.size(),
+          skinVertices);
     check(table.muscleOf, table.table.b.size(), skin.muscles.size() + skin.bones.size(), muscleOf);
     skin.table = std::make_shared<SkinTable>(std::move(table));
 }

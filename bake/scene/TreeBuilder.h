@@ -1,7 +1,6 @@
 #pragma once
 #include "bake/scene/Value.h"
 
-#include <cstdint>
 #include <memory>
 
 namespace tss {

@@ -57,7 +57,7 @@ Value::~Value() = default;
 
 Value Numbers::element(std::size_t index) const {
     if (width == 0) return Value(values[index]);
-    const auto first = values.begin() + static_cast<std::ptrdiff_t>(index * width);
+    const auto first = values.begin() + index * width;
     return Value(Numbers{{first, first + width}, 0});
 }
 

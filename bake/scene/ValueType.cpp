@@ -186,7 +186,7 @@ void checkAssets(const Value& value, const Place& place, Problems& problems) {
         for (std::size_t i = 0; i < array->size(); ++i) checkAssets((*array)[i], place / i, problems);
     const auto* path = value.as<std::string>();
     const auto bad = [](char c) { return c == '@' || static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
-    if (path && std::any_of(path->begin(), path->end(), bad))
+    if (path && std::ranges::any_of(*path, bad))
         problems.add(place, "expected the path of a file without @ and control characters, found ",
                      describe(value));
 }

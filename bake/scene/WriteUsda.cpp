@@ -121,7 +121,7 @@ private:
         const auto once = [](const Value& list) {
             std::vector<std::string> items;
             for (const std::string& item : listItems(list))
-                if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(item);
+                if (std::ranges::find(items, item) == items.end()) items.push_back(item);
             return items;
         };
         const auto* ops = value.as<Value::Object>();

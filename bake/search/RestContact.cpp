@@ -6,7 +6,6 @@
 #include "bake/search/PoseGrid.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace tss {
@@ -206,8 +205,7 @@ private:
         for (std::size_t first = 0; first < poses.size(); first += batch) {
             if (!report(progress_, "contact at rest", double(first) / double(poses.size()))) return;
             const std::size_t end = std::min(first + batch, poses.size());
-            lookAll({poses.begin() + static_cast<std::ptrdiff_t>(first),
-                     poses.begin() + static_cast<std::ptrdiff_t>(end)});
+            lookAll({poses.begin() + first, poses.begin() + end});
         }
     }
 

@@ -5,7 +5,6 @@
 #include "bake/geometry/MeshAudit.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tss {
 

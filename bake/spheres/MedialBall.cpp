@@ -3,7 +3,6 @@
 #include "bake/spheres/MedialBall.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tss {
 

@@ -107,7 +107,7 @@ std::vector<std::uint32_t> greedyCover(const CoverSets& sets, std::size_t patchC
     for (std::size_t i = chosen.size(); i-- > 0;)
         if (counts.redundant(chosen[i])) {
             counts.change(chosen[i], -1);
-            chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(i));
+            chosen.erase(chosen.begin() + i);
         }
     for (std::uint32_t& i : chosen) i = sets.spheres[i];
     std::sort(chosen.begin(), chosen.end());

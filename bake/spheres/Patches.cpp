@@ -128,7 +128,7 @@ Outlook lookAhead(const Solid& solid, std::span<const Patch> patches, const Patc
     }
     const double n = double(descents), mean = std::accumulate(counts.begin(), counts.end(), 0.0) / n;
     // A few descents into a tight corner say next to all, and not surely: cut down to what others say too.
-    const auto most = counts.begin() + static_cast<std::ptrdiff_t>(15 * descents / 16);
+    const auto most = counts.begin() + 15 * descents / 16;
     std::nth_element(counts.begin(), most, counts.end());
     double low = 0, squares = 0;
     for (const double count : counts) {
@@ -158,18 +158,17 @@ public:
         if (options.neighbour && seen.finest < 0.5 * options.protrusion) {
             // Their number goes with the inverse of the clearance; a tenth of the most is made in minutes.
             const double clearance = options.neighbour->clearance;
-            throw RestTooClose(fmt::format(
-                "the meshes are {:.4g} scene units apart at rest: spheres that are apart there too need a "
-                "tolerance of {:.2g} and take about {:.2g} patches, more than {}: expected a clearance of "
-                "at least {:.2g} there, meshes that overlap where they are meant to, or --at-rest collide, "
-                "with which there may be contact at rest",
-                clearance, std::max(seen.finest, 0.0), takes, options.mostPatches,
-                10 * clearance * takes / most));
+            throw RestTooClose(
+                fmt::format("the meshes are {:.4g} scene units apart at rest: spheres that are apart there "
+                            "too need a tolerance of {:.2g} and take about {:.2g} patches, more than {}: "
+                            "expected a clearance of at least {:.2g} there, meshes that overlap where they "
+                            "are meant to, or --at-rest collide, with which there may be contact at rest",
+                            clearance, std::max(seen.finest, 0.0), takes, options.mostPatches,
+                            10 * clearance * takes / most));
         }
-        throw TooFine(
-            fmt::format("a tolerance of about {:.4g} takes about {:.2g} patches, more than {}, of a mesh "
-                        "{:.4g} in size: expected a coarser one",
-                        options.protrusion, takes, options.mostPatches, solid.diagonal()));
+        throw TooFine(fmt::format("a tolerance of about {:.4g} takes about {:.2g} patches, more than {}, of "
+                                  "a mesh {:.4g} in size: expected a coarser one",
+                                  options.protrusion, takes, options.mostPatches, solid.diagonal()));
     }
 
     const Solid& solid;

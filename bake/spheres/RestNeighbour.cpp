@@ -1,7 +1,6 @@
 #include "bake/spheres/RestNeighbour.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tss {
 

@@ -23,7 +23,7 @@ GapRanges::GapRanges(const Motion& motion, std::span<const TablePair> pairs)
     }
     slack_ = 1e-13 * (slack_ + coordinate);
     if (reaches.empty()) return;
-    const auto middle = reaches.begin() + std::ptrdiff_t(reaches.size() / 2);
+    const auto middle = reaches.begin() + reaches.size() / 2;
     std::nth_element(reaches.begin(), middle, reaches.end());
     middleReach_ = *middle;
 }

@@ -237,8 +237,7 @@ void directPose(const PosePlan& plan, const double* q, void* pose) {
 #endif
 
 template <class T>
-KernelSet fold(std::size_t dofs) {
-    KernelSet set;
+void fold(std::size_t dofs, KernelSet& set) {
     set.poses = foldPoses<T>;
 #if HWY_MAX_BYTES >= 32
     set.pose = dofs == 0   ? foldPose<T, 0>
@@ -248,17 +247,14 @@ KernelSet fold(std::size_t dofs) {
 #else
     (void)dofs;
 #endif
-    return set;
 }
 
 template <class T>
-KernelSet direct() {
-    KernelSet set;
+void direct(KernelSet& set) {
     set.poses = directPoses<T>;
 #if HWY_MAX_BYTES >= 32
     set.pose = directPose<T>;
 #endif
-    return set;
 }
 
 #endif
@@ -273,23 +269,13 @@ namespace tss {
 
 template <class T>
 void addFoldPoses(KernelTarget target, std::size_t dofs, KernelSet& set) {
-    const KernelSet made = [target, dofs]() -> KernelSet {
-        TSS_TARGETS(fold<T>(dofs))
-        (void)target, (void)dofs;
-        return {};
-    }();
-    set.pose = made.pose;
-    set.poses = made.poses;
+    TSS_TARGETS(fold<T>(dofs, set))
+    (void)target, (void)dofs, (void)set;
 }
 template <class T>
 void addDirectPoses(KernelTarget target, KernelSet& set) {
-    const KernelSet made = [target]() -> KernelSet {
-        TSS_TARGETS(direct<T>())
-        (void)target;
-        return {};
-    }();
-    set.pose = made.pose;
-    set.poses = made.poses;
+    TSS_TARGETS(direct<T>(set))
+    (void)target, (void)set;
 }
 template void addFoldPoses<float>(KernelTarget, std::size_t, KernelSet&);
 template void addFoldPoses<double>(KernelTarget, std::size_t, KernelSet&);

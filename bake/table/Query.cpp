@@ -1,6 +1,5 @@
 #include "bake/table/Query.h"
 
-#include <cmath>
 #include <limits>
 
 namespace tss {

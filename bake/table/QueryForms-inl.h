@@ -10,7 +10,6 @@
 #include "bake/table/Kernels.h"
 
 #include <hwy/highway.h>
-#include <utility>
 
 HWY_BEFORE_NAMESPACE();
 namespace tss {

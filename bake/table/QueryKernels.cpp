@@ -8,9 +8,6 @@
 #include "bake/table/KernelsVector.h"
 #include "bake/table/QueryForms-inl.h"
 
-#include <algorithm>
-#include <cmath>
-
 HWY_BEFORE_NAMESPACE();
 namespace tss {
 namespace HWY_NAMESPACE {

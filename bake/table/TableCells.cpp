@@ -59,9 +59,7 @@ public:
         std::array<std::uint32_t, maxDofs> halvings{};
         for (std::size_t k = 0; k < dofs_; ++k)
             move[k] = ranges_.weight(k) * (motion_.dofs[k].upper - motion_.dofs[k].lower);
-        const auto whole = [&] {
-            return std::accumulate(move.begin(), move.begin() + std::ptrdiff_t(dofs_), 0.0);
-        };
+        const auto whole = [&] { return std::accumulate(move.begin(), move.begin() + dofs_, 0.0); };
         const auto halveWidest = [&] {
             if (!(whole() > smallMove * ranges_.middleReach())) return false;
             const auto k =
@@ -164,8 +162,7 @@ public:
                         best = j;
                     }
                 // The others stay in their order.
-                std::rotate(order.begin() + std::ptrdiff_t(i), order.begin() + std::ptrdiff_t(best),
-                            order.begin() + std::ptrdiff_t(best) + 1);
+                std::rotate(order.begin() + i, order.begin() + best, order.begin() + best + 1);
                 for (std::size_t w = 0; w < block.size(); ++w) block[w] |= parts[order[i]][w];
             }
         }

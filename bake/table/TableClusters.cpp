@@ -42,10 +42,9 @@ void sortIntoClusters(std::span<const TablePair> pairs, std::span<std::uint32_t>
     const std::size_t unit = tests.size() > group ? group : cluster;
     const std::size_t half = (tests.size() + unit - 1) / unit / 2 * unit;
     const auto along = [&](std::uint32_t test) { return k < 3 ? pairs[test].a[k] : pairs[test].b[k - 3]; };
-    std::nth_element(tests.begin(), tests.begin() + std::ptrdiff_t(half), tests.end(),
-                     [&](std::uint32_t x, std::uint32_t y) {
-                         return along(x) < along(y) || (along(x) == along(y) && x < y);
-                     });
+    std::nth_element(tests.begin(), tests.begin() + half, tests.end(), [&](std::uint32_t x, std::uint32_t y) {
+        return along(x) < along(y) || (along(x) == along(y) && x < y);
+    });
     sortIntoClusters(pairs, tests.first(half), cluster, group);
     sortIntoClusters(pairs, tests.subspan(half), cluster, group);
 }

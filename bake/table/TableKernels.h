@@ -16,54 +16,35 @@ namespace tss {
 /// which says what they promise.
 class TableKernels {
 public:
-    /// Throws InputError where the options ask for what this table, build or processor does not have.
     TableKernels(const Table& table, const PrepareOptions& options);
     TableKernels(const TableKernels&) = delete;
     TableKernels& operator=(const TableKernels&) = delete;
 
-    /// Features of a pose. q: one finite value per DOF, within the limits.
     void features(const double* q, TableFeatures& out) const;
-    /// The same from the pose, B to A, 3 by 4, row-major, rotation first: of the direct form without cells
-    /// only.
     void features(const PoseRecipe::Matrix& pose, TableFeatures& out) const;
 
-    /// Some test touches. Never false where a gap is <= 0, and true only where one is <= signBand(): the
-    /// kernels go farther by what they may round.
     bool hit(const TableFeatures& f) const {
         if (cells_.empty()) return clusters_.empty() ? kernels_.hit(data_, f.doubles) : hitInClusters(f);
         if (cells_.allTouch(f.cell)) return true;
         return kernels_.hitNear(data_, f.doubles, cells_.nearBlocks(f.cell, TableCells::contactCode));
     }
 
-    /// The same from the values themselves, where the verdict cells do not tell.
+    /// Where the verdict cells do not tell.
     bool hit(const double* q) const;
 
-    /// The smallest gap, within gapBand() for gaps up to the table's margin, and its test.
     TableGap gap(const TableFeatures& f) const {
         const KernelGap g = nearest(f);
         return {g.gap, g.test};
     }
 
-    /// The smallest gap with point, normal and gradient; `frame` is frame(q) of the same pose. Of the
-    /// gradient dofCount() values are written. For an empty table only gap (infinity) and test (-1) mean
-    /// anything.
+    /// For an empty table only gap (infinity) and test (-1) mean anything.
     void contact(const TableFeatures& f, const MotionFrame& frame, TableContact& out) const;
-
-    /// T(q) and how each DOF moves B from there, for `contact`.
     void frame(const double* q, MotionFrame& out) const;
-
-    /// Numbers of all tests whose gap may be at most margin (>= 0; none is missed within the band), always in
-    /// the same order. out: room for testRoom() numbers. Returns how many.
     std::uint32_t testsWithin(const TableFeatures& f, double margin, std::uint32_t* out) const;
-
-    /// The same from the values themselves, without features where the cell of q has no test to be asked.
     std::uint32_t testsWithin(const double* q, double margin, std::uint32_t* out) const;
 
-    /// Many instances at once. q: count rows of one value per DOF. Allocates when `out` has to grow.
     void instanceFeatures(const double* q, std::uint32_t count, InstanceFeatures& out) const;
-    /// hit[i] = 1 where instance i touches, else 0. hit: room for f.count.
     void hits(const InstanceFeatures& f, std::uint8_t* hit) const;
-    /// Smallest gap and its test of every instance.
     void gaps(const InstanceFeatures& f, float* gap, std::int32_t* test) const;
 
     /// B to A in as many configurations from where their bodies are: of the direct form without cells only,
@@ -93,12 +74,9 @@ public:
     /// Features a pose has: columns without the constant and the shared term; 12 for direct.
     std::size_t featureCount() const { return fold_ ? fold_->features.size() : 12; }
     bool hasShared() const { return fold_ && !fold_->sharedFeatures.empty(); }
-    std::size_t bytes() const; ///< of what a query reads
+    std::size_t bytes() const;
 
-    /// `hit` is false wherever the table's gap is larger than this, scene units, and true wherever it is <=
-    /// 0.
     double signBand() const { return signBand_; }
-    /// `gap` is off by no more than this for gaps down to -depth and up to margin of the table.
     double gapBand() const { return gapBand_; }
     /// Condition of the worst test with this form of kernel: by how many roundoffs of its squared contact
     /// distance the squared distance may be off near contact. Infinite where a contact distance is 0.

@@ -1,7 +1,6 @@
 #pragma once
 #include "bake/motion/Motion.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>

@@ -55,15 +55,12 @@ std::string tally(const Json& pairs) {
 /// A tolerance so fine for the size of a body is mostly one in another unit, and takes hours.
 void remarkTolerance(const SceneModel& scene, const BakeOptions& options, const Console& console) {
     constexpr double fine = 2e-5; // of a body's diagonal
-    double size = 0;
-    for (const Body& body : scene.bodies)
-        if (!body.mesh.vertices.empty()) size = std::max(size, diagonal(body.mesh));
+    const double size = largestDiagonal(scene);
     if (options.tolerance && *options.tolerance < fine * size)
-        console.say(
-            fmt::format("note: a tolerance of {} on a body of {} takes very many spheres; is the scene's "
-                        "unit {} m long?",
-                        lengthText(*options.tolerance, scene.metersPerUnit),
-                        lengthText(size, scene.metersPerUnit), scene.metersPerUnit));
+        console.say(fmt::format(
+            "note: a tolerance of {} on a body of {} takes very many spheres; is the scene's unit {} m long?",
+            lengthText(*options.tolerance, scene.metersPerUnit), lengthText(size, scene.metersPerUnit),
+            scene.metersPerUnit));
 }
 
 /// Where some have tables and others have none, a bake goes on with these.
@@ -109,7 +106,7 @@ void endIncomplete(const BakeArguments& arguments, const KeptParts& parts, const
     if (parts.signal()) fmt::print(stderr, "tss: interrupted\n");
     const std::vector<std::string>& missing = parts.missing();
     constexpr std::size_t most = 8; // that are named; --json names all
-    const auto last = missing.begin() + static_cast<std::ptrdiff_t>(std::min(most, missing.size()));
+    const auto last = missing.begin() + std::min(most, missing.size());
     fmt::print(stderr, "tss: not baked: {}{}\n", fmt::join(missing.begin(), last, ", "),
                missing.size() > most ? fmt::format(" and {} more", missing.size() - most) : "");
     if (!written.empty())
@@ -131,7 +128,7 @@ void bakeFiner(SceneModel& scene, const BakeRequest& request, KeptParts& parts, 
     for (const Pair& pair : scene.pairs) {
         if (!parts.complete()) return;
         const auto& asked = request.pairs;
-        if (!asked.empty() && std::find(asked.begin(), asked.end(), pair.path) == asked.end()) continue;
+        if (!asked.empty() && std::ranges::find(asked, pair.path) == asked.end()) continue;
         const std::optional<EarlyContact> early = measureEarlyContact(scene, pair);
         if (!early || !early->coarse() || early->tolerance <= 0) continue;
         console.say(fmt::format("{}: contact reported at {:.0f} % of the poses where nothing touches: again, "

@@ -84,8 +84,7 @@ void addBench(Options& app, Console& console) {
     command
         ->add_option("--with", arguments->with,
                      "hit, gap (and test), contact (and point, normal, gradient), features (of the poses, no "
-                     "query) or "
-                     "pose (hit, features included)")
+                     "query) or pose (hit, features included)")
         ->capture_default_str();
     command->footer(
         "Instructions a query: run under callgrind with two values of --queries and divide the difference.");

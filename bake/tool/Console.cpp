@@ -41,7 +41,7 @@ void refuseOverwriting(const std::string& output, std::initializer_list<std::str
     for (const std::string& input : inputs) {
         std::error_code none;
         if (std::filesystem::equivalent(output, input, none))
-            throw InputError(Where{output, "", ""}, "is read here; expected another name for the output");
+            throw InputError(Where{output}, "is read here; expected another name for the output");
     }
 }
 
@@ -49,12 +49,12 @@ void expectWritable(const std::string& output) {
     const std::filesystem::path folder = std::filesystem::path(output).parent_path();
     std::error_code none;
     if (!folder.empty() && !std::filesystem::is_directory(folder, none))
-        throw InputError(Where{output, "", ""}, "cannot be written: there is no folder " + folder.string());
+        throw InputError(Where{output}, "cannot be written: there is no folder " + folder.string());
     if (std::filesystem::is_directory(output, none))
-        throw InputError(Where{output, "", ""}, "cannot be written: it is a folder");
+        throw InputError(Where{output}, "cannot be written: it is a folder");
     const std::string within = folder.empty() ? "." : folder.string();
     if (::access(within.c_str(), W_OK | X_OK) != 0)
-        throw InputError(Where{output, "", ""},
+        throw InputError(Where{output},
                          fmt::format("cannot be written: {}: {}", within, std::strerror(errno)));
 }
 

@@ -3,17 +3,18 @@
 #include "bake/geometry/Import.h"
 #include "bake/model/AddPair.h"
 #include "bake/pipeline/BakeOptions.h"
+#include "bake/robot/PairEvidence.h"
 #include "bake/robot/WritePairs.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/Transforms.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteUsda.h"
+#include "bake/spheres/GenerateSpheres.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/RobotInput.h"
-#include "bake/tool/UsdInput.h"
-#include "bake/tool/WriteSpheres.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <limits>
@@ -69,10 +70,59 @@ Layer meshLayer(const ConvertArguments& arguments, const Console& console) {
     return layerOf(scene);
 }
 
+struct SpheresWritten {
+    std::string text;
+    std::size_t links = 0, spheres = 0;
+    std::vector<std::string> notes;
+};
+
+/// A name as a YAML key, whatever is in it.
+std::string quoted(const std::string& name) {
+    std::string text = "\"";
+    for (char c : name) {
+        if (c == '"' || c == '\\') text += '\\';
+        text += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+    return text + "\"";
+}
+
+/// collision_spheres as cuRobo's robot files have them: of each rigid body with a mesh, in its own frame, in
+/// metres. The union of a link's spheres holds its whole surface, and they stick out of it by what its
+/// comment says, both proven. Throws InputError for a mesh that cannot be filled so closely.
+SpheresWritten curoboSpheresOf(const SceneModel& scene, const SphereOptions& options) {
+    SpheresWritten written;
+    written.text = "# Spheres of each link, in its frame and in metres. They hold the whole surface of its "
+                   "mesh, proven.\n"
+                   "collision_spheres:\n";
+    const double metre = scene.metersPerUnit;
+    constexpr double rounding = 1e-12; // of a product and of the digits written
+    for (const Body& body : scene.bodies) {
+        if (!body.rigid || body.mesh.empty()) continue;
+        const std::string name = originalName(body);
+        const SphereFit fit = fitSpheres(body.mesh, options);
+        if (!std::isfinite(fit.protrusion) || fit.coverage > 0)
+            throw InputError(Where{"", "", body.path}, "its mesh cannot be covered by spheres with a bound");
+        if (!fit.note.empty()) written.notes.push_back(name + ": " + fit.note);
+        written.text += fmt::format("  {}: # {} spheres, out of the link by at most {:.4g} mm{}\n",
+                                    quoted(name), fit.spheres.size(), 1000 * metre * fit.protrusion,
+                                    fit.hollow ? "; taken for its surface alone" : "");
+        for (const Sphere& sphere : fit.spheres) {
+            const Vec3 centre = metre * sphere.centre;
+            const double radius = metre * sphere.radius, slack = rounding * (radius + centre.norm());
+            written.text += fmt::format("    - \"center\": [{}, {}, {}]\n      \"radius\": {}\n", centre.x(),
+                                        centre.y(), centre.z(), radius + slack);
+        }
+        ++written.links;
+        written.spheres += fit.spheres.size();
+    }
+    if (written.links == 0) throw InputError("expected a rigid body with a mesh, found none");
+    return written;
+}
+
 /// Spheres of each body for cuRobo.
 void writeSpheresOf(const ConvertArguments& arguments, const Console& console) {
     if (extension(arguments.input) != ".tss")
-        throw InputError(Where{arguments.input, "", ""}, "expected a scene, whose bodies get spheres");
+        throw InputError(Where{arguments.input}, "expected a scene, whose bodies get spheres");
     const SceneModel scene = loadScene(arguments.input);
     SphereOptions options;
     options.tolerance =
@@ -93,7 +143,7 @@ void writeSpheresOf(const ConvertArguments& arguments, const Console& console) {
 /// What a planner or a simulator need not test, from the proofs of a baked scene.
 void writePairsOf(const ConvertArguments& arguments, const Console& console) {
     if (extension(arguments.input) != ".tss")
-        throw InputError(Where{arguments.input, "", ""}, "expected a baked scene, whose proofs are written");
+        throw InputError(Where{arguments.input}, "expected a baked scene, whose proofs are written");
     const SceneModel scene = loadScene(arguments.input);
     const auto evidence = inFile(arguments.input, [&] { return evidenceOf(scene); });
     const std::string source = std::filesystem::path(arguments.input).filename().string();
@@ -101,10 +151,10 @@ void writePairsOf(const ConvertArguments& arguments, const Console& console) {
                                      ? srdfOf(scene, evidence, source)
                                      : mjcfExcludesOf(scene, evidence, source);
     writeFileAtomically(arguments.output, written.text);
-    console.say(fmt::format(
-        "wrote {}: {} proven never to meet, {} adjacent, {} fixed and overlapping; left on: {} that "
-        "meet, {} open",
-        arguments.output, written.never, written.adjacent, written.always, written.meets, written.open));
+    console.say(fmt::format("wrote {}: {} proven never to meet, {} adjacent, {} fixed and overlapping; left "
+                            "on: {} that meet, {} open",
+                            arguments.output, written.never, written.adjacent, written.always, written.meets,
+                            written.open));
     console.print({{"input", arguments.input},
                    {"output", arguments.output},
                    {"never", written.never},
@@ -166,7 +216,7 @@ void convert(const ConvertArguments& arguments, const Console& console) {
     else if (extension(arguments.output) == ".tss")
         saveLayer(layer, arguments.output, encoding);
     else
-        throw InputError(Where{arguments.output, "", ""},
+        throw InputError(Where{arguments.output},
                          "expected a name that ends in .tss, .usda, .srdf, .xml or .yml");
     console.say("wrote " + arguments.output);
     console.print(result);
@@ -184,11 +234,10 @@ void addConvert(Options& app, Console& console) {
                      "a .tss, a .usda, a robot's URDF or MJCF, or any mesh that assimp reads")
         ->required();
     command
-        ->add_option(
-            "output", arguments->output,
-            "a .tss or .usda; of a baked scene also an .srdf, or an .xml of MuJoCo's <exclude>s: the pairs "
-            "that are proven never to meet, and those that are joined; or a .yml of cuRobo's collision "
-            "spheres")
+        ->add_option("output", arguments->output,
+                     "a .tss or .usda; of a baked scene also an .srdf, or an .xml of MuJoCo's <exclude>s: "
+                     "the pairs that are proven never to meet, and those that are joined; or a .yml of "
+                     "cuRobo's collision spheres")
         ->required();
     command->add_flag("--binary", arguments->binary, "write the binary twin of .tss (CBOR)");
     command->add_flag("--buffers", arguments->buffers, "big arrays of a .tss into a file beside it");

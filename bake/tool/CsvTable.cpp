@@ -3,6 +3,7 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/pipeline/BakeOptions.h"
+#include "bake/tool/DofSpec.h"
 
 #include <algorithm>
 #include <cctype>
@@ -19,7 +20,7 @@ std::vector<std::string> cellsOf(const std::string& line) {
     std::istringstream stream(line);
     while (std::getline(stream, cell, ',')) {
         const auto blank = [](unsigned char c) { return std::isspace(c) || c == '"'; };
-        cell.erase(cell.begin(), std::find_if_not(cell.begin(), cell.end(), blank));
+        cell.erase(cell.begin(), std::ranges::find_if_not(cell, blank));
         cell.erase(std::find_if_not(cell.rbegin(), cell.rend(), blank).base(), cell.end());
         cells.push_back(cell);
     }
@@ -29,8 +30,8 @@ std::vector<std::string> cellsOf(const std::string& line) {
 
 /// What reads as no number though it stands for one: in a first line, that is a bad value and no header.
 bool isNotFinite(std::string cell) {
-    std::transform(cell.begin(), cell.end(), cell.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(cell, cell.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return cell == "nan" || cell == "inf" || cell == "infinity";
 }
 
@@ -50,7 +51,7 @@ CsvTable readCsv(const std::string& file, std::size_t columns) {
         if (!line.empty() && line.back() == '\r') line.pop_back();
         if (line.find_first_not_of(" \t") == std::string::npos || line[0] == '#') continue;
         const std::vector<std::string> cells = cellsOf(line);
-        if (csv.rows.empty() && csv.header.empty() && std::all_of(cells.begin(), cells.end(), isName)) {
+        if (csv.rows.empty() && csv.header.empty() && std::ranges::all_of(cells, isName)) {
             csv.header = cells;
             continue;
         }
@@ -66,15 +67,22 @@ CsvTable readCsv(const std::string& file, std::size_t columns) {
     return csv;
 }
 
-void checkColumns(const CsvTable& csv, const std::vector<std::string>& names, const std::string& file,
+void checkColumns(const CsvTable& csv, const std::vector<Dof>& dofs, const std::string& file,
                   std::size_t first) {
-    for (std::size_t k = 0; k < names.size() && first + k < csv.header.size(); ++k) {
+    for (std::size_t k = 0; k < dofs.size() && first + k < csv.header.size(); ++k) {
         const std::string& found = csv.header[first + k];
-        if (found != names[k] && std::find(names.begin(), names.end(), found) != names.end())
-            throw InputError(Where{file, "", ""}, "column " + std::to_string(first + k + 1) +
-                                                      ": expected the degree of freedom \"" + names[k] +
-                                                      "\", found \"" + found + "\"");
+        if (found != dofs[k].name && std::ranges::find(dofs, found, &Dof::name) != dofs.end())
+            throw InputError(Where{file}, "column " + std::to_string(first + k + 1) +
+                                              ": expected the degree of freedom \"" + dofs[k].name +
+                                              "\", found \"" + found + "\"");
     }
+}
+
+std::vector<std::vector<double>> readPoses(const std::string& file, const std::vector<Dof>& dofs) {
+    CsvTable csv = readCsv(file, dofs.size());
+    checkColumns(csv, dofs, file);
+    for (std::vector<double>& row : csv.rows) row = fromUser(dofs, row);
+    return csv.rows;
 }
 
 } // namespace tss::tool

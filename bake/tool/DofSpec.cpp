@@ -8,7 +8,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
-#include <sstream>
 
 namespace tss::tool {
 
@@ -39,7 +38,7 @@ std::vector<PathRow> readPath(const std::string& file) {
     for (const auto& row : csv.rows) {
         if (row.size() != 4 && row.size() != 7)
             throw InputError(
-                Where{file, "", ""},
+                Where{file},
                 "expected 4 or 7 columns: value,tx,ty,tz, and for rotation rx,ry,rz, an axis times degrees");
         PathRow path;
         path.value = row[0];
@@ -54,7 +53,7 @@ std::vector<PathRow> readPath(const std::string& file) {
 
 std::string describePath(const Dof& dof) {
     const auto turns = [](const PathRow& row) { return row.rotation.vec().norm() > 0; };
-    const bool any = std::any_of(dof.path.begin(), dof.path.end(), turns);
+    const bool any = std::ranges::any_of(dof.path, turns);
     return fmt::format(" ({} rows, {})", dof.path.size(), any ? "with rotation" : "no rotation");
 }
 
@@ -147,6 +146,10 @@ double toUser(const Dof& dof, double q) {
 }
 double fromUser(const Dof& dof, double value) {
     return dof.kind == DofKind::Rotation ? value * degree : value;
+}
+std::vector<double> fromUser(const std::vector<Dof>& dofs, std::vector<double> values) {
+    for (std::size_t k = 0; k < dofs.size(); ++k) values[k] = fromUser(dofs[k], values[k]);
+    return values;
 }
 
 } // namespace tss::tool

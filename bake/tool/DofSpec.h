@@ -35,5 +35,7 @@ std::string describeDofs(const Motion& motion, double metersPerUnit);
 /// Values of a DOF as people write them: degrees for rotations, else as they are.
 double toUser(const Dof& dof, double q);
 double fromUser(const Dof& dof, double value);
+/// Of all DOFs, a value each.
+std::vector<double> fromUser(const std::vector<Dof>& dofs, std::vector<double> values);
 
 } // namespace tss::tool

@@ -7,6 +7,12 @@
 
 namespace tss::tool {
 
+std::vector<Dof> dofsOf(const SceneModel& scene) {
+    std::vector<Dof> dofs;
+    for (const Joint& joint : scene.joints) dofs.insert(dofs.end(), joint.dofs.begin(), joint.dofs.end());
+    return dofs;
+}
+
 std::vector<std::vector<double>> drivenSteps(const SceneModel& scene) {
     std::vector<std::vector<double>> steps;
     for (int k = 0; scene.startTimeCode + k <= scene.endTimeCode; ++k) {
@@ -24,8 +30,8 @@ std::vector<std::vector<double>> drivenSteps(const SceneModel& scene) {
 
 void addResiduals(Json& summary, const SceneModel& scene) {
     constexpr auto patience = std::chrono::seconds(20);
-    const bool baked = std::any_of(scene.skins.begin(), scene.skins.end(),
-                                   [](const SkinModel& skin) { return skin.table != nullptr; });
+    const bool baked =
+        std::ranges::any_of(scene.skins, [](const SkinModel& skin) { return skin.table != nullptr; });
     const auto steps = drivenSteps(scene);
     if (!baked || steps.size() < 2) return;
     std::vector<std::string> warnings; // of the pairs; `tss play` tells them

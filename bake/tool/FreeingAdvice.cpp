@@ -3,6 +3,7 @@
 #include "bake/geometry/MeshAudit.h"
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/pipeline/FreeingMove.h"
+#include "bake/robot/PairEvidence.h"
 #include "bake/tool/DofSpec.h"
 
 #include <algorithm>
@@ -35,22 +36,16 @@ std::string dofText(const Dof& dof, double size) {
     return fmt::format("rot:{}:{}:{}", vectorText(dof.origin, size), vectorText(dof.axis, 1), limits);
 }
 
-std::string bareName(const Body& body) {
-    return body.displayName.empty() ? body.path.substr(body.path.rfind('/') + 1) : body.displayName;
-}
-
 /// How the scene was made, as far as it shows: which options of `tss make` move B.
 enum class Form { TwoMeshes, Joint, None };
 
 Form formOf(const SceneModel& scene, const Pair& pair) {
     const auto parsed = [&](int joint) {
         const std::vector<Dof>& dofs = scene.joints[joint].dofs;
-        return std::all_of(dofs.begin(), dofs.end(), [](const Dof& dof) { return isParsedName(dof.name); });
+        return std::ranges::all_of(dofs, [](const Dof& dof) { return isParsedName(dof.name); });
     };
-    const auto solid = std::count_if(scene.bodies.begin(), scene.bodies.end(),
-                                     [](const Body& b) { return !b.mesh.empty(); });
-    if (pair.joints.size() == scene.joints.size() && solid == 2 &&
-        std::all_of(pair.joints.begin(), pair.joints.end(), parsed))
+    const auto solid = std::ranges::count_if(scene.bodies, [](const Body& b) { return !b.mesh.empty(); });
+    if (pair.joints.size() == scene.joints.size() && solid == 2 && std::ranges::all_of(pair.joints, parsed))
         return Form::TwoMeshes;
     const bool asMade = scene.bodies[pair.bodyA].placement.linear().isIdentity(1e-6);
     return asMade && pair.joints.size() == 1 && scene.joints[pair.joints[0]].body0 == pair.bodyA ? Form::Joint
@@ -61,14 +56,14 @@ class Adviser {
 public:
     Adviser(const SceneModel& scene, const Pair& pair, const Console& console)
         : unit_(scene.metersPerUnit), pair_(pair), console_(console), motion_(pairMotion(scene, pair)),
-          a_(bareName(scene.bodies[pair.bodyA])), b_(bareName(scene.bodies[pair.bodyB])) {
+          a_(originalName(scene.bodies[pair.bodyA])), b_(originalName(scene.bodies[pair.bodyB])) {
         // What `tss make` has made: B has the axes of A, moved by the offset.
         const Pose atZero = pose(motion_, std::vector<double>(motion_.dofCount(), 0.0));
         if ((atZero.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-6) form_ = formOf(scene, pair);
         if (form_ != Form::None) already_ = atZero.translation();
         if (form_ == Form::TwoMeshes) a_ = 'A', b_ = 'B';
-        dofs_ = form_ != Form::None && std::none_of(motion_.dofs.begin(), motion_.dofs.end(),
-                                                    [](const Dof& dof) { return dof.kind == DofKind::Path; });
+        dofs_ = form_ != Form::None &&
+                std::ranges::none_of(motion_.dofs, [](const Dof& dof) { return dof.kind == DofKind::Path; });
     }
 
     Json say(const TriangleMesh& a, const TriangleMesh& b) {
@@ -76,10 +71,10 @@ public:
         constexpr double seconds = 20;
         const auto [moves, complete] = freeingMoves(a, b, motion_, {dofs_, seconds});
         if (!complete)
-            console_.say(fmt::format(
-                "{}: the meshes overlap where the joint rests; the search for moves that "
-                "free it ended after {} s{}",
-                pair_.path, seconds, moves.empty() ? ", and none was found" : ", smaller ones may exist"));
+            console_.say(fmt::format("{}: the meshes overlap where the joint rests; the search for moves "
+                                     "that free it ended after {} s{}",
+                                     pair_.path, seconds,
+                                     moves.empty() ? ", and none was found" : ", smaller ones may exist"));
         if (moves.empty()) return advice;
         size_ = std::min(diagonal(a), diagonal(b));
         console_.say(fmt::format(
@@ -103,8 +98,7 @@ private:
         if (dofs_ && dofs)
             for (const Dof& dof : motion.dofs) texts.push_back(dofText(dof, size_));
         if (form_ == Form::Joint)
-            return fmt::format("--joint '{}={},{}:{};offset:{}'",
-                               pair_.path.substr(pair_.path.rfind('/') + 1), a_, b_,
+            return fmt::format("--joint '{}={},{}:{};offset:{}'", primName(pair_.path), a_, b_,
                                dofs_ ? fmt::format("{}", fmt::join(texts, ";")) : "DOFS AS GIVEN", by);
         std::string text = "--b-offset=" + by;
         for (const std::string& dof : texts) text += " --dof " + dof;

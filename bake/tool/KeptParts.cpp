@@ -1,8 +1,8 @@
 #include "bake/tool/KeptParts.h"
 
 #include "bake/scene/SceneFile.h"
-#include "bake/tool/Interrupt.h"
 
+#include <csignal>
 #include <filesystem>
 
 namespace tss::tool {
@@ -11,6 +11,39 @@ namespace {
 
 /// Seconds of baking that may be lost where the program is killed, or the machine goes off.
 constexpr double mayBeLost = 60;
+
+volatile std::sig_atomic_t came = 0;
+
+void hear(int signal) {
+    came = signal;
+}
+
+void install(void (*handler)(int)) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    action.sa_flags = static_cast<int>(SA_RESETHAND); // the second ends the program
+    sigemptyset(&action.sa_mask);
+    for (const int signal : {SIGINT, SIGTERM}) {
+        struct sigaction before {};
+        sigaction(signal, nullptr, &before);
+        if (before.sa_handler != SIG_IGN)
+            sigaction(signal, &action, nullptr); // as nohup and shells' & want it
+    }
+}
+
+/// While it lives, SIGINT and SIGTERM are heard instead of ending the program; the second one ends it.
+class Interrupt {
+public:
+    Interrupt() {
+        came = 0;
+        install(hear);
+    }
+    ~Interrupt() { install(SIG_DFL); }
+    Interrupt(const Interrupt&) = delete;
+
+    /// The signal that came; 0: none.
+    static int signal() { return came; }
+};
 
 bool hasTable(const SceneModel& scene) {
     for (const Pair& pair : scene.pairs)

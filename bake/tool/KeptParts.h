@@ -1,6 +1,6 @@
 #pragma once
-#include "bake/pipeline/Bake.h"
 #include "bake/model/SceneModel.h"
+#include "bake/pipeline/Bake.h"
 #include "bake/tool/BakeTimes.h"
 #include "bake/tool/Command.h"
 

@@ -13,7 +13,6 @@
 #include "bake/tool/WholeScene.h"
 
 #include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <numbers>
@@ -22,12 +21,12 @@ namespace tss::tool {
 
 namespace {
 
-struct MakeArguments {
-    std::string output, a, b, offset = "0,0,0", rest, unit = "1", motion, upAxis;
-    double metersPerUnit = 1; ///< what `unit` says
+struct MakeArguments : WholeSceneArguments {
+    std::string a, b, offset = "0,0,0", rest, unit = "1";
     std::vector<std::string> dofs;
     RobotFile robot;
-    WholeSceneArguments whole;
+
+    bool isWhole() const { return !bodies.empty() || !skins.empty(); }
 };
 
 int addBody(SceneModel& scene, const std::string& file, const Vec3& color, Json& audits,
@@ -39,8 +38,7 @@ int addBody(SceneModel& scene, const std::string& file, const Vec3& color, Json&
     const MeshAudit audit = auditMesh(body.mesh);
     const Vec3 units = bounds(body.mesh).isEmpty() ? Vec3::Zero() : Vec3(bounds(body.mesh).sizes());
     const Vec3 size = 1000 * scene.metersPerUnit * units;
-    const auto length = [&](int axis) { return lengthText(units[axis], scene.metersPerUnit); };
-    console.say(fmt::format("{}: {}\n  {} x {} x {}", file, text(audit), length(0), length(1), length(2)));
+    console.say(fmt::format("{}: {}\n  {}", file, text(audit), sizeText(units, scene.metersPerUnit)));
     audits.push_back({{"file", file},
                       {"vertices", body.mesh.vertices.size()},
                       {"triangles", body.mesh.triangles.size()},
@@ -92,18 +90,12 @@ void remarkFarAxes(const Motion& motion, const SceneModel& scene, const Console&
     }
 }
 
-/// What is larger than a house or smaller than a grain is mostly in another unit than was said.
 void remarkSizes(const SceneModel& scene, const Console& console) {
-    constexpr double house = 10, grain = 1e-3; // metres
-    double size = 0;
-    for (const Body& body : scene.bodies)
-        if (!body.mesh.vertices.empty()) size = std::max(size, diagonal(body.mesh));
-    size *= scene.metersPerUnit;
-    if (size > house || (size > 0 && size < grain))
-        console.say(
-            fmt::format("note: the meshes are {} long if one of their units is {} m; if they are not, "
-                        "say what it is: --meters-per-unit 0.001 for millimetres",
-                        lengthText(size, 1), scene.metersPerUnit));
+    const double size = largestDiagonal(scene) * scene.metersPerUnit;
+    if (isOddSize(size))
+        console.say(fmt::format("note: the meshes are {} long if one of their units is {} m; if they are "
+                                "not, say what it is: --meters-per-unit 0.001 for millimetres",
+                                lengthText(size, 1), scene.metersPerUnit));
 }
 
 /// Limits that small are mostly radians.
@@ -125,7 +117,7 @@ void checkOutput(const MakeArguments& arguments) {
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     for (const char* mesh : {".obj", ".stl", ".ply", ".off", ".dae", ".fbx", ".gltf", ".glb", ".3ds"})
         if (extension == mesh)
-            throw InputError(Where{arguments.output, "", ""},
+            throw InputError(Where{arguments.output},
                              "is the name of a mesh; expected one of a scene, such as jaw.tss");
 }
 
@@ -144,8 +136,7 @@ double parseUnit(const std::string& text) {
 
 /// A robot's file, or two meshes and a motion: one of the two, and all of it.
 void checkUsage(const MakeArguments& arguments) {
-    if (!arguments.robot.input.empty() || !arguments.whole.bodies.empty() || !arguments.whole.skins.empty())
-        return;
+    if (!arguments.robot.input.empty() || arguments.isWhole()) return;
     if (arguments.a.empty()) failRequired("--a, or --body, or a robot's file");
     if (arguments.b.empty()) failRequired("--b");
     if (arguments.dofs.empty()) failRequired("--dof");
@@ -157,13 +148,9 @@ void make(MakeArguments& arguments, const Console& console) {
     if (!arguments.robot.input.empty())
         return makeRobot(arguments.robot, arguments.motion, arguments.output, console);
     arguments.metersPerUnit = parseUnit(arguments.unit);
-    if (!arguments.whole.bodies.empty() || !arguments.whole.skins.empty()) {
-        arguments.whole.output = arguments.output;
-        arguments.whole.metersPerUnit = arguments.metersPerUnit;
-        arguments.whole.pairs = arguments.robot.pairs;
-        arguments.whole.motion = arguments.motion;
-        arguments.whole.upAxis = arguments.upAxis;
-        return makeWholeScene(arguments.whole, console);
+    if (arguments.isWhole()) {
+        arguments.pairs = arguments.robot.pairs;
+        return makeWholeScene(arguments, console);
     }
     SceneModel scene;
     scene.metersPerUnit = arguments.metersPerUnit;
@@ -192,10 +179,6 @@ void make(MakeArguments& arguments, const Console& console) {
                    {"freeingMoves", shifts}});
 }
 
-} // namespace
-
-namespace {
-
 void addRobotOptions(Options& command, const std::shared_ptr<MakeArguments>& arguments) {
     RobotFile& robot = arguments->robot;
     Option* input = command.add_option(
@@ -203,9 +186,9 @@ void addRobotOptions(Options& command, const std::shared_ptr<MakeArguments>& arg
         "a robot's file, in place of --a, --b and --dof: URDF, MJCF of MuJoCo, or .usda with UsdPhysics");
     for (Option* option : addRobotFileOptions(command, robot)) option->needs(input);
     command
-        .add_option("--geometry", robot.geometry,
-                    "collision or visual: the shapes that a link is made of; the others "
-                    "where it has none of these")
+        .add_option(
+            "--geometry", robot.geometry,
+            "collision or visual: the shapes that a link is made of; the others where it has none of these")
         ->among({"collision", "visual"})
         ->needs(input)
         ->capture_default_str();
@@ -221,7 +204,7 @@ void addRobotOptions(Options& command, const std::shared_ptr<MakeArguments>& arg
 }
 
 void addWholeSceneOptions(Options& command, const std::shared_ptr<MakeArguments>& arguments) {
-    WholeSceneArguments& whole = arguments->whole;
+    WholeSceneArguments& whole = *arguments;
     const auto add = [&](const char* name, std::vector<std::string>& texts, const char* description) {
         Option* option = command.add_option(name, texts, description)->allow_extra_args(false);
         for (const char* other : {"--a", "--b", "--dof", "--b-offset", "--rest", "robot"})
@@ -232,15 +215,12 @@ void addWholeSceneOptions(Options& command, const std::shared_ptr<MakeArguments>
         "[NAME=]MESH: a rigid body; repeat. All meshes lie as they do where every joint is at 0");
     add("--joint", whole.joints,
         "NAME=PARENT,CHILD:DOF[;DOF...][;offset:X,Y,Z]: a joint of two bodies, its DOFs as for --dof; the "
-        "child, with "
-        "what hangs on it, is moved by the offset first; repeat");
+        "child, with what hangs on it, is moved by the offset first; repeat");
     Option* skin = add("--skin", whole.skins, "[NAME=]MESH: a skin over the bodies and muscles");
     add("--bone", whole.bones, "BODY: a body that the skin lies on; repeat (default: all)")->needs(skin);
     add("--muscle", whole.muscles,
         "[NAME=]MESH[,from=BODY,to=BODY,contract=0.15,sheet|ring]: a muscle; its fibre line is found from "
-        "its "
-        "mesh, the end at "
-        "its `from` body stays, which it moves with; repeat");
+        "its mesh, the end at its `from` body stays, which it moves with; repeat");
 }
 
 } // namespace
@@ -265,10 +245,9 @@ void addMake(Options& app, Console& console) {
     command->add_option("--rest", arguments->rest,
                         "DOF values at which the joint rests: where a motion starts, and meshes that overlap "
                         "are free (default 0, or the limit next to it). The meshes lie as they do at 0");
-    command->add_option(
-        "--motion", arguments->motion,
-        "a CSV file, the motion that the scene plays: a line of names (time or step, joints, muscles), "
-        "then degrees, units of a value, or activations. Else each moves in turn");
+    command->add_option("--motion", arguments->motion,
+                        "a CSV file, the motion that the scene plays: a line of names (time or step, joints, "
+                        "muscles), then degrees, units of a value, or activations. Else each moves in turn");
     command->add_option("--up-axis", arguments->upAxis, "Y or Z (default Z; Y where all meshes are glTF)")
         ->among({"Y", "Z"});
     addRobotOptions(*command, arguments);

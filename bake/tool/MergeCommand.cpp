@@ -10,8 +10,7 @@ namespace {
 /// Takes over the result of each pair or skin that `part` has and `scene` has not.
 template <class Item>
 void take(std::vector<Item>& into, const std::vector<Item>& from, const std::string& file) {
-    if (into.size() != from.size())
-        throw InputError(Where{file, "", ""}, "expected a part of the same scene");
+    if (into.size() != from.size()) throw InputError(Where{file}, "expected a part of the same scene");
     for (std::size_t k = 0; k < into.size(); ++k) {
         if (into[k].path != from[k].path)
             throw InputError(Where{file, "", from[k].path},

@@ -18,10 +18,6 @@ struct Track {
     std::function<double(double)> fromUser;
 };
 
-std::string bareName(const std::string& path) {
-    return path.substr(path.rfind('/') + 1);
-}
-
 /// All of a scene, each without samples.
 std::vector<Track> clearedTracks(SceneModel& scene) {
     std::vector<Track> tracks;
@@ -29,13 +25,13 @@ std::vector<Track> clearedTracks(SceneModel& scene) {
         joint.drives.assign(joint.dofs.size(), {});
         for (std::size_t k = 0; k < joint.dofs.size(); ++k) {
             const Dof& dof = joint.dofs[k];
-            tracks.push_back({bareName(joint.path) + (joint.dofs.size() > 1 ? ":" + dof.name : ""),
+            tracks.push_back({primName(joint.path) + (joint.dofs.size() > 1 ? ":" + dof.name : ""),
                               &joint.drives[k], [&dof](double value) { return fromUser(dof, value); }});
         }
     }
     for (MuscleModel& muscle : scene.muscles) {
         muscle.activation = {};
-        tracks.push_back({bareName(muscle.path), &muscle.activation, [](double value) { return value; }});
+        tracks.push_back({primName(muscle.path), &muscle.activation, [](double value) { return value; }});
     }
     return tracks;
 }
@@ -45,16 +41,16 @@ std::vector<const Track*> columnsOf(const std::vector<Track>& tracks, const std:
                                     std::size_t first, const std::string& file) {
     std::vector<const Track*> columns;
     for (std::size_t k = first; k < header.size(); ++k) {
-        const auto found = std::find_if(tracks.begin(), tracks.end(),
-                                        [&](const Track& track) { return track.name == header[k]; });
+        const auto found =
+            std::ranges::find_if(tracks, [&](const Track& track) { return track.name == header[k]; });
         if (found == tracks.end()) {
             std::string names;
             for (const Track& track : tracks) names += (names.empty() ? "" : ", ") + track.name;
-            throw InputError(Where{file, "", ""},
+            throw InputError(Where{file},
                              "no joint or muscle is called \"" + header[k] + "\"; expected some of " + names);
         }
-        if (std::find(columns.begin(), columns.end(), &*found) != columns.end())
-            throw InputError(Where{file, "", ""}, "expected one column of " + header[k]);
+        if (std::ranges::find(columns, &*found) != columns.end())
+            throw InputError(Where{file}, "expected one column of " + header[k]);
         columns.push_back(&*found);
     }
     return columns;
@@ -72,17 +68,17 @@ void applyMotion(SceneModel& scene, const std::string& file) {
         for (const Track& track : tracks) columns.push_back(&track);
     else
         columns = columnsOf(tracks, csv.header, timed, file);
-    if (csv.rows.empty()) throw InputError(Where{file, "", ""}, "expected at least one row");
+    if (csv.rows.empty()) throw InputError(Where{file}, "expected at least one row");
     double before = 0;
     for (std::size_t r = 0; r < csv.rows.size(); ++r) {
         const std::vector<double>& row = csv.rows[r];
         if (row.size() != columns.size() + timed)
-            throw InputError(Where{file, "", ""}, "expected " + std::to_string(columns.size() + timed) +
-                                                      " columns, found " + std::to_string(row.size()));
+            throw InputError(Where{file}, "expected " + std::to_string(columns.size() + timed) +
+                                              " columns, found " + std::to_string(row.size()));
         const double time = !timed    ? static_cast<double>(r)
                             : seconds ? row[0] * scene.timeCodesPerSecond
                                       : row[0];
-        if (r > 0 && !(time > before)) throw InputError(Where{file, "", ""}, "expected times that rise");
+        if (r > 0 && !(time > before)) throw InputError(Where{file}, "expected times that rise");
         before = time;
         if (r == 0) scene.startTimeCode = time;
         scene.endTimeCode = time;

@@ -29,34 +29,25 @@ struct PlayArguments {
 
 /// The asked DOF values of all joints, one row a step; joints in file order, DOFs in the joint's order.
 std::vector<std::vector<double>> askedSteps(const SceneModel& scene, const PlayArguments& arguments) {
-    std::vector<const Dof*> dofs;
-    for (const Joint& joint : scene.joints)
-        for (const Dof& dof : joint.dofs) dofs.push_back(&dof);
-    std::vector<std::vector<double>> steps;
-    if (!arguments.motion.empty()) {
-        CsvTable csv = readCsv(arguments.motion);
-        const bool numbered = !csv.header.empty() && (csv.header[0] == "step" || csv.header[0] == "time");
-        std::vector<std::string> names;
-        names.reserve(dofs.size());
-        for (const Dof* dof : dofs) names.push_back(dof->name);
-        checkColumns(csv, names, arguments.motion, numbered ? 1 : 0);
-        for (auto& row : csv.rows) {
-            if (numbered) row.erase(row.begin());
-            if (row.size() != dofs.size())
-                throw InputError(Where{arguments.motion, "", ""},
-                                 fmt::format("expected {} columns, one a DOF of the scene's joints, found {}",
-                                             dofs.size(), row.size()));
-            for (std::size_t k = 0; k < dofs.size(); ++k) row[k] = fromUser(*dofs[k], row[k]);
-            steps.push_back(row);
-        }
-        return steps;
+    if (arguments.motion.empty()) return drivenSteps(scene);
+    const std::vector<Dof> dofs = dofsOf(scene);
+    CsvTable csv = readCsv(arguments.motion);
+    const bool numbered = !csv.header.empty() && (csv.header[0] == "step" || csv.header[0] == "time");
+    checkColumns(csv, dofs, arguments.motion, numbered ? 1 : 0);
+    for (std::vector<double>& row : csv.rows) {
+        if (numbered) row.erase(row.begin());
+        if (row.size() != dofs.size())
+            throw InputError(Where{arguments.motion},
+                             fmt::format("expected {} columns, one a DOF of the scene's joints, found {}",
+                                         dofs.size(), row.size()));
+        row = fromUser(dofs, row);
     }
-    return drivenSteps(scene);
+    return csv.rows;
 }
 
 /// How many steps ask for a pose outside of a joint's limits or planes.
 std::size_t countOutside(const SceneModel& scene, const std::vector<std::vector<double>>& steps) {
-    return static_cast<std::size_t>(std::count_if(steps.begin(), steps.end(), [&](const auto& row) {
+    return static_cast<std::size_t>(std::ranges::count_if(steps, [&](const auto& row) {
         std::size_t first = 0;
         for (const Joint& joint : scene.joints) {
             std::vector<double> slack;
@@ -85,7 +76,7 @@ std::string objText(const SceneModel& scene, const std::vector<TriangleMesh>& me
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         if (meshes[k].empty()) continue;
         const std::string& path = scene.bodies[k].path;
-        text += fmt::format("g {}\n", path.substr(path.rfind('/') + 1));
+        text += fmt::format("g {}\n", primName(path));
         for (const Vec3& x : meshes[k].vertices) text += fmt::format("v {} {} {}\n", x.x(), x.y(), x.z());
         for (const Tri& t : meshes[k].triangles)
             text += fmt::format("f {} {} {}\n", first + t[0], first + t[1], first + t[2]);
@@ -115,11 +106,9 @@ std::string header(const SceneModel& scene) {
     for (const char* prefix : {"asked_", ""})
         for (const Joint& joint : scene.joints)
             for (const Dof& dof : joint.dofs)
-                text +=
-                    fmt::format(",{}{}:{}", prefix, joint.path.substr(joint.path.rfind('/') + 1), dof.name);
+                text += fmt::format(",{}{}:{}", prefix, primName(joint.path), dof.name);
     text += ",table_gap,status";
-    for (const SkinModel& skin : scene.skins)
-        text += fmt::format(",residual_{}", skin.path.substr(skin.path.rfind('/') + 1));
+    for (const SkinModel& skin : scene.skins) text += fmt::format(",residual_{}", primName(skin.path));
     return text + "\n";
 }
 
@@ -149,10 +138,9 @@ nlohmann::json sayFollowing(const SceneModel& scene, const SkinModel& skin, cons
         const SkinFollowing::OnBone& bone = worst.bones[m];
         if (bone.vertices == 0) continue;
         const std::string& path = scene.bodies[under[m].body].path;
-        console.say(
-            fmt::format("    on {} alone, {} vertices: off its motion by {:.2g} on average, 95 % within "
-                        "{:.2g} (thousandths of the bones' size)",
-                        path, bone.vertices, bone.mean, bone.most));
+        console.say(fmt::format("    on {} alone, {} vertices: off its motion by {:.2g} on average, 95 % "
+                                "within {:.2g} (thousandths of the bones' size)",
+                                path, bone.vertices, bone.mean, bone.most));
         bones.push_back(
             {{"bone", path}, {"vertices", bone.vertices}, {"mean", bone.mean}, {"within95", bone.most}});
     }
@@ -208,9 +196,9 @@ std::vector<std::string> unbaked(const SceneModel& scene) {
                                " is not kept apart: it has no table, tss bake makes one");
     for (const SkinModel& skin : scene.skins)
         if (!skin.table)
-            warnings.push_back("skin " + skin.path +
-                               " is carried, but not kept out of what is below it: it has no table, tss "
-                               "bake makes one");
+            warnings.push_back(
+                "skin " + skin.path +
+                " is carried, but not kept out of what is below it: it has no table, tss bake makes one");
     return warnings;
 }
 
@@ -280,10 +268,10 @@ void addPlay(Options& app, Console& console) {
     command->add_option("--motion", arguments->motion,
                         "CSV, one row a step, one column a DOF of the joints in file order (default: the "
                         "scene's own drives)");
-    command->add_option("-o,--output", arguments->output,
-                        "CSV: step, asked and resolved DOFs, table_gap, status, and of each skin "
-                        "residual_NAME: how deep it is in what is below it, beyond its depth at rest, scene "
-                        "units (default: only what is said in sum)");
+    command->add_option(
+        "-o,--output", arguments->output,
+        "CSV: step, asked and resolved DOFs, table_gap, status, and of each skin residual_NAME: how deep it "
+        "is in what is below it, beyond its depth at rest, scene units (default: only what is said in sum)");
     command->add_flag("--timings", arguments->timings,
                       "also what each part of a skin's update costs, which makes the updates a tenth slower");
     command->add_option("--mesh-out", arguments->meshes, "also the posed meshes, like f_%04d.obj");

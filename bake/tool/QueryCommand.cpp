@@ -8,12 +8,11 @@
 #include "bake/tool/ChoosePair.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/CsvTable.h"
-#include "bake/tool/DofSpec.h"
+#include "bake/tool/DrivenSteps.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace tss::tool {
 
@@ -39,10 +38,9 @@ void sayHits(const QueryArguments& arguments, const Console& console, std::size_
              const Json& outsideRows, std::size_t outside, const std::string& madeFor) {
     console.say(fmt::format("{} poses, {} hits, wrote {}", poses, hits, arguments.output));
     if (outside > 0)
-        console.say(
-            fmt::format("{} poses, the first in row {}, lie outside the limits that the {} made for: no "
-                        "bound holds there, and they are not among the hits",
-                        outside, outsideRows[0].get<std::size_t>() + 1, madeFor));
+        console.say(fmt::format("{} poses, the first in row {}, lie outside the limits that the {} made for: "
+                                "no bound holds there, and they are not among the hits",
+                                outside, outsideRows[0].get<std::size_t>() + 1, madeFor));
     console.print({{"poses", poses},
                    {"hits", hits},
                    {"outsideLimits", outside},
@@ -55,30 +53,21 @@ void runAllPairs(const QueryArguments& arguments, const Console& console) {
     using Verdict = MechanismAnswer::Verdict;
     const SceneModel scene = loadScene(arguments.scene);
     requireFresh(scene, arguments.scene);
-    std::vector<const Dof*> dofs;
-    std::vector<std::string> names;
-    for (const Joint& joint : scene.joints)
-        for (const Dof& dof : joint.dofs) {
-            dofs.push_back(&dof);
-            names.push_back(dof.name);
-        }
     const MechanismQuery mechanism(scene);
     if (const std::vector<int>& bare = mechanism.unanswered(); !bare.empty())
         throw InputError(Where{arguments.scene, "", scene.pairs[bare.front()].path},
                          fmt::format("{} without a table; expected a scene written by tss bake",
                                      counted(bare.size(), "pair")));
-    const CsvTable poses = readCsv(arguments.poses, dofs.size());
-    checkColumns(poses, names, arguments.poses);
+    const std::vector<std::vector<double>> poses = readPoses(arguments.poses, dofsOf(scene));
     std::vector<double> values;
-    for (const std::vector<double>& row : poses.rows)
-        for (std::size_t k = 0; k < dofs.size(); ++k) values.push_back(fromUser(*dofs[k], row[k]));
-    std::vector<MechanismAnswer> answers(poses.rows.size());
+    for (const std::vector<double>& row : poses) values.insert(values.end(), row.begin(), row.end());
+    std::vector<MechanismAnswer> answers(poses.size());
     MechanismWorkspace workspace = mechanism.workspace();
     mechanism.ask(values.data(), answers.size(), answers.data(), workspace);
     std::string text = "hit,pair\n";
     std::size_t hits = 0, outside = 0;
     Json outsideRows = Json::array();
-    for (std::size_t row = 0; row < poses.rows.size(); ++row) {
+    for (std::size_t row = 0; row < poses.size(); ++row) {
         const MechanismAnswer& answer = answers[row];
         if (answer.verdict == Verdict::Beyond && ++outside <= mostRowsNamed) outsideRows.push_back(row);
         hits += answer.verdict == Verdict::Contact;
@@ -87,35 +76,27 @@ void runAllPairs(const QueryArguments& arguments, const Console& console) {
                                                   : "1," + scene.pairs[answer.pair].path + "\n";
     }
     writeFileAtomically(arguments.output, text);
-    sayHits(arguments, console, poses.rows.size(), hits, outsideRows, outside, "tables and proofs were");
+    sayHits(arguments, console, poses.size(), hits, outsideRows, outside, "tables and proofs were");
 }
 
 void runQuery(const QueryArguments& arguments, const Console& console) {
-    if (arguments.allPairs) {
-        refuseOverwriting(arguments.output, {arguments.scene, arguments.poses});
-        return runAllPairs(arguments, console);
-    }
     refuseOverwriting(arguments.output, {arguments.scene, arguments.poses});
+    if (arguments.allPairs) return runAllPairs(arguments, console);
     const SceneModel scene = loadScene(arguments.scene);
     const Pair& pair = chooseFreshPair(scene, arguments.pair, arguments.scene);
     if (!pair.table && !pair.proof)
         throw InputError(Where{arguments.scene, "", pair.path},
                          "has no table; expected a scene written by tss bake");
     const Motion motion = pairMotion(scene, pair);
-    const CsvTable poses = readCsv(arguments.poses, motion.dofCount());
-    std::vector<std::string> names;
-    for (const Dof& dof : motion.dofs) names.push_back(dof.name);
-    checkColumns(poses, names, arguments.poses);
-
+    const std::vector<std::vector<double>> poses = readPoses(arguments.poses, motion.dofs);
     const std::unique_ptr<const Meshes> meshes =
         arguments.distance ? std::make_unique<const Meshes>(scene, pair) : nullptr;
     std::string text =
         std::string("table_gap,hit,pair,px,py,pz,nx,ny,nz") + (meshes ? ",distance" : "") + "\n";
     std::size_t hits = 0, outside = 0;
     Json outsideRows = Json::array();
-    for (std::size_t row = 0; row < poses.rows.size(); ++row) {
-        std::vector<double> q = poses.rows[row];
-        for (std::size_t k = 0; k < q.size(); ++k) q[k] = fromUser(motion.dofs[k], q[k]);
+    for (std::size_t row = 0; row < poses.size(); ++row) {
+        const std::vector<double>& q = poses[row];
         const bool out = beyondLimits(motion, q);
         if (out && ++outside <= mostRowsNamed) outsideRows.push_back(row);
         if (pair.proof) { // within the limits they never meet: no test is made; beyond nothing is known
@@ -129,7 +110,7 @@ void runQuery(const QueryArguments& arguments, const Console& console) {
         text += meshes ? fmt::format(",{}\n", meshes->a.distanceTo(meshes->b, pose(motion, q))) : "\n";
     }
     writeFileAtomically(arguments.output, text);
-    sayHits(arguments, console, poses.rows.size(), hits, outsideRows, outside,
+    sayHits(arguments, console, poses.size(), hits, outsideRows, outside,
             pair.proof ? "proof was" : "table was");
 }
 
@@ -143,12 +124,11 @@ void addQuery(Options& app, Console& console) {
     command->add_option("--poses", arguments->poses, "CSV, one column a DOF: degrees, or the DOF's own unit")
         ->required();
     command
-        ->add_option(
-            "-o,--output", arguments->output,
-            "CSV: table_gap,hit,pair,px,py,pz,nx,ny,nz; lengths in scene units, point and normal in body A's "
-            "frame. table_gap is that of the table's spheres: where it is above 0 it is no distance of the "
-            "meshes. Beyond the limits no bound holds: --json lists such rows, and of a pair that never "
-            "collides their table_gap is nan")
+        ->add_option("-o,--output", arguments->output,
+                     "CSV: table_gap,hit,pair,px,py,pz,nx,ny,nz; lengths in scene units, point and normal in "
+                     "body A's frame. table_gap is that of the table's spheres: where it is above 0 it is no "
+                     "distance of the meshes. Beyond the limits no bound holds: --json lists such rows, and "
+                     "of a pair that never collides their table_gap is nan")
         ->required();
     command->add_flag(
         "--distance", arguments->distance,
@@ -156,9 +136,8 @@ void addQuery(Options& app, Console& console) {
     command
         ->add_flag("--all-pairs", arguments->allPairs,
                    "whether any pair of the scene touches: one column for each DOF of all joints, in the "
-                   "order of the "
-                   "file; CSV: hit,pair, one that touches. Nan: outside the limits of some pair, and no "
-                   "other one touches")
+                   "order of the file; CSV: hit,pair, one that touches. Nan: outside the limits of some "
+                   "pair, and no other one touches")
         ->excludes(command->get_option("--pair"))
         ->excludes(command->get_option("--distance"));
     command->callback([arguments, &console] { runQuery(*arguments, console); });

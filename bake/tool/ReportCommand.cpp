@@ -32,8 +32,7 @@ std::vector<std::vector<double>> readMotion(const SceneModel& scene, const Repor
     if (!pair) throw InputError(arguments.scene + ": expected a pair of rigid bodies for --motion");
     const Motion motion = pairMotion(scene, *pair);
     CsvTable csv = readCsv(arguments.motion, motion.dofCount());
-    for (auto& row : csv.rows)
-        for (std::size_t k = 0; k < row.size(); ++k) row[k] = fromUser(motion.dofs[k], row[k]);
+    for (std::vector<double>& row : csv.rows) row = fromUser(motion.dofs, row);
     return csv.rows;
 }
 

@@ -18,17 +18,16 @@ Json sayLinks(const RobotScene& made, const Console& console) {
     Json links = Json::array();
     for (const LinkReport& link : made.links) {
         const Body& body = made.scene.bodies[findBody(made.scene, link.body)];
-        const std::string name = body.path.substr(body.path.rfind('/') + 1);
+        const std::string name = primName(body.path);
         Json json = {{"body", body.path}, {"shapes", link.shapes}, {"triangles", body.mesh.triangles.size()}};
         if (body.mesh.empty()) {
             console.say(name + ": no geometry");
         } else {
             const Vec3 size = bounds(body.mesh).sizes();
-            const auto length = [&](int axis) { return lengthText(size[axis], made.scene.metersPerUnit); };
             const MeshAudit audit = auditMesh(body.mesh);
-            console.say(fmt::format("{}: {}{}\n  {} x {} x {}", name, text(audit),
+            console.say(fmt::format("{}: {}{}\n  {}", name, text(audit),
                                     link.shapes > 1 ? fmt::format(" ({} shapes as one)", link.shapes) : "",
-                                    length(0), length(1), length(2)));
+                                    sizeText(size, made.scene.metersPerUnit)));
             json["watertight"] = audit.watertight;
             const double mm = 1000 * made.scene.metersPerUnit;
             json["sizeMm"] = {mm * size.x(), mm * size.y(), mm * size.z()};
@@ -38,12 +37,10 @@ Json sayLinks(const RobotScene& made, const Console& console) {
     return links;
 }
 
-/// A link larger than a house or smaller than a grain: its meshes are mostly in another unit.
 void remarkBodySizes(const SceneModel& scene, const Console& console) {
     for (const Body& body : scene.bodies) {
-        const double units = body.mesh.empty() ? 0 : diagonal(body.mesh);
-        const double size = units * scene.metersPerUnit;
-        if (size > 10 || (size > 0 && size < 1e-3))
+        const double size = body.mesh.empty() ? 0 : diagonal(body.mesh) * scene.metersPerUnit;
+        if (isOddSize(size))
             console.say(fmt::format("note: {} is {} long if one unit of its meshes is {} m; where it is not, "
                                     "say what it is: a scale in a robot's file, else --meters-per-unit",
                                     body.path, lengthText(size, 1), scene.metersPerUnit));
@@ -51,6 +48,16 @@ void remarkBodySizes(const SceneModel& scene, const Console& console) {
 }
 
 } // namespace
+
+std::string sizeText(const Vec3& size, double metersPerUnit) {
+    const auto length = [&](int axis) { return lengthText(size[axis], metersPerUnit); };
+    return fmt::format("{} x {} x {}", length(0), length(1), length(2));
+}
+
+bool isOddSize(double metres) {
+    constexpr double house = 10, grain = 1e-3;
+    return metres > house || (metres > 0 && metres < grain);
+}
 
 Json sayScene(const RobotScene& made, const std::string& output, const Console& console) {
     const Json links = sayLinks(made, console);
@@ -63,7 +70,7 @@ Json sayScene(const RobotScene& made, const std::string& output, const Console& 
                        : dof.kind == DofKind::Translation ? "slides"
                                                           : "goes along its path";
         joints.push_back({{"path", joint.path}, {"dofs", joint.dofs.size()}});
-        console.say(joint.path.substr(joint.path.rfind('/') + 1) + ": " +
+        console.say(primName(joint.path) + ": " +
                     (joint.dofs.empty() ? "fixed" : describeDofs(motion, made.scene.metersPerUnit)));
     }
     for (const std::string& note : made.notes) console.say("note: " + note);
@@ -89,7 +96,7 @@ void makeRobot(const RobotFile& from, const std::string& motion, const std::stri
     if (!motion.empty()) {
         if (made.scene.layer)
             throw InputError(
-                Where{from.input, "", ""},
+                Where{from.input},
                 "is a scene of osgTSS already, which has its motion in it; --motion is for one to make");
         applyMotion(made.scene, motion);
     }

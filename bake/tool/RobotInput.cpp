@@ -3,13 +3,17 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/robot/MeshFiles.h"
+#include "bake/scene/ReadScene.h"
 #include "bake/tool/Command.h"
-#include "bake/tool/UsdInput.h"
 #ifdef OSGTSS_HAVE_URDF
 #include "bake/robot/ReadUrdf.h"
 #endif
 #ifdef OSGTSS_HAVE_MJCF
 #include "bake/robot/ReadMjcf.h"
+#endif
+#ifdef OSGTSS_HAVE_USDA
+#include "bake/usd/Stage.h"
+#include "bake/usd/UsdRobot.h"
 #endif
 
 #include <filesystem>
@@ -36,7 +40,7 @@ Robot readRobot(const RobotFile& from, [[maybe_unused]] const std::string& text,
     const std::string root = rootName(text);
     const bool mujoco = root == "mujoco";
     if (!root.empty() && !mujoco && root != "robot")
-        throw InputError(Where{from.input, "", ""},
+        throw InputError(Where{from.input},
                          "expected the <robot> of a URDF or the <mujoco> of an MJCF, found <" + root + ">");
     if (mujoco) {
 #ifdef OSGTSS_HAVE_MJCF
@@ -47,7 +51,7 @@ Robot readRobot(const RobotFile& from, [[maybe_unused]] const std::string& text,
         return readUrdf(text, from.input);
 #endif
     }
-    throw InputError(Where{from.input, "", ""},
+    throw InputError(Where{from.input},
                      std::string("this build reads no ") +
                          (mujoco ? "MJCF (OSGTSS_MJCF is off)" : "URDF (OSGTSS_URDF is off)"));
 }
@@ -60,17 +64,59 @@ Robot readRobot(const RobotFile& from, const FindMesh& find) {
     return robot;
 }
 
+#ifdef OSGTSS_HAVE_USDA
+
+RobotScene sceneOfOurs(const UsdStage& stage, const std::string& file) {
+    RobotScene made;
+    made.notes = stage.notes;
+    try {
+        made.scene = readScene(stage.layer, file);
+    } catch (const InputError& error) { // a JSON pointer says nothing of a text that is none
+        throw InputError(Where{error.where.file, "", error.where.path}, error.message);
+    }
+    for (const Body& body : made.scene.bodies) made.links.push_back({body.path, 1, false});
+    return made;
+}
+
+/// The scene of a `.usda`: as it stands there where it is one of this software, else that of the robot that
+/// its UsdPhysics describes. Its files may lie in the folders of the packages too.
+RobotScene readUsdScene(const std::string& file, const Packages& packages, const RobotSceneRequest& request) {
+    std::vector<std::string> folders;
+    for (const auto& [name, folder] : packages)
+        if (!folder.empty()) folders.push_back(folder);
+    const OpenUsd open = besideUsd(file, folders);
+    const std::string name = std::filesystem::path(file).filename().string();
+    const UsdFile first = inFile(file, [&] { return open(name); });
+    if (!first.missing.empty()) throw InputError(Where{file}, first.missing);
+    UsdStage stage = readStage(first.text, file, open);
+    if (stage.ours) return sceneOfOurs(stage, file);
+    const FindMesh none = [](const std::string& name) -> std::string { return name; };
+    return sceneOf(robotOf(std::move(stage), file), request, none);
+}
+
+#else
+
+RobotScene readUsdScene(const std::string& file, const Packages&, const RobotSceneRequest&) {
+    throw InputError(Where{file}, "this build reads no USD (OSGTSS_USDA is off)");
+}
+
+#endif
+
 } // namespace
 
 std::array<Option*, 2> addRobotFileOptions(Options& command, RobotFile& file) {
-    return {
-        command
-            .add_option("--package", file.packages,
-                        "NAME=DIR: the folder of package://NAME/...; repeat. Else it is looked for upwards "
-                        "from the file. NAME=: left out by name. Other paths, and those of a .usda, may lead "
-                        "into these folders too")
-            ->allow_extra_args(false),
-        command.add_option("--srdf", file.srdf, "an SRDF: pairs that it switches off are left out")};
+    return {command
+                .add_option("--package", file.packages,
+                            "NAME=DIR: the folder of package://NAME/...; repeat. Else it is looked for "
+                            "upwards from the file. NAME=: left out by name. Other paths, and those of a "
+                            ".usda, may lead into these folders too")
+                ->allow_extra_args(false),
+            command.add_option("--srdf", file.srdf, "an SRDF: pairs that it switches off are left out")};
+}
+
+bool isUsd(const std::string& file) {
+    const std::string extension = std::filesystem::path(file).extension().string();
+    return extension == ".usda" || extension == ".usd" || extension == ".usdc" || extension == ".usdz";
 }
 
 bool isRobot(const std::string& file) {

@@ -15,8 +15,10 @@ struct RobotFile {
 /// --package and --srdf.
 std::array<Option*, 2> addRobotFileOptions(Options& command, RobotFile& file);
 
-/// A file that describes a robot, by its name, an .xml by its first element: URDF or MJCF. Of USD see
-/// isUsd().
+/// The name is that of a file of USD, .usda or a form that is refused.
+bool isUsd(const std::string& file);
+
+/// A file that describes a robot, by its name, an .xml by its first element: URDF or MJCF.
 bool isRobot(const std::string& file);
 
 /// The scene of a robot. Throws InputError, also where this build has no reader for it.

@@ -59,8 +59,7 @@ void addTable(Json& json, const Table& table) {
     json["earlyOfSolids"] = knownOrNull(earlyOfSolids(table));
     json["epsilon"] = table.epsilon;
     json["certified"] = table.certified;
-    json["overlapAtRest"] =
-        std::count_if(table.restGaps.begin(), table.restGaps.end(), [](double g) { return g < 0; });
+    json["overlapAtRest"] = std::ranges::count_if(table.restGaps, [](double g) { return g < 0; });
     json["method"] = table.method;
     json["bytes"] = bytes(table);
 }
@@ -134,10 +133,10 @@ std::string describeEarlyContact(const Json& pair, double metersPerUnit) {
                                    : "; where the bodies overlap on purpose, as in\n               a socket, "
                                      "bake with --at-rest ignore";
     if (early["stuck"].get<bool>() && !ignored)
-        text += fmt::format(
-            "  stuck        the meshes touch or overlap at {} of {} poses. Where B does not lie "
-            "right, move it (tss\n               make --b-offset){}\n",
-            early["poses"].get<int>() - early["freePoses"].get<int>(), early["poses"].get<int>(), excepted);
+        text += fmt::format("  stuck        the meshes touch or overlap at {} of {} poses. Where B does not "
+                            "lie right, move it (tss\n               make --b-offset){}\n",
+                            early["poses"].get<int>() - early["freePoses"].get<int>(),
+                            early["poses"].get<int>(), excepted);
     else if (early["held"].get<bool>())
         text +=
             fmt::format("  held         at rest: every small step from there is contact, whichever way. Let "
@@ -145,10 +144,9 @@ std::string describeEarlyContact(const Json& pair, double metersPerUnit) {
                         excepted);
     if (const int poses = early["poses"].get<int>(), free = early["freePoses"].get<int>();
         !early["stuck"].get<bool>() && 2 * free < poses)
-        text +=
-            fmt::format("  touching     the meshes touch at {} of {} poses: where they should not, look at "
-                        "origin, axis and limits\n",
-                        poses - free, poses);
+        text += fmt::format("  touching     the meshes touch at {} of {} poses: where they should not, look "
+                            "at origin, axis and limits\n",
+                            poses - free, poses);
     if (!early["coarse"].get<bool>()) return text;
     text += fmt::format("  too coarse   for the clearance of this joint: it {} where nothing touches\n",
                         early["atRest"].get<bool>() ? "sticks at rest," : "is stopped early, or sticks,");
@@ -286,15 +284,15 @@ std::string describeTable(const Json& item, double metersPerUnit) {
         text += "  no contact   at any sampled pose: no proof that the bodies never meet\n";
     const double travel = item.value("travel", 0.0);
     if (travel > 0)
-        text += fmt::format("  good         while skin strays no farther than {} from where "
-                            "muscles and bones carry it\n",
-                            lengthText(travel, metersPerUnit));
+        text += fmt::format(
+            "  good         while skin strays no farther than {} from where muscles and bones carry it\n",
+            lengthText(travel, metersPerUnit));
     if (item.contains("travel") && !item["certified"].get<bool>())
-        text += "  explored     each muscle and each joint value by itself: where several move at "
-                "once nothing is proven\n";
+        text += "  explored     each muscle and each joint value by itself: where several move at once "
+                "nothing is proven\n";
     if (item.contains("residual"))
-        text += fmt::format("  residual     {} at most: so deep it goes into what is below it, "
-                            "beyond its depth at rest, in {} steps\n"
+        text += fmt::format("  residual     {} at most: so deep it goes into what is below it, beyond its "
+                            "depth at rest, in {} steps\n"
                             "               of the scene's own motion\n",
                             length(item["residual"], metersPerUnit), item["residualSteps"].dump());
     if (!item.contains("travel")) // a skin's table has no bound of depth
@@ -324,9 +322,9 @@ std::string describeItem(const Json& item, double metersPerUnit) {
     if (item["spheresA"] != 0 || item["spheresB"] != 0)
         text += fmt::format("  spheres      {} + {}\n", item["spheresA"].dump(), item["spheresB"].dump());
     if (item.value("neverCollides", false)) {
-        text += fmt::format("  never collide: the surfaces stay {} apart over the whole motion{}; no "
-                            "table, no callback\n",
-                            length(item["clearance"], metersPerUnit), butForRegion(item, metersPerUnit));
+        text += fmt::format(
+            "  never collide: the surfaces stay {} apart over the whole motion{}; no table, no callback\n",
+            length(item["clearance"], metersPerUnit), butForRegion(item, metersPerUnit));
     } else {
         text += describeTable(item, metersPerUnit);
     }

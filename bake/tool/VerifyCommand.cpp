@@ -181,8 +181,7 @@ void verify(const std::string& file, double budget, Console& console) {
     for (const SkinModel& skin : scene.skins)
         if (skin.table) bad += !verifyOne(file, scene, skin, result, console, Budget(budget));
     if (result["pairs"].empty() && result["skins"].empty())
-        throw InputError(Where{file, "", ""},
-                         "nothing to verify; expected a scene with a baked pair or skin");
+        throw InputError(Where{file}, "nothing to verify; expected a scene with a baked pair or skin");
     if (result["pairs"].empty())
         console.say(fmt::format("nothing is proven: {} looked at, and no pair of rigid bodies has a table",
                                 counted(result["skins"].size(), "skin")));
@@ -203,18 +202,17 @@ void addVerify(Options& app, Console& console) {
     command->add_option(
         "--budget", *budget,
         "seconds a pair or skin, after which it is not decided; 0 (default): as long as it takes");
-    command->footer(
-        "Proven from the file and the meshes alone, at every pose of the limits: that some test "
-        "reports where the\n"
-        "meshes meet (miss); that where a test reports they are as near as stated (early); that "
-        "meshes said to\n"
-        "never collide stay as far apart as stated; that each kind of run-time kernel that this "
-        "machine has rounds\n"
-        "within its band. A gap that a table states down to a depth is proven against spheres "
-        "made again from the\n"
-        "meshes. Of the tables of skins nothing is proven: what can be told of them at rest and of each "
-        "muscle by\n"
-        "itself is checked, and one that says it is certified is refused.");
+    command->footer("Proven from the file and the meshes alone, at every pose of the limits: that some test "
+                    "reports where the\n"
+                    "meshes meet (miss); that where a test reports they are as near as stated (early); that "
+                    "meshes said to\n"
+                    "never collide stay as far apart as stated; that each kind of run-time kernel that this "
+                    "machine has rounds\n"
+                    "within its band. A gap that a table states down to a depth is proven against spheres "
+                    "made again from the\n"
+                    "meshes. Of the tables of skins nothing is proven: what can be told of them at rest and "
+                    "of each muscle by\n"
+                    "itself is checked, and one that says it is certified is refused.");
     command->callback([file, budget, &console] { verify(*file, *budget, console); });
 }
 

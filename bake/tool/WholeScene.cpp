@@ -224,8 +224,7 @@ private:
     /// The end that stays comes first: the one nearer to its bone, or the one farther from where it goes to.
     void orient(MuscleModel& model, const Pose& placement) const {
         const std::vector<double> nearer = towardsInsertion(model, placement);
-        if (nearer.front() > nearer.back())
-            std::reverse(model.muscle.fibre.begin(), model.muscle.fibre.end());
+        if (nearer.front() > nearer.back()) std::ranges::reverse(model.muscle.fibre);
     }
 
     void sayMuscle(const std::string& name, const MuscleModel& model) const {
@@ -263,7 +262,7 @@ private:
                     nearest[v] = distance, whose[v] = k;
         }
         for (int k = 0; k < static_cast<int>(robot_.links.size()); ++k) {
-            const auto count = static_cast<double>(std::count(whose.begin(), whose.end(), k));
+            const auto count = static_cast<double>(std::ranges::count(whose, k));
             if (k != model.bone && k != model.insertionBone &&
                 count > most * static_cast<double>(vertices.size()))
                 note(

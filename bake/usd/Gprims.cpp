@@ -45,7 +45,7 @@ Eigen::Matrix3d turnTo(const PrimReader& prim) {
 
 bool isGprim(const Prim& prim) {
     static constexpr std::array types = {"Mesh", "Cube", "Sphere", "Cylinder", "Capsule", "Cone"};
-    return std::find(types.begin(), types.end(), prim.typeName) != types.end();
+    return std::ranges::find(types, prim.typeName) != types.end();
 }
 
 TriangleMesh meshOfGprim(const PrimReader& prim, const Eigen::Affine3d& place) {

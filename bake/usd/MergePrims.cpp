@@ -55,29 +55,13 @@ void mergeProperty(Property& own, Property weaker) {
     own.other.merge(weaker.other);
 }
 
-/// A path at or below one prim as the same below another; any other path stays.
-void moveBelow(std::string& path, const std::string& from, const std::string& to) {
-    if (path.starts_with(from) &&
-        (path.size() == from.size() || path[from.size()] == '/' || path[from.size()] == '.'))
-        path.replace(0, from.size(), to);
-}
-
-void moveList(Value& list, const std::string& from, const std::string& to) {
-    if (auto* array = list.as<Value::Array>()) {
-        for (Value& item : *array)
-            if (auto* path = item.as<std::string>()) moveBelow(*path, from, to);
-    } else if (auto* ops = list.as<Value::Object>()) {
-        for (auto& [op, items] : *ops) moveList(items, from, to);
-    }
-}
-
 } // namespace
 
 void mergeMetadata(Value::Object& stronger, Value::Object weaker) {
     for (auto& [key, value] : weaker) {
         const auto [at, isNew] = stronger.try_emplace(key, std::move(value));
         if (isNew) continue;
-        if (std::find(listKeys.begin(), listKeys.end(), key) != listKeys.end())
+        if (std::ranges::find(listKeys, key) != listKeys.end())
             at->second = joinedLists(at->second, value);
         else
             mergeDictionary(at->second, value);
@@ -91,26 +75,16 @@ void mergeUnder(Prim& stronger, Prim weaker) {
     for (auto& [name, property] : weaker.properties)
         if (const auto [at, isNew] = stronger.properties.try_emplace(name, std::move(property)); !isNew)
             mergeProperty(at->second, std::move(property));
-    std::map<std::string, std::size_t> places;
-    std::vector<Prim> children = std::move(weaker.children);
-    for (std::size_t i = 0; i < children.size(); ++i) places[children[i].name] = i;
-    for (Prim& child : stronger.children) {
-        const auto same = places.find(child.name);
-        if (same == places.end()) {
-            children.push_back(std::move(child));
-        } else {
-            mergeUnder(child, std::move(children[same->second]));
-            children[same->second] = std::move(child);
-        }
-    }
-    stronger.children = std::move(children);
+    mergeChildren(
+        stronger.children, std::move(weaker.children),
+        [](const Prim& child) -> const std::string& { return child.name; }, mergeUnder);
 }
 
 void movePaths(Prim& prim, const std::string& from, const std::string& to) {
     for (auto& [name, property] : prim.properties) {
-        if (property.targetPaths) moveList(*property.targetPaths, from, to);
+        if (property.targetPaths) moveBelow(*property.targetPaths, from, to);
         if (const auto found = property.other.find("connectionPaths"); found != property.other.end())
-            moveList(found->second, from, to);
+            moveBelow(found->second, from, to);
     }
     for (Prim& child : prim.children) movePaths(child, from, to);
 }

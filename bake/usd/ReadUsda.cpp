@@ -73,7 +73,7 @@ private:
                 continue;
             }
             std::string op, key = cursor_.word("a key of metadata, or \")\"", true);
-            if (std::find(listOps.begin(), listOps.end(), key) != listOps.end() && cursor_.atWord())
+            if (std::ranges::find(listOps, key) != listOps.end() && cursor_.atWord())
                 op = std::exchange(key, cursor_.word("a key", true));
             cursor_.expect('=');
             cursor_.spend(sizeof(Value::Object::value_type) + 64);
@@ -101,8 +101,7 @@ private:
 
     void readPrimKey(UsdSpec& spec, const std::string& key, const std::string& op) {
         Value::Object& metadata = spec.prim.metadata;
-        const auto list =
-            std::find_if(lists.begin(), lists.end(), [&](const auto& l) { return key == l.first; });
+        const auto list = std::ranges::find_if(lists, [&](const auto& l) { return key == l.first; });
         if (key == "variants") {
             metadata["variantSelection"] = Value(parseUsdaDictionary(cursor_, 1));
         } else if (key == "relocates") {
@@ -355,7 +354,7 @@ private:
             if (!cursor_.take(',') && cursor_.peek() != '}') cursor_.refuseFound("\",\" or \"}\"");
         }
         const auto earlier = [](const auto& a, const auto& b) { return a.time < b.time; };
-        std::stable_sort(samples.begin(), samples.end(), earlier);
+        std::ranges::stable_sort(samples, earlier);
         for (std::size_t i = 1; i < samples.size(); ++i)
             if (samples[i].time == samples[i - 1].time) cursor_.refuse("expected each time once");
     }
@@ -378,7 +377,7 @@ std::string notUsda(std::string_view text, const std::string& file) {
 
 UsdLayer parseUsda(std::string_view text, const std::string& file, const std::string& folder,
                    UsdBudget& budget) {
-    const auto refuse = [&](const std::string& message) { throw InputError(Where{file, "", ""}, message); };
+    const auto refuse = [&](const std::string& message) { throw InputError(Where{file}, message); };
     if (const std::string problem = notUsda(text, file); !problem.empty()) refuse(problem);
     if (text.size() > budget.text) refuse("expected files of at most 128 MiB in all");
     budget.text -= text.size();

@@ -35,8 +35,7 @@ public:
         UsdStage stage;
         UsdLayer& first = *files_[""];
         stage.layer.metadata = first.metadata;
-        const bool asItIs = first.subLayers.empty() &&
-                            std::none_of(first.children.begin(), first.children.end(), needsComposition);
+        const bool asItIs = first.subLayers.empty() && std::ranges::none_of(first.children, needsComposition);
         if (asItIs) {
             for (UsdSpec& child : first.children) stage.layer.children.push_back(takePrim(child));
         } else {
@@ -62,13 +61,13 @@ private:
                   const std::string& message) {
         const Where where{layer.file, spec ? "line " + std::to_string(spec->line) : "", path};
         std::string note = std::string("left out: ") + InputError(where, message).what();
-        if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(std::move(note));
+        if (std::ranges::find(notes_, note) == notes_.end()) notes_.push_back(std::move(note));
     }
 
     /// The layer of this file with its sublayers in it.
     UsdLayer& stackOf(const std::string& name, std::vector<std::string> within) {
-        if (std::find(within.begin(), within.end(), name) != within.end())
-            throw InputError(Where{files_[name]->file, "", ""}, "subLayers: leads back to itself");
+        if (std::ranges::find(within, name) != within.end())
+            throw InputError(Where{files_[name]->file}, "subLayers: leads back to itself");
         UsdLayer& layer = layerOf(name);
         within.push_back(name);
         const std::vector<std::string> below = std::exchange(layer.subLayers, {});
@@ -119,8 +118,7 @@ private:
                 continue;
             std::string note = layer.file + " has " + key + " " + describe(theirs->second) +
                                ", unlike the first layer; as in USD, nothing is converted";
-            if (std::find(notes_.begin(), notes_.end(), note) == notes_.end())
-                notes_.push_back(std::move(note));
+            if (std::ranges::find(notes_, note) == notes_.end()) notes_.push_back(std::move(note));
         }
     }
 
@@ -253,8 +251,7 @@ private:
     /// An arc to `base` leads back to what it is followed from, or to what is above its prim.
     bool leadsBack(const UsdLayer& from, const UsdSpec& spec, const std::string& path, const std::string& arc,
                    const UsdLayer& layer, const UsdSpec* base) {
-        bool back =
-            std::any_of(arcs_.begin(), arcs_.end(), [&](const auto& open) { return open.first == base; });
+        bool back = std::ranges::any_of(arcs_, [&](const auto& open) { return open.first == base; });
         for (std::string above = path; &layer == &from && !above.empty(); above.resize(above.rfind('/')))
             back = back || find(from, above) == base;
         if (!back && arcs_.size() >= mostArcs)
@@ -268,8 +265,8 @@ private:
         for (std::size_t begin = 1; begin <= path.size();) {
             const std::size_t end = std::min(path.find('/', begin), path.size());
             const std::string name = path.substr(begin, end - begin);
-            const auto found = std::find_if(at->children.begin(), at->children.end(),
-                                            [&](const Prim& child) { return child.name == name; });
+            const auto found =
+                std::ranges::find_if(at->children, [&](const Prim& child) { return child.name == name; });
             if (found == at->children.end()) return false;
             at = &*found;
             begin = end + 1;
@@ -322,10 +319,6 @@ private:
     std::size_t prims_ = 0, numbers_ = 0;
 };
 
-bool isWithin(const std::filesystem::path& path, const std::filesystem::path& folder) {
-    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
-}
-
 } // namespace
 
 OpenUsd besideUsd(const std::string& file, const std::vector<std::string>& others) {
@@ -338,8 +331,7 @@ OpenUsd besideUsd(const std::string& file, const std::vector<std::string>& other
             throw InputError("expected a file beside the layer, and no other place");
         std::error_code error;
         const fs::path real = fs::weakly_canonical(folder / name, error);
-        if (error || std::none_of(folders.begin(), folders.end(),
-                                  [&](const fs::path& one) { return isWithin(real, one); }))
+        if (error || std::ranges::none_of(folders, [&](const fs::path& one) { return isWithin(real, one); }))
             throw InputError(
                 "lies outside of " + folder.string() +
                 ", the folder of the first layer; expected it there or in the folder of a --package "

@@ -32,8 +32,8 @@ RobotJoint turnedRound(const RobotJoint& joint) {
     other.origin = joint.origin.inverse(Eigen::Isometry);
     // (O D1...Dd)^-1 = Dd^-1...D1^-1 O^-1, the DOFs then in the parent's frame: O carries them into the
     // child's.
-    std::reverse(other.dofs.begin(), other.dofs.end());
-    std::reverse(other.drives.begin(), other.drives.end());
+    std::ranges::reverse(other.dofs);
+    std::ranges::reverse(other.drives);
     for (Dof& dof : other.dofs) {
         dof.axis = -(joint.origin.linear() * dof.axis);
         dof.origin = joint.origin * dof.origin;
@@ -79,8 +79,8 @@ private:
         edge.joint.parent = end0.link;
         edge.joint.child = end1.link;
         edge.joint.origin = frame0 * frame1.inverse(Eigen::Isometry);
-        const bool moves = std::any_of(read.drives.begin(), read.drives.end(),
-                                       [](const TimeSamples& drive) { return drive.times.size() > 1; });
+        const bool moves =
+            std::ranges::any_of(read.drives, [](const TimeSamples& drive) { return drive.times.size() > 1; });
         for (std::size_t k = 0; k < read.dofs.size(); ++k) {
             Dof dof = read.dofs[k];
             if (dof.lower == 0 && dof.upper == 0) continue; // as good as locked

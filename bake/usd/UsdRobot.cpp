@@ -39,7 +39,7 @@ public:
             std::string found;
             for (const auto& notes : {robot_.notes, leftOut_.notes()})
                 for (const std::string& note : notes) found += "; " + note;
-            throw InputError(Where{robot_.file, "", ""},
+            throw InputError(Where{robot_.file},
                              "expected at least one rigid body, collider or mesh, found none" + found);
         }
         for (const std::string& note : leftOut_.notes()) robot_.notes.push_back(note);
@@ -61,7 +61,7 @@ private:
         const Value::Object& metadata = reading_.layer.metadata;
         robot_.metersPerUnit = number("metersPerUnit", 0.01);
         if (!(robot_.metersPerUnit > 0 && robot_.metersPerUnit < 1e30))
-            throw InputError(Where{robot_.file, "", ""}, "metersPerUnit: expected a number above 0");
+            throw InputError(Where{robot_.file}, "metersPerUnit: expected a number above 0");
         if (!metadata.contains("metersPerUnit"))
             robot_.notes.push_back("the file has no metersPerUnit: one unit is a centimetre, as in USD");
         const auto up = metadata.find("upAxis");
@@ -313,10 +313,9 @@ private:
             const Pose stands = robot_.links[joint.child].place;
             const double size = 1 + should.translation().norm() + stands.translation().norm();
             if ((should.matrix() - stands.matrix()).cwiseAbs().maxCoeff() > 1e-3 * size)
-                leftOut_.add(
-                    "bodies that the file shows elsewhere than their joint has them at 0; values count from "
-                    "the joint's frames",
-                    robot_.links[joint.child].name);
+                leftOut_.add("bodies that the file shows elsewhere than their joint has them at 0; values "
+                             "count from the joint's frames",
+                             robot_.links[joint.child].name);
         }
     }
 

@@ -3,7 +3,6 @@
 #include "bake/usd/MergePrims.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace tss {
 
@@ -58,8 +57,8 @@ static void mergeSpec(UsdSpec& stronger, UsdSpec weaker) {
     mergeUnder(stronger.prim, std::move(weaker.prim));
     mergeSpecs(stronger.children, std::move(weaker.children));
     for (UsdVariantSet& set : weaker.variantSets) {
-        const auto same = std::find_if(stronger.variantSets.begin(), stronger.variantSets.end(),
-                                       [&](const UsdVariantSet& s) { return s.name == set.name; });
+        const auto same = std::ranges::find_if(stronger.variantSets,
+                                               [&](const UsdVariantSet& s) { return s.name == set.name; });
         if (same == stronger.variantSets.end())
             stronger.variantSets.push_back(std::move(set));
         else
@@ -68,18 +67,9 @@ static void mergeSpec(UsdSpec& stronger, UsdSpec weaker) {
 }
 
 void mergeSpecs(std::vector<UsdSpec>& stronger, std::vector<UsdSpec> weaker) {
-    std::unordered_map<std::string, std::size_t> places;
-    for (std::size_t i = 0; i < weaker.size(); ++i) places[weaker[i].prim.name] = i;
-    for (UsdSpec& spec : stronger) {
-        const auto same = places.find(spec.prim.name);
-        if (same == places.end()) {
-            weaker.push_back(std::move(spec));
-        } else {
-            mergeSpec(spec, std::move(weaker[same->second]));
-            weaker[same->second] = std::move(spec);
-        }
-    }
-    stronger = std::move(weaker);
+    mergeChildren(
+        stronger, std::move(weaker),
+        [](const UsdSpec& child) -> const std::string& { return child.prim.name; }, mergeSpec);
 }
 
 bool needsComposition(const UsdSpec& spec) {
@@ -88,7 +78,7 @@ bool needsComposition(const UsdSpec& spec) {
         if (spec.prim.metadata.contains(key)) return true;
     for (const std::string& arc : arcsOf(spec.prim, "references"))
         if (arc.starts_with('@')) return true;
-    return std::any_of(spec.children.begin(), spec.children.end(), needsComposition);
+    return std::ranges::any_of(spec.children, needsComposition);
 }
 
 } // namespace tss

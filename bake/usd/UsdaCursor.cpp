@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdint>
 #include <limits>
 
 namespace tss {
@@ -236,7 +235,7 @@ bool UsdaCursor::number(double& value) {
 bool UsdaCursor::integer(std::string_view& digits) {
     const std::string_view text = numberText();
     const std::string_view bare = text.substr(!text.empty() && (text[0] == '-' || text[0] == '+'));
-    if (bare.empty() || !std::all_of(bare.begin(), bare.end(), isDigit)) return false;
+    if (bare.empty() || !std::ranges::all_of(bare, isDigit)) return false;
     digits = text;
     at_ += text.size();
     return true;

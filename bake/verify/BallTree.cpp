@@ -27,11 +27,10 @@ std::int32_t BallTree::join(const SphereSet& spheres, std::vector<std::uint32_t>
     for (std::size_t k = from; k < to; ++k) spread += (spheres[order[k]].centre - mean).cwiseAbs2();
     Eigen::Index axis = 0;
     spread.maxCoeff(&axis);
-    std::sort(order.begin() + static_cast<std::ptrdiff_t>(from),
-              order.begin() + static_cast<std::ptrdiff_t>(to), [&](std::uint32_t x, std::uint32_t y) {
-                  const double cx = spheres[x].centre[axis], cy = spheres[y].centre[axis];
-                  return cx != cy ? cx < cy : x < y;
-              });
+    std::sort(order.begin() + from, order.begin() + to, [&](std::uint32_t x, std::uint32_t y) {
+        const double cx = spheres[x].centre[axis], cy = spheres[y].centre[axis];
+        return cx != cy ? cx < cy : x < y;
+    });
     const std::size_t middle = from + (to - from) / 2;
     for (std::size_t k = from; k < to; ++k)
         ball.radius =

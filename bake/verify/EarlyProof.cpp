@@ -4,7 +4,6 @@
 #include "bake/verify/Nesting.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tss::verify {
 

@@ -216,8 +216,7 @@ bool MeshBox::answered(const Shape& a, const Shape& b, const MovingPoint& at, Ve
         }
         if (!yes) continue;
         // Neighbours are answered by the same test more often than not.
-        std::rotate(near_.begin(), near_.begin() + static_cast<std::ptrdiff_t>(n),
-                    near_.begin() + static_cast<std::ptrdiff_t>(n) + 1);
+        std::rotate(near_.begin(), near_.begin() + n, near_.begin() + n + 1);
         return true;
     }
     return false;

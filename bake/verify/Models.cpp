@@ -3,7 +3,6 @@
 #include "bake/verify/PoseBox.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace tss::verify {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 
 namespace tss::verify {
 
@@ -204,8 +203,7 @@ std::size_t widest(const PoseBox& box, const Extremes& points) {
         const MovingPoint at = box.carry(p, false);
         for (std::size_t k = 0; k < box.dofs(); ++k) moves[k] += at.sweep[k];
     }
-    return std::size_t(std::max_element(moves.begin(), moves.begin() + std::ptrdiff_t(box.dofs())) -
-                       moves.begin());
+    return std::size_t(std::max_element(moves.begin(), moves.begin() + box.dofs()) - moves.begin());
 }
 
 enum class Outcome { Shown, Split, Broken, Undecided };
@@ -268,11 +266,10 @@ NestingResult proveNoNesting(const VerifiedBody& a, const VerifiedBody& b, const
             if (part.outcome == Outcome::Shown) continue;
             if (part.outcome != Outcome::Split) {
                 result.pose = part.pose;
-                result.reason =
-                    part.outcome == Outcome::Broken
-                        ? "at a pose it reports contact though one body is inside the other and the "
-                          "surfaces are farther apart than the stored bound"
-                        : "near a pose it cannot be told whether one body is inside the other";
+                result.reason = part.outcome == Outcome::Broken
+                                    ? "at a pose it reports contact though one body is inside the other and "
+                                      "the surfaces are farther apart than the stored bound"
+                                    : "near a pose it cannot be told whether one body is inside the other";
                 return result;
             }
             for (const bool upper : {false, true}) {

@@ -114,10 +114,9 @@ RegionVerdict judgeRegion(const VerifiedBody& a, const VerifiedBody& b, const Mo
     probe(a, region.a, b, rest.inverse(Eigen::Isometry));
     probe(b, region.b, a, rest);
     if (strays > 0)
-        verdict.reason = fmt::format(
-            "{} connected pieces of the surfaces that it excepts are nowhere near the other body at rest: up "
-            "to {:.4g} scene units away",
-            strays, verdict.farthest);
+        verdict.reason = fmt::format("{} connected pieces of the surfaces that it excepts are nowhere near "
+                                     "the other body at rest: up to {:.4g} scene units away",
+                                     strays, verdict.farthest);
     return verdict;
 }
 

@@ -131,7 +131,7 @@ std::int32_t SurfaceTree::join(std::vector<std::uint32_t>& order, std::size_t fr
         nodes.push_back(node);
         return root();
     }
-    const auto at = [&](std::size_t k) { return order.begin() + static_cast<std::ptrdiff_t>(k); };
+    const auto at = [&](std::size_t k) { return order.begin() + k; };
     const auto middleOf = [&](std::uint32_t p) -> Vec3 {
         return (patches[p].corners[0] + patches[p].corners[1] + patches[p].corners[2]) / 3;
     };

@@ -3,7 +3,6 @@
 #include "bake/verify/GapBox.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <numeric>

@@ -3,8 +3,6 @@
 #include "bake/verify/Implication.h"
 #include "bake/verify/PoseBox.h"
 
-#include <algorithm>
-
 namespace tss {
 
 namespace {

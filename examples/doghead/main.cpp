@@ -32,9 +32,8 @@ constexpr Named all[] = {{"dog_jaw", doghead::jawScene},
 /// tss-dog [DIR [NAME...]]: writes the repository's own dog into a folder, all scenes or those named.
 int main(int count, char** arguments) {
     if (count > 1 && arguments[1][0] == '-') {
-        std::fprintf(stderr,
-                     "usage: tss-dog [DIR [NAME...]]\n\nWrites NAME.tss into DIR (default: the current "
-                     "folder), by default each of:\n");
+        std::fprintf(stderr, "usage: tss-dog [DIR [NAME...]]\n\nWrites NAME.tss into DIR (default: the "
+                             "current folder), by default each of:\n");
         for (const Named& scene : all) std::fprintf(stderr, "  %s\n", scene.name);
         return count == 2 && !std::strcmp(arguments[1], "--help") ? 0 : 2;
     }

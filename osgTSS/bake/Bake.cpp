@@ -58,7 +58,7 @@ public:
 
 private:
     void tag(osg::Node& node, const std::vector<std::string>& names, const char* value) {
-        if (std::find(names.begin(), names.end(), node.getName()) == names.end()) return;
+        if (std::ranges::find(names, node.getName()) == names.end()) return;
         node.setUserValue(value, true);
         used.insert(node.getName());
     }
@@ -100,11 +100,12 @@ std::shared_ptr<tss::SceneModel> extract(osg::Node& root, const BakeOptions& opt
     if (found.joints.empty() && found.skins.empty()) {
         OSG_NOTICE << "osgTSS: the graph has no joints; nothing was baked" << std::endl;
     } else if (found.pairs.empty() && found.skins.empty()) {
-        OSG_NOTICE << "osgTSS: the graph has joints, but no pairs of bodies between them"
-                   << (options.pairs == "tagged" ? ": pairs=tagged takes nodes with the user value "
-                                                   "\"osgTSS:collides\", and none has it"
-                                                 : "")
-                   << "; nothing was baked" << std::endl;
+        OSG_NOTICE
+            << "osgTSS: the graph has joints, but no pairs of bodies between them"
+            << (options.pairs == "tagged"
+                    ? ": pairs=tagged takes nodes with the user value \"osgTSS:collides\", and none has it"
+                    : "")
+            << "; nothing was baked" << std::endl;
     }
     return model;
 }

@@ -16,7 +16,7 @@ const char* const ownWords[] = {"pairs", "switches", "limits", "static", "ignore
 const char* const loadWords[] = {"clock", "light", "noRotation", "overlay"};
 
 std::string oneOf(const std::string& key, const std::string& value, const std::vector<std::string>& choices) {
-    if (std::find(choices.begin(), choices.end(), value) != choices.end()) return value;
+    if (std::ranges::find(choices, value) != choices.end()) return value;
     std::string text;
     for (const std::string& choice : choices) text += (text.empty() ? "" : ", ") + choice;
     throw tss::InputError("option " + key + ": expected one of " + text + "; found \"" + value + "\"");

@@ -3,13 +3,13 @@
 #include "EglContext.h"
 #include "FramePattern.h"
 #include "OffscreenViewer.h"
-#include "Tell.h"
 
 #include "bake/base/Error.h"
 #include "bake/cli/CommandLine.h"
 #include "bake/model/Kinematics.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <osgDB/FileUtils>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
@@ -30,6 +30,8 @@
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct Arguments {
     std::string scene, output, view, options;
     std::string size = "800x600";
@@ -38,8 +40,23 @@ struct Arguments {
     int finer = 2;
     bool overlay = false;
     bool rest = false;
-    osgTSS::Speech speech;
+    bool json = false, quiet = false;
 };
+
+/// Which pictures were written, of how many frames; at least one.
+void tellPictures(const Arguments& arguments, unsigned int frames, const std::vector<std::string>& files) {
+    if (!arguments.quiet)
+        fmt::print(arguments.json ? stderr : stdout, "{} picture{}, {} to {}\n", files.size(),
+                   files.size() == 1 ? "" : "s", files.front(), files.back());
+    if (arguments.json) fmt::print("{}\n", Json{{"frames", frames}, {"files", files}}.dump());
+}
+
+/// Returns the code to exit with, as it is given.
+int tellFailure(const Arguments& arguments, int code, const std::string& message) {
+    fmt::print(stderr, "tss-render: {}\n", message);
+    if (arguments.json) fmt::print("{}\n", Json{{"error", {{"message", message}}}, {"exit", code}}.dump());
+    return code;
+}
 
 /// "x,y,z:x,y,z": the eye, and what it looks at.
 std::optional<std::array<osg::Vec3d, 2>> placeOf(const std::string& text) {
@@ -72,9 +89,9 @@ osgTSS::Shot shotOf(const Arguments& arguments) {
     for (double number = 0; file >> number;) numbers.push_back(number);
     // The path's own reader would wait forever for the end of what is no number.
     if (numbers.empty() || numbers.size() % 8 != 0 || !file.eof())
-        throw tss::InputError({arguments.view, "", ""},
-                              "expected a camera path as osgviewer -p reads it, or EYE:AT, six numbers "
-                              "as in 0,-3,1:0,0,1");
+        throw tss::InputError(
+            {arguments.view, "", ""},
+            "expected a camera path as osgviewer -p reads it, or EYE:AT, six numbers as in 0,-3,1:0,0,1");
     shot.view = new osg::AnimationPath;
     for (std::size_t k = 0; k < numbers.size(); k += 8) {
         const double* n = &numbers[k]; // time, x, y, z, and the rotation
@@ -177,11 +194,11 @@ void render(const Arguments& arguments) {
             const std::string name = pattern ? osgTSS::frameName(arguments.output, frame) : arguments.output;
             write(image, name);
             files.push_back(name);
-            if (!arguments.speech.quiet && isatty(STDERR_FILENO))
+            if (!arguments.quiet && isatty(STDERR_FILENO))
                 fmt::print(stderr, "\rframe {} of {}{}", frame + 1, frames, frame + 1 == frames ? "\n" : "");
         }
     }
-    osgTSS::tellPictures(arguments.speech, frames, files);
+    tellPictures(arguments, frames, files);
 }
 
 } // namespace
@@ -210,16 +227,16 @@ int main(int argc, char** argv) {
     options.add_flag("--overlay", arguments.overlay, "show spheres, tested pairs and contacts");
     options.add_option("--options", arguments.options,
                        "further words for the loader, as osgviewer -O takes them");
-    options.add_flag("--json", arguments.speech.json, "one JSON object on stdout, everything else on stderr");
-    options.add_flag("--quiet", arguments.speech.quiet, "nothing but errors and what was asked for");
+    options.add_flag("--json", arguments.json, "one JSON object on stdout, everything else on stderr");
+    options.add_flag("--quiet", arguments.quiet, "nothing but errors and what was asked for");
     options.footer("Example: tss-render dog_jaw_baked.tss -o jaw_%04d.png --frames 97 --every 8 --overlay\n"
                    "Exit: 0 done, 1 the input is at fault, 2 usage, 3 internal error.");
     options.callback([&] { render(arguments); });
     try {
         return line.parse(argc, argv);
     } catch (const tss::InputError& error) {
-        return osgTSS::tellFailure(arguments.speech, 1, error.what());
+        return tellFailure(arguments, 1, error.what());
     } catch (const std::exception& error) {
-        return osgTSS::tellFailure(arguments.speech, 3, std::string("internal error: ") + error.what());
+        return tellFailure(arguments, 3, std::string("internal error: ") + error.what());
     }
 }

@@ -1,6 +1,7 @@
 #include "BodyNodes.h"
 
-#include <osg/NodeVisitor>
+#include "osgTSS/src/EachNode.h"
+
 #include <osg/ValueObject>
 #include <osgTSS/Convert>
 
@@ -10,20 +11,6 @@ namespace {
 
 const char* const tagName = "osgTSS:body";
 const char* const scaleName = "osgTSS:bodyScale";
-
-class FindBodyNodes : public osg::NodeVisitor {
-public:
-    FindBodyNodes() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-
-    void apply(osg::Node& node) override {
-        std::string path;
-        if (auto* shape = dynamic_cast<SkinGeometry*>(&node)) found.shapes.emplace(shape->getPath(), shape);
-        if (node.getUserValue(tagName, path)) found.frames.emplace(path, BodyFrame{&node, bodyScale(node)});
-        traverse(node);
-    }
-
-    BodyNodes found;
-};
 
 } // namespace
 
@@ -45,9 +32,13 @@ double bodyScale(const osg::Node& node) {
 }
 
 BodyNodes findBodyNodes(osg::Node& root) {
-    FindBodyNodes visitor;
-    root.accept(visitor);
-    return visitor.found;
+    BodyNodes found;
+    eachNode(root, [&](osg::Node& node) {
+        std::string path;
+        if (auto* shape = dynamic_cast<SkinGeometry*>(&node)) found.shapes.emplace(shape->getPath(), shape);
+        if (node.getUserValue(tagName, path)) found.frames.emplace(path, BodyFrame{&node, bodyScale(node)});
+    });
+    return found;
 }
 
 tss::Pose carriedSince(const osg::Matrixd& world, const osg::Matrixd& toFrame, double scale,

@@ -5,7 +5,6 @@
 
 #include <osgTSS/Convert>
 
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -43,8 +42,7 @@ std::optional<DrawnVertices> DrawnVertices::of(const osg::Geometry& rest, const 
     drawn._drawn.resize(drawn._start.back());
     std::vector<std::uint32_t> next(drawn._start.begin(), drawn._start.end() - 1);
     for (std::size_t i = 0; i < meshVertex.size(); ++i)
-        if (meshVertex[i] >= 0)
-            drawn._drawn[next[static_cast<std::size_t>(meshVertex[i])]++] = static_cast<std::uint32_t>(i);
+        if (meshVertex[i] >= 0) drawn._drawn[next[meshVertex[i]]++] = static_cast<std::uint32_t>(i);
     const auto* normals = dynamic_cast<const osg::Vec3Array*>(rest.getNormalArray());
     if (normals && normals->size() == vertices->size())
         for (const std::uint32_t vertex : drawn._drawn)

@@ -1,5 +1,6 @@
 #include "BodyNodes.h"
 #include "SphereGeometry.h"
+#include "osgTSS/src/EachNode.h"
 #include "osgTSS/src/SceneCache.h"
 
 #include <osg/BlendFunc>
@@ -315,17 +316,11 @@ void Overlay::setScene(Scene* scene) {
 }
 
 Overlay* Overlay::find(osg::Node& root) {
-    class Find : public osg::NodeVisitor {
-    public:
-        Find() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-        void apply(osg::Node& node) override {
-            if (!found) found = dynamic_cast<Overlay*>(&node);
-            if (!found) traverse(node);
-        }
-        Overlay* found = nullptr;
-    } visitor;
-    root.accept(visitor);
-    return visitor.found;
+    Overlay* found = nullptr;
+    eachNode(root, [&](osg::Node& node) {
+        if (!found) found = dynamic_cast<Overlay*>(&node);
+    });
+    return found;
 }
 
 // At the cull: update callbacks of the nodes above run after those of their children, and all of them are

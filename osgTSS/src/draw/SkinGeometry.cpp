@@ -134,11 +134,11 @@ osg::Geometry* SkinGeometry::geometryToDraw() {
         _current = 1 - _current;
         osg::Geometry& next = *_frames[_current];
         auto& vertices = static_cast<osg::Vec3Array&>(*next.getVertexArray());
-        std::copy(_vertices->begin(), _vertices->end(), vertices.begin());
+        std::ranges::copy(*_vertices, vertices.begin());
         vertices.dirty();
         if (_normals) {
             auto& normals = static_cast<osg::Vec3Array&>(*next.getNormalArray());
-            std::copy(_normals->begin(), _normals->end(), normals.begin());
+            std::ranges::copy(*_normals, normals.begin());
             normals.dirty();
         }
         next.dirtyGLObjects(); // a vertex array object does not look at its buffers again by itself

@@ -62,8 +62,8 @@ bool ConstraintVisitor::wanted(int a, int b) const {
     case ALL:
         return true;
     case TAGGED:
-        return std::any_of(_groups[a].begin(), _groups[a].end(),
-                           [&](const std::string& group) { return _groups[b].contains(group); });
+        return std::ranges::any_of(_groups[a],
+                                   [&](const std::string& group) { return _groups[b].contains(group); });
     case SIBLINGS:
         if (_jointAbove[a] >= 0 && _jointAbove[b] >= 0 && parentOf(a) == parentOf(b)) return true;
         break;

@@ -56,7 +56,7 @@ std::vector<std::vector<int>> loopsOf(const std::set<Edge>& edges) {
             at = next->second;
             left.erase(next);
             // Where the way meets itself a loop is done.
-            const auto before = std::find(way.begin(), way.end(), at);
+            const auto before = std::ranges::find(way, at);
             if (before != way.end()) {
                 loops.emplace_back(before, way.end());
                 way.erase(before + 1, way.end());
@@ -127,9 +127,8 @@ private:
         sourceOf(*rig.rig).accept(corners);
         for (const auto& corner : corners.triangles) {
             Triangle triangle{{}, index};
-            const bool good = std::all_of(corner.begin(), corner.end(), [&](unsigned int v) {
-                return v < points.size() && finite(points[v]);
-            });
+            const bool good = std::ranges::all_of(
+                corner, [&](unsigned int v) { return v < points.size() && finite(points[v]); });
             if (!good) {
                 ++part(rig.place.body, index).dropped;
                 continue;
@@ -166,8 +165,8 @@ private:
     int holderOf(int vertex, int body, int other) const {
         int best = other;
         float most = 0;
-        for (const auto& [holder, weight] : _vertices[static_cast<std::size_t>(vertex)].weights)
-            if (_holders[static_cast<std::size_t>(holder)].place.body == body && weight > most) {
+        for (const auto& [holder, weight] : _vertices[vertex].weights)
+            if (_holders[holder].place.body == body && weight > most) {
                 most = weight;
                 best = holder;
             }
@@ -175,7 +174,7 @@ private:
     }
 
     osg::Matrixd toBody(int holder) const {
-        const Held& held = _holders[static_cast<std::size_t>(holder)];
+        const Held& held = _holders[holder];
         return held.bone ? held.bone->getInvBindMatrixInSkeletonSpace() * held.place.toBody
                          : held.place.toBody;
     }
@@ -184,23 +183,20 @@ private:
         Triangle& triangle = _triangles[index];
         std::map<int, float> bodies, holders;
         for (int vertex : triangle.vertices)
-            for (const auto& [holder, weight] : _vertices[static_cast<std::size_t>(vertex)].weights) {
-                bodies[_holders[static_cast<std::size_t>(holder)].place.body] += weight;
+            for (const auto& [holder, weight] : _vertices[vertex].weights) {
+                bodies[_holders[holder].place.body] += weight;
                 holders[holder] += weight;
             }
         const auto lighter = [](const auto& a, const auto& b) { return a.second < b.second; };
-        triangle.body = std::max_element(bodies.begin(), bodies.end(), lighter)->first;
-        std::erase_if(holders, [&](const auto& entry) {
-            return _holders[static_cast<std::size_t>(entry.first)].place.body != triangle.body;
-        });
-        const int main = std::max_element(holders.begin(), holders.end(), lighter)->first;
+        triangle.body = std::ranges::max_element(bodies, lighter)->first;
+        std::erase_if(holders,
+                      [&](const auto& entry) { return _holders[entry.first].place.body != triangle.body; });
+        const int main = std::ranges::max_element(holders, lighter)->first;
         Part& of = part(triangle.body, triangle.rig);
         tss::Tri corners;
-        for (int k = 0; k < 3; ++k)
-            corners[k] = vertexIn(of, triangle.vertices[static_cast<std::size_t>(k)], main);
+        for (int k = 0; k < 3; ++k) corners[k] = vertexIn(of, triangle.vertices[k], main);
         const osg::Matrixd& fromMesh = _p._rigs[triangle.rig].toSkeleton;
-        const bool mirrored = (determinant(fromMesh * toBody(main)) < 0) !=
-                              (_holders[static_cast<std::size_t>(main)].place.scale < 0);
+        const bool mirrored = (determinant(fromMesh * toBody(main)) < 0) != (_holders[main].place.scale < 0);
         if (mirrored) std::swap(triangle.vertices[1], triangle.vertices[2]);
         of.mesh.triangles.push_back(mirrored ? tss::Tri(corners[0], corners[2], corners[1]) : corners);
     }
@@ -210,9 +206,8 @@ private:
             _inPart.emplace(Edge{of.body, vertex}, static_cast<int>(of.mesh.vertices.size()));
         if (!fresh) return entry->second;
         const int holder = holderOf(vertex, of.body, main);
-        const Held& held = _holders[static_cast<std::size_t>(holder)];
-        of.mesh.vertices.push_back(
-            held.place.scale * toCore(_vertices[static_cast<std::size_t>(vertex)].point * toBody(holder)));
+        const Held& held = _holders[holder];
+        of.mesh.vertices.push_back(held.place.scale * toCore(_vertices[vertex].point * toBody(holder)));
         return entry->second;
     }
 
@@ -233,7 +228,7 @@ private:
             tss::Vec3 middle = tss::Vec3::Zero();
             for (int vertex : loop) {
                 at.push_back(_inPart.at({body, vertex}));
-                middle += of.mesh.vertices[static_cast<std::size_t>(at.back())];
+                middle += of.mesh.vertices[at.back()];
             }
             if (loop.size() == 3) {
                 of.mesh.triangles.emplace_back(at[2], at[1], at[0]);

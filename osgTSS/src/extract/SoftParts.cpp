@@ -16,7 +16,7 @@ namespace {
 
 /// A list of names that says nothing means all.
 bool means(const std::vector<std::string>& names, const std::string& name) {
-    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+    return names.empty() || std::ranges::find(names, name) != names.end();
 }
 
 } // namespace
@@ -58,7 +58,7 @@ double reachOf(const osgAnimation::MorphGeometry& morph) {
         for (std::size_t v = 0; vertices && v < std::min(reach.size(), vertices->size()); ++v)
             reach[v] += (offsets ? (*vertices)[v] : (*vertices)[v] - (*source)[v]).length();
     }
-    return reach.empty() ? 0 : *std::max_element(reach.begin(), reach.end());
+    return reach.empty() ? 0 : *std::ranges::max_element(reach);
 }
 
 void SoftParts::addBone(int body, std::string name, std::vector<std::string> skins) {
@@ -78,8 +78,7 @@ tss::MuscleModel SoftParts::finished(const tss::SceneModel& scene, const Muscle&
     model.muscle.surface = scene.bodies[model.body].mesh;
     model.muscle.fibre = tss::findFibre(scene, model);
     if (muscle.to.empty()) return model;
-    const auto bone =
-        std::find_if(_bones.begin(), _bones.end(), [&](const Bone& b) { return b.name == muscle.to; });
+    const auto bone = std::ranges::find_if(_bones, [&](const Bone& b) { return b.name == muscle.to; });
     if (bone == _bones.end())
         throw tss::InputError("no node that is tagged as a bone is called \"" + muscle.to + "\"");
     if (bone->body != model.bone) model.insertionBone = bone->body;
@@ -89,8 +88,8 @@ tss::MuscleModel SoftParts::finished(const tss::SceneModel& scene, const Muscle&
 /// Vertices that no bone holds move with what carries the mesh, as those do whose weights are all 0.
 void SoftParts::setWeights(tss::SceneModel& scene, int body, osgAnimation::RigGeometry& rig, double scale,
                            const std::function<int(const std::string&)>& bodyOf) {
-    const auto skin = std::find_if(_skins.begin(), _skins.end(),
-                                   [&](const Skin& found) { return found.model.body == body; });
+    const auto skin =
+        std::ranges::find_if(_skins, [&](const Skin& found) { return found.model.body == body; });
     const tss::TriangleMesh& mesh = scene.bodies[body].mesh;
     const auto drawn = DrawnVertices::of(*restGeometryOf(rig), mesh, scale, {});
     if (skin == _skins.end() || !drawn) return;
@@ -145,14 +144,11 @@ void SoftParts::setCarried(tss::SceneModel& scene, int body) {
 std::vector<int> SoftParts::bonesOf(const tss::SceneModel& scene, const Skin& skin) const {
     std::vector<int> bones;
     const auto soft = [&](int body) {
-        return std::any_of(_skins.begin(), _skins.end(),
-                           [&](const Skin& other) { return other.model.body == body; }) ||
-               std::any_of(_muscles.begin(), _muscles.end(),
-                           [&](const Muscle& other) { return other.model.body == body; });
+        return std::ranges::any_of(_skins, [&](const Skin& other) { return other.model.body == body; }) ||
+               std::ranges::any_of(_muscles, [&](const Muscle& other) { return other.model.body == body; });
     };
     const auto add = [&](int body) {
-        if (!soft(body) && !scene.bodies[body].mesh.empty() &&
-            std::find(bones.begin(), bones.end(), body) == bones.end())
+        if (!soft(body) && !scene.bodies[body].mesh.empty() && std::ranges::find(bones, body) == bones.end())
             bones.push_back(body);
     };
     for (const Bone& bone : _bones)

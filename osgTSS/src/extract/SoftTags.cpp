@@ -91,10 +91,10 @@ MuscleTag parseMuscle(const std::string& words) {
         else if (word.key == "to" && !word.value.empty())
             tag.to = word.value;
         else
-            throw tss::InputError(std::string(muscleTag) +
-                                  ": expected tube, sheet, ring, contract=, anchor=, skin=NAME or to=NAME, "
-                                  "found \"" +
-                                  text + "\"");
+            throw tss::InputError(
+                std::string(muscleTag) +
+                ": expected tube, sheet, ring, contract=, anchor=, skin=NAME or to=NAME, found \"" + text +
+                "\"");
     }
     return tag;
 }

@@ -16,10 +16,6 @@ namespace osgTSS {
 
 namespace {
 
-std::string lastName(const std::string& path) {
-    return path.substr(path.rfind('/') + 1);
-}
-
 /// From above and beside, so that shapes read where the headlight of a viewer flattens them. With that
 /// headlight (0.8 diffuse) 64 degrees away the two add up to 1.0 at most; the ambient of both, 0.1 and 0.12,
 /// comes on top.
@@ -91,7 +87,7 @@ private:
             made = new osg::MatrixTransform(toOsg(model.placement));
             _world.addChild(made);
         }
-        made->setName(model.displayName.empty() ? lastName(model.path) : model.displayName);
+        made->setName(model.displayName.empty() ? tss::primName(model.path) : model.displayName);
         made->setDataVariance(osg::Object::DYNAMIC);
         tagBody(*made, model.path);
         if (!model.mesh.empty()) made->addChild(shape(body));
@@ -111,9 +107,9 @@ private:
 
     JointTransform* makeJoint(const tss::Joint& joint) {
         osg::ref_ptr<JointTransform> transform = new JointTransform(joint);
-        transform->setName(lastName(joint.path));
-        const bool driven = std::any_of(joint.drives.begin(), joint.drives.end(),
-                                        [](const tss::TimeSamples& drive) { return !drive.empty(); });
+        transform->setName(tss::primName(joint.path));
+        const bool driven =
+            std::ranges::any_of(joint.drives, [](const tss::TimeSamples& drive) { return !drive.empty(); });
         if (driven) transform->addUpdateCallback(new DriveCallback(&_scene));
         group(joint.body0)->addChild(transform);
         return transform;

@@ -1,9 +1,9 @@
 #include "InstallSkins.h"
 #include "Machines.h"
 #include "bake/base/UnionFind.h"
+#include "osgTSS/src/EachNode.h"
 #include "osgTSS/src/joints/JointNodes.h"
 
-#include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osgAnimation/Bone>
 #include <osgAnimation/Skeleton>
@@ -42,37 +42,30 @@ osg::Node* lowestAbove(osg::Node& root, const std::vector<osg::Node*>& nodes) {
         for (const osg::NodePath& path : node->getParentalNodePaths(&root)) {
             if (first) common = path;
             first = false;
-            std::erase_if(common,
-                          [&](osg::Node* n) { return std::find(path.begin(), path.end(), n) == path.end(); });
+            std::erase_if(common, [&](osg::Node* n) { return std::ranges::find(path, n) == path.end(); });
         }
     if (common.empty()) return &root;
     // A rigged mesh is deformed within its skeleton, after the bones.
-    const bool bones = std::any_of(nodes.begin(), nodes.end(),
-                                   [](osg::Node* node) { return dynamic_cast<osgAnimation::Bone*>(node); });
+    const bool bones =
+        std::ranges::any_of(nodes, [](osg::Node* node) { return dynamic_cast<osgAnimation::Bone*>(node); });
     const auto skeleton = std::find_if(common.rbegin(), common.rend(), [](osg::Node* node) {
         return dynamic_cast<osgAnimation::Skeleton*>(node);
     });
     return bones && skeleton != common.rend() ? *skeleton : common.back();
 }
 
-class RemoveCallbacks : public osg::NodeVisitor {
-public:
-    RemoveCallbacks() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-
-    void apply(osg::Node& node) override {
-        osg::ref_ptr<osg::Callback> callback = node.getUpdateCallback();
-        while (callback) {
-            osg::ref_ptr<osg::Callback> next = callback->getNestedCallback();
-            const bool ours = dynamic_cast<JointCallback*>(callback.get()) ||
-                              dynamic_cast<LimitsCallback*>(callback.get()) ||
-                              (dynamic_cast<MuscleCallback*>(callback.get()) && !node.asDrawable()) ||
-                              dynamic_cast<SkinCallback*>(callback.get());
-            if (ours) node.removeUpdateCallback(callback);
-            callback = next;
-        }
-        traverse(node);
+void removeCallbacks(osg::Node& node) {
+    osg::ref_ptr<osg::Callback> callback = node.getUpdateCallback();
+    while (callback) {
+        osg::ref_ptr<osg::Callback> next = callback->getNestedCallback();
+        const bool ours = dynamic_cast<JointCallback*>(callback.get()) ||
+                          dynamic_cast<LimitsCallback*>(callback.get()) ||
+                          (dynamic_cast<MuscleCallback*>(callback.get()) && !node.asDrawable()) ||
+                          dynamic_cast<SkinCallback*>(callback.get());
+        if (ours) node.removeUpdateCallback(callback);
+        callback = next;
     }
-};
+}
 
 void installGroup(osg::Node& root, Scene& scene, const std::vector<PairPlace>& group, Installed& installed) {
     const tss::SceneModel& model = scene.getModel();
@@ -80,7 +73,7 @@ void installGroup(osg::Node& root, Scene& scene, const std::vector<PairPlace>& g
     std::vector<std::string> paths;
     for (const PairPlace& place : group) {
         const std::string& path = model.pairs[place.pair].path;
-        if (std::find(paths.begin(), paths.end(), path) != paths.end()) {
+        if (std::ranges::find(paths, path) != paths.end()) {
             OSG_WARN << "osgTSS: pair " << path
                      << ": several machines of one name share joints; one is served" << std::endl;
             continue;
@@ -150,8 +143,7 @@ Installed install(osg::Node& root, const tss::SceneModel& model) {
 }
 
 void uninstall(osg::Node& root) {
-    RemoveCallbacks visitor;
-    root.accept(visitor);
+    eachNode(root, removeCallbacks);
     restoreDrawables(root);
 }
 

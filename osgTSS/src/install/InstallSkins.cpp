@@ -1,5 +1,6 @@
 #include "InstallSkins.h"
 
+#include "osgTSS/src/EachNode.h"
 #include "osgTSS/src/draw/BodyNodes.h"
 #include "osgTSS/src/draw/DrawnVertices.h"
 #include "osgTSS/src/extract/SoftParts.h"
@@ -9,7 +10,6 @@
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/ToLayer.h"
 
-#include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osg/ValueObject>
 #include <osgTSS/ConstraintVisitor>
@@ -78,15 +78,6 @@ void putBack(SkinGeometry& shown) {
     const osg::Node::ParentList parents = shown.getParents();
     for (osg::Group* parent : parents) parent->removeChild(&shown);
 }
-
-class FindReplaced : public osg::NodeVisitor {
-public:
-    FindReplaced() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-    void apply(osg::Drawable& drawable) override {
-        if (replacedBy(drawable)) found.insert(static_cast<SkinGeometry*>(&drawable));
-    }
-    std::set<osg::ref_ptr<SkinGeometry>> found;
-};
 
 /// A graph's own skins and muscles, as a visitor finds them.
 class OwnSkins {
@@ -162,9 +153,12 @@ void addOutermost(osg::Node& node, osg::Callback& callback) {
 }
 
 void restoreDrawables(osg::Node& root) {
-    FindReplaced visitor;
-    root.accept(visitor);
-    for (const osg::ref_ptr<SkinGeometry>& shown : visitor.found) putBack(*shown);
+    std::set<osg::ref_ptr<SkinGeometry>> found;
+    eachNode(root, [&](osg::Node& node) {
+        if (node.asDrawable() && replacedBy(*node.asDrawable()))
+            found.insert(static_cast<SkinGeometry*>(node.asDrawable()));
+    });
+    for (const osg::ref_ptr<SkinGeometry>& shown : found) putBack(*shown);
 }
 
 /// On the root: skins, and muscles between two bones, are deformed after everything else of the scene has

@@ -12,14 +12,10 @@ namespace osgTSS {
 
 namespace {
 
-std::string tail(const std::string& path) {
-    return path.substr(path.rfind('/') + 1);
-}
-
 /// "Gun2" is a further "Gun".
-bool furtherOne(const std::string& name, const std::string& first) {
-    return name.size() > first.size() && name.compare(0, first.size(), first) == 0 &&
-           name.find_first_not_of("0123456789", first.size()) == std::string::npos;
+bool sameKind(const std::string& path, const std::string& other) {
+    const std::string name = tss::primName(path), first = tss::primName(other);
+    return name.starts_with(first) && name.find_first_not_of("0123456789", first.size()) == name.npos;
 }
 
 /// Which of the joints of its node a found joint is.
@@ -62,14 +58,13 @@ std::vector<int> Machines::candidates(const Extraction& in, int joint) const {
         }
         for (std::size_t j = 0; j < nodes.size(); ++j)
             if (ordinal(nodes, static_cast<int>(j)) == place &&
-                std::find(tagged->second.begin(), tagged->second.end(), nodes[j]) != tagged->second.end())
+                std::ranges::find(tagged->second, nodes[j]) != tagged->second.end())
                 found.push_back(static_cast<int>(j));
     }
     for (std::size_t j = 0; j < nodes.size(); ++j) {
         const std::string& name = in.found->joints[j].path;
-        const bool same = name == path || (!_modelJoints.contains(name) &&
-                                           (tail(name) == tail(path) || furtherOne(tail(name), tail(path))));
-        if (same && std::find(found.begin(), found.end(), static_cast<int>(j)) == found.end())
+        const bool same = name == path || (!_modelJoints.contains(name) && sameKind(name, path));
+        if (same && std::ranges::find(found, static_cast<int>(j)) == found.end())
             found.push_back(static_cast<int>(j));
     }
     return found;
@@ -85,7 +80,7 @@ void Machines::extend(const Extraction& in, const tss::Pair& pair, std::vector<i
         if (!chain.empty()) {
             const tss::Joint &a = in.found->joints[chain.back()], &b = in.found->joints[next];
             const bool touch = a.body0 == b.body0 || a.body0 == b.body1 || a.body1 == b.body0;
-            if (!touch || std::find(chain.begin(), chain.end(), next) != chain.end()) continue;
+            if (!touch || std::ranges::find(chain, next) != chain.end()) continue;
         }
         chain.push_back(next);
         extend(in, pair, chain, chains);
@@ -153,8 +148,8 @@ void Machines::tag(const PairPlace& place) const {
         const tss::Joint& joint = _model.joints[pair.joints[k]];
         const bool carries = [&] {
             const auto tagged = _tagged.find(joint.path);
-            return tagged != _tagged.end() && std::find(tagged->second.begin(), tagged->second.end(),
-                                                        place.joints[k]) != tagged->second.end();
+            return tagged != _tagged.end() &&
+                   std::ranges::find(tagged->second, place.joints[k]) != tagged->second.end();
         }();
         if (carries) continue; // it and its bodies are named already
         tagJoint(*place.joints[k], joint.path);

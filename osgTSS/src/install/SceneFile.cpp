@@ -2,8 +2,8 @@
 
 #include "bake/base/Error.h"
 #include "bake/model/SourceHash.h"
+#include "osgTSS/src/EachNode.h"
 
-#include <osg/NodeVisitor>
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/Install>
 #include <osgTSS/SceneFile>
@@ -12,20 +12,6 @@
 #include <set>
 
 namespace osgTSS {
-
-namespace {
-
-class FindScenes : public osg::NodeVisitor {
-public:
-    FindScenes() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-    void apply(osg::Node& node) override {
-        if (Scene* scene = Scene::on(node)) found.insert(scene);
-        traverse(node);
-    }
-    std::set<Scene*> found;
-};
-
-} // namespace
 
 osg::ref_ptr<Scene> readScene(const std::string& file) {
     auto model = std::make_shared<tss::SceneModel>(tss::loadScene(file));
@@ -42,12 +28,14 @@ osg::ref_ptr<osg::Group> createPlayingGraph(Scene& scene, const LoadOptions& opt
 }
 
 osg::ref_ptr<Scene> sceneOf(osg::Node& root) {
-    FindScenes finder;
-    root.accept(finder);
-    if (finder.found.size() > 1)
-        throw tss::InputError("the graph holds " + std::to_string(finder.found.size()) +
+    std::set<Scene*> found;
+    eachNode(root, [&](osg::Node& node) {
+        if (Scene* scene = Scene::on(node)) found.insert(scene);
+    });
+    if (found.size() > 1)
+        throw tss::InputError("the graph holds " + std::to_string(found.size()) +
                               " scenes: expected one a file; write the node of each by itself");
-    if (!finder.found.empty()) return *finder.found.begin();
+    if (!found.empty()) return *found.begin();
     ConstraintVisitor visitor;
     root.accept(visitor);
     return new Scene(std::make_shared<tss::SceneModel>(visitor.getModel()));

@@ -1,6 +1,7 @@
 #include "AnimationChannels.h"
 
-#include <osg/NodeVisitor>
+#include "osgTSS/src/EachNode.h"
+
 #include <osgAnimation/AnimationManagerBase>
 
 #include <algorithm>
@@ -65,25 +66,17 @@ void readAny(const Channel& channel, std::vector<Keys<osg::Quat>>& out) {
     read<QuatSphericalLinearChannel>(channel, curve, out) || read<QuatStepChannel>(channel, 1, out);
 }
 
-class FindManagers : public osg::NodeVisitor {
-public:
-    FindManagers() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-    void apply(osg::Node& node) override {
-        for (osg::Callback* callback = node.getUpdateCallback(); callback;
-             callback = callback->getNestedCallback())
-            if (auto* manager = dynamic_cast<AnimationManagerBase*>(callback))
-                if (std::find(found.begin(), found.end(), manager) == found.end()) found.push_back(manager);
-        traverse(node);
-    }
-    std::vector<AnimationManagerBase*> found;
-};
-
 } // namespace
 
 std::vector<AnimationManagerBase*> animationManagers(osg::Node& root) {
-    FindManagers managers;
-    root.accept(managers);
-    return managers.found;
+    std::vector<AnimationManagerBase*> found;
+    eachNode(root, [&](osg::Node& node) {
+        for (osg::Callback* callback = node.getUpdateCallback(); callback;
+             callback = callback->getNestedCallback())
+            if (auto* manager = dynamic_cast<AnimationManagerBase*>(callback))
+                if (std::ranges::find(found, manager) == found.end()) found.push_back(manager);
+    });
+    return found;
 }
 
 AnimationChannels::AnimationChannels(osg::Node& root) {
@@ -118,7 +111,7 @@ std::vector<double> keyTimes(const Channel& channel) {
                 Vec4CubicBezierKeyframeContainer>(*container, times);
     if (times.empty() && container && container->size() > 0)
         times = {channel.getStartTime(), channel.getEndTime()};
-    std::sort(times.begin(), times.end());
+    std::ranges::sort(times);
     return times;
 }
 

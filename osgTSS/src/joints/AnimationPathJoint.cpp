@@ -1,5 +1,7 @@
 #include "AnimationPathJoint.h"
 
+#include "osgTSS/src/CallbackOf.h"
+
 #include "bake/base/Error.h"
 
 #include <osg/MatrixTransform>
@@ -96,11 +98,8 @@ private:
 } // namespace
 
 osg::AnimationPathCallback* animationPathOf(osg::Node& node) {
-    for (osg::Callback* callback = node.getUpdateCallback(); callback;
-         callback = callback->getNestedCallback())
-        if (auto* found = dynamic_cast<osg::AnimationPathCallback*>(callback))
-            return found->getAnimationPath() && found->getAnimationPath()->getPeriod() > 0 ? found : nullptr;
-    return nullptr;
+    auto* found = callbackOf<osg::AnimationPathCallback>(node.getUpdateCallback());
+    return found && found->getAnimationPath() && found->getAnimationPath()->getPeriod() > 0 ? found : nullptr;
 }
 
 FoundJoints animationPathJoint(const osg::AnimationPathCallback& animation, double timeCodesPerSecond) {

@@ -1,5 +1,7 @@
 #include "BoneKeys.h"
 
+#include "osgTSS/src/CallbackOf.h"
+
 #include <osgAnimation/UpdateMatrixTransform>
 
 #include <algorithm>
@@ -12,13 +14,6 @@ using namespace osgAnimation;
 
 /// Places looked at from one key to the next, the first key among them: turns bend between keys.
 constexpr int stepsBetweenKeys = 4;
-
-UpdateMatrixTransform* stackOfBone(osg::Node& node) {
-    for (osg::Callback* callback = node.getUpdateCallback(); callback;
-         callback = callback->getNestedCallback())
-        if (auto* found = dynamic_cast<UpdateMatrixTransform*>(callback)) return found;
-    return nullptr;
-}
 
 /// Elements of its own, so that nothing of what plays is touched.
 class StackCopy {
@@ -41,7 +36,7 @@ public:
             const std::vector<double> keys = keyTimes(*channel);
             all.insert(all.end(), keys.begin(), keys.end());
         }
-        std::sort(all.begin(), all.end());
+        std::ranges::sort(all);
         all.erase(std::unique(all.begin(), all.end()), all.end());
         return all;
     }
@@ -66,7 +61,7 @@ private:
 
 std::vector<std::vector<osg::Matrixd>> boneRuns(Bone& bone, const AnimationChannels& channels) {
     std::vector<std::vector<osg::Matrixd>> runs;
-    UpdateMatrixTransform* stack = stackOfBone(bone);
+    UpdateMatrixTransform* stack = callbackOf<UpdateMatrixTransform>(bone.getUpdateCallback());
     if (!stack) return runs;
     for (const AnimationChannels::Channels& animation : channels.of(stack->getName())) {
         const StackCopy copy(*stack, animation);
@@ -83,7 +78,7 @@ std::vector<std::vector<osg::Matrixd>> boneRuns(Bone& bone, const AnimationChann
 }
 
 osg::Matrixd boneNow(Bone& bone) {
-    UpdateMatrixTransform* stack = stackOfBone(bone);
+    UpdateMatrixTransform* stack = callbackOf<UpdateMatrixTransform>(bone.getUpdateCallback());
     if (!stack) return bone.getMatrix();
     osg::Matrix matrix;
     for (const auto& element : stack->getStackedTransforms())

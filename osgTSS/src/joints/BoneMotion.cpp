@@ -113,8 +113,8 @@ TurnFrame turnFrame(const Samples& samples) {
 struct Track {
     int axis = 0;
     std::vector<double> values;
-    double lower() const { return *std::min_element(values.begin(), values.end()); }
-    double upper() const { return *std::max_element(values.begin(), values.end()); }
+    double lower() const { return *std::ranges::min_element(values); }
+    double upper() const { return *std::ranges::max_element(values); }
     double range() const { return upper() - lower(); }
 };
 

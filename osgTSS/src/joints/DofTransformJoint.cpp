@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <map>
 
 namespace osgTSS {
 
@@ -50,27 +50,11 @@ Axis turn(const osgSim::DOFTransform& node, int i) {
 
 /// The node multiplies translations first and then the turns in the order of its name, seen as columns.
 std::array<Axis, 6> axesInOrder(const osgSim::DOFTransform& node) {
-    std::array<int, 3> hpr{};
-    switch (node.getHPRMultOrder()) {
-    case osgSim::DOFTransform::PRH:
-        hpr = {1, 2, 0};
-        break;
-    case osgSim::DOFTransform::PHR:
-        hpr = {1, 0, 2};
-        break;
-    case osgSim::DOFTransform::HPR:
-        hpr = {0, 1, 2};
-        break;
-    case osgSim::DOFTransform::HRP:
-        hpr = {0, 2, 1};
-        break;
-    case osgSim::DOFTransform::RPH:
-        hpr = {2, 1, 0};
-        break;
-    case osgSim::DOFTransform::RHP:
-        hpr = {2, 0, 1};
-        break;
-    }
+    using osgSim::DOFTransform;
+    static const std::map<DOFTransform::MultOrder, std::array<int, 3>> orders = {
+        {DOFTransform::PRH, {1, 2, 0}}, {DOFTransform::PHR, {1, 0, 2}}, {DOFTransform::HPR, {0, 1, 2}},
+        {DOFTransform::HRP, {0, 2, 1}}, {DOFTransform::RPH, {2, 1, 0}}, {DOFTransform::RHP, {2, 0, 1}}};
+    const std::array<int, 3>& hpr = orders.at(node.getHPRMultOrder());
     return {translation(node, 0), translation(node, 1), translation(node, 2),
             turn(node, hpr[0]),   turn(node, hpr[1]),   turn(node, hpr[2])};
 }
@@ -181,7 +165,7 @@ public:
         const std::vector<double> values = asked();
         for (int turn = 0; turn < 2; ++turn)
             for (int i = 0; i < 3; ++i) {
-                const bool known = std::any_of(_slots.begin(), _slots.end(), [&](const DofSlot& slot) {
+                const bool known = std::ranges::any_of(_slots, [&](const DofSlot& slot) {
                     return slot.rotation == (turn == 1) && slot.component == i;
                 });
                 const float value = (turn ? _node->getCurrentHPR() : _node->getCurrentTranslate())[i];

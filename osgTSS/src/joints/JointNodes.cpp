@@ -6,10 +6,10 @@
 #include "DofTransformJoint.h"
 #include "StackedJoint.h"
 #include "TaggedJoint.h"
+#include "osgTSS/src/EachNode.h"
 
 #include "bake/base/Error.h"
 
-#include <osg/NodeVisitor>
 #include <osg/ValueObject>
 #include <osg/observer_ptr>
 #include <osgAnimation/Bone>
@@ -38,31 +38,6 @@ public:
 private:
     osg::observer_ptr<JointTransform> _node;
     std::size_t _dofs;
-};
-
-class FindJointNodes : public osg::NodeVisitor {
-public:
-    FindJointNodes() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-
-    void apply(osg::Node& node) override {
-        if (const auto* joint = dynamic_cast<JointTransform*>(&node)) {
-            if (!joint->getJoint().path.empty()) add(joint->getJoint().path, node);
-        } else {
-            std::string paths;
-            node.getUserValue(tagName, paths);
-            std::istringstream words(paths);
-            for (std::string path; words >> path;) add(path, node);
-        }
-        traverse(node);
-    }
-
-    std::map<std::string, std::vector<osg::Node*>> found;
-
-private:
-    void add(const std::string& path, osg::Node& node) {
-        std::vector<osg::Node*>& nodes = found[path];
-        if (std::find(nodes.begin(), nodes.end(), &node) == nodes.end()) nodes.push_back(&node);
-    }
 };
 
 /// Joints of a node that moves by itself: what cannot be served is not the application's wish.
@@ -127,9 +102,22 @@ bool carriesJoint(osg::Node& node) {
 }
 
 std::map<std::string, std::vector<osg::Node*>> findAllJointNodes(osg::Node& root) {
-    FindJointNodes visitor;
-    root.accept(visitor);
-    return visitor.found;
+    std::map<std::string, std::vector<osg::Node*>> found;
+    eachNode(root, [&](osg::Node& node) {
+        const auto add = [&](const std::string& path) {
+            std::vector<osg::Node*>& nodes = found[path];
+            if (std::ranges::find(nodes, &node) == nodes.end()) nodes.push_back(&node);
+        };
+        if (const auto* joint = dynamic_cast<JointTransform*>(&node)) {
+            if (!joint->getJoint().path.empty()) add(joint->getJoint().path);
+            return;
+        }
+        std::string paths;
+        node.getUserValue(tagName, paths);
+        std::istringstream words(paths);
+        for (std::string path; words >> path;) add(path);
+    });
+    return found;
 }
 
 std::map<std::string, osg::Node*> findJointNodes(osg::Node& root) {

@@ -7,7 +7,6 @@
 #include <osgAnimation/UpdateMatrixTransform>
 
 #include <array>
-#include <optional>
 
 namespace osgTSS {
 

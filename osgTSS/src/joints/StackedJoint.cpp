@@ -1,6 +1,7 @@
 #include "StackedJoint.h"
 
 #include "StackedDof.h"
+#include "osgTSS/src/CallbackOf.h"
 
 #include "bake/base/Error.h"
 
@@ -41,7 +42,7 @@ public:
 
 private:
     static bool has(const tss::Joint& joint, const tss::Dof& dof) {
-        return std::any_of(joint.dofs.begin(), joint.dofs.end(), [&](const tss::Dof& other) {
+        return std::ranges::any_of(joint.dofs, [&](const tss::Dof& other) {
             return other.kind == dof.kind && other.axis == dof.axis;
         });
     }
@@ -98,10 +99,7 @@ private:
 osgAnimation::UpdateMatrixTransform* stackOf(osg::Node& node) {
     if (!dynamic_cast<osg::MatrixTransform*>(&node) || dynamic_cast<osgAnimation::Bone*>(&node))
         return nullptr;
-    for (osg::Callback* callback = node.getUpdateCallback(); callback;
-         callback = callback->getNestedCallback())
-        if (auto* found = dynamic_cast<osgAnimation::UpdateMatrixTransform*>(callback)) return found;
-    return nullptr;
+    return callbackOf<osgAnimation::UpdateMatrixTransform>(node.getUpdateCallback());
 }
 
 FoundJoints stackedJoints(osgAnimation::UpdateMatrixTransform& animation, const AnimationChannels& channels,

@@ -76,7 +76,7 @@ public:
             _slots.push_back({turn, turn ? order.size() - 1 : static_cast<std::size_t>(axis), dof});
         }
         for (int axis = 0; axis < 3; ++axis)
-            if (std::find(order.begin(), order.end(), axis) == order.end()) order.push_back(axis);
+            if (std::ranges::find(order, axis) == order.end()) order.push_back(axis);
         std::copy_n(order.begin(), 3, _order.begin());
     }
 

@@ -84,7 +84,7 @@ void ContactReport::tell(const Scene& scene, const tss::JointPlan& plan, const s
         for (std::size_t k = 0; k < _groups[g].size(); ++k) {
             Watched& watched = _groups[g][k];
             const bool before = watched.touching;
-            watched.touching = std::find(held.begin(), held.end(), static_cast<int>(k)) != held.end();
+            watched.touching = std::ranges::find(held, static_cast<int>(k)) != held.end();
             if (!watched.touching && !before) continue;
             if (watched.touching) locate(model, plan, q, watched);
             watched.last.event = !watched.touching ? Contact::END : before ? Contact::STAY : Contact::BEGIN;

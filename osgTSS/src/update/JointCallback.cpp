@@ -29,7 +29,7 @@ struct BoundJoint {
     bool inPlace() const {
         for (std::size_t k = path.size(); k-- > 1;) {
             const osg::Node::ParentList& parents = path[k]->getParents();
-            if (std::find(parents.begin(), parents.end(), path[k - 1]) == parents.end()) return false;
+            if (std::ranges::find(parents, path[k - 1]) == parents.end()) return false;
         }
         return true;
     }
@@ -65,7 +65,7 @@ struct JointCallback::Binding {
             const Binding* before);
 
     bool stillGood(const Scene& scene) const {
-        return model == scene.shareModel() && std::all_of(bound.begin(), bound.end(), [](const auto& entry) {
+        return model == scene.shareModel() && std::ranges::all_of(bound, [](const auto& entry) {
                    const BoundJoint& joint = entry.second;
                    return !joint.access || (joint.access->valid() && joint.inPlace());
                });
@@ -130,16 +130,16 @@ JointCallback::Binding::Binding(osg::Node& owner, const Scene& scene,
 void JointCallback::Binding::choose(const Scene& scene, const std::vector<std::string>& pairPaths) {
     std::map<int, std::vector<double>> at;
     for (std::size_t j = 0; plan && j < (*plan)->joints.size() && !q.empty(); ++j) {
-        const auto first = q.begin() + static_cast<std::ptrdiff_t>((*plan)->firstValue[j]);
+        const auto first = q.begin() + ((*plan)->firstValue[j]);
         const auto count = model->joints[(*plan)->joints[j]].dofs.size();
-        at[(*plan)->joints[j]] = std::vector<double>(first, first + static_cast<std::ptrdiff_t>(count));
+        at[(*plan)->joints[j]] = std::vector<double>(first, first + count);
     }
     served.clear();
     for (const std::string& path : pairPaths) {
         const int pair = tss::findPair(*model, path);
         if (pair < 0 || !model->pairs[pair].table) continue;
         const std::vector<int>& of = model->pairs[pair].joints;
-        if (std::all_of(of.begin(), of.end(), [&](int j) { return bound[j].access && bound[j].served; }))
+        if (std::ranges::all_of(of, [&](int j) { return bound[j].access && bound[j].served; }))
             served.push_back(path);
     }
     plan = scene.getCache().plan(served);
@@ -209,7 +209,7 @@ void JointCallback::Binding::tellBeyond() {
 void JointCallback::Binding::show() const {
     auto next = q.begin();
     for (JointNode* joint : joints) {
-        const auto end = next + static_cast<std::ptrdiff_t>(joint->dofCount());
+        const auto end = next + (joint->dofCount());
         joint->show(std::vector<double>(next, end));
         next = end;
     }
@@ -251,11 +251,7 @@ std::vector<JointCallback::Answer> JointCallback::getAnswers(const osg::Node& no
     for (std::size_t g = 0; binding && g < binding->found.size(); ++g) {
         const tss::JointAnswer& found = binding->found[g];
         const std::string path =
-            found.table < 0
-                ? ""
-                : binding->model
-                      ->pairs[(*binding->plan)->groups[g].pairs[static_cast<std::size_t>(found.table)]]
-                      .path;
+            found.table < 0 ? "" : binding->model->pairs[(*binding->plan)->groups[g].pairs[found.table]].path;
         answers.push_back({found.status, found.gap, path, found.test});
     }
     return answers;

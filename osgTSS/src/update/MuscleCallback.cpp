@@ -14,7 +14,6 @@
 #include <osgTSS/MuscleCallback>
 #include <osgTSS/SkinGeometry>
 
-#include <cmath>
 #include <limits>
 #include <optional>
 

@@ -123,8 +123,8 @@ int PairBodies::bodyAt(const osg::NodePath& path, osg::Matrixd& toBody) const {
 bool PairBodies::hold(const osg::NodePath& path) const {
     osg::Matrixd toBody;
     const int body = bodyAt(path, toBody);
-    return std::any_of(_pairs.begin(), _pairs.end(),
-                       [&](const auto& pair) { return pair.first == body || pair.second == body; });
+    return std::ranges::any_of(_pairs,
+                               [&](const auto& pair) { return pair.first == body || pair.second == body; });
 }
 
 bool PairBodies::isBelow(int body, osg::Node& node) const {
@@ -133,9 +133,8 @@ bool PairBodies::isBelow(int body, osg::Node& node) const {
 }
 
 bool PairBodies::separatedBy(osg::Node& node) const {
-    return std::any_of(_pairs.begin(), _pairs.end(), [&](const auto& pair) {
-        return isBelow(pair.first, node) != isBelow(pair.second, node);
-    });
+    return std::ranges::any_of(
+        _pairs, [&](const auto& pair) { return isBelow(pair.first, node) != isBelow(pair.second, node); });
 }
 
 const PairBodies::Shape& PairBodies::shapeOf(int body) {

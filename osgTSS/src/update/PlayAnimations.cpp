@@ -26,8 +26,7 @@ struct Turns {
         if (!manager.lock(playing)) return;
         const osgAnimation::AnimationList& list = playing->getAnimationList();
         const double time = std::fmod(seconds, round());
-        const auto then =
-            static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), time) - ends.begin());
+        const auto then = static_cast<std::size_t>(std::ranges::upper_bound(ends, time) - ends.begin());
         const std::size_t next = std::min(then, ends.size() - 1);
         if (list.size() != ends.size() || next == now) return; // the application has others now
         playing->stopAnimation(list[now]);

@@ -1,21 +1,11 @@
 #include "SkeletonPose.h"
 
+#include "osgTSS/src/CallbackOf.h"
+
 #include <osg/NodeVisitor>
 #include <osgAnimation/UpdateBone>
 
 namespace osgTSS {
-
-namespace {
-
-/// A bone without such a callback keeps the matrix in the skeleton that it has.
-bool updated(osg::Node& node) {
-    for (osg::Callback* callback = node.getUpdateCallback(); callback;
-         callback = callback->getNestedCallback())
-        if (dynamic_cast<osgAnimation::UpdateBone*>(callback)) return true;
-    return false;
-}
-
-} // namespace
 
 class SkeletonPose::Collect : public osg::NodeVisitor {
 public:
@@ -30,15 +20,16 @@ public:
             _in = static_cast<int>(_found.size());
             _found.emplace_back().skeleton = skeleton;
         } else if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node);
-                   bone && _in >= 0 && updated(*bone)) {
-            _found[static_cast<std::size_t>(_in)].bones.emplace_back(bone);
+                   bone && _in >= 0 && callbackOf<osgAnimation::UpdateBone>(bone->getUpdateCallback())) {
+            // One without such a callback keeps the matrix in the skeleton that it has.
+            _found[_in].bones.emplace_back(bone);
         }
         traverse(node);
         _in = above;
     }
     void apply(osg::Geometry& drawable) override {
         if (auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable); rig && _in >= 0)
-            _found[static_cast<std::size_t>(_in)].rigs.emplace_back(rig);
+            _found[_in].rigs.emplace_back(rig);
     }
 
 private:

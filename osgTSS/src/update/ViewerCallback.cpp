@@ -1,3 +1,4 @@
+#include "osgTSS/src/CallbackOf.h"
 #include "osgTSS/src/SceneCache.h"
 
 #include <osg/Stats>
@@ -80,10 +81,8 @@ void addViewerAids(osg::Group& root, Scene& scene, bool overlayShown) {
         root.addChild(overlay);
     }
     overlay->setShown(overlayShown);
-    for (osg::Callback* callback = root.getEventCallback(); callback;
-         callback = callback->getNestedCallback())
-        if (dynamic_cast<ViewerCallback*>(callback)) return;
-    root.addEventCallback(new ViewerCallback(&scene));
+    if (!callbackOf<ViewerCallback>(root.getEventCallback()))
+        root.addEventCallback(new ViewerCallback(&scene));
 }
 
 } // namespace osgTSS
