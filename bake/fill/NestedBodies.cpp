@@ -16,7 +16,7 @@ namespace {
 
 /// Looks at a vertex before it is given up: a tenth of a microsecond each where most are far from the surface,
 /// as over many DOFs, where so many are needed.
-constexpr std::uint64_t mostProbes = 10'000'000;
+constexpr std::uint64_t mostProbes = 6'000'000;
 
 /// Shares of the reach: surfaces nearer than the first are near enough for spheres to touch, as far as their
 /// protrusion may fall short of the tolerance (protrusionFor()); farther than the second they are apart. The

@@ -1,5 +1,6 @@
 #include "bake/robot/PairEvidence.h"
 
+#include "bake/base/Error.h"
 #include "bake/geometry/MeshQuery.h"
 #include "bake/model/Kinematics.h"
 #include "bake/model/SourceHash.h"
@@ -150,6 +151,10 @@ private:
     }
 
     void addPair(const Pair& pair) {
+        for (const int body : {pair.bodyA, pair.bodyB})
+            if (scene_.bodies[body].mesh.empty())
+                throw InputError(Where{"", "", scene_.bodies[body].path},
+                                 "expected a mesh, the body has none");
         requireFresh(scene_, pair, "");
         PairEvidence& evidence = at(pair.bodyA, pair.bodyB);
         evidence.baked = pair.table || pair.proof;

@@ -59,6 +59,16 @@ TEST_CASE("an option that does nothing for the files at hand is refused") {
     CHECK(runTss("convert s.tss s.tss", folder.path()).exit == 1); // would replace what is read
 }
 
+TEST_CASE("what is known of pairs is not asked of a body without a triangle") {
+    const Folder folder;
+    const std::string scene = OSGTSS_SOURCE_DIR "/scenes/extreme/mesh_one_vertex.tss";
+    for (const char* to : {"o.srdf", "o.usda --filtered-pairs"}) {
+        const Ran ran = runTss("convert " + scene + " " + to, folder.path());
+        CHECK(ran.exit == 1);
+        CHECK(ran.err.find("expected a mesh, the body has none") != std::string::npos);
+    }
+}
+
 TEST_CASE("spheres for cuRobo hold each link's surface, in metres") {
     const Folder folder;
     REQUIRE(runTss(twoBoxes(folder), folder.path()).exit == 0);
