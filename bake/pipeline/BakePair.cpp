@@ -113,8 +113,8 @@ struct PairBaker {
         if (options.spheres != SphereMethod::Medial || options.search != SearchMethod::Certified)
             return std::nullopt;
         const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;
-        const auto apart = surfacesApart(MeshQuery(cleaned(a)), MeshQuery(cleaned(b)), motion,
-                                         touchingDistance(a, b, motion), progress);
+        const auto apart =
+            surfacesApart(cleaned(a), cleaned(b), motion, touchingDistance(a, b, motion), progress);
         if (!apart) return std::nullopt;
         return PairTable{nullptr, std::make_shared<NeverCollides>(NeverCollides{
                                       apart->clearance, apart->cells, "surfaces/certified", {}, {}})};

@@ -3,6 +3,7 @@
 #include "bake/base/Parallel.h"
 #include "bake/motion/CellTools.h"
 #include "bake/search/ExploredPoses.h"
+#include "bake/search/TrianglesApart.h"
 
 #include <algorithm>
 #include <iterator>
@@ -13,123 +14,143 @@ namespace tss {
 
 namespace {
 
-/// Cells that are expected at most, a distance of two meshes each: for a clearance near the least distance,
-/// and for half of it; and how many times more are looked at.
+/// Cells that are expected at most where they are judged by how far points move, a distance of two meshes
+/// each: for a clearance near the least distance, and for half of it; and how many times more are looked at.
 constexpr double fewExpected = 1'000, mostExpected = 10'000, slack = 4;
+/// Where more would be needed, up to so many DOFs triangles are told apart by which way they move: pairs of
+/// nodes or triangles that are looked at, some tenths of a microsecond each, in all and in one cell.
+constexpr std::size_t fewDofs = 2;
+constexpr std::uint64_t mostLooks = 40'000'000, looksPerCell = 1'000'000;
 constexpr std::size_t samples = 128;
 constexpr std::size_t batch = 64; // of fixed size, so that the outcome does not depend on threads
 
 struct CellResult {
     std::vector<Cell> halves;
     double distance = std::numeric_limits<double>::infinity(); ///< at its centre, where less than wanted
+    std::uint64_t looked = 0;
 };
 
 class Search {
 public:
-    Search(const MeshQuery& a, const MeshQuery& b, const Motion& motion, double touching,
+    Search(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion, double touching,
            const Progress& progress)
         : a_(a), b_(b), motion_(motion), rates_(motion), touching_(touching), progress_(progress),
-          rounding_(coordinateRounding(motion, a.extent(), b.extent())) {}
+          rounding_(coordinateRounding(motion, a_.query().extent(), b_.query().extent())) {}
 
     std::optional<SurfacesApart> run() {
-        if (a_.bvh().empty() || b_.bvh().empty() || !promising()) return std::nullopt;
-        std::vector<Cell> cells{wholeBox(motion_)};
-        while (!cells.empty()) {
-            const double done = double(looked_) / (slack * mostExpected);
-            if (done > 1 || !report(progress_, "surfaces apart", done)) return std::nullopt;
-            std::vector<Cell> now(cells.end() - std::ptrdiff_t(std::min(batch, cells.size())), cells.end());
-            cells.resize(cells.size() - now.size());
-            std::vector<CellResult> results(now.size());
-            parallelFor(now.size(), [&](std::size_t k) { results[k] = examine(now[k]); });
-            looked_ += now.size();
-            for (CellResult& result : results) {
-                if (result.distance <= touching_) return std::nullopt;
-                clearance_ = std::min(clearance_, share_ * result.distance);
-                std::move(result.halves.begin(), result.halves.end(), std::back_inserter(cells));
-            }
-        }
-        if (clearance_ <= touching_) return std::nullopt;
-        return SurfacesApart{clearance_, looked_};
+        if (a_.empty() || b_.empty() || !apartAtSamples()) return std::nullopt;
+        for (const auto& [share, most] : {std::pair(0.875, fewExpected), std::pair(0.5, mostExpected)})
+            if (expectedCells(share * least_) < most) return shownFor(share);
+        byDirection_ = true;
+        return motion_.dofCount() <= fewDofs ? shownFor(0.5) : std::nullopt;
     }
 
 private:
     double distanceAt(std::span<const double> q, double within) const {
-        return a_.distanceTo(b_, pose(motion_, q), within);
+        return a_.query().distanceTo(b_.query(), pose(motion_, q), within);
     }
 
-    /// Looks at poses all over Q: whether the surfaces are apart at all of them, and how near to the least
-    /// distance the clearance may be for the number of cells that this would take.
-    bool promising() {
+    /// Looks at poses all over Q for the least distance.
+    bool apartAtSamples() {
         std::vector<std::vector<double>> poses = exploredPoses(motion_, samples, 1);
         poses.insert(poses.begin(), restValues(motion_));
-        std::vector<double> distances(poses.size());
+        distances_.resize(poses.size());
         for (std::size_t first = 0; first < poses.size(); first += batch) {
-            const std::size_t count = std::min(batch, poses.size() - first);
-            parallelFor(count, [&](std::size_t k) {
-                distances[first + k] = distanceAt(poses[first + k], std::numeric_limits<double>::infinity());
+            const std::size_t end = std::min(first + batch, poses.size());
+            parallelFor(end - first, [&](std::size_t k) {
+                distances_[first + k] = distanceAt(poses[first + k], std::numeric_limits<double>::infinity());
             });
-            const auto now = distances.begin() + std::ptrdiff_t(first);
-            if (*std::min_element(now, now + std::ptrdiff_t(count)) <= touching_ ||
-                !report(progress_, "surfaces apart", 0))
-                return false;
+            for (std::size_t k = first; k < end; ++k) least_ = std::min(least_, distances_[k]);
+            if (least_ <= touching_ || !report(progress_, "surfaces apart", 0)) return false;
         }
-        const double least = *std::min_element(distances.begin(), distances.end());
-        for (const auto& [share, most] : {std::pair(0.875, fewExpected), std::pair(0.5, mostExpected)}) {
-            share_ = share;
-            clearance_ = share * least;
-            if (expectedCells(distances) < most) return true;
-        }
-        return false;
+        return true;
     }
 
-    /// Were all of Q like these poses.
-    double expectedCells(const std::vector<double>& distances) const {
+    /// Were all of Q like the sampled poses, and cells judged by how far points move.
+    double expectedCells(double clearance) const {
         const CellMotion whole(rates_, wholeBox(motion_));
-        const auto shares = whole.shares(whole.centrePose() * b_.centre());
+        const auto shares = whole.shares(whole.centrePose() * b_.query().centre());
         double expected = 0;
-        for (const double distance : distances) {
+        for (const double distance : distances_) {
             double cells = 1;
             for (std::size_t k = 0; k < whole.dofs(); ++k) {
-                const double move = shares[k] + whole.relativeShare(k) * b_.radius();
-                cells *= std::max(1.0, double(whole.dofs()) * move / (distance - clearance_));
+                const double move = shares[k] + whole.relativeShare(k) * b_.query().radius();
+                cells *= std::max(1.0, double(whole.dofs()) * move / (distance - clearance));
             }
-            expected += cells / double(distances.size());
+            expected += cells / double(distances_.size());
         }
         return expected;
+    }
+
+    /// How much of what may be done was done, 1 or more: all.
+    double spent() const {
+        return byDirection_ ? double(looked_) / double(mostLooks) : double(cells_) / (slack * mostExpected);
+    }
+
+    /// Shows this share of the least distance there is as clearance.
+    std::optional<SurfacesApart> shownFor(double share) {
+        clearance_ = share * least_;
+        std::vector<Cell> cells{wholeBox(motion_)};
+        while (!cells.empty()) {
+            if (spent() >= 1 || !report(progress_, "surfaces apart", spent())) return std::nullopt;
+            std::vector<Cell> now(cells.end() - std::ptrdiff_t(std::min(batch, cells.size())), cells.end());
+            cells.resize(cells.size() - now.size());
+            std::vector<CellResult> results(now.size());
+            parallelFor(now.size(), [&](std::size_t k) { results[k] = examine(now[k]); });
+            cells_ += now.size();
+            for (CellResult& result : results) {
+                if (result.distance <= touching_) return std::nullopt;
+                least_ = std::min(least_, result.distance);
+                looked_ += result.looked;
+                std::move(result.halves.begin(), result.halves.end(), std::back_inserter(cells));
+            }
+            clearance_ = share * least_;
+        }
+        if (clearance_ <= touching_) return std::nullopt;
+        return SurfacesApart{clearance_, cells_};
+    }
+
+    bool isApart(const CellMotion& motion, std::uint64_t& looked) const {
+        const MeshQuery &a = a_.query(), &b = b_.query();
+        const double move = motion.pointMotion(motion.centrePose() * b.centre()).move +
+                            motion.relativeMove() * b.radius() + rounding_;
+        return a.apart(b, motion.centrePose(), clearance_ + move) ||
+               (byDirection_ && trianglesApart(a_, b_, motion, clearance_, rounding_, looksPerCell, looked));
     }
 
     CellResult examine(Cell cell) const {
         CellResult result;
         if (!shrinkToPlanes(motion_, cell)) return result;
         const CellMotion motion(rates_, cell);
-        const double move = motion.pointMotion(motion.centrePose() * b_.centre()).move +
-                            motion.relativeMove() * b_.radius() + rounding_;
-        if (a_.apart(b_, motion.centrePose(), clearance_ + move)) return result;
+        if (isApart(motion, result.looked)) return result;
         if (withinLimits(motion_, motion.centre()))
             result.distance = distanceAt(motion.centre(), clearance_ + rounding_);
         if (motion.dofs() == 0) {
             result.halves = {cell}; // the one pose there is, to be asked again with less clearance
             return result;
         }
-        const auto [lower, upper] = splitCell(rates_, cell, widestDof(motion, b_.centre(), b_.radius()));
+        const auto [lower, upper] =
+            splitCell(rates_, cell, widestDof(motion, b_.query().centre(), b_.query().radius()));
         result.halves = {upper, lower};
         return result;
     }
 
-    const MeshQuery &a_, &b_;
+    const TriangleTree a_, b_;
     const Motion& motion_;
     const MotionRates rates_;
     const double touching_;
     const Progress& progress_;
     const double rounding_;
-    double share_ = 0; ///< of the least distance, for the clearance
-    double clearance_ = 0;
-    std::uint64_t looked_ = 0;
+    std::vector<double> distances_;                          ///< at the sampled poses
+    double least_ = std::numeric_limits<double>::infinity(); ///< distance that was found
+    double clearance_ = 0;                                   ///< to be shown
+    bool byDirection_ = false;
+    std::uint64_t cells_ = 0, looked_ = 0;
 };
 
 } // namespace
 
-std::optional<SurfacesApart> surfacesApart(const MeshQuery& a, const MeshQuery& b, const Motion& motion,
+std::optional<SurfacesApart> surfacesApart(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
                                            double touching, const Progress& progress) {
     return Search(a, b, motion, touching, progress).run();
 }

@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/base/Progress.h"
-#include "bake/geometry/MeshQuery.h"
+#include "bake/geometry/TriangleMesh.h"
 #include "bake/motion/Motion.h"
 
 #include <optional>
@@ -13,12 +13,12 @@ struct SurfacesApart {
     std::uint64_t cells = 0; ///< of Q that showed it
 };
 
-/// Branch and bound over Q: a cell is settled where the surfaces are farther apart at its centre than they may
-/// move in it (METHOD 2.2). The clearance is half of the least distance or more. Nothing where they come nearer
-/// than `touching` to each other, and where that many cells would be needed that other ways are quicker: this
-/// is for joints whose parts stand close all the way round, which would take very fine spheres.
+/// Branch and bound over Q: a cell is settled where any two triangles stay farther apart than the clearance
+/// in it (METHOD 2.3). That is half of the least distance, or 7/8 of it where this is soon shown. Nothing
+/// where they come nearer than `touching` to each other, and where it would take so long that other ways are
+/// quicker: this is for joints whose parts stand close all the way round, which would take very fine spheres.
 /// touching: see touchingDistance(). The same for any number of threads.
-std::optional<SurfacesApart> surfacesApart(const MeshQuery& a, const MeshQuery& b, const Motion& motion,
+std::optional<SurfacesApart> surfacesApart(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
                                            double touching, const Progress& progress = {});
 
 } // namespace tss
