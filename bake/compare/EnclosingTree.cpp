@@ -1,6 +1,7 @@
 #include "bake/compare/EnclosingTree.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <queue>
 

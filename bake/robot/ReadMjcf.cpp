@@ -4,6 +4,7 @@
 #include "bake/robot/MjcfTree.h"
 #include "bake/robot/Xml.h"
 
+#include <map>
 #include <numbers>
 #include <set>
 

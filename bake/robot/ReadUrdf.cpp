@@ -4,6 +4,7 @@
 #include "bake/robot/Xml.h"
 
 #include <console_bridge/console.h>
+#include <map>
 #include <numbers>
 #include <urdf_parser/urdf_parser.h>
 

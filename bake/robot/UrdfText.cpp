@@ -3,6 +3,7 @@
 #include "bake/robot/Xml.h"
 
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace tss {

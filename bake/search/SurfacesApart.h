@@ -3,6 +3,7 @@
 #include "bake/geometry/TriangleMesh.h"
 #include "bake/motion/Motion.h"
 
+#include <cstdint>
 #include <optional>
 
 namespace tss {

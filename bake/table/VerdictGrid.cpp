@@ -3,6 +3,7 @@
 #include "bake/base/Infinity.h"
 #include "bake/table/GapRanges.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>

@@ -2,6 +2,7 @@
 #include "tests/table/ExactGap.h"
 #include "tests/table/RandomTable.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
 
@@ -44,7 +45,8 @@ struct BorderCounts {
     long poses = 0, touching = 0, known = 0, inParts = 0, inBand = 0;
 };
 
-void judge(const PreparedTable& prepared, const std::vector<double>& q, long double gap, BorderCounts& counts) {
+void judge(const PreparedTable& prepared, const std::vector<double>& q, long double gap,
+           BorderCounts& counts) {
     const VerdictGrid& verdicts = prepared.verdicts();
     const Verdict atOnce = verdicts.atOnce(q.data()), verdict = verdicts.verdict(q.data());
     const bool hit = prepared.hit(q.data());

@@ -2,6 +2,7 @@
 #include "tests/table/ExactGap.h"
 #include "tests/table/RandomTable.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
 
