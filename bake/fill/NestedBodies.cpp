@@ -1,62 +1,48 @@
 #include "bake/fill/NestedBodies.h"
 
 #include "bake/base/Parallel.h"
-#include "bake/base/UnionFind.h"
-#include "bake/geometry/Import.h"
+#include "bake/fill/ConnectedParts.h"
 #include "bake/motion/CellTools.h"
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
+#include <random>
 #include <utility>
 
 namespace tss {
 
 namespace {
 
-/// Looks at a vertex before it is given up: a tenth of a microsecond each where most are far from the surface,
-/// as over many DOFs, where so many are needed.
-constexpr std::uint64_t mostProbes = 6'000'000;
+/// Looks at a vertex before it is given up: a tenth of a microsecond each where most are far from the
+/// surface, as over many DOFs, where so many are needed.
+constexpr std::uint64_t mostProbes = 30'000'000;
 
 /// Shares of the reach: surfaces nearer than the first are near enough for spheres to touch, as far as their
 /// protrusion may fall short of the tolerance (protrusionFor()); farther than the second they are apart. The
 /// room between lets small cells be settled.
 constexpr double settled = 0.85, apart = 0.75;
 
-/// Some vertices of one connected part of a surface: those farthest out in 26 directions.
-using Part = std::vector<Vec3>;
-
-Part extremes(const TriangleMesh& mesh, const std::vector<int>& vertices) {
-    std::vector<int> found;
-    for (int way = 0; way < 27; ++way) {
-        const Vec3 out(way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1);
-        if (way == 13) continue; // no direction
-        found.push_back(*std::max_element(vertices.begin(), vertices.end(), [&](int x, int y) {
-            return mesh.vertices[x].dot(out) < mesh.vertices[y].dot(out);
-        }));
+/// False: no ball of that radius, scene units, is inside the solid.
+bool ballFits(const Solid& solid, double radius) {
+    const MeshQuery& surface = solid.boundary();
+    std::vector<Eigen::AlignedBox3d> boxes{bounds(solid.mesh())};
+    for (int probes = 0; !boxes.empty(); ++probes) {
+        const Eigen::AlignedBox3d one = boxes.back();
+        boxes.pop_back();
+        const double half = 0.5 * one.diagonal().norm();
+        if (half < radius && surface.comesWithin(one.center(), radius - half)) continue;
+        if (!surface.comesWithin(one.center(), half) && !solid.inside(one.center())) continue;
+        if (half < 0.02 * radius || probes > 20'000) return true;
+        Eigen::Index k = 0;
+        one.sizes().maxCoeff(&k);
+        Eigen::AlignedBox3d lower = one, upper = one;
+        lower.max()[k] = upper.min()[k] = one.center()[k];
+        boxes.push_back(lower);
+        boxes.push_back(upper);
     }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    Part part;
-    for (const int v : found) part.push_back(mesh.vertices[v]);
-    return part;
-}
-
-/// The connected parts of a surface; what stands at the same place is connected.
-std::vector<Part> partsOf(const TriangleMesh& loaded) {
-    const TriangleMesh mesh = welded(loaded);
-    UnionFind together(mesh.vertices.size());
-    for (const Tri& t : mesh.triangles)
-        for (const int v : {t[1], t[2]}) together.join(t[0], v);
-    std::vector<std::vector<int>> members(mesh.vertices.size());
-    std::vector<char> listed(mesh.vertices.size(), 0);
-    for (const Tri& t : mesh.triangles)
-        for (const int v : t)
-            if (!std::exchange(listed[v], 1)) members[together.root(v)].push_back(v);
-    std::vector<Part> parts;
-    for (const std::vector<int>& part : members)
-        if (!part.empty()) parts.push_back(extremes(mesh, part));
-    return parts;
+    return false;
 }
 
 /// Does some part of the inner body's surface stand inside the outer body?
@@ -64,10 +50,11 @@ struct Question {
     const Solid& outer;
     const MeshQuery& surface; ///< of the outer body, without what closes its openings
     bool outerMoves;          ///< the outer body is B
-    std::vector<Part> parts = {};
+    bool enclosing = false;   ///< one closed part: what a part inside it encloses is inside it as well
+    std::vector<ConnectedPart> parts = {};
 };
 
-/// A part that may be inside, and the vertex of it that was outside nearby.
+/// A part that may be inside, and the witness of it that was outside nearby.
 struct OpenPart {
     std::uint32_t question, part, witness;
 };
@@ -90,8 +77,14 @@ public:
         : surfaceA_(a.mesh()), surfaceB_(b.mesh()), rates_(rates), reach_(reach),
           rounding_(coordinateRounding(rates.motion(), surfaceA_.extent(), surfaceB_.extent())),
           questions_{Question{a, surfaceA_, false}, Question{b, surfaceB_, true}} {
-        if (!a.hollow()) questions_[0].parts = partsOf(b.mesh());
-        if (!b.hollow()) questions_[1].parts = partsOf(a.mesh());
+        const auto partsA = connectedParts(a.mesh()), partsB = connectedParts(b.mesh());
+        questions_[0].enclosing = !a.open() && partsA.size() == 1;
+        questions_[1].enclosing = !b.open() && partsB.size() == 1;
+        if (!a.hollow()) questions_[0].parts = partsB;
+        if (!b.hollow()) questions_[1].parts = partsA;
+        for (Question& question : questions_)
+            std::erase_if(question.parts,
+                          [&](const ConnectedPart& part) { return tooLarge(question, part); });
         const Eigen::AlignedBox3d box = bounds(b.mesh());
         if (box.isEmpty()) return;
         centreB_ = box.center();
@@ -129,7 +122,68 @@ public:
         return result;
     }
 
+    /// Whether a part comes to stand inside, surfaces apart, where it is led from the centre of a cell by
+    /// random steps, shorter where none leads farther in.
+    bool leadsInside(const OpenCell& from, const OpenPart& part, std::uint64_t seed) const {
+        constexpr int mostSteps = 2000, patience = 12;
+        const Motion& motion = rates_.motion();
+        std::vector<double> q(motion.dofs.size());
+        for (std::size_t k = 0; k < q.size(); ++k) q[k] = 0.5 * (from.cell.lower[k] + from.cell.upper[k]);
+        if (!withinLimits(motion, q)) return false;
+        std::mt19937_64 random(seed);
+        std::uniform_real_distribution<double> share(-1, 1);
+        double farthest = sticksOut(part, pose(motion, q), std::numeric_limits<double>::infinity());
+        double length = 0.1; // of a step, share of each DOF's range
+        for (int step = 0, failed = 0; step < mostSteps && length > 1e-5; ++step) {
+            std::vector<double> next = q;
+            for (std::size_t k = 0; k < q.size(); ++k) {
+                const Dof& dof = motion.dofs[k];
+                next[k] =
+                    std::clamp(q[k] + length * share(random) * (dof.upper - dof.lower), dof.lower, dof.upper);
+            }
+            const Pose at = pose(motion, next);
+            const double out = sticksOut(part, at, farthest);
+            if (out < farthest && withinLimits(motion, next)) {
+                farthest = out;
+                q = std::move(next);
+                failed = 0;
+                length = std::min(1.0, length * 1.3);
+                if (out < -apart * reach_ && surfaceA_.apart(surfaceB_, at, apart * reach_)) return true;
+            } else if (++failed == patience) {
+                failed = 0;
+                length *= 0.6;
+            }
+        }
+        return false;
+    }
+
 private:
+    /// How far out of the outer body the part's vertices are, at least `enough` where one is; < 0: all
+    /// inside.
+    double sticksOut(const OpenPart& part, const Pose& at, double enough) const {
+        const Question& question = questions_[part.question];
+        const Pose placed = question.outerMoves ? at.inverse() : at;
+        double farthest = -std::numeric_limits<double>::infinity();
+        for (const Witness& witness : question.parts[part.part]) {
+            if (witness.radius > 0) continue;
+            const Vec3 place = placed * witness.centre;
+            const double distance = question.outer.boundary().distance(place);
+            farthest = std::max(farthest, question.outer.inside(place) ? -distance : distance);
+            if (farthest >= enough) break;
+        }
+        return farthest;
+    }
+
+    /// However it moves: its largest ball fits nowhere in the outer body, or it is longer than that.
+    bool tooLarge(const Question& question, const ConnectedPart& part) const {
+        const double longest = bounds(question.outer.mesh()).diagonal().norm();
+        for (const Witness& x : part)
+            for (const Witness& y : part)
+                if ((x.centre - y.centre).norm() > longest) return true;
+        const double radius = part.front().radius;
+        return question.enclosing && radius > 0 && !ballFits(question.outer, radius + settled * reach_);
+    }
+
     /// A vertex of a part in the frame of the outer body, at the centre of the cell.
     Vec3 placeIn(const Question& question, const CellMotion& motion, const Pose& inverse,
                  const Vec3& vertex) const {
@@ -139,24 +193,35 @@ private:
     /// How far a vertex may move against the outer body in the cell (for those of A as in findNearSurface()).
     double moveOf(const Question& question, const CellMotion& motion, const Vec3& vertex) const {
         if (!question.outerMoves) return motion.pointMotion(motion.centrePose() * vertex).move + rounding_;
+        const double whole = moveOfB(motion);
         return motion.relativeMove() < 1
-                   ? motion.pointMotion(vertex).move / (1 - motion.relativeMove()) + rounding_
-                   : std::numeric_limits<double>::infinity();
+                   ? std::min(whole,
+                              motion.pointMotion(vertex).move / (1 - motion.relativeMove()) + rounding_)
+                   : whole;
     }
 
-    /// Some vertex of the part stays outside the outer solid, or near its surface, all over the cell; then it
-    /// is the part's witness.
+    /// How far any point of B may move in the cell: no turn takes points farther apart than twice their
+    /// radius.
+    double moveOfB(const CellMotion& motion) const {
+        return motion.pointMotion(motion.centrePose() * centreB_).move +
+               std::min(motion.relativeMove(), 2.0) * radiusB_ + rounding_;
+    }
+
+    /// Some witness of the part stays outside the outer solid, or nearer to its surface than its ball is
+    /// large, all over the cell.
     bool outside(const CellMotion& motion, const Pose& inverse, OpenPart& part, std::uint64_t& probes) const {
         const Question& question = questions_[part.question];
         const Solid& outer = question.outer;
-        const Part& vertices = question.parts[part.part];
-        for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-            const std::uint32_t at = (part.witness + i) % static_cast<std::uint32_t>(vertices.size());
-            const double move = moveOf(question, motion, vertices[at]);
-            const Vec3 place = placeIn(question, motion, inverse, vertices[at]);
+        const ConnectedPart& witnesses = question.parts[part.part];
+        for (std::uint32_t i = 0; i < witnesses.size(); ++i) {
+            const std::uint32_t at = (part.witness + i) % static_cast<std::uint32_t>(witnesses.size());
+            const auto& [centre, radius] = witnesses[at];
+            if (radius > 0 && !question.enclosing) continue;
+            const double move = moveOf(question, motion, centre);
+            const Vec3 place = placeIn(question, motion, inverse, centre);
             // To get in it would have to cross the boundary, which is near it then, and is surface where
             // there are no openings.
-            const double near = settled * reach_ - move;
+            const double near = radius + settled * reach_ - move;
             ++probes;
             bool stays =
                 near > 0 && (outer.open() ? question.surface : outer.boundary()).comesWithin(place, near);
@@ -173,18 +238,18 @@ private:
     bool inside(const CellMotion& motion, const Pose& inverse, const OpenPart& part,
                 std::uint64_t& probes) const {
         const Question& question = questions_[part.question];
-        const Part& vertices = question.parts[part.part];
-        return std::all_of(vertices.begin(), vertices.end(), [&](const Vec3& vertex) {
+        const ConnectedPart& witnesses = question.parts[part.part];
+        return std::all_of(witnesses.begin(), witnesses.end(), [&](const Witness& witness) {
+            if (witness.radius > 0) return true; // its vertices tell
             ++probes;
-            return question.outer.inside(placeIn(question, motion, inverse, vertex));
+            return question.outer.inside(placeIn(question, motion, inverse, witness.centre));
         });
     }
 
     /// True: the cell is settled, since the surfaces are near each other all over it, or since they are apart
     /// at its centre and a part is inside there.
     bool judgeSurfaces(const CellMotion& motion, const std::array<bool, 2>& deep, CellResult& result) const {
-        const double move = motion.pointMotion(motion.centrePose() * centreB_).move +
-                            motion.relativeMove() * radiusB_ + rounding_;
+        const double move = moveOfB(motion);
         const auto nearer = [&](double distance) {
             return !surfaceA_.apart(surfaceB_, motion.centrePose(), distance);
         };
@@ -220,6 +285,26 @@ double deepestIn(const Solid& solid) {
                         : (0.5 + 1e-9) * bounds(solid.mesh()).sizes().minCoeff();
 }
 
+/// What is to be said of a question that cells may be left of; `asked`: to stop.
+void judgeLeft(const Examiner& examiner, const std::vector<OpenCell>& cells, std::uint32_t question,
+               bool asked, std::array<bool, 2>& found, std::array<bool, 2>& undecided) {
+    constexpr std::size_t starts = 64;
+    std::vector<std::pair<const OpenCell*, OpenPart>> left;
+    for (const OpenCell& cell : cells)
+        for (const OpenPart& part : cell.parts)
+            if (part.question == question) left.emplace_back(&cell, part);
+    if (left.empty()) return;
+    undecided[question] = true;
+    if (asked) return;
+    std::array<char, starts> inside{};
+    parallelFor(starts, [&](std::size_t k) {
+        const auto& [cell, part] = left[k * left.size() / starts];
+        inside[k] = examiner.leadsInside(*cell, part, k);
+    });
+    found[question] = std::find(inside.begin(), inside.end(), 1) != inside.end();
+    undecided[question] = !found[question];
+}
+
 } // namespace
 
 Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double reach,
@@ -248,13 +333,14 @@ Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double 
                 }
                 for (OpenCell& half : result.halves) halves.push_back(std::move(half));
             }
-            stopped = probes > mostProbes ||
-                      !report(progress, "nested bodies", double(probes) / double(mostProbes));
+            const bool asked = !report(progress, "nested bodies", double(probes) / double(mostProbes));
+            stopped = asked || probes > mostProbes;
             if (!stopped) continue;
             cells.erase(cells.begin(), cells.begin() + (first + results.size()));
-            for (const std::vector<OpenCell>* left : {&cells, &halves})
-                for (const OpenCell& cell : *left)
-                    for (const OpenPart& part : cell.parts) undecided[part.question] = true;
+            std::move(halves.begin(), halves.end(), std::back_inserter(cells));
+            halves.clear();
+            for (std::uint32_t question = 0; question < 2; ++question)
+                if (!found[question]) judgeLeft(examiner, cells, question, asked, found, undecided);
         }
     }
     return {{found[0], found[1]},

@@ -21,7 +21,8 @@ struct Nesting {
 /// Whether a connected part of one body's surface ever stands inside the other body's solid, its openings
 /// closed, while the surfaces are farther apart than `reach`, > 0: not contact, though solids that are filled
 /// would say so. Branch and bound over Q: a part is not inside all over a cell where one of its vertices
-/// stays outside, or where the surfaces stay within reach of each other. Where neither `outer` nor
+/// stays outside, a ball that it encloses has no room, or the surfaces stay within reach of each other; where
+/// the effort ends before that is shown, random steps look for a pose inside. Where neither `outer` nor
 /// `undecided` is set that is proven for all of Q. (What reaches into an opening without being inside as a
 /// whole findHollow() looks for.) Surfaces from three quarters of the reach on may count as farther. The same
 /// for any number of threads.

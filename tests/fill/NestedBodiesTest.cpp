@@ -221,3 +221,64 @@ TEST_CASE("a body that stays inside a closed one, surfaces apart, never collides
     CHECK(scene.pairs[0].proof->clearance > 0.5);
     CHECK(scene.pairs[0].proof->clearance < 1.2);
 }
+
+namespace {
+
+/// Full turns about a point, about axes that lie askew to each other.
+void addTurns(Motion& motion, const Vec3& about, int count) {
+    const Vec3 axes[] = {{1, 0.1, 0.2}, {0.2, 1, -0.1}, {-0.1, 0.2, 1}, {1, 1, 0.3}};
+    for (int k = 0; k < count; ++k) motion.dofs.push_back(joints::turn(about, axes[k % 4], -3.1, 3.1));
+}
+
+/// A ball of radius 1 about the origin, stretched.
+TriangleMesh ellipsoid(const Vec3& radii) {
+    return transformed(ballMesh(Vec3::Zero(), 1, 2), Eigen::Affine3d(Eigen::Scaling(radii)));
+}
+
+} // namespace
+
+TEST_CASE("a body that has no room in another never stands inside, over however many DOFs") {
+    const Solid plate(ellipsoid({2, 2, 0.4})), ball(ballMesh({0.3, 0, 0}, 0.6, 2));
+    Motion motion;
+    addTurns(motion, {0, 0, 3}, 4);
+    addTurns(motion, {0, 3, 0}, 3);
+    for (const Nesting& nesting :
+         {findNested(plate, ball, motion, 0.05), findNested(ball, plate, motion, 0.05)}) {
+        CHECK_FALSE(nesting.outer);
+        CHECK(decided(nesting));
+    }
+}
+
+TEST_CASE("turns of a body about its own middle do not hide that it stays away") {
+    const Solid large(ballMesh(Vec3::Zero(), 1, 2)), small(ballMesh({5, 0, 0}, 0.3, 1));
+    Motion motion;
+    addTurns(motion, Vec3::Zero(), 1);
+    addTurns(motion, {5, 0, 0}, 4);
+    CHECK(decided(findNested(large, small, motion, 0.05)));
+    // The body that turns is the larger one.
+    const Solid turning(ballMesh({5, 0, 0}, 1, 2)), still(ballMesh(Vec3::Zero(), 0.3, 1));
+    CHECK(decided(findNested(still, turning, motion, 0.05)));
+}
+
+TEST_CASE("what a part encloses tells that it sticks out, however the part is turned") {
+    const Solid spindle(ellipsoid({4, 1, 1}));
+    const Solid ball(ballMesh({3.4, 0, 0}, 0.7, 2)); // sticks out of the spindle's end
+    Motion motion;
+    motion.dofs = {joints::slide(Vec3::UnitX(), -0.2, 0.2)};
+    addTurns(motion, {3.4, 0, 0}, 4);
+    const Nesting nesting = findNested(spindle, ball, motion, 0.05);
+    CHECK_FALSE(nesting.outer);
+    CHECK(decided(nesting));
+}
+
+TEST_CASE("a pose inside is found over many DOFs, and only while the surfaces there are apart") {
+    const Solid large(ellipsoid({1, 0.5, 0.45}));
+    const Solid small(
+        transformed(ellipsoid({0.8, 0.3, 0.3}), Eigen::Affine3d(Eigen::Translation3d(0, 0, 6))));
+    Motion motion;
+    addTurns(motion, {0, 0, 2}, 2);
+    addTurns(motion, {0, 0, 4}, 2);
+    addTurns(motion, {0, 0, 6}, 3);
+    CHECK(findNested(large, small, motion, 0.05).outer.a);
+    CHECK_FALSE(findNested(large, small, motion, 0.4).outer.a);
+}

@@ -1,0 +1,122 @@
+#include "bake/fill/ConnectedParts.h"
+
+#include "bake/base/UnionFind.h"
+#include "bake/geometry/Import.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tss {
+
+namespace {
+
+constexpr int ballsPerPart = 6;
+constexpr int pointsPerAxis = 7; // of the grid that balls start from
+
+/// The radius of the ball about a point that the solid has around it, < 0 outside.
+double depthOf(const Solid& solid, const Vec3& p) {
+    return solid.inside(p) ? solid.boundary().distance(p) : -1;
+}
+
+/// The ball nearby that is as large as steps along the axes find it.
+Witness grown(const Solid& solid, Witness ball, double step) {
+    for (int halving = 0; halving < 6; ++halving, step *= 0.5)
+        for (bool better = true; better;) {
+            better = false;
+            for (int way = 0; way < 6; ++way) {
+                const Vec3 p = ball.centre + (way % 2 ? step : -step) * Vec3::Unit(way / 2);
+                const double depth = depthOf(solid, p);
+                if (!(depth > ball.radius * (1 + 1e-3))) continue;
+                ball = {p, depth};
+                better = true;
+            }
+        }
+    return ball;
+}
+
+/// Balls inside a closed part, none with its centre in another, the largest first.
+void addBalls(const Solid& solid, ConnectedPart& part) {
+    const Eigen::AlignedBox3d box = bounds(solid.mesh());
+    const Vec3 spacing = box.sizes() / pointsPerAxis;
+    std::vector<Witness> starts;
+    for (int i = 0; i < pointsPerAxis * pointsPerAxis * pointsPerAxis; ++i) {
+        const Vec3 place(i % pointsPerAxis, i / pointsPerAxis % pointsPerAxis,
+                         i / (pointsPerAxis * pointsPerAxis));
+        const Vec3 p = box.min() + (place.array() + 0.5).matrix().cwiseProduct(spacing);
+        if (const double depth = depthOf(solid, p); depth > 0) starts.push_back({p, depth});
+    }
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const Witness& x, const Witness& y) { return x.radius > y.radius; });
+    const auto taken = [&](const Vec3& p) {
+        return std::any_of(part.begin(), part.end(),
+                           [&](const Witness& w) { return (w.centre - p).norm() < w.radius; });
+    };
+    for (const Witness& start : starts) {
+        if (part.size() == ballsPerPart) break;
+        if (taken(start.centre)) continue;
+        Witness ball = grown(solid, start, spacing.maxCoeff() / 2);
+        if (taken(ball.centre)) ball = start;
+        part.push_back(ball);
+    }
+    for (Witness& ball : part) ball.radius *= 1 - 1e-9; // distances are rounded
+    std::stable_sort(part.begin(), part.end(),
+                     [](const Witness& x, const Witness& y) { return x.radius > y.radius; });
+}
+
+void addExtremes(const TriangleMesh& mesh, ConnectedPart& part) {
+    std::vector<int> found;
+    for (int way = 0; way < 27; ++way) {
+        const Vec3 out(way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1);
+        if (way == 13) continue; // no direction
+        const auto farthest =
+            std::max_element(mesh.vertices.begin(), mesh.vertices.end(),
+                             [&](const Vec3& x, const Vec3& y) { return x.dot(out) < y.dot(out); });
+        found.push_back(static_cast<int>(farthest - mesh.vertices.begin()));
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    for (const int v : found) part.push_back({mesh.vertices[v]});
+}
+
+/// The mesh of each connected part, its vertices in their order.
+std::vector<TriangleMesh> split(const TriangleMesh& mesh) {
+    UnionFind together(mesh.vertices.size());
+    for (const Tri& t : mesh.triangles)
+        for (const int v : {t[1], t[2]}) together.join(t[0], v);
+    std::vector<TriangleMesh> parts;
+    std::vector<int> partOfRoot(mesh.vertices.size(), -1), placeOf(mesh.vertices.size(), -1);
+    for (const Tri& t : mesh.triangles) {
+        int& at = partOfRoot[together.root(t[0])];
+        if (at < 0) {
+            at = static_cast<int>(parts.size());
+            parts.emplace_back();
+        }
+        TriangleMesh& part = parts[at];
+        Tri moved;
+        for (int k = 0; k < 3; ++k) {
+            int& place = placeOf[t[k]];
+            if (place < 0) {
+                place = static_cast<int>(part.vertices.size());
+                part.vertices.push_back(mesh.vertices[t[k]]);
+            }
+            moved[k] = place;
+        }
+        part.triangles.push_back(moved);
+    }
+    return parts;
+}
+
+} // namespace
+
+std::vector<ConnectedPart> connectedParts(const TriangleMesh& mesh) {
+    std::vector<ConnectedPart> parts;
+    for (const TriangleMesh& one : split(welded(mesh))) {
+        ConnectedPart part;
+        if (const Solid solid(one); !solid.open()) addBalls(solid, part);
+        addExtremes(one, part);
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
+} // namespace tss
