@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace tss {
 
@@ -48,6 +49,10 @@ HollowBodies hollowBodies(const Body& a, const Body& b, const PairSpheres& spher
 
 double smallerSize(const Body& a, const Body& b) {
     return std::min(diagonal(a.mesh), diagonal(b.mesh));
+}
+
+double toleranceOf(const Body& a, const Body& b, const BakeOptions& options) {
+    return options.tolerance.value_or(smallerSize(a, b) / 500);
 }
 
 /// Spheres of two bodies whose surfaces are known never to come near each other, as coarse as shows it: what
@@ -160,7 +165,7 @@ FitRecord measured(const Body& body, SphereFit& fit, const std::optional<std::ve
 PairSpheres fill(const SceneModel& scene, const Pair& pair, const Motion& motion, const BakeOptions& options,
                  bool whole, const Progress& progress) {
     const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
-    const double tolerance = options.tolerance.value_or(smallerSize(a, b) / 500);
+    const double tolerance = toleranceOf(a, b, options);
     PairSpheres spheres = options.spheres == SphereMethod::Medial
                               ? fillZone(a, b, motion, options, tolerance, whole, progress)
                               : fillWhole(a, b, motion, options, tolerance, progress);
@@ -208,27 +213,31 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
 }
 
 std::vector<double> coarserTolerances(const SceneModel& scene, const Pair& pair, const BakeOptions& options) {
-    const double size = smallerSize(scene.bodies[pair.bodyA], scene.bodies[pair.bodyB]);
+    const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
+    const double size = smallerSize(a, b);
     std::vector<double> coarser;
     for (const double share : {30, 60, 120})
-        if (size / share > options.tolerance.value_or(size / 500)) coarser.push_back(size / share);
+        if (size / share > toleranceOf(a, b, options)) coarser.push_back(size / share);
     return coarser;
 }
 
 PairSpheres fillToAskAll(const SceneModel& scene, const Pair& pair, const Motion& motion,
                          const BakeOptions& options, const Progress& progress) {
     PairSpheres spheres = fill(scene, pair, motion, options, true, progress);
-    if (asksForCover(options) && !canAskAll(spheres, options)) {
-        // Coarser spheres are fewer in about the same proportion; where not, as many for each body will do.
-        const double a = double(spheres.a.spheres.size()), b = double(spheres.b.spheres.size());
-        for (const double share : {0.8 * std::max(a / b, b / a), 1.0}) {
-            const int limit = static_cast<int>(std::sqrt(share * double(options.mostPairs)));
-            BakeOptions fewer = options;
-            fewer.maxSpheres = options.maxSpheres > 0 ? std::min(options.maxSpheres, limit) : limit;
-            spheres = fill(scene, pair, motion, fewer, true, progress);
-            if (canAskAll(spheres, options)) break;
-        }
+    const double asked = toleranceOf(scene.bodies[pair.bodyA], scene.bodies[pair.bodyB], options);
+    BakeOptions coarser = options;
+    coarser.tolerance = asked;
+    // Spheres become fewer with the first to the second power of the tolerance, of either body.
+    for (int tries = 0; asksForCover(options) && !canAskAll(spheres, options) && tries < 8; ++tries) {
+        const double pairs = double(spheres.a.spheres.size()) * double(spheres.b.spheres.size());
+        *coarser.tolerance *= std::max(1.05, std::cbrt(pairs / double(options.mostPairs)));
+        spheres = fill(scene, pair, motion, coarser, true, progress);
     }
+    if (*coarser.tolerance > asked)
+        for (SphereFit* fit : {&spheres.a, &spheres.b})
+            addNote(*fit, fmt::format("tolerance {:.4g} instead of {:.4g} scene units, so that all pairs of "
+                                      "spheres can be asked",
+                                      *coarser.tolerance, asked));
     spheres.askAll = canAskAll(spheres, options);
     return spheres;
 }

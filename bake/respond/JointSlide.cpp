@@ -18,8 +18,15 @@ constexpr double liftSlack = 0.04;
 constexpr double firstMove = 1.0 / 128;
 /// And where tables are in clusters, no round: what comes near on the way is listed for each.
 constexpr double clusteredMove = 1.0 / 512;
+/// Ways on which more tests of clusters come near are cut, down to this share of a range: a round takes half
+/// a microsecond for each.
+constexpr std::size_t crowd = 2000;
+constexpr double crowdedMove = clusteredMove / 256;
 /// Ways that a round looks for at most, each with what came near on the one before.
 constexpr int mostListings = 8;
+/// A slide ends where so many rounds brought it no nearer to its goal than by this share of what is left.
+constexpr int stallRounds = 4;
+constexpr double stallShare = 1e-4;
 /// What a pair had to be lifted in a round, above endRoom, it has to be lifted in the next by this share:
 /// ways get shorter, and what they bend shrinks with their square.
 constexpr double liftKept = 0.25;
@@ -112,17 +119,19 @@ double leastLift(const JointModel& model, const NearPair& near) {
     return endRoom * model.pairs[near.pair].contactOffset;
 }
 
-/// Lists what comes near on the way from q and makes rows of it. False where nothing new does.
-bool listAhead(const JointModel& model, const DofValues& q, const DofValues& step, SlideRows& rows,
-               ResponseRoom& ws) {
-    if (!model.clustered) return false;
+enum class Ahead { Nothing, Listed, Crowded };
+
+/// Lists what comes near on the way from q, `most` at most, and makes rows of it.
+Ahead listAhead(const JointModel& model, const DofValues& q, const DofValues& step, std::size_t most,
+                SlideRows& rows, ResponseRoom& ws) {
+    if (!model.clustered) return Ahead::Nothing;
     const std::size_t first = ws.nearCount;
-    listOnStep(model, q, step, ws);
-    if (ws.nearCount == first) return false;
+    if (!listOnStep(model, q, step, ws, most)) return Ahead::Crowded;
+    if (ws.nearCount == first) return Ahead::Nothing;
     linearise(model, q, step, ws, first);
     for (std::size_t i = first; i < ws.nearCount; ++i) ws.near[i].lift = leastLift(model, ws.near[i]);
     rows.take(first);
-    return true;
+    return Ahead::Listed;
 }
 
 /// A way is found with linearised gaps, but gaps bend, and `advance` must assume the worst bend. Sets for
@@ -155,31 +164,36 @@ bool findLifts(const JointModel& model, const DofValues& q, const DofValues& ste
     return short_;
 }
 
-/// The way of one round of a slide, what can matter on it listed; false where none goes on. corner: whether
-/// the joint is known to be where no way lifts all pairs; set here.
-bool slideStep(const JointModel& model, const DofValues& q, const DofValues& goal, double trust,
-               ResponseRoom& ws, bool& corner, DofValues& step) {
+enum class Way { None, Found, Crowded };
+
+/// The way of one round of a slide, what can matter on it listed. corner: whether the joint is known to be
+/// where no way lifts all pairs; set here.
+Way slideStep(const JointModel& model, const DofValues& q, const DofValues& goal, double trust,
+              ResponseRoom& ws, bool& corner, DofValues& step) {
     const auto lifted = [](const NearPair& near) { return near.threshold + near.lift; };
     // In a corner the lift cannot be had: where the pair is now is always feasible.
     const auto held = [](const NearPair& near) {
         return std::min(near.threshold + near.lift, std::max(near.threshold, near.gap));
     };
     SlideRows rows(model, q, goal, trust, ws);
+    const std::size_t most = trust > crowdedMove ? crowd : ~std::size_t(0);
     const auto find = [&](DofValues& found) {
         for (int listing = 0; listing < mostListings; ++listing) {
             if (corner || !rows.nearest(lifted, found)) {
                 corner = true;
-                if (!rows.nearest(held, found)) return false;
+                if (!rows.nearest(held, found)) return Way::None;
             }
-            if (!listAhead(model, q, found, rows, ws)) break;
+            const Ahead ahead = listAhead(model, q, found, most, rows, ws);
+            if (ahead == Ahead::Crowded) return Way::Crowded;
+            if (ahead == Ahead::Nothing) break;
         }
-        return true;
+        return Way::Found;
     };
-    if (!find(step)) return false;
-    if (!findLifts(model, q, step, ws)) return true;
+    if (const Way way = find(step); way != Way::Found || !findLifts(model, q, step, ws)) return way;
     DofValues second;
-    if (find(second)) step = second;
-    return true;
+    const Way way = find(second);
+    if (way == Way::Found) step = second;
+    return way == Way::Crowded ? way : Way::Found;
 }
 
 /// Leaves in the near list what is in clusters: what came near on one way will on the next.
@@ -219,7 +233,12 @@ void slide(const JointModel& model, const DofValues& goal, DofValues& q, Respons
     double distance = weightedDistance(model, q, goal);
     const double least = std::clamp(1e-3 * distance, 1e-7 * model.scale, 1e-5 * model.scale);
     bool corner = false, complete = false;
+    double before = distance; // some rounds ago
     for (int round = 0, far = 0; round < 20 && far < 40 && distance > least; ++(complete ? round : far)) {
+        if (const int done = round + far; done > 0 && done % stallRounds == 0) {
+            if (before - distance < stallShare * distance) return;
+            before = distance;
+        }
         if (!complete) {
             trust = std::min(trust, model.clustered ? clusteredMove : farMove);
             complete = cullRound(model, q, distance, trust, ws);
@@ -237,7 +256,13 @@ void slide(const JointModel& model, const DofValues& goal, DofValues& q, Respons
         linearise(model, q, step, ws);
         // No pose from here on is farther from the goal than this one, so from this one than twice that.
         narrow(model, 2 * distance, ws);
-        if (!slideStep(model, q, goal, trust, ws, corner, step)) return;
+        const Way way = slideStep(model, q, goal, trust, ws, corner, step);
+        if (way == Way::None) return;
+        if (way == Way::Crowded) {
+            trust *= 0.25;
+            ws.unlist();
+            continue;
+        }
         if (weightedLength(model, step) < least) return;
         // Pairs are known to be near only where a pose is no farther from the goal than this one.
         DofValues end = q, next = q;
@@ -275,7 +300,7 @@ double pushOut(const JointModel& model, DofValues& q, ResponseRoom& ws) {
         const auto raised = [&](const NearPair& near) { return gapAt(near, depth + share * missing); };
         for (int listing = 0; listing < mostListings && share >= 1e-4; ++listing) {
             while (share >= 1e-4 && !rows.nearest(raised, step)) share *= 0.5;
-            if (share < 1e-4 || !listAhead(model, q, step, rows, ws)) break;
+            if (share < 1e-4 || listAhead(model, q, step, ~std::size_t(0), rows, ws) == Ahead::Nothing) break;
         }
         if (share < 1e-4) break;
         for (std::size_t i = 0; i < ws.nearCount; ++i)

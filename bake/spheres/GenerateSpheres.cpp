@@ -15,6 +15,10 @@
 
 namespace tss {
 
+void addNote(SphereFit& fit, const std::string& note) {
+    if (!note.empty()) fit.note += (fit.note.empty() ? "" : "; ") + note;
+}
+
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
@@ -69,10 +73,6 @@ SphereFit fitOnce(const Solid& solid, const SphereOptions& options, double toler
 
 double asked(const Solid& solid, const SphereOptions& options) {
     return options.tolerance > 0 ? options.tolerance : solid.diagonal() / 400;
-}
-
-void addNote(SphereFit& fit, const std::string& note) {
-    if (!note.empty()) fit.note += (fit.note.empty() ? "" : "; ") + note;
 }
 
 SphereFit limitedFit(const Solid& solid, const SphereOptions& options, const Progress& progress) {

@@ -19,6 +19,9 @@ struct SphereFit {
     std::string note{};  ///< what was assumed of the mesh and what could not be reached; empty: nothing
 };
 
+/// One more note, after a semicolon.
+void addNote(SphereFit& fit, const std::string& note);
+
 /// Throws InputError for options out of range, as fitSpheres() does.
 void checkOptions(const SphereOptions& options);
 
