@@ -1,5 +1,7 @@
 #include "bake/respond/JointClusters.h"
+#include "bake/respond/JointSlide.h"
 #include "bake/table/TableKernels.h"
+#include "tests/Joints.h"
 #include "tests/respond/Walk.h"
 
 #include <catch2/catch.hpp>
@@ -239,4 +241,37 @@ TEST_CASE("a chain that starts in itself comes out, and is held out from then on
         REQUIRE(out);
     }
     CHECK(pushed > 10);
+}
+
+namespace {
+
+SphereSet plate(int side, double z) {
+    SphereSet spheres;
+    for (int i = 0; i < side * side; ++i)
+        spheres.push_back({0.02 * Vec3(i % side - side / 2, i / side - side / 2, 0) + Vec3(0, 0, z), 0.015});
+    return spheres;
+}
+
+} // namespace
+
+TEST_CASE("a slide over a wide range lists no more of a table in clusters than is near at short ways") {
+    const SphereSet a = plate(60, 0), b = plate(14, 0.05);
+    Motion motion;
+    for (int k = 0; k < 3; ++k) motion.dofs.push_back(joints::slide(Vec3::Unit(k), -50, 50));
+    motion.dofs.push_back(joints::turn(Vec3::Zero(), Vec3::UnitZ(), -0.5, 0.5));
+    std::vector<SpherePair> all;
+    for (std::uint32_t i = 0; i < a.size(); ++i)
+        for (std::uint32_t j = 0; j < b.size(); ++j) all.push_back({i, j});
+    const Table table = makeTable(a, b, all, {}, motion);
+    const JointModel model = makeJointModel(std::vector<TableOnJoint>{{&table, {0, 1, 2, 3}}}, 4, true);
+    REQUIRE(model.clustered);
+    ResponseRoom ws = roomFor(model);
+    ws.unlist();
+    DofValues q{};
+    const DofValues goal{0.1, 0, -0.05, 0}; // along the plate, and into it
+    slide(model, goal, q, ws);
+    CHECK(q[0] > 0.09);
+    CHECK(q[2] < 0);
+    CHECK(query(table, std::vector<double>{q[0], q[1], q[2], q[3]}).gap > 0);
+    CHECK(ws.near.size() < 4000); // it grows, and keeps what it needed at most
 }
