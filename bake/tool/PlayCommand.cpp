@@ -261,8 +261,8 @@ void play(const PlayArguments& arguments, const Console& console) {
 
 } // namespace
 
-void addPlay(Options& app, Console& console) {
-    Options* command = addCommand(app, console, "play", "resolves a motion step by step");
+void addPlay(CLI::App& app, Console& console) {
+    CLI::App* command = addCommand(app, console, "play", "resolves a motion step by step");
     auto arguments = std::make_shared<PlayArguments>();
     command->add_option("scene", arguments->scene, "a baked scene")->required();
     command->add_option("--motion", arguments->motion,

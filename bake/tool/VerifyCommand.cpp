@@ -193,8 +193,8 @@ void verify(const std::string& file, double budget, Console& console) {
 
 } // namespace
 
-void addVerify(Options& app, Console& console) {
-    Options* command =
+void addVerify(CLI::App& app, Console& console) {
+    CLI::App* command =
         addCommand(app, console, "verify", "proves the stored bounds again, with code of its own");
     auto file = std::make_shared<std::string>();
     auto budget = std::make_shared<double>(0);
