@@ -1,10 +1,10 @@
 // tss-render: pictures of a scene where there is no X server. Exit 0 done, 1 the input is at fault, 2 usage,
 // 3 internal.
 #include "EglContext.h"
-#include "FramePattern.h"
 #include "OffscreenViewer.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/FramePattern.h"
 #include "bake/model/Kinematics.h"
 
 #include <CLI/CLI.hpp>
@@ -172,7 +172,7 @@ void write(const osg::Image& image, const std::string& name) {
 
 void render(const Arguments& arguments) {
     osgTSS::Shot shot = shotOf(arguments);
-    const bool pattern = osgTSS::isFramePattern(arguments.output);
+    const bool pattern = tss::isFramePattern(arguments.output);
     if (!pattern && (arguments.frames != 1 || arguments.output.find('%') != std::string::npos))
         throw CLI::ValidationError(
             "--output", "expected one %d for the frame number, as in f_%04d.png, found " + arguments.output);
@@ -191,7 +191,7 @@ void render(const Arguments& arguments) {
                 continue;
             }
             const osg::Image& image = viewer.draw(frame);
-            const std::string name = pattern ? osgTSS::frameName(arguments.output, frame) : arguments.output;
+            const std::string name = pattern ? tss::frameName(arguments.output, frame) : arguments.output;
             write(image, name);
             files.push_back(name);
             if (!arguments.quiet && isatty(STDERR_FILENO))
