@@ -2,9 +2,9 @@
 
 #include "bake/base/Degrees.h"
 #include "bake/base/Error.h"
+#include "bake/base/Stopwatch.h"
 #include "bake/geometry/MeshAudit.h"
 
-#include <chrono>
 #include <fmt/format.h>
 
 namespace tss::reporting {
@@ -12,8 +12,6 @@ namespace tss::reporting {
 namespace {
 
 using namespace compare;
-using Clock = std::chrono::steady_clock;
-
 /// Steps in which first contact is looked for along a way.
 constexpr int closingSteps = 200;
 
@@ -282,13 +280,13 @@ double Row::wrong() const {
 
 PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptions& options,
                     const Progress& progress) {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     const Sizes sizes = sizesFor(options.quick);
     PairStudy study;
     const Motion motion = pairMotion(scene, pair);
     checkMotion(motion);
     describe(study, scene, pair, motion);
-    const auto finish = [&] { study.seconds = std::chrono::duration<double>(Clock::now() - start).count(); };
+    const auto finish = [&] { study.seconds = watch.seconds(); };
     const TriangleMesh a = cleaned(scene.bodies[pair.bodyA].mesh);
     const TriangleMesh b = cleaned(scene.bodies[pair.bodyB].mesh);
     study.trianglesA = a.triangles.size();
