@@ -42,6 +42,19 @@ inline tss::TriangleMesh ballMesh(const tss::Vec3& centre, double radius, int le
     return mesh;
 }
 
+/// The segment from a point along a vector meets a triangle of the mesh, from either side.
+inline bool segmentMeets(const tss::Vec3& from, const tss::Vec3& way, const tss::TriangleMesh& mesh) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const tss::Vec3 a = mesh.corner(t, 0), ab = mesh.corner(t, 1) - a, ac = mesh.corner(t, 2) - a;
+        const double det = ab.dot(way.cross(ac)), side = det < 0 ? -1 : 1;
+        const tss::Vec3 s = from - a, sxab = s.cross(ab);
+        const double u = side * s.dot(way.cross(ac)), v = side * way.dot(sxab), depth = side * ac.dot(sxab);
+        if (det != 0 && u >= 0 && v >= 0 && u + v <= std::abs(det) && depth > 0 && depth <= std::abs(det))
+            return true;
+    }
+    return false;
+}
+
 inline void writeObj(const tss::TriangleMesh& mesh, const std::string& file) {
     std::ofstream stream(file);
     stream.precision(17);

@@ -6,7 +6,6 @@ cd "$(dirname "$0")/.."
 # folder: the folders of bake/ that it may include, besides itself.
 declare -A may=(
     [base]=""
-    [cli]=""
     [geometry]="base"
     [motion]="base geometry"
     [spheres]="base geometry"
@@ -25,7 +24,7 @@ declare -A may=(
     [usd]="base geometry model motion robot scene spheres table"
     [compare]="base geometry motion spheres table"
     [report]="base compare geometry model motion pipeline play reduce respond scene search spheres table verify"
-    [tool]="base check cli geometry model motion pipeline play report respond robot scene spheres table usd verify"
+    [tool]="base check geometry model motion pipeline play report respond robot scene spheres table usd verify"
 )
 wrong=0
 for folder in bake/*/; do

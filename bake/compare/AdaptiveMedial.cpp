@@ -4,8 +4,6 @@
 #include "bake/base/Parallel.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <numeric>
 
 namespace tss::compare {
@@ -25,10 +23,7 @@ std::vector<std::uint32_t> spread(const MedialSurface& surface, const Elements& 
         const Sphere& ball = surface.balls[seeds.back()];
         std::size_t worst = 0;
         for (std::size_t k = 0; k < region.size(); ++k) {
-            double reach = 0;
-            for (const Vec3& corner : surface.elements[region[k]])
-                reach = std::max(reach, (corner - ball.centre).squaredNorm());
-            left[k] = std::min(left[k], std::sqrt(reach) - ball.radius);
+            left[k] = std::min(left[k], reach(ball.centre, surface.elements[region[k]]) - ball.radius);
             if (left[k] > left[worst]) worst = k;
         }
         const std::uint32_t next = surface.ballOf[region[worst]];
@@ -45,10 +40,7 @@ std::vector<Elements> assign(const MedialSurface& surface, const Elements& regio
         std::size_t best = 0;
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t b = 0; b < balls.size(); ++b) {
-            double reach = 0;
-            for (const Vec3& corner : surface.elements[e])
-                reach = std::max(reach, (corner - balls[b].centre).squaredNorm());
-            const double growth = std::sqrt(reach) - balls[b].radius;
+            const double growth = reach(balls[b].centre, surface.elements[e]) - balls[b].radius;
             if (growth < least) {
                 least = growth;
                 best = b;
@@ -159,22 +151,10 @@ EnclosingTree buildAdaptiveMedial(const TriangleMesh& mesh, const Solid& solid, 
 }
 
 std::unique_ptr<CollisionMethod> makeAdaptiveMedial(const ComparedPair& problem, int levels) {
-    const auto start = std::chrono::steady_clock::now();
-    const Solid solidA(problem.meshA), solidB(problem.meshB);
-    MeshTrees trees{buildAdaptiveMedial(problem.meshA, solidA, levels),
-                    buildAdaptiveMedial(problem.meshB, solidB, levels)};
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    Description description{
-        "medial-adaptive-" + std::to_string(levels),
-        "medial sphere tree",
-        "after Bradshaw and O'Sullivan: each region's medial balls merged to 8 and refitted, " +
-            std::to_string(levels) + " levels, " + std::to_string(leafCount(trees.a)) + " + " +
-            std::to_string(leafCount(trees.b)) +
-            " leaves; the medial axis is not sampled anew in a region, no burst step",
-        {0, leafProtrusion(trees.a, solidA) + leafProtrusion(trees.b, solidB)},
-        trees.a.bytes() + trees.b.bytes(),
-        seconds.count()};
-    return makeMeshTreeMethod(std::move(trees), std::move(description));
+    return makeMedialTrees(
+        problem, levels, buildAdaptiveMedial, "medial-adaptive-",
+        "after Bradshaw and O'Sullivan: each region's medial balls merged to 8 and refitted",
+        "; the medial axis is not sampled anew in a region, no burst step");
 }
 
 } // namespace tss::compare

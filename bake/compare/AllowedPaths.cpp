@@ -1,9 +1,9 @@
+#include "bake/base/Stopwatch.h"
 #include "bake/compare/Methods.h"
 
 #include "bake/base/Parallel.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace tss::compare {
@@ -19,7 +19,7 @@ class AllowedPaths final : public CollisionMethodLoop<AllowedPaths> {
 public:
     AllowedPaths(const ComparedPair& problem, const Oracle& oracle, int paths, int steps)
         : leading_(leadingDof(problem)) {
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         std::size_t count = 1;
         for (std::size_t k = 0; k < problem.motion.dofCount(); ++k) {
             const Dof& dof = problem.motion.dofs[k];
@@ -34,7 +34,7 @@ public:
             stretches_.insert(stretches_.end(), path.begin(), path.end());
             first_.push_back(static_cast<std::uint32_t>(stretches_.size()));
         }
-        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        const double seconds = watch.seconds();
         description() = {"allowed-paths-" + std::to_string(count),
                          "allowed paths",
                          std::to_string(count) + " paths along " + problem.motion.dofs[leading_].name +
@@ -42,7 +42,7 @@ public:
                              " samples a path and bisected ends; a query takes the nearest path",
                          {},
                          first_.size() * sizeof(first_[0]) + stretches_.size() * sizeof(Stretch),
-                         seconds.count()};
+                         seconds};
     }
 
     bool hit(const PoseQuery& query) const override {

@@ -1,7 +1,6 @@
+#include "bake/base/Stopwatch.h"
 #include "bake/compare/FclModel.h"
 #include "bake/compare/Methods.h"
-
-#include <chrono>
 
 namespace tss::compare {
 
@@ -11,17 +10,17 @@ template <class Volume>
 class FclMethod final : public CollisionMethodLoop<FclMethod<Volume>> {
 public:
     FclMethod(const ComparedPair& problem, const std::string& name, const std::string& remark) {
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         fillFclModel(a_, problem.meshA);
         fillFclModel(b_, problem.meshB);
-        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        const double seconds = watch.seconds();
         this->description() = {"fcl-" + name,
                                "mesh tree (FCL)",
                                "FCL's tree of " + name + " volumes on the triangles, first contact out" +
                                    remark,
                                {0, 0},
                                bytes(a_) + bytes(b_),
-                               seconds.count()};
+                               seconds};
         this->description().slow = name == "aabb";
     }
 

@@ -1,3 +1,4 @@
+#include "bake/base/Stopwatch.h"
 #include "bake/compare/Methods.h"
 
 #include "bake/base/Error.h"
@@ -5,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 namespace tss::compare {
@@ -54,7 +54,7 @@ template <int D>
 class GapGrid final : public CollisionMethodLoop<GapGrid<D>> {
 public:
     GapGrid(const ComparedPair& problem, const GapOracle& oracle, int points, const StatedError& ofOracle) {
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         std::size_t count = 1;
         double band = 0;
         for (int k = D; k-- > 0;) {
@@ -80,14 +80,14 @@ public:
         double largest = 0;
         for (const float v : values_) largest = std::max(largest, std::abs(static_cast<double>(v)));
         band += 1e-6 * largest; // values are floats
-        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        const double seconds = watch.seconds();
         this->description() = {"gap-grid-" + std::to_string(points),
                                "C-space grid",
                                "gaps of the sphere model on a regular grid, " + std::to_string(points) +
                                    " values a DOF, linear between; the stated error is the Lipschitz bound",
                                ofOracle.widened(band, band),
                                values_.size() * sizeof(float),
-                               seconds.count()};
+                               seconds};
     }
 
     bool hit(const PoseQuery& query) const override { return value(query) <= 0; }

@@ -1,3 +1,4 @@
+#include "bake/base/Stopwatch.h"
 #include "bake/compare/Methods.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
@@ -6,7 +7,6 @@
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
 #include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
-#include <chrono>
 
 namespace tss::compare {
 
@@ -55,7 +55,7 @@ struct AnyContact : btManifoldResult {
 class Gimpact final : public CollisionMethodLoop<Gimpact> {
 public:
     explicit Gimpact(const ComparedPair& problem) {
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         const Eigen::AlignedBox3d box = bounds(problem.meshA);
         centre_ = box.center();
         scale_ = 10 / box.diagonal().norm();
@@ -65,7 +65,7 @@ public:
         btGImpactCollisionAlgorithm::registerAlgorithm(dispatcher_.get());
         const btCollisionObjectWrapper a = a_->wrapped(), b = b_->wrapped();
         algorithm_ = dispatcher_->findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
-        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        const double seconds = watch.seconds();
         // Single precision, boxes quantised to 16 bits outwards: the triangles are judged in floats.
         const double band = 1e-5 * box.diagonal().norm();
         description() = {
@@ -74,7 +74,7 @@ public:
             "Bullet's GImpact on the triangles, single precision, every contact (it has no early out)",
             {band, band},
             a_->bytes() + b_->bytes(),
-            seconds.count()};
+            seconds};
     }
     ~Gimpact() override {
         algorithm_->~btCollisionAlgorithm();

@@ -4,7 +4,6 @@
 #include "bake/base/Parallel.h"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 #include <queue>
 #include <set>
@@ -185,19 +184,8 @@ EnclosingTree buildHubbard(const TriangleMesh& mesh, const Solid& solid, int lev
 }
 
 std::unique_ptr<CollisionMethod> makeHubbard(const ComparedPair& problem, int levels) {
-    const auto start = std::chrono::steady_clock::now();
-    const Solid solidA(problem.meshA), solidB(problem.meshB);
-    MeshTrees trees{buildHubbard(problem.meshA, solidA, levels), buildHubbard(problem.meshB, solidB, levels)};
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    Description description{"medial-hubbard-" + std::to_string(levels),
-                            "medial sphere tree",
-                            "after Hubbard: medial balls merged bottom up to 8 to the power of the level, " +
-                                std::to_string(levels) + " levels, " + std::to_string(leafCount(trees.a)) +
-                                " + " + std::to_string(leafCount(trees.b)) + " leaves",
-                            {0, leafProtrusion(trees.a, solidA) + leafProtrusion(trees.b, solidB)},
-                            trees.a.bytes() + trees.b.bytes(),
-                            seconds.count()};
-    return makeMeshTreeMethod(std::move(trees), std::move(description));
+    return makeMedialTrees(problem, levels, buildHubbard, "medial-hubbard-",
+                           "after Hubbard: medial balls merged bottom up to 8 to the power of the level");
 }
 
 } // namespace tss::compare

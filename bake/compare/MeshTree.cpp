@@ -1,6 +1,7 @@
 #include "bake/compare/MeshTree.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/base/Stopwatch.h"
 #include "bake/compare/InnerPoles.h"
 
 #include <algorithm>
@@ -79,15 +80,34 @@ Corners cornersOf(const std::vector<Element>& elements) {
     return corners;
 }
 
-double reach(const Vec3& centre, const Element& element) {
-    return std::sqrt(std::max({(element[0] - centre).squaredNorm(), (element[1] - centre).squaredNorm(),
-                               (element[2] - centre).squaredNorm()}));
-}
-
 } // namespace
 
 std::unique_ptr<CollisionMethod> makeMeshTreeMethod(MeshTrees trees, Description description) {
     return std::make_unique<MeshTreeMethod>(std::move(trees), std::move(description));
+}
+
+std::unique_ptr<CollisionMethod>
+makeMedialTrees(const ComparedPair& problem, int levels,
+                EnclosingTree (*build)(const TriangleMesh&, const Solid&, int), const std::string& name,
+                const std::string& how, const std::string& remark) {
+    const Stopwatch watch;
+    const Solid solidA(problem.meshA), solidB(problem.meshB);
+    MeshTrees trees{build(problem.meshA, solidA, levels), build(problem.meshB, solidB, levels)};
+    const double seconds = watch.seconds();
+    Description description{name + std::to_string(levels),
+                            "medial sphere tree",
+                            how + ", " + std::to_string(levels) + " levels, " +
+                                std::to_string(leafCount(trees.a)) + " + " +
+                                std::to_string(leafCount(trees.b)) + " leaves" + remark,
+                            {0, leafProtrusion(trees.a, solidA) + leafProtrusion(trees.b, solidB)},
+                            trees.a.bytes() + trees.b.bytes(),
+                            seconds};
+    return makeMeshTreeMethod(std::move(trees), std::move(description));
+}
+
+double reach(const Vec3& centre, const std::array<Vec3, 3>& element) {
+    return std::sqrt(std::max({(element[0] - centre).squaredNorm(), (element[1] - centre).squaredNorm(),
+                               (element[2] - centre).squaredNorm()}));
 }
 
 double leafProtrusion(const EnclosingTree& tree, const Solid& solid) {

@@ -25,6 +25,12 @@ struct MeshTrees {
 
 std::unique_ptr<CollisionMethod> makeMeshTreeMethod(MeshTrees trees, Description description);
 
+/// A method of two medial sphere trees. how: they are made, in words; remark: what else is to be said.
+std::unique_ptr<CollisionMethod>
+makeMedialTrees(const ComparedPair& problem, int levels,
+                EnclosingTree (*build)(const TriangleMesh&, const Solid&, int), const std::string& name,
+                const std::string& how, const std::string& remark = "");
+
 inline std::size_t leafCount(const EnclosingTree& tree) {
     std::size_t leaves = 0;
     for (const EnclosingTree::Node& node : tree.nodes) leaves += node.count == 0 ? 1 : 0;
@@ -43,6 +49,8 @@ struct MedialSurface {
     std::vector<std::pair<std::uint32_t, std::uint32_t>>
         neighbours; ///< elements that share an edge or corner
 };
+/// From a centre to the farthest corner.
+double reach(const Vec3& centre, const std::array<Vec3, 3>& element);
 MedialSurface medialSurface(const TriangleMesh& mesh, const Solid& solid);
 
 /// The ball about a set of elements that sticks out of the solid least, among those about the medial centres

@@ -1,8 +1,7 @@
 // Hubbard, "Approximating polyhedra with spheres for time-critical collision detection", 1996, and Bradshaw
 // and O'Sullivan, "Adaptive medial-axis approximation for sphere-tree construction", 2004: their octree.
+#include "bake/base/Stopwatch.h"
 #include "bake/compare/MeshTree.h"
-
-#include <chrono>
 
 namespace tss::compare {
 
@@ -71,9 +70,9 @@ EnclosingTree buildOctree(const TriangleMesh& mesh, int levels) {
 }
 
 std::unique_ptr<CollisionMethod> makeOctree(const ComparedPair& problem, int levels) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     MeshTrees trees{buildOctree(problem.meshA, levels), buildOctree(problem.meshB, levels)};
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    const double seconds = watch.seconds();
     // A leaf's cube holds a point of the surface, so no point of its ball is farther from that than 2 r.
     double early = 0;
     for (const EnclosingTree* tree : {&trees.a, &trees.b}) {
@@ -89,7 +88,7 @@ std::unique_ptr<CollisionMethod> makeOctree(const ComparedPair& problem, int lev
                                 std::to_string(leafCount(trees.b)) + " leaves",
                             {0, early},
                             trees.a.bytes() + trees.b.bytes(),
-                            seconds.count()};
+                            seconds};
     return makeMeshTreeMethod(std::move(trees), std::move(description));
 }
 

@@ -1,11 +1,11 @@
 // O'Rourke and Badler, "Decomposition of three-dimensional objects into spheres", 1979.
+#include "bake/base/Stopwatch.h"
 #include "bake/compare/MeshTree.h"
 
 #include "bake/base/Parallel.h"
 #include "bake/spheres/FitMetrics.h"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 
 namespace tss::compare {
@@ -79,14 +79,14 @@ SphereSet keepLargest(const TriangleMesh& mesh, const SphereSet& resting, double
 } // namespace
 
 std::unique_ptr<CollisionMethod> makeOrourkeBadler(const ComparedPair& problem) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const Solid solidA(problem.meshA), solidB(problem.meshB);
     const SphereSet a =
         keepLargest(problem.meshA, restingSpheres(problem.meshA, solidA), 1e-3 * solidA.diagonal());
     const SphereSet b =
         keepLargest(problem.meshB, restingSpheres(problem.meshB, solidB), 1e-3 * solidB.diagonal());
     MeshTrees trees{buildEnclosingTree(a, 8, Enclosure::Balls), buildEnclosingTree(b, 8, Enclosure::Balls)};
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    const double seconds = watch.seconds();
     const double miss =
         coverageBound(a, patchesOf(problem.meshA)) + coverageBound(b, patchesOf(problem.meshB));
     Description description{
@@ -98,7 +98,7 @@ std::unique_ptr<CollisionMethod> makeOrourkeBadler(const ComparedPair& problem) 
             " balls, tree of 8; inscribed, so that shallow contacts are missed",
         {miss, leafProtrusion(trees.a, solidA) + leafProtrusion(trees.b, solidB)},
         trees.a.bytes() + trees.b.bytes(),
-        seconds.count()};
+        seconds};
     return makeMeshTreeMethod(std::move(trees), std::move(description));
 }
 

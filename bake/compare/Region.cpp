@@ -1,9 +1,9 @@
+#include "bake/base/Stopwatch.h"
 #include "bake/compare/Methods.h"
 
 #include "bake/base/Parallel.h"
 
 #include <algorithm>
-#include <chrono>
 #include <random>
 
 namespace tss::compare {
@@ -59,7 +59,7 @@ class AngularRegion final : public CollisionMethodLoop<AngularRegion> {
 public:
     AngularRegion(const ComparedPair& problem, const Oracle& oracle, int bins, int samples,
                   std::uint64_t seed) {
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         const Bins all = makeBins(problem, oracle, bins, samples, seed);
         dof_ = all.dof;
         const double step = all.width / bins;
@@ -71,7 +71,7 @@ public:
             else
                 stretches_.emplace_back(low, low + step);
         }
-        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        const double seconds = watch.seconds();
         description() = {"angular-region",
                          "motion regions",
                          "contact wherever the leading DOF (" + problem.motion.dofs[dof_].name +
@@ -79,7 +79,7 @@ public:
                              " slices of " + std::to_string(samples) + " samples",
                          {},
                          stretches_.size() * sizeof(stretches_[0]),
-                         seconds.count()};
+                         seconds};
     }
     bool hit(const PoseQuery& query) const override {
         for (const auto& [low, high] : stretches_)
@@ -99,9 +99,9 @@ public:
     MixedRegion(const ComparedPair& problem, const Oracle& oracle, int bins, int samples, std::uint64_t seed,
                 std::shared_ptr<const CollisionMethod> inside)
         : inside_(std::move(inside)) {
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         bins_ = makeBins(problem, oracle, bins, samples, seed);
-        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        const double seconds = watch.seconds();
         const auto share = [&](Bin bin) {
             return std::to_string(100 * std::ranges::count(bins_.bins, bin) / bins);
         };
@@ -113,7 +113,7 @@ public:
                              " is asked",
                          {},
                          bins_.bins.size() + inside_->description().bytes,
-                         seconds.count()};
+                         seconds};
     }
     bool hit(const PoseQuery& query) const override {
         const Bin bin = bins_.bins[bins_.at(query.q[bins_.dof])];

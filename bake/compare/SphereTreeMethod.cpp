@@ -1,7 +1,6 @@
+#include "bake/base/Stopwatch.h"
 #include "bake/compare/EnclosingTree.h"
 #include "bake/compare/Methods.h"
-
-#include <chrono>
 
 namespace tss::compare {
 
@@ -24,11 +23,11 @@ std::string enclosureName(Enclosure enclosure) {
 class SphereTreeMethod final : public CollisionMethodLoop<SphereTreeMethod> {
 public:
     SphereTreeMethod(const ComparedPair& problem, TreeOf of, int arity, Enclosure enclosure) {
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         const bool all = of == TreeOf::All;
         a_ = buildEnclosingTree(all ? problem.a : problem.table.a, arity, enclosure);
         b_ = buildEnclosingTree(all ? problem.b : problem.table.b, arity, enclosure);
-        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        const double seconds = watch.seconds();
         const std::string how = enclosureName(enclosure);
         const Table& table = problem.table;
         // The spheres that a table uses all belong to the model: every one of their contacts is one of the
@@ -42,7 +41,7 @@ public:
                              ", median split, inner balls: " + how,
                          stated,
                          a_.bytes() + b_.bytes(),
-                         seconds.count()};
+                         seconds};
     }
 
     bool hit(const PoseQuery& query) const override {

@@ -85,64 +85,6 @@ bool MeshQuery::comesWithin(const Vec3& p, double within) const {
 
 namespace {
 
-/// Where the ray meets the box, as the least t; infinity where it does not before maxT.
-double enter(const Bvh::Node& node, const Vec3& origin, const Vec3& direction, double maxT) {
-    constexpr double never = std::numeric_limits<double>::infinity();
-    double from = 0, to = maxT;
-    for (int k = 0; k < 3; ++k) {
-        const double low = node.lower[k] - origin[k], high = node.upper[k] - origin[k];
-        // A side that the ray hardly moves along cuts it nowhere before maxT, or all of it.
-        if (std::abs(direction[k]) < std::numeric_limits<double>::min()) {
-            if (low > 0 || high < 0) return never;
-            continue;
-        }
-        // Divided only where the ray gets there, so that nothing overflows.
-        const double length = std::abs(direction[k]);
-        const double toNear = direction[k] > 0 ? low : -high, toFar = direction[k] > 0 ? high : -low;
-        if (toFar < 0 || toNear > maxT * length * (1 + 1e-14)) return never;
-        if (toNear > 0) from = std::max(from, toNear / length);
-        if (toFar < to * length) to = toFar / length;
-    }
-    return from <= to * (1 + 1e-14) ? from : never;
-}
-
-} // namespace
-
-std::optional<RayHit> MeshQuery::ray(const Vec3& origin, const Vec3& direction, double maxT) const {
-    const Vec3 local = origin - origin_;
-    std::optional<RayHit> hit;
-    std::vector<std::uint32_t> stack;
-    if (!bvh_.empty()) stack.push_back(0);
-    while (!stack.empty()) {
-        const Bvh::Node& node = bvh_.nodes[stack.back()];
-        stack.pop_back();
-        if (enter(node, local, direction, maxT) > maxT) continue;
-        if (node.count == 0) {
-            stack.push_back(node.first);
-            stack.push_back(node.first + 1);
-        }
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            const Corners& k = corners_[bvh_.items[i]];
-            const Vec3 ab = k.b - k.a, ac = k.c - k.a, cross = direction.cross(ac);
-            const double det = ab.dot(cross), side = det < 0 ? -1 : 1;
-            if (det == 0) continue;
-            const Vec3 s = local - k.a, sxab = s.cross(ab);
-            const double u = side * s.dot(cross), v = side * direction.dot(sxab), depth = side * ac.dot(sxab);
-            // Times |det|, so that a triangle which the ray runs along cannot overflow.
-            if (u < 0 || v < 0 || u + v > std::abs(det) || !(depth > 0) || depth > maxT * std::abs(det))
-                continue;
-            const double t = depth / std::abs(det);
-            const int triangle = static_cast<int>(bvh_.items[i]);
-            if (hit && t == hit->t && triangle > hit->triangle) continue;
-            maxT = t;
-            hit = RayHit{t, triangle};
-        }
-    }
-    return hit;
-}
-
-namespace {
-
 /// Squared distance of two boxes, the second one given by its middle and half its sides.
 double squaredDistanceOfBoxes(const Bvh::Node& node, const Vec3& middle, const Vec3& half) {
     return (node.lower - (middle + half)).cwiseMax((middle - half) - node.upper).cwiseMax(0.0).squaredNorm();

@@ -2,7 +2,6 @@
 #include "bake/geometry/Bvh.h"
 
 #include <limits>
-#include <optional>
 
 namespace tss {
 
@@ -13,13 +12,7 @@ struct ClosestPoint {
     int triangle = -1;
 };
 
-/// Where a ray first meets a mesh.
-struct RayHit {
-    double t = 0; ///< point = origin + t * direction
-    int triangle = -1;
-};
-
-/// Distance, ray and inside queries of a triangle mesh, in double precision throughout and recentred on the
+/// Distance and inside queries of a triangle mesh, in double precision throughout and recentred on the
 /// mesh, so that the distance is right to rounding for meshes 1e7 units from the origin or 1e-6 in size.
 /// Keeps a copy of the triangles; immutable, so that threads may share one.
 class MeshQuery {
@@ -50,9 +43,6 @@ public:
     double distance(const Vec3& p, double within = std::numeric_limits<double>::infinity()) const {
         return closest(p, within).distance;
     }
-
-    /// First hit of the ray at 0 < t <= maxT, from either side.
-    std::optional<RayHit> ray(const Vec3& origin, const Vec3& direction, double maxT) const;
 
     /// The generalised winding number of the mesh about p: 1 inside a closed mesh, 2 where two closed
     /// components overlap, 0 outside, -1 in an inverted mesh, a fraction about an open one (Jacobson 2013).

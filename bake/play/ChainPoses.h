@@ -55,7 +55,7 @@ private:
     };
     void ownLanes(const Step& step, const double* const* values, PoseLanes& own) const;
 
-    KernelSet kernels_ = directKernels<double>(KernelTarget::Best);
+    KernelSet kernels_ = makeKernels<double>(KernelTarget::Best);
     LaneKernels laneKernels_ = laneKernels(KernelTarget::Best);
     std::vector<Step> steps_;      ///< each parent before its children
     std::vector<bool> served_;     ///< per joint

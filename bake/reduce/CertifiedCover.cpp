@@ -51,8 +51,8 @@ private:
     /// A proof over all of Q within a share of the budget that is left.
     CoverProof prove(const ErrorContract& owed, GrowingCover& cover, double share) {
         CoverBudget part = budget_;
-        const std::chrono::duration<double> used = std::chrono::steady_clock::now() - budget_.start;
-        if (budget_.seconds > 0) part.seconds = used.count() + share * (budget_.seconds - used.count());
+        const double used = budget_.watch.seconds();
+        if (budget_.seconds > 0) part.seconds = used + share * (budget_.seconds - used);
         if (budget_.looks > 0)
             part.looks = std::max<std::uint64_t>(
                 1, static_cast<std::uint64_t>(

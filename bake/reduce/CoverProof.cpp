@@ -120,8 +120,7 @@ double shareDone(const CoverProblem& problem, const std::vector<OpenCell>& left)
 
 bool CoverBudget::spent(std::uint64_t looksUsed, double share) const {
     if (looks > 0 && looksUsed >= looks) return true;
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-    if (seconds > 0 && passed.count() >= seconds) return true;
+    if (seconds > 0 && watch.seconds() >= seconds) return true;
     return !report(progress, "certified cover", share);
 }
 

@@ -1,8 +1,7 @@
 #pragma once
 #include "bake/base/Progress.h"
+#include "bake/base/Stopwatch.h"
 #include "bake/reduce/CoverCell.h"
-
-#include <chrono>
 
 namespace tss {
 
@@ -12,7 +11,7 @@ struct CoverBudget {
     std::uint64_t looks = 0; ///< at pairs of spheres and of nodes, in all cells together
     double seconds = 0;
     Progress progress;
-    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    Stopwatch watch;
 
     bool spent(std::uint64_t looksUsed, double share) const;
 };

@@ -1,11 +1,12 @@
 #include "bake/report/Accuracy.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/base/UnionFind.h"
 #include "bake/compare/Methods.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <set>
 
 namespace tss::reporting {
 
@@ -25,21 +26,13 @@ double deepest(const Solid& solid, const Eigen::AlignedBox3d& box, const std::ve
 
 /// A vertex of every connected component of the mesh.
 std::vector<Vec3> oneOfEach(const TriangleMesh& mesh) {
-    std::vector<int> parent(mesh.vertices.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto find = [&](int v) {
-        while (parent[v] != v) v = parent[v] = parent[parent[v]];
-        return v;
-    };
+    UnionFind together(mesh.vertices.size());
     for (const Tri& t : mesh.triangles)
-        for (const int k : {1, 2}) parent[find(t[k])] = find(t[0]);
+        for (const int k : {1, 2}) together.join(t[0], t[k]);
+    std::set<std::size_t> roots;
+    for (const Tri& t : mesh.triangles) roots.insert(together.root(t[0]));
     std::vector<Vec3> points;
-    std::vector<char> seen(parent.size(), 0);
-    for (const Tri& t : mesh.triangles) {
-        const auto root = static_cast<std::size_t>(find(t[0]));
-        if (!seen[root]) points.push_back(mesh.vertices[root]);
-        seen[root] = 1;
-    }
+    for (const std::size_t root : roots) points.push_back(mesh.vertices[root]);
     return points;
 }
 

@@ -1,22 +1,16 @@
 #include "bake/report/Model.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/base/Stopwatch.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/Solid.h"
 #include "bake/spheres/RoundToFloat.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace tss::reporting {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::unique_ptr<Model> sameMeshes(const Model& model, const Recipe& recipe) {
     auto other = std::make_unique<Model>();
@@ -33,9 +27,9 @@ std::unique_ptr<Model> complete(std::unique_ptr<Model> model) {
     problem.a = model->spheres->a.spheres;
     problem.b = model->spheres->b.spheres;
     PairReport notes;
-    const auto start = Clock::now();
+    const Stopwatch watch;
     const PairTable made = tabulatePair(*model->spheres, problem.motion, model->recipe.options, notes);
-    model->tableSeconds = since(start);
+    model->tableSeconds = watch.seconds();
     model->proof = made.proof;
     if (made.table) problem.table = *made.table;
     const BakeRecord& record = made.table ? made.table->record : made.proof->record;
@@ -52,10 +46,10 @@ std::unique_ptr<Model> makeModel(const SceneModel& scene, const Pair& pair, cons
     model->problem.motion = pairMotion(scene, pair);
     model->problem.meshA = cleaned(scene.bodies[pair.bodyA].mesh);
     model->problem.meshB = cleaned(scene.bodies[pair.bodyB].mesh);
-    const auto start = Clock::now();
+    const Stopwatch watch;
     model->spheres =
         std::make_shared<PairSpheres>(fillPair(scene, pair, model->problem.motion, recipe.options));
-    model->sphereSeconds = since(start);
+    model->sphereSeconds = watch.seconds();
     return complete(std::move(model));
 }
 
@@ -70,9 +64,9 @@ std::unique_ptr<Model> wholeBodies(const Model& model, const Recipe& recipe) {
     auto other = sameMeshes(model, recipe);
     SphereOptions options;
     options.tolerance = recipe.options.tolerance.value_or(0);
-    const auto start = Clock::now();
+    const Stopwatch watch;
     PairSpheres spheres{fitSpheres(other->problem.meshA, options), fitSpheres(other->problem.meshB, options)};
-    other->sphereSeconds = since(start);
+    other->sphereSeconds = watch.seconds();
     for (SphereFit* fit : {&spheres.a, &spheres.b}) fit->spheres = roundToFloat(std::move(fit->spheres));
     other->spheres = std::make_shared<PairSpheres>(std::move(spheres));
     return complete(std::move(other));

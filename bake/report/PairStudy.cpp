@@ -2,9 +2,9 @@
 
 #include "bake/base/Degrees.h"
 #include "bake/base/Error.h"
+#include "bake/base/Stopwatch.h"
 #include "bake/geometry/MeshAudit.h"
 
-#include <chrono>
 #include <fmt/format.h>
 
 namespace tss::reporting {
@@ -12,8 +12,6 @@ namespace tss::reporting {
 namespace {
 
 using namespace compare;
-using Clock = std::chrono::steady_clock;
-
 /// Steps in which first contact is looked for along a way.
 constexpr int closingSteps = 200;
 
@@ -221,6 +219,9 @@ std::vector<StudiedModel> otherRecipes(const SceneModel& scene, const Pair& pair
     const auto fill = [&](const Recipe& recipe, const std::string& about) {
         models.push_back({makeModel(scene, pair, recipe), about, Field::Model, {}});
     };
+    const auto tabulate = [&](const Recipe& recipe, const std::string& about) {
+        models.push_back({makeModel(base, recipe), about, Field::Table, {}});
+    };
     fill(with("paper",
               [&](BakeOptions& o) {
                   o.spheres = SphereMethod::Growth;
@@ -239,27 +240,19 @@ std::vector<StudiedModel> otherRecipes(const SceneModel& scene, const Pair& pair
                           {}});
         fill(with("inscribed", [](BakeOptions& o) { o.conservative = false; }),
              "spheres inside the bodies instead of about their surface (`--no-conservative`)");
-        models.push_back({makeModel(base, with("paper's reduction",
-                                               [](BakeOptions& o) {
-                                                   o.search = SearchMethod::Sampled;
-                                                   o.reduce = ReduceMethod::Cooccurrence;
-                                               })),
-                          "our spheres, the paper's sampled search and its reduction by co-occurrence",
-                          Field::Table,
-                          {}});
-        models.push_back(
-            {makeModel(base, with("minimal over samples",
-                                  [](BakeOptions& o) {
-                                      o.search = SearchMethod::Sampled;
-                                      o.reduce = ReduceMethod::Minimal;
-                                  })),
-             "our spheres, the smallest set that answers alike at the poses explored (the paper's M_ss)",
-             Field::Table,
-             {}});
+        const auto sampled = [&](const std::string& name, ReduceMethod reduce) {
+            return with(name, [&](BakeOptions& o) {
+                o.search = SearchMethod::Sampled;
+                o.reduce = reduce;
+            });
+        };
+        tabulate(sampled("paper's reduction", ReduceMethod::Cooccurrence),
+                 "our spheres, the paper's sampled search and its reduction by co-occurrence");
+        tabulate(sampled("minimal over samples", ReduceMethod::Minimal),
+                 "our spheres, the smallest set that answers alike at the poses explored (the paper's M_ss)");
     }
-    const Recipe offset = with("at rest: offset", [](BakeOptions& o) { o.atRest = AtRest::Offset; });
     if (!ruleOfSpheres(base.problem.a, base.problem.b, base.problem.motion, AtRest::Ignore).empty())
-        fill(offset,
+        fill(with("at rest: offset", [](BakeOptions& o) { o.atRest = AtRest::Offset; }),
              "what `tss bake` stores: the region that overlaps at rest touches only where it goes deeper");
     return models;
 }
@@ -282,13 +275,13 @@ double Row::wrong() const {
 
 PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptions& options,
                     const Progress& progress) {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     const Sizes sizes = sizesFor(options.quick);
     PairStudy study;
     const Motion motion = pairMotion(scene, pair);
     checkMotion(motion);
     describe(study, scene, pair, motion);
-    const auto finish = [&] { study.seconds = std::chrono::duration<double>(Clock::now() - start).count(); };
+    const auto finish = [&] { study.seconds = watch.seconds(); };
     const TriangleMesh a = cleaned(scene.bodies[pair.bodyA].mesh);
     const TriangleMesh b = cleaned(scene.bodies[pair.bodyB].mesh);
     study.trianglesA = a.triangles.size();

@@ -2,11 +2,11 @@
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/base/Stopwatch.h"
 #include "bake/report/MethodSet.h"
 #include "bake/report/Page.h"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -62,7 +62,7 @@ Report makeReport(const SceneModel& scene, const std::string& sceneFile, const s
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw InputError(Where{folder}, "cannot make the folder: " + error.message());
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     Report result;
     result.scene = std::filesystem::path(sceneFile).filename().string();
     result.machine = thisMachine();
@@ -84,7 +84,7 @@ Report makeReport(const SceneModel& scene, const std::string& sceneFile, const s
                                 : drawPlots(study, folder, stemOf(study.path, alone), result.plotProblem));
     for (const SkinStudy& study : result.skins)
         result.skinPlots.push_back(drawPlots(study, folder, stemOf(study.path, alone), result.plotProblem));
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.seconds = watch.seconds();
     writeFileAtomically(folder + "/report.csv", csvOf(result));
     writeFileAtomically(folder + "/report.json", jsonOf(result));
     writeFileAtomically(folder + "/report.md", markdownOf(result));

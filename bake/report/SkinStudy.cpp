@@ -1,12 +1,12 @@
 #include "bake/report/SkinStudy.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/base/Stopwatch.h"
 #include "bake/pipeline/BakeSkin.h"
 #include "bake/report/SkinMethods.h"
 #include "bake/search/SkinSearch.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace tss::reporting {
 
@@ -116,7 +116,7 @@ SkinSetting settingOf(const TriangleMesh& mesh, const SkinModel& skin, const Ski
 
 SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const ReportOptions& options,
                     const Progress& progress) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     report(progress, skin.path + ": skin", 0);
     SkinStudy study;
     study.path = skin.path;
@@ -147,7 +147,7 @@ SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const Report
                             "its own: that is a stored animation, not a test"});
     report(progress, skin.path + ": skin in motion", 0.5);
     study.motion = studySkinMotion(scene, carried, muscles.filled.deformers, options.quick);
-    study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    study.seconds = watch.seconds();
     return study;
 }
 

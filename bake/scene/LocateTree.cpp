@@ -20,7 +20,7 @@ struct Wanted {
 /// Walks along the wanted values and passes over all others.
 class Locator : public SaxTokens {
 public:
-    Locator(std::string_view text, Wanted& root) : SaxTokens(text), next_(&root) {
+    Locator(std::string_view text, Wanted& root) : SaxTokens(text, true), next_(&root) {
         const CountingIterator all{&cursor};
         Json::sax_parse(all, all, this);
     }

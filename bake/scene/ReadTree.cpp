@@ -22,10 +22,17 @@ constexpr std::string_view selfDescribing = "\xD9\xD9\xF7"; // CBOR's tag 55799
 /// What both encodings have in common: events into a tree.
 class SaxReader : public SaxTokens {
 public:
-    SaxReader(std::string_view text, const std::string& file) : SaxTokens(text), tree_(file, text.size()) {}
+    SaxReader(std::string_view text, const std::string& file, bool looksAhead)
+        : SaxTokens(text, looksAhead), tree_(file, text.size()) {}
 
     bool null() { return add(Value()); }
     bool boolean(bool flag) { return add(Value(flag)); }
+    bool number_integer(std::int64_t number) { return addInteger(Value(number)); }
+    bool number_unsigned(std::uint64_t number) { return addInteger(Value(number)); }
+    bool number_float(double number, const std::string&) {
+        tree_.addNumber(number);
+        return done(Event::Value, true);
+    }
     bool end_object() {
         tree_.endObject();
         return done(Event::Value);
@@ -39,6 +46,11 @@ protected:
     bool add(Value value) {
         tree_.add(std::move(value));
         return done(Event::Value);
+    }
+
+    bool addInteger(Value number) {
+        tree_.addInteger(std::move(number));
+        return done(Event::Value, true);
     }
 
     template <class Handler>
@@ -68,7 +80,7 @@ constexpr BadToken badTokens[] = {
 /// JSON to the letter of RFC 8259.
 class JsonReader : public SaxReader {
 public:
-    using SaxReader::SaxReader;
+    JsonReader(std::string_view text, const std::string& file) : SaxReader(text, file, true) {}
 
     Value read() {
         const std::string_view text = cursor.text;
@@ -80,18 +92,6 @@ public:
         return tree_.take();
     }
 
-    bool number_integer(std::int64_t number) {
-        tree_.addInteger(Value(number));
-        return done(Event::Value, true);
-    }
-    bool number_unsigned(std::uint64_t number) {
-        tree_.addInteger(Value(number));
-        return done(Event::Value, true);
-    }
-    bool number_float(double number, const std::string&) {
-        tree_.addNumber(number);
-        return done(Event::Value, true);
-    }
     bool string(const std::string& text) { return add(Value(text)); }
     bool binary(const Json::binary_t&) { return false; } // JSON has none
     bool start_object(std::size_t) {
@@ -194,7 +194,7 @@ private:
 /// believes counts, and wraps integers below -2^63.
 class CborReader : public SaxReader {
 public:
-    using SaxReader::SaxReader;
+    CborReader(std::string_view text, const std::string& file) : SaxReader(text, file, false) {}
 
     Value read() {
         if (cursor.text.starts_with(selfDescribing)) cursor.at = end_ = selfDescribing.size();
@@ -204,19 +204,13 @@ public:
 
     bool number_integer(std::int64_t number) {
         if (low() == 27 && byteAt(end_ + 1) >= 0x80) refuse("an integer of 64 bits", headEnd());
-        tree_.addInteger(Value(number));
-        return done(Event::Value);
+        return SaxReader::number_integer(number);
     }
-    bool number_unsigned(std::uint64_t number) {
-        tree_.addInteger(Value(number));
-        return done(Event::Value);
-    }
-    bool number_float(double number, const std::string&) {
+    bool number_float(double number, const std::string& text) {
         if (!std::isfinite(number))
             refuse("a finite number (\"inf\", \"-inf\", \"nan\" are texts)", cursor.at);
         // One spelling for each number, so that an integer is an integer however it came.
-        tree_.addNumber(number);
-        return done(Event::Value);
+        return SaxReader::number_float(number, text);
     }
     bool string(const std::string& text) {
         check(text);

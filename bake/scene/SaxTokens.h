@@ -43,15 +43,15 @@ struct CountingIterator {
 /// Where the tokens of a text stand, for a SAX handler that calls done() at the end of each of its events.
 class SaxTokens {
 public:
-    explicit SaxTokens(std::string_view text) : cursor{text} {}
+    /// looksAhead: the parser takes one character more to know that a number is over, as that of JSON does.
+    SaxTokens(std::string_view text, bool looksAhead) : cursor{text}, looksAhead_(looksAhead) {}
     Cursor cursor;
 
 protected:
     enum class Event { Open, Key, Value };
 
     bool done(Event event, bool isNumber = false) {
-        // The parser of JSON looks one character ahead to know that a number is over.
-        end_ = isNumber && !cursor.ended ? cursor.at - 1 : cursor.at;
+        end_ = isNumber && looksAhead_ && !cursor.ended ? cursor.at - 1 : cursor.at;
         last_ = event;
         return true;
     }
@@ -76,6 +76,9 @@ protected:
 
     std::size_t end_ = 0; ///< of the last event
     Event last_ = Event::Open;
+
+private:
+    bool looksAhead_;
 };
 
 } // namespace tss

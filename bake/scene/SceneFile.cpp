@@ -20,12 +20,7 @@ Layer layerOf(const SceneModel& scene) {
 }
 
 void saveScene(const SceneModel& scene, const std::string& file) {
-    try {
-        saveLayer(layerOf(scene), file);
-    } catch (const InputError& error) {
-        if (!error.where.file.empty()) throw;
-        throw InputError({file, error.where.pointer, error.where.path}, error.message);
-    }
+    inFile(file, [&] { saveLayer(layerOf(scene), file); });
 }
 
 } // namespace tss

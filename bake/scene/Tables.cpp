@@ -226,25 +226,28 @@ Table readTable(const SceneReading& reading, const PrimReader& prim) {
     return table;
 }
 
-/// The prim that tss:table names, if it is of one of the two types; nothing, with a problem, if not.
-std::optional<PrimReader> tableOf(const SceneReading& reading, const PrimReader& owner,
-                                  const std::string& path, bool proofs) {
+/// The prim that tss:table of a pair or a skin names, if it is of one of the two types; nothing, with a
+/// problem, if not.
+template <class Owner>
+std::optional<PrimReader> tableOf(const SceneReading& reading, Owner& of, bool proofs) {
+    const PrimReader owner = reading.reader(reading.index.find(of.path));
+    const std::string& path = of.tablePath = owner.target(schema::table);
     const int entry = path.empty() ? -1 : reading.resolve(owner, schema::table, path);
     if (entry < 0 || !reading.ownPrim(entry, "a table")) return std::nullopt;
     const PrimReader prim = reading.reader(entry);
     const std::string& type = prim.prim().typeName;
-    if (type == "TssTable" || (proofs && type == "TssNeverCollides")) return prim;
+    if (type == "TssTable" || (proofs && type == "TssNeverCollides")) {
+        of.sourceHash = prim.text(sourceHash);
+        return prim;
+    }
     owner.targetProblem(schema::table, "expected the path of a TssTable",
                         proofs ? " or a TssNeverCollides" : "", ", found \"", path, "\"");
     return std::nullopt;
 }
 
 void readPairTable(const SceneReading& reading, Pair& pair) {
-    const PrimReader owner = reading.reader(reading.index.find(pair.path));
-    pair.tablePath = owner.target(schema::table);
-    const auto prim = tableOf(reading, owner, pair.tablePath, true);
+    const auto prim = tableOf(reading, pair, true);
     if (!prim) return;
-    pair.sourceHash = prim->text(sourceHash);
     if (prim->prim().typeName == "TssNeverCollides") {
         NeverCollides proof;
         proofFields().read(*prim, proof);
@@ -260,11 +263,8 @@ void readPairTable(const SceneReading& reading, Pair& pair) {
 }
 
 void readSkinTable(const SceneReading& reading, SkinModel& skin) {
-    const PrimReader owner = reading.reader(reading.index.find(skin.path));
-    skin.tablePath = owner.target(schema::table);
-    const auto prim = tableOf(reading, owner, skin.tablePath, false);
+    const auto prim = tableOf(reading, skin, false);
     if (!prim) return;
-    skin.sourceHash = prim->text(sourceHash);
     SkinTable table;
     table.table = readTable(reading, *prim);
     table.skinVertices = prim->indices(skinVertices);

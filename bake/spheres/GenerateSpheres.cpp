@@ -49,8 +49,8 @@ SphereFit surfaceFit(const Solid& solid, const SphereOptions& options, double to
 
 SphereFit growthFit(const Solid& solid, const SphereOptions& options, const Progress& progress) {
     SphereFit fit;
-    for (const GrowthTrace& trace : growSpheres(solid.mesh(), options.growth, progress))
-        fit.spheres.push_back(trace.sphere);
+    for (const GrownSphere& grown : growSpheres(solid.mesh(), options.growth, progress))
+        fit.spheres.push_back(grown.sphere);
     for (const Sphere& s : fit.spheres)
         fit.protrusion = std::max(fit.protrusion, solid.protrusion(s.centre, s.radius));
     fit.coverage = unbounded;

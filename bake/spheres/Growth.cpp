@@ -32,53 +32,48 @@ public:
         tree_ = buildBvh(boxes);
     }
 
-    GrowthTrace grow(int triangle) const {
-        GrowthTrace trace;
-        trace.seed = triangle;
-        trace.met = {triangle};
+    GrownSphere grow(int triangle) const {
+        GrownSphere grown;
+        grown.met = {triangle};
         const Vec3 normal = (mesh_.corner(triangle, 1) - mesh_.corner(triangle, 0))
                                 .cross(mesh_.corner(triangle, 2) - mesh_.corner(triangle, 0))
                                 .stableNormalized();
-        GrowthStage stage{centroids_[triangle], -normal, lengths_.start, Vec3::Zero(), 0, -1};
-        while (runStage(stage, trace) && trace.met.size() < 4) {
-            // The line through the middle of the points met and the centre so far.
-            GrowthStage next{Vec3::Zero(), stage.direction, 0, Vec3::Zero(), 0, -1};
-            for (const int t : trace.met)
-                next.anchor += centroids_[t] / static_cast<double>(trace.met.size());
-            const Vec3 line = stage.centre - next.anchor;
-            next.t = line.norm();
-            if (next.t > 0) next.direction = line / next.t;
-            stage = next;
+        Line line{centroids_[triangle], -normal, lengths_.start};
+        while (growAlong(line, grown) && grown.met.size() < 4) {
+            // The line through the middle of the points met, m_L or m_T, and the centre so far.
+            Vec3 anchor = Vec3::Zero();
+            for (const int t : grown.met) anchor += centroids_[t] / static_cast<double>(grown.met.size());
+            const Vec3 way = line.at() - anchor;
+            const double length = way.norm();
+            line = {anchor, length > 0 ? Vec3(way / length) : line.direction, length};
         }
-        trace.bounded = trace.met.size() > 1;
-        return trace;
+        return grown;
     }
 
 private:
-    /// Grows from stage.t on by steps until a further centroid is met: true. False at T_max or the threshold.
-    bool runStage(GrowthStage& stage, GrowthTrace& trace) const {
-        const double from = stage.t;
-        bool grown = false;
+    struct Line {
+        Vec3 anchor, direction; ///< m1, m_L or m_T, and a unit vector: -N first
+        double t = 0;           ///< T, of the centre
+        Vec3 at() const { return anchor + t * direction; }
+    };
+
+    /// Grows from line.t on by steps until a further centroid is met: true. False at T_max or the threshold.
+    bool growAlong(Line& line, GrownSphere& grown) const {
+        const double from = line.t;
         for (int k = 0;; ++k) {
-            const double t = from + k * lengths_.step;
-            if (t > lengths_.end * (1 + 1e-12)) break;
-            const Vec3 centre = stage.anchor + t * stage.direction;
+            line.t = from + k * lengths_.step;
+            if (line.t > lengths_.end * (1 + 1e-12)) return false;
+            const Vec3 centre = line.at();
             double radius = 0;
-            for (const int m : trace.met) radius = std::max(radius, (centre - centroids_[m]).norm());
-            if (radius > lengths_.maxRadius * (1 + 1e-12)) break;
-            stage.t = t;
-            stage.centre = centre;
-            stage.radius = radius;
-            grown = true;
-            stage.met = meets(centre, radius, trace.met);
+            for (const int m : grown.met) radius = std::max(radius, (centre - centroids_[m]).norm());
+            if (radius > lengths_.maxRadius * (1 + 1e-12)) return false;
+            const int met = meets(centre, radius, grown.met);
             // A sphere that holds a fourth point is one step too large.
-            if (stage.met < 0 || trace.met.size() < 3) trace.sphere = {centre, radius};
-            if (stage.met >= 0) break;
+            if (met < 0 || grown.met.size() < 3) grown.sphere = {centre, radius};
+            if (met < 0) continue;
+            grown.met.push_back(met);
+            return true;
         }
-        if (grown) trace.stages.push_back(stage);
-        if (stage.met < 0) return false;
-        trace.met.push_back(stage.met);
-        return true;
     }
 
     /// The centroid deepest in the ball that is not among those met; -1: none.
@@ -103,27 +98,23 @@ private:
 
 } // namespace
 
-GrowthTrace growSphere(const TriangleMesh& mesh, int triangle, const GrowthOptions& options) {
-    return Grower(mesh, options).grow(triangle);
-}
-
-std::vector<GrowthTrace> growSpheres(const TriangleMesh& mesh, const GrowthOptions& options,
+std::vector<GrownSphere> growSpheres(const TriangleMesh& mesh, const GrowthOptions& options,
                                      const Progress& progress) {
     const Grower grower(mesh, options);
-    std::vector<GrowthTrace> traces;
+    std::vector<GrownSphere> spheres;
     std::vector<char> met(mesh.triangles.size(), 0);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (t % 1024 == 0 &&
             !report(progress, "growth", static_cast<double>(t) / static_cast<double>(mesh.triangles.size())))
             break;
-        if (met[t] && !options.seedEveryTriangle) continue;
+        if (met[t]) continue;
         if (hasZeroArea(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2))) continue; // no way in
-        GrowthTrace trace = grower.grow(static_cast<int>(t));
-        if (!(trace.sphere.radius > 0) || !(trace.bounded || options.keepUnbounded)) continue;
-        for (const int m : trace.met) met[m] = 1;
-        traces.push_back(std::move(trace));
+        GrownSphere grown = grower.grow(static_cast<int>(t));
+        if (!(grown.sphere.radius > 0) || grown.met.size() < 2) continue;
+        for (const int m : grown.met) met[m] = 1;
+        spheres.push_back(std::move(grown));
     }
-    return traces;
+    return spheres;
 }
 
 } // namespace tss

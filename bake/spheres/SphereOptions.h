@@ -37,14 +37,11 @@ struct SurfaceOptions {
 
 /// Every parameter of the paper's growth (METHOD 1.1), with the paper's values.
 struct GrowthOptions {
-    double start = 0.01;        ///< T_min: where the growth along a line begins
-    double step = 0.01;         ///< delta t
-    double end = 0.101;         ///< T_max: where it ends
-    double maxRadius = 0.02;    ///< the threshold radius
-    bool relative = true;       ///< the four above are fractions of the bounding diagonal, else scene units
-    bool keepUnbounded = false; ///< keep spheres that came to the threshold radius before they met a second
-                                ///< point: without them, spheres stand in the narrow regions only
-    bool seedEveryTriangle = false; ///< seed also at centroids that an earlier sphere has met
+    double start = 0.01;     ///< T_min: where the growth along a line begins
+    double step = 0.01;      ///< delta t
+    double end = 0.101;      ///< T_max: where it ends
+    double maxRadius = 0.02; ///< the threshold radius
+    bool relative = true;    ///< the four above are fractions of the bounding diagonal, else scene units
 };
 
 /// What spheres are asked for.

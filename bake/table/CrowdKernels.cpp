@@ -62,17 +62,11 @@ void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::
 }
 
 template <class T>
-void foldCrowd(std::uint32_t features, KernelSet& set) {
-    withFold<T>(features, [&](auto form) {
+void crowd(const KernelShape& shape, KernelSet& set) {
+    withForm<T>(shape, [&](auto form) {
         set.hits = hits<T, decltype(form)>;
         set.gaps = gaps<T, decltype(form)>;
     });
-}
-
-template <class T>
-void directCrowd(KernelSet& set) {
-    set.hits = hits<T, DirectForm<T>>;
-    set.gaps = gaps<T, DirectForm<T>>;
 }
 
 #endif
@@ -88,19 +82,12 @@ HWY_AFTER_NAMESPACE();
 namespace tss {
 
 template <class T>
-void addFoldCrowd(KernelTarget target, std::uint32_t features, KernelSet& set) {
-    TSS_TARGETS(foldCrowd<T>(features, set))
-    (void)target, (void)features, (void)set;
+void addCrowd(KernelTarget target, const KernelShape& shape, KernelSet& set) {
+    TSS_TARGETS(crowd<T>(shape, set))
+    (void)target, (void)shape, (void)set;
 }
-template <class T>
-void addDirectCrowd(KernelTarget target, KernelSet& set) {
-    TSS_TARGETS(directCrowd<T>(set))
-    (void)target, (void)set;
-}
-template void addFoldCrowd<float>(KernelTarget, std::uint32_t, KernelSet&);
-template void addFoldCrowd<double>(KernelTarget, std::uint32_t, KernelSet&);
-template void addDirectCrowd<float>(KernelTarget, KernelSet&);
-template void addDirectCrowd<double>(KernelTarget, KernelSet&);
+template void addCrowd<float>(KernelTarget, const KernelShape&, KernelSet&);
+template void addCrowd<double>(KernelTarget, const KernelShape&, KernelSet&);
 
 } // namespace tss
 #endif

@@ -182,28 +182,18 @@ KernelSet scalarKernels() {
 } // namespace
 
 template <class T>
-KernelSet foldKernels(KernelTarget target, std::uint32_t features, std::size_t dofs) {
+KernelSet makeKernels(KernelTarget target, const KernelShape& shape) {
     if (target == KernelTarget::Best) target = bestTarget();
-    if (target == KernelTarget::Scalar) return scalarKernels<T, FoldRow<T>>();
-    KernelSet set = vectorFoldQueries<T>(target, features);
-    addFoldCrowd<T>(target, features, set);
-    addFoldPoses<T>(target, dofs, set);
+    if (target == KernelTarget::Scalar)
+        return shape.folds ? scalarKernels<T, FoldRow<T>>() : scalarKernels<T, DirectRow<T>>();
+    KernelSet set;
+    addQueries<T>(target, shape, set);
+    addCrowd<T>(target, shape, set);
+    addPoses<T>(target, shape, set);
     addContact(target, set);
     return set;
 }
-template <class T>
-KernelSet directKernels(KernelTarget target) {
-    if (target == KernelTarget::Best) target = bestTarget();
-    if (target == KernelTarget::Scalar) return scalarKernels<T, DirectRow<T>>();
-    KernelSet set = vectorDirectQueries<T>(target);
-    addDirectCrowd<T>(target, set);
-    addDirectPoses<T>(target, set);
-    addContact(target, set);
-    return set;
-}
-template KernelSet foldKernels<float>(KernelTarget, std::uint32_t, std::size_t);
-template KernelSet foldKernels<double>(KernelTarget, std::uint32_t, std::size_t);
-template KernelSet directKernels<float>(KernelTarget);
-template KernelSet directKernels<double>(KernelTarget);
+template KernelSet makeKernels<float>(KernelTarget, const KernelShape&);
+template KernelSet makeKernels<double>(KernelTarget, const KernelShape&);
 
 } // namespace tss

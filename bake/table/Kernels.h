@@ -86,11 +86,15 @@ inline constexpr std::uint32_t foldColumns(std::uint32_t features) {
     return features + 4;
 }
 
-/// The kernels of a target that is available, for T float or double. features: up to maxFoldFeatures for the
-/// fold; dofs: of the motion that is folded, up to 3.
+/// What kernels are made for: a fold of the motion, or direct.
+struct KernelShape {
+    bool folds = false;
+    std::uint32_t features = 0; ///< of the fold, up to maxFoldFeatures
+    std::size_t dofs = 0;       ///< of the motion that is folded, up to 3
+};
+
+/// The kernels of a target that is available, for T float or double.
 template <class T>
-KernelSet foldKernels(KernelTarget target, std::uint32_t features, std::size_t dofs);
-template <class T>
-KernelSet directKernels(KernelTarget target);
+KernelSet makeKernels(KernelTarget target, const KernelShape& shape = {});
 
 } // namespace tss

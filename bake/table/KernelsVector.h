@@ -3,26 +3,17 @@
 
 namespace tss {
 
-/// The queries of one pose of a vector target; empty pointers where the build has none.
-template <class T>
-KernelSet vectorFoldQueries(KernelTarget target, std::uint32_t features);
-template <class T>
-KernelSet vectorDirectQueries(KernelTarget target);
+// Each puts some kernels of a vector target into the set; what the target or the build has none of is left.
 
-/// KernelSet's hits and gaps, likewise.
+/// lanes, and the queries of one pose.
 template <class T>
-void addFoldCrowd(KernelTarget target, std::uint32_t features, KernelSet& set);
+void addQueries(KernelTarget target, const KernelShape& shape, KernelSet& set);
+/// hits and gaps.
 template <class T>
-void addDirectCrowd(KernelTarget target, KernelSet& set);
-
-/// KernelSet's pose and poses of a fold, of a motion of `dofs` DOFs; left null where the target has none.
+void addCrowd(KernelTarget target, const KernelShape& shape, KernelSet& set);
+/// pose and poses.
 template <class T>
-void addFoldPoses(KernelTarget target, std::size_t dofs, KernelSet& set);
-/// KernelSet's pose and poses of direct kernels, likewise.
-template <class T>
-void addDirectPoses(KernelTarget target, KernelSet& set);
-
-/// KernelSet's contact.
+void addPoses(KernelTarget target, const KernelShape& shape, KernelSet& set);
 void addContact(KernelTarget target, KernelSet& set);
 
 } // namespace tss

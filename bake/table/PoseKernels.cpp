@@ -237,23 +237,14 @@ void directPose(const PosePlan& plan, const double* q, void* pose) {
 #endif
 
 template <class T>
-void fold(std::size_t dofs, KernelSet& set) {
-    set.poses = foldPoses<T>;
+void poses(const KernelShape& shape, KernelSet& set) {
+    set.poses = shape.folds ? foldPoses<T> : directPoses<T>;
 #if HWY_MAX_BYTES >= 32
-    set.pose = dofs == 0   ? foldPose<T, 0>
-               : dofs == 1 ? foldPose<T, 1>
-               : dofs == 2 ? foldPose<T, 2>
-                           : foldPose<T, 3>;
-#else
-    (void)dofs;
-#endif
-}
-
-template <class T>
-void direct(KernelSet& set) {
-    set.poses = directPoses<T>;
-#if HWY_MAX_BYTES >= 32
-    set.pose = directPose<T>;
+    set.pose = !shape.folds      ? directPose<T>
+               : shape.dofs == 0 ? foldPose<T, 0>
+               : shape.dofs == 1 ? foldPose<T, 1>
+               : shape.dofs == 2 ? foldPose<T, 2>
+                                 : foldPose<T, 3>;
 #endif
 }
 
@@ -268,19 +259,12 @@ HWY_AFTER_NAMESPACE();
 namespace tss {
 
 template <class T>
-void addFoldPoses(KernelTarget target, std::size_t dofs, KernelSet& set) {
-    TSS_TARGETS(fold<T>(dofs, set))
-    (void)target, (void)dofs, (void)set;
+void addPoses(KernelTarget target, const KernelShape& shape, KernelSet& set) {
+    TSS_TARGETS(poses<T>(shape, set))
+    (void)target, (void)shape, (void)set;
 }
-template <class T>
-void addDirectPoses(KernelTarget target, KernelSet& set) {
-    TSS_TARGETS(direct<T>(set))
-    (void)target, (void)set;
-}
-template void addFoldPoses<float>(KernelTarget, std::size_t, KernelSet&);
-template void addFoldPoses<double>(KernelTarget, std::size_t, KernelSet&);
-template void addDirectPoses<float>(KernelTarget, KernelSet&);
-template void addDirectPoses<double>(KernelTarget, KernelSet&);
+template void addPoses<float>(KernelTarget, const KernelShape&, KernelSet&);
+template void addPoses<double>(KernelTarget, const KernelShape&, KernelSet&);
 
 } // namespace tss
 #endif

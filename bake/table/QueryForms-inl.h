@@ -154,11 +154,12 @@ HWY_INLINE V<T> gapOf(const V<T>* pose, Column column) {
     return hn::Sub(hn::Sqrt(hn::Max(square, hn::Zero(Lanes<T>()))), column(Form::contactDistance));
 }
 
-/// Calls use(FoldForm) of the fold with so many features; not at all where there is none.
+/// Calls use(DirectForm), or use(FoldForm) of the fold with so many features; not at all where there is none.
 template <class T, class Use>
-void withFold(std::uint32_t features, Use use) {
+void withForm(const KernelShape& shape, Use use) {
+    if (!shape.folds) return use(DirectForm<T>{});
     [&]<std::uint32_t... M>(std::integer_sequence<std::uint32_t, M...>) {
-        ((features == M ? use(FoldForm<T, M>{}) : void()), ...);
+        ((shape.features == M ? use(FoldForm<T, M>{}) : void()), ...);
     }
     (std::make_integer_sequence<std::uint32_t, maxFoldFeatures + 1>{});
 }

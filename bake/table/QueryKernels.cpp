@@ -119,29 +119,18 @@ std::uint32_t testsWithinNear(const KernelData& data, const void* pose, const Ne
     return allTestsWithin<T, Form>(SomeBlocks<T, Form>{data, near}, pose, margin, out);
 }
 
-template <class T, class Form>
-KernelSet kernels() {
-    KernelSet set;
-    set.lanes = static_cast<std::uint32_t>(hn::Lanes(Lanes<T>()));
-    set.hit = hit<T, Form>;
-    set.gap = gap<T, Form>;
-    set.testsWithin = testsWithin<T, Form>;
-    set.hitNear = hitNear<T, Form>;
-    set.gapNear = gapNear<T, Form>;
-    set.testsWithinNear = testsWithinNear<T, Form>;
-    return set;
-}
-
 template <class T>
-KernelSet fold(std::uint32_t features) {
-    KernelSet set;
-    withFold<T>(features, [&](auto form) { set = kernels<T, decltype(form)>(); });
-    return set;
-}
-
-template <class T>
-KernelSet direct() {
-    return kernels<T, DirectForm<T>>();
+void queries(const KernelShape& shape, KernelSet& set) {
+    withForm<T>(shape, [&](auto form) {
+        using Form = decltype(form);
+        set.lanes = static_cast<std::uint32_t>(hn::Lanes(Lanes<T>()));
+        set.hit = hit<T, Form>;
+        set.gap = gap<T, Form>;
+        set.testsWithin = testsWithin<T, Form>;
+        set.hitNear = hitNear<T, Form>;
+        set.gapNear = gapNear<T, Form>;
+        set.testsWithinNear = testsWithinNear<T, Form>;
+    });
 }
 
 #endif
@@ -175,21 +164,12 @@ bool available(KernelTarget target) {
 }
 
 template <class T>
-KernelSet vectorFoldQueries(KernelTarget target, std::uint32_t features) {
-    TSS_TARGETS(fold<T>(features))
-    (void)target, (void)features;
-    return {};
+void addQueries(KernelTarget target, const KernelShape& shape, KernelSet& set) {
+    TSS_TARGETS(queries<T>(shape, set))
+    (void)target, (void)shape, (void)set;
 }
-template <class T>
-KernelSet vectorDirectQueries(KernelTarget target) {
-    TSS_TARGETS(direct<T>())
-    (void)target;
-    return {};
-}
-template KernelSet vectorFoldQueries<float>(KernelTarget, std::uint32_t);
-template KernelSet vectorFoldQueries<double>(KernelTarget, std::uint32_t);
-template KernelSet vectorDirectQueries<float>(KernelTarget);
-template KernelSet vectorDirectQueries<double>(KernelTarget);
+template void addQueries<float>(KernelTarget, const KernelShape&, KernelSet&);
+template void addQueries<double>(KernelTarget, const KernelShape&, KernelSet&);
 
 } // namespace tss
 #endif

@@ -285,8 +285,9 @@ void TableKernels::fillLikely() {
 
 template <class T>
 void TableKernels::prepareKernels(CellUse use) {
-    kernels_ = fold_ ? foldKernels<T>(target_, std::uint32_t(fold_->features.size()), motion_.dofCount())
-                     : directKernels<T>(target_);
+    KernelShape shape;
+    if (fold_) shape = {true, std::uint32_t(fold_->features.size()), motion_.dofCount()};
+    kernels_ = makeKernels<T>(target_, shape);
     if (fold_)
         plan_ = PosePlan(*fold_);
     else if (recipe_.affine())

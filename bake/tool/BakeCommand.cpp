@@ -181,8 +181,8 @@ void runBake(BakeArguments& arguments, Console& console) {
 
 } // namespace
 
-void addBake(Options& app, Console& console) {
-    Options* command = addCommand(app, console, "bake", "makes the tables of a scene");
+void addBake(CLI::App& app, Console& console) {
+    CLI::App* command = addCommand(app, console, "bake", "makes the tables of a scene");
     auto arguments = std::make_shared<BakeArguments>();
     command->add_option("scene", arguments->input, "the scene to bake")->required();
     command->add_option("-o,--output", arguments->output, "the scene with its tables")->required();
@@ -190,7 +190,7 @@ void addBake(Options& app, Console& console) {
         ->add_option("--pair", arguments->request.pairs,
                      "prim path of a pair or a skin; repeat; default: all")
         ->allow_extra_args(false);
-    Option* allPairs = command->add_flag(
+    CLI::Option* allPairs = command->add_flag(
         "--all-pairs", arguments->allPairs,
         "first make pairs of all bodies that joints link, neighbours and over chains of joints");
     command
@@ -198,7 +198,7 @@ void addBake(Options& app, Console& console) {
         ->needs(allPairs);
     for (const BakeOption& option : bakeOptions()) {
         if (option.about.empty()) continue;
-        command->add_option(
+        command->add_option_function<std::string>(
             std::string("--") + option.name,
             [arguments, key = std::string(option.name)](const std::string& text) {
                 arguments->request.given[key] = text;
@@ -215,7 +215,7 @@ void addBake(Options& app, Console& console) {
     command->add_flag("--again", arguments->again,
                       "bake all, also those that a bake of the same settings has left baked");
     command->add_option("--threads", arguments->threads, "worker threads (default: one a core)")
-        ->between(1, 1024);
+        ->check(CLI::Range(1, 1024));
     command->footer("Where not all can be baked, or Ctrl-C comes, what is done is in BAKED.incomplete.tss, "
                     "and baking that\n"
                     "goes on with what is missing.\n"

@@ -73,8 +73,9 @@ void runBench(const BenchArguments& arguments, const Console& console) {
 
 } // namespace
 
-void addBench(Options& app, Console& console) {
-    Options* command = addCommand(app, console, "bench", "times the query alone, over poses made beforehand");
+void addBench(CLI::App& app, Console& console) {
+    CLI::App* command =
+        addCommand(app, console, "bench", "times the query alone, over poses made beforehand");
     auto arguments = std::make_shared<BenchArguments>();
     command->add_option("scene", arguments->scene, "a baked scene")->required();
     command->add_option("--pair", arguments->pair, "prim path of the pair (not needed when there is one)");

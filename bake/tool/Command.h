@@ -1,14 +1,13 @@
 #pragma once
 #include "bake/base/Progress.h"
-#include "bake/cli/CommandLine.h"
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 
 namespace tss::tool {
 
 using Json = nlohmann::ordered_json;
-using cli::CommandLine, cli::failRequired, cli::failUsage, cli::Option, cli::Options;
 
 /// What every command has: --json, --quiet, and how it ends.
 struct Console {
@@ -34,19 +33,20 @@ void refuseOverwriting(const std::string& output, std::initializer_list<std::str
 void expectWritable(const std::string& output);
 
 /// Adds --json and --quiet to a command.
-Options* addCommand(Options& app, Console& console, const std::string& name, const std::string& description);
+CLI::App* addCommand(CLI::App& app, Console& console, const std::string& name,
+                     const std::string& description);
 
 // One function a command, in a file of its name.
-void addMake(Options& app, Console& console);
-void addBake(Options& app, Console& console);
-void addMerge(Options& app, Console& console);
-void addVerify(Options& app, Console& console);
-void addInfo(Options& app, Console& console);
-void addQuery(Options& app, Console& console);
-void addPlay(Options& app, Console& console);
-void addValidate(Options& app, Console& console);
-void addConvert(Options& app, Console& console);
-void addBench(Options& app, Console& console);
-void addReport(Options& app, Console& console); ///< only with OSGTSS_REPORT
+void addMake(CLI::App& app, Console& console);
+void addBake(CLI::App& app, Console& console);
+void addMerge(CLI::App& app, Console& console);
+void addVerify(CLI::App& app, Console& console);
+void addInfo(CLI::App& app, Console& console);
+void addQuery(CLI::App& app, Console& console);
+void addPlay(CLI::App& app, Console& console);
+void addValidate(CLI::App& app, Console& console);
+void addConvert(CLI::App& app, Console& console);
+void addBench(CLI::App& app, Console& console);
+void addReport(CLI::App& app, Console& console); ///< only with OSGTSS_REPORT
 
 } // namespace tss::tool

@@ -58,8 +58,9 @@ void expectWritable(const std::string& output) {
                          fmt::format("cannot be written: {}: {}", within, std::strerror(errno)));
 }
 
-Options* addCommand(Options& app, Console& console, const std::string& name, const std::string& description) {
-    Options* command = app.add_subcommand(name, description);
+CLI::App* addCommand(CLI::App& app, Console& console, const std::string& name,
+                     const std::string& description) {
+    CLI::App* command = app.add_subcommand(name, description);
     command->add_flag("--json", console.json, "one JSON object on stdout, everything else on stderr");
     command->add_flag("--quiet", console.quiet, "nothing but errors and what was asked for");
     return command;

@@ -196,7 +196,8 @@ void refuseIdleOptions(const ConvertArguments& arguments) {
         {"--max-spheres", {spheres, "for spheres to write, .yml"}}};
     for (const std::string& option : arguments.given)
         if (const auto use = uses.find(option); use != uses.end() && !use->second.first)
-            failUsage(option, std::string("is ") + use->second.second + "; it does nothing here");
+            throw CLI::ValidationError(option,
+                                       std::string("is ") + use->second.second + "; it does nothing here");
 }
 
 void convert(const ConvertArguments& arguments, const Console& console) {
@@ -224,8 +225,8 @@ void convert(const ConvertArguments& arguments, const Console& console) {
 
 } // namespace
 
-void addConvert(Options& app, Console& console) {
-    Options* command = addCommand(
+void addConvert(CLI::App& app, Console& console) {
+    CLI::App* command = addCommand(
         app, console, "convert",
         ".tss as JSON, binary .tss, .usda; proofs as SRDF or MJCF; robots and meshes become a scene");
     auto arguments = std::make_shared<ConvertArguments>();
@@ -251,9 +252,10 @@ void addConvert(Options& app, Console& console) {
     command
         ->add_option("--max-spheres", arguments->maxSpheres,
                      "of a .yml: at most so many a link, as close as that goes")
-        ->between(1, std::numeric_limits<int>::max());
+        ->check(CLI::Range(1, std::numeric_limits<int>::max()));
     command->callback([arguments, command, &console] {
-        arguments->given = command->given();
+        for (const CLI::Option* option : command->get_options())
+            if (option->count() > 0) arguments->given.push_back(option->get_name());
         convert(*arguments, console);
     });
 }

@@ -1,9 +1,9 @@
 #include "bake/tool/DrivenSteps.h"
 
+#include "bake/base/Stopwatch.h"
 #include "bake/play/Player.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace tss::tool {
 
@@ -29,7 +29,7 @@ std::vector<std::vector<double>> drivenSteps(const SceneModel& scene) {
 }
 
 void addResiduals(Json& summary, const SceneModel& scene) {
-    constexpr auto patience = std::chrono::seconds(20);
+    constexpr double patience = 20; // seconds
     const bool baked =
         std::ranges::any_of(scene.skins, [](const SkinModel& skin) { return skin.table != nullptr; });
     const auto steps = drivenSteps(scene);
@@ -38,8 +38,8 @@ void addResiduals(Json& summary, const SceneModel& scene) {
     Player player(scene, warnings);
     std::vector<double> deepest(scene.skins.size(), 0);
     std::size_t done = 0;
-    const auto end = std::chrono::steady_clock::now() + patience;
-    while (done < steps.size() && std::chrono::steady_clock::now() < end) {
+    const Stopwatch watch;
+    while (done < steps.size() && watch.seconds() < patience) {
         const auto depths = player.step(steps[done], scene.startTimeCode + double(done)).residualDepths;
         for (std::size_t k = 0; k < depths.size(); ++k) deepest[k] = std::max(deepest[k], depths[k]);
         ++done;

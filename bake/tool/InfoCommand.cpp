@@ -7,8 +7,8 @@
 
 namespace tss::tool {
 
-void addInfo(Options& app, Console& console) {
-    Options* command =
+void addInfo(CLI::App& app, Console& console) {
+    CLI::App* command =
         addCommand(app, console, "info", "per pair: spheres, tests a step, bounds, bytes, bake time");
     auto file = std::make_shared<std::string>();
     command->add_option("scene", *file, "a scene, baked or not")->required();

@@ -87,9 +87,8 @@ void KeptParts::done(const PairReport& report) {
         console_.say(report.path + ": " + note);
         notes_[report.path].push_back(note);
     }
-    const auto now = std::chrono::steady_clock::now();
-    if (std::chrono::duration<double>(now - lastKept_).count() < mayBeLost) return;
-    lastKept_ = now;
+    if (sinceKept_.seconds() < mayBeLost) return;
+    sinceKept_.restart();
     try {
         writeTo(incomplete_);
         kept_ = true;

@@ -1,10 +1,9 @@
 #pragma once
+#include "bake/base/Stopwatch.h"
 #include "bake/model/SceneModel.h"
 #include "bake/pipeline/Bake.h"
 #include "bake/tool/BakeTimes.h"
 #include "bake/tool/Command.h"
-
-#include <chrono>
 
 namespace tss::tool {
 
@@ -45,7 +44,7 @@ private:
     std::vector<std::string> missing_;
     int signal_ = 0;
     bool kept_ = false; ///< the incomplete file is of this run
-    std::chrono::steady_clock::time_point lastKept_ = std::chrono::steady_clock::now();
+    Stopwatch sinceKept_;
 };
 
 } // namespace tss::tool

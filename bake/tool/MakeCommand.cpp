@@ -137,9 +137,9 @@ double parseUnit(const std::string& text) {
 /// A robot's file, or two meshes and a motion: one of the two, and all of it.
 void checkUsage(const MakeArguments& arguments) {
     if (!arguments.robot.input.empty() || arguments.isWhole()) return;
-    if (arguments.a.empty()) failRequired("--a, or --body, or a robot's file");
-    if (arguments.b.empty()) failRequired("--b");
-    if (arguments.dofs.empty()) failRequired("--dof");
+    if (arguments.a.empty()) throw CLI::RequiredError("--a, or --body, or a robot's file");
+    if (arguments.b.empty()) throw CLI::RequiredError("--b");
+    if (arguments.dofs.empty()) throw CLI::RequiredError("--dof");
 }
 
 void make(MakeArguments& arguments, const Console& console) {
@@ -179,23 +179,23 @@ void make(MakeArguments& arguments, const Console& console) {
                    {"freeingMoves", shifts}});
 }
 
-void addRobotOptions(Options& command, const std::shared_ptr<MakeArguments>& arguments) {
+void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& arguments) {
     RobotFile& robot = arguments->robot;
-    Option* input = command.add_option(
+    CLI::Option* input = command.add_option(
         "robot", robot.input,
         "a robot's file, in place of --a, --b and --dof: URDF, MJCF of MuJoCo, or .usda with UsdPhysics");
-    for (Option* option : addRobotFileOptions(command, robot)) option->needs(input);
+    for (CLI::Option* option : addRobotFileOptions(command, robot)) option->needs(input);
     command
         .add_option(
             "--geometry", robot.geometry,
             "collision or visual: the shapes that a link is made of; the others where it has none of these")
-        ->among({"collision", "visual"})
+        ->check(CLI::IsMember({"collision", "visual"}))
         ->needs(input)
         ->capture_default_str();
     command
         .add_option("--pairs", robot.pairs,
                     "neighbours: of each joint; all: of all links that move against each other")
-        ->among({"neighbours", "all"})
+        ->check(CLI::IsMember({"neighbours", "all"}))
         ->excludes(command.get_option("--a"))
         ->capture_default_str();
     for (const char* other :
@@ -203,10 +203,10 @@ void addRobotOptions(Options& command, const std::shared_ptr<MakeArguments>& arg
         input->excludes(command.get_option(other));
 }
 
-void addWholeSceneOptions(Options& command, const std::shared_ptr<MakeArguments>& arguments) {
+void addWholeSceneOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& arguments) {
     WholeSceneArguments& whole = *arguments;
     const auto add = [&](const char* name, std::vector<std::string>& texts, const char* description) {
-        Option* option = command.add_option(name, texts, description)->allow_extra_args(false);
+        CLI::Option* option = command.add_option(name, texts, description)->allow_extra_args(false);
         for (const char* other : {"--a", "--b", "--dof", "--b-offset", "--rest", "robot"})
             option->excludes(command.get_option(other));
         return option;
@@ -216,7 +216,7 @@ void addWholeSceneOptions(Options& command, const std::shared_ptr<MakeArguments>
     add("--joint", whole.joints,
         "NAME=PARENT,CHILD:DOF[;DOF...][;offset:X,Y,Z]: a joint of two bodies, its DOFs as for --dof; the "
         "child, with what hangs on it, is moved by the offset first; repeat");
-    Option* skin = add("--skin", whole.skins, "[NAME=]MESH: a skin over the bodies and muscles");
+    CLI::Option* skin = add("--skin", whole.skins, "[NAME=]MESH: a skin over the bodies and muscles");
     add("--bone", whole.bones, "BODY: a body that the skin lies on; repeat (default: all)")->needs(skin);
     add("--muscle", whole.muscles,
         "[NAME=]MESH[,from=BODY,to=BODY,contract=0.15,sheet|ring]: a muscle; its fibre line is found from "
@@ -225,8 +225,8 @@ void addWholeSceneOptions(Options& command, const std::shared_ptr<MakeArguments>
 
 } // namespace
 
-void addMake(Options& app, Console& console) {
-    Options* command = addCommand(
+void addMake(CLI::App& app, Console& console) {
+    CLI::App* command = addCommand(
         app, console, "make", "a scene from two meshes and the motion between them, or from a robot's file");
     auto arguments = std::make_shared<MakeArguments>();
     command->add_option("-o,--output", arguments->output, "the scene to write")->required();
@@ -249,7 +249,7 @@ void addMake(Options& app, Console& console) {
                         "a CSV file, the motion that the scene plays: a line of names (time or step, joints, "
                         "muscles), then degrees, units of a value, or activations. Else each moves in turn");
     command->add_option("--up-axis", arguments->upAxis, "Y or Z (default Z; Y where all meshes are glTF)")
-        ->among({"Y", "Z"});
+        ->check(CLI::IsMember({"Y", "Z"}));
     addRobotOptions(*command, arguments);
     addWholeSceneOptions(*command, arguments);
     command->footer("Example, a hinge of 30 degrees about the Y axis through 0.3,0,0.7:\n"

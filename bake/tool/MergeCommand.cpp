@@ -25,8 +25,8 @@ void take(std::vector<Item>& into, const std::vector<Item>& from, const std::str
 
 } // namespace
 
-void addMerge(Options& app, Console& console) {
-    Options* command = addCommand(app, console, "merge", "parts of one scene baked apart into one");
+void addMerge(CLI::App& app, Console& console) {
+    CLI::App* command = addCommand(app, console, "merge", "parts of one scene baked apart into one");
     auto parts = std::make_shared<std::vector<std::string>>();
     auto output = std::make_shared<std::string>();
     command->add_option("parts", *parts, "the same scene with different pairs baked")->required();

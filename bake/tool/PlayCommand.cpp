@@ -1,5 +1,6 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/base/FramePattern.h"
 #include "bake/model/SourceHash.h"
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/play/Player.h"
@@ -83,22 +84,6 @@ std::string objText(const SceneModel& scene, const std::vector<TriangleMesh>& me
         first += meshes[k].vertices.size();
     }
     return text;
-}
-
-std::string numbered(const std::string& pattern, std::size_t step) {
-    const std::size_t percent = pattern.find('%');
-    const std::size_t end = percent == std::string::npos ? percent : pattern.find('d', percent);
-    if (end == std::string::npos)
-        throw InputError("--mesh-out: expected a name with a number in it, like f_%04d.obj, found \"" +
-                         pattern + "\"");
-    const std::string digits = pattern.substr(percent + 1, end - percent - 1);
-    int width = 0;
-    for (char c : digits) {
-        if (c < '0' || c > '9' || width > 20)
-            throw InputError("--mesh-out: expected %d or %04d in \"" + pattern + "\"");
-        width = 10 * width + (c - '0');
-    }
-    return pattern.substr(0, percent) + fmt::format("{:0{}d}", step, width) + pattern.substr(end + 1);
 }
 
 std::string header(const SceneModel& scene) {
@@ -204,6 +189,9 @@ std::vector<std::string> unbaked(const SceneModel& scene) {
 
 void play(const PlayArguments& arguments, const Console& console) {
     refuseOverwriting(arguments.output, {arguments.scene, arguments.motion});
+    if (!arguments.meshes.empty() && !isFramePattern(arguments.meshes))
+        throw InputError("--mesh-out: expected a name with a number in it, like f_%04d.obj, found \"" +
+                         arguments.meshes + "\"");
     const SceneModel scene = loadScene(arguments.scene);
     requireFresh(scene, arguments.scene);
     const auto steps = askedSteps(scene, arguments);
@@ -234,7 +222,8 @@ void play(const PlayArguments& arguments, const Console& console) {
         const std::vector<SkinFollowing> now = player.following();
         for (std::size_t skin = 0; skin < now.size(); ++skin) following[skin].worsen(now[skin]);
         if (!arguments.meshes.empty())
-            writeFileAtomically(numbered(arguments.meshes, k), objText(scene, player.worldMeshes()));
+            writeFileAtomically(frameName(arguments.meshes, static_cast<unsigned int>(k)),
+                                objText(scene, player.worldMeshes()));
     }
     if (!arguments.output.empty()) writeFileAtomically(arguments.output, text);
     console.say(fmt::format("{} steps{}", steps.size(),
@@ -261,8 +250,8 @@ void play(const PlayArguments& arguments, const Console& console) {
 
 } // namespace
 
-void addPlay(Options& app, Console& console) {
-    Options* command = addCommand(app, console, "play", "resolves a motion step by step");
+void addPlay(CLI::App& app, Console& console) {
+    CLI::App* command = addCommand(app, console, "play", "resolves a motion step by step");
     auto arguments = std::make_shared<PlayArguments>();
     command->add_option("scene", arguments->scene, "a baked scene")->required();
     command->add_option("--motion", arguments->motion,

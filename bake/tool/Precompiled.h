@@ -2,6 +2,7 @@
 // (OSGTSS_PRECOMPILE).
 #include "bake/base/Precompiled.h"
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <filesystem>

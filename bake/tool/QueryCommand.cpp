@@ -116,8 +116,8 @@ void runQuery(const QueryArguments& arguments, const Console& console) {
 
 } // namespace
 
-void addQuery(Options& app, Console& console) {
-    Options* command = addCommand(app, console, "query", "contact, its point and its normal at given poses");
+void addQuery(CLI::App& app, Console& console) {
+    CLI::App* command = addCommand(app, console, "query", "contact, its point and its normal at given poses");
     auto arguments = std::make_shared<QueryArguments>();
     command->add_option("scene", arguments->scene, "a baked scene")->required();
     command->add_option("--pair", arguments->pair, "prim path of the pair (not needed when there is one)");

@@ -77,8 +77,8 @@ void runReport(ReportArguments& arguments, const Console& console) {
 
 } // namespace
 
-void addReport(Options& app, Console& console) {
-    Options* command =
+void addReport(CLI::App& app, Console& console) {
+    CLI::App* command =
         addCommand(app, console, "report", "error against run time: this method and all others, as a folder");
     auto arguments = std::make_shared<ReportArguments>();
     command->add_option("scene", arguments->scene, "a scene, baked or not")->required();

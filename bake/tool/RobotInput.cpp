@@ -104,7 +104,7 @@ RobotScene readUsdScene(const std::string& file, const Packages&, const RobotSce
 
 } // namespace
 
-std::array<Option*, 2> addRobotFileOptions(Options& command, RobotFile& file) {
+std::array<CLI::Option*, 2> addRobotFileOptions(CLI::App& command, RobotFile& file) {
     return {command
                 .add_option("--package", file.packages,
                             "NAME=DIR: the folder of package://NAME/...; repeat. Else it is looked for "
@@ -134,7 +134,8 @@ RobotScene readRobotScene(const RobotFile& from) {
     const Packages packages = parsePackages(from.packages);
     if (isUsd(from.input)) {
         if (!from.srdf.empty())
-            failUsage("--srdf", "is for URDF and MJCF; a .usda says itself which pairs are filtered");
+            throw CLI::ValidationError("--srdf",
+                                       "is for URDF and MJCF; a .usda says itself which pairs are filtered");
         return readUsdScene(from.input, packages, request);
     }
     const FindMesh find = meshesOf(from.input, packages);

@@ -13,7 +13,7 @@ struct RobotFile {
 };
 
 /// --package and --srdf.
-std::array<Option*, 2> addRobotFileOptions(Options& command, RobotFile& file);
+std::array<CLI::Option*, 2> addRobotFileOptions(CLI::App& command, RobotFile& file);
 
 /// The name is that of a file of USD, .usda or a form that is refused.
 bool isUsd(const std::string& file);

@@ -46,9 +46,9 @@ void validate(const std::string& file, Console& console) {
 
 } // namespace
 
-void addValidate(Options& app, Console& console) {
-    Options* command = addCommand(app, console, "validate",
-                                  "everything wrong with a scene file, and what bake would refuse of it");
+void addValidate(CLI::App& app, Console& console) {
+    CLI::App* command = addCommand(app, console, "validate",
+                                   "everything wrong with a scene file, and what bake would refuse of it");
     auto file = std::make_shared<std::string>();
     command->add_option("scene", *file, "the scene file")->required();
     command->callback([file, &console] { validate(*file, console); });

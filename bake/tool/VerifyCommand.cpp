@@ -1,4 +1,5 @@
 #include "bake/base/Error.h"
+#include "bake/base/Stopwatch.h"
 #include "bake/check/VerifyPair.h"
 #include "bake/check/VerifySkin.h"
 #include "bake/pipeline/BakeOptions.h"
@@ -7,19 +8,12 @@
 #include "bake/tool/DofSpec.h"
 #include "bake/verify/Kernel.h"
 
-#include <chrono>
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 namespace tss::tool {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The most memory that this process has held so far, MB.
 double peakMemory() {
@@ -82,7 +76,7 @@ class Budget {
 public:
     explicit Budget(double seconds) : seconds_(seconds) {}
 
-    double spent() const { return secondsSince(start_); }
+    double spent() const { return watch_.seconds(); }
     /// Until it is spent; to be asked no longer than this is there.
     Progress within(Progress told) {
         return [this, told = std::move(told)](std::string_view step, double done) {
@@ -96,7 +90,7 @@ public:
 private:
     double seconds_;
     bool stopped_ = false;
-    Clock::time_point start_ = Clock::now();
+    Stopwatch watch_;
 };
 
 /// What is claimed of a pair, in a few words.
@@ -193,8 +187,8 @@ void verify(const std::string& file, double budget, Console& console) {
 
 } // namespace
 
-void addVerify(Options& app, Console& console) {
-    Options* command =
+void addVerify(CLI::App& app, Console& console) {
+    CLI::App* command =
         addCommand(app, console, "verify", "proves the stored bounds again, with code of its own");
     auto file = std::make_shared<std::string>();
     auto budget = std::make_shared<double>(0);

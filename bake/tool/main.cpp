@@ -18,16 +18,27 @@ int fail(const tss::tool::Console& console, int code, const std::string& message
     return code;
 }
 
+/// A word that is no command; said here, as it would else be called a missing one.
+bool mistyped(const CLI::App& app, const std::string& word) {
+    std::string names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        if (command->get_name() == word) return false;
+        names += " " + command->get_name();
+    }
+    if (word.starts_with('-')) return false;
+    fmt::print(stderr, "tss: \"{}\" is no command; expected one of{}\n", word, names);
+    return true;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
     using namespace tss::tool;
     std::signal(SIGXFSZ,
                 SIG_IGN); // a file that may not grow further is an error to report, and its rest to remove
-    CommandLine line("tss",
-                     "Tabulated sphere subsets: collisions between things whose motion is constrained.",
-                     std::string("tss ") + OSGTSS_VERSION);
-    Options& app = line.options();
+    CLI::App app("Tabulated sphere subsets: collisions between things whose motion is constrained.", "tss");
+    app.set_version_flag("--version", std::string("tss ") + OSGTSS_VERSION);
+    app.require_subcommand(1);
     app.footer("Lengths take a unit (0.2mm, 1cm) or are scene units; angles are degrees.\n"
                "Exit: 0 done, 1 the input is at fault, 2 usage, 3 internal error.");
     Console console;
@@ -44,9 +55,12 @@ int main(int argc, char** argv) {
 #ifdef OSGTSS_HAVE_REPORT
     addReport(app, console);
 #endif
+    if (argc > 1 && mistyped(app, argv[1])) return 2;
     try {
-        if (const int usage = line.parse(argc, argv)) return usage;
+        app.parse(argc, argv);
         return console.exitCode;
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
     } catch (const tss::InputError& error) {
         return fail(console, 1, error.what(), error.where);
     } catch (const std::bad_alloc&) {

@@ -2,6 +2,7 @@
 
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
+#include "bake/base/UnionFind.h"
 
 #include <algorithm>
 #include <array>
@@ -22,26 +23,18 @@ std::array<double, 3> placeOf(const Vec3& p) {
 class Components {
 public:
     explicit Components(const TriangleMesh& mesh) : of_(mesh.vertices.size()) {
-        std::map<std::array<double, 3>, int> places;
-        std::vector<int> parent(mesh.vertices.size());
-        for (int v = 0; v < int(parent.size()); ++v)
-            parent[std::size_t(v)] =
-                places.try_emplace(placeOf(mesh.vertices[std::size_t(v)]), v).first->second;
-        const auto root = [&](int v) {
-            while (parent[std::size_t(v)] != v)
-                v = parent[std::size_t(v)] = parent[std::size_t(parent[std::size_t(v)])];
-            return v;
-        };
+        std::map<std::array<double, 3>, std::size_t> places;
+        UnionFind together(mesh.vertices.size());
+        for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+            together.join(places.try_emplace(placeOf(mesh.vertices[v]), v).first->second, v);
         for (const Tri& t : mesh.triangles)
-            for (int k = 1; k < 3; ++k) {
-                const int x = root(t[0]), y = root(t[k]);
-                parent[std::size_t(std::max(x, y))] = std::min(x, y);
-            }
-        std::map<int, std::uint32_t> number;
+            for (int k = 1; k < 3; ++k) together.join(std::size_t(t[0]), std::size_t(t[k]));
+        std::map<std::size_t, std::uint32_t> number;
         std::vector<std::vector<Vec3>> points;
         for (const Tri& t : mesh.triangles)
             for (int k = 0; k < 3; ++k) {
-                const auto found = number.try_emplace(root(t[k]), std::uint32_t(number.size()));
+                const auto found =
+                    number.try_emplace(together.root(std::size_t(t[k])), std::uint32_t(number.size()));
                 if (found.second) points.emplace_back();
                 of_[std::size_t(t[k])] = found.first->second;
                 points[found.first->second].push_back(mesh.vertices[std::size_t(t[k])]);

@@ -1,11 +1,11 @@
 #include "bake/verify/RegionProof.h"
 
+#include "bake/base/UnionFind.h"
 #include "bake/geometry/TriangleDistance.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace tss::verify {
 
@@ -29,21 +29,15 @@ std::vector<std::vector<Corners>> pieces(const TriangleMesh& mesh, const std::ve
     const Eigen::AlignedBox3d whole = bounds(mesh);
     const double touching = 1.01e-9 * whole.diagonal().norm() +
                             1e-15 * whole.min().cwiseAbs().cwiseMax(whole.max().cwiseAbs()).norm();
-    std::vector<std::size_t> parent(parts.size());
-    std::iota(parent.begin(), parent.end(), std::size_t(0));
-    const auto root = [&](std::size_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
+    UnionFind together(parts.size());
     const Bvh tree = buildBvh(boxes);
     for (std::size_t i = 0; i < all.size(); ++i)
         visitBall(tree, boxes[i].center(), 0.5 * boxes[i].diagonal().norm() + touching, [&](std::uint32_t j) {
-            if (j >= i || root(i) == root(j)) return;
-            if (squaredDistanceOfTriangles(all[i], all[j]) <= touching * touching)
-                parent[std::max(root(i), root(j))] = std::min(root(i), root(j));
+            if (j >= i || together.root(i) == together.root(j)) return;
+            if (squaredDistanceOfTriangles(all[i], all[j]) <= touching * touching) together.join(i, j);
         });
     std::vector<std::vector<Corners>> found(parts.size());
-    for (std::size_t i = 0; i < all.size(); ++i) found[root(i)].push_back(all[i]);
+    for (std::size_t i = 0; i < all.size(); ++i) found[together.root(i)].push_back(all[i]);
     std::erase_if(found, [](const auto& piece) { return piece.empty(); });
     return found;
 }

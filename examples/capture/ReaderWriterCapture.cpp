@@ -1,4 +1,4 @@
-#include "osgTSS/render/FramePattern.h"
+#include "bake/base/FramePattern.h"
 
 #include <osg/Camera>
 #include <osg/GraphicsContext>
@@ -25,7 +25,7 @@ public:
         osg::ref_ptr<osg::Image> image = new osg::Image;
         image->readPixels(0, 0, window->getTraits()->width, window->getTraits()->height, GL_RGB,
                           GL_UNSIGNED_BYTE);
-        const std::string name = osgTSS::frameName(pattern_, stamp->getFrameNumber());
+        const std::string name = tss::frameName(pattern_, stamp->getFrameNumber());
         if (!osgDB::writeImageFile(*image, name)) OSG_WARN << "capture: cannot write " << name << std::endl;
     }
 
@@ -59,7 +59,7 @@ public:
             if (word.rfind("capture=", 0) == 0) pattern = word.substr(8);
             if (word.rfind("every=", 0) == 0 && !(std::istringstream(word.substr(6)) >> every)) every = 0;
         }
-        if (every == 0 || !osgTSS::isFramePattern(pattern)) {
+        if (every == 0 || !tss::isFramePattern(pattern)) {
             OSG_WARN << "capture: expected every=N with N at least 1 and a pattern with one %d, found every="
                      << every << " capture=" << pattern << std::endl;
             return ReadResult::ERROR_IN_READING_FILE;

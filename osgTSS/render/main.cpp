@@ -1,13 +1,13 @@
 // tss-render: pictures of a scene where there is no X server. Exit 0 done, 1 the input is at fault, 2 usage,
 // 3 internal.
 #include "EglContext.h"
-#include "FramePattern.h"
 #include "OffscreenViewer.h"
 
 #include "bake/base/Error.h"
-#include "bake/cli/CommandLine.h"
+#include "bake/base/FramePattern.h"
 #include "bake/model/Kinematics.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <osgDB/FileUtils>
@@ -77,7 +77,7 @@ osgTSS::Shot shotOf(const Arguments& arguments) {
     constexpr int most = 4096;
     if (std::sscanf(arguments.size.c_str(), "%d%c%d%c", &shot.width, &x, &shot.height, &rest) != 3 ||
         x != 'x' || shot.width < 1 || shot.height < 1 || shot.width > most || shot.height > most)
-        tss::cli::failUsage("--size", "expected WxH in pixels, found " + arguments.size);
+        throw CLI::ValidationError("--size", "expected WxH in pixels, found " + arguments.size);
     shot.finer = arguments.finer;
     if (arguments.view.empty()) return shot;
     if (const auto place = placeOf(arguments.view)) {
@@ -172,10 +172,10 @@ void write(const osg::Image& image, const std::string& name) {
 
 void render(const Arguments& arguments) {
     osgTSS::Shot shot = shotOf(arguments);
-    const bool pattern = osgTSS::isFramePattern(arguments.output);
+    const bool pattern = tss::isFramePattern(arguments.output);
     if (!pattern && (arguments.frames != 1 || arguments.output.find('%') != std::string::npos))
-        tss::cli::failUsage("--output", "expected one %d for the frame number, as in f_%04d.png, found " +
-                                            arguments.output);
+        throw CLI::ValidationError(
+            "--output", "expected one %d for the frame number, as in f_%04d.png, found " + arguments.output);
     const osg::ref_ptr<osg::Node> scene = load(arguments);
     const unsigned int frames =
         framesOf(arguments, *scene, arguments.rest ? 0 : osgTSS::playAnimations(*scene));
@@ -191,7 +191,7 @@ void render(const Arguments& arguments) {
                 continue;
             }
             const osg::Image& image = viewer.draw(frame);
-            const std::string name = pattern ? osgTSS::frameName(arguments.output, frame) : arguments.output;
+            const std::string name = pattern ? tss::frameName(arguments.output, frame) : arguments.output;
             write(image, name);
             files.push_back(name);
             if (!arguments.quiet && isatty(STDERR_FILENO))
@@ -205,20 +205,25 @@ void render(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     Arguments arguments;
-    tss::cli::CommandLine line("tss-render",
-                               "Pictures of a scene, one time code a frame, without an X server (EGL).",
-                               std::string("tss-render ") + osgTSSGetVersion());
-    tss::cli::Options& options = line.options();
+    CLI::App options("Pictures of a scene, one time code a frame, without an X server (EGL).", "tss-render");
+    options.set_version_flag("--version", std::string("tss-render ") + osgTSSGetVersion());
+    // CLI::PositiveNumber would name the largest double as what may be.
+    const CLI::Validator positive(
+        [](const std::string& text) {
+            return std::strtod(text.c_str(), nullptr) > 0 ? std::string()
+                                                          : "expected more than 0, found " + text;
+        },
+        "POSITIVE");
     options.add_option("scene", arguments.scene, "a .tss scene, or any file that OpenSceneGraph reads")
         ->required();
     options.add_option("-o,--output", arguments.output, "where pictures go, with %04d for the frame number")
         ->required();
     options.add_option("--frames", arguments.frames, "how many (default: one round of the motion)")
-        ->positive();
-    options.add_option("--every", arguments.every, "write only every N-th frame")->positive();
+        ->check(positive);
+    options.add_option("--every", arguments.every, "write only every N-th frame")->check(positive);
     options.add_option("--size", arguments.size, "WxH in pixels")->capture_default_str();
     options.add_option("--finer", arguments.finer, "pixels drawn along each side of one, and averaged")
-        ->between(1, 4)
+        ->check(CLI::Range(1, 4))
         ->capture_default_str();
     options.add_option("--view", arguments.view,
                        "a camera path, as osgviewer -p reads it, or EYE:AT in scene units, such as "
@@ -233,7 +238,10 @@ int main(int argc, char** argv) {
                    "Exit: 0 done, 1 the input is at fault, 2 usage, 3 internal error.");
     options.callback([&] { render(arguments); });
     try {
-        return line.parse(argc, argv);
+        options.parse(argc, argv);
+        return 0;
+    } catch (const CLI::ParseError& error) {
+        return options.exit(error) == 0 ? 0 : 2;
     } catch (const tss::InputError& error) {
         return tellFailure(arguments, 1, error.what());
     } catch (const std::exception& error) {

@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <set>
+
 using namespace tss;
 using namespace tss::test;
 
@@ -42,47 +44,25 @@ GrowthOptions lengths(double start, double step, double end, double maxRadius) {
 
 TEST_CASE("a sphere grows inwards until it meets a second, a third and a fourth centroid") {
     const TriangleMesh mesh = trianglesAt({{0, 0, 0}, {0, 0, -2}, {1.5, 0, -1.5}, {0, 2.2, -1.5}});
-    const GrowthTrace trace = growSphere(mesh, 0, lengths(0.1, 0.01, 10, 10));
-    REQUIRE(trace.met.size() == 4);
-    CHECK(trace.met == std::vector<int>{0, 1, 2, 3});
-    REQUIRE(trace.stages.size() == 3);
-    SECTION("from m1 along -N until m2 is in reach (Figure 1f)") {
-        const GrowthStage& stage = trace.stages[0];
-        CHECK(stage.anchor.norm() < 1e-12);
-        CHECK(stage.direction.z() == Approx(-1));
-        CHECK(stage.met == 1);
-        CHECK(stage.t == Approx(1).margin(0.011));
-        CHECK(stage.radius == Approx(stage.t));
-    }
-    SECTION("from the middle of m1 and m2 through the centre so far (Figure 1g)") {
-        const GrowthStage& stage = trace.stages[1];
-        CHECK((stage.anchor - 0.5 * (centroid(mesh, 0) + centroid(mesh, 1))).norm() < 1e-12);
-        CHECK(stage.met == 2);
-        CHECK(stage.radius == Approx((stage.centre - centroid(mesh, 0)).norm()).margin(0.02));
-    }
-    SECTION("from the middle of m1, m2 and m3 (Figure 1h), ended by a fourth (Figure 1i)") {
-        const GrowthStage& stage = trace.stages[2];
-        CHECK((stage.anchor - (centroid(mesh, 0) + centroid(mesh, 1) + centroid(mesh, 2)) / 3).norm() <
-              1e-12);
-        CHECK(stage.met == 3);
-    }
-    SECTION("the sphere kept does not hold the fourth") {
-        CHECK((trace.sphere.centre - centroid(mesh, 3)).norm() >= trace.sphere.radius);
-        for (int m = 0; m < 3; ++m)
-            CHECK((trace.sphere.centre - centroid(mesh, m)).norm() <= trace.sphere.radius * (1 + 1e-9));
-    }
+    const GrownSphere grown = growSpheres(mesh, lengths(0.1, 0.01, 10, 10)).at(0);
+    CHECK(grown.met == std::vector<int>{0, 1, 2, 3});
+    // m1, m2 and m3 are in the ball (Figure 1f-h), the fourth is not (1i).
+    const auto away = [&](int t) { return (grown.sphere.centre - centroid(mesh, t)).norm(); };
+    for (int m = 0; m < 3; ++m) CHECK(away(m) <= grown.sphere.radius * (1 + 1e-9));
+    CHECK(std::max({away(0), away(1), away(2)}) == Approx(grown.sphere.radius));
+    CHECK(away(3) >= grown.sphere.radius);
+    CHECK(away(3) == Approx(grown.sphere.radius).margin(0.02));
 }
 
-TEST_CASE("growth stops at the threshold radius and at the end of the line") {
+TEST_CASE("growth stops at the end of the line, and at the threshold radius") {
     const TriangleMesh mesh = trianglesAt({{0, 0, 0}, {0, 0, -2}});
-    const GrowthTrace narrow = growSphere(mesh, 0, lengths(0.1, 0.1, 10, 0.55));
-    CHECK_FALSE(narrow.bounded);
-    CHECK(narrow.sphere.radius == Approx(0.5));
-    const GrowthTrace shortLine = growSphere(mesh, 0, lengths(0.1, 0.1, 0.35, 10));
-    CHECK(shortLine.sphere.radius == Approx(0.3));
-    const GrowthTrace none = growSphere(mesh, 0, lengths(0.1, 0.1, 10, 0.05));
-    CHECK(none.sphere.radius == 0);
-    CHECK(none.stages.empty());
+    const GrownSphere grown = growSpheres(mesh, lengths(0.1, 0.01, 1.05, 10)).at(0);
+    CHECK(grown.met == std::vector<int>{0, 1});
+    // On the second line, from the middle of the two.
+    CHECK((grown.sphere.centre - Vec3(0, 0, -1)).norm() == Approx(1.05).margin(0.011));
+    CHECK(growSpheres(mesh, lengths(0.1, 0.1, 10, 0.55)).empty()); // the threshold radius
+    CHECK(growSpheres(mesh, lengths(0.1, 0.1, 0.35, 10)).empty()); // T_max
+    CHECK(growSpheres(mesh, lengths(0.1, 0.1, 10, 0.05)).empty());
 }
 
 TEST_CASE("a small threshold puts spheres into the narrow region only") {
@@ -103,22 +83,23 @@ TEST_CASE("a small threshold puts spheres into the narrow region only") {
             wedge.triangles.emplace_back(index(i, j, 1), index(i, j + 1, 1), index(i + 1, j + 1, 1));
         }
     GrowthOptions options = lengths(0.02, 0.005, 10, 0.3);
-    const std::vector<GrowthTrace> traces = growSpheres(wedge, options);
-    REQUIRE(traces.size() > 20);
-    for (const GrowthTrace& t : traces) CHECK(t.sphere.centre.x() < 1.6);
-    options.keepUnbounded = true;
-    CHECK(growSpheres(wedge, options).size() > traces.size());
+    const std::vector<GrownSphere> narrow = growSpheres(wedge, options);
+    REQUIRE(narrow.size() > 20);
+    for (const GrownSphere& grown : narrow) CHECK(grown.sphere.centre.x() < 1.6);
+    options.maxRadius = 10;
+    CHECK(growSpheres(wedge, options).size() > narrow.size());
 }
 
-TEST_CASE("triangles met by a sphere seed no sphere of their own unless asked to") {
+TEST_CASE("triangles met by a sphere seed no sphere of their own") {
     std::mt19937_64 random(1);
     const TriangleMesh mesh = lumpyMesh(random, 3, 0.3);
-    GrowthOptions options = lengths(0.02, 0.02, 10, 10);
-    const std::vector<GrowthTrace> few = growSpheres(mesh, options);
-    options.seedEveryTriangle = true;
-    const std::vector<GrowthTrace> all = growSpheres(mesh, options);
-    CHECK(all.size() == mesh.triangles.size());
-    CHECK(few.size() < all.size());
+    const std::vector<GrownSphere> grown = growSpheres(mesh, lengths(0.02, 0.02, 10, 10));
+    REQUIRE(grown.size() > 10);
+    std::set<int> met;
+    for (const GrownSphere& sphere : grown) {
+        CHECK_FALSE(met.contains(sphere.met.front()));
+        met.insert(sphere.met.begin(), sphere.met.end());
+    }
 }
 
 TEST_CASE("the paper's lengths are fractions of the diagonal unless given in units") {

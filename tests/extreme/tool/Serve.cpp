@@ -2,13 +2,13 @@
 
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
-#include "bake/geometry/MeshQuery.h"
 #include "bake/play/Player.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/table/Query.h"
 #include "bake/table/TableKernels.h"
 #include "bake/table/TablePairs.h"
+#include "tests/Shapes.h"
 #include "tests/extreme/scenes/ExtremeScene.h"
 
 #include <algorithm>
@@ -213,11 +213,13 @@ private:
     Outcome out_;
 };
 
-bool edgesCross(const TriangleMesh& from, const MeshQuery& other, const Pose& pose) {
+bool edgesCross(const TriangleMesh& from, const TriangleMesh& other, const Pose& pose) {
+    const Eigen::AlignedBox3d box = bounds(other);
     for (const Tri& t : from.triangles)
         for (int k = 0; k < 3; ++k) {
             const Vec3 p = pose * from.vertices[t[k]], way = pose * from.vertices[t[(k + 1) % 3]] - p;
-            if (other.ray(p, way, 1)) return true;
+            const Eigen::AlignedBox3d edge(p.cwiseMin(p + way), p.cwiseMax(p + way));
+            if (box.intersects(edge) && segmentMeets(p, way, other)) return true;
         }
     return false;
 }
@@ -237,7 +239,7 @@ std::vector<KernelTarget> kernelTargets() {
 }
 
 bool meshesCross(const TriangleMesh& a, const TriangleMesh& b, const Pose& pose) {
-    return edgesCross(b, MeshQuery(a), pose) || edgesCross(a, MeshQuery(b), pose.inverse(Eigen::Isometry));
+    return edgesCross(b, a, pose) || edgesCross(a, b, pose.inverse(Eigen::Isometry));
 }
 
 } // namespace extreme
