@@ -54,13 +54,17 @@ TriangleMesh surfaceOf(const std::vector<Box>& boxes) {
 /// A trunk along x with two legs below one end. The left one's bones are named.
 const std::vector<Box> animal = {{-10, -6, 20, 40, 6, 30}, {30, 4, 0, 34, 8, 26}, {30, -8, 0, 34, -4, 26}};
 
-std::shared_ptr<const MuscleDeformer> boneOf(double from, double to) {
+std::shared_ptr<const MuscleDeformer> boneIn(const Vec3& from, const Vec3& to) {
     Muscle bone;
     bone.surface = surfaceOf({{0, 0, 0, 1, 1, 1}});
-    for (Vec3& v : bone.surface.vertices)
-        v = Vec3(31.3 + 1.4 * v.x(), 5.3 + 1.4 * v.y(), from + (to - from) * v.z());
+    for (Vec3& v : bone.surface.vertices) v = from + v.cwiseProduct(to - from);
     bone.activationUpper = 0;
     return std::make_shared<const MuscleDeformer>(std::move(bone));
+}
+
+/// Of the left leg.
+std::shared_ptr<const MuscleDeformer> boneOf(double from, double to) {
+    return boneIn(Vec3(31.3, 5.3, from), Vec3(32.7, 6.7, to));
 }
 
 /// All bones from the first that moves on are turned by 60 degrees about its upper end.
@@ -151,4 +155,19 @@ TEST_CASE("where no bone holds still the trunk stays, and the smaller end of a l
     CHECK(bent.farthest(Pose::Identity(), isTrunk) < 1);
     CHECK(bent.farthest(Pose::Identity(), isRightLeg) < 0.2);
     CHECK(bent.farthest(bent.bend, isLeftFoot) < 0.5);
+}
+
+TEST_CASE("a part beside a moving bone that lies aside of where the bone goes stays") {
+    const Bent bent({boneIn(Vec3(-9, -1, 24), Vec3(-6, 1, 26)), boneOf(1, 27)}, 1);
+    CHECK(bent.farthest(Pose::Identity(), isHind) < 0.05);
+    CHECK(bent.farthest(Pose::Identity(), isRightLeg) < 0.2);
+    CHECK(bent.farthest(bent.bend, isLeftFoot) < 0.05);
+}
+
+TEST_CASE("skin on a short bone in a thick part of the body is its own") {
+    const Bent bent({boneOf(1, 19.5), boneIn(Vec3(10, -0.2, 24.8), Vec3(11, 0.2, 25.2)),
+                     boneIn(Vec3(-8, -0.2, 24.8), Vec3(-7, 0.2, 25.2))},
+                    2);
+    CHECK(bent.farthest(bent.bend, [](const Vec3& x) { return x.x() < -8; }) < 6);
+    CHECK(bent.farthest(Pose::Identity(), isRightLeg) < 0.2);
 }
