@@ -11,7 +11,8 @@ namespace tss {
 namespace {
 
 /// In sizes of a bone: skin beyond this is not its own, beside a bone that holds still: a chin is within it
-/// of its teeth. Where bones are short and the body is thick, it is within twice the depth that the bone lies at.
+/// of its teeth. Where bones are short and the body is thick, it is within twice the depth that the bone lies
+/// at.
 constexpr double farDistance = 1.5;
 /// Where no bone holds still, skin this far from all bones does, ever less so up to them.
 constexpr double stillDistance = 0.5;

@@ -51,6 +51,17 @@ TriangleMesh surfaceOf(const std::vector<Box>& boxes) {
     return mesh;
 }
 
+/// Each triangle with vertices of its own, as where textures or normals have seams.
+TriangleMesh splitAt(const TriangleMesh& mesh) {
+    TriangleMesh split;
+    for (const Tri& t : mesh.triangles) {
+        const auto first = static_cast<int>(split.vertices.size());
+        for (int k = 0; k < 3; ++k) split.vertices.push_back(mesh.vertices[t[k]]);
+        split.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    return split;
+}
+
 /// A trunk along x with two legs below one end. The left one's bones are named.
 const std::vector<Box> animal = {{-10, -6, 20, 40, 6, 30}, {30, 4, 0, 34, 8, 26}, {30, -8, 0, 34, -4, 26}};
 
@@ -71,10 +82,11 @@ std::shared_ptr<const MuscleDeformer> boneOf(double from, double to) {
 class Bent {
 public:
     Bent(const std::vector<std::shared_ptr<const MuscleDeformer>>& bones, std::size_t firstMoving,
-         bool inverted = false)
+         bool inverted = false, bool split = false)
         : skin_(surfaceOf(animal)) {
         if (inverted)
             for (Tri& t : skin_.triangles) std::swap(t[1], t[2]);
+        if (split) skin_ = splitAt(skin_);
         const Vec3 joint(32, 6, bounds(bones[firstMoving]->muscle().surface).max().z() + 0.5);
         bend = Eigen::Translation3d(joint) * Eigen::AngleAxisd(M_PI / 3, Vec3::UnitY()) *
                Eigen::Translation3d(-joint);
@@ -104,6 +116,17 @@ public:
             }
         REQUIRE(count > 20);
         return most;
+    }
+
+    /// Where each place is now.
+    std::map<std::array<double, 3>, Vec3> places() const {
+        std::map<std::array<double, 3>, Vec3> result;
+        for (std::size_t v = 0; v < now_.size(); ++v) {
+            const Vec3& x = skin_.vertices[v];
+            const Vec3& there = result.try_emplace({x[0], x[1], x[2]}, now_[v]).first->second;
+            CHECK(there == now_[v]);
+        }
+        return result;
     }
 
     Pose bend;
@@ -170,4 +193,11 @@ TEST_CASE("skin on a short bone in a thick part of the body is its own") {
                     2);
     CHECK(bent.farthest(bent.bend, [](const Vec3& x) { return x.x() < -8; }) < 6);
     CHECK(bent.farthest(Pose::Identity(), isRightLeg) < 0.2);
+}
+
+TEST_CASE("vertices that seams repeat stay together, and the skin is as without seams") {
+    const std::vector<std::shared_ptr<const MuscleDeformer>> bones = {boneOf(20.5, 27), boneOf(1, 19.5)};
+    const auto whole = Bent(bones, 1).places(), split = Bent(bones, 1, false, true).places();
+    REQUIRE(whole.size() == split.size());
+    for (const auto& [rest, now] : whole) CHECK((split.at(rest) - now).norm() < 0.01);
 }
