@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace tss {
 namespace {
@@ -22,7 +23,7 @@ constexpr double aheadCosine = 0.7;
 constexpr double leastArm = 0.25;
 
 /// Of the least that a bone beside it holds: what is smaller than this is no part of the body.
-constexpr double leastPart = 0.02;
+constexpr double leastPart = 0.1;
 
 struct FrameHolder {
     SkinHolder holder;
@@ -233,10 +234,25 @@ SkinHolder stillOf(const std::vector<FrameHolder>& holders, const FreeParts& fre
     return still;
 }
 
-/// Whether a part goes on from bones that move, as a hand does from a forearm: most of what is around it is
-/// theirs, and it lies beyond one of those that move in the fewest swings, seen from its joint.
-bool goesOn(const FreePart& part, const std::vector<FrameHolder>& holders) {
-    if (part.beside.empty()) return true; // a skin of which nothing is near to any bone
+/// Whether a place lies beyond a bone that moves, seen from its joint. Where the joint is in the middle of
+/// the bone, as of a vertebra, it is on the far side of the nearest bone that moves in fewer swings.
+bool isBeyond(const Vec3& place, const FrameHolder& bone, const std::vector<FrameHolder>& holders) {
+    const Vec3 middle = bone.box.center(), arm = middle - bone.joint, way = place - bone.joint;
+    if (arm.norm() >= leastArm * bone.extent) return way.dot(arm) >= aheadCosine * way.norm() * arm.norm();
+    Vec3 from = middle;
+    double nearest = infinity;
+    for (const FrameHolder& other : holders) {
+        const double distance = (other.box.center() - middle).norm();
+        if (other.moves >= bone.moves || other.box.isEmpty() || !(distance < nearest)) continue;
+        nearest = distance;
+        from = other.box.center();
+    }
+    return way.dot(middle - from) >= 0;
+}
+
+/// The bone that a part goes on from, as a hand does from a forearm: most of what is around it belongs to
+/// bones that move, and it lies beyond that one of those that move in the fewest swings.
+std::optional<std::size_t> goesOnFrom(const FreePart& part, const std::vector<FrameHolder>& holders) {
     std::size_t still = 0, all = 0, moves = ~std::size_t{0};
     for (const auto& [h, times] : part.beside) {
         all += times;
@@ -245,12 +261,12 @@ bool goesOn(const FreePart& part, const std::vector<FrameHolder>& holders) {
         else
             moves = std::min(moves, holders[h].moves);
     }
-    return 2 * still < all && std::any_of(part.beside.begin(), part.beside.end(), [&](const auto& beside) {
-               const FrameHolder& holder = holders[beside.first];
-               const Vec3 bone = holder.box.center() - holder.joint, way = part.ring - holder.joint;
-               return holder.moves == moves && (bone.norm() < leastArm * holder.extent ||
-                                                way.dot(bone) >= aheadCosine * way.norm() * bone.norm());
-           });
+    std::optional<std::size_t> from;
+    for (const auto& [h, times] : part.beside)
+        if (holders[h].moves == moves && (!from || times > part.beside.at(*from)) &&
+            isBeyond(part.ring, holders[h], holders))
+            from = h;
+    return 2 * still < all ? from : std::nullopt;
 }
 
 } // namespace
@@ -273,11 +289,12 @@ std::vector<SkinHolder> skinHolders(const SkinGround& ground, const SkinParamete
     while (firstStill < holders.size() && !still(firstStill)) ++firstStill;
     const bool anyStill = firstStill < holders.size();
     const FreeParts free = freeParts(ground, holders, anyStill ? farDistance : stillDistance);
-    for (const FreePart& part : free.parts)
-        if (anyStill && !goesOn(part, holders)) {
-            std::vector<std::uint32_t>& sure = holders[firstStill].holder.sure;
-            sure.insert(sure.end(), part.vertices.begin(), part.vertices.end());
-        }
+    for (const FreePart& part : free.parts) {
+        const std::optional<std::size_t> from = goesOnFrom(part, holders);
+        if (!anyStill || part.beside.empty() || (from && part.beside.size() > 1)) continue;
+        std::vector<std::uint32_t>& sure = holders[from.value_or(firstStill)].holder.sure;
+        sure.insert(sure.end(), part.vertices.begin(), part.vertices.end());
+    }
     std::vector<SkinHolder> made;
     for (const FrameHolder& h : holders) made.push_back(h.holder);
     if (!anyStill) made.push_back(stillOf(holders, free));
