@@ -22,7 +22,8 @@ constexpr double aheadCosine = 0.7;
 /// In sizes of a bone: nearer to its joint its middle says nothing about where the bone goes.
 constexpr double leastArm = 0.25;
 
-/// Of the least that a bone beside it holds: what is smaller than this is no part of the body.
+/// Of the least that a bone beside it holds: what is smaller than this is a patch, no part of the body. It
+/// stays where a bone that holds still is near, else goes with what is around it.
 constexpr double leastPart = 0.1;
 
 struct FrameHolder {
@@ -31,7 +32,6 @@ struct FrameHolder {
     std::vector<Vec3> nearest; ///< #V: where it is nearest
     Eigen::AlignedBox3d box;
     double extent = 0;         ///< diagonal of its bounds
-    double depth = 0;          ///< distance from the skin to what of it is deepest
     std::size_t moves = 0;     ///< in how many swings
     Vec3 joint = Vec3::Zero(); ///< what its own swings leave nearest to where it is; of a slide its middle
 };
@@ -140,13 +140,13 @@ double depthOf(const SkinGround& ground, const ClosestPointQuery& skin, bool inv
 
 /// Marks those vertices that are apart from the bone: far from it, or the straight way to it leaves the body
 /// and goes in again elsewhere, as from the belly to a leg. Out alone does not count: teeth are not inside of
-/// lips. far: in sizes of the bone.
+/// lips. far: scene units.
 void markApart(const SkinGround& ground, const ClosestPointQuery& skin, bool inverted, double far,
                FrameHolder& holder) {
     constexpr double away = 1e-3; // of the way, so that it does not begin in the skin
     holder.holder.apart.assign(ground.skin.vertices.size(), 1);
     parallelFor(holder.holder.apart.size(), [&](std::size_t v) {
-        if (holder.holder.distance[v] > std::max(far * holder.extent, 2 * holder.depth)) return;
+        if (holder.holder.distance[v] > far) return;
         const Vec3 &x = ground.skin.vertices[v], &to = holder.nearest[v];
         const Vec3 from = x + away * (to - x);
         holder.holder.apart[v] = (inverted ? skin.entered(to, from) : skin.entered(from, to)) >= 0;
@@ -158,7 +158,9 @@ struct FreePart {
     std::vector<std::uint32_t> vertices;
     double area = 0;                           ///< scene units squared
     std::map<std::size_t, std::size_t> beside; ///< the holders nearest to what is around it, and to how much
-    Vec3 ring = Vec3::Zero();                  ///< the middle of what is around it
+    bool small = false;                        ///< no part of the body, but a patch between bones
+    bool nearStill = false; ///< a bone that holds still is nearest to some of what is around it, apart or not
+    Vec3 ring = Vec3::Zero(); ///< the middle of what is around it
 };
 
 struct FreeParts {
@@ -166,14 +168,15 @@ struct FreeParts {
     std::vector<double> held; ///< #holders: the area of the skin that is not free and nearest to each
 };
 
-/// far: in sizes of a bone.
-FreeParts freeParts(const SkinGround& ground, std::vector<FrameHolder>& holders, double far) {
+FreeParts freeParts(const SkinGround& ground, std::vector<FrameHolder>& holders, bool anyStill) {
     const std::size_t count = ground.skin.vertices.size();
-    const bool inverted = isInverted(ground, holders, nearestOf(holders, count));
+    const std::vector<std::size_t> plain = nearestOf(holders, count);
+    const bool inverted = isInverted(ground, holders, plain);
     const ClosestPointQuery skin(ground.skin);
     std::vector<char> isFree(count, 1);
     for (FrameHolder& h : holders) {
-        h.depth = depthOf(ground, skin, inverted, h);
+        const double far = anyStill ? std::max(farDistance * h.extent, 2 * depthOf(ground, skin, inverted, h))
+                                    : stillDistance * h.extent;
         markApart(ground, skin, inverted, far, h);
         for (std::size_t v = 0; v < count; ++v) isFree[v] = isFree[v] && h.holder.apart[v];
     }
@@ -201,16 +204,18 @@ FreeParts freeParts(const SkinGround& ground, std::vector<FrameHolder>& holders,
         if (isFree[next]) return;
         FreePart& part = parts[sets.root(v)];
         ++part.beside[nearest[next]];
+        part.nearStill |= holders[plain[next]].moves == 0;
         part.ring += ground.skin.vertices[next];
     });
     for (auto& [root, part] : parts) {
         std::size_t around = 0;
-        bool counts = part.beside.empty();
+        bool counts = part.beside.empty() || !anyStill;
         for (const auto& [h, times] : part.beside) {
             around += times;
             counts |= part.area >= leastPart * made.held[h];
         }
-        if (!counts) continue;
+        part.small = !counts;
+        if (part.small && !part.nearStill) continue;
         part.ring /= static_cast<double>(std::max<std::size_t>(around, 1));
         made.parts.push_back(std::move(part));
     }
@@ -288,9 +293,9 @@ std::vector<SkinHolder> skinHolders(const SkinGround& ground, const SkinParamete
     std::size_t firstStill = 0;
     while (firstStill < holders.size() && !still(firstStill)) ++firstStill;
     const bool anyStill = firstStill < holders.size();
-    const FreeParts free = freeParts(ground, holders, anyStill ? farDistance : stillDistance);
+    const FreeParts free = freeParts(ground, holders, anyStill);
     for (const FreePart& part : free.parts) {
-        const std::optional<std::size_t> from = goesOnFrom(part, holders);
+        const std::optional<std::size_t> from = part.small ? std::nullopt : goesOnFrom(part, holders);
         if (!anyStill || part.beside.empty() || (from && part.beside.size() > 1)) continue;
         std::vector<std::uint32_t>& sure = holders[from.value_or(firstStill)].holder.sure;
         sure.insert(sure.end(), part.vertices.begin(), part.vertices.end());
