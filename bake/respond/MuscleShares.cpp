@@ -11,7 +11,7 @@ std::vector<double> insertionShares(const TriangleMesh& surface, const TriangleM
     std::vector<SkinHolder> holders;
     for (const TriangleMesh* bone : {&origin, &insertion}) {
         const MeshQuery query(*bone);
-        holders.push_back({{}, diagonal(*bone), {}});
+        holders.push_back({{}, diagonal(*bone), {}, {}});
         for (const Vec3& v : surface.vertices) holders.back().distance.push_back(query.distance(v));
     }
     return claimedShares(surface, skinGraph(surface), holders)[1];

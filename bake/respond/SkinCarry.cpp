@@ -6,7 +6,9 @@
 #include "bake/respond/SkinHolders.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 namespace tss {
 namespace {
@@ -27,6 +29,24 @@ constexpr double leastShare = 1e-3;
 
 double withoutLeast(double share) {
     return share > leastShare ? (share - leastShare) / (1 - leastShare) : 0;
+}
+
+std::vector<std::uint32_t> firstAtPlace(const std::vector<Vec3>& places) {
+    std::map<std::array<double, 3>, std::uint32_t> at;
+    std::vector<std::uint32_t> first;
+    for (std::uint32_t v = 0; v < places.size(); ++v)
+        first.push_back(at.try_emplace({places[v][0], places[v][1], places[v][2]}, v).first->second);
+    return first;
+}
+
+TriangleMesh joined(const TriangleMesh& mesh, const std::vector<std::uint32_t>& first) {
+    TriangleMesh result{mesh.vertices, {}};
+    for (const Tri& t : mesh.triangles) {
+        const Tri at =
+            t.unaryExpr([&](int v) { return static_cast<int>(first[static_cast<std::size_t>(v)]); });
+        if (at[0] != at[1] && at[1] != at[2] && at[2] != at[0]) result.triangles.push_back(at);
+    }
+    return result;
 }
 
 /// How firmly skin goes with a muscle, #V, 0 to 1: wholly over it, through the tissue between the two, whose
@@ -81,7 +101,8 @@ std::vector<std::vector<double>> frameShares(const SkinGround& ground, const Ski
 
 SkinGround::SkinGround(const TriangleMesh& mesh,
                        const std::vector<std::shared_ptr<const MuscleDeformer>>& under)
-    : skin(mesh), bodies(under), graph(skinGraph(mesh)), normals(skinNormals(mesh)) {
+    : first(firstAtPlace(mesh.vertices)), skin(joined(mesh, first)), bodies(under), graph(skinGraph(skin)),
+      normals(skinNormals(skin)) {
     locators.reserve(bodies.size());
     for (const auto& body : bodies) {
         const TriangleMesh& surface = body->muscle().surface;
@@ -145,6 +166,13 @@ SkinCarriage carrySkin(const SkinGround& ground, const SkinParameters& p) {
                 carriage.bound[m][v] = ground.locators[m].nearest(ground.skin.vertices[v], infinity);
         });
     }
+    const auto join = [&](auto& lists) {
+        for (auto& list : lists)
+            for (std::size_t v = 0; v < list.size(); ++v) list[v] = list[ground.first[v]];
+    };
+    join(carriage.frames);
+    join(carriage.muscles);
+    join(carriage.bound);
     return carriage;
 }
 

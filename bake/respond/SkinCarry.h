@@ -8,7 +8,9 @@ namespace tss {
 struct SkinGround {
     SkinGround(const TriangleMesh& mesh, const std::vector<std::shared_ptr<const MuscleDeformer>>& under);
 
-    const TriangleMesh& skin;
+    std::vector<std::uint32_t>
+        first;         ///< #V: the first vertex at the same place; seams of textures repeat them
+    TriangleMesh skin; ///< its triangles are at first ones only
     const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies;
     SkinGraph graph;
     std::vector<Vec3> normals;

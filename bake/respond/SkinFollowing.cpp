@@ -26,7 +26,7 @@ std::vector<Eigen::Matrix3d> turnsOf(const SkinRig& rig, std::span<const Pose> p
         if (rig.bodies[m].frame >= 0)
             frames[static_cast<std::size_t>(rig.bodies[m].frame)] = DualPose(poses[m]);
     std::vector<Eigen::Matrix3d> turns;
-    for (std::size_t v = 0; v < rig.vertices.size(); ++v) {
+    for (std::size_t v = 0; v < rig.places.size(); ++v) {
         PoseBlend blend;
         for (std::uint32_t k = rig.frameStart[v]; k < rig.frameStart[v + 1]; ++k)
             blend.add(static_cast<double>(rig.frameShares[k].share), frames[rig.frameShares[k].frame]);

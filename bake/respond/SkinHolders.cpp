@@ -6,34 +6,48 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
+#include <optional>
 
 namespace tss {
 namespace {
 
 /// In sizes of a bone: skin beyond this is not its own, beside a bone that holds still: a chin is within it
-/// of its teeth.
+/// of its teeth. Where bones are short and the body is thick, it is within twice the depth that the bone lies
+/// at.
 constexpr double farDistance = 1.5;
 /// Where no bone holds still, skin this far from all bones does, ever less so up to them.
 constexpr double stillDistance = 0.5;
+/// What is beyond a bone lies within this of its direction from the joint: cosine of 45 degrees.
+constexpr double aheadCosine = 0.7;
+/// In sizes of a bone: nearer to its joint its middle says nothing about where the bone goes.
+constexpr double leastArm = 0.25;
+
+/// Of the least that a bone beside it holds: what is smaller than this is a patch, no part of the body. It
+/// stays where a bone that holds still is near, else goes with what is around it.
+constexpr double leastPart = 0.1;
 
 struct FrameHolder {
     SkinHolder holder;
+    std::vector<std::size_t> bodies;
     std::vector<Vec3> nearest; ///< #V: where it is nearest
+    Eigen::AlignedBox3d box;
     double extent = 0;         ///< diagonal of its bounds
-    bool moves = false;
+    std::size_t moves = 0;     ///< in how many swings
+    Vec3 joint = Vec3::Zero(); ///< what its own swings leave nearest to where it is; of a slide its middle
 };
 
 /// The surfaces that stand for a frame: its bones, or its muscles where it has none.
 FrameHolder holderOf(const SkinGround& ground, const std::vector<int>& frames, int frame) {
     const std::size_t count = ground.skin.vertices.size();
-    FrameHolder made{{std::vector<double>(count, infinity), 0, {}}, ground.skin.vertices};
-    Eigen::AlignedBox3d box;
+    FrameHolder made;
+    made.holder.distance.assign(count, infinity);
+    made.nearest = ground.skin.vertices;
     bool bones = false;
     for (std::size_t m = 0; m < frames.size(); ++m) bones |= frames[m] == frame && ground.bodies[m]->rigid();
     for (std::size_t m = 0; m < frames.size(); ++m) {
         if (frames[m] != frame || ground.bodies[m]->rigid() != bones) continue;
-        box.extend(bounds(ground.bodies[m]->muscle().surface));
+        made.bodies.push_back(m);
+        made.box.extend(bounds(ground.bodies[m]->muscle().surface));
         parallelFor(count, [&](std::size_t v) {
             double& distance = made.holder.distance[v];
             const NearestPoint near = ground.locators[m].nearest(ground.skin.vertices[v], distance);
@@ -42,27 +56,58 @@ FrameHolder holderOf(const SkinGround& ground, const std::vector<int>& frames, i
             made.nearest[v] = near.point;
         });
     }
-    made.extent = box.isEmpty() ? 0 : box.diagonal().norm();
+    made.extent = made.box.isEmpty() ? 0 : made.box.diagonal().norm();
     made.holder.size = made.extent;
     return made;
 }
 
-/// Frames that move somewhere along the swings.
-void setMoving(const SkinParameters& p, const std::vector<int>& frames, std::vector<FrameHolder>& holders) {
+/// How often frames move, and about what.
+void setMotions(const SkinParameters& p, const std::vector<int>& frames, std::vector<FrameHolder>& holders) {
+    struct Least {
+        std::size_t movers = 0; ///< frames that move in its own swings, the fewest
+        Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+        Vec3 right = Vec3::Zero();
+    };
+    std::vector<Least> least(holders.size());
     for (FrameHolder& holder : holders) holder.moves = p.swings.empty();
-    for (const BoneSwing& swing : p.swings)
+    for (const BoneSwing& swing : p.swings) {
+        std::map<std::size_t, Pose> moved;
         for (const std::vector<Pose>& station : swing)
             for (std::size_t m = 0; m < station.size(); ++m)
                 if (frames[m] >= 0 && station[m].matrix() != Pose::Identity().matrix())
-                    holders[static_cast<std::size_t>(frames[m])].moves = true;
+                    moved[static_cast<std::size_t>(frames[m])] = station[m];
+        for (const auto& [h, pose] : moved) {
+            ++holders[h].moves;
+            Least& own = least[h];
+            if (own.movers != 0 && own.movers < moved.size()) continue;
+            if (own.movers != moved.size()) own = {moved.size()};
+            const Eigen::Matrix3d turn = pose.linear() - Eigen::Matrix3d::Identity();
+            own.matrix += turn.transpose() * turn;
+            own.right -= turn.transpose() * (pose * holders[h].box.center() - holders[h].box.center());
+        }
+    }
+    for (std::size_t h = 0; h < holders.size(); ++h) {
+        if (holders[h].box.isEmpty()) continue;
+        // Along an axis any place is as good: the one beside the middle.
+        const double some = 1e-6 * least[h].matrix.trace();
+        holders[h].joint = holders[h].box.center();
+        if (some > 0)
+            holders[h].joint +=
+                (least[h].matrix + some * Eigen::Matrix3d::Identity()).ldlt().solve(least[h].right);
+    }
 }
 
-/// The nearest to each vertex.
+/// The nearest to each vertex, of those that it is not apart from where there is one.
 std::vector<std::size_t> nearestOf(const std::vector<FrameHolder>& holders, std::size_t count) {
     std::vector<std::size_t> nearest(count, 0);
+    const auto less = [&](std::size_t v, std::size_t a, std::size_t b) {
+        const bool apart = !holders[a].holder.apart.empty() && holders[a].holder.apart[v],
+                   other = !holders[b].holder.apart.empty() && holders[b].holder.apart[v];
+        return apart != other ? other : holders[a].holder.distance[v] < holders[b].holder.distance[v];
+    };
     for (std::size_t v = 0; v < count; ++v)
         for (std::size_t h = 1; h < holders.size(); ++h)
-            if (holders[h].holder.distance[v] < holders[nearest[v]].holder.distance[v]) nearest[v] = h;
+            if (less(v, h, nearest[v])) nearest[v] = h;
     return nearest;
 }
 
@@ -77,25 +122,45 @@ bool isInverted(const SkinGround& ground, const std::vector<FrameHolder>& holder
     return sum < 0;
 }
 
-/// Leaves those vertices marked that are apart from the bone too: far from it, or the straight way to it
-/// leaves the body and goes in again elsewhere, as from the belly to a leg. Out alone does not count: teeth
-/// are not inside of lips. far: in sizes of the bone.
-void markApart(const SkinGround& ground, const ClosestPointQuery& skin, bool inverted,
-               const FrameHolder& holder, double far, std::vector<char>& apart) {
+double depthOf(const SkinGround& ground, const ClosestPointQuery& skin, bool inverted,
+               const FrameHolder& holder) {
+    double deepest = 0;
+    for (const std::size_t m : holder.bodies) {
+        const std::vector<Vec3>& places = ground.bodies[m]->muscle().surface.vertices;
+        std::vector<double> depth(places.size(), 0);
+        parallelFor(places.size(), [&](std::size_t v) {
+            const NearestPoint near = skin.nearest(places[v], infinity);
+            const Vec3 normal = ground.normals[ground.skin.triangles[near.triangle][0]];
+            if (((places[v] - near.point).dot(normal) < 0) != inverted) depth[v] = near.distance;
+        });
+        for (const double d : depth) deepest = std::max(deepest, d);
+    }
+    return deepest;
+}
+
+/// Marks those vertices that are apart from the bone: far from it, or the straight way to it leaves the body
+/// and goes in again elsewhere, as from the belly to a leg. Out alone does not count: teeth are not inside of
+/// lips. far: scene units.
+void markApart(const SkinGround& ground, const ClosestPointQuery& skin, bool inverted, double far,
+               FrameHolder& holder) {
     constexpr double away = 1e-3; // of the way, so that it does not begin in the skin
-    parallelFor(apart.size(), [&](std::size_t v) {
-        if (!apart[v] || holder.holder.distance[v] > far * holder.extent) return;
+    holder.holder.apart.assign(ground.skin.vertices.size(), 1);
+    parallelFor(holder.holder.apart.size(), [&](std::size_t v) {
+        if (holder.holder.distance[v] > far) return;
         const Vec3 &x = ground.skin.vertices[v], &to = holder.nearest[v];
         const Vec3 from = x + away * (to - x);
-        apart[v] = (inverted ? skin.entered(to, from) : skin.entered(from, to)) >= 0;
+        holder.holder.apart[v] = (inverted ? skin.entered(to, from) : skin.entered(from, to)) >= 0;
     });
 }
 
 /// Skin that hangs together and is apart from all bones.
 struct FreePart {
     std::vector<std::uint32_t> vertices;
-    double area = 0;              ///< scene units squared
-    std::set<std::size_t> beside; ///< the holders nearest to what is around it
+    double area = 0;                           ///< scene units squared
+    std::map<std::size_t, std::size_t> beside; ///< the holders nearest to what is around it, and to how much
+    bool small = false;                        ///< no part of the body, but a patch between bones
+    bool nearStill = false; ///< a bone that holds still is nearest to some of what is around it, apart or not
+    Vec3 ring = Vec3::Zero(); ///< the middle of what is around it
 };
 
 struct FreeParts {
@@ -103,14 +168,19 @@ struct FreeParts {
     std::vector<double> held; ///< #holders: the area of the skin that is not free and nearest to each
 };
 
-/// far: in sizes of a bone.
-FreeParts freeParts(const SkinGround& ground, const std::vector<FrameHolder>& holders, double far) {
+FreeParts freeParts(const SkinGround& ground, std::vector<FrameHolder>& holders, bool anyStill) {
     const std::size_t count = ground.skin.vertices.size();
-    const std::vector<std::size_t> nearest = nearestOf(holders, count);
-    const bool inverted = isInverted(ground, holders, nearest);
+    const std::vector<std::size_t> plain = nearestOf(holders, count);
+    const bool inverted = isInverted(ground, holders, plain);
     const ClosestPointQuery skin(ground.skin);
     std::vector<char> isFree(count, 1);
-    for (const FrameHolder& h : holders) markApart(ground, skin, inverted, h, far, isFree);
+    for (FrameHolder& h : holders) {
+        const double far = anyStill ? std::max(farDistance * h.extent, 2 * depthOf(ground, skin, inverted, h))
+                                    : stillDistance * h.extent;
+        markApart(ground, skin, inverted, far, h);
+        for (std::size_t v = 0; v < count; ++v) isFree[v] = isFree[v] && h.holder.apart[v];
+    }
+    const std::vector<std::size_t> nearest = nearestOf(holders, count);
     FreeParts made{{}, std::vector<double>(holders.size(), 0)};
     for (std::size_t v = 0; v < count; ++v)
         if (!isFree[v]) made.held[nearest[v]] += ground.graph.area[v];
@@ -131,15 +201,30 @@ FreeParts freeParts(const SkinGround& ground, const std::vector<FrameHolder>& ho
             part.area += ground.graph.area[v];
         }
     edges([&](std::size_t v, std::size_t next) {
-        if (!isFree[next]) parts[sets.root(v)].beside.insert(nearest[next]);
+        if (isFree[next]) return;
+        FreePart& part = parts[sets.root(v)];
+        ++part.beside[nearest[next]];
+        part.nearStill |= holders[plain[next]].moves == 0;
+        part.ring += ground.skin.vertices[next];
     });
-    for (auto& [root, part] : parts) made.parts.push_back(std::move(part));
+    for (auto& [root, part] : parts) {
+        std::size_t around = 0;
+        bool counts = part.beside.empty() || !anyStill;
+        for (const auto& [h, times] : part.beside) {
+            around += times;
+            counts |= part.area >= leastPart * made.held[h];
+        }
+        part.small = !counts;
+        if (part.small && !part.nearStill) continue;
+        part.ring /= static_cast<double>(std::max<std::size_t>(around, 1));
+        made.parts.push_back(std::move(part));
+    }
     return made;
 }
 
 /// What holds still though no bone does: the skin far from all bones.
 SkinHolder stillOf(const std::vector<FrameHolder>& holders, const FreeParts& free) {
-    SkinHolder still{std::vector<double>(holders[0].holder.distance.size(), 0), infinity, {}};
+    SkinHolder still{std::vector<double>(holders[0].holder.distance.size(), 0), infinity, {}, {}};
     double longest = 0;
     for (const FrameHolder& h : holders) {
         longest = std::max(longest, stillDistance * h.extent);
@@ -147,11 +232,46 @@ SkinHolder stillOf(const std::vector<FrameHolder>& holders, const FreeParts& fre
             still.distance[v] = std::max(still.distance[v], stillDistance * h.extent - h.holder.distance[v]);
     }
     for (const FreePart& part : free.parts) {
-        const bool isEnd = part.beside.size() == 1 && part.area < free.held[*part.beside.begin()];
+        const bool isEnd = part.beside.size() == 1 && part.area < free.held[part.beside.begin()->first];
         for (const std::uint32_t v : part.vertices) still.distance[v] = isEnd ? longest : 0;
         if (!isEnd) still.sure.insert(still.sure.end(), part.vertices.begin(), part.vertices.end());
     }
     return still;
+}
+
+/// Whether a place lies beyond a bone that moves, seen from its joint. Where the joint is in the middle of
+/// the bone, as of a vertebra, it is on the far side of the nearest bone that moves in fewer swings.
+bool isBeyond(const Vec3& place, const FrameHolder& bone, const std::vector<FrameHolder>& holders) {
+    const Vec3 middle = bone.box.center(), arm = middle - bone.joint, way = place - bone.joint;
+    if (arm.norm() >= leastArm * bone.extent) return way.dot(arm) >= aheadCosine * way.norm() * arm.norm();
+    Vec3 from = middle;
+    double nearest = infinity;
+    for (const FrameHolder& other : holders) {
+        const double distance = (other.box.center() - middle).norm();
+        if (other.moves >= bone.moves || other.box.isEmpty() || !(distance < nearest)) continue;
+        nearest = distance;
+        from = other.box.center();
+    }
+    return way.dot(middle - from) >= 0;
+}
+
+/// The bone that a part goes on from, as a hand does from a forearm: most of what is around it belongs to
+/// bones that move, and it lies beyond that one of those that move in the fewest swings.
+std::optional<std::size_t> goesOnFrom(const FreePart& part, const std::vector<FrameHolder>& holders) {
+    std::size_t still = 0, all = 0, moves = ~std::size_t{0};
+    for (const auto& [h, times] : part.beside) {
+        all += times;
+        if (holders[h].moves == 0)
+            still += times;
+        else
+            moves = std::min(moves, holders[h].moves);
+    }
+    std::optional<std::size_t> from;
+    for (const auto& [h, times] : part.beside)
+        if (holders[h].moves == moves && (!from || times > part.beside.at(*from)) &&
+            isBeyond(part.ring, holders[h], holders))
+            from = h;
+    return 2 * still < all ? from : std::nullopt;
 }
 
 } // namespace
@@ -161,7 +281,7 @@ std::vector<SkinHolder> skinHolders(const SkinGround& ground, const SkinParamete
     std::vector<FrameHolder> holders;
     const int count = frames.empty() ? 0 : *std::max_element(frames.begin(), frames.end()) + 1;
     for (int f = 0; f < count; ++f) holders.push_back(holderOf(ground, frames, f));
-    setMoving(parameters, frames, holders);
+    setMotions(parameters, frames, holders);
     bool onSkin = false; // something moves with the skin itself
     for (std::size_t m = 0; m < frames.size(); ++m)
         onSkin |= frames[m] < 0 && !ground.bodies[m]->muscle().surface.empty();
@@ -169,17 +289,17 @@ std::vector<SkinHolder> skinHolders(const SkinGround& ground, const SkinParamete
         holders.push_back(holderOf(ground, frames, -1));
         holders.back().holder.size = infinity;
     }
-    const auto still = [&](std::size_t h) { return !holders[h].moves; };
+    const auto still = [&](std::size_t h) { return holders[h].moves == 0; };
     std::size_t firstStill = 0;
     while (firstStill < holders.size() && !still(firstStill)) ++firstStill;
     const bool anyStill = firstStill < holders.size();
-    const FreeParts free = freeParts(ground, holders, anyStill ? farDistance : stillDistance);
-    for (const FreePart& part : free.parts)
-        if (anyStill &&
-            (part.beside.size() > 1 || std::any_of(part.beside.begin(), part.beside.end(), still))) {
-            std::vector<std::uint32_t>& sure = holders[firstStill].holder.sure;
-            sure.insert(sure.end(), part.vertices.begin(), part.vertices.end());
-        }
+    const FreeParts free = freeParts(ground, holders, anyStill);
+    for (const FreePart& part : free.parts) {
+        const std::optional<std::size_t> from = part.small ? std::nullopt : goesOnFrom(part, holders);
+        if (!anyStill || part.beside.empty() || (from && part.beside.size() > 1)) continue;
+        std::vector<std::uint32_t>& sure = holders[from.value_or(firstStill)].holder.sure;
+        sure.insert(sure.end(), part.vertices.begin(), part.vertices.end());
+    }
     std::vector<SkinHolder> made;
     for (const FrameHolder& h : holders) made.push_back(h.holder);
     if (!anyStill) made.push_back(stillOf(holders, free));

@@ -30,7 +30,7 @@ void eachVertex(const SkinRow& row, const What& what) {
 
 SkinResistance::SkinResistance(const SkinRig& rig, SkinClock& clock)
     : rig_(rig), clock_(clock), pushes_(rig.foundation), planeOf_(rig.rows.size(), 0),
-      seenOf_(rig.rows.size(), 0), pushed_(rig.blocks(), 0), stirred_(rig.rest.size(), 0),
+      seenOf_(rig.rows.size(), 0), pushed_(rig.blocks(), 0), stirred_(rig.places.size(), 0),
       asked_(rig.rows.size(), 0) {
     listRows();
 }

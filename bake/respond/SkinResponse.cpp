@@ -98,7 +98,7 @@ void SkinResponse::State::deform() {
         contacts_ = pushOut(rig_->spheres, activations_, poses_, rig_->restNormals, positions_);
         scene_.skin = rig_->places;
         scene_.skin.insert(scene_.skin.end(), rig_->borderPlaces.begin(), rig_->borderPlaces.end());
-        for (std::size_t v = 0; v < positions_.size(); ++v)
+        for (std::size_t v = 0; v < rig_->places.size(); ++v)
             scene_.skin[v].head<3>() = ((positions_[v] - rig_->centre) / rig_->size).cast<float>();
         scene_.live.assign(rig_->blocks(), 1);
         return;
@@ -122,7 +122,7 @@ void SkinResponse::State::toRest() {
 void SkinResponse::State::showPlaces(std::size_t block) {
     if (rig_->parameters.faithful) return;
     const std::size_t first = block * SkinRig::block,
-                      last = std::min(first + SkinRig::block, positions_.size());
+                      last = std::min(first + SkinRig::block, rig_->places.size());
     const Move *skin = scene_.skin.data(), *places = rig_->places.data();
     const double size = rig_->size;
     const double* rest = rig_->rest[0].data() + 3 * first;
@@ -134,7 +134,7 @@ void SkinResponse::State::showPlaces(std::size_t block) {
 }
 
 void SkinResponse::State::showNormals(std::size_t block) {
-    const std::size_t last = std::min((block + 1) * SkinRig::block, positions_.size());
+    const std::size_t last = std::min((block + 1) * SkinRig::block, rig_->places.size());
     const Move* skin = scene_.skin.data();
     const SkinFan *fans = rig_->fans.fans.data(), *fan = fans + rig_->fans.start[block * SkinRig::block];
     const std::uint32_t* ends = rig_->fans.start.data() + 1;
@@ -173,9 +173,13 @@ void SkinResponse::State::show() {
             showNormals(b);
         } else if (shownBefore_[b] != 0) {
             const auto first = static_cast<std::ptrdiff_t>(b * SkinRig::block);
-            const auto count = std::min(SkinRig::block, normals_.size() - b * SkinRig::block);
+            const auto count = std::min(SkinRig::block, rig_->places.size() - b * SkinRig::block);
             std::copy_n(rig_->restNormals.begin() + first, count, normals_.begin() + first);
         }
+    }
+    for (std::size_t k = 0, v = rig_->places.size(); k < rig_->twins.size(); ++k, ++v) {
+        positions_[v] = positions_[rig_->twins[k]];
+        normals_[v] = normals_[rig_->twins[k]];
     }
 }
 

@@ -51,12 +51,13 @@ std::vector<std::uint32_t> touch(SkinRig& rig, const SkinGround& ground, const S
     }
     std::vector<std::uint32_t> indexOf(count, untouched);
     for (const std::uint32_t v : alongCurve(ground.skin.vertices)) {
-        if (!keep[v]) continue;
+        if (!keep[v] || ground.first[v] != v) continue;
         indexOf[v] = static_cast<std::uint32_t>(rig.vertices.size());
         rig.vertices.push_back(v);
         rig.rest.push_back(ground.skin.vertices[v]);
         rig.restNormals.push_back(ground.normals[v]);
     }
+    for (std::uint32_t v = 0; v < count; ++v) indexOf[v] = indexOf[ground.first[v]];
     return indexOf;
 }
 
@@ -98,6 +99,17 @@ void addTriangles(SkinRig& rig, const TriangleMesh& skin, const std::vector<std:
     rig.fans = skinFans(at, rig.vertices.size());
     for (const Vec3& x : rig.rest) rig.places.push_back(placeOf(rig, x));
     for (const Vec3& n : rig.restNormals) rig.placeNormals.push_back(toMove(n));
+}
+
+/// What is at the place of a touched vertex too.
+void addTwins(SkinRig& rig, const SkinGround& ground, const std::vector<std::uint32_t>& indexOf) {
+    for (std::uint32_t v = 0; v < indexOf.size(); ++v) {
+        if (indexOf[v] == untouched || ground.first[v] == v) continue;
+        rig.vertices.push_back(v);
+        rig.twins.push_back(indexOf[v]);
+        rig.rest.push_back(ground.skin.vertices[v]);
+        rig.restNormals.push_back(rig.restNormals[indexOf[v]]);
+    }
 }
 
 /// Which blocks bodies and frames move, and those around each.
@@ -255,12 +267,13 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
         for (const SkinBefore& b : before) pushed.push_back(b.vertex);
     }
     const std::vector<std::uint32_t> indexOf = touch(rig, ground, carriage, pushed);
-    addTriangles(rig, skin, indexOf);
+    addTriangles(rig, ground.skin, indexOf);
     addBodies(rig, ground, framesOf(ground, parameters));
     addShares(rig, carriage);
     addBlocks(rig);
     if (parameters.faithful) {
         rig.spheres = skinSpheres(table, bodies, parameters.insertions, indexOf);
+        addTwins(rig, ground, indexOf);
         return result;
     }
     if (rig.rest.empty()) return result;
@@ -272,6 +285,7 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     rig.foundation = skinFoundation(local, skinGraph(local), mayBePushed, firmness, ground.length / rig.size,
                                     parameters.stretchCompliance, parameters.bendCompliance);
     measureRows(rig);
+    addTwins(rig, ground, indexOf);
     return result;
 }
 

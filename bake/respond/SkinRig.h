@@ -116,12 +116,14 @@ struct SkinRig {
     Vec3 centre = Vec3::Zero();
     float radius = 0; ///< of the skin, in sizes: how far contact beside a rim fades
 
-    std::vector<std::uint32_t> vertices; ///< indices into the skin mesh, near ones beside each other
-    std::vector<Vec3> rest;              ///< places of the touched vertices, scene units
-    std::vector<Vec3> restNormals;       ///< unit
-    std::vector<Tri> triangles;          ///< of touched vertices only
-    std::vector<Tri> across;             ///< beyond each of their edges, -1: none
-    SkinFans fans;                       ///< all at a touched vertex, into vertices then borderPlaces
+    std::vector<std::uint32_t>
+        vertices;                     ///< indices into the skin mesh, near ones beside each other, then twins
+    std::vector<Vec3> rest;           ///< places of the vertices, scene units
+    std::vector<Vec3> restNormals;    ///< unit
+    std::vector<std::uint32_t> twins; ///< of each vertex at the place of another one that other, touched one
+    std::vector<Tri> triangles;       ///< of touched vertices only
+    std::vector<Tri> across;          ///< beyond each of their edges, -1: none
+    SkinFans fans;                    ///< all at a touched vertex, into vertices then borderPlaces
 
     std::vector<Move> places, placeNormals; ///< rest and restNormals as the run time has them
     std::vector<Move> borderPlaces;         ///< of the untouched corners of fans

@@ -4,6 +4,7 @@
 #include "bake/respond/SkinContact.h"
 
 #include <algorithm>
+#include <set>
 
 namespace tss {
 namespace {
@@ -212,12 +213,14 @@ std::vector<SkinBefore> skinBefore(const SkinGround& ground, const SkinTable& ta
     const Table& t = table.table;
     std::vector<SkinBefore> result;
     std::vector<bool> meets(ground.bodies.size());
+    std::set<std::pair<std::uint32_t, std::uint32_t>> known;
     for (std::size_t i = 0; i < t.a.size(); ++i) {
+        const std::uint32_t v = ground.first[table.skinVertices[i]];
         std::fill(meets.begin(), meets.end(), false);
         for (std::uint32_t k = t.rowOffsets[i]; k < t.rowOffsets[i + 1]; ++k)
             meets[table.muscleOf[t.columns[k]]] = true;
         for (std::uint32_t m = 0; m < meets.size(); ++m)
-            if (meets[m]) result.push_back({table.skinVertices[i], m, false, {}});
+            if (meets[m] && known.emplace(v, m).second) result.push_back({v, m, false, {}});
     }
     parallelFor(result.size(), [&](std::size_t k) {
         SkinBefore& before = result[k];

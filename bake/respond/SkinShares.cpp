@@ -66,7 +66,9 @@ std::vector<std::uint32_t> undisputed(const SkinHolder& holder, const std::vecto
     return seeds;
 }
 
-std::vector<std::uint32_t> mostContrasting(const SkinHolder& holder, const std::vector<double>& contrast) {
+std::vector<std::uint32_t> mostContrasting(const SkinHolder& holder, std::vector<double> contrast) {
+    for (std::size_t v = 0; v < holder.apart.size(); ++v)
+        if (holder.apart[v]) contrast[v] = -infinity;
     const double most = *std::max_element(contrast.begin(), contrast.end());
     std::vector<std::uint32_t> seeds;
     std::vector<double> distances;

@@ -9,6 +9,7 @@ struct SkinHolder {
     std::vector<double> distance;    ///< #V, >= 0, scene units
     double size = 0;                 ///< diagonal of its bounds, scene units; infinite: no size of its own
     std::vector<std::uint32_t> sure; ///< vertices that are its own, however far
+    std::vector<char> apart;         ///< #V: skin that never begins what it holds; empty: none
 };
 
 /// How far the holders go, and how firmly vertices stay whatever their shares are.

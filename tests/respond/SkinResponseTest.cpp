@@ -54,6 +54,34 @@ TEST_CASE("a contracting muscle lifts the skin above it") {
     CHECK(lift < 0.1);
 }
 
+TEST_CASE("skin whose triangles share no vertex is lifted as one") {
+    const skins::Couple whole = skins::usual();
+    TriangleMesh split;
+    for (const Tri& t : whole.skin.triangles) {
+        const auto first = static_cast<int>(split.vertices.size());
+        for (int k = 0; k < 3; ++k) split.vertices.push_back(whole.skin.vertices[t[k]]);
+        split.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    const skins::Couple parts = skins::couple(split, {skins::muscleBelow(0)});
+    SkinParameters loose; // so that contacts alone lift it
+    loose.attach.assign(whole.skin.vertices.size(), 0);
+    SkinResponse one(whole.rig(loose));
+    loose.attach.assign(split.vertices.size(), 0);
+    SkinResponse many(parts.rig(loose));
+    for (SkinResponse* response : {&one, &many}) CHECK(response->update(std::vector<double>{1}).contacts > 0);
+    std::vector<Vec3> now = whole.skin.vertices;
+    for (std::size_t i = 0; i < one.vertices().size(); ++i) now[one.vertices()[i]] = one.positions()[i];
+    std::vector<Vec3> places = split.vertices;
+    for (std::size_t i = 0; i < many.vertices().size(); ++i) places[many.vertices()[i]] = many.positions()[i];
+    double off = 0;
+    for (std::size_t i = 0; i < split.triangles.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            off = std::max(off, (places[split.triangles[i][k]] - now[whole.skin.triangles[i][k]]).norm());
+    CHECK(off < 1e-3);
+    many.update(std::vector<double>{0});
+    CHECK(exactlyAtRest(many));
+}
+
 TEST_CASE(
     "what a muscle by itself has moved is hardly looked up, and what an update costs is told while asked") {
     SkinResponse response(skins::usual().rig());
