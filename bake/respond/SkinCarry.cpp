@@ -31,11 +31,20 @@ double withoutLeast(double share) {
     return share > leastShare ? (share - leastShare) / (1 - leastShare) : 0;
 }
 
-std::vector<std::uint32_t> firstAtPlace(const std::vector<Vec3>& places) {
+/// Of each vertex the first at its place, where both are on rims as along a seam; lips that touch are two.
+std::vector<std::uint32_t> firstAtPlace(const TriangleMesh& mesh) {
+    std::map<std::pair<int, int>, int> sides; // of each edge
+    for (const Tri& t : mesh.triangles)
+        for (int k = 0; k < 3; ++k) ++sides[std::minmax({t[k], t[(k + 1) % 3]})];
+    std::vector<char> rim(mesh.vertices.size(), 0);
+    for (const auto& [edge, count] : sides)
+        if (count == 1) rim[edge.first] = rim[edge.second] = 1;
     std::map<std::array<double, 3>, std::uint32_t> at;
     std::vector<std::uint32_t> first;
-    for (std::uint32_t v = 0; v < places.size(); ++v)
-        first.push_back(at.try_emplace({places[v][0], places[v][1], places[v][2]}, v).first->second);
+    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+        const Vec3& p = mesh.vertices[v];
+        first.push_back(rim[v] ? at.try_emplace({p[0], p[1], p[2]}, v).first->second : v);
+    }
     return first;
 }
 
@@ -101,7 +110,7 @@ std::vector<std::vector<double>> frameShares(const SkinGround& ground, const Ski
 
 SkinGround::SkinGround(const TriangleMesh& mesh,
                        const std::vector<std::shared_ptr<const MuscleDeformer>>& under)
-    : first(firstAtPlace(mesh.vertices)), skin(joined(mesh, first)), bodies(under), graph(skinGraph(skin)),
+    : first(firstAtPlace(mesh)), skin(joined(mesh, first)), bodies(under), graph(skinGraph(skin)),
       normals(skinNormals(skin)) {
     locators.reserve(bodies.size());
     for (const auto& body : bodies) {

@@ -1,10 +1,13 @@
 // Skin over parts of the body whose bones are not named.
+#include "bake/respond/SkinCarry.h"
 #include "bake/respond/SkinResponse.h"
 #include "bake/respond/SkinRig.h"
+#include "tests/geometry/TestMeshes.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include <set>
 
 using namespace tss;
 
@@ -201,6 +204,14 @@ TEST_CASE("vertices that seams repeat stay together, and the skin is as without 
     const auto whole = Bent(bones, 1).places(), split = Bent(bones, 1, false, true).places();
     REQUIRE(whole.size() == split.size());
     for (const auto& [rest, now] : whole) CHECK((split.at(rest) - now).norm() < 0.01);
+}
+
+TEST_CASE("lips that touch vertex on vertex at rest are two, rims at one place are one") {
+    TriangleMesh lips = surfaceOf({{0, 0, 0, 4, 4, 2}});
+    test::append(lips, surfaceOf({{0, 0, 2, 4, 4, 4}}));
+    const SkinGround apart(lips, {}), seamed(splitAt(lips), {});
+    for (std::uint32_t v = 0; v < apart.first.size(); ++v) CHECK(apart.first[v] == v);
+    CHECK(std::set(seamed.first.begin(), seamed.first.end()).size() < lips.vertices.size());
 }
 
 TEST_CASE(

@@ -176,9 +176,12 @@ private:
         for (const Joint& joint : out_.scene.joints)
             for (const Dof& dof : joint.dofs) {
                 const double q = now.values[next++];
-                if (!(q >= dof.lower - 1e-9 * (1 + std::abs(dof.lower)) &&
-                      q <= dof.upper + 1e-9 * (1 + std::abs(dof.upper))))
-                    trouble("{}: {} is {}, outside its limits", joint.path, dof.name, q);
+                // A file's limits are floats, those of its tables are not.
+                const double rounding = std::ldexp(1, -22);
+                if (!(q >= dof.lower - rounding * (1 + std::abs(dof.lower)) &&
+                      q <= dof.upper + rounding * (1 + std::abs(dof.upper))))
+                    trouble("{}: {} is {}, outside its limits {} to {}", joint.path, dof.name, q, dof.lower,
+                            dof.upper);
             }
         if (std::isnan(now.gap)) trouble("a gap is not a number");
         if (free && !(now.gap > 0)) trouble("a free joint was led into contact, gap {}", now.gap);
