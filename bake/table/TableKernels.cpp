@@ -242,7 +242,8 @@ void TableKernels::fill(const Widened& rows, std::uint32_t lanes, std::span<cons
 void TableKernels::makeCells(CellUse use) {
     if (use == CellUse::Never || pairs_.empty()) return;
     const std::size_t blocks = (pairs_.size() + kernels_.lanes - 1) / kernels_.lanes;
-    if (use == CellUse::Auto && !fold_ && motion_.dofCount() > mostDofsOfCells && blocks > fewClustered) {
+    const bool many = motion_.dofCount() > mostDofsOfCells || pairs_.size() > mostTests;
+    if (use == CellUse::Auto && !fold_ && many && blocks > fewClustered) {
         clusters_ = TableClusters(pairs_, kernels_.lanes);
         return;
     }

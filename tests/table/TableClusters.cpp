@@ -1,5 +1,6 @@
 #include "bake/table/LikelyTests.h"
 #include "bake/table/TableKernels.h"
+#include "tests/Joints.h"
 #include "tests/table/ExactGap.h"
 #include "tests/table/RandomTable.h"
 
@@ -66,6 +67,34 @@ TEST_CASE("a table in clusters answers as without them, to the bit, and misses n
     CHECK(hits > 100);
     CHECK(free > 100);
     CHECK(listed > 1000);
+}
+
+TEST_CASE("a table of very many tests over few DOFs is in clusters, and answers as without them") {
+    Random random(4);
+    Motion motion;
+    for (int k = 0; k < 3; ++k)
+        motion.dofs.push_back(joints::turn(Vec3::Constant(0.1 * k), Vec3::Unit(k), -3, 3));
+    Table table = random_table::table(random, motion, 280, 280, 1);
+    REQUIRE(tablePairs(table).size() > 1 << 16);
+    for (SphereSet* set : {&table.a, &table.b})
+        for (Sphere& s : *set) s.radius *= 0.1;
+    PrepareOptions whole;
+    whole.cells = CellUse::Never;
+    const PreparedTable with(table), without(table, whole);
+    REQUIRE_FALSE(with.kernels().clusters().empty());
+    int hits = 0;
+    for (int i = 0; i < 200; ++i) {
+        const std::vector<double> q = random_table::values(random, motion);
+        TableFeatures f, g;
+        with.features(q.data(), f);
+        without.features(q.data(), g);
+        REQUIRE(with.hit(f) == without.hit(g));
+        REQUIRE(with.hit(q.data()) == with.hit(f));
+        REQUIRE(with.gap(f).gap == without.gap(g).gap);
+        hits += with.hit(f);
+    }
+    CHECK(hits > 20);
+    CHECK(hits < 180);
 }
 
 TEST_CASE("poses side by side touch where each of them does, on every kind of kernels") {
