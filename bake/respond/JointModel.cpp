@@ -244,6 +244,8 @@ void cull(const JointModel& model, const DofValues& q, const DofValues& travel, 
 }
 
 void cullMore(const JointModel& model, const DofValues& q, const DofValues& travel, ResponseRoom& ws) {
+    // Beside what is kept of tables in clusters.
+    if (ws.near.size() < ws.nearCount + model.listable) ws.near.resize(ws.nearCount + model.listable);
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
         const JointModel::Group& group = model.groups[g];
         if (group.clustered) continue;

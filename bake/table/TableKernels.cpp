@@ -242,16 +242,21 @@ void TableKernels::fill(const Widened& rows, std::uint32_t lanes, std::span<cons
 void TableKernels::makeCells(CellUse use) {
     if (use == CellUse::Never || pairs_.empty()) return;
     const std::size_t blocks = (pairs_.size() + kernels_.lanes - 1) / kernels_.lanes;
+    const auto inClusters = [&] {
+        if (use == CellUse::Auto && !fold_ && blocks > fewClustered)
+            clusters_ = TableClusters(pairs_, kernels_.lanes);
+        return !clusters_.empty();
+    };
     const bool many = motion_.dofCount() > mostDofsOfCells || pairs_.size() > mostTests;
-    if (use == CellUse::Auto && !fold_ && many && blocks > fewClustered) {
-        clusters_ = TableClusters(pairs_, kernels_.lanes);
-        return;
-    }
+    if (many && inClusters()) return;
     // To look up a cell costs as much as a few blocks.
     const std::size_t least = std::size_t(fewBlocks) * kernels_.lanes;
     if (use == CellUse::Auto && (pairs_.size() <= least || pairs_.size() > mostTests)) return;
     TableCells cells(motion_, pairs_, kernels_.lanes);
-    if (use == CellUse::Always || cells.looked() <= mostLooked) cells_ = std::move(cells);
+    if (use == CellUse::Always || cells.looked() <= mostLooked)
+        cells_ = std::move(cells);
+    else
+        inClusters();
 }
 
 template <class T>

@@ -214,6 +214,19 @@ TEST_CASE("what is not listed for a way stays away from contact all along it") {
     CHECK(nearest > 5);
 }
 
+TEST_CASE(
+    "what comes near of tables that are asked whole has room beside what is kept of those in clusters") {
+    const Chain chain(9);
+    const JointModel model = makeJointModel(chain.onJoint, links - 1, true);
+    ResponseRoom ws = roomFor(model);
+    ws.unlist();
+    ws.nearCount = ws.near.size(); // full of what is kept
+    const std::size_t kept = ws.nearCount;
+    cullMore(model, DofValues{}, model.range, ws);
+    CHECK(ws.nearCount > kept);
+    CHECK(ws.nearCount <= ws.near.size());
+}
+
 TEST_CASE("a chain that starts in itself comes out, and is held out from then on") {
     const Chain chain(5);
     const JointResponder responder(chain.onJoint, links - 1);
