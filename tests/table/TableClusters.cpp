@@ -28,6 +28,19 @@ std::vector<std::uint32_t> testsWithin(const PreparedTable& table, const TableFe
     return tests;
 }
 
+/// The features of each at values at which both are to say the same.
+std::pair<TableFeatures, TableFeatures> answersAlike(const PreparedTable& with, const PreparedTable& without,
+                                                     const std::vector<double>& q) {
+    std::pair<TableFeatures, TableFeatures> features;
+    auto& [f, g] = features;
+    with.features(q.data(), f);
+    without.features(q.data(), g);
+    REQUIRE(with.hit(f) == without.hit(g));
+    REQUIRE(with.hit(q.data()) == with.hit(f));
+    REQUIRE(with.gap(f).gap == without.gap(g).gap);
+    return features;
+}
+
 } // namespace
 
 TEST_CASE("a table in clusters answers as without them, to the bit, and misses no touch") {
@@ -48,12 +61,7 @@ TEST_CASE("a table in clusters answers as without them, to the bit, and misses n
             REQUIRE(without.kernels().clusters().empty());
             for (int i = 0; i < 150; ++i) {
                 const std::vector<double> q = random_table::values(random, table.motion);
-                TableFeatures f, g;
-                with.features(q.data(), f);
-                without.features(q.data(), g);
-                REQUIRE(with.hit(f) == without.hit(g));
-                REQUIRE(with.hit(q.data()) == with.hit(f));
-                REQUIRE(with.gap(f).gap == without.gap(g).gap);
+                const auto [f, g] = answersAlike(with, without, q);
                 const double margin = random_table::between(random, 0, 0.3);
                 const std::vector<std::uint32_t> near = testsWithin(with, f, margin);
                 REQUIRE(near == testsWithin(without, g, margin));
@@ -85,12 +93,7 @@ TEST_CASE("a table of very many tests over few DOFs is in clusters, and answers 
     int hits = 0;
     for (int i = 0; i < 200; ++i) {
         const std::vector<double> q = random_table::values(random, motion);
-        TableFeatures f, g;
-        with.features(q.data(), f);
-        without.features(q.data(), g);
-        REQUIRE(with.hit(f) == without.hit(g));
-        REQUIRE(with.hit(q.data()) == with.hit(f));
-        REQUIRE(with.gap(f).gap == without.gap(g).gap);
+        const TableFeatures f = answersAlike(with, without, q).first;
         hits += with.hit(f);
     }
     CHECK(hits > 20);
