@@ -19,6 +19,9 @@ namespace {
 /// surface, as over many DOFs, where so many are needed.
 constexpr std::uint64_t mostProbes = 30'000'000;
 
+/// As many take the time in which two surfaces are asked how near they are.
+constexpr std::uint64_t probesOfSurfaces = 100;
+
 /// Shares of the reach: surfaces nearer than the first are near enough for spheres to touch, as far as their
 /// protrusion may fall short of the tolerance (protrusionFor()); farther than the second they are apart. The
 /// room between lets small cells be settled.
@@ -249,6 +252,7 @@ private:
     /// True: the cell is settled, since the surfaces are near each other all over it, or since they are apart
     /// at its centre and a part is inside there.
     bool judgeSurfaces(const CellMotion& motion, const std::array<bool, 2>& deep, CellResult& result) const {
+        result.probes += probesOfSurfaces;
         const double move = moveOfB(motion);
         const auto nearer = [&](double distance) {
             return !surfaceA_.apart(surfaceB_, motion.centrePose(), distance);
