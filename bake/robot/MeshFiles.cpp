@@ -55,6 +55,8 @@ fs::path homeOf(const fs::path& robotFolder) {
 std::string found(const std::string& name, const fs::path& path, const std::vector<fs::path>& within,
                   const std::string& hint) {
     const fs::path real = realPath(path);
+    std::error_code none;
+    if (!fs::exists(real, none)) return real.string(); // which its reader says
     if (std::ranges::none_of(within,
                              [&](const fs::path& folder) { return isWithin(real, realPath(folder)); }))
         throw InputError("file \"" + name + "\" lies outside of " + within.front().string() +
@@ -84,8 +86,9 @@ public:
 
 private:
     std::string inPackage(const std::string& name, const std::string& rest) const {
-        const auto slash = rest.find('/');
-        const std::string package = rest.substr(0, slash);
+        const auto begin = std::min(rest.find_first_not_of('/'), rest.size()); // "package:///NAME/PATH" too
+        const auto slash = rest.find('/', begin);
+        const std::string package = rest.substr(begin, slash - begin);
         if (slash == rest.npos || package.empty() || package == "." || package == "..")
             throw InputError("file \"" + name + "\": expected package://NAME/PATH");
         const auto given = packages_.find(package);

@@ -230,23 +230,22 @@ private:
         const std::string limited = textOf(element, "limited", "auto");
         const bool limits =
             limited == "true" || (limited == "auto" && compiler_.autoLimits && !range.empty());
-        if (limits && range.empty()) throw InputError(placeOf(file_, element), "expected an attribute range");
-        if (limits && range[0] > range[1])
-            throw InputError(placeOf(file_, element), "range: expected lower <= upper");
-        if (type == "free") return leaveOut("free joints: the bodies are tied to nothing", body), false;
+        const auto untied = [&](const std::string& kind) {
+            leaveOut(kind + ": the bodies are tied to nothing", body);
+            return false;
+        };
+        if (type == "free") return untied("free joints");
+        if (type != "ball" && type != "hinge" && type != "slide") return untied("joints of type " + type);
+        if (limits && range.empty()) return untied("joints with limits and no range");
+        if (limits && range[0] > range[1]) return untied("joints with a lower limit above their upper one");
         if (type == "ball") return addBall(limits ? compiler_.angle(range[1]) : pi, dof, joint), true;
-        if (type != "hinge" && type != "slide")
-            throw InputError(placeOf(file_, element),
-                             "type: expected hinge, slide, ball or free, found \"" + type + "\"");
         const Vec3 axis = place.linear() * vectorOf(numbersOf(file_, element, "axis", 3, 3), Vec3::UnitZ());
-        if (!(axis.norm() > 0))
-            throw InputError(placeOf(file_, element), "expected an axis that is not zero");
+        if (!(axis.norm() > 0)) return untied("joints whose axis is zero");
         dof.axis = axis.norm() == 1 ? axis : Vec3(axis.normalized());
         const auto ref = numbersOf(file_, element, "ref", 1, 1);
         if (type == "slide") {
             dof.kind = DofKind::Translation;
-            if (!limits)
-                return leaveOut("slides without limits: the bodies are tied to nothing", body), false;
+            if (!limits) return untied("slides without limits");
             setLimits(dof, range[0], range[1], ref.empty() ? 0 : ref[0]);
         } else if (limits) {
             setLimits(dof, compiler_.angle(range[0]), compiler_.angle(range[1]),

@@ -64,9 +64,7 @@ public:
         for (auto* e = top.FirstChildElement("link"); e; e = e->NextSiblingElement("link")) readLink(*e);
         std::vector<RobotJoint> named;
         named.swap(robot.joints);
-        auto joint = named.begin();
-        for (auto* e = top.FirstChildElement("joint"); e; e = e->NextSiblingElement("joint"))
-            readJoint(*e, std::move(*joint++));
+        for (RobotJoint& joint : named) readJoint(std::move(joint));
     }
 
 private:
@@ -131,30 +129,27 @@ private:
         link.color = urdfColor(file_, element);
     }
 
-    void readJoint(const XMLElement& element, RobotJoint joint) {
+    void readJoint(RobotJoint joint) {
         const auto model = model_->getJoint(joint.name);
         joint.origin = poseOf(model->parent_to_joint_origin_transform);
         const auto leaveOut = [&](const std::string& why) {
-            robot_.notes.push_back("joint " + joint.name + " (" + joint.where + ") " + why + ": left out, " +
-                                   robot_.links[joint.child].name +
-                                   " and what hangs on it are tied to nothing");
+            robot_.notes.push_back(
+                leftOutJoint(joint.name, joint.where, why, robot_.links[joint.child].name));
         };
         if (model->type == urdf::Joint::PLANAR) return leaveOut("is planar, without limits");
         if (model->type == urdf::Joint::FLOATING) return leaveOut("is floating, without limits");
         if (model->type != urdf::Joint::FIXED) {
             if (const auto& limits = model->limits; limits && limits->lower > limits->upper)
                 return leaveOut("has a lower limit above its upper one");
-            readDof(element, *model, joint);
+            readDof(*model, joint);
         }
         robot_.joints.push_back(std::move(joint));
     }
 
-    void readDof(const XMLElement& element, const urdf::Joint& model, RobotJoint& joint) const {
+    static void readDof(const urdf::Joint& model, RobotJoint& joint) {
         Dof dof;
         dof.kind = model.type == urdf::Joint::PRISMATIC ? DofKind::Translation : DofKind::Rotation;
         const Vec3 axis = vector(model.axis);
-        if (!(axis.norm() > 0))
-            throw InputError(placeOf(file_, element), "expected an axis that is not zero");
         dof.axis = axis.norm() == 1 ? axis : Vec3(axis.normalized());
         if (model.type == urdf::Joint::CONTINUOUS) {
             dof.lower = -std::numbers::pi;
@@ -183,10 +178,11 @@ Robot readUrdf(const std::string& text, const std::string& file) {
     const auto document = parseXml(text, file, "robot");
     Robot robot;
     XMLElement& top = *document->RootElement();
-    const std::vector<LostShape> lost = pruneUrdf(top, file);
+    const PrunedUrdf pruned = pruneUrdf(top, file);
     robot.file = file;
+    robot.notes = pruned.notes;
     UrdfReader(top, file, robot);
-    for (const auto& [name, visual, shape] : lost)
+    for (const auto& [name, visual, shape] : pruned.shapes)
         for (RobotLink& link : robot.links)
             if (link.name == name) (visual ? link.visual : link.collision).push_back(shape);
     settleRobot(robot);

@@ -5,8 +5,8 @@ namespace tss {
 
 /// Reads a robot from the text of a URDF. Radians and metres as there; a continuous joint turns once round; a
 /// joint that mimics another keeps of its limits what the other's leave it. Left out with a note: floating
-/// and planar joints (their links are tied to nothing), shapes that are none of URDF's. Throws InputError
-/// with file, line and element.
+/// and planar joints and those that cannot be read (their links are tied to nothing), shapes that cannot be
+/// read or are none of URDF's (capsules are). Throws InputError with file, line and element.
 Robot readUrdf(const std::string& text, const std::string& file);
 
 /// Adds the pairs of links whose collision the text of an SRDF switches off to those of the robot. Throws

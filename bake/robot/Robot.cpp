@@ -23,38 +23,48 @@ std::string rangeText(const Robot& robot, const Dof& dof) {
     return text(dof.lower) + " to " + text(dof.upper) + (dof.kind == DofKind::Rotation ? " degrees" : " m");
 }
 
-/// The limits that a follower has, through others that follow too.
-void settleFollower(Robot& robot, RobotJoint& joint) {
+/// Why a follower does not follow, having found the joint that leads it in the end; empty where it does.
+std::string findLeader(const Robot& robot, RobotJoint& joint) {
     const auto named = [&](const std::string& name) {
         return std::ranges::find_if(robot.joints, [&](const RobotJoint& j) { return j.name == name; });
     };
     for (std::size_t steps = 0;; ++steps) {
         const auto leader = named(joint.leader);
         if (leader == robot.joints.end() || leader->dofs.size() != 1)
-            throw InputError(placeOfJoint(robot, joint),
-                             "mimics \"" + joint.leader +
-                                 "\"; expected another joint that turns or slides within limits");
-        if (steps > robot.joints.size())
-            throw InputError(placeOfJoint(robot, joint), "joints mimic each other in a circle");
-        if (leader->leader.empty()) break;
-        joint.offset += joint.factor * leader->offset;
-        joint.factor *= leader->factor;
-        joint.leader = leader->leader;
+            return "mimics \"" + joint.leader + "\", which is no joint that turns or slides within limits";
+        if (steps > robot.joints.size()) return "is one of joints that mimic each other in a circle";
+        if (!leader->leader.empty()) {
+            joint.offset += joint.factor * leader->offset;
+            joint.factor *= leader->factor;
+            joint.leader = leader->leader;
+            continue;
+        }
+        Dof& dof = joint.dofs[0];
+        const Dof& leads = leader->dofs[0];
+        const double a = joint.factor * leads.lower + joint.offset,
+                     b = joint.factor * leads.upper + joint.offset;
+        const double lower = std::max(dof.lower, std::min(a, b)), upper = std::min(dof.upper, std::max(a, b));
+        if (!(lower <= upper))
+            return "mimics \"" + joint.leader + "\", which never leads it into its limits " +
+                   rangeText(robot, dof);
+        dof.lower = lower;
+        dof.upper = upper;
+        return "";
     }
-    Dof& dof = joint.dofs[0];
-    const Dof& leads = named(joint.leader)->dofs[0];
-    const double a = joint.factor * leads.lower + joint.offset, b = joint.factor * leads.upper + joint.offset;
-    const double lower = std::max(dof.lower, std::min(a, b)), upper = std::min(dof.upper, std::max(a, b));
-    if (!(lower <= upper))
-        throw InputError(placeOfJoint(robot, joint), "mimics \"" + joint.leader +
-                                                         "\", which never leads it into its limits " +
-                                                         rangeText(robot, dof));
-    dof.lower = lower;
-    dof.upper = upper;
+}
+
+/// The limits that a follower has, through others that follow too; without a leader it moves by itself.
+void settleFollower(Robot& robot, RobotJoint& joint) {
+    if (const std::string why = findLeader(robot, joint); !why.empty()) {
+        robot.notes.push_back("joint " + joint.name + " (" + joint.where + ") " + why +
+                              ": it moves by itself");
+        joint.leader.clear();
+        return;
+    }
     robot.notes.push_back(
-        "joint " + joint.name + " mimics " + joint.leader + ": " + rangeText(robot, dof) +
-        " are left it. The scene's motion couples them; a table lets each move by itself, so what is proven "
-        "never to meet holds, and some contacts of it may need both apart");
+        "joint " + joint.name + " mimics " + joint.leader + ": " + rangeText(robot, joint.dofs[0]) +
+        " are left it. The scene's motion couples them; a table lets each move by itself, "
+        "so what is proven never to meet holds, and some contacts of it may need both apart");
 }
 
 void settleHeld(Robot& robot, RobotJoint& joint) {

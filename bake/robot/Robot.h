@@ -65,7 +65,7 @@ void checkForest(const Robot& robot);
 /// What holds for any format, once all is read: checkForest(). A joint whose limits leave it one value
 /// becomes fixed there. One that follows another gets the limits that the other's leave it; the coupling
 /// itself is for the scene's motion alone, and noted: in a table both move by themselves, which only adds
-/// poses. Throws InputError with file and line also for a leader that is none.
+/// poses. One whose leader is none, or never leads it into its limits, moves by itself, noted.
 void settleRobot(Robot& robot);
 
 } // namespace tss

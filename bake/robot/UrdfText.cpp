@@ -2,7 +2,9 @@
 
 #include "bake/robot/Xml.h"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -24,10 +26,10 @@ const std::map<std::string_view, Kept>& keptElements() {
         {"link", {{"visual", "collision"}, {}}},
         {"visual", {{"origin", "geometry", "material"}, {}}},
         {"collision", {{"origin", "geometry"}, {}}},
-        {"geometry", {{"box", "cylinder", "sphere", "mesh"}, {}}},
+        {"geometry", {{"box", "cylinder", "sphere", "mesh", "capsule"}, {}}},
         {"joint", {{"parent", "child", "origin", "axis", "limit", "mimic"}, {}}},
         {"material", {{"color"}, {}}},
-        {"color", {{}, {{"rgba", 4}}}},
+        {"color", {}},
         {"origin", {{}, {{"xyz", 3}, {"rpy", 3}}}},
         {"parent", {}},
         {"child", {}},
@@ -37,6 +39,7 @@ const std::map<std::string_view, Kept>& keptElements() {
         {"box", {{}, {{"size", 3}}}},
         {"cylinder", {{}, {{"radius", 1}, {"length", 1}}}},
         {"sphere", {{}, {{"radius", 1}}}},
+        {"capsule", {{}, {{"radius", 1}, {"length", 1}}}},
         {"mesh", {{}, {{"scale", 3}}}},
     };
     return kept;
@@ -62,61 +65,88 @@ void spellNumbers(const std::string& file, XMLElement& element, const Kept& kept
     }
 }
 
-LostShape lostShape(const std::string& file, const XMLElement& geometry, const XMLElement& element) {
-    const XMLElement& item = *geometry.Parent()->ToElement();
-    LostShape lost{
-        textOf(*item.Parent()->ToElement(), "name"), item.Name() == std::string_view("visual"), {}};
-    lost.shape.where = placeOf(file, element).pointer;
-    lost.shape.problem = std::string("a shape <") + element.Name() + "> is none of URDF's";
-    return lost;
-}
-
-void prune(XMLElement& element, const std::string& file, std::vector<LostShape>& lost) {
+/// Keeps what is read of the element and of what is in it.
+void prune(XMLElement& element, const std::string& file) {
     const Kept& kept = keptElements().at(element.Name());
     spellNumbers(file, element, kept);
     for (tinyxml2::XMLNode *child = element.FirstChild(), *next = nullptr; child; child = next) {
         next = child->NextSibling();
         XMLElement* inner = child->ToElement();
-        if (inner && kept.children.contains(inner->Name())) {
-            prune(*inner, file, lost);
-            continue;
-        }
-        if (inner && element.Name() == std::string_view("geometry"))
-            lost.push_back(lostShape(file, element, *inner));
-        element.DeleteChild(child);
+        if (inner && kept.children.contains(inner->Name()))
+            prune(*inner, file);
+        else
+            element.DeleteChild(child);
     }
 }
 
-/// Each visual and collision has one shape, and what each kind of shape needs; those without are taken out.
-void checkShapes(const std::string& file, XMLElement& link) {
+/// The one shape of a visual or collision, which has what its kind needs; null where there is none.
+const XMLElement* shapeOf(const std::string& file, const XMLElement& item) {
+    const XMLElement* geometry = item.FirstChildElement("geometry");
+    const XMLElement* shape = geometry ? geometry->FirstChildElement() : nullptr;
+    if (!shape) return nullptr;
+    if (shape->NextSiblingElement())
+        throw InputError(placeOf(file, *shape->NextSiblingElement()), "expected one shape in a <geometry>");
+    const std::string_view kind = shape->Name();
+    if (kind == "box") expectAttributes(file, *shape, {"size"});
+    if (kind == "cylinder" || kind == "capsule") expectAttributes(file, *shape, {"radius", "length"});
+    if (kind == "sphere") expectAttributes(file, *shape, {"radius"});
+    if (kind == "mesh") expectAttributes(file, *shape, {"filename"});
+    return shape;
+}
+
+double numberOf(const std::string& file, const XMLElement& element, const char* attribute) {
+    return numbersOf(file, element, attribute, 1, 1).at(0);
+}
+
+/// A capsule, as Bullet, Drake and URDF from 1.2 on have it: urdfdom may not know it.
+RobotShape capsuleOf(const std::string& file, const XMLElement& item, const XMLElement& capsule) {
+    RobotShape shape;
+    shape.kind = RobotShape::Kind::Capsule;
+    shape.size = {numberOf(file, capsule, "radius"), numberOf(file, capsule, "length"), 0};
+    shape.where = placeOf(file, capsule).pointer;
+    const XMLElement* origin = item.FirstChildElement("origin");
+    if (!origin) return shape;
+    const auto at = numbersOf(file, *origin, "xyz", 3, 3), rpy = numbersOf(file, *origin, "rpy", 3, 3);
+    if (!at.empty()) shape.place.translation() = Vec3(at[0], at[1], at[2]);
+    if (!rpy.empty())
+        shape.place.linear() =
+            (Eigen::AngleAxisd(rpy[2], Vec3::UnitZ()) * Eigen::AngleAxisd(rpy[1], Vec3::UnitY()) *
+             Eigen::AngleAxisd(rpy[0], Vec3::UnitX()))
+                .toRotationMatrix();
+    return shape;
+}
+
+/// Leaves those visuals and collisions of a link that urdfdom reads.
+void pruneShapes(const std::string& file, XMLElement& link, std::vector<OwnShape>& own) {
     for (XMLElement *item = link.FirstChildElement(), *next = nullptr; item; item = next) {
         next = item->NextSiblingElement();
-        XMLElement* geometry = item->FirstChildElement("geometry");
-        const XMLElement* shape = geometry ? geometry->FirstChildElement() : nullptr;
-        if (!shape) {
-            link.DeleteChild(item);
-            continue;
+        const bool visual = item->Name() == std::string_view("visual");
+        if (!visual && item->Name() != std::string_view("collision")) continue;
+        OwnShape kept{textOf(link, "name"), visual, {}};
+        try {
+            const XMLElement* geometry = item->FirstChildElement("geometry");
+            for (auto* shape = geometry ? geometry->FirstChildElement() : nullptr; shape;
+                 shape = shape->NextSiblingElement())
+                if (!keptElements().at("geometry").children.contains(shape->Name()))
+                    throw InputError(placeOf(file, *shape),
+                                     std::string("a shape <") + shape->Name() + "> is none of URDF's");
+            prune(*item, file);
+            const XMLElement* shape = shapeOf(file, *item);
+            if (shape && shape->Name() != std::string_view("capsule")) continue;
+            if (shape) own.push_back({kept.link, visual, capsuleOf(file, *item, *shape)});
+        } catch (const InputError& error) {
+            kept.shape.where = error.where.pointer;
+            kept.shape.problem = error.message;
+            own.push_back(kept);
         }
-        if (shape->NextSiblingElement())
-            throw InputError(placeOf(file, *shape->NextSiblingElement()),
-                             "expected one shape in a <geometry>");
-        const std::string_view kind = shape->Name();
-        if (kind == "box") expectAttributes(file, *shape, {"size"});
-        if (kind == "cylinder") expectAttributes(file, *shape, {"radius", "length"});
-        if (kind == "sphere") expectAttributes(file, *shape, {"radius"});
-        if (kind == "mesh") expectAttributes(file, *shape, {"filename"});
+        link.DeleteChild(item);
     }
 }
 
-void checkJoint(const std::string& file, const std::set<std::string>& links, XMLElement& joint) {
+void checkJoint(const std::string& file, const std::set<std::string>& links, const XMLElement& joint) {
     static const std::set<std::string> types = {"revolute", "continuous", "prismatic",
                                                 "fixed",    "floating",   "planar"};
     const std::string type = textOf(joint, "type");
-    if (!types.contains(type))
-        throw InputError(
-            placeOf(file, joint),
-            "type: expected revolute, continuous, prismatic, fixed, floating or planar, found \"" + type +
-                "\"");
     for (const char* end : {"parent", "child"}) {
         const XMLElement* link = joint.FirstChildElement(end);
         if (!link) throw InputError(placeOf(file, joint), std::string("expected an element <") + end + ">");
@@ -124,13 +154,72 @@ void checkJoint(const std::string& file, const std::set<std::string>& links, XML
         if (!links.contains(name))
             throw InputError(placeOf(file, *link), "expected the name of a link, found \"" + name + "\"");
     }
-    XMLElement* limit = joint.FirstChildElement("limit");
-    if (!limit && (type == "revolute" || type == "prismatic"))
+    if (!types.contains(type))
+        throw InputError(
+            placeOf(file, joint),
+            "type: expected revolute, continuous, prismatic, fixed, floating or planar, found \"" + type +
+                "\"");
+    if (!joint.FirstChildElement("limit") && (type == "revolute" || type == "prismatic"))
         throw InputError(placeOf(file, joint), "expected an element <limit lower=... upper=...>");
+    if (const XMLElement* axis = joint.FirstChildElement("axis")) {
+        const auto along = numbersOf(file, *axis, "xyz", 3, 3);
+        if (!along.empty() && !(Vec3(along[0], along[1], along[2]).norm() > 0))
+            throw InputError(placeOf(file, *axis), "expected an axis that is not zero");
+    }
     if (const XMLElement* mimic = joint.FirstChildElement("mimic")) expectAttributes(file, *mimic, {"joint"});
-    // Neither is used, and many files leave them out, which urdfdom does not let pass.
-    if (limit)
-        for (const char* unused : {"effort", "velocity"}) limit->SetAttribute(unused, "0");
+}
+
+/// Leaves those joints that can be read; says of the others why not.
+void pruneJoints(const std::string& file, XMLElement& robot, const std::set<std::string>& links,
+                 std::vector<std::string>& notes) {
+    for (XMLElement *joint = robot.FirstChildElement("joint"), *next = nullptr; joint; joint = next) {
+        next = joint->NextSiblingElement("joint");
+        try {
+            prune(*joint, file);
+            checkJoint(file, links, *joint);
+            // Neither is used, and many files leave them out, which urdfdom does not let pass.
+            if (XMLElement* limit = joint->FirstChildElement("limit"))
+                for (const char* unused : {"effort", "velocity"}) limit->SetAttribute(unused, "0");
+        } catch (const InputError& error) {
+            const XMLElement* child = joint->FirstChildElement("child");
+            const std::string name = child ? textOf(*child, "link") : "";
+            notes.push_back(leftOutJoint(textOf(*joint, "name"), error.where.pointer,
+                                         "cannot be read (" + error.message + ")",
+                                         links.contains(name) ? name : ""));
+            robot.DeleteChild(joint);
+        }
+    }
+}
+
+/// The links that no joint holds, in their order.
+std::vector<std::string> rootsOf(const XMLElement& robot) {
+    std::set<std::string> held;
+    for (auto* joint = robot.FirstChildElement("joint"); joint; joint = joint->NextSiblingElement("joint"))
+        if (const XMLElement* child = joint->FirstChildElement("child")) held.insert(textOf(*child, "link"));
+    std::vector<std::string> roots;
+    for (auto* link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link"))
+        if (!held.contains(textOf(*link, "name"))) roots.push_back(textOf(*link, "name"));
+    return roots;
+}
+
+/// urdfdom wants one root: where there are several they are held by one more.
+void joinRoots(XMLElement& robot) {
+    const std::vector<std::string> roots = rootsOf(robot);
+    if (roots.size() < 2) return;
+    std::set<std::string> taken;
+    for (auto* e = robot.FirstChildElement(); e; e = e->NextSiblingElement())
+        taken.insert(textOf(*e, "name"));
+    std::string prefix = "root";
+    while (std::ranges::any_of(taken, [&](const std::string& name) { return name.starts_with(prefix); }))
+        prefix += "_";
+    robot.InsertNewChildElement("link")->SetAttribute("name", prefix.c_str());
+    for (const std::string& root : roots) {
+        XMLElement* joint = robot.InsertNewChildElement("joint");
+        joint->SetAttribute("name", (prefix + root).c_str());
+        joint->SetAttribute("type", "fixed");
+        joint->InsertNewChildElement("parent")->SetAttribute("link", prefix.c_str());
+        joint->InsertNewChildElement("child")->SetAttribute("link", root.c_str());
+    }
 }
 
 std::set<std::string> expectOnce(const std::string& file, XMLElement& robot, const char* kind) {
@@ -146,19 +235,27 @@ std::set<std::string> expectOnce(const std::string& file, XMLElement& robot, con
 
 } // namespace
 
-std::vector<LostShape> pruneUrdf(XMLElement& robot, const std::string& file) {
-    expectAttributes(file, robot, {"name"});
-    std::vector<LostShape> lost;
-    prune(robot, file, lost);
+std::string leftOutJoint(const std::string& joint, const std::string& where, const std::string& why,
+                         const std::string& child) {
+    const std::string left = "joint " + joint + " (" + where + ") " + why + ": left out";
+    return child.empty() ? left : left + ", " + child + " and what hangs on it are tied to nothing";
+}
+
+PrunedUrdf pruneUrdf(XMLElement& robot, const std::string& file) {
+    PrunedUrdf pruned;
+    if (textOf(robot, "name").empty()) robot.SetAttribute("name", std::filesystem::path(file).stem().c_str());
     const std::set<std::string> links = expectOnce(file, robot, "link");
     expectOnce(file, robot, "joint");
+    if (links.empty()) throw InputError(placeOf(file, robot), "expected at least one <link>");
     for (auto* link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link"))
-        checkShapes(file, *link);
-    for (auto* joint = robot.FirstChildElement("joint"); joint; joint = joint->NextSiblingElement("joint"))
-        checkJoint(file, links, *joint);
-    if (!robot.FirstChildElement("link"))
-        throw InputError(placeOf(file, robot), "expected at least one <link>");
-    return lost;
+        pruneShapes(file, *link, pruned.shapes);
+    const std::vector<std::string> roots = rootsOf(robot);
+    for (std::size_t k = 1; k < roots.size(); ++k)
+        pruned.notes.push_back("link " + roots[k] +
+                               " hangs on no joint: tied to nothing, as is what hangs on it");
+    pruneJoints(file, robot, links, pruned.notes);
+    prune(robot, file); // what is neither
+    return pruned;
 }
 
 std::string urdfText(const XMLElement& robot) {
@@ -171,6 +268,7 @@ std::string urdfText(const XMLElement& robot) {
         for (auto* visual = link->FirstChildElement("visual"); visual;
              visual = visual->NextSiblingElement("visual"))
             while (auto* material = visual->FirstChildElement("material")) visual->DeleteChild(material);
+    joinRoots(*top->ToElement());
     tinyxml2::XMLPrinter printer(nullptr, true);
     document.Print(&printer);
     return printer.CStr();
@@ -188,8 +286,12 @@ std::optional<Vec3> urdfColor(const std::string& file, const XMLElement& link) {
         for (auto* m = robot->FirstChildElement("material"); m && !color;
              m = m->NextSiblingElement("material"))
             if (textOf(*m, "name") == name) color = m->FirstChildElement("color");
-        const auto rgba = color ? numbersOf(file, *color, "rgba", 4, 4) : std::vector<double>();
-        if (rgba.size() == 4) return Vec3(linear(rgba[0]), linear(rgba[1]), linear(rgba[2]));
+        if (!color) continue;
+        try {
+            const auto rgba = numbersOf(file, *color, "rgba", 4, 4);
+            if (!rgba.empty()) return Vec3(linear(rgba[0]), linear(rgba[1]), linear(rgba[2]));
+        } catch (const InputError&) { // no collision depends on it
+        }
     }
     return std::nullopt;
 }

@@ -42,6 +42,7 @@ TEST_CASE("a mesh of a package is found upwards by folder, by package.xml, or wh
     const std::string mesh = tree.write("my_arm/meshes/a.stl"), urdf = tree.write("my_arm/urdf/arm.urdf");
     CHECK(meshesOf(urdf, {})("package://my_arm/meshes/a.stl") == mesh);
     CHECK(meshesOf(urdf, {})("model://my_arm/meshes/a.stl") == mesh);
+    CHECK(meshesOf(urdf, {})("package:///my_arm/meshes/a.stl") == mesh); // as Pinocchio takes it
     const std::string other = tree.write("my_hand/b.stl");
     CHECK(meshesOf(urdf, {})("package://my_hand/b.stl") == other); // beside the package
 
@@ -99,6 +100,7 @@ TEST_CASE("plain paths stay within the package or the parent of the file's folde
     CHECK(find("file://" + mesh) == mesh);
     CHECK(refusal([&] { find("../../secret.stl"); }).find("lies outside") != std::string::npos);
     CHECK(refusal([&] { find(secret); }).find("lies outside") != std::string::npos);
+    CHECK(find("file:///no/such/file.stl") == "/no/such/file.stl"); // its link has its other shapes
     CHECK(refusal([&] { find("package://robot/../secret.stl"); }).find("lies outside") != std::string::npos);
     CHECK(refusal([&] { find("package://../secret.stl"); }).find("package://NAME/PATH") != std::string::npos);
     CHECK(refusal([&] { find("http://example.org/a.stl"); }).find("no other place") != std::string::npos);

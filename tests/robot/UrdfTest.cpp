@@ -127,17 +127,26 @@ TEST_CASE(
     for (std::size_t k = 0; k < joint.drives[0].values.size(); ++k)
         CHECK(joint.drives[0].values[k] == Approx(std::max(-0.5, 0.25 - 0.5 * lead.drives[0].values[k])));
     CHECK(hasNote(robot.notes, "follow mimics lead"));
-    CHECK(refusedUrdf(follower("", "<limit lower='5' upper='6'/>")).find("never leads it into its limits") !=
-          std::string::npos);
-    const std::string circle =
-        robotOf(aLink("base") + aLink("a") + aLink("b") +
-                aJoint("one", "revolute", "base", "a", "<mimic joint='two'/>" + limits) +
-                aJoint("two", "revolute", "base", "b", "<mimic joint='one'/>" + limits));
-    CHECK(refusedUrdf(circle).find("in a circle") != std::string::npos);
-    const std::string nobody =
-        robotOf(aLink("base") + aLink("a") +
-                aJoint("one", "revolute", "base", "a", "<mimic joint='nobody'/>" + limits));
-    CHECK(refusedUrdf(nobody).find("line 5 (<joint one>): mimics \"nobody\"") != std::string::npos);
+}
+
+TEST_CASE("a joint that nothing leads moves by itself, by name") {
+    const auto note = [](const std::string& mimicOfOne, const std::string& mimicOfTwo,
+                         const std::string& words) {
+        const RobotScene robot = madeOfUrdf(
+            robotOf(aLink("base") + aLink("a") + aLink("b") +
+                    aJoint("one", "revolute", "base", "a", mimicOfOne + "<limit lower='5' upper='6'/>") +
+                    aJoint("two", "revolute", "base", "b", mimicOfTwo + limits)));
+        INFO(words);
+        CHECK(hasNote(robot.notes, "joint one (line 6) " + words + ": it moves by itself"));
+        CHECK(jointCalled(robot.scene, "one").dofs[0].lower == 5);
+        CHECK(jointCalled(robot.scene, "one").dofs[0].upper == 6);
+    };
+    note("<mimic joint='two'/>", "",
+         "mimics \"two\", which never leads it into its limits 286.479 to 343.775 degrees");
+    note("<mimic joint='two'/>", "<mimic joint='one'/>",
+         "is one of joints that mimic each other in a circle");
+    note("<mimic joint='nobody'/>", "",
+         "mimics \"nobody\", which is no joint that turns or slides within limits");
 }
 
 TEST_CASE("what a URDF gets wrong is refused with file, line and element") {
@@ -152,18 +161,8 @@ TEST_CASE("what a URDF gets wrong is refused with file, line and element") {
     says("<robot name='x'>", "line 1: expected the end of the element");
     says("<sdf/>", "line 1 (<sdf>): expected <robot>, found <sdf>");
     says("<robot name='x'/>", "at least one <link>");
-    says("<robot><link name='a'/></robot>", "expected an attribute name");
+    says("<robot><link/></robot>", "line 1 (<link>): expected an attribute name");
     says(robotOf(aLink("a") + aLink("a")), "line 4 (<link a>): expected a name that no other link has");
-    says(robotOf(aLink("a") + aJoint("j", "fixed", "a", "nobody", "")),
-         "line 4 (<child>): expected the name of a link, found \"nobody\"");
-    says(robotOf(two + aJoint("j", "hinge", "a", "b", "")), "found \"hinge\"");
-    says(robotOf(two + aJoint("j", "revolute", "a", "b", "")), "expected an element <limit");
-    says(robotOf(two + aJoint("j", "revolute", "a", "b", "<axis xyz='0 0 0'/>" + limits)),
-         "axis that is not zero");
-    says(robotOf(two + aJoint("j", "revolute", "a", "b", "<origin xyz='0 nan 0'/>" + limits)),
-         "expected 3 finite numbers");
-    says(robotOf(two + aJoint("j", "revolute", "a", "b", "<origin xyz='0 1e999 0'/>" + limits)),
-         "expected 3 finite");
     says(robotOf(two + aJoint("j", "fixed", "a", "b", "") + aJoint("k", "fixed", "a", "b", "")),
          "hangs on joint j too");
     says(robotOf(two + aLink("c") + aJoint("j", "fixed", "a", "b", "") + aJoint("k", "fixed", "b", "a", "")),
@@ -200,11 +199,46 @@ TEST_CASE(
     CHECK(refusedUrdf(robotOf(aLink("a", lost))).find("arm.urdf: line 3 (<link a>): ") != std::string::npos);
 }
 
-TEST_CASE("a joint whose limits are the wrong way round is left out by name") {
-    const RobotScene robot = madeOfUrdf(
-        robotOf(aLink("a") + aLink("b") + aJoint("j", "revolute", "a", "b", "<limit lower='2' upper='1'/>")));
-    CHECK(robot.scene.joints.empty());
-    CHECK(hasNote(robot.notes, "joint j (line 5) has a lower limit above its upper one: left out"));
+TEST_CASE("a joint that cannot be read is left out by name, and the rest comes in") {
+    const auto note = [](const std::string& joint, const std::string& words) {
+        const RobotScene robot = madeOfUrdf(robotOf(aLink("a", box) + aLink("b", box) + aLink("c", box) +
+                                                    joint + aJoint("k", "revolute", "a", "c", limits)));
+        INFO(words);
+        CHECK(hasNote(robot.notes, words));
+        REQUIRE(robot.scene.joints.size() == 1);
+        CHECK(robot.scene.pairs.size() == 1); // of a and c
+    };
+    const std::string untied = ": left out, b and what hangs on it are tied to nothing";
+    note(aJoint("j", "revolute", "a", "b", "<limit lower='2' upper='1'/>"),
+         "joint j (line 6) has a lower limit above its upper one" + untied);
+    note(aJoint("j", "spherical", "a", "b", ""), "found \"spherical\")" + untied);
+    note(aJoint("j", "revolute", "a", "b", ""), "expected an element <limit lower=... upper=...>)" + untied);
+    note(aJoint("j", "revolute", "a", "b", "<axis xyz='0 0 0'/>" + limits),
+         "expected an axis that is not zero)" + untied);
+    for (const char* numbers : {"0 nan 0", "0 1e999 0", "0, 1, 2", "1 2 3 4"})
+        note(aJoint("j", "revolute", "a", "b",
+                    "<origin xyz='" + std::string(numbers) + "'/><limit lower='0' upper='1'/>"),
+             "joint j (line 6) cannot be read (xyz: expected 3 finite numbers, found \"" +
+                 std::string(numbers) + "\")" + untied);
+    note(aJoint("j", "fixed", "a", "nobody", ""),
+         "joint j (line 6) cannot be read (expected the name of a link, found \"nobody\"): left out");
+    note("<joint name='j' type='fixed'><parent link='a'/></joint>",
+         "joint j (line 6) cannot be read (expected an element <child>): left out");
+}
+
+TEST_CASE("links that no joint holds come in, tied to nothing") {
+    const RobotScene robot = madeOfUrdf(robotOf(aLink("root", box) + aLink("a", box) + aLink("root_", box) +
+                                                aJoint("j", "revolute", "a", "root", limits)));
+    CHECK(robot.scene.bodies.size() == 3);
+    CHECK(robot.scene.joints.size() == 1);
+    CHECK(robot.scene.pairs.size() == 1);
+    CHECK(hasNote(robot.notes, "link root_ hangs on no joint: tied to nothing"));
+}
+
+TEST_CASE("a robot without a name has that of its file; zeros after its end do not matter") {
+    using namespace std::string_literals;
+    CHECK(madeOfUrdf("<robot><link name='a'/></robot>\n\0\0"s).scene.defaultPrim == "arm");
+    CHECK(refusedUrdf("<robot>\0<link name='a'/></robot>"s).find("UTF-8") != std::string::npos);
 }
 
 TEST_CASE("xacro, document types, bombs and depth are refused by name") {
@@ -224,17 +258,41 @@ TEST_CASE("xacro, document types, bombs and depth are refused by name") {
 }
 
 TEST_CASE(
-    "a link with a shape that is none of URDF's has its other ones, and what is not used does not matter") {
-    const RobotScene robot = madeOfUrdf(
-        robotOf("<material name='red'><color rgba='1 0 0 1'/></material><gazebo reference='a'><x/></gazebo>"
-                "<transmission name='t'><type>x</type></transmission>" +
-                aLink("a", "<inertial><mass value='junk'/></inertial>"
-                           "<visual><geometry><box size='1 1 1'/></geometry><material name='red'/></visual>"
-                           "<collision><geometry><capsule radius='1' length='2'/></geometry></collision>" +
-                               box)));
-    CHECK(hasNote(robot.notes, "left out: arm.urdf: line 3 (<link a>): a shape <capsule> is none of URDF's"));
-    CHECK(bodyCalled(robot.scene, "a").displayColor == Vec3(1, 0, 0));
-    CHECK(bounds(bodyCalled(robot.scene, "a").mesh).sizes().isApprox(Vec3::Ones()));
+    "a link with a shape that cannot be read has its other ones, and what is not used does not matter") {
+    const auto note = [](const std::string& shape, const std::string& words) {
+        const RobotScene robot = madeOfUrdf(robotOf(
+            "<material name='red'><color rgba='1 0 0 1'/></material><gazebo reference='a'><x/></gazebo>"
+            "<transmission name='t'><type>x</type></transmission>" +
+            aLink("a", "<inertial><mass value='junk'/></inertial>"
+                       "<visual><geometry><box size='1 1 1'/></geometry><material name='dim'><color "
+                       "rgba='junk'/></material></visual>"
+                       "<visual><geometry><box size='1 1 1'/></geometry><material name='red'/></visual>"
+                       "<collision>" +
+                           shape + "</collision>" + box)));
+        INFO(words);
+        CHECK(hasNote(robot.notes, "left out: arm.urdf: line 3 (<link a>): " + words));
+        CHECK(bodyCalled(robot.scene, "a").displayColor == Vec3(1, 0, 0));
+        CHECK(bounds(bodyCalled(robot.scene, "a").mesh).sizes().isApprox(Vec3::Ones()));
+    };
+    note("<geometry><plane/></geometry>", "a shape <plane> is none of URDF's");
+    note("<geometry><mesh filename='a.stl' scale='1 1 1 1'/></geometry>", "scale: expected 3 finite numbers");
+    note("<origin rpy='0 0'/><geometry><box size='1 1 1'/></geometry>", "rpy: expected 3 finite numbers");
+    note("<geometry><box/></geometry>", "expected an attribute size");
+    note("<geometry><capsule radius='1'/></geometry>", "expected an attribute length");
+    note("<geometry><box size='1 1 1'/><box size='1 1 1'/></geometry>", "expected one shape in a <geometry>");
+}
+
+TEST_CASE("capsules are shapes: their length is that between the centres of their ends") {
+    const std::string capsule = "<geometry><capsule radius='1' length='2'/></geometry>";
+    const RobotScene robot =
+        madeOfUrdf(robotOf(aLink("a", "<collision>" + capsule + "</collision>") +
+                           aLink("b", "<collision><origin xyz='5 0 0' rpy='0 1.5707963267948966 0'/>" +
+                                          capsule + "</collision>")));
+    const Eigen::AlignedBox3d up = bounds(bodyCalled(robot.scene, "a").mesh),
+                              along = bounds(bodyCalled(robot.scene, "b").mesh);
+    CHECK(up.sizes().isApprox(Vec3(2, 2, 4), 0.01));
+    CHECK(along.sizes().isApprox(Vec3(4, 2, 2), 0.01));
+    CHECK(along.center().isApprox(Vec3(5, 0, 0), 0.01));
 }
 
 TEST_CASE("names that USD does not know are kept beside, and the scene reads back the same") {
