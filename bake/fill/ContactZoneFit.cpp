@@ -341,7 +341,8 @@ ContactZoneFit fitContactZone(const TriangleMesh& a, const TriangleMesh& b, cons
     const Solid solidA(cleaned(a)), solidB(cleaned(b));
     const double finest =
         options.tolerance > 0 ? options.tolerance : std::min(solidA.diagonal(), solidB.diagonal()) / 500;
-    const Nesting nesting = findNested(solidA, solidB, motion, 2 * finest, progress);
+    const Nesting nesting =
+        options.nesting ? *options.nesting : findNested(solidA, solidB, motion, 2 * finest, progress);
     HollowBodies hollow = nesting.outer;
     bool clearAtRest = true;
     for (;;) {
@@ -350,6 +351,7 @@ ContactZoneFit fitContactZone(const TriangleMesh& a, const TriangleMesh& b, cons
             ContactZoneFit fit = refiner.run();
             fit.a.fit.enclosed = nesting.apart();
             fit.b.fit.enclosed = nesting.apart();
+            fit.nesting = nesting;
             const HollowBodies& more = refiner.entered();
             if (!more) return fit;
             hollow = {hollow.a || more.a, hollow.b || more.b};

@@ -1,9 +1,12 @@
 #pragma once
 #include "bake/base/Progress.h"
+#include "bake/fill/NestedBodies.h"
 #include "bake/fill/RestPlan.h"
 #include "bake/motion/Motion.h"
 #include "bake/spheres/GenerateSpheres.h"
 #include "bake/spheres/Patches.h"
+
+#include <optional>
 
 namespace tss {
 
@@ -20,6 +23,8 @@ struct ContactZoneOptions {
     bool conservative = true; ///< else all spheres are inscribed and the zone is covered to the tolerance
     bool whole =
         false; ///< all of both surfaces is filled, at once to the tolerance: nothing is looked for in Q
+    /// Of findNested() for the tolerance or a finer one, where that is known: it holds for coarser ones too.
+    std::optional<Nesting> nesting = {};
     MedialOptions medial;
 };
 
@@ -45,6 +50,7 @@ struct ContactZoneFit {
     bool neverMeet = false; ///< proven: the surfaces stay farther apart than the margin at every pose of Q,
                             ///< but for the region
     RestContact rest;       ///< of the cleaned meshes
+    Nesting nesting;
 };
 
 /// Spheres for two bodies in one motion, fine only where the verdict needs it. Level by level, the tolerance

@@ -146,8 +146,7 @@ struct PairBaker {
         }
         PairSpheres spheres = few.spheres;
         spheres.askAll = canAskAll(spheres, options);
-        // A table that states a gap is verified against the very spheres that its settings make.
-        if (!spheres.askAll && options.depth <= 0 && options.conservative)
+        if (!spheres.askAll && canAskAllInstead(options))
             spheres = measured(fillToAskAll(scene, pair, motion, options, progress));
         if (spheres.askAll && spheres.stickOut < few.early()) return tabulated(std::move(spheres));
         if (!few.ended.empty()) throw InputError(few.ended);

@@ -90,9 +90,10 @@ PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, dou
     }
 }
 
-/// Medial spheres stand in the contact zone only, fine where the verdict needs it.
+/// Medial spheres stand in the contact zone only, fine where the verdict needs it; where `nesting` is given,
+/// all over the surfaces.
 PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
-                     double tolerance, bool whole, const Progress& progress) {
+                     double tolerance, std::optional<Nesting>* nesting, const Progress& progress) {
     ContactZoneOptions zone;
     zone.tolerance = tolerance;
     zone.depth = options.depth;
@@ -100,9 +101,11 @@ PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const B
     zone.atRest = options.atRest;
     zone.maxSpheres = options.maxSpheres;
     zone.conservative = options.conservative;
-    zone.whole = whole;
+    zone.whole = nesting != nullptr;
+    if (nesting) zone.nesting = *nesting;
     const TriangleMesh meshA = cleaned(meshOf(a)), meshB = cleaned(meshOf(b));
     ContactZoneFit fit = fitContactZone(meshA, meshB, motion, zone, progress);
+    if (nesting) *nesting = fit.nesting;
     if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
         return spheresApart(a, b, motion, tolerance, {fit.a.fit.hollow, fit.b.fit.hollow}, fit, progress);
     return {std::move(fit.a.fit),
@@ -163,11 +166,11 @@ FitRecord measured(const Body& body, SphereFit& fit, const std::optional<std::ve
 }
 
 PairSpheres fill(const SceneModel& scene, const Pair& pair, const Motion& motion, const BakeOptions& options,
-                 bool whole, const Progress& progress) {
+                 std::optional<Nesting>* nesting, const Progress& progress) {
     const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
     const double tolerance = toleranceOf(a, b, options);
     PairSpheres spheres = options.spheres == SphereMethod::Medial
-                              ? fillZone(a, b, motion, options, tolerance, whole, progress)
+                              ? fillZone(a, b, motion, options, tolerance, nesting, progress)
                               : fillWhole(a, b, motion, options, tolerance, progress);
     roundToFloat(spheres.a);
     roundToFloat(spheres.b);
@@ -202,6 +205,10 @@ bool canAskAll(const PairSpheres& spheres, const BakeOptions& options) {
     return asksForCover(options) && spheres.a.spheres.size() * spheres.b.spheres.size() <= options.mostPairs;
 }
 
+bool canAskAllInstead(const BakeOptions& options) {
+    return asksForCover(options) && options.depth <= 0 && options.conservative;
+}
+
 bool manyDofs(const Motion& motion, const BakeOptions& options) {
     return motion.dofCount() > (options.budget == 0 ? mostCoverDofs : 3);
 }
@@ -209,7 +216,7 @@ bool manyDofs(const Motion& motion, const BakeOptions& options) {
 PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
                      const BakeOptions& options, const Progress& progress) {
     if (manyDofs(motion, options)) return fillToAskAll(scene, pair, motion, options, progress);
-    return fill(scene, pair, motion, options, false, progress);
+    return fill(scene, pair, motion, options, nullptr, progress);
 }
 
 std::vector<double> coarserTolerances(const SceneModel& scene, const Pair& pair, const BakeOptions& options) {
@@ -223,7 +230,8 @@ std::vector<double> coarserTolerances(const SceneModel& scene, const Pair& pair,
 
 PairSpheres fillToAskAll(const SceneModel& scene, const Pair& pair, const Motion& motion,
                          const BakeOptions& options, const Progress& progress) {
-    PairSpheres spheres = fill(scene, pair, motion, options, true, progress);
+    std::optional<Nesting> nesting; // of the finest holds for all
+    PairSpheres spheres = fill(scene, pair, motion, options, &nesting, progress);
     const double asked = toleranceOf(scene.bodies[pair.bodyA], scene.bodies[pair.bodyB], options);
     BakeOptions coarser = options;
     coarser.tolerance = asked;
@@ -231,7 +239,7 @@ PairSpheres fillToAskAll(const SceneModel& scene, const Pair& pair, const Motion
     for (int tries = 0; asksForCover(options) && !canAskAll(spheres, options) && tries < 8; ++tries) {
         const double pairs = double(spheres.a.spheres.size()) * double(spheres.b.spheres.size());
         *coarser.tolerance *= std::max(1.05, std::cbrt(pairs / double(options.mostPairs)));
-        spheres = fill(scene, pair, motion, coarser, true, progress);
+        spheres = fill(scene, pair, motion, coarser, &nesting, progress);
     }
     if (*coarser.tolerance > asked)
         for (SphereFit* fit : {&spheres.a, &spheres.b})

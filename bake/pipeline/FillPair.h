@@ -24,6 +24,10 @@ struct PairSpheres {
 /// them is asked for by another method.
 bool canAskAll(const PairSpheres& spheres, const BakeOptions& options);
 
+/// Whether spheres may be made so coarse that canAskAll(): a table that states a gap is verified against the
+/// very spheres that its settings make.
+bool canAskAllInstead(const BakeOptions& options);
+
 /// How far apart the surfaces are where the joint rests; 0: they touch or overlap.
 double clearanceAtRest(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion);
 

@@ -14,7 +14,7 @@ namespace tss {
 
 namespace {
 
-/// Looks at pairs for the few among all of a table over many DOFs: about a minute of one core.
+/// Looks at pairs for the few among all of a table, where the user sets no budget: about a minute of one core.
 constexpr std::uint64_t mostCoverLooks = 2'000'000'000;
 
 SampledSearchOptions sampled(const PairTask& task) {
@@ -49,6 +49,15 @@ Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std:
     return selection;
 }
 
+/// Without a budget a search ends after so much work where all pairs can be asked in place of the few.
+CoverOptions coverOptions(const PairTask& task) {
+    CoverOptions cover;
+    if (task.options.budget || !canAskAllInstead(task.options)) return cover;
+    cover.looks = mostCoverLooks;
+    cover.coarser = false;
+    return cover;
+}
+
 CoverResult coverOf(const PairTask& task, const CandidatePairs& candidates, CoverOptions cover,
                     const Progress& progress) {
     cover.epsilon = task.options.epsilon;
@@ -75,9 +84,8 @@ Selection selectionOf(const PairTask& task, const CoverResult& result) {
 std::optional<Selection> selectFew(const PairTask& task, const CandidatePairs& candidates,
                                    const Progress& progress) {
     if (!manyDofs(task.motion, task.options) || task.motion.dofCount() > mostCoverDofs) return std::nullopt;
-    CoverOptions cover;
+    CoverOptions cover = coverOptions(task);
     cover.coarser = false;
-    if (!task.options.budget) cover.looks = mostCoverLooks;
     const CoverResult result = coverOf(task, candidates, cover, progress);
     if (!result.complete) return std::nullopt;
     return selectionOf(task, result);
@@ -86,7 +94,7 @@ std::optional<Selection> selectFew(const PairTask& task, const CandidatePairs& c
 /// The least that answers like all at every pose.
 Selection selectCover(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes,
                       const Progress& progress) {
-    const CoverResult result = coverOf(task, candidates, {}, progress);
+    const CoverResult result = coverOf(task, candidates, coverOptions(task), progress);
     if (!std::isfinite(result.epsilon))
         throw BudgetEnded("the budget ended before any bound was proven: expected a longer --budget, or a "
                           "coarser --tolerance or --epsilon");
