@@ -2,6 +2,7 @@
 
 #include "bake/base/Error.h"
 #include "bake/model/SourceHash.h"
+#include "bake/motion/WholeTurn.h"
 #include "bake/pipeline/RestRule.h"
 #include "bake/verify/Verify.h"
 
@@ -69,7 +70,7 @@ PairVerdict verifyPair(const SceneModel& scene, const Pair& pair, const Progress
     if (pair.table && !pair.table->certified)
         return fails("is not certified: it was made from samples, and states no bound");
     if (std::string stale = staleness(scene, pair); !stale.empty()) return fails(stale);
-    const Motion motion = pairMotion(scene, pair);
+    const Motion motion = onceRound(pairMotion(scene, pair));
     const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;
     for (const int body : {pair.bodyA, pair.bodyB})
         if (scene.bodies[body].mesh.empty())

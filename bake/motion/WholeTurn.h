@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/motion/Motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,19 @@ namespace tss {
 inline bool wholeTurn(const Dof& dof) {
     constexpr double turn = 2 * std::numbers::pi;
     return dof.kind == DofKind::Rotation && std::abs(dof.upper - dof.lower - turn) <= 1e-6 * turn;
+}
+
+/// The same poses with none of them twice: turns of more than once round go once round, about where they
+/// rest, and a billionth of a turn beyond, far more than rounding moves. Where planes bind the values all
+/// stays.
+inline Motion onceRound(Motion motion) {
+    constexpr double turn = (1 + 1e-9) * 2 * std::numbers::pi;
+    for (Dof& dof : motion.dofs) {
+        if (dof.kind != DofKind::Rotation || dof.upper - dof.lower <= turn || !motion.planes.empty()) continue;
+        dof.lower = std::max(dof.lower, std::min(dof.rest - turn / 2, dof.upper - turn));
+        dof.upper = std::min(dof.upper, dof.lower + turn);
+    }
+    return motion;
 }
 
 /// The angle that differs from `value` by whole turns and is nearest to `to`.

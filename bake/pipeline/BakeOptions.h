@@ -27,9 +27,12 @@ struct BakeOptions {
     AtRest atRest = AtRest::Offset;
     bool conservative = true; ///< spheres contain the surface; otherwise they are inscribed
     bool keepSpheres = false; ///< store all generated spheres too
-    /// Seconds for each pair's cover; 0: no limit. Not given: no limit up to three DOFs, about a minute of
-    /// one core by work done up to six. Over more than six a cover is not even begun (METHOD 3.3).
+    /// Seconds for each pair's cover; 0: no limit. Not given: `mostLooks`. Over more than six DOFs a cover is
+    /// not even begun (METHOD 3.3).
     std::optional<double> budget;
+    /// Looks at pairs of spheres for a cover without a budget, after which all that may touch are asked:
+    /// about a minute of one core. Gap-true tables, which cannot do that, have no limit.
+    std::uint64_t mostLooks = 2'000'000'000;
     /// As many pairs of spheres a table asks at most where no cover of them is found: few of them in a query,
     /// in clusters, but each takes some 240 bytes in memory.
     std::size_t mostPairs = 1'000'000;

@@ -5,6 +5,7 @@
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/PartSet.h"
 #include "bake/model/SourceHash.h"
+#include "bake/motion/WholeTurn.h"
 #include "bake/pipeline/BoundTable.h"
 #include "bake/pipeline/SelectTests.h"
 #include "bake/search/RestContact.h"
@@ -185,7 +186,8 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
               const Progress& progress) {
     const Motion motion = pairMotion(scene, pair);
     checkMotion(motion);
-    const PairBaker baker{scene, pair, options, motion, progress};
+    const Motion once = onceRound(motion);
+    const PairBaker baker{scene, pair, options, once, progress};
     PairTable made;
     if (std::optional<PairTable> never = baker.surfacesNeverMeet()) {
         made = std::move(*never);
@@ -197,8 +199,13 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
         report.epsilon = attempt.report.epsilon;
         std::move(attempt.report.notes.begin(), attempt.report.notes.end(), std::back_inserter(report.notes));
     }
-    // Store: with the hash by which a stale table is told.
-    pair.table = std::move(made.table);
+    // Store: with the limits of the joints, and the hash by which a stale table is told.
+    std::shared_ptr<Table> table;
+    if (made.table) {
+        table = std::make_shared<Table>(*made.table);
+        table->motion = motion;
+    }
+    pair.table = std::move(table);
     pair.proof = std::move(made.proof);
     if (pair.table) {
         noteExempt(scene.bodies[pair.bodyA], pair.table->restRegion.a, report.notes);

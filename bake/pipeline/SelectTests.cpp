@@ -14,9 +14,6 @@ namespace tss {
 
 namespace {
 
-/// Looks at pairs for the few among all of a table, where the user sets no budget: about a minute of one core.
-constexpr std::uint64_t mostCoverLooks = 2'000'000'000;
-
 SampledSearchOptions sampled(const PairTask& task) {
     SampledSearchOptions search;
     search.samples = static_cast<std::size_t>(task.options.samples);
@@ -39,9 +36,9 @@ Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std:
     }
     selection.reduced.restGaps = rule.thresholds(pairs);
     selection.certified = true;
-    notes.push_back(fmt::format("which pairs of spheres imply others is too much to find out over {} degrees "
-                                "of freedom{}: all {} that may meet are asked{}",
-                                task.motion.dofCount(),
+    notes.push_back(fmt::format("which pairs of spheres imply others is too much to find out over {} "
+                                "degree{} of freedom{}: all {} that may meet are asked{}",
+                                task.motion.dofCount(), task.motion.dofCount() == 1 ? "" : "s",
                                 task.options.budget.value_or(0) > 0 ? " in the budget" : "", pairs.size(),
                                 task.options.budget == 0 || task.motion.dofCount() > mostCoverDofs
                                     ? ""
@@ -53,7 +50,7 @@ Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std:
 CoverOptions coverOptions(const PairTask& task) {
     CoverOptions cover;
     if (task.options.budget || !canAskAllInstead(task.options)) return cover;
-    cover.looks = mostCoverLooks;
+    cover.looks = task.options.mostLooks;
     cover.coarser = false;
     return cover;
 }

@@ -1,5 +1,5 @@
 #include "bake/base/Error.h"
-#include "bake/motion/Motion.h"
+#include "bake/motion/WholeTurn.h"
 #include "tests/FloatTraps.h"
 #include "tests/table/RandomTable.h"
 
@@ -112,4 +112,32 @@ TEST_CASE("a motion that cannot be served is refused") {
     }));
     // Limits of zero width are a joint that is held, not an error.
     CHECK_FALSE(refused([](Motion& m) { m.dofs[0].rest = m.dofs[0].upper = m.dofs[0].lower; }));
+}
+
+TEST_CASE("turns of more than once round go once round about where they rest, and all else stays") {
+    constexpr double turn = 2 * std::numbers::pi;
+    Motion motion;
+    for (const auto& [lower, upper, rest] : {std::array{-turn, turn, 0.1}, std::array{-turn, turn, -6.0},
+                                             std::array{0.0, 7.0, 6.9}, std::array{-1.0, 1.0, 0.0}}) {
+        Dof dof;
+        dof.lower = lower;
+        dof.upper = upper;
+        dof.rest = rest;
+        motion.dofs.push_back(dof);
+    }
+    motion.dofs.push_back(motion.dofs[0]);
+    motion.dofs.back().kind = DofKind::Translation;
+    const Motion once = onceRound(motion);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Dof &all = motion.dofs[k], &one = once.dofs[k];
+        CHECK(one.lower >= all.lower);
+        CHECK(one.upper <= all.upper);
+        CHECK(one.upper - one.lower > turn);
+        CHECK(one.upper - one.lower < turn * (1 + 1e-8));
+        CHECK(one.lower <= one.rest);
+        CHECK(one.rest <= one.upper);
+    }
+    for (std::size_t k = 3; k < 5; ++k) CHECK(once.dofs[k].upper == motion.dofs[k].upper);
+    motion.planes = {{{1, 1, 0, 0, 0}, 3}}; // may tell a turn from the next
+    CHECK(onceRound(motion).dofs[0].upper == motion.dofs[0].upper);
 }

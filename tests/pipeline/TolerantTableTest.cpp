@@ -1,3 +1,4 @@
+#include "bake/motion/WholeTurn.h"
 #include "bake/pipeline/Bake.h"
 #include "bake/pipeline/BakePair.h"
 #include "bake/pipeline/RestRule.h"
@@ -100,12 +101,16 @@ TEST_CASE("with a tolerance, bodies that overlap at rest are free there and noth
 
 TEST_CASE("a budget that ends costs tests and not epsilon: all pairs that may meet are asked") {
     const bool coarser = GENERATE(false, true); // all pairs of these spheres are too many
+    const bool byWork = GENERATE(false, true);
     SceneModel scene = lumpyPair(2);
     BakeOptions options;
     options.tolerance = 0.02;
     if (coarser) options.mostPairs = 3000;
     options.atRest = AtRest::Collide;
-    options.budget = 1e-9;
+    if (byWork)
+        options.mostLooks = 1000;
+    else
+        options.budget = 1e-9;
     const Motion motion = swing();
     const PairSpheres few = fillPair(scene, scene.pairs[0], motion, options);
     CHECK(canAskAll(few, options) == !coarser);
@@ -118,8 +123,8 @@ TEST_CASE("a budget that ends costs tests and not epsilon: all pairs that may me
     CHECK(table.boundEarly < 0.3);
     CHECK(table.testCount() > 100);
     CHECK(table.testCount() <= options.mostPairs);
-    const bool said = std::any_of(report.notes.begin(), report.notes.end(), [](const std::string& note) {
-        return note.find("in the budget: all ") != std::string::npos;
+    const bool said = std::any_of(report.notes.begin(), report.notes.end(), [&](const std::string& note) {
+        return note.find(byWork ? "1 degree of freedom: all " : "in the budget: all ") != std::string::npos;
     });
     CHECK(said);
     const GroundTruth truth(scene.bodies[0].mesh, scene.bodies[1].mesh);
@@ -193,4 +198,49 @@ TEST_CASE("over four degrees of freedom bodies that never meet are proven apart,
     const Motion motion = pairMotion(scene, scene.pairs[0]);
     CHECK(verifyOnMeshes(scene.bodies[0].mesh, scene.bodies[1].mesh, *scene.pairs[0].proof, motion)
               .reason.empty());
+}
+
+TEST_CASE("a joint that turns twice round has the table of one that turns once, and its own limits") {
+    constexpr double pi = std::numbers::pi;
+    const auto baked = [](double lower, double upper) {
+        SceneModel scene = lumpyPair(3);
+        scene.joints[0].dofs = {joints::turn({0, 0, 0}, {0, 0, 1}, lower, upper)};
+        BakeOptions options;
+        options.tolerance = 0.05;
+        options.atRest = AtRest::Collide;
+        PairReport report;
+        bakePair(scene, scene.pairs[0], options, report, {});
+        REQUIRE(scene.pairs[0].table);
+        CHECK(scene.pairs[0].table->motion.dofs[0].lower == lower);
+        CHECK(scene.pairs[0].table->motion.dofs[0].upper == upper);
+        const Motion motion = onceRound(pairMotion(scene, scene.pairs[0]));
+        CHECK(verifyOnMeshes(scene.bodies[0].mesh, scene.bodies[1].mesh, *scene.pairs[0].table, motion)
+                  .reason.empty());
+        return *scene.pairs[0].table;
+    };
+    const double turn = (1 + 1e-9) * 2 * pi;
+    const Table once = baked(-turn / 2, turn / 2), twice = baked(-2 * pi, 2 * pi);
+    CHECK(tests(twice) == tests(once));
+    random_table::Random random(5);
+    for (int i = 0; i < 1000; ++i) {
+        std::vector<double> q = random_table::values(random, once.motion);
+        const bool hit = query(once, q).hit();
+        q[0] += q[0] < 0 ? 2 * pi : -2 * pi;
+        CHECK(query(twice, q).hit() == hit);
+    }
+}
+
+TEST_CASE("a joint that turns twice round takes the proof of one that turns once") {
+    constexpr double turn = (1 + 1e-9) * 2 * std::numbers::pi;
+    const auto cells = [](double lower, double upper) {
+        SceneModel scene = lumpyPair(3);
+        scene.bodies[1].mesh =
+            transformed(scene.bodies[1].mesh, Eigen::Affine3d(Eigen::Translation3d(1, 0, 0)));
+        scene.joints[0].dofs = {joints::turn({-1.3, -3, 0}, {0, 0, 1}, lower, upper)};
+        PairReport report;
+        bakePair(scene, scene.pairs[0], {}, report, {});
+        REQUIRE(scene.pairs[0].proof);
+        return scene.pairs[0].proof->cells;
+    };
+    CHECK(cells(-turn, turn) == cells(-turn / 2, turn / 2));
 }
