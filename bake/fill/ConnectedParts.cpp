@@ -4,6 +4,7 @@
 #include "bake/geometry/Import.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace tss {
@@ -11,6 +12,7 @@ namespace tss {
 namespace {
 
 constexpr int ballsPerPart = 6;
+constexpr std::size_t verticesPerPart = 64;
 constexpr int pointsPerAxis = 7; // of the grid that balls start from
 
 /// The radius of the ball about a point that the solid has around it, < 0 outside.
@@ -63,7 +65,7 @@ void addBalls(const Solid& solid, ConnectedPart& part) {
                      [](const Witness& x, const Witness& y) { return x.radius > y.radius; });
 }
 
-void addExtremes(const TriangleMesh& mesh, ConnectedPart& part) {
+void addVertices(const TriangleMesh& mesh, ConnectedPart& part) {
     std::vector<int> found;
     for (int way = 0; way < 27; ++way) {
         const Vec3 out(way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1);
@@ -76,6 +78,20 @@ void addExtremes(const TriangleMesh& mesh, ConnectedPart& part) {
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
     for (const int v : found) part.push_back({mesh.vertices[v]});
+    // All over the part: the next is farthest from those before it.
+    std::vector<double> apart(mesh.vertices.size(), std::numeric_limits<double>::infinity());
+    const auto near = [&](int taken) {
+        for (std::size_t v = 0; v < apart.size(); ++v)
+            apart[v] = std::min(apart[v], (mesh.vertices[v] - mesh.vertices[taken]).squaredNorm());
+    };
+    for (const int v : found) near(v);
+    while (found.size() < verticesPerPart) {
+        const auto farthest = std::max_element(apart.begin(), apart.end());
+        if (!(*farthest > 0)) break;
+        found.push_back(static_cast<int>(farthest - apart.begin()));
+        part.push_back({mesh.vertices[found.back()]});
+        near(found.back());
+    }
 }
 
 /// The mesh of each connected part, its vertices in their order.
@@ -113,7 +129,7 @@ std::vector<ConnectedPart> connectedParts(const TriangleMesh& mesh) {
     for (const TriangleMesh& one : split(welded(mesh))) {
         ConnectedPart part;
         if (const Solid solid(one); !solid.open()) addBalls(solid, part);
-        addExtremes(one, part);
+        addVertices(one, part);
         parts.push_back(std::move(part));
     }
     return parts;

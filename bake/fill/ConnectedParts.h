@@ -13,7 +13,7 @@ struct Witness {
 };
 
 /// Witnesses of one connected part: balls inside it, the largest first, then the vertices farthest out in 26
-/// directions.
+/// directions, then others spread over the part.
 using ConnectedPart = std::vector<Witness>;
 
 /// The connected parts of a surface; what stands at the same place is connected. Parts with openings have no

@@ -16,11 +16,11 @@ namespace tss {
 namespace {
 
 /// Looks at a vertex before it is given up: a tenth of a microsecond each where most are far from the
-/// surface, as over many DOFs, where so many are needed.
+/// surface, as over many DOFs, where so many are needed. A look at two triangles counts as one.
 constexpr std::uint64_t mostProbes = 30'000'000;
 
-/// As many take the time in which two surfaces are asked how near they are.
-constexpr std::uint64_t probesOfSurfaces = 100;
+/// As many take the time in which a point is asked whether it is inside a solid.
+constexpr std::uint64_t probesOfInside = 10;
 
 /// Shares of the reach: surfaces nearer than the first are near enough for spheres to touch, as far as their
 /// protrusion may fall short of the tolerance (protrusionFor()); farther than the second they are apart. The
@@ -54,7 +54,8 @@ struct Question {
     const MeshQuery& surface; ///< of the outer body, without what closes its openings
     bool outerMoves;          ///< the outer body is B
     bool enclosing = false;   ///< one closed part: what a part inside it encloses is inside it as well
-    std::vector<ConnectedPart> parts = {};
+    std::vector<ConnectedPart> parts = {}; ///< that may stand inside
+    std::vector<ConnectedPart> all = {};
 };
 
 /// A part that may be inside, and the witness of it that was outside nearby.
@@ -85,6 +86,8 @@ public:
         questions_[1].enclosing = !b.open() && partsB.size() == 1;
         if (!a.hollow()) questions_[0].parts = partsB;
         if (!b.hollow()) questions_[1].parts = partsA;
+        questions_[0].all = partsB;
+        questions_[1].all = partsA;
         for (Question& question : questions_)
             std::erase_if(question.parts,
                           [&](const ConnectedPart& part) { return tooLarge(question, part); });
@@ -114,7 +117,10 @@ public:
         std::array<bool, 2> deep{}; // some part is inside at the centre, as far as its vertices tell
         for (const OpenPart& part : left)
             if (!deep[part.question]) deep[part.question] = inside(motion, inverse, part, result.probes);
-        if ((deep[0] || deep[1]) && judgeSurfaces(motion, deep, result)) return result;
+        if (deep[0] || deep[1]) {
+            if (cross(motion, inverse, result.probes)) return result;
+            if (judgeSurfaces(motion, deep, result)) return result;
+        }
         const std::size_t k = widest(motion);
         if (motion.dofs() == 0 || !(cell.upper[k] > cell.lower[k])) { // nothing left to cut
             for (const OpenPart& part : left) result.stuck[part.question] = true;
@@ -228,8 +234,10 @@ private:
             ++probes;
             bool stays =
                 near > 0 && (outer.open() ? question.surface : outer.boundary()).comesWithin(place, near);
-            if (!stays && ((near > 0 && !outer.open()) || !outer.boundary().comesWithin(place, move)))
+            if (!stays && ((near > 0 && !outer.open()) || !outer.boundary().comesWithin(place, move))) {
+                probes += probesOfInside;
                 stays = !outer.inside(place);
+            }
             if (!stays) continue;
             part.witness = at;
             return true;
@@ -244,18 +252,40 @@ private:
         const ConnectedPart& witnesses = question.parts[part.part];
         return std::all_of(witnesses.begin(), witnesses.end(), [&](const Witness& witness) {
             if (witness.radius > 0) return true; // its vertices tell
-            ++probes;
+            probes += probesOfInside;
             return question.outer.inside(placeIn(question, motion, inverse, witness.centre));
+        });
+    }
+
+    /// The surfaces cross all over the cell: a connected part has a point that stays inside the other solid
+    /// and one that stays outside.
+    bool cross(const CellMotion& motion, const Pose& inverse, std::uint64_t& probes) const {
+        return std::any_of(questions_.begin(), questions_.end(), [&](const Question& question) {
+            if (question.outer.open()) return false; // whose openings may be crossed
+            return std::any_of(question.all.begin(), question.all.end(), [&](const ConnectedPart& part) {
+                bool in = false, out = false;
+                for (const Witness& witness : part) {
+                    if (witness.radius > 0) continue;
+                    const Vec3 place = placeIn(question, motion, inverse, witness.centre);
+                    ++probes;
+                    if (question.outer.boundary().comesWithin(place,
+                                                              moveOf(question, motion, witness.centre)))
+                        continue;
+                    probes += probesOfInside;
+                    (question.outer.inside(place) ? in : out) = true;
+                    if (in && out) return true;
+                }
+                return false;
+            });
         });
     }
 
     /// True: the cell is settled, since the surfaces are near each other all over it, or since they are apart
     /// at its centre and a part is inside there.
     bool judgeSurfaces(const CellMotion& motion, const std::array<bool, 2>& deep, CellResult& result) const {
-        result.probes += probesOfSurfaces;
         const double move = moveOfB(motion);
         const auto nearer = [&](double distance) {
-            return !surfaceA_.apart(surfaceB_, motion.centrePose(), distance);
+            return !surfaceA_.apart(surfaceB_, motion.centrePose(), distance, &result.probes);
         };
         if (move < settled * reach_ && nearer(settled * reach_ - move)) return true;
         // Where the centre lies beyond a plane, a pose of Q is near enough once the cell is small.

@@ -93,7 +93,7 @@ double squaredDistanceOfBoxes(const Bvh::Node& node, const Vec3& middle, const V
 } // namespace
 
 double MeshQuery::searchOther(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double best2,
-                              bool anyWill) const {
+                              bool anyWill, std::uint64_t& looks) const {
     if (bvh_.empty() || other.bvh_.empty()) return best2;
     const Eigen::Matrix3d turn = otherToThis.linear(), size = turn.cwiseAbs();
     const Vec3 shift = otherToThis * other.origin_ - origin_;
@@ -120,6 +120,7 @@ double MeshQuery::searchOther(const MeshQuery& other, const Eigen::Isometry3d& o
                 const Corners& k = other.corners_[other.bvh_.items[j]];
                 moved.push_back({turn * k.a + shift, turn * k.b + shift, turn * k.c + shift});
             }
+            looks += std::uint64_t(a.count) * b.count;
             for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
                 const Corners& k = corners_[bvh_.items[i]];
                 for (const TriangleCorners& t : moved)
@@ -128,6 +129,7 @@ double MeshQuery::searchOther(const MeshQuery& other, const Eigen::Isometry3d& o
             if (best2 == 0 || (anyWill && best2 < asked2)) return best2;
             continue;
         }
+        ++looks;
         // The larger one is opened; what is nearer comes first.
         const bool openHere = b.count > 0 || (a.count == 0 && (a.upper - a.lower).squaredNorm() >=
                                                                   (b.upper - b.lower).squaredNorm());
@@ -146,13 +148,18 @@ double MeshQuery::searchOther(const MeshQuery& other, const Eigen::Isometry3d& o
 
 double MeshQuery::distanceTo(const MeshQuery& other, const Eigen::Isometry3d& otherToThis,
                              double within) const {
-    const double best2 = searchOther(other, otherToThis, within * within, false);
+    std::uint64_t looks = 0;
+    const double best2 = searchOther(other, otherToThis, within * within, false, looks);
     return best2 < within * within ? std::sqrt(best2) : std::numeric_limits<double>::infinity();
 }
 
-bool MeshQuery::apart(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double distance) const {
+bool MeshQuery::apart(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double distance,
+                      std::uint64_t* looks) const {
     const double distance2 = distance * distance;
-    return !(searchOther(other, otherToThis, distance2, true) < distance2);
+    std::uint64_t seen = 0;
+    const double best2 = searchOther(other, otherToThis, distance2, true, seen);
+    if (looks) *looks += seen;
+    return !(best2 < distance2);
 }
 
 void MeshQuery::buildDipoles() {

@@ -58,8 +58,10 @@ public:
     double distanceTo(const MeshQuery& other, const Eigen::Isometry3d& otherToThis,
                       double within = std::numeric_limits<double>::infinity()) const;
 
-    /// The surfaces stay at least `distance` away from each other.
-    bool apart(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double distance) const;
+    /// The surfaces stay at least `distance` away from each other. Adds to `*looks` the pairs of nodes and of
+    /// triangles that it looked at.
+    bool apart(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double distance,
+               std::uint64_t* looks = nullptr) const;
 
     const Bvh& bvh() const { return bvh_; }
 
@@ -77,7 +79,7 @@ private:
     /// The square of the least distance of the surfaces where that is below best2, else best2. anyWill: the
     /// first that is found will do.
     double searchOther(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double best2,
-                       bool anyWill) const;
+                       bool anyWill, std::uint64_t& looks) const;
     void buildDipoles();
     /// Of one triangle; 0 for those without an area, of which rounding could make anything.
     double solidAngleOf(std::uint32_t triangle, const Vec3& local) const;

@@ -282,3 +282,33 @@ TEST_CASE("a pose inside is found over many DOFs, and only while the surfaces th
     CHECK(findNested(large, small, motion, 0.05).outer.a);
     CHECK_FALSE(findNested(large, small, motion, 0.4).outer.a);
 }
+
+TEST_CASE("a body crosses another all the while where one point of it stays inside and one outside") {
+    TriangleMesh small = ballMesh(Vec3::Zero(), 0.3, 2);
+    append(small, ellipsoid({4, 0.1, 0.1})); // goes through, beside the part that is inside
+    Motion motion;
+    for (const Vec3 axis : {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()})
+        motion.dofs.push_back(joints::slide(axis, -0.2, 0.2));
+    const Nesting nesting = findNested(Solid(ballMesh(Vec3::Zero(), 2, 3)), Solid(small), motion, 1e-4);
+    CHECK_FALSE(nesting.outer);
+    CHECK(decided(nesting));
+}
+
+TEST_CASE("a body whose waist sticks out of another's is not inside, though its ends are") {
+    const auto waisted = [](double length, double waist, double ends) {
+        TriangleMesh mesh = ballMesh(Vec3::Zero(), 1, 3);
+        for (Vec3& v : mesh.vertices) {
+            const double width = waist + ends * v.x() * v.x();
+            v = Vec3(length * v.x(), width * v.y(), width * v.z());
+        }
+        return mesh;
+    };
+    Motion motion;
+    for (const Vec3 axis : {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()})
+        motion.dofs.push_back(joints::slide(axis, -0.02, 0.02));
+    TriangleMesh small = waisted(2.4, 0.3, 1);
+    small.triangles.pop_back(); // no ball in it tells
+    const Nesting nesting = findNested(Solid(waisted(3, 0.25, 3)), Solid(small), motion, 1e-4);
+    CHECK_FALSE(nesting.outer);
+    CHECK(decided(nesting));
+}
