@@ -120,6 +120,8 @@ double shareDone(const CoverProblem& problem, const std::vector<OpenCell>& left)
 
 bool CoverBudget::spent(std::uint64_t looksUsed, double share) const {
     if (looks > 0 && looksUsed >= looks) return true;
+    // From a tenth on: at this rate it would not end.
+    if (looks > 0 && looksUsed >= looks / 10 && share < double(looksUsed) / double(looks)) return true;
     if (seconds > 0 && watch.seconds() >= seconds) return true;
     return !report(progress, "certified cover", share);
 }

@@ -5,8 +5,8 @@
 
 namespace tss {
 
-/// When to stop a search that is not done: after so many looks (the same result every time), after so long
-/// (not the same), or when progress says so. 0: no limit.
+/// When to stop a search that is not done: after so many looks or a tenth of them that shows too little (the
+/// same result every time), after so long (not the same), or when progress says so. 0: no limit.
 struct CoverBudget {
     std::uint64_t looks = 0; ///< at pairs of spheres and of nodes, in all cells together
     double seconds = 0;

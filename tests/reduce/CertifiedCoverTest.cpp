@@ -1,6 +1,7 @@
 #include "bake/reduce/CertifiedCover.h"
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
+#include "bake/reduce/CoverProof.h"
 #include "bake/search/CertifiedSearch.h"
 #include "bake/table/Query.h"
 #include "tests/search/Scenes.h"
@@ -288,4 +289,15 @@ TEST_CASE("pairs that overlap at rest are answered from their gap at rest on") {
             if (touches) CHECK(query(table, q).gap <= rounding);
         }
     }
+}
+
+TEST_CASE("a search by work ends with it, or from a tenth on where it would not suffice at this rate") {
+    CoverBudget budget;
+    budget.looks = 1000;
+    CHECK_FALSE(budget.spent(99, 0));
+    CHECK(budget.spent(100, 0.05));
+    CHECK_FALSE(budget.spent(100, 0.2));
+    CHECK(budget.spent(500, 0.4));
+    CHECK(budget.spent(1000, 0.99));
+    CHECK_FALSE(CoverBudget().spent(1'000'000'000'000, 0));
 }
