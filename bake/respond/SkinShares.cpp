@@ -46,7 +46,7 @@ struct Claims {
     std::vector<double> weight;        ///< #V, how firmly: area over squared distance, without a unit
     std::vector<double> size;          ///< #V, of the smaller one of the two that meet here
     TriangleMesh held;                 ///< the skin that hangs together with a seed
-    std::vector<NearestPoint> under;   ///< #V, on held skin where a vertex is of none, triangle -1 elsewhere
+    std::vector<NearestPoint> under; ///< #V: on held skin, where there is none beneath triangle -1; or empty
 };
 
 /// For each vertex how much farther than a holder the nearest other one is; infinite for the only one.
@@ -110,6 +110,9 @@ std::vector<std::vector<std::uint32_t>> seedsOf(const std::vector<SkinHolder>& h
 void claimShells(const TriangleMesh& skin, const std::vector<SkinHolder>& holders,
                  const std::vector<double>& nearestSeed, Claims& claims) {
     const auto isHeld = [&](std::size_t v) { return std::isfinite(nearestSeed[v]); };
+    std::size_t first = 0;
+    while (first < nearestSeed.size() && isHeld(first)) ++first;
+    if (first == nearestSeed.size()) return;
     claims.held.vertices = skin.vertices;
     for (const Tri& t : skin.triangles)
         if (isHeld(t[0])) claims.held.triangles.push_back(t);
@@ -119,7 +122,7 @@ void claimShells(const TriangleMesh& skin, const std::vector<SkinHolder>& holder
         if (isHeld(v)) return;
         double distance = infinity;
         for (std::uint32_t h = 0; h < holders.size(); ++h) {
-            const bool apart = !holders[h].apart.empty() && holders[h].apart[v];
+            const bool apart = !claims.held.empty() && !holders[h].apart.empty() && holders[h].apart[v];
             if (apart || !(holders[h].distance[v] < distance)) continue;
             distance = holders[h].distance[v];
             claims.holder[v] = h;
@@ -152,8 +155,7 @@ Claims claim(const TriangleMesh& skin, const SkinGraph& graph, const std::vector
         }
     }
     claimShells(skin, holders, nearest, claims);
-    std::map<std::pair<std::uint32_t, std::uint32_t>, double>
-        least; // from the seeds of one to those of the other
+    std::map<std::pair<std::uint32_t, std::uint32_t>, double> least; // from seeds of one to those of another
     for (std::size_t v = 0; v < count; ++v) {
         double& between = least.try_emplace(std::minmax(claims.holder[v], rival[v]), infinity).first->second;
         between = std::min(between, nearest[v] + second[v]);
@@ -172,7 +174,7 @@ Claims claim(const TriangleMesh& skin, const SkinGraph& graph, const std::vector
         const double certainty = between > 0 ? std::min((second[v] - nearest[v]) / between, 1.0) : 1;
         double far = own.distance[v];
         if (sure[v]) far = std::min(far, sureShare * size);
-        if (claims.under[v].triangle >= 0) far = claims.under[v].distance;
+        if (!claims.under.empty() && claims.under[v].triangle >= 0) far = claims.under[v].distance;
         const double distance = std::max(far, closeShare * size);
         claims.size.push_back(size);
         claims.weight.push_back(graph.area[v] / (distance * distance) *
@@ -254,13 +256,13 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
             for (Eigen::Index v = 0; v < rows; ++v)
                 if (claims.holder[v] == h) right[v] = claims.weight[v];
             solve();
+            if (claims.under.empty()) continue;
             for (Eigen::Index v = 0; v < rows; ++v) {
                 const NearestPoint& under = claims.under[v];
                 if (under.triangle < 0) continue;
                 const Tri& t = claims.held.triangles[under.triangle];
-                double share = 0;
-                for (int k = 0; k < 3; ++k) share += under.weights[k] * shares[h][t[k]];
-                right[v] = claims.weight[v] * share;
+                right[v] = 0;
+                for (int k = 0; k < 3; ++k) right[v] += claims.weight[v] * under.weights[k] * shares[h][t[k]];
             }
             solve();
         }
