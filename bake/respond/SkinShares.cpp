@@ -29,8 +29,9 @@ constexpr double closeShare = 0.01;
 constexpr double sureShare = 0.15;
 /// How much a claim weighs against the change of shares along the skin.
 constexpr double claimWeight = 8;
-/// How fast the certainty of a claim grows with the distance from where two claims meet.
-constexpr int certaintyPower = 8;
+/// How fast the certainty of a claim grows with the distance from where two claims meet, from 0 there to 1 at
+/// the seeds and behind them.
+constexpr int certaintyPower = 12;
 /// A share that changes by this much along a length of one size of the holder counts twice; so skin does not
 /// fold where two holders meet at a point, as at the corner of a mouth. Without a unit.
 constexpr double steepShare = 3;
