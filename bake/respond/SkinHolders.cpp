@@ -17,10 +17,14 @@ namespace {
 constexpr double farDistance = 1.5;
 /// Where no bone holds still, skin this far from all bones does, ever less so up to them.
 constexpr double stillDistance = 0.5;
-/// What is beyond a bone lies within this of its direction from the joint: cosine of 55 degrees.
-constexpr double aheadCosine = 0.57;
+/// What is beyond a bone lies within this of its direction from the joint: cosine of 45 degrees.
+constexpr double aheadCosine = 0.7;
 /// In sizes of a bone: nearer to its joint its middle says nothing about where the bone goes.
 constexpr double leastArm = 0.25;
+
+/// Of the least that a bone beside it holds: what is smaller than this is a patch, no part of the body. It
+/// stays where a bone that holds still is near, else goes with what is around it.
+constexpr double leastPart = 0.1;
 
 struct FrameHolder {
     SkinHolder holder;
@@ -154,7 +158,9 @@ struct FreePart {
     std::vector<std::uint32_t> vertices;
     double area = 0;                           ///< scene units squared
     std::map<std::size_t, std::size_t> beside; ///< the holders nearest to what is around it, and to how much
-    Vec3 ring = Vec3::Zero();                  ///< the middle of what is around it
+    bool small = false;                        ///< no part of the body, but a patch between bones
+    bool nearStill = false; ///< a bone that holds still is nearest to some of what is around it, apart or not
+    Vec3 ring = Vec3::Zero(); ///< the middle of what is around it
 };
 
 struct FreeParts {
@@ -164,7 +170,8 @@ struct FreeParts {
 
 FreeParts freeParts(const SkinGround& ground, std::vector<FrameHolder>& holders, bool anyStill) {
     const std::size_t count = ground.skin.vertices.size();
-    const bool inverted = isInverted(ground, holders, nearestOf(holders, count));
+    const std::vector<std::size_t> plain = nearestOf(holders, count);
+    const bool inverted = isInverted(ground, holders, plain);
     const ClosestPointQuery skin(ground.skin);
     std::vector<char> isFree(count, 1);
     for (FrameHolder& h : holders) {
@@ -197,12 +204,19 @@ FreeParts freeParts(const SkinGround& ground, std::vector<FrameHolder>& holders,
         if (isFree[next]) return;
         FreePart& part = parts[sets.root(v)];
         ++part.beside[nearest[next]];
+        part.nearStill |= holders[plain[next]].moves == 0;
         part.ring += ground.skin.vertices[next];
     });
     for (auto& [root, part] : parts) {
-        double around = 0;
-        for (const auto& [h, times] : part.beside) around += static_cast<double>(times);
-        part.ring /= std::max(around, 1.0);
+        std::size_t around = 0;
+        bool counts = part.beside.empty() || !anyStill;
+        for (const auto& [h, times] : part.beside) {
+            around += times;
+            counts |= part.area >= leastPart * made.held[h];
+        }
+        part.small = !counts;
+        if (part.small && !part.nearStill) continue;
+        part.ring /= static_cast<double>(std::max<std::size_t>(around, 1));
         made.parts.push_back(std::move(part));
     }
     return made;
@@ -218,7 +232,6 @@ SkinHolder stillOf(const std::vector<FrameHolder>& holders, const FreeParts& fre
             still.distance[v] = std::max(still.distance[v], stillDistance * h.extent - h.holder.distance[v]);
     }
     for (const FreePart& part : free.parts) {
-        if (part.beside.empty()) continue;
         const bool isEnd = part.beside.size() == 1 && part.area < free.held[part.beside.begin()->first];
         for (const std::uint32_t v : part.vertices) still.distance[v] = isEnd ? longest : 0;
         if (!isEnd) still.sure.insert(still.sure.end(), part.vertices.begin(), part.vertices.end());
@@ -261,17 +274,6 @@ std::optional<std::size_t> goesOnFrom(const FreePart& part, const std::vector<Fr
     return 2 * still < all ? from : std::nullopt;
 }
 
-/// Whether a part is no part of the body but a patch on bones that move: smaller than what they hold, by how
-/// much of what is around it is theirs.
-bool isPatch(const FreePart& part, const std::vector<FrameHolder>& holders, const std::vector<double>& held) {
-    double around = 0, moving = 0;
-    for (const auto& [h, times] : part.beside) {
-        around += static_cast<double>(times);
-        if (holders[h].moves > 0) moving += static_cast<double>(times) * held[h];
-    }
-    return part.area * around < moving;
-}
-
 } // namespace
 
 std::vector<SkinHolder> skinHolders(const SkinGround& ground, const SkinParameters& parameters,
@@ -293,10 +295,8 @@ std::vector<SkinHolder> skinHolders(const SkinGround& ground, const SkinParamete
     const bool anyStill = firstStill < holders.size();
     const FreeParts free = freeParts(ground, holders, anyStill);
     for (const FreePart& part : free.parts) {
-        if (!anyStill || part.beside.empty()) continue;
-        const std::optional<std::size_t> from = goesOnFrom(part, holders);
-        // What is no end of one bone alone is claimed like all other skin.
-        if (from ? part.beside.size() > 1 : isPatch(part, holders, free.held)) continue;
+        const std::optional<std::size_t> from = part.small ? std::nullopt : goesOnFrom(part, holders);
+        if (!anyStill || part.beside.empty() || (from && part.beside.size() > 1)) continue;
         std::vector<std::uint32_t>& sure = holders[from.value_or(firstStill)].holder.sure;
         sure.insert(sure.end(), part.vertices.begin(), part.vertices.end());
     }

@@ -7,9 +7,8 @@ namespace tss {
 /// vertex is from the bones of a frame (from its muscles, where it has none), and what belongs to it for
 /// certain. Skin far or apart from every bone is a part of the body whose bones are not named. Where it lies
 /// beyond a bone that moves, as a hand does beyond a forearm, it goes on from that one; else, as a trunk
-/// beside an arm, it goes with what holds still, unless it is smaller than what moving bones around it hold.
-/// Where no bone holds still it stays, unless it is the smaller end of one bone. Shells of their own belong
-/// to none.
+/// beside an arm, it goes with what holds still. Where no bone holds still it stays, unless it is the smaller
+/// end of one bone.
 std::vector<SkinHolder> skinHolders(const SkinGround& ground, const SkinParameters& parameters,
                                     const std::vector<int>& frames);
 

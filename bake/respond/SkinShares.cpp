@@ -2,13 +2,11 @@
 
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
-#include "bake/motion/ClosestPointQuery.h"
 
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace tss {
 namespace {
@@ -29,9 +27,8 @@ constexpr double closeShare = 0.01;
 constexpr double sureShare = 0.15;
 /// How much a claim weighs against the change of shares along the skin.
 constexpr double claimWeight = 8;
-/// How fast the certainty of a claim grows with the distance from where two claims meet, from 0 there to 1 at
-/// the seeds and behind them.
-constexpr int certaintyPower = 12;
+/// How fast the certainty of a claim grows with the distance from where two claims meet.
+constexpr int certaintyPower = 8;
 /// A share that changes by this much along a length of one size of the holder counts twice; so skin does not
 /// fold where two holders meet at a point, as at the corner of a mouth. Without a unit.
 constexpr double steepShare = 3;
@@ -46,8 +43,6 @@ struct Claims {
     std::vector<std::uint32_t> holder; ///< #V
     std::vector<double> weight;        ///< #V, how firmly: area over squared distance, without a unit
     std::vector<double> size;          ///< #V, of the smaller one of the two that meet here
-    TriangleMesh held;                 ///< the skin that hangs together with a seed
-    std::vector<NearestPoint> under; ///< #V: on held skin, where there is none beneath triangle -1; or empty
 };
 
 /// For each vertex how much farther than a holder the nearest other one is; infinite for the only one.
@@ -106,36 +101,10 @@ std::vector<std::vector<std::uint32_t>> seedsOf(const std::vector<SkinHolder>& h
     return all ? clear : seeds;
 }
 
-/// A shell without a seed: what is not apart from a bone is the nearest one's, the rest, as clothes and
-/// helmets are, goes with the nearest skin that has a seed.
-void claimShells(const TriangleMesh& skin, const std::vector<SkinHolder>& holders,
-                 const std::vector<double>& nearestSeed, Claims& claims) {
-    const auto isHeld = [&](std::size_t v) { return std::isfinite(nearestSeed[v]); };
-    std::size_t first = 0;
-    while (first < nearestSeed.size() && isHeld(first)) ++first;
-    if (first == nearestSeed.size()) return;
-    claims.held.vertices = skin.vertices;
-    for (const Tri& t : skin.triangles)
-        if (isHeld(t[0])) claims.held.triangles.push_back(t);
-    const ClosestPointQuery held(claims.held);
-    claims.under.resize(nearestSeed.size());
-    parallelFor(nearestSeed.size(), [&](std::size_t v) {
-        if (isHeld(v)) return;
-        double distance = infinity;
-        for (std::uint32_t h = 0; h < holders.size(); ++h) {
-            const bool apart = !claims.held.empty() && !holders[h].apart.empty() && holders[h].apart[v];
-            if (apart || !(holders[h].distance[v] < distance)) continue;
-            distance = holders[h].distance[v];
-            claims.holder[v] = h;
-        }
-        if (!std::isfinite(distance)) claims.under[v] = held.nearest(skin.vertices[v], infinity);
-    });
-}
-
-Claims claim(const TriangleMesh& skin, const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
+Claims claim(const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
     const std::size_t count = graph.vertices();
     std::vector<double> nearest(count, infinity), second(count, infinity);
-    Claims claims{std::vector<std::uint32_t>(count, 0), {}, {}, {}, {}};
+    Claims claims{std::vector<std::uint32_t>(count, 0), {}, {}};
     std::vector<std::uint32_t> rival(count, 0);
     const std::vector<std::vector<std::uint32_t>> seeds = seedsOf(holders);
     for (std::uint32_t h = 0; h < holders.size(); ++h) {
@@ -155,28 +124,23 @@ Claims claim(const TriangleMesh& skin, const SkinGraph& graph, const std::vector
             }
         }
     }
-    claimShells(skin, holders, nearest, claims);
-    std::map<std::pair<std::uint32_t, std::uint32_t>, double> least; // from seeds of one to those of another
-    for (std::size_t v = 0; v < count; ++v) {
-        double& between = least.try_emplace(std::minmax(claims.holder[v], rival[v]), infinity).first->second;
-        between = std::min(between, nearest[v] + second[v]);
-    }
     std::vector<char> sure(count, 0);
     for (const SkinHolder& h : holders)
         for (const std::uint32_t v : h.sure) sure[v] = 1;
     for (std::size_t v = 0; v < count; ++v) {
+        if (!std::isfinite(nearest[v])) // a shell without a seed: whatever is nearest has it
+            for (std::uint32_t h = 0; h < holders.size(); ++h)
+                if (holders[h].distance[v] < holders[claims.holder[v]].distance[v]) claims.holder[v] = h;
         if (!std::isfinite(second[v])) rival[v] = claims.holder[v];
         const SkinHolder& own = holders[claims.holder[v]];
         double size = std::min(own.size, holders[rival[v]].size);
         if (!std::isfinite(size))
             for (const SkinHolder& h : holders) size = std::min(size, h.size);
-        const double between =
-            std::isfinite(second[v]) ? least.at(std::minmax(claims.holder[v], rival[v])) : 0;
-        const double certainty = between > 0 ? std::min((second[v] - nearest[v]) / between, 1.0) : 1;
-        double far = own.distance[v];
-        if (sure[v]) far = std::min(far, sureShare * size);
-        if (!claims.under.empty() && claims.under[v].triangle >= 0) far = claims.under[v].distance;
-        const double distance = std::max(far, closeShare * size);
+        const double certainty = std::isfinite(second[v]) && second[v] > 0
+                                     ? (second[v] - nearest[v]) / (second[v] + nearest[v])
+                                     : 1;
+        const double distance = std::max(
+            sure[v] ? std::min(own.distance[v], sureShare * size) : own.distance[v], closeShare * size);
         claims.size.push_back(size);
         claims.weight.push_back(graph.area[v] / (distance * distance) *
                                 std::max(claimWeight * std::pow(certainty, certaintyPower), 1e-9));
@@ -238,7 +202,7 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
     const std::size_t count = graph.vertices();
     std::vector<std::vector<double>> shares(holders.size(), std::vector<double>(count, 1));
     if (holders.size() < 2 || count == 0) return shares;
-    const Claims claims = claim(skin, graph, holders);
+    const Claims claims = claim(graph, holders);
     const auto rows = static_cast<Eigen::Index>(count);
     SparseMatrix hold(rows, rows);
     hold.setIdentity();
@@ -250,22 +214,10 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
         solver.factorize(skinLaplacian(skin, stiffness) + hold);
         for (std::size_t h = 0; h < holders.size(); ++h) {
             Eigen::VectorXd right = Eigen::VectorXd::Zero(rows);
-            const auto solve = [&] {
-                const Eigen::VectorXd solved = solver.solve(right);
-                for (Eigen::Index v = 0; v < rows; ++v) shares[h][v] = std::clamp(solved[v], 0.0, 1.0);
-            };
             for (Eigen::Index v = 0; v < rows; ++v)
                 if (claims.holder[v] == h) right[v] = claims.weight[v];
-            solve();
-            if (claims.under.empty()) continue;
-            for (Eigen::Index v = 0; v < rows; ++v) {
-                const NearestPoint& under = claims.under[v];
-                if (under.triangle < 0) continue;
-                const Tri& t = claims.held.triangles[under.triangle];
-                right[v] = 0;
-                for (int k = 0; k < 3; ++k) right[v] += claims.weight[v] * under.weights[k] * shares[h][t[k]];
-            }
-            solve();
+            const Eigen::VectorXd solved = solver.solve(right);
+            for (Eigen::Index v = 0; v < rows; ++v) shares[h][v] = std::clamp(solved[v], 0.0, 1.0);
         }
     };
     spread();

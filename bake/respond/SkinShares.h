@@ -22,8 +22,7 @@ struct SkinStrokes {
 /// together. Whose a vertex is, is not a matter of the nearest: a closed upper lip lies on the lower teeth.
 /// Vertices much nearer to one holder than to any other are its seeds; every other vertex is claimed by the
 /// holder whose seeds are nearest along the skin; the claims are spread by a linear solve, softly where two
-/// meet and where the shares would change too fast or a stroke would turn the skin over. Shells without a
-/// seed that are apart from all holders take the shares of the nearest skin that has one.
+/// meet and where the shares would change too fast or a stroke would turn the skin over.
 std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const SkinGraph& graph,
                                                const std::vector<SkinHolder>& holders,
                                                const SkinStrokes& strokes = {});

@@ -7,7 +7,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 
 using namespace tss;
@@ -85,16 +84,14 @@ std::shared_ptr<const MuscleDeformer> boneOf(double from, double to) {
 /// All bones from the first that moves on are turned by 60 degrees about its upper end.
 class Bent {
 public:
-    /// fromMiddle: how far along x from the first moving bone's middle they turn.
     Bent(const std::vector<std::shared_ptr<const MuscleDeformer>>& bones, std::size_t firstMoving,
-         bool inverted = false, bool split = false, std::optional<double> fromMiddle = {})
+         bool inverted = false, bool split = false, bool aboutMiddle = false)
         : skin_(surfaceOf(animal)) {
         if (inverted)
             for (Tri& t : skin_.triangles) std::swap(t[1], t[2]);
         if (split) skin_ = splitAt(skin_);
         const Eigen::AlignedBox3d box = bounds(bones[firstMoving]->muscle().surface);
-        const Vec3 joint =
-            fromMiddle ? box.center() + *fromMiddle * Vec3::UnitX() : Vec3(32, 6, box.max().z() + 0.5);
+        const Vec3 joint = aboutMiddle ? box.center() : Vec3(32, 6, box.max().z() + 0.5);
         bend = Eigen::Translation3d(joint) * Eigen::AngleAxisd(M_PI / 3, Vec3::UnitY()) *
                Eigen::Translation3d(-joint);
         std::vector<Pose> poses(bones.size(), Pose::Identity());
@@ -176,7 +173,7 @@ TEST_CASE("a part beside two bones that move is no end of either: it stays") {
     const Bent bent({boneOf(28.5, 29.5), boneOf(20.8, 27), boneOf(1, 19.5)}, 1);
     CHECK(bent.farthest(Pose::Identity(), isHind) < 0.05);
     CHECK(bent.farthest(Pose::Identity(), isRightLeg) < 0.2);
-    CHECK(bent.farthest(Pose::Identity(), isBreast) < 10);
+    CHECK(bent.farthest(Pose::Identity(), isBreast) < 7);
     CHECK(bent.farthest(bent.bend, isLeftFoot) < 0.05);
 }
 
@@ -188,43 +185,10 @@ TEST_CASE("where no bone holds still the trunk stays, and the smaller end of a l
 }
 
 TEST_CASE("a part beside a moving bone that lies aside of where the bone goes stays") {
-    const Bent bent({boneIn(Vec3(-9, -1, 24), Vec3(-6, 1, 26)), boneOf(1, 12)}, 1);
+    const Bent bent({boneIn(Vec3(-9, -1, 24), Vec3(-6, 1, 26)), boneOf(1, 27)}, 1);
     CHECK(bent.farthest(Pose::Identity(), isHind) < 0.05);
     CHECK(bent.farthest(Pose::Identity(), isRightLeg) < 0.2);
     CHECK(bent.farthest(bent.bend, isLeftFoot) < 0.05);
-}
-
-TEST_CASE("a part that is smaller than the moving bone's own skin around it goes along, even aside of it") {
-    const Bent bent({boneOf(1, 10), boneIn(Vec3(-9, -1, 24), Vec3(25, 1, 26))}, 1);
-    CHECK(bent.farthest(bent.bend, isRightLeg) < 1);
-    CHECK(bent.farthest(bent.bend, isHind) < 0.5);
-    CHECK(bent.farthest(Pose::Identity(), isLeftFoot) < 0.5);
-}
-
-TEST_CASE(
-    "a shell without a seed is the nearest bone's, or where it is apart from all that of the skin below") {
-    TriangleMesh skin;
-    for (int x = 0; x <= 10; ++x)
-        for (int y = 0; y < 2; ++y) skin.vertices.emplace_back(x, y, 0);
-    for (int x = 0; x < 10; ++x) {
-        skin.triangles.emplace_back(2 * x, 2 * x + 2, 2 * x + 1);
-        skin.triangles.emplace_back(2 * x + 1, 2 * x + 2, 2 * x + 3);
-    }
-    skin.triangles.emplace_back(22, 23, 24);
-    for (const Vec3& v : {Vec3(8, 0, 1), Vec3(9, 0, 1), Vec3(8, 1, 1)}) skin.vertices.push_back(v);
-    std::vector<SkinHolder> holders(2);
-    for (int h = 0; h < 2; ++h) {
-        holders[h].size = 10;
-        for (const Vec3& v : skin.vertices) holders[h].distance.push_back((v.x() <= 5) == (h == 0) ? 0.1 : 9);
-        for (std::size_t v = 22; v < 25; ++v) holders[h].distance[v] = h == 0 ? 1.9 : 2;
-    }
-    const SkinGraph graph = skinGraph(skin);
-    CHECK(claimedShares(skin, graph, holders)[0][22] > 0.99);
-    for (SkinHolder& holder : holders) {
-        holder.apart.assign(25, 0);
-        for (std::size_t v = 22; v < 25; ++v) holder.apart[v] = 1;
-    }
-    CHECK(claimedShares(skin, graph, holders)[1][22] > 0.95);
 }
 
 TEST_CASE("skin on a short bone in a thick part of the body is its own") {
@@ -250,14 +214,13 @@ TEST_CASE("lips that touch vertex on vertex at rest are two, rims at one place a
     CHECK(std::set(seamed.first.begin(), seamed.first.end()).size() < lips.vertices.size());
 }
 
-TEST_CASE("beyond a bone that turns about a place near its middle is what it has on the far side of one that "
-          "holds still") {
+TEST_CASE(
+    "beyond a bone that turns about its middle is what it has on the far side of one that holds still") {
     const auto still = boneIn(Vec3(6, -1, 24), Vec3(8, 1, 26)),
                turning = boneIn(Vec3(9, -1, 24), Vec3(11, 1, 26));
     for (const bool back : {false, true}) {
-        const double fromMiddle = GENERATE(-0.4, 0, 0.4);
         const Bent bent(back ? std::vector{turning, still} : std::vector{still, turning}, 1, false, false,
-                        fromMiddle);
+                        true);
         CHECK(bent.farthest(Pose::Identity(), [&](const Vec3& x) { return back ? x.x() > 30 : x.x() < -5; }) <
               0.05);
         CHECK(bent.farthest(bent.bend, [&](const Vec3& x) { return back ? x.x() < -5 : x.x() > 30; }) < 3);
