@@ -46,10 +46,10 @@ Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std:
     return selection;
 }
 
-/// Without a budget a search ends after so much work where all pairs can be asked in place of the few.
-CoverOptions coverOptions(const PairTask& task) {
+/// A search ends after so much work, where no budget is set and all pairs can be asked in place of the few.
+CoverOptions coverOptions(const PairTask& task, bool allCanBeAsked) {
     CoverOptions cover;
-    if (task.options.budget || !canAskAllInstead(task.options)) return cover;
+    if (task.options.budget || !allCanBeAsked) return cover;
     cover.looks = task.options.mostLooks;
     cover.coarser = false;
     return cover;
@@ -81,7 +81,7 @@ Selection selectionOf(const PairTask& task, const CoverResult& result) {
 std::optional<Selection> selectFew(const PairTask& task, const CandidatePairs& candidates,
                                    const Progress& progress) {
     if (!manyDofs(task.motion, task.options) || task.motion.dofCount() > mostCoverDofs) return std::nullopt;
-    CoverOptions cover = coverOptions(task);
+    CoverOptions cover = coverOptions(task, true);
     cover.coarser = false;
     const CoverResult result = coverOf(task, candidates, cover, progress);
     if (!result.complete) return std::nullopt;
@@ -91,7 +91,8 @@ std::optional<Selection> selectFew(const PairTask& task, const CandidatePairs& c
 /// The least that answers like all at every pose.
 Selection selectCover(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes,
                       const Progress& progress) {
-    const CoverResult result = coverOf(task, candidates, coverOptions(task), progress);
+    const CoverResult result =
+        coverOf(task, candidates, coverOptions(task, canAskAllInstead(task.options)), progress);
     if (!std::isfinite(result.epsilon))
         throw BudgetEnded("the budget ended before any bound was proven: expected a longer --budget, or a "
                           "coarser --tolerance or --epsilon");

@@ -122,7 +122,7 @@ void pruneShapes(const std::string& file, XMLElement& link, std::vector<OwnShape
         next = item->NextSiblingElement();
         const bool visual = item->Name() == std::string_view("visual");
         if (!visual && item->Name() != std::string_view("collision")) continue;
-        OwnShape kept{textOf(link, "name"), visual, {}};
+        OwnShape mine{textOf(link, "name"), visual, {}};
         try {
             const XMLElement* geometry = item->FirstChildElement("geometry");
             for (auto* shape = geometry ? geometry->FirstChildElement() : nullptr; shape;
@@ -133,11 +133,11 @@ void pruneShapes(const std::string& file, XMLElement& link, std::vector<OwnShape
             prune(*item, file);
             const XMLElement* shape = shapeOf(file, *item);
             if (shape && shape->Name() != std::string_view("capsule")) continue;
-            if (shape) own.push_back({kept.link, visual, capsuleOf(file, *item, *shape)});
+            if (shape) own.push_back({mine.link, visual, capsuleOf(file, *item, *shape)});
         } catch (const InputError& error) {
-            kept.shape.where = error.where.pointer;
-            kept.shape.problem = error.message;
-            own.push_back(kept);
+            mine.shape.where = error.where.pointer;
+            mine.shape.problem = error.message;
+            own.push_back(mine);
         }
         link.DeleteChild(item);
     }

@@ -176,6 +176,12 @@ TEST_CASE(
     const std::size_t few = tabulated(false);
     options.budget = 1e-9;
     CHECK(tabulated(true) > 2 * few);
+    options.budget.reset();
+    options.mostLooks = 1000;
+    CHECK(tabulated(true) > 2 * few);
+    options.depth = 0.05; // a table that states a gap as well
+    CHECK(tabulated(true) > 2 * few);
+    options.depth = 0;
     options.budget = 0;
     CHECK_FALSE(fillPair(scene, scene.pairs[0], motion, options).askAll);
 }
