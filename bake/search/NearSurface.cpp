@@ -222,10 +222,9 @@ std::vector<Patch> reachedInBudget(std::vector<Patch> patches, Side side, const 
                                    const MotionRates& rates, const CellTree& cells, double size,
                                    double margin, Poll& poll) {
     constexpr double budget = 4e6; // tests, about a microsecond each
-    const std::size_t dofs = rates.motion().dofCount();
-    const double growth = std::pow(2.0, static_cast<double>(dofs));
+    const double growth = std::pow(2.0, static_cast<double>(rates.motion().dofCount()));
     double resolution = 8 * size;
-    while (dofs > 2 && resolution < other.extent() / 16) resolution *= 2;
+    while (resolution < other.extent() / 16) resolution *= 2;
     for (; !patches.empty(); resolution /= 2) {
         Kept kept = reached(patches, side, other, rates, cells, resolution, margin, poll);
         patches = std::move(kept.patches);
