@@ -150,8 +150,12 @@ struct PairBaker {
         if (!spheres.askAll && canAskAllInstead(options))
             spheres = measured(fillToAskAll(scene, pair, motion, options, progress));
         if (spheres.askAll && spheres.stickOut < few.early()) return tabulated(std::move(spheres));
-        if (!few.ended.empty()) throw InputError(few.ended);
-        return std::nullopt;
+        if (few.ended.empty()) return std::nullopt;
+        if (options.budget) throw InputError(few.ended);
+        // The search ended by its work, and all that may touch are too many: it goes on to its own end.
+        BakeOptions unlimited = options;
+        unlimited.budget = 0;
+        return PairBaker{scene, pair, unlimited, motion, progress}.tabulated(few.spheres);
     }
 };
 

@@ -141,6 +141,23 @@ TEST_CASE("a budget that ends costs tests and not epsilon: all pairs that may me
     CHECK(verifyOnMeshes(scene.bodies[0].mesh, scene.bodies[1].mesh, table, motion).reason.empty());
 }
 
+TEST_CASE("a search that ended by its work goes on to its own end where all pairs are too many to be asked") {
+    const auto tests = [](std::uint64_t mostLooks) {
+        SceneModel scene = lumpyPair(2);
+        BakeOptions options;
+        options.tolerance = 0.05;
+        options.atRest = AtRest::Collide;
+        options.mostPairs = 1;
+        options.mostLooks = mostLooks;
+        PairReport report;
+        bakePair(scene, scene.pairs[0], options, report, {});
+        REQUIRE(scene.pairs[0].table);
+        CHECK(scene.pairs[0].table->epsilon == 0);
+        return tss::tests(*scene.pairs[0].table);
+    };
+    CHECK(tests(1000) == tests(BakeOptions().mostLooks));
+}
+
 TEST_CASE(
     "over four degrees of freedom the fewest tests are searched for, and where that ends all are asked") {
     SceneModel scene = lumpyPair(2);
