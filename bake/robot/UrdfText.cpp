@@ -98,7 +98,7 @@ double numberOf(const std::string& file, const XMLElement& element, const char* 
     return numbersOf(file, element, attribute, 1, 1).at(0);
 }
 
-/// A capsule, as Bullet, Drake and URDF from 1.2 on have it: urdfdom may not know it.
+/// A capsule, as Bullet and Drake have it; urdfdom does not know it.
 RobotShape capsuleOf(const std::string& file, const XMLElement& item, const XMLElement& capsule) {
     RobotShape shape;
     shape.kind = RobotShape::Kind::Capsule;
