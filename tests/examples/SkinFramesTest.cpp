@@ -123,10 +123,16 @@ TEST_CASE("an animated skin stands the same wherever it comes from") {
     }
 }
 
-TEST_CASE("no animated skin turns a triangle over") {
-    for (const char* file :
-         {"dog_face_baked.tss", "dog_head_baked.tss", "dog_lips_baked.tss", "dog_ears_baked.tss"}) {
-        Played played(file);
+TEST_CASE("no animated skin turns a triangle over, or draws its edges out further than was measured") {
+    struct Scene {
+        const char* file;
+        double shortest, longest; ///< edges, of their length at rest: 1st and 99th percentile, docs/SKIN.md
+    };
+    // A skin that becomes better fails here too: the figures are then stated anew, not left behind.
+    for (const Scene& scene : {Scene{"dog_frontalis_baked.tss", 0.79, 1.32}, Scene{"dog_face_baked.tss", 0.78, 1.31},
+                               Scene{"dog_head_baked.tss", 0.81, 1.59}, Scene{"dog_lips_baked.tss", 0.88, 1.48},
+                               Scene{"dog_ears_baked.tss", 0.72, 1.77}}) {
+        Played played(scene.file);
         const SkinModel& skin = played.scene.skins[0];
         const auto bodies = skinMuscles(played.scene, skin);
         const SkinFollowMeasure measure(played.scene.bodies[skin.body].mesh, bodies, played.response.rig());
@@ -135,7 +141,9 @@ TEST_CASE("no animated skin turns a triangle over") {
             played.response.update(played.activations[step], played.poses[step]);
             worst.worsen(measure.at(played.response.positions(), played.poses[step]));
         }
-        INFO(file);
+        INFO(scene.file);
         CHECK(worst.turnedOver == 0);
+        CHECK_THAT(worst.shortest, Catch::Matchers::WithinAbs(scene.shortest, 0.01));
+        CHECK_THAT(worst.longest, Catch::Matchers::WithinAbs(scene.longest, 0.01));
     }
 }
