@@ -2,6 +2,7 @@
 
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
+#include "bake/respond/SkinShells.h"
 
 #include <Eigen/SparseCholesky>
 
@@ -43,6 +44,7 @@ struct Claims {
     std::vector<std::uint32_t> holder; ///< #V
     std::vector<double> weight;        ///< #V, how firmly: area over squared distance, without a unit
     std::vector<double> size;          ///< #V, of the smaller one of the two that meet here
+    std::vector<ShellVertex> shells;   ///< #V; empty where all skin has a seed
 };
 
 /// For each vertex how much farther than a holder the nearest other one is; infinite for the only one.
@@ -101,10 +103,10 @@ std::vector<std::vector<std::uint32_t>> seedsOf(const std::vector<SkinHolder>& h
     return all ? clear : seeds;
 }
 
-Claims claim(const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
+Claims claim(const TriangleMesh& skin, const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
     const std::size_t count = graph.vertices();
     std::vector<double> nearest(count, infinity), second(count, infinity);
-    Claims claims{std::vector<std::uint32_t>(count, 0), {}, {}};
+    Claims claims{std::vector<std::uint32_t>(count, 0), {}, {}, {}};
     std::vector<std::uint32_t> rival(count, 0);
     const std::vector<std::vector<std::uint32_t>> seeds = seedsOf(holders);
     for (std::uint32_t h = 0; h < holders.size(); ++h) {
@@ -124,13 +126,13 @@ Claims claim(const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
             }
         }
     }
+    claims.shells = heldShells(skin, holders, nearest);
     std::vector<char> sure(count, 0);
     for (const SkinHolder& h : holders)
         for (const std::uint32_t v : h.sure) sure[v] = 1;
     for (std::size_t v = 0; v < count; ++v) {
-        if (!std::isfinite(nearest[v])) // a shell without a seed: whatever is nearest has it
-            for (std::uint32_t h = 0; h < holders.size(); ++h)
-                if (holders[h].distance[v] < holders[claims.holder[v]].distance[v]) claims.holder[v] = h;
+        const bool ofShell = !std::isfinite(nearest[v]);
+        if (ofShell) claims.holder[v] = claims.shells[v].holder;
         if (!std::isfinite(second[v])) rival[v] = claims.holder[v];
         const SkinHolder& own = holders[claims.holder[v]];
         double size = std::min(own.size, holders[rival[v]].size);
@@ -139,8 +141,13 @@ Claims claim(const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
         const double certainty = std::isfinite(second[v]) && second[v] > 0
                                      ? (second[v] - nearest[v]) / (second[v] + nearest[v])
                                      : 1;
-        const double distance = std::max(
-            sure[v] ? std::min(own.distance[v], sureShare * size) : own.distance[v], closeShare * size);
+        const double close = closeShare * size;
+        double distance =
+            std::max(sure[v] ? std::min(own.distance[v], sureShare * size) : own.distance[v], close);
+        if (ofShell) { // of a thing that is held the end at the hand counts
+            distance = std::max(claims.shells[v].distance, close);
+            distance *= distance / std::max(claims.shells[v].least, close);
+        }
         claims.size.push_back(size);
         claims.weight.push_back(graph.area[v] / (distance * distance) *
                                 std::max(claimWeight * std::pow(certainty, certaintyPower), 1e-9));
@@ -202,11 +209,13 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
     const std::size_t count = graph.vertices();
     std::vector<std::vector<double>> shares(holders.size(), std::vector<double>(count, 1));
     if (holders.size() < 2 || count == 0) return shares;
-    const Claims claims = claim(graph, holders);
+    const Claims claims = claim(skin, graph, holders);
     const auto rows = static_cast<Eigen::Index>(count);
     SparseMatrix hold(rows, rows);
     hold.setIdentity();
     for (Eigen::Index v = 0; v < rows; ++v) hold.coeffRef(v, v) = claims.weight[v];
+    int lastRound = -1;
+    for (const ShellVertex& shell : claims.shells) lastRound = std::max(lastRound, shell.round);
     std::vector<double> stiffness(skin.triangles.size(), 1);
     Eigen::SimplicialLDLT<SparseMatrix> solver;
     solver.analyzePattern(skinLaplacian(skin, stiffness) + hold);
@@ -214,10 +223,23 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
         solver.factorize(skinLaplacian(skin, stiffness) + hold);
         for (std::size_t h = 0; h < holders.size(); ++h) {
             Eigen::VectorXd right = Eigen::VectorXd::Zero(rows);
+            const auto solve = [&] {
+                const Eigen::VectorXd solved = solver.solve(right);
+                for (Eigen::Index v = 0; v < rows; ++v) shares[h][v] = std::clamp(solved[v], 0.0, 1.0);
+            };
             for (Eigen::Index v = 0; v < rows; ++v)
                 if (claims.holder[v] == h) right[v] = claims.weight[v];
-            const Eigen::VectorXd solved = solver.solve(right);
-            for (Eigen::Index v = 0; v < rows; ++v) shares[h][v] = std::clamp(solved[v], 0.0, 1.0);
+            solve();
+            for (int round = 0; round <= lastRound; ++round) {
+                for (Eigen::Index v = 0; v < rows; ++v) {
+                    const ShellVertex& shell = claims.shells[v];
+                    if (shell.round != round || shell.weights.isZero(0)) continue;
+                    right[v] = 0;
+                    for (int k = 0; k < 3; ++k)
+                        right[v] += claims.weight[v] * shell.weights[k] * shares[h][shell.skin[k]];
+                }
+                solve();
+            }
         }
     };
     spread();
