@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace tss {
 namespace {
@@ -201,6 +202,67 @@ bool stiffenDrawn(const TriangleMesh& skin, const std::vector<std::vector<double
     return std::find(drawn.begin(), drawn.end(), 1) != drawn.end();
 }
 
+/// Spreads the claims over the skin. What was held in one round hangs together with nothing of another: each
+/// is a system of its own, and what its vertices go with is solved before.
+class ClaimSpread {
+public:
+    ClaimSpread(const TriangleMesh& skin, const Claims& claims)
+        : skin_(skin), claims_(claims), place_(claims.holder.size()) {
+        for (std::size_t v = 0; v < place_.size(); ++v) {
+            std::vector<std::uint32_t>& vertices = rounds_[roundOf(v)].vertices;
+            place_[v] = static_cast<int>(vertices.size());
+            vertices.push_back(static_cast<std::uint32_t>(v));
+        }
+    }
+
+    void solve(const std::vector<double>& stiffness, std::vector<std::vector<double>>& shares) {
+        const SparseMatrix laplacian = skinLaplacian(skin_, stiffness);
+        for (auto& [number, round] : rounds_) {
+            const auto size = static_cast<Eigen::Index>(round.vertices.size());
+            std::vector<Eigen::Triplet<double>> entries;
+            for (const std::uint32_t v : round.vertices) {
+                entries.emplace_back(place_[v], place_[v], claims_.weight[v]);
+                for (SparseMatrix::InnerIterator e(laplacian, v); e; ++e)
+                    entries.emplace_back(place_[e.row()], place_[v], e.value());
+            }
+            SparseMatrix system(size, size);
+            system.setFromTriplets(entries.begin(), entries.end());
+            if (round.solver.rows() != size) round.solver.analyzePattern(system);
+            round.solver.factorize(system);
+            for (std::size_t h = 0; h < shares.size(); ++h) {
+                Eigen::VectorXd right(size);
+                for (const std::uint32_t v : round.vertices)
+                    right[place_[v]] = claims_.weight[v] * claimed(shares, h, v);
+                const Eigen::VectorXd solved = round.solver.solve(right);
+                for (const std::uint32_t v : round.vertices)
+                    shares[h][v] = std::clamp(solved[place_[v]], 0.0, 1.0);
+            }
+        }
+    }
+
+private:
+    struct Round {
+        std::vector<std::uint32_t> vertices;
+        Eigen::SimplicialLDLT<SparseMatrix> solver;
+    };
+
+    int roundOf(std::size_t v) const { return claims_.shells.empty() ? -1 : claims_.shells[v].round; }
+
+    /// The share of a holder that a vertex's claim asks for.
+    double claimed(const std::vector<std::vector<double>>& shares, std::size_t h, std::uint32_t v) const {
+        if (roundOf(v) < 0 || claims_.shells[v].weights.isZero(0)) return claims_.holder[v] == h;
+        double share = 0;
+        for (int k = 0; k < 3; ++k)
+            share += claims_.shells[v].weights[k] * shares[h][claims_.shells[v].skin[k]];
+        return share;
+    }
+
+    const TriangleMesh& skin_;
+    const Claims& claims_;
+    std::vector<int> place_;      ///< #V, in its round
+    std::map<int, Round> rounds_; ///< -1: skin that has a seed
+};
+
 } // namespace
 
 std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const SkinGraph& graph,
@@ -210,45 +272,15 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
     std::vector<std::vector<double>> shares(holders.size(), std::vector<double>(count, 1));
     if (holders.size() < 2 || count == 0) return shares;
     const Claims claims = claim(skin, graph, holders);
-    const auto rows = static_cast<Eigen::Index>(count);
-    SparseMatrix hold(rows, rows);
-    hold.setIdentity();
-    for (Eigen::Index v = 0; v < rows; ++v) hold.coeffRef(v, v) = claims.weight[v];
-    int lastRound = -1;
-    for (const ShellVertex& shell : claims.shells) lastRound = std::max(lastRound, shell.round);
     std::vector<double> stiffness(skin.triangles.size(), 1);
-    Eigen::SimplicialLDLT<SparseMatrix> solver;
-    solver.analyzePattern(skinLaplacian(skin, stiffness) + hold);
-    const auto spread = [&] {
-        solver.factorize(skinLaplacian(skin, stiffness) + hold);
-        for (std::size_t h = 0; h < holders.size(); ++h) {
-            Eigen::VectorXd right = Eigen::VectorXd::Zero(rows);
-            const auto solve = [&] {
-                const Eigen::VectorXd solved = solver.solve(right);
-                for (Eigen::Index v = 0; v < rows; ++v) shares[h][v] = std::clamp(solved[v], 0.0, 1.0);
-            };
-            for (Eigen::Index v = 0; v < rows; ++v)
-                if (claims.holder[v] == h) right[v] = claims.weight[v];
-            solve();
-            for (int round = 0; round <= lastRound; ++round) {
-                for (Eigen::Index v = 0; v < rows; ++v) {
-                    const ShellVertex& shell = claims.shells[v];
-                    if (shell.round != round || shell.weights.isZero(0)) continue;
-                    right[v] = 0;
-                    for (int k = 0; k < 3; ++k)
-                        right[v] += claims.weight[v] * shell.weights[k] * shares[h][shell.skin[k]];
-                }
-                solve();
-            }
-        }
-    };
-    spread();
+    ClaimSpread spread(skin, claims);
+    spread.solve(stiffness, shares);
     for (int round = 0; round < steepRounds; ++round) {
         stiffen(skin, claims, shares, stiffness);
-        spread();
+        spread.solve(stiffness, shares);
     }
     for (int round = 0; round < stifferRounds && stiffenDrawn(skin, shares, strokes, stiffness); ++round)
-        spread();
+        spread.solve(stiffness, shares);
     return shares;
 }
 

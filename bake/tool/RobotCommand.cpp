@@ -2,12 +2,15 @@
 
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
+#include "bake/model/Kinematics.h"
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/robot/RobotScene.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/DofSpec.h"
 #include "bake/tool/OwnMotion.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace tss::tool {
@@ -47,6 +50,27 @@ void remarkBodySizes(const SceneModel& scene, const Console& console) {
     }
 }
 
+double oneDigit(double value) {
+    const double digit = std::pow(10, std::floor(std::log10(value)));
+    return std::round(value / digit) * digit;
+}
+
+/// The command to go on with. Where pairs have more than three joint values, as a whole arm's have, the
+/// default's spheres are more than a first look is worth: a thirtieth of the usual link instead, and some
+/// minutes of searching for all pairs together.
+std::string nextCommand(const SceneModel& scene, const std::string& output) {
+    std::string command = "tss bake " + output + " -o BAKED.tss";
+    const auto isLong = [&](const Pair& pair) { return pairDofs(scene, pair).size() > 3; };
+    if (std::none_of(scene.pairs.begin(), scene.pairs.end(), isLong)) return command;
+    std::vector<double> sizes; // millimetres
+    for (const Body& body : scene.bodies)
+        if (!body.mesh.empty()) sizes.push_back(1000 * scene.metersPerUnit * diagonal(body.mesh));
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    const double seconds = std::min(5.0, oneDigit(200.0 / static_cast<double>(scene.pairs.size())));
+    return command + fmt::format(" --tolerance {:g}mm --budget {:g}", oneDigit(*middle / 30), seconds);
+}
+
 } // namespace
 
 std::string sizeText(const Vec3& size, double metersPerUnit) {
@@ -83,7 +107,7 @@ Json sayScene(const RobotScene& made, const std::string& output, const Console& 
     console.say(fmt::format("wrote {}: {}, {}, {}; {}", output, counted(made.links.size(), "part"),
                             counted(made.scene.joints.size(), "joint"), counted(pairs.size(), "pair"),
                             nothing ? "nothing to bake: no two bodies with a surface move against each other"
-                                    : "next: tss bake " + output + " -o BAKED.tss"));
+                                    : "next: " + nextCommand(made.scene, output)));
     return {{"output", output}, {"robot", made.scene.defaultPrim},
             {"links", links},   {"joints", joints},
             {"pairs", pairs},   {"muscles", muscles},
