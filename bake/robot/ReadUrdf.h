@@ -4,7 +4,7 @@
 namespace tss {
 
 /// Reads a robot from the text of a URDF. Radians and metres as there; a continuous joint turns once round; a
-/// joint that mimics another keeps of its limits what the other's leave it. Left out with a note: floating
+/// joint that mimics another goes as far as the other's limits lead it. Left out with a note: floating
 /// and planar joints and those that cannot be read (their links are tied to nothing), shapes that cannot be
 /// read or are none of URDF's (capsules are). Throws InputError with file, line and element.
 Robot readUrdf(const std::string& text, const std::string& file);

@@ -23,7 +23,8 @@ std::string rangeText(const Robot& robot, const Dof& dof) {
     return text(dof.lower) + " to " + text(dof.upper) + (dof.kind == DofKind::Rotation ? " degrees" : " m");
 }
 
-/// Why a follower does not follow, having found the joint that leads it in the end; empty where it does.
+/// Why a follower does not follow, having found the joint that leads it in the end; empty where it does. Its
+/// own limits do not stop it: who applies a `mimic` does not look at them.
 std::string findLeader(const Robot& robot, RobotJoint& joint) {
     const auto named = [&](const std::string& name) {
         return std::ranges::find_if(robot.joints, [&](const RobotJoint& j) { return j.name == name; });
@@ -43,27 +44,28 @@ std::string findLeader(const Robot& robot, RobotJoint& joint) {
         const Dof& leads = leader->dofs[0];
         const double a = joint.factor * leads.lower + joint.offset,
                      b = joint.factor * leads.upper + joint.offset;
-        const double lower = std::max(dof.lower, std::min(a, b)), upper = std::min(dof.upper, std::max(a, b));
-        if (!(lower <= upper))
-            return "mimics \"" + joint.leader + "\", which never leads it into its limits " +
-                   rangeText(robot, dof);
-        dof.lower = lower;
-        dof.upper = upper;
+        dof.lower = std::min(a, b);
+        dof.upper = std::max(a, b);
         return "";
     }
 }
 
 /// The limits that a follower has, through others that follow too; without a leader it moves by itself.
 void settleFollower(Robot& robot, RobotJoint& joint) {
+    const Dof own = joint.dofs[0];
     if (const std::string why = findLeader(robot, joint); !why.empty()) {
         robot.notes.push_back("joint " + joint.name + " (" + joint.where + ") " + why +
                               ": it moves by itself");
         joint.leader.clear();
         return;
     }
+    const Dof& led = joint.dofs[0];
+    const double rounding = 1e-9 * (own.upper - own.lower);
+    const bool beyond = led.lower < own.lower - rounding || led.upper > own.upper + rounding;
     robot.notes.push_back(
-        "joint " + joint.name + " mimics " + joint.leader + ": " + rangeText(robot, joint.dofs[0]) +
-        " are left it. The scene's motion couples them; a table lets each move by itself, "
+        "joint " + joint.name + " mimics " + joint.leader + ", which leads it from " + rangeText(robot, led) +
+        (beyond ? ", beyond its own limits " + rangeText(robot, own) : "") +
+        ". The scene's motion couples them; a table lets each move by itself, "
         "so what is proven never to meet holds, and some contacts of it may need both apart");
 }
 

@@ -63,9 +63,9 @@ struct Robot {
 void checkForest(const Robot& robot);
 
 /// What holds for any format, once all is read: checkForest(). A joint whose limits leave it one value
-/// becomes fixed there. One that follows another gets the limits that the other's leave it; the coupling
-/// itself is for the scene's motion alone, and noted: in a table both move by themselves, which only adds
-/// poses. One whose leader is none, or never leads it into its limits, moves by itself, noted.
+/// becomes fixed there. One that follows another moves as far as the other's limits lead it, whatever its own;
+/// the coupling itself is for the scene's motion alone, and noted: in a table both move by themselves, which
+/// only adds poses. One whose leader is none moves by itself, noted.
 void settleRobot(Robot& robot);
 
 } // namespace tss

@@ -146,12 +146,31 @@ private:
         result_.links.push_back(report);
     }
 
+    /// The joint that this one follows and that moves, or the end.
+    std::vector<RobotJoint>::const_iterator leaderOf(const RobotJoint& joint) const {
+        if (joint.leader.empty()) return robot_.joints.end();
+        return std::ranges::find_if(robot_.joints, [&](const RobotJoint& other) {
+            return other.name == joint.leader && !other.dofs.empty();
+        });
+    }
+
+    /// Where its leader at a value leads a joint.
+    static double led(const RobotJoint& joint, double value) {
+        return std::clamp(joint.factor * value + joint.offset, joint.dofs[0].lower, joint.dofs[0].upper);
+    }
+
+    double restOf(const RobotJoint& joint, const Dof& dof) const {
+        const auto leader = leaderOf(joint);
+        return leader == robot_.joints.end() ? std::clamp(0.0, dof.lower, dof.upper)
+                                             : led(joint, restOf(*leader, leader->dofs[0]));
+    }
+
     void addJoint(std::size_t index) {
         const RobotJoint& joint = robot_.joints[index];
         Motion motion;
         motion.base = joint.origin;
         for (Dof dof : joint.dofs) { // in the parent's frame
-            dof.rest = std::clamp(0.0, dof.lower, dof.upper);
+            dof.rest = restOf(joint, dof);
             dof.axis = joint.origin.linear() * dof.axis;
             dof.origin = dof.kind == DofKind::Rotation ? Vec3(joint.origin * dof.origin) : Vec3(Vec3::Zero());
             if (dof.kind == DofKind::Rotation) dof.axis.normalize();
@@ -225,15 +244,11 @@ private:
         std::vector<Joint>& joints = result_.scene.joints;
         for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
             const RobotJoint& joint = robot_.joints[j];
-            if (joint.leader.empty() || joint.dofs.empty()) continue;
-            const auto leader = std::ranges::find_if(
-                robot_.joints, [&](const RobotJoint& other) { return other.name == joint.leader; });
-            if (leader == robot_.joints.end() || leader->dofs.empty()) continue;
+            const auto leader = leaderOf(joint);
+            if (leader == robot_.joints.end() || joint.dofs.empty()) continue;
             Joint& follower = joints[chains_[j].front()];
             TimeSamples drive = joints[chains_[leader - robot_.joints.begin()].front()].drives[0];
-            for (double& value : drive.values)
-                value =
-                    std::clamp(joint.factor * value + joint.offset, joint.dofs[0].lower, joint.dofs[0].upper);
+            for (double& value : drive.values) value = led(joint, value);
             follower.drives[0] = drive;
         }
     }

@@ -175,6 +175,11 @@ void pruneJoints(const std::string& file, XMLElement& robot, const std::set<std:
     for (XMLElement *joint = robot.FirstChildElement("joint"), *next = nullptr; joint; joint = next) {
         next = joint->NextSiblingElement("joint");
         try {
+            // What a fixed joint has no use for, exporters write all the same, as an axis of zeros.
+            if (textOf(*joint, "type") == "fixed")
+                for (const char* unused : {"axis", "limit", "mimic"})
+                    while (XMLElement* element = joint->FirstChildElement(unused))
+                        joint->DeleteChild(element);
             prune(*joint, file);
             checkJoint(file, links, *joint);
             // Neither is used, and many files leave them out, which urdfdom does not let pass.

@@ -102,6 +102,12 @@ TEST_CASE(
                            aJoint("stuck", "revolute", "base", "d", "<limit lower='0.5' upper='0.5'/>")));
     CHECK(jointCalled(robot.scene, "hold").dofs.empty());
     CHECK(jointCalled(robot.scene, "stuck").dofs.empty());
+    const RobotScene odd = madeOfUrdf(
+        robotOf(aLink("base") + aLink("a") +
+                aJoint("hold", "fixed", "base", "a",
+                       "<axis xyz='0 0 0'/><limit lower='' upper='x'/><mimic/><origin xyz='1 0 0'/>")));
+    CHECK(jointCalled(odd.scene, "hold").dofs.empty()); // what a fixed joint has no use for is not looked at
+    CHECK(jointPose(jointCalled(odd.scene, "hold"), {}).translation().x() == 1);
     const Dof& wheel = jointCalled(robot.scene, "wheel").dofs.at(0);
     CHECK(wheel.upper - wheel.lower == Approx(2 * std::numbers::pi));
     CHECK(robot.scene.joints.size() == 3);
@@ -111,22 +117,25 @@ TEST_CASE(
     CHECK(robot.scene.pairs.size() == 3); // the wheel against the base, a and d; c is tied to nothing
 }
 
-TEST_CASE(
-    "a joint that mimics has the limits that its leader leaves it, and follows it in the scene's motion") {
+TEST_CASE("a joint that mimics goes as far as its leader leads it, and follows it in the scene's motion") {
     const auto follower = [](const std::string& mimic, const std::string& itsLimits) {
         return robotOf(
             aLink("base") + aLink("a") + aLink("b") + aJoint("lead", "revolute", "base", "a", limits) +
             aJoint("follow", "revolute", "base", "b", "<mimic joint='lead' " + mimic + "/>" + itsLimits));
     };
     const RobotScene robot =
-        madeOfUrdf(follower("multiplier='-0.5' offset='0.25'", "<limit lower='-0.5' upper='9'/>"));
+        madeOfUrdf(follower("multiplier='-0.5' offset='0.25'", "<limit lower='0' upper='9'/>"));
     const Joint &lead = jointCalled(robot.scene, "lead"), &joint = jointCalled(robot.scene, "follow");
-    CHECK(joint.dofs[0].lower == Approx(-0.5));
+    CHECK(joint.dofs[0].lower == Approx(-0.75));
     CHECK(joint.dofs[0].upper == Approx(0.75));
+    CHECK(joint.dofs[0].rest == Approx(0.25));
     REQUIRE(joint.drives[0].times == lead.drives[0].times);
     for (std::size_t k = 0; k < joint.drives[0].values.size(); ++k)
-        CHECK(joint.drives[0].values[k] == Approx(std::max(-0.5, 0.25 - 0.5 * lead.drives[0].values[k])));
-    CHECK(hasNote(robot.notes, "follow mimics lead"));
+        CHECK(joint.drives[0].values[k] == Approx(0.25 - 0.5 * lead.drives[0].values[k]));
+    CHECK(hasNote(robot.notes, "joint follow mimics lead, which leads it from -42.9718 to 42.9718 degrees, "
+                               "beyond its own limits 0 to 515.662 degrees"));
+    const RobotScene within = madeOfUrdf(follower("", "<limit lower='-1' upper='9'/>"));
+    CHECK(hasNote(within.notes, "which leads it from -57.2958 to 114.592 degrees. The scene's"));
 }
 
 TEST_CASE("a joint that nothing leads moves by itself, by name") {
@@ -141,8 +150,6 @@ TEST_CASE("a joint that nothing leads moves by itself, by name") {
         CHECK(jointCalled(robot.scene, "one").dofs[0].lower == 5);
         CHECK(jointCalled(robot.scene, "one").dofs[0].upper == 6);
     };
-    note("<mimic joint='two'/>", "",
-         "mimics \"two\", which never leads it into its limits 286.479 to 343.775 degrees");
     note("<mimic joint='two'/>", "<mimic joint='one'/>",
          "is one of joints that mimic each other in a circle");
     note("<mimic joint='nobody'/>", "",
