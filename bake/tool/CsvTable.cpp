@@ -2,13 +2,18 @@
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/model/Kinematics.h"
 #include "bake/pipeline/BakeOptions.h"
+#include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
 
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <map>
 #include <sstream>
+#include <string_view>
 
 namespace tss::tool {
 
@@ -41,11 +46,58 @@ bool isName(const std::string& cell) {
            cell[0] == '/';
 }
 
+/// A text file as some spreadsheets write it begins with this.
+constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
+
+DofColumns named(const SceneModel& scene, const std::vector<JointDof>& which, std::vector<Dof> dofs) {
+    DofColumns columns{std::move(dofs), {}};
+    std::map<std::string, int> count;
+    for (const JointDof& one : which) {
+        const Joint& joint = scene.joints[one.joint];
+        const std::string name = primName(joint.path), own = joint.dofs[one.dof].name;
+        columns.names.push_back({name + ":" + own, name, own});
+        for (const std::string& word : columns.names.back()) ++count[word];
+    }
+    for (std::vector<std::string>& names : columns.names)
+        std::erase_if(names, [&](const std::string& name) { return count[name] > 1; });
+    return columns;
+}
+
+/// Which column of the file is each DOF's; empty: the header has none of their names.
+std::vector<std::size_t> orderOf(const std::vector<std::string>& header, const DofColumns& columns,
+                                 const std::string& file, const std::string& expected) {
+    std::vector<std::size_t> order(columns.dofs.size(), header.size());
+    std::size_t unknown = header.size();
+    bool any = false;
+    for (std::size_t k = 0; k < header.size(); ++k) {
+        const auto dof = std::ranges::find_if(columns.names, [&](const std::vector<std::string>& names) {
+            return std::ranges::find(names, header[k]) != names.end();
+        });
+        if (dof == columns.names.end()) {
+            unknown = std::min(unknown, k);
+            continue;
+        }
+        std::size_t& column = order[static_cast<std::size_t>(dof - columns.names.begin())];
+        if (column < header.size()) throw InputError(Where{file}, "expected one column of " + header[k]);
+        column = k;
+        any = true;
+    }
+    if (!any) return {};
+    if (unknown < header.size())
+        throw InputError(Where{file},
+                         fmt::format("\"{}\" is no degree of freedom: expected {}, in any order, or "
+                                     "no such line",
+                                     header[unknown], expected));
+    return order;
+}
+
 } // namespace
 
-CsvTable readCsv(const std::string& file, std::size_t columns) {
+CsvTable readCsv(const std::string& file) {
     CsvTable csv;
-    std::istringstream stream(readWholeFile(file));
+    std::string text = readWholeFile(file);
+    if (text.starts_with(byteOrderMark)) text.erase(0, byteOrderMark.size());
+    std::istringstream stream(text);
     std::string line;
     for (int number = 1; std::getline(stream, line); ++number) {
         if (!line.empty() && line.back() == '\r') line.pop_back();
@@ -55,7 +107,9 @@ CsvTable readCsv(const std::string& file, std::size_t columns) {
             csv.header = cells;
             continue;
         }
-        const std::size_t expected = columns ? columns : csv.rows.empty() ? cells.size() : csv.rows[0].size();
+        const std::size_t expected = !csv.header.empty() ? csv.header.size()
+                                     : csv.rows.empty()  ? cells.size()
+                                                         : csv.rows[0].size();
         if (cells.size() != expected)
             throw InputError(
                 fmt::format("{}:{}: expected {} columns, found {}", file, number, expected, cells.size()));
@@ -67,22 +121,45 @@ CsvTable readCsv(const std::string& file, std::size_t columns) {
     return csv;
 }
 
-void checkColumns(const CsvTable& csv, const std::vector<Dof>& dofs, const std::string& file,
-                  std::size_t first) {
-    for (std::size_t k = 0; k < dofs.size() && first + k < csv.header.size(); ++k) {
-        const std::string& found = csv.header[first + k];
-        if (found != dofs[k].name && std::ranges::find(dofs, found, &Dof::name) != dofs.end())
-            throw InputError(Where{file}, "column " + std::to_string(first + k + 1) +
-                                              ": expected the degree of freedom \"" + dofs[k].name +
-                                              "\", found \"" + found + "\"");
-    }
+DofColumns dofColumns(const SceneModel& scene) {
+    std::vector<JointDof> which;
+    std::vector<Dof> dofs;
+    for (std::size_t j = 0; j < scene.joints.size(); ++j)
+        for (std::size_t k = 0; k < scene.joints[j].dofs.size(); ++k) {
+            which.push_back({static_cast<int>(j), k});
+            dofs.push_back(scene.joints[j].dofs[k]);
+        }
+    return named(scene, which, std::move(dofs));
 }
 
-std::vector<std::vector<double>> readPoses(const std::string& file, const std::vector<Dof>& dofs) {
-    CsvTable csv = readCsv(file, dofs.size());
-    checkColumns(csv, dofs, file);
-    for (std::vector<double>& row : csv.rows) row = fromUser(dofs, row);
-    return csv.rows;
+DofColumns dofColumns(const SceneModel& scene, const Pair& pair) {
+    return named(scene, pairDofs(scene, pair), pairMotion(scene, pair).dofs);
+}
+
+DofRows readDofRows(const std::string& file, const DofColumns& columns, bool stepped) {
+    CsvTable csv = readCsv(file);
+    const bool passed =
+        stepped && !csv.header.empty() && (csv.header[0] == "step" || csv.header[0] == "time");
+    std::vector<std::string> expected;
+    for (const std::vector<std::string>& names : columns.names) expected.push_back(names.back());
+    const std::string words = fmt::format("{}", fmt::join(expected, ", "));
+    if (passed) csv.header.erase(csv.header.begin());
+    const std::vector<std::size_t> order = orderOf(csv.header, columns, file, words);
+    DofRows read;
+    for (std::vector<double>& row : csv.rows) {
+        if (passed) row.erase(row.begin());
+        if (row.size() != columns.dofs.size())
+            throw InputError(Where{file},
+                             fmt::format("expected {}, one a degree of freedom ({}), found {}",
+                                         counted(columns.dofs.size(), "column"), words, row.size()));
+        std::vector<double> values(row.size());
+        for (std::size_t k = 0; k < row.size(); ++k) values[k] = row[order.empty() ? k : order[k]];
+        read.rows.push_back(fromUser(columns.dofs, values));
+    }
+    if (order.empty() && columns.dofs.size() > 1 && !csv.header.empty())
+        read.remark = fmt::format(
+            "{}: its first line has none of the names {}: the columns are taken in that order", file, words);
+    return read;
 }
 
 } // namespace tss::tool

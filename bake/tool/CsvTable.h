@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/motion/Motion.h"
+#include "bake/model/SceneModel.h"
 
 #include <string>
 #include <vector>
@@ -13,15 +13,26 @@ struct CsvTable {
 };
 
 /// Reads a CSV file of finite numbers: an optional first line of names, empty lines and lines starting with #
-/// skipped. columns > 0: each row must have so many. Throws InputError with file, line and column.
-CsvTable readCsv(const std::string& file, std::size_t columns = 0);
+/// skipped. Throws InputError with file, line and column.
+CsvTable readCsv(const std::string& file);
 
-/// A first line that names a DOF in another one's column is not what the columns are taken for: throws
-/// InputError. Names of its own are the writer's affair. first: the column of dofs[0].
-void checkColumns(const CsvTable& csv, const std::vector<Dof>& dofs, const std::string& file,
-                  std::size_t first = 0);
+/// What the columns of a file of DOF values may be called: of each DOF `JOINT:DOF`, and `JOINT` or `DOF`
+/// where that is no other's name.
+struct DofColumns {
+    std::vector<Dof> dofs; ///< in the order in which values are wanted
+    std::vector<std::vector<std::string>> names;
+};
+DofColumns dofColumns(const SceneModel& scene);                   ///< of all joints, in file order
+DofColumns dofColumns(const SceneModel& scene, const Pair& pair); ///< as in pairMotion()
 
-/// Poses from a CSV file, one column a DOF: a row each, in the DOFs' own units.
-std::vector<std::vector<double>> readPoses(const std::string& file, const std::vector<Dof>& dofs);
+/// The rows of a file with a column a DOF, in the DOFs' order and their own units; `remark`: what is to be
+/// said of it, or empty. The first line may name the columns in any order; where it has none of the names
+/// they are taken in the DOFs' order. Throws InputError where some of the names are those of DOFs and others
+/// are none, or one comes twice. stepped: a first column `step` or `time` is passed over.
+struct DofRows {
+    std::vector<std::vector<double>> rows;
+    std::string remark;
+};
+DofRows readDofRows(const std::string& file, const DofColumns& columns, bool stepped = false);
 
 } // namespace tss::tool

@@ -7,12 +7,6 @@
 
 namespace tss::tool {
 
-std::vector<Dof> dofsOf(const SceneModel& scene) {
-    std::vector<Dof> dofs;
-    for (const Joint& joint : scene.joints) dofs.insert(dofs.end(), joint.dofs.begin(), joint.dofs.end());
-    return dofs;
-}
-
 std::vector<std::vector<double>> drivenSteps(const SceneModel& scene) {
     std::vector<std::vector<double>> steps;
     for (int k = 0; scene.startTimeCode + k <= scene.endTimeCode; ++k) {

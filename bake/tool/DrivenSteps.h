@@ -4,9 +4,6 @@
 
 namespace tss::tool {
 
-/// The DOFs of all joints, in the order of the file.
-std::vector<Dof> dofsOf(const SceneModel& scene);
-
 /// The scene's own motion: the DOF values of all joints, one row a time code; joints in file order, DOFs in
 /// the joint's order. What is not driven rests.
 std::vector<std::vector<double>> drivenSteps(const SceneModel& scene);

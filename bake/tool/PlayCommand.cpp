@@ -29,21 +29,9 @@ struct PlayArguments {
 };
 
 /// The asked DOF values of all joints, one row a step; joints in file order, DOFs in the joint's order.
-std::vector<std::vector<double>> askedSteps(const SceneModel& scene, const PlayArguments& arguments) {
-    if (arguments.motion.empty()) return drivenSteps(scene);
-    const std::vector<Dof> dofs = dofsOf(scene);
-    CsvTable csv = readCsv(arguments.motion);
-    const bool numbered = !csv.header.empty() && (csv.header[0] == "step" || csv.header[0] == "time");
-    checkColumns(csv, dofs, arguments.motion, numbered ? 1 : 0);
-    for (std::vector<double>& row : csv.rows) {
-        if (numbered) row.erase(row.begin());
-        if (row.size() != dofs.size())
-            throw InputError(Where{arguments.motion},
-                             fmt::format("expected {} columns, one a DOF of the scene's joints, found {}",
-                                         dofs.size(), row.size()));
-        row = fromUser(dofs, row);
-    }
-    return csv.rows;
+DofRows askedSteps(const SceneModel& scene, const PlayArguments& arguments) {
+    if (arguments.motion.empty()) return {drivenSteps(scene), {}};
+    return readDofRows(arguments.motion, dofColumns(scene), true);
 }
 
 /// How many steps ask for a pose outside of a joint's limits or planes.
@@ -194,8 +182,9 @@ void play(const PlayArguments& arguments, const Console& console) {
                          arguments.meshes + "\"");
     const SceneModel scene = loadScene(arguments.scene);
     requireFresh(scene, arguments.scene);
-    const auto steps = askedSteps(scene, arguments);
+    const auto [steps, remark] = askedSteps(scene, arguments);
     std::vector<std::string> warnings = unbaked(scene);
+    if (!remark.empty()) warnings.push_back(remark);
     Player player = inFile(arguments.scene, [&] { return Player(scene, warnings); });
     const std::size_t outside = countOutside(scene, steps);
     if (outside > 0)

@@ -58,7 +58,8 @@ void runAllPairs(const QueryArguments& arguments, const Console& console) {
         throw InputError(Where{arguments.scene, "", scene.pairs[bare.front()].path},
                          fmt::format("{} without a table; expected a scene written by tss bake",
                                      counted(bare.size(), "pair")));
-    const std::vector<std::vector<double>> poses = readPoses(arguments.poses, dofsOf(scene));
+    const auto [poses, remark] = readDofRows(arguments.poses, dofColumns(scene));
+    if (!remark.empty()) console.say(remark);
     std::vector<double> values;
     for (const std::vector<double>& row : poses) values.insert(values.end(), row.begin(), row.end());
     std::vector<MechanismAnswer> answers(poses.size());
@@ -88,7 +89,8 @@ void runQuery(const QueryArguments& arguments, const Console& console) {
         throw InputError(Where{arguments.scene, "", pair.path},
                          "has no table; expected a scene written by tss bake");
     const Motion motion = pairMotion(scene, pair);
-    const std::vector<std::vector<double>> poses = readPoses(arguments.poses, motion.dofs);
+    const auto [poses, remark] = readDofRows(arguments.poses, dofColumns(scene, pair));
+    if (!remark.empty()) console.say(remark);
     const std::unique_ptr<const Meshes> meshes =
         arguments.distance ? std::make_unique<const Meshes>(scene, pair) : nullptr;
     std::string text =
@@ -100,12 +102,16 @@ void runQuery(const QueryArguments& arguments, const Console& console) {
         const bool out = beyondLimits(motion, q);
         if (out && ++outside <= mostRowsNamed) outsideRows.push_back(row);
         if (pair.proof) { // within the limits they never meet: no test is made; beyond nothing is known
-            text += out ? "nan,0,-1,,,,,," : fmt::format("{},0,-1,,,,,,", pair.proof->clearance);
+            text += out ? "nan,nan,-1,,,,,," : fmt::format("{},0,-1,,,,,,", pair.proof->clearance);
         } else {
             const QueryResult r = query(*pair.table, pose(motion, q));
             hits += r.hit() && !out;
-            text += fmt::format("{},{},{},{},{},{},{},{},{}", r.gap, r.hit() ? 1 : 0, r.test, r.point.x(),
-                                r.point.y(), r.point.z(), r.normal.x(), r.normal.y(), r.normal.z());
+            text += fmt::format("{},{},{},{},{},{},{},{},{}", r.gap,
+                                out       ? "nan"
+                                : r.hit() ? "1"
+                                          : "0",
+                                r.test, r.point.x(), r.point.y(), r.point.z(), r.normal.x(), r.normal.y(),
+                                r.normal.z());
         }
         text += meshes ? fmt::format(",{}\n", meshes->a.distanceTo(meshes->b, pose(motion, q))) : "\n";
     }
@@ -127,8 +133,8 @@ void addQuery(CLI::App& app, Console& console) {
         ->add_option("-o,--output", arguments->output,
                      "CSV: table_gap,hit,pair,px,py,pz,nx,ny,nz; lengths in scene units, point and normal in "
                      "body A's frame. table_gap is that of the table's spheres: where it is above 0 it is no "
-                     "distance of the meshes. Beyond the limits no bound holds: --json lists such rows, and "
-                     "of a pair that never collides their table_gap is nan")
+                     "distance of the meshes. Beyond the limits no bound holds: hit is nan there, and so is "
+                     "the table_gap of a pair that never collides")
         ->required();
     command->add_flag(
         "--distance", arguments->distance,

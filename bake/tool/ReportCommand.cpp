@@ -30,10 +30,7 @@ std::vector<std::vector<double>> readMotion(const SceneModel& scene, const Repor
             pair = &candidate;
         }
     if (!pair) throw InputError(arguments.scene + ": expected a pair of rigid bodies for --motion");
-    const Motion motion = pairMotion(scene, *pair);
-    CsvTable csv = readCsv(arguments.motion, motion.dofCount());
-    for (std::vector<double>& row : csv.rows) row = fromUser(motion.dofs, row);
-    return csv.rows;
+    return readDofRows(arguments.motion, dofColumns(scene, *pair)).rows;
 }
 
 Json summary(const reporting::Report& report, const std::string& folder) {

@@ -204,7 +204,7 @@ TEST_CASE("a first line of nan is a bad number, not a header") {
     }
 }
 
-TEST_CASE("columns that are named in another order than the joint has them are refused") {
+TEST_CASE("columns are read as the first line names them, in any order") {
     const Folder folder;
     writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
     writeObj(boxMesh({1.5, -1, -1}, {2, 1, 1}), folder / "b.obj");
@@ -216,20 +216,40 @@ TEST_CASE("columns that are named in another order than the joint has them are r
     const Ran info = runTss("info baked.tss", folder.path());
     CHECK(info.out.find("rot -5 to 5 degrees, rest 2; trans -1 to 1 times 1 m, rest 0.5") !=
           std::string::npos);
-    const auto run = [&](const std::string& header, const std::string& command) {
-        writeText(folder.path() / "q.csv", header + "\n" + (command == "query" ? "0,0\n" : "0,0,0\n"));
+    const auto run = [&](const std::string& text, const std::string& command) {
+        writeText(folder.path() / "q.csv", text);
         return runTss(command + " baked.tss " + (command == "query" ? "--poses" : "--motion") +
                           " q.csv -o r.csv",
                       folder.path());
     };
-    CHECK(run("rot,trans", "query").exit == 0);
-    CHECK(run("pitch,reach", "query").exit == 0);
-    CHECK(run("time,rot,trans", "play").exit == 0);
-    for (const auto& [header, command] : {std::pair{"trans,rot", "query"}, {"time,trans,rot", "play"}}) {
-        const Ran ran = run(header, command);
+    const auto answer = [&](const std::string& text, const std::string& command) {
+        const Ran ran = run(text, command);
+        INFO(ran.err);
+        CHECK(ran.exit == 0);
+        CHECK((ran.out + ran.err).find("its first line") == std::string::npos);
+        return readText(folder.path() / "r.csv");
+    };
+    const std::string pose = answer("1,0.25\n", "query"), step = answer("1,0.25\n", "play");
+    CHECK(answer("rot,trans\n1,0.25\n", "query") == pose);
+    CHECK(answer("trans,rot\n0.25,1\n", "query") == pose);
+    CHECK(answer("Joint:trans,rot\n0.25,1\n", "query") == pose);
+    CHECK(answer("\xEF\xBB\xBFtrans,rot\r\n0.25,1\r\n", "query") == pose); // as spreadsheets write it
+    CHECK(answer("time,trans,rot\n0,0.25,1\n", "play") == step);
+    CHECK(answer("trans,rot\n0.25,1\n", "play") == step);
+    CHECK(answer("0.25,1\n", "query") != pose);
+
+    const Ran own = run("pitch,reach\n1,0.25\n", "query");
+    CHECK(own.exit == 0);
+    CHECK((own.out + own.err).find("has none of the names rot, trans: the columns are taken in that order") !=
+          std::string::npos);
+    CHECK(readText(folder.path() / "r.csv") == pose);
+    for (const auto& [header, words] :
+         {std::pair{"trans,rots", "\"rots\" is no degree of freedom: expected rot, trans, in any order"},
+          {"trans,trans", "expected one column of trans"}}) {
+        const Ran ran = run(std::string(header) + "\n0.25,1\n", "query");
         INFO(ran.err);
         CHECK(ran.exit == 1);
-        CHECK(ran.err.find("expected the degree of freedom \"rot\", found \"trans\"") != std::string::npos);
+        CHECK(ran.err.find(words) != std::string::npos);
     }
 }
 
@@ -266,10 +286,19 @@ TEST_CASE("a query beyond the limits says so, and claims nothing there") {
     CHECK(apart["outsideLimits"] == 2);
     CHECK(apart["outsideRows"] == Json::array({1, 4}));
     const std::string rows = readText(folder / "r.csv");
-    CHECK(rows.find("nan,0,-1,,,,,,\n") != std::string::npos);
+    CHECK(rows.find("nan,nan,-1,,,,,,\n") != std::string::npos);
     const Json table = asked("-0.3:3");
     CHECK(table["outsideRows"] == Json::array({1, 4}));
     CHECK(table["hits"] == 0); // the one beyond the limits is none of the table's
+    std::istringstream lines(readText(folder.path() / "r.csv"));
+    for (const char* hit : {"hit", "0", "nan", "0", "0", "nan"}) {
+        std::string line, cell;
+        std::getline(lines, line);
+        std::istringstream cells(line);
+        std::getline(cells, cell, ',');
+        std::getline(cells, cell, ',');
+        CHECK(cell == hit);
+    }
 }
 
 TEST_CASE("all pairs are asked at once from the values of all joints, and beyond limits nothing is claimed") {
