@@ -168,6 +168,24 @@ TEST_CASE("a path that scales unequally moves its own body, and is said to be no
     CHECK(model.bodies.size() == 2);
 }
 
+TEST_CASE("scales that differ by rounding alone are one, of a path and of a DOFTransform") {
+    osg::ref_ptr<osg::AnimationPath> path = new osg::AnimationPath;
+    const osg::Vec3d almost(0.99999982, 1, 1.0000002);
+    path->insert(0, osg::AnimationPath::ControlPoint(osg::Vec3d(), osg::Quat(), almost));
+    path->insert(1, osg::AnimationPath::ControlPoint(osg::Vec3d(0, 0, 1), osg::Quat(), osg::Vec3d(1, 1, 1)));
+    Rig rig(new osg::MatrixTransform);
+    rig.moving->setUpdateCallback(new osg::AnimationPathCallback(path));
+    CHECK(extractAndRead(*rig.root).joints.size() == 1);
+
+    osg::ref_ptr<osgSim::DOFTransform> node = new osgSim::DOFTransform;
+    node->setMaxHPR(osg::Vec3(1, 0, 0));
+    Rig hinge(node.get());
+    for (const auto& [scale, joints] : {std::pair{2.0000004f, 1u}, {2.01f, 0u}}) {
+        node->setCurrentScale(osg::Vec3(2, scale, 2));
+        CHECK(extractAndRead(*hinge.root).joints.size() == joints);
+    }
+}
+
 namespace {
 
 using namespace osgAnimation;

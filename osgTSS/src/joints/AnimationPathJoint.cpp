@@ -106,14 +106,17 @@ FoundJoints animationPathJoint(const osg::AnimationPathCallback& animation, doub
     if (animation.getUseInverseMatrix())
         throw tss::InputError("its path is used inverted: expected it to place what is below");
     const osg::AnimationPath& path = *animation.getAnimationPath();
-    const osg::Vec3d size = path.getTimeControlPointMap().begin()->second.getScale();
+    FoundJoints found;
+    found.scale = evenScale(path.getTimeControlPointMap().begin()->second.getScale(), found.off);
     tss::Dof dof;
     dof.name = "path0";
     dof.kind = tss::DofKind::Path;
     for (const auto& [time, point] : path.getTimeControlPointMap()) {
-        if (point.getScale() != size || size != osg::Vec3d(size.x(), size.x(), size.x()) || size.x() == 0)
+        const double scale = evenScale(point.getScale(), found.off), grown = std::abs(scale - found.scale);
+        if (scale == 0 || grown > fewDigits * std::abs(found.scale))
             throw tss::InputError(
                 "its path scales: expected a scale that is the same in all directions and at all times");
+        found.off = std::max(found.off, grown / std::abs(found.scale));
         const osg::Quat& r = point.getRotation();
         tss::PathRow row;
         row.value = time;
@@ -124,10 +127,11 @@ FoundJoints animationPathJoint(const osg::AnimationPathCallback& animation, doub
     dof.lower = dof.rest = path.getFirstTime();
     dof.upper = path.getLastTime();
     tss::Joint joint;
-    joint.frame1.translation() = size.x() * toCore(animation.getPivotPoint());
+    joint.frame1.translation() = found.scale * toCore(animation.getPivotPoint());
     joint.dofs = {dof};
     joint.drives = {oneRound(animation, timeCodesPerSecond)};
-    return {{joint}, size.x()};
+    found.joints = {joint};
+    return found;
 }
 
 std::unique_ptr<JointNode> makeAnimationPathNode(osg::Node& node, const tss::Joint& joint) {

@@ -215,17 +215,16 @@ FoundJoints dofTransformJoint(const osgSim::DOFTransform& node, double timeCodes
     if (scale == osg::Vec3())
         throw tss::InputError(
             "its scale is 0, as OpenSceneGraph sets it: setCurrentScale(osg::Vec3(1, 1, 1))");
-    if (scale.x() == 0 || scale != osg::Vec3(scale.x(), scale.x(), scale.x()) ||
-        (node.getAnimationOn() && node.getIncrementScale() != osg::Vec3()))
+    FoundJoints found;
+    found.scale = evenScale(scale, found.off);
+    if (found.scale == 0 || (node.getAnimationOn() && node.getIncrementScale() != osg::Vec3()))
         throw tss::InputError("expected a scale that is the same in all directions and at all times; tables "
                               "are for rigid bodies");
-    FoundJoints found;
-    found.scale = scale.x();
     tss::Joint joint;
     joint.frame0 = rigid(node.getInversePutMatrix(), "inverse put matrix", &found.off);
     // Scaled after the put matrix: x -> s (put x) = (put with its translation scaled) (s x).
     tss::Pose put = rigid(node.getPutMatrix(), "put matrix", &found.off);
-    put.translation() *= scale.x();
+    put.translation() *= found.scale;
     joint.frame1 = put.inverse(Eigen::Isometry);
     std::string words;
     node.getUserValue(limitsTag, words);

@@ -31,4 +31,12 @@ tss::Pose rigid(const osg::Matrixd& matrix, const char* what, double* off) {
     return similarity->pose;
 }
 
+double evenScale(const osg::Vec3d& scale, double& off) {
+    const double along = scale.x();
+    const double uneven = std::max(std::abs(scale.y() - along), std::abs(scale.z() - along));
+    if (!(std::abs(along) > 0) || !(uneven <= fewDigits * std::abs(along))) return 0;
+    off = std::max(off, uneven / std::abs(along));
+    return std::abs(along - 1) < std::max(1e-6, off) ? 1 : along; // as toSimilarity()
+}
+
 } // namespace osgTSS

@@ -2,6 +2,7 @@
 #include "bake/model/SceneModel.h"
 
 #include <osg/Matrixd>
+#include <osg/Vec3d>
 
 #include <string>
 #include <vector>
@@ -23,5 +24,9 @@ void scaleLengths(tss::Joint& joint, double factor);
 /// The matrix as a rigid motion, the nearest one where it is written with few digits (`off`: raised to how
 /// far that is). Throws tss::InputError that begins with `what` for another.
 tss::Pose rigid(const osg::Matrixd& matrix, const char* what, double* off = nullptr);
+
+/// The scale where it is the same in all directions, to `fewDigits` of it (`off`: raised to how far that is);
+/// 0 where it is not.
+double evenScale(const osg::Vec3d& scale, double& off);
 
 } // namespace osgTSS
