@@ -34,6 +34,7 @@ struct FrameHolder {
     double extent = 0;         ///< diagonal of its bounds
     std::size_t moves = 0;     ///< in how many swings
     Vec3 joint = Vec3::Zero(); ///< what its own swings leave nearest to where it is; of a slide its middle
+    bool twists = false;       ///< it turns about its own length, as seen from what it hangs on
 };
 
 /// The surfaces that stand for a frame: its bones, or its muscles where it has none.
@@ -59,6 +60,18 @@ FrameHolder holderOf(const SkinGround& ground, const std::vector<int>& frames, i
     made.extent = made.box.isEmpty() ? 0 : made.box.diagonal().norm();
     made.holder.size = made.extent;
     return made;
+}
+
+/// The middle of the nearest bone that moves in fewer swings than this one.
+std::optional<Vec3> placeBefore(const std::vector<FrameHolder>& holders, std::size_t bone) {
+    const Vec3 middle = holders[bone].box.center();
+    std::optional<Vec3> before;
+    for (const FrameHolder& other : holders) {
+        if (other.moves >= holders[bone].moves || other.box.isEmpty()) continue;
+        const Vec3 place = other.box.center();
+        if (!before || (place - middle).norm() < (*before - middle).norm()) before = place;
+    }
+    return before;
 }
 
 /// How often frames move, and about what.
@@ -88,12 +101,14 @@ void setMotions(const SkinParameters& p, const std::vector<int>& frames, std::ve
     }
     for (std::size_t h = 0; h < holders.size(); ++h) {
         if (holders[h].box.isEmpty()) continue;
-        // Along an axis any place is as good: the one beside the middle.
+        const Vec3 middle = holders[h].box.center();
+        holders[h].joint = middle;
         const double some = 1e-6 * least[h].matrix.trace();
-        holders[h].joint = holders[h].box.center();
-        if (some > 0)
-            holders[h].joint +=
-                (least[h].matrix + some * Eigen::Matrix3d::Identity()).ldlt().solve(least[h].right);
+        if (!(some > 0)) continue;
+        const auto places = (least[h].matrix + some * Eigen::Matrix3d::Identity()).eval().ldlt();
+        holders[h].joint += places.solve(least[h].right); // along an axis the place beside the middle
+        const Vec3 from = middle - placeBefore(holders, h).value_or(middle);
+        holders[h].twists = some * places.solve(from).norm() > aheadCosine * from.norm();
     }
 }
 
@@ -240,19 +255,15 @@ SkinHolder stillOf(const std::vector<FrameHolder>& holders, const FreeParts& fre
 }
 
 /// Whether a place lies beyond a bone that moves, seen from its joint. Where the joint is in the middle of
-/// the bone, as of a vertebra, it is on the far side of the nearest bone that moves in fewer swings.
-bool isBeyond(const Vec3& place, const FrameHolder& bone, const std::vector<FrameHolder>& holders) {
-    const Vec3 middle = bone.box.center(), arm = middle - bone.joint, way = place - bone.joint;
-    if (arm.norm() >= leastArm * bone.extent) return way.dot(arm) >= aheadCosine * way.norm() * arm.norm();
-    Vec3 from = middle;
-    double nearest = infinity;
-    for (const FrameHolder& other : holders) {
-        const double distance = (other.box.center() - middle).norm();
-        if (other.moves >= bone.moves || other.box.isEmpty() || !(distance < nearest)) continue;
-        nearest = distance;
-        from = other.box.center();
-    }
-    return way.dot(middle - from) >= 0;
+/// the bone, as of a vertebra, or the bone twists, whether it is nearer to it than to the nearest bone that
+/// moves in fewer swings.
+bool isBeyond(const Vec3& place, std::size_t bone, const std::vector<FrameHolder>& holders) {
+    const FrameHolder& holder = holders[bone];
+    const Vec3 middle = holder.box.center(), arm = middle - holder.joint, way = place - holder.joint;
+    if (!holder.twists && arm.norm() >= leastArm * holder.extent)
+        return way.dot(arm) >= aheadCosine * way.norm() * arm.norm();
+    const std::optional<Vec3> before = placeBefore(holders, bone);
+    return !before || (place - middle).norm() <= (place - *before).norm();
 }
 
 /// The bone that a part goes on from, as a hand does from a forearm: most of what is around it belongs to
@@ -269,7 +280,7 @@ std::optional<std::size_t> goesOnFrom(const FreePart& part, const std::vector<Fr
     std::optional<std::size_t> from;
     for (const auto& [h, times] : part.beside)
         if (holders[h].moves == moves && (!from || times > part.beside.at(*from)) &&
-            isBeyond(part.ring, holders[h], holders))
+            isBeyond(part.ring, h, holders))
             from = h;
     return 2 * still < all ? from : std::nullopt;
 }

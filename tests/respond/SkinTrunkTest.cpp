@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 using namespace tss;
@@ -81,18 +82,25 @@ std::shared_ptr<const MuscleDeformer> boneOf(double from, double to) {
     return boneIn(Vec3(31.3, 5.3, from), Vec3(32.7, 6.7, to));
 }
 
-/// All bones from the first that moves on are turned by 60 degrees about its upper end.
+struct Setting {
+    bool inverted = false, split = false; ///< of the skin
+    std::optional<Vec3> joint{};          ///< else at the upper end of the first bone that moves
+    Vec3 axis = Vec3::UnitY();
+    std::vector<Box> body = animal;
+};
+
+/// All bones from the first that moves on are turned by 60 degrees.
 class Bent {
 public:
     Bent(const std::vector<std::shared_ptr<const MuscleDeformer>>& bones, std::size_t firstMoving,
-         bool inverted = false, bool split = false, bool aboutMiddle = false)
-        : skin_(surfaceOf(animal)) {
-        if (inverted)
+         const Setting& setting = {})
+        : skin_(surfaceOf(setting.body)) {
+        if (setting.inverted)
             for (Tri& t : skin_.triangles) std::swap(t[1], t[2]);
-        if (split) skin_ = splitAt(skin_);
+        if (setting.split) skin_ = splitAt(skin_);
         const Eigen::AlignedBox3d box = bounds(bones[firstMoving]->muscle().surface);
-        const Vec3 joint = aboutMiddle ? box.center() : Vec3(32, 6, box.max().z() + 0.5);
-        bend = Eigen::Translation3d(joint) * Eigen::AngleAxisd(M_PI / 3, Vec3::UnitY()) *
+        const Vec3 joint = setting.joint.value_or(Vec3(32, 6, box.max().z() + 0.5));
+        bend = Eigen::Translation3d(joint) * Eigen::AngleAxisd(M_PI / 3, setting.axis) *
                Eigen::Translation3d(-joint);
         std::vector<Pose> poses(bones.size(), Pose::Identity());
         for (std::size_t m = firstMoving; m < bones.size(); ++m) poses[m] = bend;
@@ -161,7 +169,7 @@ bool isLeftFoot(const Vec3& x) {
 
 TEST_CASE("skin over parts whose bones are not named stays with the bone beside it that holds still") {
     for (const bool inverted : {false, true}) {
-        const Bent bent({boneOf(20.5, 27), boneOf(1, 19.5)}, 1, inverted);
+        const Bent bent({boneOf(20.5, 27), boneOf(1, 19.5)}, 1, {inverted});
         CHECK(bent.farthest(Pose::Identity(), isTrunk) < 1);
         CHECK(bent.farthest(Pose::Identity(), isHind) < 0.05);
         CHECK(bent.farthest(Pose::Identity(), isRightLeg) < 0.2);
@@ -201,7 +209,7 @@ TEST_CASE("skin on a short bone in a thick part of the body is its own") {
 
 TEST_CASE("vertices that seams repeat stay together, and the skin is as without seams") {
     const std::vector<std::shared_ptr<const MuscleDeformer>> bones = {boneOf(20.5, 27), boneOf(1, 19.5)};
-    const auto whole = Bent(bones, 1).places(), split = Bent(bones, 1, false, true).places();
+    const auto whole = Bent(bones, 1).places(), split = Bent(bones, 1, {false, true}).places();
     REQUIRE(whole.size() == split.size());
     for (const auto& [rest, now] : whole) CHECK((split.at(rest) - now).norm() < 0.01);
 }
@@ -219,10 +227,31 @@ TEST_CASE(
     const auto still = boneIn(Vec3(6, -1, 24), Vec3(8, 1, 26)),
                turning = boneIn(Vec3(9, -1, 24), Vec3(11, 1, 26));
     for (const bool back : {false, true}) {
-        const Bent bent(back ? std::vector{turning, still} : std::vector{still, turning}, 1, false, false,
-                        true);
+        Setting aboutMiddle;
+        aboutMiddle.joint = bounds((back ? still : turning)->muscle().surface).center();
+        const Bent bent(back ? std::vector{turning, still} : std::vector{still, turning}, 1, aboutMiddle);
         CHECK(bent.farthest(Pose::Identity(), [&](const Vec3& x) { return back ? x.x() > 30 : x.x() < -5; }) <
               0.05);
         CHECK(bent.farthest(bent.bend, [&](const Vec3& x) { return back ? x.x() < -5 : x.x() > 30; }) < 3);
     }
+}
+
+TEST_CASE(
+    "beyond a bone that twists is what it has on the far side of what it hangs on, also beside a limb that "
+    "moves") {
+    // A head on a short bone, somewhat beside the axis about which it turns, and an arm.
+    Setting man;
+    man.body = {{-6, -4, 0, 6, 4, 20}, {6, -2, 14, 20, 2, 18}, {-3, -3, 20, 3, 3, 36}};
+    man.joint = Vec3::Zero();
+    man.axis = Vec3::UnitZ();
+    const auto pelvis = boneIn(Vec3(-2, -2, 2), Vec3(2, 2, 6)),
+               arm = boneIn(Vec3(4, -0.5, 17), Vec3(13, 0.5, 18));
+    for (const double aside : {-0.5, 0.5})
+        for (const bool both : {false, true}) {
+            std::vector bones{pelvis, boneIn(Vec3(aside - 0.3, -0.3, 21), Vec3(aside + 0.3, 0.3, 22))};
+            if (both) bones.push_back(arm);
+            const Bent bent(bones, 1, man);
+            CHECK(bent.farthest(bent.bend, [](const Vec3& x) { return x.z() > 30; }) < 0.3);
+            CHECK(bent.farthest(Pose::Identity(), [](const Vec3& x) { return x.z() < 2; }) < 0.05);
+        }
 }
