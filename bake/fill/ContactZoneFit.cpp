@@ -351,7 +351,6 @@ ContactZoneFit fitContactZone(const TriangleMesh& a, const TriangleMesh& b, cons
             ContactZoneFit fit = refiner.run();
             fit.a.fit.enclosed = nesting.apart();
             fit.b.fit.enclosed = nesting.apart();
-            fit.nesting = nesting;
             const HollowBodies& more = refiner.entered();
             if (!more) return fit;
             hollow = {hollow.a || more.a, hollow.b || more.b};

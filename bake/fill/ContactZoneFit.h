@@ -50,7 +50,6 @@ struct ContactZoneFit {
     bool neverMeet = false; ///< proven: the surfaces stay farther apart than the margin at every pose of Q,
                             ///< but for the region
     RestContact rest;       ///< of the cleaned meshes
-    Nesting nesting;
 };
 
 /// Spheres for two bodies in one motion, fine only where the verdict needs it. Level by level, the tolerance

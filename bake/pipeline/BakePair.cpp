@@ -128,8 +128,9 @@ struct PairBaker {
         for (const double tolerance : coarserTolerances(scene, pair, options)) {
             BakeOptions coarse = options;
             coarse.tolerance = tolerance;
-            PairSpheres spheres = fillToAskAll(scene, pair, motion, coarse, progress);
-            if (!spheres.askAll || !neverMeet(pairTask(spheres, motion, coarse), progress)) continue;
+            PairSpheres spheres = fillSolid(scene, pair, motion, coarse, tolerance, progress);
+            if (!spheres.askAll) break; // of finer ones there are more
+            if (!neverMeet(pairTask(spheres, motion, coarse), progress)) continue;
             Attempt attempt = tabulated(measured(std::move(spheres)));
             if (attempt.made.proof) return attempt;
         }

@@ -90,10 +90,10 @@ PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, dou
     }
 }
 
-/// Medial spheres stand in the contact zone only, fine where the verdict needs it; where `nesting` is given,
+/// Medial spheres stand in the contact zone only, fine where the verdict needs it; where `known` is given,
 /// all over the surfaces.
 PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
-                     double tolerance, std::optional<Nesting>* nesting, const Progress& progress) {
+                     double tolerance, const Nesting* known, const Progress& progress) {
     ContactZoneOptions zone;
     zone.tolerance = tolerance;
     zone.depth = options.depth;
@@ -101,11 +101,10 @@ PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const B
     zone.atRest = options.atRest;
     zone.maxSpheres = options.maxSpheres;
     zone.conservative = options.conservative;
-    zone.whole = nesting != nullptr;
-    if (nesting) zone.nesting = *nesting;
+    zone.whole = known != nullptr;
+    if (known) zone.nesting = *known;
     const TriangleMesh meshA = cleaned(meshOf(a)), meshB = cleaned(meshOf(b));
     ContactZoneFit fit = fitContactZone(meshA, meshB, motion, zone, progress);
-    if (nesting) *nesting = fit.nesting;
     if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
         return spheresApart(a, b, motion, tolerance, {fit.a.fit.hollow, fit.b.fit.hollow}, fit, progress);
     return {std::move(fit.a.fit),
@@ -118,14 +117,18 @@ PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const B
             {partsOf(a.mesh, meshA, fit.rest.region.a), partsOf(b.mesh, meshB, fit.rest.region.b)}};
 }
 
+Nesting nestingOf(const Body& a, const Body& b, const Motion& motion, double tolerance,
+                  const Progress& progress) {
+    return findNested(Solid(cleaned(meshOf(a))), Solid(cleaned(meshOf(b))), motion, 2 * tolerance, progress);
+}
+
 /// The paper's spheres fill the bodies.
 PairSpheres fillWhole(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
-                      double tolerance, const Progress& progress) {
+                      double tolerance, const Nesting* known, const Progress& progress) {
     PairSpheres spheres;
     Nesting nesting;
     if (options.spheres != SphereMethod::Surface) // those stand on the surface anyway
-        nesting =
-            findNested(Solid(cleaned(meshOf(a))), Solid(cleaned(meshOf(b))), motion, 2 * tolerance, progress);
+        nesting = known ? *known : nestingOf(a, b, motion, tolerance, progress);
     spheres.a = wholeBody(a, options, tolerance, nesting.outer.a, progress);
     spheres.b = wholeBody(b, options, tolerance, nesting.outer.b, progress);
     spheres.a.enclosed = nesting.apart();
@@ -165,18 +168,59 @@ FitRecord measured(const Body& body, SphereFit& fit, const std::optional<std::ve
     return figures;
 }
 
-PairSpheres fill(const SceneModel& scene, const Pair& pair, const Motion& motion, const BakeOptions& options,
-                 std::optional<Nesting>* nesting, const Progress& progress) {
-    const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
-    const double tolerance = toleranceOf(a, b, options);
+/// `known`: of findNested() for the tolerance; all of both surfaces is filled then.
+PairSpheres fill(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
+                 double tolerance, const Nesting* known, const Progress& progress) {
     PairSpheres spheres = options.spheres == SphereMethod::Medial
-                              ? fillZone(a, b, motion, options, tolerance, nesting, progress)
-                              : fillWhole(a, b, motion, options, tolerance, progress);
+                              ? fillZone(a, b, motion, options, tolerance, known, progress)
+                              : fillWhole(a, b, motion, options, tolerance, known, progress);
     roundToFloat(spheres.a);
     roundToFloat(spheres.b);
     spheres.stickOut = spheres.a.protrusion + spheres.b.protrusion;
     checkRest(spheres, motion, options);
     return spheres;
+}
+
+/// A tolerance, scene units, and the spheres of both bodies to it.
+struct Level {
+    double tolerance;
+    PairSpheres spheres;
+
+    double pairs() const {
+        return std::max<double>(1, spheres.a.spheres.size()) * std::max<double>(1, spheres.b.spheres.size());
+    }
+};
+
+/// The finest spheres, no finer than `least`, of which all pairs can be asked, from `first` on: of what is
+/// asked for there may be a thousand times as many. Else the coarsest tried.
+Level finestToAskAll(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
+                     double least, double first, const Nesting& known, const Progress& progress) {
+    constexpr int mostFills = 8;
+    constexpr double enough = 0.7, aim = 0.9; // shares of the pairs that can be asked
+    const auto filled = [&](double tolerance) {
+        return Level{tolerance, fill(a, b, motion, options, tolerance, &known, progress)};
+    };
+    Level last = filled(first);
+    std::optional<Level> good;
+    double tooFine = 0, power = 3; // spheres become fewer with the first to the second of it, of either body
+    for (int fills = 1;; ++fills) {
+        const double tolerance = last.tolerance, pairs = last.pairs();
+        const double share = pairs / static_cast<double>(options.mostPairs);
+        if (canAskAll(last.spheres, options))
+            good = std::move(last);
+        else
+            tooFine = tolerance;
+        const bool close = good && (good->tolerance <= least || good->tolerance < 1.05 * tooFine);
+        if (fills == mostFills || close || (share > enough && share <= 1)) break;
+        double next = tolerance * std::pow(share / aim, 1 / power);
+        if (!good) next = std::max(next, 1.05 * tooFine);
+        if (good && next <= tooFine) next = std::sqrt(good->tolerance * tooFine);
+        last = filled(std::max(next, least));
+        if (last.tolerance != tolerance)
+            power =
+                std::clamp(std::log(pairs / last.pairs()) / std::log(last.tolerance / tolerance), 2.0, 4.0);
+    }
+    return good ? std::move(*good) : std::move(last);
 }
 
 } // namespace
@@ -216,7 +260,8 @@ bool manyDofs(const Motion& motion, const BakeOptions& options) {
 PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
                      const BakeOptions& options, const Progress& progress) {
     if (manyDofs(motion, options)) return fillToAskAll(scene, pair, motion, options, progress);
-    return fill(scene, pair, motion, options, nullptr, progress);
+    const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
+    return fill(a, b, motion, options, toleranceOf(a, b, options), nullptr, progress);
 }
 
 std::vector<double> coarserTolerances(const SceneModel& scene, const Pair& pair, const BakeOptions& options) {
@@ -228,24 +273,36 @@ std::vector<double> coarserTolerances(const SceneModel& scene, const Pair& pair,
     return coarser;
 }
 
+PairSpheres fillSolid(const SceneModel& scene, const Pair& pair, const Motion& motion,
+                      const BakeOptions& options, double tolerance, const Progress& progress) {
+    const Nesting none;
+    PairSpheres spheres =
+        fill(scene.bodies[pair.bodyA], scene.bodies[pair.bodyB], motion, options, tolerance, &none, progress);
+    spheres.askAll = canAskAll(spheres, options);
+    return spheres;
+}
+
 PairSpheres fillToAskAll(const SceneModel& scene, const Pair& pair, const Motion& motion,
                          const BakeOptions& options, const Progress& progress) {
-    std::optional<Nesting> nesting; // of the finest holds for all
-    PairSpheres spheres = fill(scene, pair, motion, options, &nesting, progress);
-    const double asked = toleranceOf(scene.bodies[pair.bodyA], scene.bodies[pair.bodyB], options);
-    BakeOptions coarser = options;
-    coarser.tolerance = asked;
-    // Spheres become fewer with the first to the second power of the tolerance, of either body.
-    for (int tries = 0; asksForCover(options) && !canAskAll(spheres, options) && tries < 8; ++tries) {
-        const double pairs = double(spheres.a.spheres.size()) * double(spheres.b.spheres.size());
-        *coarser.tolerance *= std::max(1.05, std::cbrt(pairs / double(options.mostPairs)));
-        spheres = fill(scene, pair, motion, coarser, &nesting, progress);
+    const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
+    const double asked = toleranceOf(a, b, options);
+    if (!asksForCover(options)) {
+        const Nesting nesting = nestingOf(a, b, motion, asked, progress);
+        return fill(a, b, motion, options, asked, &nesting, progress);
     }
-    if (*coarser.tolerance > asked)
-        for (SphereFit* fit : {&spheres.a, &spheres.b})
+    const double first = std::max(asked, std::sqrt(diagonal(a.mesh) * diagonal(b.mesh)) / 60);
+    Level finest = finestToAskAll(a, b, motion, options, asked, first, {}, progress);
+    const Nesting nesting = nestingOf(a, b, motion, finest.tolerance, progress); // holds for coarser ones too
+    if (nesting.outer)                                                           // it takes more then
+        finest = finestToAskAll(a, b, motion, options, finest.tolerance, finest.tolerance, nesting, progress);
+    PairSpheres spheres = std::move(finest.spheres);
+    for (SphereFit* fit : {&spheres.a, &spheres.b}) {
+        fit->enclosed = nesting.apart();
+        if (finest.tolerance > asked)
             addNote(*fit, fmt::format("tolerance {:.4g} instead of {:.4g} scene units, so that all pairs of "
                                       "spheres can be asked",
-                                      *coarser.tolerance, asked));
+                                      finest.tolerance, asked));
+    }
     spheres.askAll = canAskAll(spheres, options);
     return spheres;
 }

@@ -49,6 +49,11 @@ bool manyDofs(const Motion& motion, const BakeOptions& options);
 /// two bodies never meet.
 std::vector<double> coarserTolerances(const SceneModel& scene, const Pair& pair, const BakeOptions& options);
 
+/// Fills all of both surfaces to a tolerance, scene units, and what is inside of them too, whether or not
+/// the other body can stand there: apart, they show that the surfaces are.
+PairSpheres fillSolid(const SceneModel& scene, const Pair& pair, const Motion& motion,
+                      const BakeOptions& options, double tolerance, const Progress& progress = {});
+
 /// Fills all of both surfaces, as finely as the options say or as coarsely as leaves all pairs to be asked.
 PairSpheres fillToAskAll(const SceneModel& scene, const Pair& pair, const Motion& motion,
                          const BakeOptions& options, const Progress& progress = {});

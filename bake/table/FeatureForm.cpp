@@ -30,26 +30,48 @@ Interval factorRange(const DofFactor& factor, double half, int which) {
     return {0, 2 * s * s};
 }
 
-/// T(q) y in extended precision where the machine has it: far axes leave none of their roundoffs in the
-/// weights.
+/// In extended precision where the machine has it: far axes leave none of their roundoffs in the weights.
 using Real = long double;
 using RealPoint = Eigen::Matrix<Real, 3, 1>;
 
-RealPoint moved(const Motion& motion, const std::vector<Real>& q, const Vec3& y) {
-    RealPoint x = motion.base.linear().cast<Real>() * y.cast<Real>() + motion.base.translation().cast<Real>();
-    for (std::size_t k = motion.dofCount(); k-- > 0;) {
-        const Dof& dof = motion.dofs[k];
-        const RealPoint axis = dof.axis.cast<Real>();
-        if (dof.kind == DofKind::Translation) {
-            x += q[k] * axis;
-            continue;
+/// T(q) for many points.
+class Mover {
+public:
+    Mover(const Motion& motion, const std::vector<Real>& q)
+        : turn_(motion.base.linear().cast<Real>()), shift_(motion.base.translation().cast<Real>()) {
+        for (std::size_t k = motion.dofCount(); k-- > 0;) {
+            const Dof& dof = motion.dofs[k];
+            const Real half = std::sin(q[k] / 2);
+            steps_.push_back({dof.kind == DofKind::Translation, dof.axis.cast<Real>(),
+                              dof.origin.cast<Real>(), q[k], std::sin(q[k]), 2 * half * half});
         }
-        const RealPoint arm = x - dof.origin.cast<Real>(), across = axis.cross(arm);
-        const Real half = std::sin(q[k] / 2);
-        x += std::sin(q[k]) * across + 2 * half * half * axis.cross(across);
     }
-    return x;
-}
+
+    RealPoint operator*(const Vec3& y) const {
+        RealPoint x = turn_ * y.cast<Real>() + shift_;
+        for (const Step& step : steps_) {
+            if (step.slides) {
+                x += step.value * step.axis;
+                continue;
+            }
+            const RealPoint across = step.axis.cross(x - step.origin);
+            x += step.sine * across + step.versine * step.axis.cross(across);
+        }
+        return x;
+    }
+
+private:
+    /// One DOF's, the last one's first.
+    struct Step {
+        bool slides;
+        RealPoint axis, origin;
+        Real value, sine, versine;
+    };
+
+    Eigen::Matrix<Real, 3, 3> turn_;
+    RealPoint shift_;
+    std::vector<Step> steps_;
+};
 
 /// All products of factors, their weights in every pair, found from 3 poses a DOF: d^2 is linear in each
 /// DOF's (1, first, second) with the others held.
@@ -103,9 +125,9 @@ Products allProducts(const Motion& motion, std::span<const TablePair> pairs,
         }
         all.features.push_back(feature);
         all.ranges.push_back(range);
+        const Mover moved(motion, q);
         for (std::size_t p = 0; p < pairs.size(); ++p)
-            weights(Eigen::Index(p), i) =
-                (moved(motion, q, pairs[p].b) - pairs[p].a.cast<Real>()).squaredNorm();
+            weights(Eigen::Index(p), i) = (moved * pairs[p].b - pairs[p].a.cast<Real>()).squaredNorm();
     }
     all.off = makingErrors(motion, pairs, weights);
     // Values at (0, +, -) become weights of (1, first, second), one DOF after the other.

@@ -203,6 +203,27 @@ TEST_CASE(
     CHECK_FALSE(fillPair(scene, scene.pairs[0], motion, options).askAll);
 }
 
+TEST_CASE("over four degrees of freedom a tolerance far too fine becomes the finest of which all pairs can be "
+          "asked") {
+    SceneModel scene = lumpyPair(2);
+    while (scene.joints[0].dofs.size() < 4) {
+        const auto k = static_cast<Eigen::Index>(scene.joints[0].dofs.size());
+        scene.joints[0].dofs.push_back(joints::turn({0, 0, 0}, Vec3::Unit(k % 3), -0.02, 0.02));
+    }
+    scene.joints[0].drives.resize(4);
+    BakeOptions options;
+    options.tolerance = 1e-5; // of which one body alone would take more patches than are made
+    options.atRest = AtRest::Collide;
+    options.mostPairs = 20'000;
+    const Motion motion = pairMotion(scene, scene.pairs[0]);
+    const PairSpheres spheres = fillPair(scene, scene.pairs[0], motion, options);
+    const std::size_t pairs = spheres.a.spheres.size() * spheres.b.spheres.size();
+    CHECK(spheres.askAll);
+    CHECK(pairs <= options.mostPairs);
+    CHECK(pairs > options.mostPairs / 2);
+    CHECK(spheres.a.note.find("instead of 1e-05 scene units") != std::string::npos);
+}
+
 TEST_CASE("over four degrees of freedom bodies that never meet are proven apart, by coarser spheres than "
           "asked for") {
     SceneModel scene = lumpyPair(2);
