@@ -2,6 +2,7 @@
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/geometry/Gltf.h"
 #include "bake/geometry/MeshAudit.h"
 
 #include <algorithm>
@@ -10,10 +11,13 @@
 #include <filesystem>
 #include <fstream>
 #include <numeric>
+#include <optional>
+#include <set>
 
 #ifdef OSGTSS_IMPORT
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -81,10 +85,16 @@ public:
     /// Null for a file that may not be opened.
     Assimp::IOStream* Open(const char* file, const char* mode) override {
         const std::string why = whyNot(file);
+        if (instead_ && fs::path(file) == file_)
+            return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(instead_->data()),
+                                              instead_->size());
         if (why.empty()) return DefaultIOSystem::Open(file, mode);
         refused_ = why;
         return nullptr;
     }
+
+    /// What is read in place of the mesh file; kept by the caller.
+    void readInstead(const std::string& bytes) { instead_ = &bytes; }
 
     /// The last file that was asked for and may not be opened, and why; empty where there was none.
     const std::string& refused() const { return refused_; }
@@ -103,6 +113,7 @@ private:
 
     fs::path file_, folder_, realFolder_;
     std::string refused_;
+    const std::string* instead_ = nullptr;
 };
 
 /// Little-endian, as glTF has it.
@@ -183,10 +194,11 @@ void collect(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& pa
 }
 
 std::vector<std::string> leftOutOf(const aiScene& scene) {
-    std::size_t bones = 0, shapes = 0, lines = 0;
+    std::size_t shapes = 0, lines = 0;
+    std::set<std::string> bones; // one may carry several meshes
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
         const aiMesh& mesh = *scene.mMeshes[m];
-        bones += mesh.mNumBones;
+        for (unsigned b = 0; b < mesh.mNumBones; ++b) bones.insert(mesh.mBones[b]->mName.C_Str());
         shapes += mesh.mNumAnimMeshes;
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) lines += mesh.mFaces[f].mNumIndices < 3;
     }
@@ -195,7 +207,7 @@ std::vector<std::string> leftOutOf(const aiScene& scene) {
         if (count > 0) names.push_back(std::to_string(count) + " " + what + (count > 1 ? "s" : ""));
     };
     add(scene.mNumAnimations, "animation");
-    add(bones, "bone");
+    add(bones.size(), "bone");
     add(shapes, "blend shape");
     add(scene.mNumCameras, "camera");
     add(scene.mNumLights, "light");
@@ -223,6 +235,9 @@ const aiScene& readFile(Assimp::Importer& importer, const std::string& file,
     expectEndedPly(file);
     auto* files = new NearbyFiles(file);
     importer.SetIOHandler(files); // which owns it
+    const std::optional<PlainGltf> gltf = isGltf(file) ? plainGltf(file) : std::nullopt;
+    if (gltf) files->readInstead(gltf->bytes);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true); // else nodes alone get a made-up one
     // STL and the like repeat a vertex for every face: welded() joins them, exactly equal ones only.
     const aiScene* scene = importer.ReadFile(file, 0);
     if (scene) expectSmallFaces(*scene, file);
@@ -231,7 +246,10 @@ const aiScene& readFile(Assimp::Importer& importer, const std::string& file,
         throw InputError(Where{file},
                          "cannot be read as a mesh: " +
                              (files->refused().empty() ? importer.GetErrorString() : files->refused()));
-    if (leftOut) *leftOut = leftOutOf(*scene);
+    if (leftOut) {
+        *leftOut = leftOutOf(*scene);
+        if (gltf) leftOut->insert(leftOut->end(), gltf->leftOut.begin(), gltf->leftOut.end());
+    }
     return *scene;
 }
 
@@ -257,7 +275,14 @@ TriangleMesh importMesh(const std::string& file, MeshAxes axes, std::vector<std:
     TriangleMesh mesh;
     append(scene, *scene.mRootNode, Eigen::Matrix4d::Identity(), mesh);
     if (mesh.triangles.empty()) refuseEmpty(file);
-    return checked(mesh, file);
+    mesh = checked(mesh, file);
+    const auto isFlat = [&](const Tri& t) {
+        const std::vector<Vec3>& x = mesh.vertices;
+        return hasZeroArea(x[t[0]], x[t[1]], x[t[2]]);
+    };
+    if (std::ranges::all_of(mesh.triangles, isFlat))
+        throw InputError(Where{file}, "has no area, a mesh with a surface was expected");
+    return mesh;
 }
 
 std::vector<ImportedNode> importNodes(const std::string& file, std::vector<std::string>* leftOut) {

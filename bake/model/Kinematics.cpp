@@ -80,9 +80,10 @@ Dof invertedPath(const Dof& dof, const Joint& joint, Pose& after) {
             row.rotation = Eigen::Quaterniond::Identity();
         }
     } else {
-        throw InputError({"", "", joint.path},
-                         "expected a joint with a path that both turns and travels to be crossed from "
-                         "physics:body0 to physics:body1: swap its bodies or those of the pair");
+        throw InputError(
+            {"", "", joint.path},
+            "its path both turns and travels, which cannot be followed backwards: expected one that "
+            "leads from physics:body0 to physics:body1 on the way from body A of the pair to B");
     }
     after = dof.frame * after * dof.frame.inverse(Eigen::Isometry);
     return back;

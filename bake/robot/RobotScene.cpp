@@ -31,7 +31,12 @@ public:
         scene.defaultPrim = freePrimName(scene, robot_.name.empty() ? "Robot" : robot_.name);
         for (const RobotLink& link : robot_.links) addLink(link);
         const auto isEmpty = [](const Body& body) { return body.mesh.empty(); };
-        if (!failures_.empty() && std::ranges::all_of(scene.bodies, isEmpty)) throw failures_.front();
+        if (!failures_.empty() && std::ranges::all_of(scene.bodies, isEmpty)) {
+            const std::size_t more = failures_.size() - 1;
+            throw InputError(failures_.front().where,
+                             "no link has a shape that can be had: " + failures_.front().message +
+                                 (more ? "; and " + std::to_string(more) + " more" : ""));
+        }
         if (!others_.empty())
             result_.notes.push_back("these have no " + std::string(request_.visual ? "visual" : "collision") +
                                     " geometry that can be had, and their other one is taken: " + others_);

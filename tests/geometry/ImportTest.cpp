@@ -104,6 +104,36 @@ TEST_CASE("a file that is no mesh is refused by its name and the reason") {
     CHECK_FALSE(refusal(empty.name).empty());
     const TemporaryFile points("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
     CHECK_FALSE(refusal(points.name).empty());
+    const TemporaryFile line("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    CHECK(refusal(line.name) == line.name + ": has no area, a mesh with a surface was expected");
+    const TemporaryFile nodes("nodes.dae", R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/>
+<library_visual_scenes><visual_scene id="s"><node id="a"><node id="b"><translate>1 0 0</translate></node></node>
+</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>)");
+    CHECK(refusal(nodes.name).find("holds no triangle") != std::string::npos); // and gets no made-up skeleton
+}
+
+TEST_CASE("a bone that carries several meshes is left out as one") {
+    const std::string triangle =
+        R"({"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}]})";
+    const TemporaryFile file("skinned.gltf",
+                             R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],
+"nodes":[{"name":"arm"},{"mesh":0,"skin":0},{"mesh":1,"skin":0}],"skins":[{"joints":[0]}],"meshes":[)" +
+                                 triangle + "," + triangle +
+                                 R"(],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+{"bufferView":1,"componentType":5121,"count":3,"type":"VEC4"},{"bufferView":2,"componentType":5126,"count":3,"type":"VEC4"}],
+"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":12},
+{"buffer":0,"byteOffset":48,"byteLength":48}],"buffers":[{"byteLength":96,"uri":"data:application/octet-stream;base64,)"
+                                 // 0 0 0, 1 0 0, 0 1 0; joint 0; weights 1 0 0 0
+                                 "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAACAPwAAAAA"
+                                 "AAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/"
+                                 "AAAAAAAAAAAAAAAA"
+                                 R"("}]})");
+    std::vector<std::string> leftOut;
+    CHECK(importMesh(file.name, MeshAxes::Turned, &leftOut).triangles.size() == 2);
+    CHECK(leftOut == std::vector<std::string>{"1 bone"});
 }
 
 TEST_CASE("the real meshes come in as their list says") {

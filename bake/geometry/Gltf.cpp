@@ -1,0 +1,94 @@
+// glTF 2.0 (Khronos, ISO/IEC 12113): skins are 3.7.3.1, the binary container is 4.
+#include "bake/geometry/Gltf.h"
+
+#include "bake/base/AtomicFile.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+
+namespace tss {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t glbHeader = 12, chunkHeader = 8;
+
+/// Little-endian.
+std::uint32_t numberAt(std::string_view bytes, std::size_t at) {
+    std::uint32_t number = 0;
+    for (std::size_t k = 4; k-- > 0;) number = number << 8 | static_cast<unsigned char>(bytes[at + k]);
+    return number;
+}
+
+std::string bytesOf(std::size_t number) {
+    std::string bytes;
+    for (int k = 0; k < 4; ++k) bytes += static_cast<char>(number >> 8 * k & 0xff);
+    return bytes;
+}
+
+/// The file again with other JSON. end: of its first chunk.
+std::string glbWith(std::string json, std::string_view file, std::size_t end) {
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const std::string_view rest = file.substr(end);
+    return "glTF" + bytesOf(2) + bytesOf(glbHeader + chunkHeader + json.size() + rest.size()) +
+           bytesOf(json.size()) + "JSON" + json + std::string(rest);
+}
+
+/// Null where the text is no JSON, or more deeply nested than any glTF.
+Json parsed(std::string_view text) {
+    constexpr int most = 64;
+    const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth < most; };
+    const Json json = Json::parse(text, shallow, false);
+    return json.is_object() ? json : Json();
+}
+
+std::vector<std::string> takeSkins(Json& gltf) {
+    std::set<std::int64_t> joints;
+    const Json skins = gltf.value("skins", Json::array());
+    gltf.erase("skins");
+    if (gltf.contains("nodes"))
+        for (Json& node : gltf["nodes"])
+            if (node.is_object()) node.erase("skin");
+    for (const Json& skin : skins)
+        if (skin.is_object())
+            for (const Json& joint : skin.value("joints", Json::array()))
+                if (joint.is_number_integer()) joints.insert(joint.get<std::int64_t>());
+    std::vector<std::string> leftOut;
+    if (!joints.empty())
+        leftOut.push_back(std::to_string(joints.size()) + (joints.size() > 1 ? " bones" : " bone"));
+    const Json extensions = gltf.value("extensionsUsed", Json::array());
+    if (std::ranges::find(extensions, "EXT_mesh_gpu_instancing") != extensions.end())
+        leftOut.push_back("the copies of meshes that EXT_mesh_gpu_instancing makes");
+    return leftOut;
+}
+
+} // namespace
+
+std::optional<PlainGltf> plainGltf(const std::string& file) {
+    const std::string bytes = readWholeFile(file);
+    const bool binary = bytes.size() >= glbHeader + chunkHeader && bytes.starts_with("glTF");
+    std::string_view text = bytes;
+    if (binary) {
+        const std::size_t size = numberAt(bytes, glbHeader), begin = glbHeader + chunkHeader;
+        if (size > bytes.size() - begin) return std::nullopt;
+        text = text.substr(begin, size);
+    }
+    Json gltf = parsed(text);
+    try {
+        if (!gltf.is_object() || !gltf.at("asset").at("version").get<std::string>().starts_with("2"))
+            return std::nullopt;
+        PlainGltf plain;
+        plain.leftOut = takeSkins(gltf);
+        const std::string json = gltf.dump(-1, ' ', false, Json::error_handler_t::replace);
+        plain.bytes = binary ? glbWith(json, bytes, glbHeader + chunkHeader + text.size()) : json;
+        return plain;
+    } catch (const Json::exception&) { // something is of another type than glTF has it
+        return std::nullopt;
+    }
+}
+
+} // namespace tss
