@@ -110,8 +110,8 @@ void endIncomplete(const BakeArguments& arguments, const KeptParts& parts, const
     fmt::print(stderr, "tss: not baked: {}{}\n", fmt::join(missing.begin(), last, ", "),
                missing.size() > most ? fmt::format(" and {} more", missing.size() - most) : "");
     if (!written.empty())
-        fmt::print(stderr, "tss: what is done is in {}; go on with\n  tss bake {} -o {}\n", written, written,
-                   arguments.output);
+        fmt::print(stderr, "tss: what is done is in {}; go on with\n  tss bake {} -o {}\n", written,
+                   shellWord(written), shellWord(arguments.output));
 }
 
 /// The meshes overlap at rest, or as good as that, and at many other poses too.

@@ -26,6 +26,12 @@ struct Console {
 /// "1 pair", "2 pairs".
 std::string counted(std::size_t count, const std::string& thing);
 
+/// A word as a shell reads it: in quotes where it needs them.
+std::string shellWord(const std::string& word);
+
+/// Whether a file has the name of a mesh's.
+bool isMeshName(const std::string& file);
+
 /// Throws InputError where the output would replace a file that is read.
 void refuseOverwriting(const std::string& output, std::initializer_list<std::string> inputs);
 

@@ -39,7 +39,7 @@ std::string extension(const std::string& file) {
 }
 
 /// A scene of one body from a mesh file; of a glTF, a body a node.
-Layer meshLayer(const ConvertArguments& arguments, const Console& console) {
+Layer meshLayer(const ConvertArguments& arguments, std::vector<std::string>& notes) {
     SceneModel scene;
     scene.metersPerUnit = arguments.metersPerUnit;
     if (isGltf(arguments.input)) scene.upAxis = 'Y';
@@ -66,7 +66,7 @@ Layer meshLayer(const ConvertArguments& arguments, const Console& console) {
         TriangleMesh mesh = importMesh(arguments.input, MeshAxes::Turned, &leftOut);
         add(stem).mesh = std::move(mesh);
     }
-    for (const std::string& what : leftOut) console.say("note: left out of " + arguments.input + ": " + what);
+    for (const std::string& what : leftOut) notes.push_back("left out of " + arguments.input + ": " + what);
     return layerOf(scene);
 }
 
@@ -164,15 +164,15 @@ void writePairsOf(const ConvertArguments& arguments, const Console& console) {
                    {"open", written.open}});
 }
 
-Layer inputLayer(const ConvertArguments& arguments, const Console& console) {
+Layer inputLayer(const ConvertArguments& arguments, std::vector<std::string>& notes) {
     if (isUsd(arguments.input) || isRobot(arguments.input)) {
         RobotFile file = arguments.robot;
         file.input = arguments.input;
         const RobotScene made = readRobotScene(file);
-        for (const std::string& note : made.notes) console.say("note: " + note);
+        notes = made.notes;
         return layerOf(made.scene);
     }
-    if (extension(arguments.input) != ".tss") return meshLayer(arguments, console);
+    if (extension(arguments.input) != ".tss") return meshLayer(arguments, notes);
     if (!arguments.filteredPairs) return readLayer(arguments.input);
     const SceneModel scene = loadScene(arguments.input);
     return inFile(arguments.input, [&] { return withFilteredPairs(scene, evidenceOf(scene)); });
@@ -207,9 +207,11 @@ void convert(const ConvertArguments& arguments, const Console& console) {
         return writeSpheresOf(arguments, console);
     if (extension(arguments.output) == ".srdf" || extension(arguments.output) == ".xml")
         return writePairsOf(arguments, console);
-    const Layer layer = inputLayer(arguments, console);
+    std::vector<std::string> notes;
+    const Layer layer = inputLayer(arguments, notes);
+    for (const std::string& note : notes) console.say("note: " + note);
     const Encoding encoding = arguments.binary ? Encoding::Cbor : Encoding::Json;
-    Json result = {{"input", arguments.input}, {"output", arguments.output}};
+    Json result = {{"input", arguments.input}, {"output", arguments.output}, {"notes", notes}};
     if (extension(arguments.output) == ".usda")
         writeFileAtomically(arguments.output, writeUsda(layer));
     else if (extension(arguments.output) == ".tss" && arguments.buffers)

@@ -47,7 +47,8 @@ Form formOf(const SceneModel& scene, const Pair& pair) {
     const auto solid = std::ranges::count_if(scene.bodies, [](const Body& b) { return !b.mesh.empty(); });
     if (pair.joints.size() == scene.joints.size() && solid == 2 && std::ranges::all_of(pair.joints, parsed))
         return Form::TwoMeshes;
-    const bool asMade = scene.bodies[pair.bodyA].placement.linear().isIdentity(1e-6);
+    const bool asMade = scene.bodies[pair.bodyA].placement.linear().isIdentity(1e-6) &&
+                        std::ranges::all_of(pair.joints, parsed);
     return asMade && pair.joints.size() == 1 && scene.joints[pair.joints[0]].body0 == pair.bodyA ? Form::Joint
                                                                                                  : Form::None;
 }

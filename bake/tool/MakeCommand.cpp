@@ -113,12 +113,9 @@ void checkOutput(const MakeArguments& arguments) {
     refuseOverwriting(arguments.output, {arguments.a, arguments.b, arguments.robot.input,
                                          arguments.robot.srdf, arguments.motion});
     expectWritable(arguments.output);
-    std::string extension = std::filesystem::path(arguments.output).extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    for (const char* mesh : {".obj", ".stl", ".ply", ".off", ".dae", ".fbx", ".gltf", ".glb", ".3ds"})
-        if (extension == mesh)
-            throw InputError(Where{arguments.output},
-                             "is the name of a mesh; expected one of a scene, such as jaw.tss");
+    if (isMeshName(arguments.output))
+        throw InputError(Where{arguments.output},
+                         "is the name of a mesh; expected one of a scene, such as jaw.tss");
 }
 
 /// "0.001", or as well "1mm".
@@ -171,7 +168,8 @@ void make(MakeArguments& arguments, const Console& console) {
     remarkSizes(scene, console);
     remarkRadians(motion, console);
     remarkFarAxes(motion, scene, console);
-    console.say("wrote " + arguments.output + "; next: tss bake " + arguments.output + " -o BAKED.tss");
+    console.say("wrote " + arguments.output + "; next: tss bake " + shellWord(arguments.output) +
+                " -o BAKED.tss");
     const Json shifts = adviseMoves(scene, scene.pairs[pair], console);
     console.print({{"output", arguments.output},
                    {"pair", scene.pairs[pair].path},

@@ -55,20 +55,22 @@ double oneDigit(double value) {
     return std::round(value / digit) * digit;
 }
 
-/// The command to go on with. Where pairs have more than three joint values, as a whole arm's have, the
-/// default's spheres are more than a first look is worth: a thirtieth of the usual link instead, and some
-/// minutes of searching for all pairs together.
+/// The command to go on with: where there are many pairs, with some minutes of searching for all together.
+/// Where they have more than three joint values, as a whole arm's have, the default's spheres are more than a
+/// first look is worth: a thirtieth of the usual link instead.
 std::string nextCommand(const SceneModel& scene, const std::string& output) {
-    std::string command = "tss bake " + output + " -o BAKED.tss";
+    std::string command = "tss bake " + shellWord(output) + " -o BAKED.tss";
+    const double pairs = static_cast<double>(scene.pairs.size());
+    const std::string budget =
+        fmt::format(" --budget {:g}", pairs > 0 ? std::min(5.0, oneDigit(200 / pairs)) : 5);
     const auto isLong = [&](const Pair& pair) { return pairDofs(scene, pair).size() > 3; };
-    if (std::none_of(scene.pairs.begin(), scene.pairs.end(), isLong)) return command;
+    if (std::ranges::none_of(scene.pairs, isLong)) return command + (pairs > 40 ? budget : "");
     std::vector<double> sizes; // millimetres
     for (const Body& body : scene.bodies)
         if (!body.mesh.empty()) sizes.push_back(1000 * scene.metersPerUnit * diagonal(body.mesh));
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
-    const double seconds = std::min(5.0, oneDigit(200.0 / static_cast<double>(scene.pairs.size())));
-    return command + fmt::format(" --tolerance {:g}mm --budget {:g}", oneDigit(*middle / 30), seconds);
+    return command + fmt::format(" --tolerance {:g}mm", oneDigit(*middle / 30)) + budget;
 }
 
 } // namespace

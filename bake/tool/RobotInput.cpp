@@ -128,6 +128,11 @@ bool isRobot(const std::string& file) {
 }
 
 RobotScene readRobotScene(const RobotFile& from) {
+    if (isMeshName(from.input))
+        throw InputError(Where{from.input},
+                         "is a mesh; expected a robot's file, or two meshes as --a and --b");
+    if (from.input.ends_with(".tss"))
+        throw InputError(Where{from.input}, "is a scene already; expected a robot's file");
     RobotSceneRequest request;
     request.visual = from.geometry == "visual";
     request.pairs = from.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;

@@ -278,6 +278,10 @@ private:
         const TriangleMesh& mesh = scene_.bodies[skin.body].mesh;
         const MeshQuery query(mesh);
         const double size = diagonal(mesh);
+        if (skin.bones.empty() && skin.muscles.empty())
+            note(fmt::format("the skin {} lies on nothing and stays as it is: expected bodies as --body, or "
+                             "muscles as --muscle",
+                             name));
         for (int bone : skin.bones) {
             const Body& body = scene_.bodies[bone];
             if (body.mesh.empty()) continue;

@@ -18,6 +18,16 @@ int fail(const tss::tool::Console& console, int code, const std::string& message
     return code;
 }
 
+/// What makes a scene of a file that is none, as far as its name says what it is.
+std::string hintFor(const tss::InputError& error) {
+    if (error.message.find("expected JSON") == std::string::npos) return "";
+    const std::string& file = error.where.file;
+    if (tss::tool::isMeshName(file)) return "; of a mesh `tss convert` makes a scene, of two `tss make`";
+    for (const char* robot : {".urdf", ".xml", ".mjcf", ".usda"})
+        if (file.ends_with(robot)) return "; of a robot's file `tss make` makes a scene";
+    return "";
+}
+
 /// A word that is no command; said here, as it would else be called a missing one.
 bool mistyped(const CLI::App& app, const std::string& word) {
     std::string names;
@@ -62,7 +72,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     } catch (const tss::InputError& error) {
-        return fail(console, 1, error.what(), error.where);
+        return fail(console, 1, std::string(error.what()) + hintFor(error), error.where);
     } catch (const std::bad_alloc&) {
         return fail(console, 1, "not enough memory for this input");
     } catch (const std::exception& error) {

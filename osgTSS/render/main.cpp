@@ -77,7 +77,8 @@ osgTSS::Shot shotOf(const Arguments& arguments) {
     constexpr int most = 4096;
     if (std::sscanf(arguments.size.c_str(), "%d%c%d%c", &shot.width, &x, &shot.height, &rest) != 3 ||
         x != 'x' || shot.width < 1 || shot.height < 1 || shot.width > most || shot.height > most)
-        throw CLI::ValidationError("--size", "expected WxH in pixels, found " + arguments.size);
+        throw CLI::ValidationError(
+            "--size", fmt::format("expected WxH in pixels, each 1 to {}, found {}", most, arguments.size));
     shot.finer = arguments.finer;
     if (arguments.view.empty()) return shot;
     if (const auto place = placeOf(arguments.view)) {
@@ -91,7 +92,7 @@ osgTSS::Shot shotOf(const Arguments& arguments) {
     if (numbers.empty() || numbers.size() % 8 != 0 || !file.eof())
         throw tss::InputError(
             {arguments.view, "", ""},
-            "expected a camera path as osgviewer -p reads it, or EYE:AT, six numbers as in 0,-3,1:0,0,1");
+            "expected a camera path as osgviewer -p reads it, or two places EYE:AT, as in 0,-3,1:0,0,1");
     shot.view = new osg::AnimationPath;
     for (std::size_t k = 0; k < numbers.size(); k += 8) {
         const double* n = &numbers[k]; // time, x, y, z, and the rotation
@@ -121,13 +122,24 @@ osg::ref_ptr<osg::Node> load(const Arguments& arguments) {
     return node;
 }
 
+/// Whether the loader turns the scene, so that its Y axis stands up.
+bool isTurned(const Arguments& arguments, const osg::Node& graph) {
+    const osgTSS::Scene* scene = osgTSS::Scene::on(graph);
+    return scene && scene->getModel().upAxis == 'Y' && osgTSS::LoadOptions(arguments.options).graph.rotateUp;
+}
+
+template <class Point>
+osg::Vec3d shown(const Point& x, bool turned) {
+    return turned ? osg::Vec3d(x.x(), -x.z(), x.y()) : osg::Vec3d(x.x(), x.y(), x.z());
+}
+
 /// What the bodies of a scene reach when their joints do all that is asked of them.
 osg::BoundingSphere reachOf(const Arguments& arguments, const osg::Node& graph) {
     const osgTSS::Scene* scene = osgTSS::Scene::on(graph);
     osg::BoundingBox box;
     if (!scene) return {};
     const tss::SceneModel& model = scene->getModel();
-    const bool turned = model.upAxis == 'Y' && osgTSS::LoadOptions(arguments.options).graph.rotateUp;
+    const bool turned = isTurned(arguments, graph);
     constexpr int most = 200; // looked at, of long motions
     const double codes = std::floor(model.endTimeCode - model.startTimeCode);
     const int count = static_cast<int>(std::clamp(codes, 0.0, double(most)));
@@ -142,10 +154,8 @@ osg::BoundingSphere reachOf(const Arguments& arguments, const osg::Node& graph) 
         const std::vector<tss::Pose> poses = tss::posedBodies(model, values);
         for (std::size_t body = 0; body < poses.size(); ++body) {
             if (!model.bodies[body].visible) continue;
-            for (const tss::Vec3& v : model.bodies[body].mesh.vertices) {
-                const tss::Vec3 x = poses[body] * v;
-                box.expandBy(turned ? osg::Vec3(x.x(), -x.z(), x.y()) : osg::Vec3(x.x(), x.y(), x.z()));
-            }
+            for (const tss::Vec3& v : model.bodies[body].mesh.vertices)
+                box.expandBy(shown(tss::Vec3(poses[body] * v), turned));
         }
     }
     return box.valid() ? osg::BoundingSphere(box) : osg::BoundingSphere();
@@ -180,6 +190,8 @@ void render(const Arguments& arguments) {
     const unsigned int frames =
         framesOf(arguments, *scene, arguments.rest ? 0 : osgTSS::playAnimations(*scene));
     if (frames > 1) shot.reach = reachOf(arguments, *scene);
+    if (shot.place)
+        for (osg::Vec3d& point : *shot.place) point = shown(point, isTurned(arguments, *scene));
 
     const osgTSS::EglContext context;
     std::vector<std::string> files;

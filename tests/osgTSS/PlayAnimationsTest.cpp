@@ -1,6 +1,8 @@
 // Animations of a file that nothing plays.
 #include <catch2/catch.hpp>
+#include <osg/AnimationPath>
 #include <osg/Group>
+#include <osg/MatrixTransform>
 #include <osgAnimation/BasicAnimationManager>
 #include <osgAnimation/Channel>
 #include <osgTSS/PlayAnimations>
@@ -67,9 +69,18 @@ TEST_CASE("animations that nothing plays are played one after the other, round a
 TEST_CASE("what the application plays is left to it") {
     Animated graph;
     graph.manager->playAnimation(graph.manager->getAnimationList()[1]);
-    CHECK(osgTSS::playAnimations(*graph.root) == 0);
+    CHECK(osgTSS::playAnimations(*graph.root) == Approx(2)); // of what plays
     CHECK_FALSE(graph.root->getUpdateCallback());
     CHECK(graph.playingAt(5) == "run ");
     osg::ref_ptr<osg::Group> empty = new osg::Group;
     CHECK(osgTSS::playAnimations(*empty) == 0);
+    osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform;
+    osg::ref_ptr<osg::AnimationPath> path = new osg::AnimationPath;
+    path->insert(1, osg::AnimationPath::ControlPoint(osg::Vec3d()));
+    path->insert(4, osg::AnimationPath::ControlPoint(osg::Vec3d(1, 0, 0)));
+    moved->setUpdateCallback(new osg::AnimationPathCallback(path, 0, 2));
+    empty->addChild(moved);
+    CHECK(osgTSS::playAnimations(*empty) == Approx(1.5));
+    path->setLoopMode(osg::AnimationPath::SWING);
+    CHECK(osgTSS::playAnimations(*empty) == Approx(3));
 }

@@ -154,11 +154,22 @@ TEST_CASE("what a robot's file needs and has not is exit 1 with the place, and l
     CHECK(runTss("make alone/arm.urdf -o found.tss --package my_arm=moved", folder.path()).exit == 0);
     refused("alone/arm.urdf -o out.tss --package my_arm=nowhere", 1, "there is no folder nowhere");
     refused("alone/arm.urdf -o alone/arm.urdf --package my_arm=moved", 1, "is read here");
+    refused("moved/upper.obj -o out.tss", 1,
+            "is a mesh; expected a robot's file, or two meshes as --a and --b");
+    refused("without.tss -o out.tss", 1, "is a scene already");
     refused("alone/arm.urdf -o out.tss --pairs some", 2, "neighbours");
     refused("alone/arm.urdf -o out.tss --a moved/upper.obj", 2, "--a");
     refused("-o out.tss --b moved/upper.obj --dof rot:0,0,0:0,0,1:0:1", 2, "--a");
     refused("-o out.tss --a moved/upper.obj --b moved/upper.obj", 2, "--dof");
     CHECK(runTss("convert moved/upper.obj out.srdf", folder.path()).err.find("expected a baked scene") !=
           std::string::npos);
+    CHECK(
+        runTss("info alone/arm.urdf", folder.path()).err.find("of a robot's file `tss make` makes a scene") !=
+        std::string::npos);
+    CHECK(runTss("bake moved/upper.obj -o x.tss", folder.path()).err.find("of a mesh `tss convert`") !=
+          std::string::npos);
+    const Ran spaced =
+        runTss("make alone/arm.urdf -o \"it's an arm.tss\" --package my_arm=moved", folder.path());
+    CHECK(spaced.out.find("next: tss bake 'it'\\''s an arm.tss' -o BAKED.tss") != std::string::npos);
 }
 #endif

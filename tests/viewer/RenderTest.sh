@@ -33,6 +33,13 @@ ends 0 "$render" "$jaw" -o "$out/from.png" --frames 1 --view=0.5,-2,0.5:0.3,0,0.
 ends 0 "$render" "$jaw" -o "$out/behind.png" --frames 1 --view 0.3,2,0.5:0.3,0,0.3
 ! cmp -s "$out/from.png" "$out/behind.png" || fail "--view EYE:AT changes nothing"
 ends 1 "$render" "$jaw" -o "$out/n_%d.png" --frames 1 --view 0,0,1:0,0
+# A scene whose Y axis stands up is seen from a place in its own coordinates.
+printf 'v 0 99 0\nv 2 99 0\nv 0 101 0\nv 0 99 2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >"$out/high.obj"
+"$build/bin/tss" make -o "$out/high.tss" --quiet --up-axis Y --a "$out/high.obj" --b "$out/high.obj" \
+    --dof rot:0,100,0:0,1,0:0:90
+ends 0 "$render" "$out/high.tss" -o "$out/high.png" --frames 1 --size 160x120 --view 0,100,30:0,100,0
+ends 0 "$render" "$out/high.tss" -o "$out/away.png" --frames 1 --size 160x120 --view 0,100,30:0,100,60
+! cmp -s "$out/high.png" "$out/away.png" || fail "--view sees nothing of a scene with Y up"
 ends 0 "$render" --help
 ends 1 "$render" "$scenes/none.tss" -o "$out/n_%d.png"
 ends 1 "$render" "$jaw" -o "$out/n_%d.png" --frames 1 --view "$out/none.path"

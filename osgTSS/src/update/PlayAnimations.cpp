@@ -1,8 +1,10 @@
+#include "osgTSS/src/CallbackOf.h"
 #include "osgTSS/src/joints/AnimationChannels.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <osg/AnimationPath>
 #include <osg/NodeCallback>
 #include <osg/NodeVisitor>
 #include <osgAnimation/BasicAnimationManager>
@@ -52,27 +54,62 @@ private:
     double _start = -1;
 };
 
-/// Nothing for a manager that is playing, or has nothing to play.
+double durationOf(osgAnimation::Animation& animation) {
+    return std::max(0.0, animation.computeDurationFromChannels());
+}
+
+/// Of the animations that a manager plays already; 0: none.
+double playedBy(osgAnimation::BasicAnimationManager& manager) {
+    double longest = 0;
+    for (const auto& animation : manager.getAnimationList())
+        if (manager.isPlaying(animation.get())) longest = std::max(longest, durationOf(*animation));
+    return longest;
+}
+
+/// Nothing for a manager that has nothing to play.
 std::optional<Turns> turnsOf(osgAnimation::BasicAnimationManager& manager) {
     Turns turns;
     turns.manager = &manager;
     double end = 0;
-    for (const auto& animation : manager.getAnimationList()) {
-        if (manager.isPlaying(animation.get())) return std::nullopt;
-        turns.ends.push_back(end += std::max(0.0, animation->computeDurationFromChannels()));
-    }
+    for (const auto& animation : manager.getAnimationList())
+        turns.ends.push_back(end += durationOf(*animation));
     if (!(end > 0 && std::isfinite(end))) return std::nullopt;
     return turns;
 }
+
+/// The longest round of the paths that nodes move along, seconds.
+class PathRounds : public osg::NodeVisitor {
+public:
+    PathRounds() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Node& node) override {
+        if (const auto* found = callbackOf<osg::AnimationPathCallback>(node.getUpdateCallback());
+            found && found->getAnimationPath()) {
+            const bool swings = found->getAnimationPath()->getLoopMode() == osg::AnimationPath::SWING;
+            const double round = (swings ? 2 : 1) * found->getAnimationPath()->getPeriod() /
+                                 std::abs(found->getTimeMultiplier());
+            if (std::isfinite(round)) longest = std::max(longest, round);
+        }
+        traverse(node);
+    }
+
+    double longest = 0;
+};
 
 } // namespace
 
 double playAnimations(osg::Node& root) {
     std::vector<Turns> found;
-    double longest = 0;
+    PathRounds paths;
+    root.accept(paths);
+    double longest = paths.longest;
     for (osgAnimation::AnimationManagerBase* any : animationManagers(root)) {
         auto* manager = dynamic_cast<osgAnimation::BasicAnimationManager*>(any);
-        std::optional<Turns> turns = manager ? turnsOf(*manager) : std::nullopt;
+        if (!manager) continue;
+        if (const double played = playedBy(*manager); played > 0) {
+            longest = std::max(longest, played);
+            continue;
+        }
+        std::optional<Turns> turns = turnsOf(*manager);
         if (!turns) continue;
         manager->playAnimation(manager->getAnimationList().front());
         longest = std::max(longest, turns->round());
