@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <numbers>
 
 namespace tss::tool {
 
@@ -149,6 +150,14 @@ private:
                 widened.lower = stop.value - more;
             else
                 widened.upper = stop.value + more;
+        }
+        for (std::size_t k = 0; k < wider.dofs.size(); ++k) { // not round and round
+            Dof& dof = wider.dofs[k];
+            const double excess = dof.upper - dof.lower - 2 * std::numbers::pi;
+            if (dof.kind != DofKind::Rotation || !(excess > 0)) continue;
+            const bool down = dof.lower<motion_.dofs[k].lower, up = dof.upper> motion_.dofs[k].upper;
+            if (down) dof.lower += excess / (up ? 2 : 1);
+            if (up) dof.upper -= excess / (down ? 2 : 1);
         }
         const std::string words = dofs_ ? option(move.shift, wider, true) : "";
         console_.say(fmt::format("    {} meets nothing within these limits then; it would {}{}{}", b_, where,
