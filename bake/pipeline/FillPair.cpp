@@ -196,7 +196,7 @@ struct Level {
 Level finestToAskAll(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
                      double least, double first, const Nesting& known, const Progress& progress) {
     constexpr int mostFills = 8;
-    constexpr double enough = 0.7, aim = 0.9; // shares of the pairs that can be asked
+    constexpr double enough = 0.85, aim = 0.95; // shares of the pairs that can be asked
     const auto filled = [&](double tolerance) {
         return Level{tolerance, fill(a, b, motion, options, tolerance, &known, progress)};
     };

@@ -293,9 +293,14 @@ private:
 
     void noteRest(const XMLElement& model) {
         for (auto* e = model.FirstChildElement("equality"); e; e = e->NextSiblingElement("equality"))
-            for (auto* one = e->FirstChildElement(); one; one = one->NextSiblingElement())
+            for (auto* one = e->FirstChildElement(); one; one = one->NextSiblingElement()) {
+                std::string name = textOf(*one, "name");
+                for (const char* of : {"joint1", "body1", "tendon1", "site1", "geom1"})
+                    if (name.empty() && one->Attribute(of))
+                        name = one->Name() + std::string(" of ") + textOf(*one, of);
                 leaveOut("equalities (what is proven without them holds with them)",
-                         textOf(*one, "name", one->Name()));
+                         name.empty() ? one->Name() : name);
+            }
         for (const auto& [kind, names] : leftOut_) {
             const bool counted = kind.starts_with("joints whose") || kind.starts_with("balls");
             if (!names.empty()) robot_.notes.push_back((counted ? "" : "left out: ") + kind + ": " + names);

@@ -195,6 +195,9 @@ void readSrdf(Robot& robot, const std::string& text, const std::string& file) {
         return std::ranges::any_of(robot.links, [&](const RobotLink& link) { return link.name == name; });
     };
     const XMLElement& top = *document->RootElement();
+    if (top.FirstChildElement("link"))
+        throw InputError(placeOf(file, *top.FirstChildElement("link")),
+                         "expected an SRDF, found a URDF's <link>");
     if (const std::string name = textOf(top, "name"); name != robot.name)
         robot.notes.push_back(file + " is that of a robot \"" + name + "\", not of \"" + robot.name + "\"");
     for (auto* e = top.FirstChildElement("disable_collisions"); e;

@@ -135,7 +135,8 @@ std::string describeDofs(const Motion& motion, double metersPerUnit) {
         if (dof.kind == DofKind::Rotation) unit = " degrees";
         if (dof.kind == DofKind::Translation) unit = " times " + lengthText(dof.axis.norm(), metersPerUnit);
         text += fmt::format("{}{} {:.6g} to {:.6g}{}, rest {:.6g}{}", text.empty() ? "" : "; ", dof.name,
-                            toUser(dof, dof.lower), toUser(dof, dof.upper), unit, toUser(dof, dof.rest),
+                            toUser(dof, dof.lower) + 0.0, toUser(dof, dof.upper) + 0.0, unit,
+                            toUser(dof, dof.rest) + 0.0, // no "-0"
                             dof.kind == DofKind::Path ? describePath(dof) : "");
     }
     return text;

@@ -164,9 +164,9 @@ std::string length(const Json& value, double metersPerUnit) {
 
 std::string squareText(double area, double metersPerUnit) {
     const double squareMetres = area * metersPerUnit * metersPerUnit;
-    return squareMetres < 0.01 ? fmt::format("{:.3g} mm2", 1e6 * squareMetres)
-           : squareMetres < 1  ? fmt::format("{:.3g} cm2", 1e4 * squareMetres)
-                               : fmt::format("{:.3g} m2", squareMetres);
+    return squareMetres < 0.001 ? fmt::format("{:.3g} mm2", 1e6 * squareMetres)
+           : squareMetres < 1   ? fmt::format("{:.3g} cm2", 1e4 * squareMetres)
+                                : fmt::format("{:.3g} m2", squareMetres);
 }
 
 /// What the bounds say nothing about, in the same line as they.

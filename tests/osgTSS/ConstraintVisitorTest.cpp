@@ -6,6 +6,7 @@
 #include "bake/model/Kinematics.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 #include <osg/Geometry>
 #include <osg/LOD>
 #include <osg/MatrixTransform>
@@ -218,6 +219,23 @@ TEST_CASE("a DOFTransform of an application stops at contact after extraction an
     tank.turret->setCurrentHPR(osg::Vec3(-0.5f, 0, 0));
     playback.frame(*tank.root, 2);
     CHECK(tank.turret->getCurrentHPR()[0] == Approx(-0.5));
+}
+
+TEST_CASE("a joint that is asked for what is no number stays where it is, and is kept apart after it") {
+    for (const float none :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        Tank tank;
+        install(*tank.root, tank.model);
+        Playback playback;
+        tank.turret->setCurrentHPR(osg::Vec3(-0.5f, 0, 0));
+        playback.frame(*tank.root, 1);
+        tank.turret->setCurrentHPR(osg::Vec3(none, 0, 0));
+        playback.frame(*tank.root, 2);
+        CHECK(tank.turret->getCurrentHPR()[0] == -0.5f);
+        tank.turret->setCurrentHPR(osg::Vec3(1.3f, 0, 0));
+        playback.frame(*tank.root, 3);
+        CHECK(tank.turret->getCurrentHPR()[0] == Approx(tank.contact).margin(1e-3));
+    }
 }
 
 TEST_CASE(

@@ -87,3 +87,28 @@ TEST_CASE("contacts of an extracted graph name its nodes") {
     CHECK(listen->heard[0].normal.x() == Approx(-1));
     CHECK(joint->getValue(0) == Approx(2.25 / 0.5).margin(2e-3));
 }
+
+TEST_CASE("who is told of a contact may take the tables from the graph") {
+    struct TakeAway : ContactCallback {
+        void operator()(const Contact&, osg::NodeVisitor&) override {
+            ++told;
+            uninstall(*root);
+            scene->setContactCallback(nullptr);
+        }
+        osg::Node* root = nullptr;
+        Scene* scene = nullptr;
+        int told = 0;
+    };
+    osg::ref_ptr<Scene> scene =
+        new Scene(std::make_shared<tss::SceneModel>(scenes::hinge()), Clock::FRAME_NUMBER);
+    osg::ref_ptr<osg::Group> graph = createGraph(*scene);
+    install(*graph, *scene);
+    osg::ref_ptr<TakeAway> listen = new TakeAway;
+    listen->root = graph;
+    listen->scene = scene;
+    scene->setContactCallback(listen);
+    Playback playback;
+    playback.frames(*graph, 0, 24);
+    CHECK(listen->told == 1);
+    CHECK(listen->referenceCount() == 1);
+}

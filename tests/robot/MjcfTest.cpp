@@ -141,12 +141,13 @@ TEST_CASE("what is not served is left out by name, and the rest comes in") {
                       "<joint name='far' type='slide'/></body><body name='c'>" + ball +
                       "<joint name='round' type='ball' range='0 30'/></body><body name='d'>" + ball +
                       "<joint name='spin'/></body><replicate count='3'><body name='e'/></replicate></body>") +
-                "<equality><weld name='glue'/></equality>"));
+                "<equality><weld name='glue'/><joint joint1='spin' joint2='round'/></equality>"));
     CHECK(robot.scene.bodies.size() >= 4);
-    for (const char* words : {"geoms of type plane: floor", "free joints: the bodies are tied to nothing: a",
-                              "(<link a>): mesh \"shell\" has no file",
-                              "slides without limits: the bodies are tied to nothing: b",
-                              "bodies made by replicate", "glue", "balls, which are taken as three turns"})
+    for (const char* words :
+         {"geoms of type plane: floor", "free joints: the bodies are tied to nothing: a",
+          "(<link a>): mesh \"shell\" has no file",
+          "slides without limits: the bodies are tied to nothing: b", "bodies made by replicate",
+          "glue, joint of spin", "balls, which are taken as three turns"})
         CHECK(hasNote(robot.notes, words));
     CHECK(bodyCalled(robot.scene, "a").mesh.empty()); // with its ball alone nothing could be proven
     const Dof& spin = jointCalled(robot.scene, "spin").dofs[0];

@@ -340,5 +340,6 @@ TEST_CASE("pairs are those of neighbours or all, and an SRDF takes some out") {
     CHECK(refusal([&] {
               readSrdf(robot, "<robot><disable_collisions link1='a'/></robot>", "arm.srdf");
           }).find("link1 and link2") != std::string::npos);
+    CHECK(refusal([&] { readSrdf(robot, text, "arm.urdf"); }).find("expected an SRDF") != std::string::npos);
 }
 #endif

@@ -71,9 +71,10 @@ void ContactReport::locate(const tss::SceneModel& model, const tss::JointPlan& p
     contact.normal.normalize();
 }
 
-void ContactReport::tell(const Scene& scene, const tss::JointPlan& plan, const std::vector<double>& q,
-                         const std::vector<tss::GroupAnswer>& answers, ContactCallback& callback,
-                         osg::NodeVisitor& visitor) {
+ToldContacts ContactReport::report(const Scene& scene, const tss::JointPlan& plan,
+                                   const std::vector<double>& q, const std::vector<tss::GroupAnswer>& answers,
+                                   osg::NodeVisitor& visitor) {
+    ToldContacts told;
     const tss::SceneModel& model = scene.getModel();
     if (_groups.size() != plan.groups.size()) {
         _groups.clear();
@@ -89,9 +90,10 @@ void ContactReport::tell(const Scene& scene, const tss::JointPlan& plan, const s
             if (watched.touching) locate(model, plan, q, watched);
             watched.last.event = !watched.touching ? Contact::END : before ? Contact::STAY : Contact::BEGIN;
             watched.last.status = answers[g].status;
-            callback(watched.last, visitor);
+            told.add(watched.last);
         }
     }
+    return told;
 }
 
 } // namespace osgTSS

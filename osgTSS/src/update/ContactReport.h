@@ -11,14 +11,29 @@
 
 namespace osgTSS {
 
-/// Tells of the contacts of the joints that one callback resolves below one node.
+/// What an application is to be told, once nothing else is left to do: it may take all of it away.
+class ToldContacts {
+public:
+    void add(const Contact& contact) { _contacts.push_back({contact, contact.nodeA, contact.nodeB}); }
+    void tell(ContactCallback& callback, osg::NodeVisitor& visitor) const {
+        for (const Entry& entry : _contacts) callback(entry.contact, visitor);
+    }
+
+private:
+    struct Entry {
+        Contact contact;
+        osg::ref_ptr<osg::Node> nodeA, nodeB; ///< so that they are there when it is told
+    };
+    std::vector<Entry> _contacts;
+};
+
+/// The contacts of the joints that one callback resolves below one node.
 class ContactReport {
 public:
     /// After joints were resolved to q, with these answers, one per group of the plan. What held a joint
     /// touches.
-    void tell(const Scene& scene, const tss::JointPlan& plan, const std::vector<double>& q,
-              const std::vector<tss::GroupAnswer>& answers, ContactCallback& callback,
-              osg::NodeVisitor& visitor);
+    ToldContacts report(const Scene& scene, const tss::JointPlan& plan, const std::vector<double>& q,
+                        const std::vector<tss::GroupAnswer>& answers, osg::NodeVisitor& visitor);
 
 private:
     struct Side {

@@ -10,6 +10,7 @@
 #include <osgTSS/JointCallback>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -76,7 +77,6 @@ struct JointCallback::Binding {
     void resolve();
     void tellBeyond();
     void show() const;
-    void tell(const Scene& scene, osg::NodeVisitor& visitor);
 };
 
 /// before: what stood here, of the same graph; null at the start.
@@ -188,6 +188,8 @@ void JointCallback::Binding::resolve() {
         asked.insert(asked.end(), values.begin(), values.end());
     }
     if (!toldBeyond) tellBeyond();
+    for (std::size_t k = 0; k < q.size(); ++k)
+        if (!std::isfinite(asked[k])) asked[k] = q[k]; // it stays where it is
     found = plan->resolve(q, asked);
     q = asked;
 }
@@ -214,11 +216,6 @@ void JointCallback::Binding::show() const {
         next = end;
     }
     if (skeletons) skeletons->refresh();
-}
-
-void JointCallback::Binding::tell(const Scene& scene, osg::NodeVisitor& visitor) {
-    if (ContactCallback* callback = scene.getContactCallback(); callback && !joints.empty())
-        contacts.tell(scene, **plan, q, found, *callback, visitor);
 }
 
 struct JointCallback::Bindings : PerNode<Binding> {};
@@ -275,6 +272,9 @@ bool JointCallback::run(osg::Object* object, osg::Object* data) {
     osg::NodeVisitor* visitor = data ? data->asNodeVisitor() : nullptr;
     if (!node || !visitor || !_scene) return traverse(object, data);
 
+    // Callbacks of the application may take this one from its node, and the scene from it.
+    const osg::ref_ptr<JointCallback> self(this);
+    const osg::ref_ptr<Scene> scene = _scene;
     Binding& binding = bindingOf(*node);
     const unsigned int traversal = visitor->getTraversalNumber();
     const osg::FrameStamp* stamp = visitor->getFrameStamp();
@@ -286,14 +286,21 @@ bool JointCallback::run(osg::Object* object, osg::Object* data) {
 
     if (!again) binding.restoreAsked();
     const bool result = traverse(object, data);
-    const MeasureUpdate measure(_scene->getCache().updateTime);
-    if (!binding.stillGood(*_scene)) return result; // the animation took a joint away
-    if (!again) {
-        binding.watch(*_scene, _pairPaths);
-        binding.resolve();
+    if (_bindings->find(*node) != &binding) return result;
+    const osg::ref_ptr<ContactCallback> callback = scene->getContactCallback();
+    ToldContacts told;
+    {
+        const MeasureUpdate measure(scene->getCache().updateTime);
+        if (!binding.stillGood(*scene)) return result; // the animation took a joint away
+        if (!again) {
+            binding.watch(*scene, _pairPaths);
+            binding.resolve();
+        }
+        binding.show();
+        if (!again && callback && !binding.joints.empty())
+            told = binding.contacts.report(*scene, **binding.plan, binding.q, binding.found, *visitor);
     }
-    binding.show();
-    if (!again) binding.tell(*_scene, *visitor);
+    if (callback) told.tell(*callback, *visitor);
     return result;
 }
 

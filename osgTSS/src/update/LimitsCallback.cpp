@@ -77,6 +77,7 @@ void LimitsCallback::setScene(Scene* scene) {
 }
 
 bool LimitsCallback::run(osg::Object* object, osg::Object* data) {
+    const osg::ref_ptr<LimitsCallback> self(this); // an application may take it from its node meanwhile
     const bool result = traverse(object, data);
     osg::Node* node = object ? object->asNode() : nullptr;
     if (!node || !_scene) return result;

@@ -117,6 +117,7 @@ MuscleCallback::MuscleCallback(const MuscleCallback& other, const osg::CopyOp& c
       _musclePath(other._musclePath), _states(std::make_unique<States>()) {}
 
 bool MuscleCallback::run(osg::Object* object, osg::Object* data) {
+    const osg::ref_ptr<MuscleCallback> self(this); // an application may take it from its node meanwhile
     const bool result = traverse(object, data);
     osg::Node* node = object ? object->asNode() : nullptr;
     osg::NodeVisitor* visitor = data ? data->asNodeVisitor() : nullptr;

@@ -157,6 +157,7 @@ SkinCallback::SkinCallback(const SkinCallback& other, const osg::CopyOp& copyop)
       _skinPath(other._skinPath), _states(std::make_unique<States>()) {}
 
 bool SkinCallback::run(osg::Object* object, osg::Object* data) {
+    const osg::ref_ptr<SkinCallback> self(this); // an application may take it from its node meanwhile
     const bool result = traverse(object, data);
     osg::Node* node = object ? object->asNode() : nullptr;
     osg::NodeVisitor* visitor = data ? data->asNodeVisitor() : nullptr;
