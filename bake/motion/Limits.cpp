@@ -91,6 +91,8 @@ bool withinLimits(const Motion& motion, std::span<const double> q, double slack)
 
 bool beyondLimits(const Motion& motion, std::span<const double> q) {
     constexpr double share = 1e-6; // of a range
+    if (q.size() != motion.dofs.size()) return true;
+    if (!std::ranges::all_of(q, [](double value) { return std::isfinite(value); })) return true;
     for (std::size_t k = 0; k < q.size(); ++k) {
         const Dof& dof = motion.dofs[k];
         const double hair = share * (dof.upper - dof.lower) + 1e-12 * std::abs(q[k]);
@@ -109,6 +111,7 @@ bool beyondLimits(const Motion& motion, std::span<const double> q) {
 }
 
 std::vector<double> clampToLimits(const Motion& motion, std::span<const double> asked) {
+    expectValues(motion, asked);
     std::vector<double> q(asked.begin(), asked.end());
     const auto clampBox = [&] {
         for (std::size_t k = 0; k < q.size(); ++k)

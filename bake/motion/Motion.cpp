@@ -1,5 +1,7 @@
 #include "bake/motion/Motion.h"
 
+#include "bake/base/Error.h"
+
 #include <algorithm>
 
 namespace tss {
@@ -37,7 +39,14 @@ Pose dofPose(const Dof& dof, double q) {
     return p;
 }
 
+void expectValues(const Motion& motion, std::span<const double> q) {
+    if (q.size() != motion.dofs.size())
+        throw InputError("expected " + std::to_string(motion.dofs.size()) + " values, one a DOF, found " +
+                         std::to_string(q.size()));
+}
+
 Pose pose(const Motion& motion, std::span<const double> q) {
+    expectValues(motion, q);
     Pose p = Pose::Identity();
     for (std::size_t k = 0; k < motion.dofs.size(); ++k) p = p * dofPose(motion.dofs[k], q[k]);
     return p * motion.base;

@@ -66,10 +66,14 @@ Pose pose(const Motion& motion, std::span<const double> q);
 /// The rest values of all DOFs.
 std::vector<double> restValues(const Motion& motion);
 
+/// Throws InputError unless there is one value a DOF.
+void expectValues(const Motion& motion, std::span<const double> q);
+
 /// Every limit and every plane holds at q, with a slack in the DOF's own unit.
 bool withinLimits(const Motion& motion, std::span<const double> q, double slack = 0);
 
-/// Some value is outside of its limits or a plane by more than files round, or is no number.
+/// Some value is outside of its limits or a plane by more than files round, or is no finite number, or there
+/// is not one a DOF.
 bool beyondLimits(const Motion& motion, std::span<const double> q);
 
 /// Clamps each DOF into its limits, then pulls q back into the planes by cyclic projection (at most 10000

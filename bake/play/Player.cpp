@@ -1,4 +1,5 @@
 #include "bake/play/Player.h"
+#include "bake/base/Error.h"
 
 #include "bake/base/ThreadTime.h"
 #include "bake/geometry/Solid.h"
@@ -84,6 +85,9 @@ Player::State::State(const SceneModel& scene, std::vector<std::string>& warnings
 }
 
 std::vector<double> Player::State::clamped(const std::vector<double>& asked) const {
+    if (asked.size() != values_.size())
+        throw InputError("expected " + std::to_string(values_.size()) +
+                         " values, one a DOF of all joints, found " + std::to_string(asked.size()));
     std::vector<double> values;
     std::size_t next = 0;
     for (const Joint& joint : scene_.joints) {

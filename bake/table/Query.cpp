@@ -1,5 +1,9 @@
 #include "bake/table/Query.h"
 
+#include "bake/base/Error.h"
+
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tss {
@@ -41,6 +45,8 @@ QueryResult query(const Table& table, const Pose& pose) {
 }
 
 QueryResult query(const Table& table, std::span<const double> q) {
+    if (!std::ranges::all_of(q, [](double value) { return std::isfinite(value); }))
+        throw InputError("expected values that are finite numbers");
     return query(table, pose(table.motion, q));
 }
 

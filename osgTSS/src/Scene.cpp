@@ -24,7 +24,7 @@ Scene::Scene(const Scene& other, const osg::CopyOp& copyop)
       _activations(other._activations), _contactCallback(other._contactCallback), _cache(other._cache) {}
 
 void Scene::setModel(std::shared_ptr<const tss::SceneModel> model) {
-    _model = std::move(model);
+    _model = model ? std::move(model) : std::make_shared<const tss::SceneModel>();
     _clock = Clock(*_model, _clock.source);
     _activations.clear();
     _cache = std::make_shared<Cache>(_model);
@@ -32,7 +32,9 @@ void Scene::setModel(std::shared_ptr<const tss::SceneModel> model) {
 
 double Scene::getActivation(int muscle, double timeCode) const {
     const auto set = _activations.find(muscle);
-    return set != _activations.end() ? set->second : _model->muscles[muscle].activation.at(timeCode);
+    if (set != _activations.end()) return set->second;
+    const bool known = muscle >= 0 && static_cast<std::size_t>(muscle) < _model->muscles.size();
+    return known ? _model->muscles[muscle].activation.at(timeCode) : 0;
 }
 
 void Scene::setActivation(int muscle, double activation) {

@@ -4,6 +4,7 @@
 #include "tests/table/RandomTable.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 
 using namespace tss;
 using random_table::Random;
@@ -51,6 +52,20 @@ TEST_CASE("values within the limits stay, others are clamped to them") {
 TEST_CASE("a value that is not a number is not within limits") {
     const FloatTrapsOff traps; // what is not a number is handed over on purpose
     CHECK_FALSE(withinLimits(twoSlides(), std::vector<double>{NAN, 0}));
+}
+
+TEST_CASE("what is no pose of a motion is beyond its limits, and is not posed") {
+    const FloatTrapsOff traps;
+    const Motion motion = twoSlides();
+    const double infinite = std::numeric_limits<double>::infinity();
+    CHECK_FALSE(beyondLimits(motion, std::vector{0.5, -0.5}));
+    CHECK(beyondLimits(motion, std::vector{0.5, infinite}));
+    CHECK(beyondLimits(motion, std::vector{-infinite, 0.0}));
+    for (const std::vector<double>& q : {std::vector<double>{}, {0.5}, {0.5, 0.5, 0.5}}) {
+        CHECK(beyondLimits(motion, q));
+        CHECK_THROWS_AS(pose(motion, q), InputError);
+        CHECK_THROWS_AS(clampToLimits(motion, q), InputError);
+    }
 }
 
 TEST_CASE("planes cut the box and pull values back") {

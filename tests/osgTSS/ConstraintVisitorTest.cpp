@@ -1,3 +1,4 @@
+#include "Heard.h"
 #include "LargeGraph.h"
 #include "Nodes.h"
 #include "Playback.h"
@@ -219,6 +220,19 @@ TEST_CASE("a DOFTransform of an application stops at contact after extraction an
     tank.turret->setCurrentHPR(osg::Vec3(-0.5f, 0, 0));
     playback.frame(*tank.root, 2);
     CHECK(tank.turret->getCurrentHPR()[0] == Approx(-0.5));
+}
+
+TEST_CASE("a DOFTransform whose put matrix changes is let go, by name") {
+    Tank tank;
+    install(*tank.root, tank.model);
+    Playback playback;
+    playback.frame(*tank.root, 1);
+    const Heard heard;
+    tank.turret->setPutMatrix(osg::Matrix::translate(0, 0, 1));
+    tank.turret->setCurrentHPR(osg::Vec3(1.3f, 0, 0));
+    playback.frame(*tank.root, 2);
+    CHECK(heard.times("Turret: its put matrix has changed; its tables know nothing there") == 1);
+    CHECK(tank.turret->getCurrentHPR()[0] == 1.3f);
 }
 
 TEST_CASE("a joint that is asked for what is no number stays where it is, and is kept apart after it") {

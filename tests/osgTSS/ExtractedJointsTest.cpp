@@ -2,6 +2,7 @@
 #include "Playback.h"
 
 #include "bake/model/Kinematics.h"
+#include "bake/model/SourceHash.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/ToLayer.h"
 
@@ -155,6 +156,32 @@ TEST_CASE("an animated path is held at contact and goes on where the way is free
     Playback playback;
     playback.frames(*probe.root, 0, 80);
     checkStops(make, still, probe.ballInWorld() + osg::Vec3d(0, 0.2, 0.1), 24 * 16);
+}
+
+TEST_CASE("a path that is exchanged or gets other keys leaves its proof, by name") {
+    Rig rig(new osg::MatrixTransform);
+    osg::ref_ptr<osg::AnimationPathCallback> animation =
+        new osg::AnimationPathCallback(arc(osg::AnimationPath::LOOP));
+    rig.moving->setUpdateCallback(animation);
+    tss::SceneModel model = extractAndRead(*rig.root);
+    REQUIRE(model.pairs.size() == 1);
+    model.pairs[0].proof = std::make_shared<tss::NeverCollides>();
+    model.pairs[0].sourceHash = tss::sourceHash(model, model.pairs[0]);
+    REQUIRE(install(*rig.root, model).proven == 1);
+    Playback playback;
+    const bool exchanged = GENERATE(true, false);
+    {
+        const Heard heard;
+        playback.frames(*rig.root, 0, 3);
+        CHECK(heard.times("animation path") == 0);
+    }
+    if (exchanged)
+        animation->setAnimationPath(arc(osg::AnimationPath::SWING));
+    else
+        animation->getAnimationPath()->insert(9, osg::AnimationPath::ControlPoint(osg::Vec3d(9, 0, 0)));
+    const Heard heard;
+    playback.frames(*rig.root, 3, 6);
+    CHECK(heard.times("its animation path is another one") == 1);
 }
 
 TEST_CASE("a path that scales unequally moves its own body, and is said to be no joint") {

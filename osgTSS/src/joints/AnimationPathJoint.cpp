@@ -10,6 +10,7 @@
 #include <osgTSS/Convert>
 
 #include <algorithm>
+#include <array>
 #include <cfloat>
 #include <cmath>
 
@@ -49,13 +50,19 @@ tss::TimeSamples oneRound(const osg::AnimationPathCallback& animation, double ra
 class AnimationPathNode : public JointNode {
 public:
     AnimationPathNode(osg::Node& node, osg::AnimationPathCallback& animation)
-        : _node(&node), _animation(&animation), _shown(animation.getAnimationPath()->getFirstTime()) {}
+        : _node(&node), _animation(&animation), _path(animation.getAnimationPath()), _keys(keysOf(*_path)),
+          _shown(_path->getFirstTime()) {}
 
     bool valid() const override {
         return _node.valid() && _animation.valid() && _animation->getAnimationPath() &&
                _animation->getAnimationPath()->getPeriod() > 0;
     }
     std::size_t dofCount() const override { return 1; }
+    std::optional<Stray> stray() const override {
+        if (!valid() || (_animation->getAnimationPath() == _path && keysOf(*_path) == _keys))
+            return std::nullopt;
+        return Stray{"its animation path is another one", true};
+    }
     void restoreAsked() override {} // the callback places the node by the time alone
 
     std::vector<double> asked() const override {
@@ -82,6 +89,12 @@ public:
     }
 
 private:
+    /// By which a path is known again: how many keys it has, from when to when.
+    static std::array<double, 3> keysOf(const osg::AnimationPath& path) {
+        return {static_cast<double>(path.getTimeControlPointMap().size()), path.getFirstTime(),
+                path.getLastTime()};
+    }
+
     /// A loop takes its last moment for its first.
     double inside(double time) const {
         const osg::AnimationPath& path = *_animation->getAnimationPath();
@@ -92,6 +105,8 @@ private:
 
     osg::observer_ptr<osg::Node> _node;
     osg::observer_ptr<osg::AnimationPathCallback> _animation;
+    osg::ref_ptr<const osg::AnimationPath> _path; ///< that its tables were made for
+    std::array<double, 3> _keys;
     double _shown;
 };
 

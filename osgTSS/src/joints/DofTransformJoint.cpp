@@ -137,7 +137,8 @@ double nearest(const DofSlot& slot, double value, double to) {
 class DofTransformNode : public JointNode {
 public:
     DofTransformNode(osgSim::DOFTransform& node, std::vector<DofSlot> slots)
-        : _node(&node), _slots(std::move(slots)), _scale(node.getCurrentScale()) {}
+        : _node(&node), _slots(std::move(slots)), _scale(node.getCurrentScale()), _put(node.getPutMatrix()),
+          _inversePut(node.getInversePutMatrix()) {}
 
     bool valid() const override { return _node.valid(); }
     std::size_t dofCount() const override { return _slots.size(); }
@@ -176,6 +177,8 @@ public:
                                  true};
             }
         if (_node->getCurrentScale() != _scale) return Stray{"its scale has changed", true};
+        if (_node->getPutMatrix() != _put || _node->getInversePutMatrix() != _inversePut)
+            return Stray{"its put matrix has changed", true};
         for (std::size_t k = 0; k < _slots.size(); ++k) {
             auto beyond = beyondLimits(_slots[k].dof, values[k]);
             if (!beyond) continue;
@@ -204,6 +207,7 @@ private:
     osg::observer_ptr<osgSim::DOFTransform> _node;
     std::vector<DofSlot> _slots;
     osg::Vec3 _scale;
+    osg::Matrix _put, _inversePut;
     bool _stopped = false;
     osg::Vec3 _askedHPR, _askedTranslate, _shownHPR, _shownTranslate;
 };
