@@ -123,6 +123,8 @@ public:
                                 result_.levels.back().tolerance, finest, options_.maxSpheres);
         result_.a = a_.result(options_);
         result_.b = b_.result(options_);
+        noteRegion(result_.a, a_);
+        noteRegion(result_.b, b_);
         for (ContactZoneBody* body : {&result_.a, &result_.b})
             if (!note_.empty()) body->fit.note += (body->fit.note.empty() ? "" : "; ") + note_;
         return std::move(result_);
@@ -185,6 +187,15 @@ private:
             const SphereSet inner = inscribed(body->fitted);
             body->coarse.insert(body->coarse.end(), inner.begin(), inner.end());
         }
+    }
+
+    void noteRegion(ContactZoneBody& made, const Body& body) const {
+        const std::size_t region = body.rest.region.spheres.size();
+        if (options_.maxSpheres <= 0 || 2 * region <= static_cast<std::size_t>(options_.maxSpheres)) return;
+        made.fit.note +=
+            fmt::format("{}what overlaps at rest takes {} spheres, and the rest as many: more than the {} "
+                        "asked for",
+                        made.fit.note.empty() ? "" : "; ", region, options_.maxSpheres);
     }
 
     /// How many spheres a body may take. What overlaps at rest has its own, whatever the level; where these

@@ -30,9 +30,13 @@ Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std:
     if (candidates.certified) {
         pairs = candidates.pairs;
     } else {
+        const auto canSayContact = [&](const SpherePair& pair) {
+            const double threshold = rule.threshold(pair); // -infinity: never asked
+            return std::isfinite(threshold) && a[pair.a].radius + b[pair.b].radius + threshold >= 0;
+        };
         for (std::uint32_t i = 0; i < a.size(); ++i)
             for (std::uint32_t j = 0; j < b.size(); ++j)
-                if (std::isfinite(rule.threshold({i, j}))) pairs.push_back({i, j});
+                if (canSayContact({i, j})) pairs.push_back({i, j});
     }
     selection.reduced.restGaps = rule.thresholds(pairs);
     selection.certified = true;

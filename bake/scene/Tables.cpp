@@ -23,7 +23,8 @@ constexpr Attribute restParts[2][2] = {
      declared("uniform int[] tss:restCuts0",
               "how each part of body 0 is cut: 1 the whole; each further binary digit halves the longest "
               "edge (the first of equal ones) and takes half 0, with the first corner of that edge, or half "
-              "1. Sorted, none in another; absent: none")},
+              "1; of a leftHanded mesh the second and third corners count as exchanged. Sorted, none in "
+              "another; absent: none")},
     {declared("uniform int[] tss:restTriangles1", "the same of body 1"),
      declared("uniform int[] tss:restCuts1", "the same of body 1")}};
 constexpr Attribute restDepth =
@@ -69,7 +70,8 @@ const Fields<Table>& tableFields() {
               "its gap is right down to this depth"),
         field("uniform double tss:gapMargin", &Table::gapMargin, 0, atLeast(0), "and up to this distance"),
         field("uniform double tss:boundMiss", &Table::boundMiss, std::nullopt, anyNumber,
-              "contact is reported no later than this depth; absent, or negative: not known"),
+              "0: no contact is missed; else where the surfaces touch the table's gap is at most this, and "
+              "contact may be missed; absent, or negative: not known"),
         field("uniform double tss:boundEarly", &Table::boundEarly, std::nullopt, anyNumber,
               "contact is reported only when this near; absent, or negative: not known"),
         field("uniform bool tss:certified", &Table::certified, false, anyNumber,

@@ -60,7 +60,7 @@ struct Table {
     double epsilon = 0;   ///< gap of the table <= gap of the sphere models + epsilon, at every pose (3.3)
     double gapDepth = 0;  ///< gap-true down to this depth ...
     double gapMargin = 0; ///< ... and up to this clearance (3.4); both 0: a yes/no table
-    std::optional<double> boundMiss;  ///< contact is reported no later than this depth of the meshes
+    std::optional<double> boundMiss;  ///< where the meshes touch the gap is no larger; 0: no contact is missed
     std::optional<double> boundEarly; ///< contact is reported only when the meshes are this near
     bool certified = false;           ///< the bounds hold for every pose of the limits, not for samples
     std::string method;               ///< how it was made, e.g. "medial/certified/cover"

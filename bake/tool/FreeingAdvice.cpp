@@ -48,8 +48,7 @@ Form formOf(const SceneModel& scene, const Pair& pair) {
     const auto solid = std::ranges::count_if(scene.bodies, [](const Body& b) { return !b.mesh.empty(); });
     if (pair.joints.size() == scene.joints.size() && solid == 2 && std::ranges::all_of(pair.joints, parsed))
         return Form::TwoMeshes;
-    const bool asMade = scene.bodies[pair.bodyA].placement.linear().isIdentity(1e-6) &&
-                        std::ranges::all_of(pair.joints, parsed);
+    const bool asMade = scene.bodies[pair.bodyA].placement.linear().isIdentity(1e-6);
     return asMade && pair.joints.size() == 1 && scene.joints[pair.joints[0]].body0 == pair.bodyA ? Form::Joint
                                                                                                  : Form::None;
 }
@@ -82,8 +81,11 @@ public:
         console_.say(fmt::format(
             "{}: the meshes overlap where the joint rests. {} out of {}, found by trying, the best first:",
             pair_.path,
-            form_ == Form::None ? "Moves of " + b_
-                                : "Options of tss make, in place of those given, that move " + b_,
+            form_ == Form::None    ? "Moves of " + b_
+            : form_ == Form::Joint ? "Options of tss make, in place of those given (or the same in a robot's "
+                                     "file, where it was made of one), that move " +
+                                         b_
+                                   : "Options of tss make, in place of those given, that move " + b_,
             a_));
         for (const FreeingMove& move : moves) advice.push_back(sayMove(move));
         return advice;

@@ -91,11 +91,10 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
             verdict.reason = fmt::format(
                 "test {} may miss a touch: its squared distance may be {:.3g} scene units squared too large",
                 p, errors.sign.high);
-        // d^2 - contactDistance^2 <= -low means d <= sqrt(contactDistance^2 - low).
-        const double contactDistance = std::max(0.0, test.contactDistance);
-        verdict.early = std::max(
-            verdict.early,
-            std::sqrt(contactDistance * contactDistance - std::min(0.0, errors.sign.low)) - contactDistance);
+        // d^2 - c |c| <= -low means d <= sqrt(c |c| - low). A test with c < 0 never says contact, unless by
+        // that.
+        const double c = test.contactDistance, most = c * std::abs(c) - std::min(0.0, errors.sign.low);
+        if (c >= 0 || most > 0) verdict.early = std::max(verdict.early, std::sqrt(most) - c);
         for (double gap : {-prepared.kernels().depth(), 0.0, prepared.kernels().margin()})
             verdict.gapOff = std::max(verdict.gapOff, gapError(u, errors.square, test.contactDistance, gap));
     }

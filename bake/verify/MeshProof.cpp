@@ -168,7 +168,8 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
         std::vector<MeshPart> parts(count);
         parallelFor(count, [&](std::size_t k) {
             std::unique_ptr<MeshBox> box = pool.take();
-            parts[k] = runMeshPart(*box, std::move(jobs[jobs.size() - 1 - k]), count < width ? 20'000 : 200'000);
+            parts[k] =
+                runMeshPart(*box, std::move(jobs[jobs.size() - 1 - k]), count < width ? 20'000 : 50'000);
             pool.give(std::move(box));
         });
         jobs.resize(jobs.size() - count);

@@ -48,6 +48,24 @@ TEST_CASE("the kernels of random tables keep what they promise about rounding, i
     CHECK(directs > 100);
 }
 
+TEST_CASE("tests that no touch is deep enough for say no contact early") {
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+        CAPTURE(seed);
+        random_table::Random random(seed);
+        Table table = random_table::anyTable(random);
+        table.restGaps.resize(table.testCount(), 0);
+        for (std::uint32_t i = 0; i + 1 < table.rowOffsets.size(); ++i)
+            for (std::uint32_t k = table.rowOffsets[i]; k < table.rowOffsets[i + 1]; k += 2)
+                table.restGaps[k] =
+                    static_cast<float>(-1.5 * (table.a[i].radius + table.b[table.columns[k]].radius));
+        for (const PreparedTable& prepared : allForms(table)) {
+            const KernelVerdict verdict = verifyKernel(table, prepared);
+            INFO(name(prepared.form()) << " " << name(prepared.precision()) << ": " << verdict.reason);
+            CHECK(verdict.proven);
+        }
+    }
+}
+
 TEST_CASE("a kernel made from other spheres or another axis is refused") {
     int tried = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
