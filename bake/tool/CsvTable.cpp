@@ -55,11 +55,14 @@ DofColumns named(const SceneModel& scene, const std::vector<JointDof>& which, st
     for (const JointDof& one : which) {
         const Joint& joint = scene.joints[one.joint];
         const std::string name = primName(joint.path), own = joint.dofs[one.dof].name;
-        columns.names.push_back({name + ":" + own, name, own});
+        columns.names.push_back({joint.path + ":" + own, name + ":" + own, name});
+        if (own != name) columns.names.back().push_back(own);
         for (const std::string& word : columns.names.back()) ++count[word];
     }
-    for (std::vector<std::string>& names : columns.names)
-        std::erase_if(names, [&](const std::string& name) { return count[name] > 1; });
+    for (std::vector<std::string>& names : columns.names) // the first, with the whole path, is no other's
+        names.erase(std::remove_if(names.begin() + 1, names.end(),
+                                   [&](const std::string& name) { return count[name] > 1; }),
+                    names.end());
     return columns;
 }
 

@@ -16,8 +16,8 @@ struct CsvTable {
 /// skipped. Throws InputError with file, line and column.
 CsvTable readCsv(const std::string& file);
 
-/// What the columns of a file of DOF values may be called: of each DOF `JOINT:DOF`, and `JOINT` or `DOF`
-/// where that is no other's name.
+/// What the columns of a file of DOF values may be called: of each DOF `/PATH/JOINT:DOF`, and `JOINT:DOF`,
+/// `JOINT` or `DOF` where that is no other's name.
 struct DofColumns {
     std::vector<Dof> dofs; ///< in the order in which values are wanted
     std::vector<std::vector<std::string>> names;
