@@ -80,7 +80,9 @@ public:
         for (SkinModel& skin : scene_.skins)
             if (toBake(scene_, skin, request_)) addSettings(skin, request_);
         each(scene_.pairs, [&](Pair& pair, PairReport& report) {
-            bakePair(scene_, pair, optionsFor(pair.settings, {}, scene_.metersPerUnit), report, progress_);
+            BakeOptions options = optionsFor(pair.settings, {}, scene_.metersPerUnit);
+            options.mostLooks = request_.mostLooks;
+            bakePair(scene_, pair, options, report, progress_);
         });
         each(scene_.skins, [&](SkinModel& skin, PairReport& report) {
             bakeSkin(scene_, skin, optionsFor(skin.settings, {}, scene_.metersPerUnit), report, progress_);

@@ -20,7 +20,11 @@ Layer layerOf(const SceneModel& scene) {
 }
 
 void saveScene(const SceneModel& scene, const std::string& file) {
-    inFile(file, [&] { saveLayer(layerOf(scene), file); });
+    inFile(file, [&] {
+        const auto layer = std::make_shared<const Layer>(layerOf(scene));
+        readScene(layer, file); // what cannot be read is not written
+        saveLayer(*layer, file);
+    });
 }
 
 } // namespace tss

@@ -323,7 +323,9 @@ template <class Owned, class Write>
 void store(Layer& layer, const Owned& owned, bool any, const char* type, const Write& write) {
     Prim* owner = findPrim(layer, owned.path);
     if (!owner)
-        throw InputError({"", "", owned.path}, "expected this prim in the layer that tables are stored in");
+        throw InputError({"", "", owned.path},
+                         "expected this prim in the layer that the scene was read from; without that layer "
+                         "(SceneModel::layer null) the whole scene is written");
     writeSettings(*owner, owned.settings);
     std::string path = owned.tablePath;
     if (any) {

@@ -193,6 +193,10 @@ void dropThoseThatPush(tss::SceneModel& model) {
     }
 }
 
+/// Somebody waits for the picture: a tenth of what `tss bake` looks for fewer tests. Where that ends it early,
+/// all that may touch are asked, with the same answers.
+constexpr std::uint64_t mostLooks = tss::BakeOptions().mostLooks / 10;
+
 /// A pair or skin that cannot be baked is shown as it moves, and the others are kept apart all the same.
 /// told: notes so far, of which many are about a body and come with each of its pairs.
 void bakeOne(tss::SceneModel& model, const std::string& path, const BakeOptions& options,
@@ -200,6 +204,7 @@ void bakeOne(tss::SceneModel& model, const std::string& path, const BakeOptions&
     tss::BakeRequest request;
     request.given = options.settings;
     request.pairs = {path};
+    request.mostLooks = mostLooks;
     try {
         for (const tss::PairReport& report : tss::bake(model, request, progress)) {
             const int pair = tss::findPair(model, path);
@@ -230,7 +235,6 @@ osg::ref_ptr<Scene> bake(osg::Node& root, const BakeOptions& options, const Bake
                      << std::endl;
         }
     }
-    tss::optionsFor({}, options.settings, 1); // a wrong word is no pair's fault
     tagNodes(root, options);
     std::shared_ptr<tss::SceneModel> model = extract(root, options);
     for (tss::Pair& pair : model->pairs)

@@ -41,6 +41,14 @@ std::pair<std::string, std::string> limitOf(const std::string& part) {
     return {part.substr(0, at), part.substr(at + 1)};
 }
 
+/// A wrong value is no pair's fault: it is told before any is baked.
+void addSetting(std::map<std::string, std::string>& settings, const std::string& key,
+                const std::string& value) {
+    tss::BakeOptions trial;
+    tss::setOption(trial, key, value, 1);
+    settings[key] = value;
+}
+
 /// Letters to put in, take out or change between two words (Levenshtein).
 std::size_t distance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -83,7 +91,7 @@ BakeOptions::BakeOptions(const std::map<std::string, std::string>& words) {
         else if (key == "cache")
             cache = value;
         else if (tss::isOption(key))
-            settings[key] = value;
+            addSetting(settings, key, value);
         else
             unknown.push_back(key);
     }

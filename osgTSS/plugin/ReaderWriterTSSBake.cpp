@@ -53,8 +53,23 @@ public:
     }
 
 private:
+    /// Those that mean something, or are other plugins': what does not is told, and the file is shown all the
+    /// same.
+    static std::map<std::string, std::string> usable(std::map<std::string, std::string> words) {
+        std::erase_if(words, [](const auto& word) {
+            try {
+                osgTSS::BakeOptions(std::map<std::string, std::string>{word});
+                return false;
+            } catch (const std::exception& error) {
+                OSG_WARN << "osgTSS: " << error.what() << "; it is passed over" << std::endl;
+                return true;
+            }
+        });
+        return words;
+    }
+
     static void bake(osg::Node& root, const osgTSS::LoadOptions& load, const std::string& source) {
-        osgTSS::BakeOptions given(load.others);
+        osgTSS::BakeOptions given(usable(load.others));
         // Beside the file, as it is found: baked once, and again where it has changed.
         if (given.cache.empty()) given.cache = osgDB::findDataFile(source) + ".cache.tss";
         osg::ref_ptr<osgTSS::Scene> scene = osgTSS::bake(root, given);

@@ -1,4 +1,5 @@
 #include "Files.h"
+#include "Heard.h"
 
 #include "examples/tank/Tank.h"
 
@@ -132,13 +133,19 @@ TEST_CASE("a misspelt option is told with the name that was meant") {
     CHECK(osgTSS::nearestOption("noTriStripPolygons").empty());
 }
 
-TEST_CASE("a pseudo-loader's wrong option, or file that is not there, is refused with a reason") {
-    const auto file = saveTank();
-    const auto read = [&](const std::string& name, const std::string& words) {
-        osg::ref_ptr<osgDB::Options> options = new osgDB::Options(words);
-        return osgDB::Registry::instance()->readNode(name, options);
-    };
-    CHECK(read(file.string() + ".tss", "pairs=cousins").message().find("cousins") != std::string::npos);
-    CHECK(read(file.string() + ".tss", "tolerance=wide").message().find("wide") != std::string::npos);
-    CHECK_FALSE(read((scratch() / "nothing.osgt.tss").string(), "").success());
+TEST_CASE("a pseudo-loader's wrong option is told and passed over") {
+    const Heard heard;
+    const osg::ref_ptr<osg::Node> shown =
+        load(saveTank().string() + ".tss", "pairs=cousins tolerance=10cm epsilon=wide light=dim");
+    REQUIRE(shown);
+    CHECK(osgTSS::Scene::on(*shown));
+    CHECK(heard.times("option pairs: expected one of neighbours, siblings, all, tagged; found \"cousins\"") ==
+          1);
+    CHECK(heard.times("\"wide\"") == 1);
+    CHECK(heard.times("option light: expected on or off, found \"dim\"") == 1);
+}
+
+TEST_CASE("a pseudo-loader's file that is not there is refused") {
+    CHECK_FALSE(
+        osgDB::Registry::instance()->readNode((scratch() / "nothing.osgt.tss").string(), nullptr).success());
 }

@@ -10,6 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include <filesystem>
+#include <limits>
 
 using namespace tss;
 namespace fs = std::filesystem;
@@ -128,6 +129,9 @@ TEST_CASE("a scene that cannot be saved leaves no file and no half of one") {
     wrong.joints[0].dofs[0].axis = Vec3(1, 1, 0).normalized();
     CHECK_THROWS_WITH(saveScene(wrong, folder + "/a.tss"),
                       Catch::StartsWith(folder + "/a.tss (</Scene/Jaw>): expected rotations about"));
+    SceneModel unreadable = samples::jaw();
+    unreadable.bodies[0].mesh.vertices[1].y() = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_WITH(saveScene(unreadable, folder + "/a.tss"), Catch::Contains("expected a finite number, found nan"));
     CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 1);
     fs::remove_all(folder);
 }

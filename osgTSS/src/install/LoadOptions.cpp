@@ -1,5 +1,4 @@
-#include "bake/base/Error.h"
-
+#include <osg/Notify>
 #include <osgTSS/LoadOptions>
 
 #include <cstdlib>
@@ -9,38 +8,46 @@ namespace osgTSS {
 
 namespace {
 
-Clock::Source clockOf(const std::string& name, const std::string& where) {
-    if (name == "frame") return Clock::FRAME_NUMBER;
-    if (name == "time") return Clock::SIMULATION_TIME;
-    throw tss::InputError(where + ": expected frame or time, found \"" + name + "\"");
+/// Sets what a word stands for; a value that is none of its two stays unset, and is told.
+template <class Setting>
+void setTo(Setting& setting, const std::string& value, const std::string& where, const char* first,
+           Setting ofFirst, const char* second, Setting ofSecond) {
+    if (value == first)
+        setting = ofFirst;
+    else if (value == second)
+        setting = ofSecond;
+    else
+        OSG_WARN << "osgTSS: " << where << ": expected " << first << " or " << second << ", found \"" << value
+                 << "\"; it is passed over" << std::endl;
 }
 
-bool onOff(const std::string& value, const std::string& where) {
-    if (value == "on") return true;
-    if (value == "off") return false;
-    throw tss::InputError(where + ": expected on or off, found \"" + value + "\"");
+void setClock(Clock::Source& clock, const std::string& value, const std::string& where) {
+    setTo(clock, value, where, "frame", Clock::FRAME_NUMBER, "time", Clock::SIMULATION_TIME);
+}
+
+void setFlag(bool& flag, const std::string& value, const std::string& where) {
+    setTo(flag, value, where, "on", true, "off", false);
 }
 
 } // namespace
 
 LoadOptions::LoadOptions(const std::string& optionString) {
     if (const char* variable = std::getenv("OSGTSS_CLOCK"))
-        clock = clockOf(variable, "environment variable OSGTSS_CLOCK");
+        setClock(clock, variable, "environment variable OSGTSS_CLOCK");
     std::istringstream words(optionString);
     for (std::string word; words >> word;) {
         const std::size_t equals = word.find('=');
         const std::string key = word.substr(0, equals);
         const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
         if (key == "clock")
-            clock = clockOf(value, "option clock");
+            setClock(clock, value, "option clock");
         else if (key == "light")
-            graph.keyLight = onOff(value, "option light");
+            setFlag(graph.keyLight, value, "option light");
         else if (key == "noRotation")
             graph.rotateUp = false;
-        else if (key == "overlay")
-            overlay = equals == std::string::npos || onOff(value, "option overlay");
-        else if (key == "play")
-            play = equals == std::string::npos || onOff(value, "option play");
+        else if (key == "overlay" || key == "play")
+            setFlag(key == "overlay" ? overlay : play, equals == std::string::npos ? "on" : value,
+                    "option " + key);
         else if (equals != std::string::npos)
             others[key] = value;
     }
