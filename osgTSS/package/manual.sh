@@ -6,8 +6,12 @@ program=$1 folder=$2 version=$3
 mkdir -p "$folder"
 cd "$(dirname "$program")"
 name=$(basename "$program")
+# usage: page SENTENCE PROGRAM [SUBCOMMAND]: named PROGRAM-SUBCOMMAND, as man looks for it.
 page() {
-    help2man --no-info --name "$1" --version-string "$version" "./${*:2}" | gzip -9n > "$folder/$(tr ' ' - <<< "${*:2}").1.gz"
+    local words="${*:2}"
+    local title=${words// /-}
+    help2man --no-info --name "$1" --version-string "$version" "./$words" |
+        sed "s/^\.TH [^ ]*/.TH ${title^^}/; s/^$words \\\\-/$title \\\\-/" | gzip -9n > "$folder/$title.1.gz"
 }
 
 page "$("./$name" --help | head -n 1)" "$name"
