@@ -1,7 +1,7 @@
 #include "bake/fill/NestedBodies.h"
 
 #include "bake/base/Parallel.h"
-#include "bake/fill/ConnectedParts.h"
+#include "bake/fill/Witnesses.h"
 #include "bake/motion/CellTools.h"
 
 #include <algorithm>
@@ -54,8 +54,8 @@ struct Question {
     const MeshQuery& surface; ///< of the outer body, without what closes its openings
     bool outerMoves;          ///< the outer body is B
     bool enclosing = false;   ///< one closed part: what a part inside it encloses is inside it as well
-    std::vector<ConnectedPart> parts = {}; ///< that may stand inside
-    std::vector<ConnectedPart> all = {};
+    std::vector<PartWitnesses> parts = {}; ///< that may stand inside
+    std::vector<PartWitnesses> all = {};
 };
 
 /// A part that may be inside, and the witness of it that was outside nearby.
@@ -81,7 +81,7 @@ public:
         : surfaceA_(a.mesh()), surfaceB_(b.mesh()), rates_(rates), reach_(reach),
           rounding_(coordinateRounding(rates.motion(), surfaceA_.extent(), surfaceB_.extent())),
           questions_{Question{a, surfaceA_, false}, Question{b, surfaceB_, true}} {
-        const auto partsA = connectedParts(a.mesh()), partsB = connectedParts(b.mesh());
+        const auto partsA = witnessesOf(a.mesh()), partsB = witnessesOf(b.mesh());
         questions_[0].enclosing = !a.open() && partsA.size() == 1;
         questions_[1].enclosing = !b.open() && partsB.size() == 1;
         if (!a.hollow()) questions_[0].parts = partsB;
@@ -90,7 +90,7 @@ public:
         questions_[1].all = partsA;
         for (Question& question : questions_)
             std::erase_if(question.parts,
-                          [&](const ConnectedPart& part) { return tooLarge(question, part); });
+                          [&](const PartWitnesses& part) { return tooLarge(question, part); });
         const Eigen::AlignedBox3d box = bounds(b.mesh());
         if (box.isEmpty()) return;
         centreB_ = box.center();
@@ -184,7 +184,7 @@ private:
     }
 
     /// However it moves: its largest ball fits nowhere in the outer body, or it is longer than that.
-    bool tooLarge(const Question& question, const ConnectedPart& part) const {
+    bool tooLarge(const Question& question, const PartWitnesses& part) const {
         const double longest = bounds(question.outer.mesh()).diagonal().norm();
         for (const Witness& x : part)
             for (const Witness& y : part)
@@ -221,7 +221,7 @@ private:
     bool outside(const CellMotion& motion, const Pose& inverse, OpenPart& part, std::uint64_t& probes) const {
         const Question& question = questions_[part.question];
         const Solid& outer = question.outer;
-        const ConnectedPart& witnesses = question.parts[part.part];
+        const PartWitnesses& witnesses = question.parts[part.part];
         for (std::uint32_t i = 0; i < witnesses.size(); ++i) {
             const std::uint32_t at = (part.witness + i) % static_cast<std::uint32_t>(witnesses.size());
             const auto& [centre, radius] = witnesses[at];
@@ -249,7 +249,7 @@ private:
     bool inside(const CellMotion& motion, const Pose& inverse, const OpenPart& part,
                 std::uint64_t& probes) const {
         const Question& question = questions_[part.question];
-        const ConnectedPart& witnesses = question.parts[part.part];
+        const PartWitnesses& witnesses = question.parts[part.part];
         return std::all_of(witnesses.begin(), witnesses.end(), [&](const Witness& witness) {
             if (witness.radius > 0) return true; // its vertices tell
             probes += probesOfInside;
@@ -262,7 +262,7 @@ private:
     bool cross(const CellMotion& motion, const Pose& inverse, std::uint64_t& probes) const {
         return std::any_of(questions_.begin(), questions_.end(), [&](const Question& question) {
             if (question.outer.open()) return false; // whose openings may be crossed
-            return std::any_of(question.all.begin(), question.all.end(), [&](const ConnectedPart& part) {
+            return std::any_of(question.all.begin(), question.all.end(), [&](const PartWitnesses& part) {
                 bool in = false, out = false;
                 for (const Witness& witness : part) {
                     if (witness.radius > 0) continue;

@@ -2,9 +2,11 @@
 #include "bake/geometry/Gltf.h"
 
 #include "bake/base/AtomicFile.h"
+#include "bake/base/Error.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
@@ -46,6 +48,26 @@ Json parsed(std::string_view text) {
     return json.is_object() ? json : Json();
 }
 
+/// assimp goes down by calling itself, and a chain of many thousand nodes, or one without an end, takes all
+/// of the stack.
+void expectShallow(const Json& gltf, const std::string& file) {
+    constexpr std::size_t most = 1000;
+    const Json nodes = gltf.value("nodes", Json::array());
+    std::vector<std::size_t> parents(nodes.size(), nodes.size());
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+        if (nodes[k].is_object())
+            for (const Json& child : nodes[k].value("children", Json::array()))
+                if (child.is_number_unsigned() && child.get<std::size_t>() < nodes.size())
+                    parents[child.get<std::size_t>()] = k;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        std::size_t levels = 0;
+        for (std::size_t at = k; at < nodes.size() && levels <= most; at = parents[at]) ++levels;
+        if (levels > most)
+            throw InputError(Where{file, fmt::format("/nodes/{}", k)},
+                             fmt::format("expected nodes at most {} levels deep", most));
+    }
+}
+
 std::vector<std::string> takeSkins(Json& gltf) {
     std::set<std::int64_t> joints;
     const Json skins = gltf.value("skins", Json::array());
@@ -81,6 +103,7 @@ std::optional<PlainGltf> plainGltf(const std::string& file) {
     try {
         if (!gltf.is_object() || !gltf.at("asset").at("version").get<std::string>().starts_with("2"))
             return std::nullopt;
+        expectShallow(gltf, file);
         PlainGltf plain;
         plain.leftOut = takeSkins(gltf);
         const std::string json = gltf.dump(-1, ' ', false, Json::error_handler_t::replace);

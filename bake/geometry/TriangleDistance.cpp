@@ -26,9 +26,15 @@ double squaredDistanceOfSegments(const Vec3& a, const Vec3& b, const Vec3& c, co
          (closestOnSegment(c, a, b) - c).squaredNorm(), (closestOnSegment(d, a, b) - d).squaredNorm()});
     const Vec3 u = b - a, v = d - c, w = a - c;
     const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), det = uu * vv - uv * uv;
-    if (!(det > 1e-12 * uu * vv)) return best;
+    if (!(det > 0)) return best;
     const double s = (uv * v.dot(w) - vv * u.dot(w)) / det, t = (uu * v.dot(w) - uv * u.dot(w)) / det;
-    if (s > 0 && s < 1 && t > 0 && t < 1) best = std::min(best, (w + s * u - t * v).squaredNorm());
+    if (det > 1e-6 * uu * vv) {
+        if (s > 0 && s < 1 && t > 0 && t < 1) best = std::min(best, (w + s * u - t * v).squaredNorm());
+    } else if (s > 0 && s < 1) {
+        // Nearly parallel, s and t have few digits: from s across and back is as near as it matters.
+        const Vec3 across = closestOnSegment(a + s * u, c, d);
+        best = std::min(best, (closestOnSegment(across, a, b) - across).squaredNorm());
+    }
     return best;
 }
 

@@ -14,6 +14,15 @@ double excess(const LimitPlane& plane, std::span<const double> q) {
     return std::inner_product(q.begin(), q.end(), plane.coefficients.begin(), -plane.bound);
 }
 
+/// Radians, some 15,900 turns: as far as the sines of tables are right (bake/table/SinVersin.h).
+constexpr double farthestTurn = 1e5;
+
+bool isRigid(const Pose& frame) {
+    const Eigen::Matrix3d& turn = frame.linear();
+    return frame.matrix().allFinite() && turn.determinant() > 0 &&
+           (turn.transpose() * turn - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= 1e-9;
+}
+
 void checkPath(const Dof& dof) {
     if (dof.path.size() < 2) throw InputError("path of DOF '" + dof.name + "': expected at least 2 rows");
     for (std::size_t i = 0; i + 1 < dof.path.size(); ++i)
@@ -22,6 +31,10 @@ void checkPath(const Dof& dof) {
     for (const PathRow& row : dof.path)
         if (!row.translation.allFinite() || !row.rotation.coeffs().allFinite())
             throw InputError("path of DOF '" + dof.name + "': expected finite numbers");
+    for (const PathRow& row : dof.path)
+        if (std::abs(row.rotation.norm() - 1) > 1e-9)
+            throw InputError("path of DOF '" + dof.name + "': expected quaternions of unit length");
+    if (!isRigid(dof.frame)) throw InputError("path of DOF '" + dof.name + "': expected a rigid frame");
     if (dof.lower < dof.path.front().value || dof.upper > dof.path.back().value)
         throw InputError("path of DOF '" + dof.name + "': expected rows that cover the limits");
 }
@@ -37,6 +50,9 @@ void checkDof(const Dof& dof) {
         throw InputError("DOF '" + dof.name + "': expected a finite origin and an axis that is not zero");
     if (dof.kind == DofKind::Rotation && std::abs(dof.axis.norm() - 1) > 1e-9)
         throw InputError("DOF '" + dof.name + "': expected an axis of unit length");
+    if (dof.kind == DofKind::Rotation && std::max(std::abs(dof.lower), std::abs(dof.upper)) > farthestTurn)
+        throw InputError("DOF '" + dof.name + "': expected turns within " + std::to_string(int(farthestTurn)) +
+                         " radians, found limits beyond");
 }
 
 /// "limit plane 2", "limit planes 1, 3": as they stand in the motion, counted from 1.
@@ -136,7 +152,7 @@ std::vector<double> clampToLimits(const Motion& motion, std::span<const double> 
 
 void checkMotion(const Motion& motion) {
     for (const Dof& dof : motion.dofs) checkDof(dof);
-    if (!motion.base.matrix().allFinite()) throw InputError("motion: expected finite frames");
+    if (!isRigid(motion.base)) throw InputError("motion: expected a base that is rigid");
     for (const LimitPlane& plane : motion.planes) {
         const bool finite = std::all_of(plane.coefficients.begin(), plane.coefficients.end(),
                                         [](double c) { return std::isfinite(c); });

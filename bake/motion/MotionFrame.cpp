@@ -25,7 +25,7 @@ const PathRow* segment(const std::vector<PathRow>& rows, double value, double wa
 
 /// The turn from one row to the next as a rotation vector in the first row's own frame (the short way round,
 /// as slerp takes it).
-Vec3 turnBetween(const PathRow& r0, const PathRow& r1) {
+Vec3 turnOfRows(const PathRow& r0, const PathRow& r1) {
     Eigen::Quaterniond turn = r0.rotation.conjugate() * r1.rotation;
     if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
     const double sine = turn.vec().norm();
@@ -38,7 +38,7 @@ DofTwist pathTwist(const Dof& dof, const PathRow* rows, const Pose& where, const
     DofTwist t;
     const double span = rows[1].value - rows[0].value;
     const Pose frame = where * dof.frame;
-    t.turn = frame.linear() * (rows[0].rotation * turnBetween(rows[0], rows[1])) / span;
+    t.turn = frame.linear() * (rows[0].rotation * turnOfRows(rows[0], rows[1])) / span;
     // The point of B that is at the path's origin moves with the rows' translation.
     const Vec3 moving = where * (own * (dof.frame * Vec3::Zero()));
     t.slide = frame.linear() * (rows[1].translation - rows[0].translation) / span - t.turn.cross(moving);
@@ -69,7 +69,7 @@ void pathRates(const Dof& dof, double& slide, double& turn) {
         if (r1.value < dof.lower || r0.value > dof.upper) continue;
         const double span = r1.value - r0.value;
         slide = std::max(slide, (r1.translation - r0.translation).norm() / span);
-        turn = std::max(turn, turnBetween(r0, r1).norm() / span);
+        turn = std::max(turn, turnOfRows(r0, r1).norm() / span);
     }
 }
 

@@ -16,6 +16,7 @@ public:
     /// warnings: pairs that cannot be served. Throws InputError for a skin whose table does not fit.
     /// Keeps a reference to the scene.
     Player(const SceneModel& scene, std::vector<std::string>& warnings);
+    Player(SceneModel&& scene, std::vector<std::string>& warnings) = delete;
     Player(Player&&) noexcept;
     Player& operator=(Player&&) noexcept;
     ~Player();

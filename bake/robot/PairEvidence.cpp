@@ -1,6 +1,7 @@
 #include "bake/robot/PairEvidence.h"
 
 #include "bake/base/Error.h"
+#include "bake/geometry/ConnectedParts.h"
 #include "bake/geometry/MeshQuery.h"
 #include "bake/model/Kinematics.h"
 #include "bake/model/SourceHash.h"
@@ -37,19 +38,30 @@ std::string poseText(const SceneModel& scene, const Pair& pair, const Motion& mo
 /// Two meshes and how far they are apart at poses.
 class Meshes {
 public:
-    Meshes(const TriangleMesh& a, const TriangleMesh& b) : a_(a), b_(b), queryA_(a), queryB_(b) {}
+    Meshes(const TriangleMesh& a, const TriangleMesh& b)
+        : ofA_(pointOfEachPart(a)), ofB_(pointOfEachPart(b)), queryA_(a), queryB_(b) {}
 
-    /// Of the surfaces; 0 where they cross or one lies in the other.
-    double distance(const Pose& bToA, double within = std::numeric_limits<double>::infinity()) const {
-        const double surfaces = queryA_.distanceTo(queryB_, bToA, within);
-        if (surfaces == 0 || queryA_.inside(bToA * b_.vertices[b_.triangles[0][0]]) ||
-            queryB_.inside(bToA.inverse(Eigen::Isometry) * a_.vertices[a_.triangles[0][0]]))
+    /// Of the surfaces; 0 where they cross or a part of one lies in the other.
+    double distance(const Pose& bToA) const {
+        const double surfaces = queryA_.distanceTo(queryB_, bToA);
+        const auto inOther = [](const std::vector<Vec3>& points, const Pose& toOther,
+                                const MeshQuery& other) {
+            return std::ranges::any_of(points, [&](const Vec3& p) { return other.inside(toOther * p); });
+        };
+        if (surfaces == 0 || inOther(ofB_, bToA, queryA_) ||
+            inOther(ofA_, bToA.inverse(Eigen::Isometry), queryB_))
             return 0;
         return surfaces;
     }
 
 private:
-    const TriangleMesh &a_, &b_;
+    static std::vector<Vec3> pointOfEachPart(const TriangleMesh& mesh) {
+        std::vector<Vec3> points;
+        for (const TriangleMesh& part : connectedParts(mesh)) points.push_back(part.vertices.front());
+        return points;
+    }
+
+    std::vector<Vec3> ofA_, ofB_;
     MeshQuery queryA_, queryB_;
 };
 
@@ -182,7 +194,11 @@ private:
         PairEvidence& evidence = at(a, b);
         evidence.adjacent = joined;
         if (!rigid) return;
-        const Pose bToA = scene_.bodies[a].placement.inverse(Eigen::Isometry) * scene_.bodies[b].placement;
+        Pair fixed;
+        fixed.bodyA = a;
+        fixed.bodyB = b;
+        fixed.joints = *chain;
+        const Pose bToA = pose(pairMotion(scene_, fixed), std::vector<double>());
         evidence.clearance = Meshes(scene_.bodies[a].mesh, scene_.bodies[b].mesh).distance(bToA);
         evidence.verdict = evidence.clearance > 0 ? Meeting::Never : Meeting::Always;
     }

@@ -221,8 +221,8 @@ private:
         for (const std::string& note : found.notes) unmade.push_back("no pair: " + note);
         noteSome(unmade, 10);
         if (request_.pairs == RobotPairs::All && pairs.size() < all)
-            result_.notes.push_back(std::to_string(all - pairs.size()) +
-                                    " pairs are left out, as the robot's files switch their collision off");
+            result_.notes.push_back("pairs whose collision the robot's files switch off, left out: " +
+                                    std::to_string(all - pairs.size()));
     }
 
     /// The file's own motion, or one that shows each joint.

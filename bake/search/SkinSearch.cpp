@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
 #include "bake/geometry/TriangleDistance.h"
+#include "bake/geometry/TrianglePoint.h"
 #include "bake/motion/PoseBlend.h"
 
 #include <algorithm>
@@ -13,13 +14,6 @@ namespace tss {
 namespace {
 
 using Box = Eigen::AlignedBox3d;
-
-double squaredDistanceToSegment(const Vec3& x, const Vec3& a, const Vec3& b) {
-    const Vec3 d = b - a;
-    const double length = d.squaredNorm();
-    const double t = length > 0 ? std::clamp((x - a).dot(d) / length, 0.0, 1.0) : 0;
-    return (x - a - t * d).squaredNorm();
-}
 
 /// The moving spheres of one muscle, and the skin carried by it.
 struct MuscleSweep {
@@ -63,7 +57,7 @@ bool reaches(const MuscleSweep& sweep, std::size_t j, const Vec3& rest, std::siz
             distance += (to - from).norm();
             squared = squaredDistanceOfSegments(a, b, rest, from);
         } else {
-            squared = squaredDistanceToSegment(rest, a, b);
+            squared = (rest - closestOnSegment(rest, a, b)).squaredNorm();
         }
         if (squared <= distance * distance) return true;
     }

@@ -1,5 +1,7 @@
 #include "bake/table/GapRanges.h"
 
+#include "bake/table/RoundingBand.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,11 +9,9 @@ namespace tss {
 
 GapRanges::GapRanges(const Motion& motion, std::span<const TablePair> pairs)
     : motion_(motion), pairs_(pairs), dofs_(motion.dofCount()) {
-    double coordinate = motion.base.translation().norm();
     for (const Dof& dof : motion.dofs) {
         turns_.push_back(turnBound(dof));
         paths_ = paths_ || dof.kind == DofKind::Path;
-        coordinate += 2 * dof.origin.norm() + std::max(std::abs(dof.lower), std::abs(dof.upper));
     }
     speeds_.resize(pairs.size() * dofs_);
     std::vector<double> reaches;
@@ -21,7 +21,7 @@ GapRanges::GapRanges(const Motion& motion, std::span<const TablePair> pairs)
         reaches.push_back(std::abs(pairs[p].contactDistance));
         slack_ = std::max(slack_, pairs[p].a.norm() + pairs[p].b.norm() + reaches.back());
     }
-    slack_ = 1e-13 * (slack_ + coordinate);
+    slack_ = 1e-13 * (slack_ + motionSize(motion));
     if (reaches.empty()) return;
     const auto middle = reaches.begin() + reaches.size() / 2;
     std::nth_element(reaches.begin(), middle, reaches.end());

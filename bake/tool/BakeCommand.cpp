@@ -171,8 +171,10 @@ void runBake(BakeArguments& arguments, Console& console) {
     result["output"] = arguments.output;
     result["notes"] = parts.notes();
     if (arguments.allPairs) result["allPairs"] = pairs;
-    console.say(describe(result) + (arguments.allPairs ? tally(result["pairs"]) : "") + "wrote " +
-                arguments.output);
+    const std::string told = arguments.pairsOnly  ? "none is baked yet\n"
+                             : arguments.allPairs ? describe(result) + tally(result["pairs"])
+                                                  : describe(result);
+    console.say(told + "wrote " + arguments.output);
     for (std::size_t k = 0; k < scene.pairs.size(); ++k)
         if (hasNoRoom(result["pairs"][k]))
             result["pairs"][k]["freeingMoves"] = adviseMoves(scene, scene.pairs[k], console);
@@ -205,8 +207,9 @@ void addBake(CLI::App& app, Console& console) {
             },
             option.about);
     }
-    command->add_flag("--no-conservative", arguments->inscribed,
-                      "inscribed spheres: nothing early, misses stated");
+    command->add_flag(
+        "--no-conservative", arguments->inscribed,
+        "inscribed spheres: nothing early where nothing stands inside the other, misses stated");
     command->add_flag("--keep-spheres", arguments->keep,
                       "store all generated spheres, not only the used ones");
     command->add_flag("--finer", arguments->finer,
@@ -219,7 +222,8 @@ void addBake(CLI::App& app, Console& console) {
     command->footer("Where not all can be baked, or Ctrl-C comes, what is done is in BAKED.incomplete.tss, "
                     "and baking that\n"
                     "goes on with what is missing.\n"
-                    "Example:\n  tss bake jaw.tss -o jaw_baked.tss --tolerance 0.2mm");
+                    "Example:\n  tss bake jaw.tss -o jaw_baked.tss --tolerance 0.2mm\n" +
+                    app.get_footer());
     command->callback([arguments, &console] { runBake(*arguments, console); });
 }
 

@@ -87,8 +87,9 @@ void addBench(CLI::App& app, Console& console) {
                      "hit, gap (and test), contact (and point, normal, gradient), features (of the poses, no "
                      "query) or pose (hit, features included)")
         ->capture_default_str();
-    command->footer(
-        "Instructions a query: run under callgrind with two values of --queries and divide the difference.");
+    command->footer("Instructions a query: run under callgrind with two values of --queries and divide the "
+                    "difference.\n" +
+                    app.get_footer());
     command->callback([arguments, &console] { runBench(*arguments, console); });
 }
 

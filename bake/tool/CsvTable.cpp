@@ -94,6 +94,14 @@ std::vector<std::size_t> orderOf(const std::vector<std::string>& header, const D
     return order;
 }
 
+/// Limits and poses are printed with 6 digits: what they round to beyond a limit stands for the limit.
+double withoutRounding(const Dof& dof, double value) {
+    const double hair = 5e-6 * std::max(std::abs(dof.lower), std::abs(dof.upper));
+    if (value < dof.lower && value >= dof.lower - hair) return dof.lower;
+    if (value > dof.upper && value <= dof.upper + hair) return dof.upper;
+    return value;
+}
+
 } // namespace
 
 CsvTable readCsv(const std::string& file) {
@@ -157,7 +165,10 @@ DofRows readDofRows(const std::string& file, const DofColumns& columns, bool ste
                                          counted(columns.dofs.size(), "column"), words, row.size()));
         std::vector<double> values(row.size());
         for (std::size_t k = 0; k < row.size(); ++k) values[k] = row[order.empty() ? k : order[k]];
-        read.rows.push_back(fromUser(columns.dofs, values));
+        values = fromUser(columns.dofs, values);
+        for (std::size_t k = 0; k < values.size(); ++k)
+            values[k] = withoutRounding(columns.dofs[k], values[k]);
+        read.rows.push_back(std::move(values));
     }
     if (order.empty() && columns.dofs.size() > 1 && !csv.header.empty())
         read.remark = fmt::format(

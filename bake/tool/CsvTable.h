@@ -28,7 +28,8 @@ DofColumns dofColumns(const SceneModel& scene, const Pair& pair); ///< as in pai
 /// The rows of a file with a column a DOF, in the DOFs' order and their own units; `remark`: what is to be
 /// said of it, or empty. The first line may name the columns in any order; where it has none of the names
 /// they are taken in the DOFs' order. Throws InputError where some of the names are those of DOFs and others
-/// are none, or one comes twice. stepped: a first column `step` or `time` is passed over.
+/// are none, or one comes twice. A value beyond a limit by no more than 6 printed digits round is the limit.
+/// stepped: a first column `step` or `time` is passed over.
 struct DofRows {
     std::vector<std::vector<double>> rows;
     std::string remark;

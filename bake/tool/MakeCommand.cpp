@@ -253,7 +253,8 @@ void addMake(CLI::App& app, Console& console) {
     command->footer("Example, a hinge of 30 degrees about the Y axis through 0.3,0,0.7:\n"
                     "  tss make -o jaw.tss --a skull.obj --b mandible.obj --dof rot:0.3,0,0.7:0,1,0:-24:6\n"
                     "The limits are degrees; for meshes in millimetres add --meters-per-unit 0.001.\n"
-                    "A robot:\n  tss make robot.urdf -o robot.tss --package my_robot=../my_robot");
+                    "A robot:\n  tss make robot.urdf -o robot.tss --package my_robot=../my_robot\n" +
+                    app.get_footer());
     command->callback([arguments, &console] { make(*arguments, console); });
 }
 

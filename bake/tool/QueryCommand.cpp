@@ -36,11 +36,12 @@ struct Meshes {
 
 void sayHits(const QueryArguments& arguments, const Console& console, std::size_t poses, std::size_t hits,
              const Json& outsideRows, std::size_t outside, const std::string& madeFor) {
-    console.say(fmt::format("{} poses, {} hits, wrote {}", poses, hits, arguments.output));
+    console.say(
+        fmt::format("{}, {}, wrote {}", counted(poses, "pose"), counted(hits, "hit"), arguments.output));
     if (outside > 0)
-        console.say(fmt::format("{} poses, the first in row {}, lie outside the limits that the {} made for: "
-                                "no bound holds there, and they are not among the hits",
-                                outside, outsideRows[0].get<std::size_t>() + 1, madeFor));
+        console.say(fmt::format("{}, the first in row {}, outside the limits that the {} made for: no bound "
+                                "holds there, and the hits are without",
+                                counted(outside, "pose"), outsideRows[0].get<std::size_t>() + 1, madeFor));
     console.print({{"poses", poses},
                    {"hits", hits},
                    {"outsideLimits", outside},

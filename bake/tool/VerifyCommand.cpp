@@ -206,7 +206,8 @@ void addVerify(CLI::App& app, Console& console) {
                     "made again from the\n"
                     "meshes. Of the tables of skins nothing is proven: what can be told of them at rest and "
                     "of each muscle by\n"
-                    "itself is checked, and one that says it is certified is refused.");
+                    "itself is checked, and one that says it is certified is refused.\n" +
+                    app.get_footer());
     command->callback([file, budget, &console] { verify(*file, *budget, console); });
 }
 

@@ -65,11 +65,18 @@ private:
     std::vector<Extremes> extremes_; ///< of each piece
 };
 
-/// How far a point is outside the body, < 0: inside.
-double outside(const VerifiedBody& body, const Vec3& p) {
+/// Where a point is to a body: `outside` changes by no more than the point moves, through what closes the
+/// openings of the surface too.
+struct Place {
+    double outside; ///< the distance from the boundary, fans over openings included; < 0: inside
+    double surface; ///< the distance from the surface alone
+};
+
+Place placeIn(const VerifiedBody& body, const Vec3& p) {
     const double surface = body.surface.distance(p);
-    if (!body.solid || body.solid->hollow() || !body.solid->inside(p)) return surface;
-    return -std::min(surface, body.solid->boundary().distance(p));
+    if (!body.solid || body.solid->hollow()) return {surface, surface};
+    const double boundary = std::min(surface, body.solid->boundary().distance(p));
+    return {body.solid->inside(p) ? -boundary : boundary, surface};
 }
 
 class NestingBox {
@@ -106,7 +113,7 @@ public:
         const auto nested = [&](const Components& inner, const VerifiedBody& outer, const Pose& toOuter) {
             return std::any_of(inner.extremes().begin(), inner.extremes().end(), [&](const Extremes& piece) {
                 return std::all_of(piece.begin(), piece.end(), [&](const Vec3& p) {
-                    return verify::outside(outer, toOuter * p) < -early_;
+                    return placeIn(outer, toOuter * p).outside < -early_;
                 });
             });
         };
@@ -114,18 +121,18 @@ public:
     }
 
 private:
-    /// How far a point is outside the other body in the middle of the box, and how far it may move over it.
-    struct Side {
-        double outside, move;
+    /// Where a point is to the other body in the middle of the box, and how far it may move over it.
+    struct Side : Place {
+        double move;
     };
     Side ofB(const PoseBox& box, const Vec3& p) const {
         const MovingPoint at = box.carry(p, false);
-        return {verify::outside(a_, at.at), at.move};
+        return {placeIn(a_, at.at), at.move};
     }
     // A point of A moves against B's surface as far as the point of B that is where it is.
     Side ofA(const PoseBox& box, const Vec3& p) const {
         const Vec3 inB = box.pose().inverse(Eigen::Isometry) * p;
-        return {verify::outside(b_, inB), box.carry(inB, false).move};
+        return {placeIn(b_, inB), box.carry(inB, false).move};
     }
 
     template <typename Probe>
@@ -159,7 +166,7 @@ private:
             for (int k = 0; k < 3 && triangle >= 0; ++k) {
                 const int vertex = body.mesh.triangles[std::size_t(triangle)][k];
                 const Side in = probe(body.mesh.vertices[std::size_t(vertex)]);
-                if (std::abs(in.outside) + in.move <= early_) return true;
+                if (in.surface + in.move <= early_) return true;
                 if (in.outside + in.move >= 0) continue;
                 for (const Vec3& p : components.extremes()[components.of(vertex)])
                     if (const Side out = probe(p); out.outside - out.move > 0) return true;

@@ -115,7 +115,9 @@ void PoseBox::addPath(Link& link, const Dof& dof, double lower, double upper, do
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i + 1 < dof.path.size(); ++i) {
         const PathRow &from = dof.path[i], &to = dof.path[i + 1];
-        if (to.value < lower || from.value > upper) continue;
+        // Those that only touch the box, as where it was cut at a knot, say nothing of it.
+        if (lower < upper ? to.value <= lower || from.value >= upper : to.value < lower || from.value > upper)
+            continue;
         const double width = to.value - from.value;
         // Twice the half angle between the two quaternions, the short way, as slerp turns.
         Eigen::Quaterniond step = to.rotation * from.rotation.conjugate();

@@ -39,13 +39,14 @@ int main(int count, char** arguments) {
     }
     try {
         const std::filesystem::path folder = count > 1 ? arguments[1] : ".";
+        std::filesystem::create_directories(folder);
         for (const Named& scene : all) {
             bool wanted = count <= 2;
             for (int k = 2; k < count; ++k) wanted = wanted || !std::strcmp(arguments[k], scene.name);
             if (wanted) write(scene.make(), folder / (std::string(scene.name) + ".tss"));
         }
         return 0;
-    } catch (const tss::InputError& error) {
+    } catch (const std::exception& error) {
         std::fprintf(stderr, "tss-dog: %s\n", error.what());
         return 1;
     }

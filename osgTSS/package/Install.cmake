@@ -46,6 +46,12 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/osgTSSConfigVersi
 install(FILES ${PROJECT_BINARY_DIR}/package/osgTSSConfig.cmake ${PROJECT_BINARY_DIR}/package/osgTSSConfigVersion.cmake
         DESTINATION ${OSGTSS_PACKAGE_DESTINATION})
 
+# What an install put where: cpack, which installs too, writes CMake's own list anew.
+install(CODE "
+    if(NOT \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\" MATCHES \"/_CPack_Packages/\")
+        list(JOIN CMAKE_INSTALL_MANIFEST_FILES \"\\n\" files)
+        file(WRITE \"${PROJECT_BINARY_DIR}/package/installed.txt\" \"\${files}\\n\")
+    endif()")
 if(NOT TARGET uninstall) # a project around this one may have its own
     add_custom_target(uninstall VERBATIM
         COMMAND ${CMAKE_COMMAND} -D BINARY_DIR=${PROJECT_BINARY_DIR} -P ${CMAKE_CURRENT_LIST_DIR}/uninstall.cmake

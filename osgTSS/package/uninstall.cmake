@@ -1,5 +1,5 @@
 # cmake --build build --target uninstall: takes out what the last install put in, and folders of its own that are then empty.
-set(manifest ${BINARY_DIR}/install_manifest.txt)
+set(manifest ${BINARY_DIR}/package/installed.txt)
 if(NOT EXISTS ${manifest})
     message(FATAL_ERROR "nothing is installed from ${BINARY_DIR}: expected ${manifest}")
 endif()

@@ -34,6 +34,18 @@ std::string refusal(const std::string& file) {
 
 } // namespace
 
+TEST_CASE("nodes deep below each other, or in a circle, are refused before they take the stack") {
+    std::string nodes = "{\"mesh\":0}";
+    for (int k = 1; k < 20'000; ++k) nodes += ",{\"children\":[" + std::to_string(k - 1) + "]}";
+    for (const std::string& some : {nodes, std::string("{\"children\":[1]},{\"children\":[0]}")}) {
+        const TemporaryFile file("deep.gltf",
+                                 "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
+                                 "\"nodes\":[" +
+                                     some + "]}");
+        CHECK_THROWS_WITH(importMesh(file.name), Catch::Contains("at most 1000 levels deep"));
+    }
+}
+
 TEST_CASE("equal vertices become one, others stay in their order") {
     TriangleMesh mesh;
     mesh.vertices = {{1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1e-300}};

@@ -193,6 +193,18 @@ TEST_CASE("the distance of two triangles is that of their nearest points, 0 wher
     CHECK(crossing > 10);
 }
 
+TEST_CASE("edges that cross nearly parallel are as far apart as where they cross") {
+    for (double angle = 1e-10; angle < 1e-3; angle *= 3)
+        for (const double apart : {0.0, 1e-9, 0.3}) {
+            const Vec3 along(1, 0, 0), askew(std::cos(angle), std::sin(angle), 0), up(0, 0, apart);
+            const double distance =
+                std::sqrt(squaredDistanceOfSegments(-along, 2 * along, up - 3 * askew, up + askew));
+            CAPTURE(angle, apart);
+            CHECK(distance >= apart * (1 - 1e-12));
+            CHECK(distance <= apart + 3e-8);
+        }
+}
+
 TEST_CASE("the distance of two meshes is the least of their triangles'") {
     std::mt19937_64 random(6);
     const TriangleMesh a = lumpyMesh(random, 2, 0.3), b = soupMesh(random, 40, 0.6, 0.4);

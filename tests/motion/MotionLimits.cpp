@@ -125,6 +125,25 @@ TEST_CASE("a motion that cannot be served is refused") {
         m.dofs[0].path = {{0, Vec3::Zero(), Eigen::Quaterniond::Identity()},
                           {1, Vec3::Zero(), Eigen::Quaterniond::Identity()}};
     }));
+    const auto path = [](Motion& m) {
+        m.dofs[0].kind = DofKind::Path;
+        m.dofs[0].path = {{-1, Vec3::Zero(), Eigen::Quaterniond::Identity()},
+                          {2, Vec3::Zero(), Eigen::Quaterniond::Identity()}};
+    };
+    CHECK_FALSE(refused(path));
+    CHECK(refused([&](Motion& m) {
+        path(m);
+        m.dofs[0].path[1].rotation.coeffs() *= 2;
+    }));
+    CHECK(refused([&](Motion& m) {
+        path(m);
+        m.dofs[0].frame.translation().x() = NAN;
+    }));
+    CHECK(refused([](Motion& m) { m.base.linear() *= 3; }));
+    CHECK(refused([](Motion& m) {
+        m.dofs[0].kind = DofKind::Rotation;
+        m.dofs[0].upper = 1e6;
+    }));
     // Limits of zero width are a joint that is held, not an error.
     CHECK_FALSE(refused([](Motion& m) { m.dofs[0].rest = m.dofs[0].upper = m.dofs[0].lower; }));
 }

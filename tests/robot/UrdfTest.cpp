@@ -335,7 +335,7 @@ TEST_CASE("pairs are those of neighbours or all, and an SRDF takes some out") {
              "arm.srdf");
     const RobotScene fewer = sceneOf(robot, {}, noMeshes);
     CHECK(fewer.scene.pairs.size() == 2);
-    CHECK(hasNote(fewer.notes, "1 pairs are left out"));
+    CHECK(hasNote(fewer.notes, "switch off, left out: 1"));
     CHECK(hasNote(fewer.notes, "no link \"nobody\""));
     CHECK(refusal([&] {
               readSrdf(robot, "<robot><disable_collisions link1='a'/></robot>", "arm.srdf");

@@ -1,67 +1,19 @@
 #include "bake/motion/MotionBound.h"
-#include "tests/search/Scenes.h"
+#include "tests/search/RandomCells.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
 using namespace tss;
 
-namespace {
-
-Motion randomChain(scenes::Random& random, int dofs) {
-    Motion motion;
-    for (int k = 0; k < dofs; ++k) switch (random.below(3)) {
-        case 0:
-            motion.dofs.push_back(joints::turn(random.inBox(2), random.direction(), -4, 4));
-            break;
-        case 1:
-            motion.dofs.push_back(joints::slide(random.in(0.1, 3) * random.direction(), -2, 2));
-            break;
-        default:
-            motion.dofs.push_back(
-                scenes::path(random, 2 + random.below(6), random.in(0, 0.5), random.in(0, 1)));
-        }
-    motion.base.translation() = random.inBox(1);
-    return motion;
-}
-
-Cell randomCell(scenes::Random& random, const Motion& motion) {
-    Cell cell;
-    const double size = std::pow(10.0, random.in(-3, 0));
-    for (std::size_t k = 0; k < motion.dofCount(); ++k) {
-        const Dof& dof = motion.dofs[k];
-        const double width = random.below(8) ? size * (dof.upper - dof.lower) * random.in(0.1, 1) : 0;
-        cell.lower[k] = random.in(dof.lower, dof.upper - width);
-        cell.upper[k] = cell.lower[k] + width;
-    }
-    return cell;
-}
-
-std::vector<double> inside(scenes::Random& random, const Cell& cell, std::size_t dofs) {
-    std::vector<double> q;
-    for (std::size_t k = 0; k < dofs; ++k) switch (random.below(4)) { // corners are where bounds fail first
-        case 0:
-            q.push_back(cell.lower[k]);
-            break;
-        case 1:
-            q.push_back(cell.upper[k]);
-            break;
-        default:
-            q.push_back(random.in(cell.lower[k], cell.upper[k]));
-        }
-    return q;
-}
-
-} // namespace
-
 TEST_CASE("no point moves farther in a cell, or farther from its tangent, than the bounds say") {
     scenes::Random random(5);
     double tightestMove = 0, tightestRemainder = 0;
     for (int round = 0; round < 3000; ++round) {
         const int dofs = 1 + random.below(6);
-        const Motion motion = randomChain(random, dofs);
+        const Motion motion = cells::randomChain(random, dofs);
         const MotionRates rates(motion);
-        const Cell cell = randomCell(random, motion);
+        const Cell cell = round % 2 ? cells::randomCell(random, motion) : cells::cutCell(random, motion);
         const CellMotion bound(rates, cell);
         const Vec3 y = random.inBox(2), z = random.inBox(2);
         const Vec3 x0 = bound.centrePose() * y, difference0 = bound.centrePose() * z - x0;
@@ -69,7 +21,7 @@ TEST_CASE("no point moves farther in a cell, or farther from its tangent, than t
         std::array<std::array<double, maxDofs>, 3> jacobian;
         for (int axis = 0; axis < 3; ++axis) bound.slope(x0, Vec3::Unit(axis), jacobian[axis].data());
         for (int k = 0; k < 20; ++k) {
-            const auto q = inside(random, cell, motion.dofCount());
+            const auto q = cells::inside(random, cell, motion.dofCount());
             const Vec3 x = pose(motion, q) * y, difference = pose(motion, q) * z - x;
             Vec3 tangent = x0;
             for (int axis = 0; axis < 3; ++axis)

@@ -310,6 +310,44 @@ TEST_CASE("a path with corners is proven from corner to corner") {
     }
 }
 
+TEST_CASE("a slow stretch between fast ones of a path is not taken to go less far than it does") {
+    Dof path;
+    path.kind = DofKind::Path;
+    path.upper = 4.2;
+    const std::vector<double> values{0, 1, 2, 3, 4.2}, angles{0, 2.9, 3.9, 4.9, 7.9};
+    for (std::size_t i = 0; i < values.size(); ++i)
+        path.path.push_back(
+            {values[i], Vec3::Zero(), Eigen::Quaterniond(Eigen::AngleAxisd(angles[i], Vec3::UnitZ()))});
+    Motion motion;
+    motion.dofs = {path};
+    const Vec3 small = Vec3::Constant(2e-4), from(1, 0, 0);
+    const auto boxAbout = [&](const Vec3& centre) { return boxMesh(centre - small, centre + small); };
+    const Vec3 there = pose(motion, std::vector<double>{2}) * from, beyond = 1.01 * there;
+    NeverCollides proof;
+    proof.clearance = 1e-4;
+    CHECK_FALSE(verifyOnMeshes(boxAbout(there), boxAbout(from), proof, motion).holds());
+    CHECK(verifyOnMeshes(boxAbout(beyond), boxAbout(from), proof, motion).holds());
+}
+
+TEST_CASE("a box that goes into an open cup far from its walls is nested there, whatever the mouth is near") {
+    Case c;
+    c.a = boxMesh({-10, -10, -20}, {10, 10, 0});
+    std::erase_if(c.a.triangles, [&](const Tri& t) {
+        return std::ranges::all_of(t, [&](int v) { return c.a.vertices[v].z() == 0; });
+    });
+    REQUIRE(c.a.triangles.size() == 10);
+    c.b = boxMesh({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+    for (const double upper : {6.0, -4.0}) {
+        c.motion.dofs = {joints::slide(Vec3::UnitZ(), -5, upper)};
+        c.motion.dofs[0].rest = upper;
+        c.table = makeTable({{Vec3(0, 0, -5), 2}}, {{Vec3::Zero(), 0.5}}, {{0, 0}}, {}, c.motion);
+        c.table.certified = true;
+        c.table.boundEarly = 0.1;
+        INFO(upper);
+        CHECK_FALSE(c.verdict().holds());
+    }
+}
+
 TEST_CASE("a path that is steep for a millionth of its values is cut there, and not along the other DOF") {
     const Case c = boxes(0.5);
     Dof path;

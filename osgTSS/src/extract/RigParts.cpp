@@ -15,7 +15,7 @@ namespace osgTSS {
 
 namespace {
 
-/// Vertices nearer than this share of the meshes' size are one.
+/// Vertices whose coordinates round to the same multiple of this share of the meshes' size are one.
 constexpr double sameVertex = 1e-6;
 
 struct TriangleList {

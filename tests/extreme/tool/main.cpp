@@ -132,6 +132,7 @@ int main(int count, char** arguments) {
     feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
     try {
         if (command == "scenes" && count == 3) {
+            std::filesystem::create_directories(arguments[2]);
             writeScenes(arguments[2]);
             return 0;
         }
@@ -147,7 +148,7 @@ int main(int count, char** arguments) {
         }
         std::fputs(usage, stderr);
         return command == "--help" ? 0 : 2;
-    } catch (const tss::InputError& error) {
+    } catch (const std::exception& error) {
         std::fprintf(stderr, "tss-extreme: %s\n", error.what());
         return 1;
     }

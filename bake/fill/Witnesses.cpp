@@ -1,7 +1,6 @@
-#include "bake/fill/ConnectedParts.h"
+#include "bake/fill/Witnesses.h"
 
-#include "bake/base/UnionFind.h"
-#include "bake/geometry/Import.h"
+#include "bake/geometry/ConnectedParts.h"
 
 #include <algorithm>
 #include <limits>
@@ -37,7 +36,7 @@ Witness grown(const Solid& solid, Witness ball, double step) {
 }
 
 /// Balls inside a closed part, none with its centre in another, the largest first.
-void addBalls(const Solid& solid, ConnectedPart& part) {
+void addBalls(const Solid& solid, PartWitnesses& part) {
     const Eigen::AlignedBox3d box = bounds(solid.mesh());
     const Vec3 spacing = box.sizes() / pointsPerAxis;
     std::vector<Witness> starts;
@@ -65,7 +64,7 @@ void addBalls(const Solid& solid, ConnectedPart& part) {
                      [](const Witness& x, const Witness& y) { return x.radius > y.radius; });
 }
 
-void addVertices(const TriangleMesh& mesh, ConnectedPart& part) {
+void addVertices(const TriangleMesh& mesh, PartWitnesses& part) {
     std::vector<int> found;
     for (int way = 0; way < 27; ++way) {
         const Vec3 out(way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1);
@@ -94,40 +93,12 @@ void addVertices(const TriangleMesh& mesh, ConnectedPart& part) {
     }
 }
 
-/// The mesh of each connected part, its vertices in their order.
-std::vector<TriangleMesh> split(const TriangleMesh& mesh) {
-    UnionFind together(mesh.vertices.size());
-    for (const Tri& t : mesh.triangles)
-        for (const int v : {t[1], t[2]}) together.join(t[0], v);
-    std::vector<TriangleMesh> parts;
-    std::vector<int> partOfRoot(mesh.vertices.size(), -1), placeOf(mesh.vertices.size(), -1);
-    for (const Tri& t : mesh.triangles) {
-        int& at = partOfRoot[together.root(t[0])];
-        if (at < 0) {
-            at = static_cast<int>(parts.size());
-            parts.emplace_back();
-        }
-        TriangleMesh& part = parts[at];
-        Tri moved;
-        for (int k = 0; k < 3; ++k) {
-            int& place = placeOf[t[k]];
-            if (place < 0) {
-                place = static_cast<int>(part.vertices.size());
-                part.vertices.push_back(mesh.vertices[t[k]]);
-            }
-            moved[k] = place;
-        }
-        part.triangles.push_back(moved);
-    }
-    return parts;
-}
-
 } // namespace
 
-std::vector<ConnectedPart> connectedParts(const TriangleMesh& mesh) {
-    std::vector<ConnectedPart> parts;
-    for (const TriangleMesh& one : split(welded(mesh))) {
-        ConnectedPart part;
+std::vector<PartWitnesses> witnessesOf(const TriangleMesh& mesh) {
+    std::vector<PartWitnesses> parts;
+    for (const TriangleMesh& one : connectedParts(mesh)) {
+        PartWitnesses part;
         if (const Solid solid(one); !solid.open()) addBalls(solid, part);
         addVertices(one, part);
         parts.push_back(std::move(part));

@@ -14,10 +14,9 @@ struct Witness {
 
 /// Witnesses of one connected part: balls inside it, the largest first, then the vertices farthest out in 26
 /// directions, then others spread over the part.
-using ConnectedPart = std::vector<Witness>;
+using PartWitnesses = std::vector<Witness>;
 
-/// The connected parts of a surface; what stands at the same place is connected. Parts with openings have no
-/// balls.
-std::vector<ConnectedPart> connectedParts(const TriangleMesh& mesh);
+/// Those of each connected part of a surface (geometry/ConnectedParts.h). Parts with openings have no balls.
+std::vector<PartWitnesses> witnessesOf(const TriangleMesh& mesh);
 
 } // namespace tss
