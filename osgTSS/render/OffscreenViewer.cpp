@@ -1,5 +1,9 @@
 #include "OffscreenViewer.h"
 
+#include <osg/ComputeBoundsVisitor>
+#include <osg/Geometry>
+#include <osgAnimation/RigGeometry>
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +12,24 @@ namespace osgTSS {
 namespace {
 
 constexpr double fieldOfView = 30; ///< from bottom to top, degrees
+
+/// What is shown, by its vertices: bounds of nodes are spheres about spheres, and OSG doubles those of rigged
+/// meshes.
+class ShownBounds : public osg::ComputeBoundsVisitor {
+public:
+    ShownBounds() : osg::ComputeBoundsVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
+
+    void apply(osg::Drawable& drawable) override {
+        osg::Geometry* geometry = drawable.asGeometry();
+        if (auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable); rig && rig->getSourceGeometry())
+            geometry = rig->getSourceGeometry();
+        const auto* vertices = geometry ? dynamic_cast<osg::Vec3Array*>(geometry->getVertexArray()) : nullptr;
+        if (!vertices) return applyBoundingBox(drawable.getBoundingBox());
+        osg::BoundingBox box;
+        for (const osg::Vec3& v : *vertices) box.expandBy(v);
+        applyBoundingBox(box);
+    }
+};
 
 } // namespace
 
@@ -69,7 +91,10 @@ void OffscreenViewer::look(unsigned int frame) {
     }
     // From the front, as osgviewer's manipulators stand at first, so far that the sphere is in sight on all
     // sides.
+    ShownBounds shown;
+    _viewer->getSceneData()->accept(shown);
     osg::BoundingSphere bound = _viewer->getSceneData()->getBound();
+    if (shown.getBoundingBox().valid()) bound = osg::BoundingSphere(shown.getBoundingBox());
     bound.expandBy(_shot.reach);
     const double narrow = std::max(1.0, static_cast<double>(_shot.height) / _shot.width);
     const double away = bound.radius() / std::sin(osg::DegreesToRadians(fieldOfView / 2)) * narrow;
