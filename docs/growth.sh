@@ -37,5 +37,5 @@ grow "$scene" "${units[1]}" "$work/after.tss" >/dev/null
 for which in before after; do
     "$render" "$work/$which.tss" -o "$work/$which.png" --frames 1 --size 1280x960 --overlay --quiet
 done
-convert "$work/before.png" "$work/after.png" -crop 640x520+300+150 +repage +append -colors 160 \
+convert "$work/before.png" "$work/after.png" -gravity center -crop 720x600+0+0 +repage +append -colors 160 \
     "$root/docs/pictures/growth.png"
