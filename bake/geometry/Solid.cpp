@@ -41,35 +41,53 @@ std::vector<OpenEdge> unbalanced(std::vector<EdgeUse> edges) {
     return open;
 }
 
+/// Two places nearer than this share of the mesh's diagonal are one.
+constexpr double samePlace = 1e-6;
+/// What is this share of an edge wide is a crack along it and no hole.
+constexpr double crackShare = 0.01;
+
 /// The ends of open edges, to find those at a place.
 class OpenVertices {
 public:
-    OpenVertices(const TriangleMesh& mesh, const std::vector<OpenEdge>& open) : mesh_(mesh) {
-        for (const OpenEdge& e : open) vertices_.insert(vertices_.end(), {e.from, e.to});
-        std::sort(vertices_.begin(), vertices_.end());
-        vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+    /// least: what is nearer is at one place, scene units.
+    OpenVertices(const TriangleMesh& mesh, const std::vector<OpenEdge>& open, double least) : mesh_(mesh) {
+        std::map<int, double> shortest;
+        for (const OpenEdge& e : open)
+            for (const int v : {e.from, e.to}) {
+                const double length = (mesh.vertices[e.to] - mesh.vertices[e.from]).norm();
+                double& own = shortest.try_emplace(v, length).first->second;
+                own = std::min(own, length);
+            }
         std::vector<Eigen::AlignedBox3d> boxes;
-        for (const int v : vertices_) boxes.emplace_back(mesh.vertices[v]);
+        for (const auto& [v, length] : shortest) {
+            vertices_.push_back(v);
+            near_.push_back(std::max(least, crackShare * length));
+            boxes.emplace_back(mesh.vertices[v]);
+        }
         tree_ = buildBvh(boxes);
     }
 
-    /// For every vertex of the mesh the first of those that stand within `near` of it, or itself.
-    std::vector<int> joined(double near) const {
+    /// For every vertex of the mesh the first of those that stand at its place, across a crack too, or
+    /// itself.
+    std::vector<int> joined() const {
         std::vector<int> place(mesh_.vertices.size());
         std::iota(place.begin(), place.end(), 0);
-        for (const int v : vertices_)
-            visitBall(tree_, mesh_.vertices[v], near, [&](std::uint32_t i) {
+        for (std::size_t k = 0; k < vertices_.size(); ++k) {
+            const int v = vertices_[k];
+            visitBall(tree_, mesh_.vertices[v], near_[k], [&](std::uint32_t i) {
                 const int other = vertices_[i];
-                if ((mesh_.vertices[other] - mesh_.vertices[v]).norm() <= near)
-                    place[v] = std::min(place[v], place[other]);
+                // Never on from there: a rim of short edges is no point.
+                if ((mesh_.vertices[other] - mesh_.vertices[v]).norm() <= std::min(near_[k], near_[i]))
+                    place[v] = std::min(place[v], other);
             });
+        }
         return place;
     }
 
     /// The vertices on the edge from its start to its end, both included.
-    std::vector<int> along(const OpenEdge& edge, double near) const {
+    std::vector<int> along(const OpenEdge& edge, double least) const {
         const Vec3 &a = mesh_.vertices[edge.from], &b = mesh_.vertices[edge.to];
-        const double length = (b - a).norm();
+        const double length = (b - a).norm(), near = std::max(least, crackShare * length);
         std::vector<std::pair<double, int>> between;
         visitBall(tree_, 0.5 * (a + b), 0.5 * length + near, [&](std::uint32_t i) {
             const Vec3& p = mesh_.vertices[vertices_[i]];
@@ -87,43 +105,71 @@ public:
 private:
     const TriangleMesh& mesh_;
     std::vector<int> vertices_;
+    std::vector<double> near_; ///< of each of them
     Bvh tree_;
 };
 
-/// How far apart edges may be and still be taken for one: what is a hundredth of an edge wide is no opening.
-double seam(const TriangleMesh& mesh, const std::vector<OpenEdge>& open) {
-    std::vector<double> lengths;
-    lengths.reserve(open.size());
-    for (const OpenEdge& e : open) lengths.push_back((mesh.vertices[e.to] - mesh.vertices[e.from]).norm());
-    const auto middle = lengths.begin() + lengths.size() / 2;
-    std::nth_element(lengths.begin(), middle, lengths.end());
-    return std::max(0.01 * *middle, 1e-6 * diagonal(mesh));
-}
+/// What is open in a mesh: the rims of its holes, and the strips of surface that close its cracks.
+struct Openings {
+    std::vector<OpenEdge> rims;
+    std::vector<Tri> strips;
+    double widest = 0; ///< of the cracks, scene units; 0: what is nearer than samePlace
+};
 
-std::vector<OpenEdge> openEdges(const TriangleMesh& mesh) {
-    std::vector<EdgeUse> edges;
-    for (const Tri& t : mesh.triangles) {
-        // A segment or a point of surface bounds nothing, so that it has no opening either.
-        if (hasZeroArea(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]])) continue;
-        for (int k = 0; k < 3; ++k) edges.push_back(edgeUse(t[k], t[(k + 1) % 3], 1));
+class FindOpenings {
+public:
+    explicit FindOpenings(const TriangleMesh& mesh) : mesh_(mesh), least_(samePlace * diagonal(mesh)) {}
+
+    Openings run() {
+        std::vector<EdgeUse> edges;
+        for (const Tri& t : mesh_.triangles) {
+            // A segment or a point of surface bounds nothing, so that it has no opening either.
+            if (hasZeroArea(mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]])) continue;
+            for (int k = 0; k < 3; ++k) edges.push_back(edgeUse(t[k], t[(k + 1) % 3], 1));
+        }
+        found_.rims = unbalanced(std::move(edges));
+        if (found_.rims.empty()) return std::move(found_);
+        // Vertices that stand at one place first, so that the ends of what is cut up next are single ones.
+        const std::vector<int> place = OpenVertices(mesh_, found_.rims, least_).joined();
+        replace([&](const OpenEdge& e) { return std::vector{e.from, place[e.from], place[e.to], e.to}; }, 1);
+        const OpenVertices ends(mesh_, found_.rims, least_);
+        replace([&](const OpenEdge& e) { return ends.along(e, least_); }, 0);
+        if (!(found_.widest > least_)) { // nothing but rounding
+            found_.widest = 0;
+            found_.strips.clear();
+        }
+        return std::move(found_);
     }
-    std::vector<OpenEdge> open = unbalanced(std::move(edges));
-    if (open.empty()) return open;
-    const double near = seam(mesh, open);
-    // Vertices that stand at one place first, so that the ends of what is cut up next are single ones.
-    const std::vector<int> place = OpenVertices(mesh, open).joined(near);
-    edges.clear();
-    for (const OpenEdge& e : open) edges.push_back(edgeUse(place[e.from], place[e.to], e.excess));
-    open = unbalanced(std::move(edges));
-    const OpenVertices ends(mesh, open);
-    edges.clear();
-    for (const OpenEdge& e : open) {
-        const std::vector<int> chain = ends.along(e, near);
-        for (std::size_t i = 1; i < chain.size(); ++i)
-            edges.push_back(edgeUse(chain[i - 1], chain[i], e.excess));
+
+private:
+    /// Puts another way between its ends in the place of each open edge, less `skipped` steps at both ends:
+    /// they are those of the edges beside it. What lies between edge and way is closed by a strip.
+    template <class WayOf>
+    void replace(const WayOf& wayOf, std::size_t skipped) {
+        std::vector<EdgeUse> edges;
+        for (const OpenEdge& e : found_.rims) {
+            const std::vector<int> way = wayOf(e);
+            for (std::size_t i = 1 + skipped; i + skipped < way.size(); ++i)
+                edges.push_back(edgeUse(way[i - 1], way[i], e.excess));
+            addStrip(e, way);
+        }
+        found_.rims = unbalanced(std::move(edges));
     }
-    return unbalanced(std::move(edges));
-}
+
+    void addStrip(const OpenEdge& e, const std::vector<int>& way) {
+        const Vec3 &a = mesh_.vertices[e.from], &b = mesh_.vertices[e.to];
+        for (std::size_t i = 1; i + 1 < way.size(); ++i) {
+            const Vec3& p = mesh_.vertices[way[i]];
+            found_.widest = std::max(found_.widest, (closestOnSegment(p, a, b) - p).norm());
+            if (const Tri t(e.to, way[i - 1], way[i]); t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
+                found_.strips.insert(found_.strips.end(), static_cast<std::size_t>(e.excess), t);
+        }
+    }
+
+    const TriangleMesh& mesh_;
+    double least_;
+    Openings found_;
+};
 
 TriangleMesh joined(TriangleMesh mesh, const TriangleMesh& fans) {
     mesh.vertices = fans.vertices;
@@ -131,8 +177,9 @@ TriangleMesh joined(TriangleMesh mesh, const TriangleMesh& fans) {
     return mesh;
 }
 
-std::string describe(const TriangleMesh& mesh, std::size_t open, bool hollow) {
+std::string describe(const TriangleMesh& mesh, const Openings& openings, bool hollow) {
     const MeshAudit audit = auditMesh(mesh);
+    const std::size_t open = openings.rims.size();
     std::string s;
     if (hollow && open == 0)
         s = "the other body stands inside without touching: it counts as hollow, spheres cover its surface "
@@ -143,6 +190,8 @@ std::string describe(const TriangleMesh& mesh, std::size_t open, bool hollow) {
                         open);
     else if (open > 0)
         s = fmt::format("{} open or misoriented edges: their openings count as closed by flat fans", open);
+    else if (openings.widest > 0)
+        s = fmt::format("cracks, up to {:.3g} scene units wide, count as closed", openings.widest);
     else if (audit.insideOut())
         s = "inside out: the inside is where the winding number is not 0, whatever its sign";
     else if (audit.nonManifoldEdges > 0)
@@ -153,42 +202,51 @@ std::string describe(const TriangleMesh& mesh, std::size_t open, bool hollow) {
 
 } // namespace
 
-TriangleMesh closingFans(const TriangleMesh& mesh) {
-    const std::vector<OpenEdge> open = openEdges(mesh);
+namespace {
+
+TriangleMesh closing(const TriangleMesh& mesh, const Openings& openings) {
     UnionFind together(mesh.vertices.size());
-    for (const OpenEdge& e : open) together.join(e.from, e.to);
+    for (const OpenEdge& e : openings.rims) together.join(e.from, e.to);
     struct Opening {
         std::vector<int> rim;
         int apex = -1;
     };
-    std::map<std::size_t, Opening> openings; // by root, so that the order is the vertices' own
-    for (const OpenEdge& e : open) {
-        std::vector<int>& rim = openings[together.root(e.from)].rim;
+    std::map<std::size_t, Opening> holes; // by root, so that the order is the vertices' own
+    for (const OpenEdge& e : openings.rims) {
+        std::vector<int>& rim = holes[together.root(e.from)].rim;
         rim.insert(rim.end(), {e.from, e.to});
     }
     TriangleMesh fans;
     fans.vertices = mesh.vertices;
-    for (auto& [ignored, opening] : openings) {
-        std::sort(opening.rim.begin(), opening.rim.end());
-        opening.rim.erase(std::unique(opening.rim.begin(), opening.rim.end()), opening.rim.end());
-        const Vec3 origin = mesh.vertices[opening.rim[0]];
+    fans.triangles = openings.strips;
+    for (auto& [ignored, hole] : holes) {
+        std::sort(hole.rim.begin(), hole.rim.end());
+        hole.rim.erase(std::unique(hole.rim.begin(), hole.rim.end()), hole.rim.end());
+        const Vec3 origin = mesh.vertices[hole.rim[0]];
         Vec3 mean = Vec3::Zero();
-        for (const int v : opening.rim) mean += mesh.vertices[v] - origin;
-        opening.apex = static_cast<int>(fans.vertices.size());
-        fans.vertices.emplace_back(origin + mean / static_cast<double>(opening.rim.size()));
+        for (const int v : hole.rim) mean += mesh.vertices[v] - origin;
+        hole.apex = static_cast<int>(fans.vertices.size());
+        fans.vertices.emplace_back(origin + mean / static_cast<double>(hole.rim.size()));
     }
-    for (const OpenEdge& e : open)
+    for (const OpenEdge& e : openings.rims)
         for (int i = 0; i < e.excess; ++i)
-            fans.triangles.emplace_back(e.to, e.from, openings[together.root(e.from)].apex);
+            fans.triangles.emplace_back(e.to, e.from, holes[together.root(e.from)].apex);
     return fans;
 }
 
+} // namespace
+
+TriangleMesh closingFans(const TriangleMesh& mesh) {
+    return closing(mesh, FindOpenings(mesh).run());
+}
+
 Solid::Solid(const TriangleMesh& mesh, Interior interior)
-    : mesh_((checkIndices(mesh), mesh)), hollow_(interior == Interior::Hollow),
-      openEdges_(openEdges(mesh).size()),
-      boundary_(hollow_ || openEdges_ == 0 ? mesh_ : joined(mesh, closingFans(mesh))),
-      assumptions_(describe(mesh, openEdges_, hollow_)) {
-    const Eigen::AlignedBox3d box = bounds(mesh);
+    : mesh_((checkIndices(mesh), mesh)), hollow_(interior == Interior::Hollow), boundary_(TriangleMesh()) {
+    const Openings openings = FindOpenings(mesh).run();
+    open_ = !openings.rims.empty() || openings.widest > 0;
+    boundary_ = MeshQuery(hollow_ || !open_ ? mesh_ : joined(mesh_, closing(mesh_, openings)));
+    assumptions_ = describe(mesh_, openings, hollow_);
+    const Eigen::AlignedBox3d box = bounds(mesh_);
     if (!box.isEmpty()) diagonal_ = box.diagonal().norm();
 }
 

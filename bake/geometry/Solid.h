@@ -5,12 +5,13 @@
 
 namespace tss {
 
-/// Fans of triangles that close the openings of a mesh: over each connected set of edges that triangles do
-/// not run through equally often in both directions, a cone to the mean of its vertices. With them every
-/// mesh, also a misoriented or non-manifold one and a soup of triangles, has an integer winding number off
-/// its surface. Edges that lie on each other to 1e-6 of the mesh's diagonal or a hundredth of the median open
-/// edge are no opening, whether or not they share vertices: seams that were not welded, T-junctions, cracks.
-/// Vertices of the mesh first, one apex an opening after them; the triangles are the fans' alone.
+/// Triangles that close the openings of a mesh: over each connected set of edges that triangles do not run
+/// through equally often in both directions, a cone to the mean of its vertices. With them every mesh, also a
+/// misoriented or non-manifold one and a soup of triangles, has an integer winding number off its surface.
+/// Edges that lie on each other to 1e-6 of the mesh's diagonal are no opening, whether or not they share
+/// vertices: seams that were not welded, T-junctions. Between those that do to a hundredth of their own
+/// length, cracks, are strips in place of a cone. Vertices of the mesh first, one apex an opening after them;
+/// the triangles are the fans' alone.
 TriangleMesh closingFans(const TriangleMesh& mesh);
 
 /// What an open mesh stands for.
@@ -37,8 +38,8 @@ public:
 
     bool inside(const Vec3& p) const { return !hollow_ && boundary_.inside(p); }
 
-    /// The mesh has openings.
-    bool open() const { return openEdges_ > 0; }
+    /// The mesh has openings, cracks too.
+    bool open() const { return open_; }
     bool hollow() const { return hollow_; }
 
     /// A bound on how far a point of the ball lies from the solid, >= 0; 0 for a ball that is inside.
@@ -53,7 +54,7 @@ public:
 private:
     TriangleMesh mesh_;
     bool hollow_ = false;
-    std::size_t openEdges_ = 0;
+    bool open_ = false;
     MeshQuery boundary_;
     double diagonal_ = 0;
     std::string assumptions_;

@@ -26,8 +26,10 @@ bool isRigid(const Pose& frame) {
 void checkPath(const Dof& dof) {
     if (dof.path.size() < 2) throw InputError("path of DOF '" + dof.name + "': expected at least 2 rows");
     for (std::size_t i = 0; i + 1 < dof.path.size(); ++i)
-        if (!(dof.path[i].value < dof.path[i + 1].value))
-            throw InputError("path of DOF '" + dof.name + "': expected values that rise from row to row");
+        if (const double from = dof.path[i].value, to = dof.path[i + 1].value;
+            !(to - from > 1e-12 * (dof.path.back().value - dof.path.front().value) && from < to))
+            throw InputError("path of DOF '" + dof.name +
+                             "': expected values that rise from row to row, by more than rounding");
     for (const PathRow& row : dof.path)
         if (!row.translation.allFinite() || !row.rotation.coeffs().allFinite())
             throw InputError("path of DOF '" + dof.name + "': expected finite numbers");
@@ -51,8 +53,8 @@ void checkDof(const Dof& dof) {
     if (dof.kind == DofKind::Rotation && std::abs(dof.axis.norm() - 1) > 1e-9)
         throw InputError("DOF '" + dof.name + "': expected an axis of unit length");
     if (dof.kind == DofKind::Rotation && std::max(std::abs(dof.lower), std::abs(dof.upper)) > farthestTurn)
-        throw InputError("DOF '" + dof.name + "': expected turns within " + std::to_string(int(farthestTurn)) +
-                         " radians, found limits beyond");
+        throw InputError("DOF '" + dof.name + "': expected turns within " +
+                         std::to_string(int(farthestTurn)) + " radians, found limits beyond");
 }
 
 /// "limit plane 2", "limit planes 1, 3": as they stand in the motion, counted from 1.
@@ -106,12 +108,15 @@ bool withinLimits(const Motion& motion, std::span<const double> q, double slack)
 }
 
 bool beyondLimits(const Motion& motion, std::span<const double> q) {
-    constexpr double share = 1e-6; // of a range
+    // Values and limits may have been rounded to floats.
+    const auto hairOf = [](const Dof& dof) {
+        return 2e-7 * std::max(std::abs(dof.lower), std::abs(dof.upper));
+    };
     if (q.size() != motion.dofs.size()) return true;
     if (!std::ranges::all_of(q, [](double value) { return std::isfinite(value); })) return true;
     for (std::size_t k = 0; k < q.size(); ++k) {
         const Dof& dof = motion.dofs[k];
-        const double hair = share * (dof.upper - dof.lower) + 1e-12 * std::abs(q[k]);
+        const double hair = hairOf(dof);
         if (!(q[k] >= dof.lower - hair && q[k] <= dof.upper + hair)) return true;
     }
     return std::any_of(motion.planes.begin(), motion.planes.end(), [&](const LimitPlane& plane) {
@@ -119,8 +124,7 @@ bool beyondLimits(const Motion& motion, std::span<const double> q) {
         for (std::size_t k = 0; k < q.size(); ++k) {
             const Dof& dof = motion.dofs[k];
             excess += plane.coefficients[k] * q[k];
-            hair +=
-                std::abs(plane.coefficients[k]) * (share * (dof.upper - dof.lower) + 1e-12 * std::abs(q[k]));
+            hair += std::abs(plane.coefficients[k]) * hairOf(dof);
         }
         return !(excess <= hair);
     });

@@ -107,7 +107,16 @@ struct PairBaker {
     }
 
     /// Fill: both bodies with spheres, and how well these fit; then the few tests that answer for all.
-    Attempt few() const { return tabulated(measured(fillPair(scene, pair, motion, options, progress))); }
+    Attempt few() const {
+        Attempt attempt = tabulated(measured(fillPair(scene, pair, motion, options, progress)));
+        // No tests: nothing meets. How far apart, only spheres all over the surfaces tell.
+        const Table* table = attempt.made.table.get();
+        if (!attempt.spheres.zoneA || !table || !table->certified || table->testCount() > 0 ||
+            !table->restRegion.empty())
+            return attempt;
+        Attempt whole = tabulated(measured(fillApart(scene, pair, motion, options, progress)));
+        return whole.made.proof ? std::move(whole) : std::move(attempt);
+    }
 
     /// The proof that the surfaces never meet, where it is found without any spheres.
     std::optional<PairTable> surfacesNeverMeet() const {

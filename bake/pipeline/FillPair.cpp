@@ -91,9 +91,10 @@ PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, dou
 }
 
 /// Medial spheres stand in the contact zone only, fine where the verdict needs it; where `known` is given,
-/// all over the surfaces.
+/// all over the surfaces; where these are known never to meet (`apart`), all over them, as spheresApart() has
+/// it.
 PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
-                     double tolerance, const Nesting* known, const Progress& progress) {
+                     double tolerance, const Nesting* known, bool apart, const Progress& progress) {
     ContactZoneOptions zone;
     zone.tolerance = tolerance;
     zone.depth = options.depth;
@@ -105,7 +106,7 @@ PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const B
     if (known) zone.nesting = *known;
     const TriangleMesh meshA = cleaned(meshOf(a)), meshB = cleaned(meshOf(b));
     ContactZoneFit fit = fitContactZone(meshA, meshB, motion, zone, progress);
-    if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
+    if (apart || fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
         return spheresApart(a, b, motion, tolerance, {fit.a.fit.hollow, fit.b.fit.hollow}, fit, progress);
     return {std::move(fit.a.fit),
             std::move(fit.b.fit),
@@ -168,17 +169,22 @@ FitRecord measured(const Body& body, SphereFit& fit, const std::optional<std::ve
     return figures;
 }
 
-/// `known`: of findNested() for the tolerance; all of both surfaces is filled then.
-PairSpheres fill(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
-                 double tolerance, const Nesting* known, const Progress& progress) {
-    PairSpheres spheres = options.spheres == SphereMethod::Medial
-                              ? fillZone(a, b, motion, options, tolerance, known, progress)
-                              : fillWhole(a, b, motion, options, tolerance, known, progress);
+/// As a file can hold them.
+PairSpheres stored(PairSpheres spheres, const Motion& motion, const BakeOptions& options) {
     roundToFloat(spheres.a);
     roundToFloat(spheres.b);
     spheres.stickOut = spheres.a.protrusion + spheres.b.protrusion;
     checkRest(spheres, motion, options);
     return spheres;
+}
+
+/// `known`: of findNested() for the tolerance; all of both surfaces is filled then.
+PairSpheres fill(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
+                 double tolerance, const Nesting* known, const Progress& progress) {
+    return stored(options.spheres == SphereMethod::Medial
+                      ? fillZone(a, b, motion, options, tolerance, known, false, progress)
+                      : fillWhole(a, b, motion, options, tolerance, known, progress),
+                  motion, options);
 }
 
 /// A tolerance, scene units, and the spheres of both bodies to it.
@@ -262,6 +268,13 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
     if (manyDofs(motion, options)) return fillToAskAll(scene, pair, motion, options, progress);
     const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
     return fill(a, b, motion, options, toleranceOf(a, b, options), nullptr, progress);
+}
+
+PairSpheres fillApart(const SceneModel& scene, const Pair& pair, const Motion& motion,
+                      const BakeOptions& options, const Progress& progress) {
+    const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
+    return stored(fillZone(a, b, motion, options, toleranceOf(a, b, options), nullptr, true, progress),
+                  motion, options);
 }
 
 std::vector<double> coarserTolerances(const SceneModel& scene, const Pair& pair, const BakeOptions& options) {

@@ -38,6 +38,11 @@ SphereOptions sphereOptions(const BakeOptions& options, double tolerance);
 PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
                      const BakeOptions& options, const Progress& progress = {});
 
+/// Fills all of both surfaces, as coarsely as shows that they never meet, where the spheres of fillPair() have
+/// shown that they do not: those stand for the contact zone alone, and what is out of its reach may be nearer.
+PairSpheres fillApart(const SceneModel& scene, const Pair& pair, const Motion& motion,
+                      const BakeOptions& options, const Progress& progress = {});
+
 /// Over more DOFs than these no cover is looked for.
 constexpr std::size_t mostCoverDofs = 6;
 

@@ -42,7 +42,8 @@ public:
             result_.epsilon = infinity;
             return result_;
         } else {
-            result_.epsilon = std::min(epsilonLeft(first.left), relaxEpsilon());
+            const double left = epsilonLeft(first.left); // before more is added to the cover
+            result_.epsilon = std::min(left, relaxEpsilon());
         }
         return finish();
     }

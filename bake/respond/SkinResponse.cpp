@@ -18,6 +18,12 @@ inline Move turned(const Move& x) {
     return {x[1], x[2], x[0], x[3]};
 }
 
+/// A pose so far off that the squares of its lengths are no floats is as good as none.
+bool canBeServed(const Pose& pose) {
+    constexpr double most = 1e15; // scene units
+    return pose.matrix().allFinite() && pose.matrix().cwiseAbs().maxCoeff() < most;
+}
+
 } // namespace
 
 /// All of a response: its rig, and what the last update left.
@@ -68,7 +74,7 @@ SkinUpdate SkinResponse::State::update(std::span<const double> activations, std:
         same = same && a == activations_[m];
         rest = rest && a == 0;
         activations_[m] = a;
-        const Pose pose = m < poses.size() && poses[m].matrix().allFinite() ? poses[m] : Pose::Identity();
+        const Pose pose = m < poses.size() && canBeServed(poses[m]) ? poses[m] : Pose::Identity();
         same = same && pose.matrix() == poses_[m].matrix();
         rest = rest && pose.matrix() == Pose::Identity().matrix();
         poses_[m] = pose;

@@ -10,7 +10,6 @@
 #include "bake/search/SampledSearch.h"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <memory>
 
@@ -42,12 +41,12 @@ std::uint64_t effortOfPart(std::uint64_t effort) {
 /// what else was found, so that the parts may run in any order.
 class PartSearch {
 public:
-    PartSearch(const SearchInput& problem, const std::atomic<bool>& stop)
-        : p_(problem), stop_(stop), found_(problem.a.size(), problem.b.size()) {}
+    PartSearch(const SearchInput& problem, Poll& poll)
+        : p_(problem), poll_(poll), found_(problem.a.size(), problem.b.size()) {}
 
     void run(const Cell& cell, const std::vector<NodePair>& open) {
         Cell inside = cell;
-        if (stop_ || done() || !shrinkToPlanes(p_.rates.motion(), inside)) return;
+        if (poll_.stopped() || done() || !shrinkToPlanes(p_.rates.motion(), inside)) return;
         ++cells_;
         const CellMotion motion(p_.rates, inside);
         std::vector<NodePair> left = judgeAll(motion, open);
@@ -113,7 +112,7 @@ private:
     }
 
     const SearchInput& p_;
-    const std::atomic<bool>& stop_;
+    Poll& poll_;
     ConcurrentPairs found_;
     bool any_ = false, finest_ = false;
     std::uint64_t cells_ = 0, looks_ = 0;
@@ -148,7 +147,8 @@ Found search(const SearchInput& problem, const Progress& progress) {
     const auto cells = parts(problem.rates, partCount);
     ConcurrentPairs all(problem.a.size(), problem.b.size());
     all.insertAll(problem.known);
-    std::atomic<bool> stop{false};
+    Poll poll(progress, "certified search");
+    bool stop = false;
     constexpr std::size_t batch = 8;
     bool any = false, spent = false;
     for (std::size_t first = 0; first < cells.size() && !(problem.firstOnly && any) && !spent;
@@ -156,7 +156,7 @@ Found search(const SearchInput& problem, const Progress& progress) {
         if (!report(progress, "certified search", double(first) / double(cells.size()))) stop = true;
         std::vector<std::unique_ptr<PartSearch>> part(batch);
         parallelFor(batch, [&](std::size_t k) {
-            part[k] = std::make_unique<PartSearch>(problem, stop);
+            part[k] = std::make_unique<PartSearch>(problem, poll);
             if (first + k < cells.size()) part[k]->run(cells[first + k], {{0, 0}});
         });
         for (const auto& p : part) {
@@ -166,7 +166,7 @@ Found search(const SearchInput& problem, const Progress& progress) {
             all.insertAll(p->found());
         }
     }
-    result.complete = !stop && !spent;
+    result.complete = !stop && !poll.stopped() && !spent;
     result.pairs = all.sorted();
     return result;
 }

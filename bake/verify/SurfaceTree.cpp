@@ -1,6 +1,7 @@
 #include "bake/verify/SurfaceTree.h"
 
 #include "bake/base/Error.h"
+#include "bake/geometry/MeshAudit.h"
 
 #include <algorithm>
 #include <limits>
@@ -109,8 +110,13 @@ SurfaceTree::SurfaceTree(const TriangleMesh& mesh, std::span<const SurfacePart> 
     for (const SurfacePart& part : sorted)
         if (part.triangle >= mesh.triangles.size() || part.cuts == 0)
             throw InputError("region at rest: expected parts of the mesh's triangles");
+    // Doubles, and triangles without area that lie on others: those stand for them, exempt or not.
+    std::vector<std::uint32_t> kept(mesh.triangles.size());
+    std::iota(kept.begin(), kept.end(), 0u);
+    if (auditMesh(mesh).usable()) cleaned(mesh, &kept);
     auto part = sorted.begin();
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const std::uint32_t t : kept) {
+        part = std::find_if(part, sorted.end(), [&](const auto& p) { return p.triangle >= t; });
         const auto end = std::find_if(part, sorted.end(), [&](const auto& p) { return p.triangle != t; });
         addPatches(patches, corners(mesh, {t, 1}), {t, 1}, {part, end});
         part = end;

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -193,8 +194,33 @@ void dropThoseThatPush(tss::SceneModel& model) {
     }
 }
 
-/// Somebody waits for the picture: a tenth of what `tss bake` looks for fewer tests. Where that ends it early,
-/// all that may touch are asked, with the same answers.
+/// Scenes hold floats: far from the root's origin, as in geocentric coordinates, bodies that hang in the
+/// root's own frame are rounded by more than their tables may be off.
+void refuseTooFarOff(const tss::SceneModel& model, const tss::Pair& pair) {
+    double farthest = 0, smaller = std::numeric_limits<double>::infinity();
+    for (const int index : {pair.bodyA, pair.bodyB}) {
+        const tss::TriangleMesh& mesh = model.bodies[index].mesh;
+        if (mesh.empty()) return; // refused for that
+        const auto box = tss::bounds(mesh);
+        farthest = std::max({farthest, box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()});
+        smaller = std::min(smaller, box.diagonal().norm());
+    }
+    for (const int joint : pair.joints)
+        for (const tss::Pose& frame : {model.joints[joint].frame0, model.joints[joint].frame1})
+            farthest = std::max(farthest, frame.translation().cwiseAbs().maxCoeff());
+    const double tolerance =
+        tss::optionsFor(pair.settings, {}, model.metersPerUnit).tolerance.value_or(smaller / 500);
+    const double rounding = 0x1p-23 * farthest;
+    if (!(rounding > 0.25 * tolerance)) return;
+    std::ostringstream text;
+    text << "coordinates of up to " << farthest << " from the root are rounded by " << rounding
+         << " in a scene, too much for a tolerance of " << tolerance
+         << "; bake and install below the transform that carries the machine there";
+    throw tss::InputError(text.str());
+}
+
+/// Somebody waits for the picture: a tenth of what `tss bake` looks for fewer tests. Where that ends it
+/// early, all that may touch are asked, with the same answers.
 constexpr std::uint64_t mostLooks = tss::BakeOptions().mostLooks / 10;
 
 /// A pair or skin that cannot be baked is shown as it moves, and the others are kept apart all the same.
@@ -206,6 +232,7 @@ void bakeOne(tss::SceneModel& model, const std::string& path, const BakeOptions&
     request.pairs = {path};
     request.mostLooks = mostLooks;
     try {
+        if (const int pair = tss::findPair(model, path); pair >= 0) refuseTooFarOff(model, model.pairs[pair]);
         for (const tss::PairReport& report : tss::bake(model, request, progress)) {
             const int pair = tss::findPair(model, path);
             std::string made = "never collides";

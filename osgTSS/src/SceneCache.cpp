@@ -23,11 +23,15 @@ std::vector<tss::GroupAnswer> SharedPlan::resolve(const std::vector<double>& las
 }
 
 std::shared_ptr<SharedPlan> Scene::Cache::plan(const std::vector<std::string>& pairPaths) {
+    constexpr std::size_t mostRecent = 4; // each holds its tables made ready, megabytes for large ones
     const std::lock_guard lock(mutex);
-    std::shared_ptr<SharedPlan>& plan = plans[pairPaths];
-    if (plan) return plan;
+    if (std::shared_ptr<SharedPlan> plan = plans[pairPaths].lock()) return plan;
     std::vector<std::string> warnings;
-    plan = std::make_shared<SharedPlan>(tss::makeJointPlan(*model, pairPaths, &warnings));
+    const auto plan = std::make_shared<SharedPlan>(tss::makeJointPlan(*model, pairPaths, &warnings));
+    std::erase_if(plans, [](const auto& entry) { return entry.second.expired(); });
+    plans[pairPaths] = plan;
+    recent.push_back(plan);
+    if (recent.size() > mostRecent) recent.pop_front();
     for (const std::string& warning : warnings)
         if (told.insert(warning).second) OSG_WARN << "osgTSS: " << warning << std::endl;
     return plan;

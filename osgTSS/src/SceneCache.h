@@ -7,6 +7,7 @@
 
 #include <osgTSS/Scene>
 
+#include <deque>
 #include <map>
 #include <mutex>
 #include <set>
@@ -48,7 +49,8 @@ struct Scene::Cache {
 private:
     std::shared_ptr<const tss::SceneModel> model;
     std::mutex mutex;
-    std::map<std::vector<std::string>, std::shared_ptr<SharedPlan>> plans;
+    std::map<std::vector<std::string>, std::weak_ptr<SharedPlan>> plans;
+    std::deque<std::shared_ptr<SharedPlan>> recent; ///< pairs are let go and taken up again now and then
     std::set<std::string> told; ///< warnings, once each whatever pairs are planned together
     std::map<int, std::shared_ptr<const tss::MuscleDeformer>> muscles;
     std::map<int, std::shared_ptr<const tss::SkinRig>> rigs;

@@ -8,10 +8,10 @@ namespace osgTSS {
 /// Time that the callbacks of a scene take in an update traversal, measured while somebody wants it.
 struct UpdateTime {
     std::atomic<bool> wanted = false;
-    osg::Timer_t begin = 0, end = 0; ///< of the first and the last callback since take()
+    osg::Timer_t begin = 0, end = 0; ///< of the first and the last callback since reset()
     double seconds = 0;              ///< in all of them
 
-    /// What came since the last call.
+    /// From here on it counts anew.
     void reset() {
         begin = end = 0;
         seconds = 0;

@@ -3,7 +3,9 @@
 #include "bake/geometry/MeshAudit.h"
 #include "tests/geometry/TestMeshes.h"
 
+#include <array>
 #include <catch2/catch.hpp>
+#include <numbers>
 
 using namespace tss;
 using namespace tss::test;
@@ -50,7 +52,7 @@ TEST_CASE("the winding number about any heap of triangles and its fans is an int
     }
 }
 
-TEST_CASE("seams, T-junctions and cracks are no openings") {
+TEST_CASE("seams and T-junctions are no openings, and cracks are closed along them") {
     std::mt19937_64 random(4);
     const TriangleMesh whole = lumpyMesh(random, 2, 0.3);
     TriangleMesh soup;
@@ -70,11 +72,13 @@ TEST_CASE("seams, T-junctions and cracks are no openings") {
         junctions.triangles.emplace_back(middle, t[1], t[2]);
     }
     const Solid solid(whole);
-    for (const TriangleMesh& mesh : {soup, cracked, junctions}) {
+    const std::array<TriangleMesh, 3> meshes{soup, cracked, junctions};
+    for (const TriangleMesh& mesh : meshes) {
         CHECK_FALSE(auditMesh(mesh).watertight);
         const Solid seamed(mesh);
-        CHECK_FALSE(seamed.open());
-        CHECK(seamed.assumptions().empty());
+        CHECK(seamed.open() == (&mesh == &meshes[1]));
+        CHECK(seamed.assumptions().starts_with(seamed.open() ? "cracks, up to 0.000" : ""));
+        CHECK(seamed.assumptions().empty() != seamed.open());
         for (int i = 0; i < 200; ++i) {
             const Vec3 p = uniformPoint(random, 1.3);
             if (solid.boundary().distance(p) > 1e-3) CHECK(seamed.inside(p) == solid.inside(p));
@@ -83,6 +87,63 @@ TEST_CASE("seams, T-junctions and cracks are no openings") {
     // A triangle that is not there is an opening, among seams too.
     soup.triangles.pop_back();
     CHECK(Solid(soup).open());
+}
+
+TEST_CASE("a hole with a rim of short edges is an opening, however fine the rim") {
+    // A plate from -1 to 1 with a round hole of many edges, in a box of few long ones that share no vertices.
+    constexpr int around = 200;
+    TriangleMesh mesh = boxMesh({-1, -1, -1}, {1, 1, 1});
+    std::erase_if(mesh.triangles, [&](const Tri& t) {
+        return std::ranges::all_of(t, [&](int v) { return mesh.vertices[v].z() == 1; });
+    });
+    for (int k = 0; k < around; ++k) {
+        const auto onRing = [](double radius, int k) {
+            const double angle = 2 * std::numbers::pi * k / around;
+            return Vec3(radius * std::cos(angle), radius * std::sin(angle), 1);
+        };
+        const auto onRim = [&](int k) {
+            const Vec3 p = onRing(1, k);
+            return Vec3(p.x() / p.head<2>().lpNorm<Eigen::Infinity>(),
+                        p.y() / p.head<2>().lpNorm<Eigen::Infinity>(), 1);
+        };
+        const auto at = static_cast<int>(mesh.vertices.size());
+        for (const Vec3& p : {onRing(0.1, k), onRim(k), onRim(k + 1), onRing(0.1, k + 1)})
+            mesh.vertices.push_back(p);
+        mesh.triangles.emplace_back(at, at + 1, at + 2);
+        mesh.triangles.emplace_back(at, at + 2, at + 3);
+    }
+    const Solid solid(mesh);
+    CHECK(solid.open());
+    CHECK(solid.inside({0, 0, 0.99}));
+    CHECK_FALSE(solid.inside({0, 0, 1.01}));
+    CHECK(solid.boundary().distance({0, 0, 0.95}) == Approx(0.05)); // the fan over the hole
+    CHECK(solid.protrusion({0, 0, 0.95}, 0.09) == Approx(0.04));
+}
+
+TEST_CASE("a crack is closed where it is, and counts as what may be gone through") {
+    TriangleMesh mesh = boxMesh({-50, -50, -50}, {50, 50, 50});
+    TriangleMesh lid;
+    for (const Tri& t : mesh.triangles)
+        if (std::ranges::all_of(t, [&](int v) { return mesh.vertices[v].z() == 50; })) {
+            for (const int v : t) lid.vertices.push_back(mesh.vertices[v] + Vec3(0, 0, 0.9));
+            const int at = static_cast<int>(lid.vertices.size());
+            lid.triangles.emplace_back(at - 3, at - 2, at - 1);
+        }
+    std::erase_if(mesh.triangles, [&](const Tri& t) {
+        return std::ranges::all_of(t, [&](int v) { return mesh.vertices[v].z() == 50; });
+    });
+    const auto first = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), lid.vertices.begin(), lid.vertices.end());
+    for (const Tri& t : lid.triangles) mesh.triangles.emplace_back(t[0] + first, t[1] + first, t[2] + first);
+    const Solid solid(mesh);
+    CHECK(solid.open());
+    CHECK(solid.assumptions().find("up to 0.9 scene units") != std::string::npos);
+    CHECK(solid.inside({0, 0, 50.8}));
+    CHECK_FALSE(solid.inside({0, 0, 51}));
+    CHECK(solid.inside({0, 49.9, 50.4}));
+    CHECK_FALSE(solid.inside({0, 50.1, 50.4}));
+    CHECK(solid.boundary().distance({0, 49.9, 50.45}) ==
+          Approx(0.1).epsilon(1e-3)); // the strip over the crack
 }
 
 TEST_CASE("a hollow mesh is its surface alone") {

@@ -137,6 +137,11 @@ TEST_CASE("a motion that cannot be served is refused") {
     }));
     CHECK(refused([&](Motion& m) {
         path(m);
+        m.dofs[0].path.insert(m.dofs[0].path.begin() + 1, m.dofs[0].path[0]);
+        m.dofs[0].path[1].value += 1e-15;
+    }));
+    CHECK(refused([&](Motion& m) {
+        path(m);
         m.dofs[0].frame.translation().x() = NAN;
     }));
     CHECK(refused([](Motion& m) { m.base.linear() *= 3; }));

@@ -1,3 +1,4 @@
+#include "Nodes.h"
 #include "Playback.h"
 #include "Scenes.h"
 
@@ -111,4 +112,44 @@ TEST_CASE("who is told of a contact may take the tables from the graph") {
     playback.frames(*graph, 0, 24);
     CHECK(listen->told == 1);
     CHECK(listen->referenceCount() == 1);
+}
+
+TEST_CASE("a contact goes on when another joint is let go, and ends when its own is") {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->setName("Rig");
+    root->addChild(nodes::box(osg::Vec3(3, 0, 0), 0.5f));
+    std::vector<osg::ref_ptr<osgSim::DOFTransform>> slides;
+    for (const char* name : {"A", "B"}) {
+        slides.push_back(nodes::dof(name));
+        slides.back()->setMaxTranslate(osg::Vec3(5, 0, 0));
+        slides.back()->addChild(nodes::box(osg::Vec3(0, slides.size() > 1 ? 4 : 0, 0), 0.5f));
+        root->addChild(slides.back());
+    }
+    tss::SceneModel model = nodes::extract(*root);
+    REQUIRE(model.pairs.size() == 2);
+    for (std::size_t pair = 0; pair < 2; ++pair)
+        nodes::giveTable(model, pair, osg::Vec3(3, 0, 0), osg::Vec3(0, 0, 0), 0.5);
+    osg::ref_ptr<Scene> scene = new Scene(std::make_shared<tss::SceneModel>(model));
+    CHECK(install(*root, *scene).joints == 2);
+    osg::ref_ptr<Listen> listen = new Listen;
+    scene->setContactCallback(listen);
+    Playback playback;
+    const auto frame = [&](double scaleA, double scaleB) {
+        static unsigned int number = 0;
+        slides[0]->setCurrentTranslate(osg::Vec3(4, 0, 0));
+        slides[0]->setCurrentScale(osg::Vec3(1, 1, 1) * scaleA);
+        slides[1]->setCurrentScale(osg::Vec3(1, 1, 1) * scaleB);
+        listen->heard.clear();
+        playback.frame(*root, ++number);
+        std::string events;
+        for (const Contact& contact : listen->heard)
+            events += contact.event == Contact::BEGIN ? "b" : contact.event == Contact::STAY ? "s" : "e";
+        return events;
+    };
+    CHECK(frame(1, 1) == "b");
+    CHECK(frame(1, 1) == "s");
+    CHECK(frame(1, 1.5) == "s"); // B is let go
+    CHECK(frame(1, 1) == "s");
+    CHECK(frame(1.5, 1) == "e"); // A is
+    CHECK(frame(1.5, 1) == "");
 }

@@ -155,3 +155,87 @@ TEST_CASE(
     playback.frame(*root, 0);
     CHECK(slide->getCurrentTranslate() == osg::Vec3());
 }
+
+namespace {
+
+/// A box that slides along X towards one at 3, which it meets at 2.
+struct Slide {
+    osg::ref_ptr<osg::MatrixTransform> root;
+    osg::ref_ptr<osgSim::DOFTransform> slide;
+    osg::ref_ptr<Scene> scene;
+    Playback playback;
+    unsigned int frame = 0;
+
+    explicit Slide(const osg::Matrixd& place) : root(new osg::MatrixTransform(place)), slide(dof("Slide")) {
+        root->addChild(box(osg::Vec3(3, 0, 0), 0.5f));
+        slide->setMaxTranslate(osg::Vec3(5, 0, 0));
+        slide->addChild(box(osg::Vec3(), 0.5f));
+        root->addChild(slide);
+    }
+    Installed play() {
+        scene = bake(*root, BakeOptions("tolerance=0.05 budget=0.5"));
+        return install(*root, *scene);
+    }
+    float to(float x) {
+        slide->setCurrentTranslate(osg::Vec3(x, 0, 0));
+        playback.frame(*root, ++frame);
+        return static_cast<float>(slide->getCurrentTranslate().x());
+    }
+};
+
+} // namespace
+
+TEST_CASE("a slide stops at contact under a mirror too") {
+    for (const osg::Vec3d& scale : {osg::Vec3d(1, 1, 1), osg::Vec3d(1, -1, 1), osg::Vec3d(-2, 2, 2)}) {
+        Slide mirrored(osg::Matrixd::scale(scale));
+        CHECK(mirrored.play().joints == 1);
+        CHECK(mirrored.to(5) < 2);
+        CHECK(mirrored.to(5) > 1.8f);
+        CHECK(mirrored.to(1) == 1);
+    }
+}
+
+TEST_CASE(
+    "a machine too far from the root for the floats of a scene is left out, and served below its transform") {
+    Slide far(osg::Matrixd::translate(3.9e6, 0.3e6, 5e6));
+    osg::ref_ptr<osg::Group> world = new osg::Group;
+    world->addChild(far.root);
+    Heard heard;
+    const osg::ref_ptr<Scene> scene = bake(*world, BakeOptions("tolerance=0.05 budget=0.5"));
+    CHECK(install(*world, *scene).joints == 0);
+    CHECK(heard.times("coordinates of up to 5e+06 from the root are rounded by 0.59") == 1);
+    Slide below{osg::Matrixd()};
+    osg::ref_ptr<osg::MatrixTransform> carrier =
+        new osg::MatrixTransform(osg::Matrixd::translate(3.9e6, 0.3e6, 5e6));
+    carrier->addChild(below.root);
+    CHECK(below.play().joints == 1);
+    CHECK(below.to(5) < 2);
+}
+
+TEST_CASE("a joint that stands at no number at first starts from where it rests") {
+    Slide lost{osg::Matrixd()};
+    CHECK(lost.play().joints == 1);
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    CHECK(lost.to(none) == 0);
+    CHECK(lost.to(3) < 2);
+}
+
+TEST_CASE("a tag whose words have become nonsense lets its joint go, and the update goes on") {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(box(osg::Vec3(3, 0, 0), 0.5f));
+    osg::ref_ptr<osg::MatrixTransform> slide = new osg::MatrixTransform;
+    slide->setName("Slide");
+    slide->setUserValue("osgTSS:dofs", std::string("transX:0:5"));
+    slide->addChild(box(osg::Vec3(), 0.5f));
+    root->addChild(slide);
+    const osg::ref_ptr<Scene> scene = bake(*root, BakeOptions("tolerance=0.05 budget=0.5"));
+    CHECK(install(*root, *scene).joints == 1);
+    slide->setUserValue("osgTSS:dofs", std::string("transX:1:5"));
+    Heard heard;
+    Playback playback;
+    CHECK_NOTHROW(playback.frame(*root, 0));
+    CHECK(heard.times("expected limits that hold 0") == 1);
+    slide->setMatrix(osg::Matrixd::translate(4, 0, 0));
+    playback.frame(*root, 1);
+    CHECK(slide->getMatrix().getTrans().x() == 4);
+}

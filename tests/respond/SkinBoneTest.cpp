@@ -1,6 +1,9 @@
 #include "SkinShapes.h"
+#include "tests/FloatTraps.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <limits>
 
 using namespace tss;
 
@@ -99,4 +102,21 @@ TEST_CASE("a bone that swings wide takes its skin along as it turns; skin far fr
         }
         CHECK(leastCosine > 0.9);
     }
+}
+
+TEST_CASE("a bone that is thrown out of all bounds, or is no number, leaves its skin at rest") {
+    const FloatTrapsOff traps;
+    const Finger finger(20);
+    const auto rig = finger.couple.rig(finger.parameters);
+    SkinResponse response(rig);
+    for (const double far : {1e12, 1e21, 1e200, std::numeric_limits<double>::infinity(),
+                             std::numeric_limits<double>::quiet_NaN()}) {
+        Pose thrown = finger.swung;
+        thrown.translation().x() = far;
+        for (int f = 0; f < 3; ++f) response.update(std::vector<double>{0}, std::vector<Pose>{thrown});
+        for (const Vec3& x : response.positions()) REQUIRE(x.allFinite());
+        if (!(far < 1e15)) CHECK(std::ranges::equal(response.positions(), rig->rest));
+    }
+    response.update(std::vector<double>{0}, std::vector<Pose>{Pose::Identity()});
+    CHECK(std::ranges::equal(response.positions(), rig->rest));
 }

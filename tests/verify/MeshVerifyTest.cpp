@@ -146,6 +146,12 @@ TEST_CASE("parts that are exempt from each other need no test, and everything el
     CHECK(whole.holds());
     CHECK(whole.exempt.shareA == Approx(1));
     CHECK(whole.exempt.areaB == Approx(6));
+    // A triangle without area on an edge between two of them, or one of them again, is no other surface.
+    Case twice = c;
+    const Tri first = c.a.triangles[0];
+    twice.a.triangles.emplace_back(first[0], first[1], first[0]);
+    twice.a.triangles.push_back(first);
+    CHECK(twice.verdict().holds());
     // Half of one triangle of A's right side counts again: B's sides cross it all round.
     for (std::uint32_t t = 0; t < 12; ++t) {
         const Corners corner = corners(c.a, {t, 1});

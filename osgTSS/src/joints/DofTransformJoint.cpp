@@ -253,8 +253,9 @@ std::unique_ptr<JointNode> makeDofTransformNode(osgSim::DOFTransform& node, cons
     std::vector<DofSlot> slots;
     for (const tss::Dof& dof : joint.dofs) {
         Eigen::Index axis = 0;
-        const double length = dof.axis.cwiseAbs().maxCoeff(&axis);
-        if (dof.kind == tss::DofKind::Path || dof.axis != tss::Vec3(tss::Vec3::Unit(axis) * length))
+        dof.axis.cwiseAbs().maxCoeff(&axis);
+        // Of any length, below 0 under a mirror: a value is that of the node's own units.
+        if (dof.kind == tss::DofKind::Path || dof.axis != tss::Vec3(tss::Vec3::Unit(axis) * dof.axis[axis]))
             return nullptr;
         const bool rotation = dof.kind == tss::DofKind::Rotation;
         const bool fullTurn = rotation && dof.upper - dof.lower >= 2 * osg::PI * (1 - 1e-6);

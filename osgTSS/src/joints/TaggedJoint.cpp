@@ -6,6 +6,7 @@
 #include "bake/base/Error.h"
 
 #include <osg/MatrixTransform>
+#include <osg/Notify>
 #include <osg/PositionAttitudeTransform>
 #include <osg/ValueObject>
 #include <osg/observer_ptr>
@@ -195,7 +196,12 @@ std::unique_ptr<JointNode> makeTaggedNode(osg::Node& node, const tss::Joint& joi
     auto* transform = node.asTransform();
     osg::Matrixd rest;
     if (!transform || !node.getUserValue(restTag, rest)) return nullptr;
-    const std::vector<tss::Dof> dofs = dofsOf(node);
+    std::vector<tss::Dof> dofs;
+    try {
+        dofs = dofsOf(node);
+    } catch (const tss::InputError& error) { // the application has changed its words since
+        OSG_WARN << "osgTSS: node \"" << node.getName() << "\": " << error.message << std::endl;
+    }
     if (dofs.size() != joint.dofs.size()) return nullptr;
     return std::make_unique<TaggedNode>(*transform, dofs, rest);
 }

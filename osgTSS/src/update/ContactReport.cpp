@@ -6,6 +6,7 @@
 #include <osgTSS/Convert>
 
 #include <algorithm>
+#include <map>
 
 namespace osgTSS {
 
@@ -23,7 +24,12 @@ std::vector<double> valuesOf(const tss::SceneModel& model, const tss::JointPlan&
 
 } // namespace
 
-void ContactReport::watch(const Scene& scene, const tss::JointPlan& plan, osg::NodeVisitor& visitor) {
+bool ContactReport::watches(const std::vector<Watched>& watched, const tss::JointPlan::Group& group) {
+    return std::ranges::equal(watched, group.pairs, {}, &Watched::pair);
+}
+
+void ContactReport::watch(const Scene& scene, const tss::JointPlan& plan, osg::NodeVisitor& visitor,
+                          ToldContacts& told) {
     const tss::SceneModel& model = scene.getModel();
     const osg::NodePath& path = visitor.getNodePath();
     // Bodies may stand above the node of the callback, up to the root that the scene was installed on; of
@@ -39,12 +45,31 @@ void ContactReport::watch(const Scene& scene, const tss::JointPlan& plan, osg::N
                 return Side{found->second.node, found->second.scale};
         return Side{};
     };
+    _unknown = false;
+    std::map<int, Watched> before;
+    for (const std::vector<Watched>& group : _groups)
+        for (const Watched& watched : group)
+            if (watched.touching) before[watched.pair] = watched;
+    _groups.clear();
     for (const tss::JointPlan::Group& group : plan.groups) {
         std::vector<Watched> watched;
-        for (int pair : group.pairs)
-            watched.push_back(
-                {pair, side(model.pairs[pair].bodyA), side(model.pairs[pair].bodyB), false, {}});
+        for (int pair : group.pairs) {
+            Watched one{pair, side(model.pairs[pair].bodyA), side(model.pairs[pair].bodyB), false, {}};
+            if (const auto was = before.find(pair); was != before.end()) {
+                one.touching = true;
+                one.last = was->second.last;
+                before.erase(was);
+            }
+            watched.push_back(std::move(one));
+        }
         _groups.push_back(std::move(watched));
+    }
+    // Pairs that are no longer kept apart.
+    for (auto& [pair, watched] : before) {
+        watched.last.event = Contact::END;
+        watched.last.nodeA = watched.a.node.get();
+        watched.last.nodeB = watched.b.node.get();
+        told.add(watched.last);
     }
 }
 
@@ -76,10 +101,7 @@ ToldContacts ContactReport::report(const Scene& scene, const tss::JointPlan& pla
                                    osg::NodeVisitor& visitor) {
     ToldContacts told;
     const tss::SceneModel& model = scene.getModel();
-    if (_groups.size() != plan.groups.size()) {
-        _groups.clear();
-        watch(scene, plan, visitor);
-    }
+    if (_unknown || !std::ranges::equal(_groups, plan.groups, watches)) watch(scene, plan, visitor, told);
     for (std::size_t g = 0; g < answers.size(); ++g) {
         const std::vector<int>& held = answers[g].held;
         for (std::size_t k = 0; k < _groups[g].size(); ++k) {

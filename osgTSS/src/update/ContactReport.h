@@ -35,6 +35,9 @@ public:
     ToldContacts report(const Scene& scene, const tss::JointPlan& plan, const std::vector<double>& q,
                         const std::vector<tss::GroupAnswer>& answers, osg::NodeVisitor& visitor);
 
+    /// The graph has changed: the bodies' nodes are looked for again.
+    void lookAgain() { _unknown = true; }
+
 private:
     struct Side {
         osg::observer_ptr<osg::Node> node;
@@ -48,11 +51,14 @@ private:
         Contact last;
     };
 
-    void watch(const Scene& scene, const tss::JointPlan& plan, osg::NodeVisitor& visitor);
+    static bool watches(const std::vector<Watched>& watched, const tss::JointPlan::Group& group);
+    /// Goes on with the pairs of a plan; what touched and is no pair of it any more has ended.
+    void watch(const Scene& scene, const tss::JointPlan& plan, osg::NodeVisitor& visitor, ToldContacts& told);
     static void locate(const tss::SceneModel& model, const tss::JointPlan& plan, const std::vector<double>& q,
                        Watched& watched);
 
     std::vector<std::vector<Watched>> _groups; ///< as the plan's
+    bool _unknown = false;                     ///< where the bodies' nodes are by now
 };
 
 } // namespace osgTSS

@@ -56,7 +56,7 @@ struct JointCallback::Binding {
     std::vector<double> q;                        ///< where the joints are
     std::vector<double> asked;                    ///< room for what is asked
     std::vector<tss::GroupAnswer> found;
-    ContactReport contacts;
+    ContactReport contacts;                ///< carried on when other pairs are kept apart
     std::optional<SkeletonPose> skeletons; ///< where some joint is a bone
     unsigned int traversal = 0, frame = 0; ///< of the last update
     bool updated = false;                  ///< there was one
@@ -122,6 +122,8 @@ JointCallback::Binding::Binding(osg::Node& owner, const Scene& scene,
         // Where the joints that are left are, so that none goes through anything meanwhile.
         plan = before->plan;
         q = before->q;
+        contacts = before->contacts;
+        contacts.lookAgain();
     }
     choose(scene, pairPaths);
 }
@@ -146,12 +148,12 @@ void JointCallback::Binding::choose(const Scene& scene, const std::vector<std::s
     joints.clear();
     q.clear();
     found.clear();
-    contacts = {};
     for (int index : (*plan)->joints) {
         joints.push_back(bound[index].access.get());
         const auto known = at.find(index);
         const std::vector<double> values = known != at.end() ? known->second : joints.back()->shown();
-        q.insert(q.end(), values.begin(), values.end());
+        for (std::size_t k = 0; k < values.size(); ++k) // what is no number cannot be gone on from
+            q.push_back(std::isfinite(values[k]) ? values[k] : model->joints[index].dofs[k].rest);
     }
 }
 
@@ -297,7 +299,7 @@ bool JointCallback::run(osg::Object* object, osg::Object* data) {
             binding.resolve();
         }
         binding.show();
-        if (!again && callback && !binding.joints.empty())
+        if (!again && callback)
             told = binding.contacts.report(*scene, **binding.plan, binding.q, binding.found, *visitor);
     }
     if (callback) told.tell(*callback, *visitor);

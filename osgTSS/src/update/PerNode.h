@@ -3,12 +3,14 @@
 #include <osg/observer_ptr>
 
 #include <memory>
+#include <mutex>
 #include <unordered_map>
 
 namespace osgTSS {
 
 /// A state for each node that a callback stands on: shallow copies of a graph share their callbacks, a crowd
-/// a thousand times. States of nodes that are gone are dropped by and by.
+/// a thousand times, and may be updated in several threads, each of its own copies. States of nodes that are
+/// gone are dropped by and by.
 template <class State>
 class PerNode {
 public:
@@ -16,6 +18,7 @@ public:
     /// says that it is no longer good. `make` is given the old one, which may be null.
     template <class Make, class Good>
     State& of(osg::Node& node, const Make& make, const Good& good) {
+        const std::lock_guard lock(_mutex);
         Entry& entry = _entries[&node];
         // Another node may stand where one that is gone stood.
         if (entry.state && !entry.node.valid()) entry.state = nullptr;
@@ -29,12 +32,19 @@ public:
 
     /// Null when there is none.
     const State* find(const osg::Node& node) const {
+        const std::lock_guard lock(_mutex);
         const auto found = _entries.find(&node);
         return found != _entries.end() && found->second.node.valid() ? found->second.state.get() : nullptr;
     }
 
-    void erase(const osg::Node& node) { _entries.erase(&node); }
-    void clear() { _entries.clear(); }
+    void erase(const osg::Node& node) {
+        const std::lock_guard lock(_mutex);
+        _entries.erase(&node);
+    }
+    void clear() {
+        const std::lock_guard lock(_mutex);
+        _entries.clear();
+    }
 
 private:
     struct Entry {
@@ -49,7 +59,8 @@ private:
         _left = _entries.size();
     }
 
-    std::unordered_map<const osg::Node*, Entry> _entries;
+    mutable std::mutex _mutex;
+    std::unordered_map<const osg::Node*, Entry> _entries; // whose states stay where they are
     std::size_t _left = 0;
 };
 

@@ -26,7 +26,9 @@ namespace osgTSS {
 
 namespace {
 
-constexpr std::size_t calls = 64;
+/// All is looked at once in so many calls; looking at the whole graph anew costs milliseconds, and is done at
+/// most once in as many more.
+constexpr std::size_t calls = 32;
 
 bool isJoint(osg::Node& node) {
     return dynamic_cast<JointTransform*>(&node) || dynamic_cast<osgSim::DOFTransform*>(&node) ||
@@ -95,14 +97,14 @@ private:
     };
 
     void look(osg::Node& node) {
-        const bool above = std::exchange(_known, _known && !_into._since.contains(&node));
+        const bool above = std::exchange(_known, _known && !_into.cameSince(node));
         Part part{&node, false, _known, numberOf(node, false)};
         if (osg::Group* group = node.asGroup())
             for (unsigned int k = 0; k < group->getNumChildren(); ++k) {
                 osg::Node& child = *group->getChild(k);
                 const std::size_t before = _body->drawn;
                 child.accept(*this);
-                const bool known = _known && !_into._since.contains(&child);
+                const bool known = _known && !_into.cameSince(child);
                 part.children.emplace_back(&child, known && _body->drawn > before);
             }
         else
@@ -136,6 +138,11 @@ StandingParts::StandingParts(osg::Node& root, const tss::SceneModel& model) : _r
     Collect(*this);
 }
 
+bool StandingParts::cameSince(osg::Node& node) const {
+    const auto found = _since.find(&node);
+    return found != _since.end() && found->second.valid();
+}
+
 std::size_t StandingParts::numberOf(const osg::Node& node, bool fixed) {
     std::size_t number = 1;
     const auto add = [&](auto value) { number = number * 31 + std::hash<decltype(value)>()(value); };
@@ -154,20 +161,22 @@ std::size_t StandingParts::numberOf(const osg::Node& node, bool fixed) {
 
 /// What is gone is missed by the group that it was in.
 bool StandingParts::isOther(const Part& part) const {
-    return part.node.valid() && numberOf(*part.node, part.fixed) != part.number;
+    return part.node.valid() &&
+           (numberOf(*part.node, part.fixed) != part.number ||
+            std::ranges::any_of(part.children, [](const auto& child) { return !child.first.valid(); }));
 }
 
 /// Of a group: what is new below it, or gone.
 bool StandingParts::childConcerns(const Part& part, const osg::NodePath& path, PairBodies& bodies) {
     osg::Group& group = *part.node->asGroup();
     for (const auto& [child, known] : part.children)
-        if (known && !group.containsNode(child) && bodies.hold(path)) return true;
+        if (known && !group.containsNode(child.get()) && bodies.hold(path)) return true;
     for (unsigned int k = 0; k < group.getNumChildren(); ++k) {
         osg::Node& child = *group.getChild(k);
-        const auto same = [&](const auto& was) { return was.first == &child; };
+        const auto same = [&](const auto& was) { return was.first.get() == &child; };
         if (dynamic_cast<Overlay*>(&child) || std::ranges::any_of(part.children, same)) continue;
         if (bodies.separatedBy(child) || bodies.mayBeMetBy(child, path)) return true;
-        _since.insert(&child);
+        _since[&child] = &child;
     }
     return false;
 }
@@ -189,6 +198,10 @@ std::string StandingParts::whatConcerns(const Part& part, PairBodies& bodies) {
 }
 
 std::optional<std::string> StandingParts::changed() {
+    if (_pause > 0) {
+        --_pause;
+        return std::nullopt;
+    }
     bool other = false;
     for (std::size_t k = (_parts.size() + calls - 1) / calls; k-- > 0 && !other;) {
         other = isOther(_parts[_next]);
@@ -206,6 +219,7 @@ std::optional<std::string> StandingParts::changed() {
     // From here on what is there now is what was there, but for what tables do not know.
     _parts.clear();
     _next = 0;
+    _pause = calls;
     Collect(*this);
     return std::nullopt;
 }

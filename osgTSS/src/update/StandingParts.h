@@ -4,8 +4,8 @@
 #include <osg/Group>
 #include <osg/observer_ptr>
 
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -31,10 +31,12 @@ private:
         bool fixed; ///< a transform that nothing is known to move
         bool known; ///< tables know it, or of a transform something below it
         std::size_t number;
-        std::vector<std::pair<osg::Node*, bool>> children{}; ///< and whether tables know what is drawn there
+        /// And whether tables know what is drawn there. One that is gone may have another at its address.
+        std::vector<std::pair<osg::observer_ptr<osg::Node>, bool>> children{};
     };
     class Collect;
 
+    bool cameSince(osg::Node& node) const;
     static std::size_t numberOf(const osg::Node& node, bool fixed);
     bool isOther(const Part& part) const;
     std::string whatConcerns(const Part& part, PairBodies& bodies);
@@ -43,8 +45,9 @@ private:
     osg::Node& _root;
     const tss::SceneModel& _model;
     std::vector<Part> _parts;
-    std::set<const osg::Node*> _since; ///< what came later, and is of no concern
-    std::size_t _next = 0;
+    std::map<const osg::Node*, osg::observer_ptr<osg::Node>>
+        _since;                        ///< what came later, and is of no concern
+    std::size_t _next = 0, _pause = 0; ///< calls that nothing is looked at in
 };
 
 } // namespace osgTSS
