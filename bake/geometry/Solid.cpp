@@ -200,10 +200,6 @@ std::string describe(const TriangleMesh& mesh, const Openings& openings, bool ho
     return s;
 }
 
-} // namespace
-
-namespace {
-
 TriangleMesh closing(const TriangleMesh& mesh, const Openings& openings) {
     UnionFind together(mesh.vertices.size());
     for (const OpenEdge& e : openings.rims) together.join(e.from, e.to);

@@ -169,8 +169,7 @@ std::vector<BakeOption> makeBakeOptions() {
          [](BakeOptions& o, Text key, Text text, double) { o.atRest = choice(key, text, atRestWords); }},
         {"budget",
          "seconds to find the few tests of each pair, making its spheres not counted; 0: no limit. Default: "
-         "about a minute of one core; where they are not found then, and always over more than six degrees "
-         "of "
+         "about a minute of one core; where they are not found then, and always over more than six degrees of "
          "freedom, all tests that may touch are kept",
          [](BakeOptions& o, Text, Text text, double) {
              o.budget = parseNumber(text, "--budget");

@@ -23,7 +23,8 @@ FilledMuscles fillMuscles(const SceneModel& scene, const SkinModel& skin, const 
             filled.searched.push_back({&deformer, {}});
             continue;
         }
-        const SphereOptions how = sphereOptions(options, options.tolerance.value_or(diagonal(surface) / 100));
+        const SphereOptions how =
+            sphereOptions(options, options.tolerance.value_or(diagonal(surface) / 100));
         const SphereFit fit = fitSpheres(cleaned(surface), how, progress);
         if (!fit.note.empty()) report.notes.push_back(pathOf(scene, under[m]) + ": " + fit.note);
         filled.searched.push_back({&deformer, roundToFloat(fit.spheres)});
