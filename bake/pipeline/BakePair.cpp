@@ -109,13 +109,19 @@ struct PairBaker {
     /// Fill: both bodies with spheres, and how well these fit; then the few tests that answer for all.
     Attempt few() const {
         Attempt attempt = tabulated(measured(fillPair(scene, pair, motion, options, progress)));
-        // No tests: nothing meets. How far apart, only spheres all over the surfaces tell.
+        // No tests: nothing meets. How far apart, spheres tell that reach farther than what may touch.
         const Table* table = attempt.made.table.get();
+        const double clearance = attempt.spheres.clearanceAtRest;
         if (!attempt.spheres.zoneA || !table || !table->certified || table->testCount() > 0 ||
-            !table->restRegion.empty())
+            !(clearance > 0))
             return attempt;
-        Attempt whole = tabulated(measured(fillApart(scene, pair, motion, options, progress)));
-        return whole.made.proof ? std::move(whole) : std::move(attempt);
+        for (const double share : {0.5, 0.1, 0.02}) {
+            Attempt reached = tabulated(measured(
+                fillWithin(scene, pair, motion, options,
+                           share * std::min(clearance, options.tolerance.value_or(clearance)), progress)));
+            if (reached.made.proof) return reached;
+        }
+        return attempt;
     }
 
     /// The proof that the surfaces never meet, where it is found without any spheres.

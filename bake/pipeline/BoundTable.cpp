@@ -9,10 +9,9 @@ void boundProof(Selection& selection, const PairTask& task) {
     if (!selection.proof) return;
     double& clearance = selection.proof->clearance;
     clearance -= task.spheres.a.coverage + task.spheres.b.coverage;
-    // Of spheres that stand for a part of the surfaces no distance follows, but that nothing meets.
-    const bool whole = !task.spheres.zoneA && !task.spheres.zoneB;
-    if (whole && std::isfinite(clearance) && clearance > 0 && task.ruled.rule.empty() &&
-        task.ruled.region.empty())
+    // Of the surface out of the contact zone no more is known.
+    if (task.spheres.zoneA || task.spheres.zoneB) clearance = std::min(clearance, task.spheres.zoneMargin);
+    if (std::isfinite(clearance) && clearance > 0 && task.ruled.rule.empty() && task.ruled.region.empty())
         return;
     selection.proof.reset();
     selection.certified = true;

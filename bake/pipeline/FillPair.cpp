@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace tss {
 
@@ -74,6 +75,7 @@ PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, dou
                             fitSpheres(cleaned(meshOf(b)), howB, progress),
                             {},
                             {},
+                            0,
                             {},
                             {},
                             fit.rest.clearance,
@@ -91,10 +93,9 @@ PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, dou
 }
 
 /// Medial spheres stand in the contact zone only, fine where the verdict needs it; where `known` is given,
-/// all over the surfaces; where these are known never to meet (`apart`), all over them, as spheresApart() has
-/// it.
+/// all over the surfaces. margin: what is out of the zone stays farther away than this.
 PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
-                     double tolerance, const Nesting* known, bool apart, const Progress& progress) {
+                     double tolerance, const Nesting* known, double margin, const Progress& progress) {
     ContactZoneOptions zone;
     zone.tolerance = tolerance;
     zone.depth = options.depth;
@@ -102,16 +103,18 @@ PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const B
     zone.atRest = options.atRest;
     zone.maxSpheres = options.maxSpheres;
     zone.conservative = options.conservative;
+    zone.margin = margin;
     zone.whole = known != nullptr;
     if (known) zone.nesting = *known;
     const TriangleMesh meshA = cleaned(meshOf(a)), meshB = cleaned(meshOf(b));
     ContactZoneFit fit = fitContactZone(meshA, meshB, motion, zone, progress);
-    if (apart || fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
+    if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
         return spheresApart(a, b, motion, tolerance, {fit.a.fit.hollow, fit.b.fit.hollow}, fit, progress);
     return {std::move(fit.a.fit),
             std::move(fit.b.fit),
             std::move(fit.a.zone),
             std::move(fit.b.zone),
+            known ? std::numeric_limits<double>::infinity() : margin, // nothing is out of all
             {},
             {},
             fit.rest.clearance,
@@ -182,7 +185,7 @@ PairSpheres stored(PairSpheres spheres, const Motion& motion, const BakeOptions&
 PairSpheres fill(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
                  double tolerance, const Nesting* known, const Progress& progress) {
     return stored(options.spheres == SphereMethod::Medial
-                      ? fillZone(a, b, motion, options, tolerance, known, false, progress)
+                      ? fillZone(a, b, motion, options, tolerance, known, 0, progress)
                       : fillWhole(a, b, motion, options, tolerance, known, progress),
                   motion, options);
 }
@@ -270,10 +273,10 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
     return fill(a, b, motion, options, toleranceOf(a, b, options), nullptr, progress);
 }
 
-PairSpheres fillApart(const SceneModel& scene, const Pair& pair, const Motion& motion,
-                      const BakeOptions& options, const Progress& progress) {
+PairSpheres fillWithin(const SceneModel& scene, const Pair& pair, const Motion& motion,
+                       const BakeOptions& options, double margin, const Progress& progress) {
     const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
-    return stored(fillZone(a, b, motion, options, toleranceOf(a, b, options), nullptr, true, progress),
+    return stored(fillZone(a, b, motion, options, toleranceOf(a, b, options), nullptr, margin, progress),
                   motion, options);
 }
 

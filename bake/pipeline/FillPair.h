@@ -13,6 +13,7 @@ struct PairSpheres {
     SphereFit a, b;
     /// The surface that they stand for, where that is not all of it: the contact zone.
     std::optional<std::vector<Patch>> zoneA{}, zoneB{};
+    double zoneMargin = 0;            ///< surface out of the zone stays farther from the other body than this
     FitRecord figuresA{}, figuresB{}; ///< as far as they were measured
     double clearanceAtRest = 0;       ///< of the surfaces; 0: they touch or overlap
     RestRegion region{};              ///< of the meshes as loaded, where spheres are fitted to surfaces
@@ -38,10 +39,10 @@ SphereOptions sphereOptions(const BakeOptions& options, double tolerance);
 PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
                      const BakeOptions& options, const Progress& progress = {});
 
-/// Fills all of both surfaces, as coarsely as shows that they never meet, where the spheres of fillPair() have
-/// shown that they do not: those stand for the contact zone alone, and what is out of its reach may be nearer.
-PairSpheres fillApart(const SceneModel& scene, const Pair& pair, const Motion& motion,
-                      const BakeOptions& options, const Progress& progress = {});
+/// fillPair() for up to three DOFs, with spheres all over what comes within the margin, scene units: they
+/// tell how far apart bodies stay, up to that, where spheres of what may touch have shown that nothing does.
+PairSpheres fillWithin(const SceneModel& scene, const Pair& pair, const Motion& motion,
+                       const BakeOptions& options, double margin, const Progress& progress = {});
 
 /// Over more DOFs than these no cover is looked for.
 constexpr std::size_t mostCoverDofs = 6;
