@@ -262,6 +262,7 @@ osg::ref_ptr<Scene> bake(osg::Node& root, const BakeOptions& options, const Bake
                      << std::endl;
         }
     }
+    tss::optionsFor({}, options.settings, 1); // set in code: a wrong one is no pair's fault
     tagNodes(root, options);
     std::shared_ptr<tss::SceneModel> model = extract(root, options);
     for (tss::Pair& pair : model->pairs)
