@@ -3,34 +3,10 @@
 #include "bake/base/Error.h"
 
 #include <algorithm>
-#include <map>
 
 namespace tss {
 
 namespace {
-
-/// The shortest way by breadth first, `without` one joint.
-std::vector<int> findWay(const std::vector<Joint>& joints, int from, int to, int without) {
-    std::map<int, int> arrivedBy{{from, -1}}; // body -> joint
-    std::vector<int> front{from};
-    for (std::size_t i = 0; i < front.size() && !arrivedBy.contains(to); ++i)
-        for (int j = 0; j < static_cast<int>(joints.size()); ++j) {
-            const Joint& joint = joints[j];
-            if (j == without || !joint.enabled || joint.body0 == joint.body1) continue;
-            if (joint.body0 != front[i] && joint.body1 != front[i]) continue;
-            const int next = joint.body0 == front[i] ? joint.body1 : joint.body0;
-            if (arrivedBy.emplace(next, j).second) front.push_back(next);
-        }
-    std::vector<int> way;
-    if (!arrivedBy.contains(to)) return way;
-    for (int body = to; body != from;) {
-        const int j = arrivedBy[body];
-        way.push_back(j);
-        body = joints[j].body0 == body ? joints[j].body1 : joints[j].body0;
-    }
-    std::ranges::reverse(way);
-    return way;
-}
 
 template <class Items>
 int indexOf(const Items& items, const std::string& path) {
@@ -120,12 +96,80 @@ void append(Motion& motion, Pose& place, const Joint& joint, bool backwards, boo
 
 } // namespace
 
-std::optional<std::vector<int>> findChain(const std::vector<Joint>& joints, int bodyA, int bodyB) {
-    const std::vector<int> way = findWay(joints, bodyA, bodyB, -1);
-    // The way is the only one just when none of its joints can be gone round.
-    for (int joint : way)
-        if (!findWay(joints, bodyA, bodyB, joint).empty()) return std::nullopt;
+JointWays::JointWays(const std::vector<Joint>& joints) : only_(joints.size()) {
+    int most = -1;
+    for (const Joint& joint : joints) most = std::max({most, joint.body0, joint.body1});
+    at_.resize(static_cast<std::size_t>(most + 2));
+    for (int j = 0; j < static_cast<int>(joints.size()); ++j) {
+        const Joint& joint = joints[j];
+        if (!joint.enabled || joint.body0 == joint.body1) continue;
+        at_[joint.body0 + 1].push_back({j, joint.body1 + 1});
+        at_[joint.body1 + 1].push_back({j, joint.body0 + 1});
+    }
+    findOnly();
+}
+
+/// Tarjan's bridges ("A note on finding the bridges of a graph", 1974): depth first, with the earliest body
+/// that what is below each one leads back to.
+void JointWays::findOnly() {
+    struct Open {
+        int body, by; // the joint that it was come by
+        std::size_t next = 0;
+    };
+    std::vector<int> number(at_.size(), -1), earliest(at_.size());
+    int count = 0;
+    for (int root = 0; root < static_cast<int>(at_.size()); ++root) {
+        if (number[root] >= 0) continue;
+        std::vector<Open> open;
+        const auto enter = [&](int body, int by) {
+            number[body] = earliest[body] = count++;
+            open.push_back({body, by});
+        };
+        enter(root, -1);
+        while (!open.empty()) {
+            Open& top = open.back();
+            if (top.next < at_[top.body].size()) {
+                const Step step = at_[top.body][top.next++];
+                if (step.joint == top.by) continue;
+                if (number[step.body] < 0)
+                    enter(step.body, step.joint);
+                else
+                    earliest[top.body] = std::min(earliest[top.body], number[step.body]);
+                continue;
+            }
+            const Open done = top;
+            open.pop_back();
+            if (open.empty()) break;
+            const int above = open.back().body;
+            earliest[above] = std::min(earliest[above], earliest[done.body]);
+            only_[done.by] = earliest[done.body] > number[above];
+        }
+    }
+}
+
+std::optional<std::vector<int>> JointWays::chain(int bodyA, int bodyB) const {
+    const std::size_t from = static_cast<std::size_t>(bodyA) + 1, to = static_cast<std::size_t>(bodyB) + 1;
+    std::vector<int> way;
+    if (from == to || from >= at_.size() || to >= at_.size()) return way;
+    std::vector<Step> arrivedBy(at_.size(), Step{-1, -1}); // and where from
+    std::vector<int> front{static_cast<int>(from)};
+    for (std::size_t i = 0; i < front.size() && arrivedBy[to].joint < 0; ++i)
+        for (const Step& step : at_[front[i]]) {
+            if (step.body == static_cast<int>(from) || arrivedBy[step.body].joint >= 0) continue;
+            arrivedBy[step.body] = {step.joint, front[i]};
+            front.push_back(step.body);
+        }
+    if (arrivedBy[to].joint < 0) return way;
+    for (std::size_t body = to; body != from; body = static_cast<std::size_t>(arrivedBy[body].body))
+        way.push_back(arrivedBy[body].joint);
+    std::ranges::reverse(way);
+    // It is the only one just when none of its joints can be gone round.
+    if (!std::ranges::all_of(way, [&](int joint) { return only_[joint]; })) return std::nullopt;
     return way;
+}
+
+std::optional<std::vector<int>> findChain(const std::vector<Joint>& joints, int bodyA, int bodyB) {
+    return JointWays(joints).chain(bodyA, bodyB);
 }
 
 Motion pairMotion(const SceneModel& scene, const Pair& pair) {

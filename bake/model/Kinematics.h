@@ -6,9 +6,26 @@
 
 namespace tss {
 
-/// Indices of the joints that lead from one body to another, in this order; empty when none do, nothing when
-/// there is more than one way. Joints that are not enabled do not count; the world counts as a body that
-/// joints may share.
+/// The ways that joints make from body to body. Joints that are not enabled make none; the world, -1, counts
+/// as a body that joints may share.
+class JointWays {
+public:
+    explicit JointWays(const std::vector<Joint>& joints);
+    /// Indices of the joints that lead from one body to another, in this order; empty when none do, nothing
+    /// when there is more than one way.
+    std::optional<std::vector<int>> chain(int bodyA, int bodyB) const;
+
+private:
+    struct Step {
+        int joint, body;
+    };
+    void findOnly();
+
+    std::vector<std::vector<Step>> at_; ///< from each body, the world first
+    std::vector<bool> only_;            ///< by joint: nothing else leads from one side of it to the other
+};
+
+/// One chain() of the ways of these joints.
 std::optional<std::vector<int>> findChain(const std::vector<Joint>& joints, int bodyA, int bodyB);
 
 /// A degree of freedom of a scene: the joint, and which of its own.

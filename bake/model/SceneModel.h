@@ -21,7 +21,8 @@ struct Body {
     TriangleMesh mesh; ///< in the body's own rigid frame; scale of the prim's transform is applied already
     Pose placement = Pose::Identity(); ///< body to world, as modelled
     Vec3 displayColor{0.8, 0.8, 0.8};  ///< linear RGB, 0..1
-    bool rigid = false;                ///< PhysicsRigidBodyAPI
+    bool named = true;  ///< false: where it comes from it has no name, and this one was made up
+    bool rigid = false; ///< PhysicsRigidBodyAPI
     bool visible = true;
     bool doubleSided = false;
 };
@@ -102,6 +103,7 @@ struct SkinModel {
 /// The typed view of a scene file: what osgTSS knows of it. Indices are into this struct's own vectors.
 struct SceneModel {
     std::string defaultPrim = "Scene"; ///< name of the root prim
+    std::string displayName;           ///< the name it had elsewhere, when that is not a prim name
     double metersPerUnit = 1;
     char upAxis = 'Z'; ///< 'Y' or 'Z'
     double timeCodesPerSecond = 24;

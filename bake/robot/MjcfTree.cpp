@@ -19,7 +19,9 @@ constexpr std::size_t mostFiles = 64, mostBytesInAll = 8 << 20, mostElementsInAl
                       mostClasses = 10000;
 constexpr std::size_t longestDefault = 200; ///< characters: a default is copied to each element of its class
 
-const std::set<std::string> orientations = {"quat", "axisangle", "xyaxes", "zaxis", "euler"};
+/// What says how an element stands in place of its quat. MuJoCo keeps both, and this counts, also where a
+/// class has it and the element a quat of its own.
+const std::set<std::string> turns = {"axisangle", "xyaxes", "zaxis", "euler"};
 
 class Includer {
 public:
@@ -150,10 +152,10 @@ private:
             const ClassDefaults& defaults = classCalled(*e, textOf(*e, "class", childClass));
             const auto own = defaults.find(name);
             if (own == defaults.end()) continue;
-            const bool placed = std::ranges::any_of(
-                orientations, [&](const std::string& o) { return e->Attribute(o.c_str()); });
+            const bool turned = std::ranges::any_of(
+                turns, [&](const std::string& turn) { return e->Attribute(turn.c_str()); });
             for (const auto& [attribute, value] : own->second)
-                if (!e->Attribute(attribute.c_str()) && !(placed && orientations.contains(attribute)))
+                if (!e->Attribute(attribute.c_str()) && !(turned && turns.contains(attribute)))
                     e->SetAttribute(attribute.c_str(), value.c_str());
         }
     }
@@ -240,12 +242,7 @@ Pose placeOfElement(const XMLElement& element, const std::string& file, const Mj
     Pose pose = Pose::Identity();
     if (const auto pos = given("pos", 3); !pos.empty()) pose.translation() = vector(pos);
     Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
-    if (const auto q = given("quat", 4); !q.empty()) {
-        turn = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
-        if (!(turn.norm() > 0))
-            throw InputError(placeOf(file, element), "quat: expected one that is not zero");
-        turn.normalize();
-    } else if (const auto a = given("axisangle", 4); !a.empty()) {
+    if (const auto a = given("axisangle", 4); !a.empty()) {
         turn = Eigen::AngleAxisd(compiler.angle(a[3]), nonZero(vector(a)).normalized());
     } else if (const auto xy = given("xyaxes", 6); !xy.empty()) {
         nonZero(vector(xy).cross(vector(xy, 3)));
@@ -254,6 +251,11 @@ Pose placeOfElement(const XMLElement& element, const std::string& file, const Mj
         turn = turnBetween(Vec3::UnitZ(), nonZero(vector(z)));
     } else if (const auto e = given("euler", 3); !e.empty()) {
         turn = eulerTurn(e, compiler);
+    } else if (const auto q = given("quat", 4); !q.empty()) {
+        turn = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+        if (!(turn.norm() > 0))
+            throw InputError(placeOf(file, element), "quat: expected one that is not zero");
+        turn.normalize();
     }
     if (turn.vec() != Vec3::Zero()) pose.linear() = turn.toRotationMatrix(); // exact where it turns nothing
     return pose;

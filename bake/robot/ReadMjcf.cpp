@@ -24,7 +24,7 @@ Vec3 vectorOf(const std::vector<double>& n, const Vec3& fallback = Vec3::Zero(),
 struct MeshAsset {
     std::string file;
     Vec3 scale = Vec3::Ones();
-    Pose toGeom = Pose::Identity(); ///< of its reference
+    Pose unscaled = Pose::Identity(); ///< from its reference, before the scale
 };
 
 class MjcfReader {
@@ -33,16 +33,19 @@ public:
         : file_(file), robot_(robot), compiler_(readCompiler(model, file)) {
         for (auto* e = model.FirstChildElement("asset"); e; e = e->NextSiblingElement("asset"))
             readAssets(*e);
+        for (auto* e = model.FirstChildElement("contact"); e; e = e->NextSiblingElement("contact"))
+            for (auto* pair = e->FirstChildElement("pair"); pair; pair = pair->NextSiblingElement("pair"))
+                for (const char* geom : {"geom1", "geom2"})
+                    if (pair->Attribute(geom)) paired_.insert(textOf(*pair, geom));
         std::size_t bodies = 0;
         for (auto* e = model.FirstChildElement("worldbody"); e; e = e->NextSiblingElement("worldbody"))
             bodies += countBodies(*e);
         several_ = bodies > 1;
-        RobotLink world;
-        world.name = "world";
+        world_.name = "world";
         for (auto* e = model.FirstChildElement("worldbody"); e; e = e->NextSiblingElement("worldbody"))
-            readGeoms(*e, Pose::Identity(), world);
-        const bool solid = !world.collision.empty() || !world.visual.empty();
-        if (solid) robot.links.push_back(world);
+            readGeoms(*e, Pose::Identity(), world_);
+        const bool solid = !world_.collision.empty() || !world_.visual.empty();
+        if (solid) robot.links.push_back(world_);
         names_.insert("world");
         for (auto* e = model.FirstChildElement("worldbody"); e; e = e->NextSiblingElement("worldbody"))
             readBodies(*e, Pose::Identity(), solid ? 0 : -1);
@@ -84,17 +87,17 @@ private:
                     throw InputError(placeOf(file_, *e), "refquat: expected one that is not zero");
                 reference.linear() = turn.normalized().toRotationMatrix();
             }
-            mesh.toGeom = reference.inverse(Eigen::Isometry);
+            mesh.unscaled = reference.inverse(Eigen::Isometry);
             meshes_[name] = mesh;
         }
     }
 
     void leaveOut(const std::string& kind, const std::string& name) {
-        std::string& names = leftOut_[kind];
-        names += (names.empty() ? "" : ", ") + (name.empty() ? "one without a name" : name);
+        leftOut_[kind].push_back(name.empty() ? "one without a name" : name);
     }
 
-    /// A shape between two points, its length along z.
+    /// A shape between two points, its length along z, which is turned towards the first as MuJoCo does; as
+    /// wide across as its first size, whatever others it has.
     void stretch(const XMLElement& element, const std::vector<double>& ends, bool twoSizes,
                  RobotShape& shape) const {
         const Vec3 from = vectorOf(ends), to = vectorOf(ends, Vec3::Zero(), 3);
@@ -102,29 +105,31 @@ private:
         if (!(length > 0)) throw InputError(placeOf(file_, element), "fromto: expected two points");
         shape.place = Pose::Identity();
         shape.place.translation() = (from + to) / 2;
-        shape.place.linear() = turnBetween(Vec3::UnitZ(), to - from).toRotationMatrix();
+        shape.place.linear() = turnBetween(Vec3::UnitZ(), from - to).toRotationMatrix();
+        if (!twoSizes) shape.size[1] = shape.size[0];
         shape.size[twoSizes ? 1 : 2] = length / 2;
     }
 
     /// False where it is none that is read.
-    bool readShape(const XMLElement& geom, RobotShape& shape) {
+    bool readShape(const XMLElement& geom, bool ofWorld, RobotShape& shape) {
         static const std::map<std::string, std::pair<RobotShape::Kind, std::size_t>> kinds = {
             {"sphere", {RobotShape::Kind::Sphere, 1}},       {"capsule", {RobotShape::Kind::Capsule, 2}},
             {"cylinder", {RobotShape::Kind::Cylinder, 2}},   {"box", {RobotShape::Kind::Box, 3}},
             {"ellipsoid", {RobotShape::Kind::Ellipsoid, 3}}, {"mesh", {RobotShape::Kind::Mesh, 0}}};
         const std::string type = textOf(geom, "type", "sphere"), name = textOf(geom, "name");
         const auto kind = kinds.find(type);
-        if (kind == kinds.end()) return leaveOut("geoms of type " + type, name), false;
-        shape.kind = kind->second.first;
         shape.where = placeOf(file_, geom).pointer;
+        if (ofWorld && (type == "plane" || type == "hfield"))
+            return leaveOut("geoms of type " + type, name), false;
+        if (kind == kinds.end()) return shape.problem = "a geom of type " + type + " is not read", true;
+        shape.kind = kind->second.first;
         shape.place = placeOfElement(geom, file_, compiler_);
         if (shape.kind == RobotShape::Kind::Mesh) return readMesh(geom, shape);
         if (geom.Attribute("mesh")) return shape.problem = "a geom fitted to a mesh is not read", true;
         const std::size_t count = kind->second.second;
         const auto ends = numbersOf(file_, geom, "fromto", 6, 6);
         auto size = numbersOf(file_, geom, "size", 1, 3);
-        if (!ends.empty() && size.size() == 1) size.push_back(size[0]); // a box's or ellipsoid's two across
-        if (size.size() + (ends.empty() ? 0 : 1) < count)
+        if (size.size() < (ends.empty() ? count : 1))
             throw InputError(placeOf(file_, geom),
                              "size: expected " + std::to_string(count) + " numbers for a " + type);
         size.resize(3, 0);
@@ -145,19 +150,36 @@ private:
         }
         shape.file = mesh->second.file;
         shape.size = mesh->second.scale;
-        shape.place = shape.place * mesh->second.toGeom;
+        shape.unscaled = mesh->second.unscaled;
         return true;
+    }
+
+    /// Whether a replicate holds geoms of the body that it stands in.
+    static bool hasGeoms(const XMLElement& replicate) {
+        for (auto* e = replicate.FirstChildElement(); e; e = e->NextSiblingElement()) {
+            const std::string_view kind = e->Name();
+            if (kind == "geom" || ((kind == "frame" || kind == "replicate") && hasGeoms(*e))) return true;
+        }
+        return false;
     }
 
     void readGeoms(const XMLElement& body, const Pose& place, RobotLink& link) {
         for (auto* e = body.FirstChildElement(); e; e = e->NextSiblingElement()) {
             const std::string_view kind = e->Name();
             if (kind == "frame") readGeoms(*e, place * placeOfElement(*e, file_, compiler_), link);
+            if (kind == "replicate" && hasGeoms(*e)) {
+                RobotShape made;
+                made.where = placeOf(file_, *e).pointer;
+                made.problem = "geoms made by replicate are not read";
+                link.collision.push_back(made);
+                link.visual.push_back(made);
+            }
             if (kind != "geom") continue;
             RobotShape shape;
-            if (!readShape(*e, shape)) continue;
+            if (!readShape(*e, &link == &world_, shape)) continue;
             shape.place = place * shape.place;
-            const bool meets = textOf(*e, "contype", "1") != "0" || textOf(*e, "conaffinity", "1") != "0";
+            const bool meets = textOf(*e, "contype", "1") != "0" || textOf(*e, "conaffinity", "1") != "0" ||
+                               paired_.contains(textOf(*e, "name"));
             if (const auto rgba = numbersOf(file_, *e, "rgba", 4, 4); !rgba.empty() && !link.color)
                 link.color = Vec3(rgba[0], rgba[1], rgba[2]).cwiseMax(0).cwiseMin(1);
             (meets ? link.collision : link.visual).push_back(shape);
@@ -178,7 +200,8 @@ private:
     void readBody(const XMLElement& element, const Pose& place, int parent) {
         RobotLink link;
         link.name = textOf(element, "name");
-        if (link.name.empty()) link.name = "body" + std::to_string(robot_.links.size());
+        link.named = !link.name.empty();
+        if (!link.named) link.name = "body" + std::to_string(robot_.links.size());
         if (!names_.insert(link.name).second)
             throw InputError(placeOf(file_, element), "expected a name that no other body has");
         readGeoms(element, Pose::Identity(), link);
@@ -228,8 +251,8 @@ private:
         dof.origin = place * vectorOf(numbersOf(file_, element, "pos", 3, 3));
         const auto range = numbersOf(file_, element, "range", 2, 2);
         const std::string limited = textOf(element, "limited", "auto");
-        const bool limits =
-            limited == "true" || (limited == "auto" && compiler_.autoLimits && !range.empty());
+        const bool limits = limited == "true" || (limited == "auto" && compiler_.autoLimits &&
+                                                  !range.empty() && range[0] < range[1]);
         const auto untied = [&](const std::string& kind) {
             leaveOut(kind + ": the bodies are tied to nothing", body);
             return false;
@@ -303,17 +326,23 @@ private:
             }
         for (const auto& [kind, names] : leftOut_) {
             const bool counted = kind.starts_with("joints whose") || kind.starts_with("balls");
-            if (!names.empty()) robot_.notes.push_back((counted ? "" : "left out: ") + kind + ": " + names);
+            constexpr std::size_t most = 20;
+            std::string note = (counted ? "" : "left out: ") + kind + ": ";
+            for (std::size_t k = 0; k < names.size() && k < most; ++k) note += (k > 0 ? ", " : "") + names[k];
+            if (names.size() > most) note += " and " + std::to_string(names.size() - most) + " more";
+            robot_.notes.push_back(std::move(note));
         }
     }
 
     std::string file_;
     Robot& robot_;
     MjcfCompiler compiler_;
+    RobotLink world_;
     std::map<std::string, MeshAsset> meshes_;
     std::set<std::string> names_, fileless_;
-    std::map<std::string, std::string> leftOut_; ///< names by kind
-    bool several_ = false;                       ///< bodies stand in the world beside each other
+    std::set<std::string> paired_; ///< geoms that a <pair> names: they collide whatever their own bits
+    std::map<std::string, std::vector<std::string>> leftOut_; ///< names by kind
+    bool several_ = false;                                    ///< bodies stand in the world beside each other
 };
 
 } // namespace

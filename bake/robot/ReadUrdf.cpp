@@ -154,6 +154,7 @@ private:
         if (model.type == urdf::Joint::CONTINUOUS) {
             dof.lower = -std::numbers::pi;
             dof.upper = std::numbers::pi;
+            joint.endless = true;
         } else {
             dof.lower = model.limits->lower;
             dof.upper = model.limits->upper;

@@ -4,6 +4,7 @@
 #include "bake/base/Error.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace tss {
 
@@ -42,6 +43,13 @@ std::string findLeader(const Robot& robot, RobotJoint& joint) {
         }
         Dof& dof = joint.dofs[0];
         const Dof& leads = leader->dofs[0];
+        if (leader->endless && joint.factor != 0) {
+            if (dof.kind != DofKind::Rotation) return ""; // its own limits are all there is
+            const double half = std::numbers::pi * std::max(1.0, std::abs(joint.factor));
+            dof.lower = joint.offset - half;
+            dof.upper = joint.offset + half;
+            return "";
+        }
         const double a = joint.factor * leads.lower + joint.offset,
                      b = joint.factor * leads.upper + joint.offset;
         dof.lower = std::min(a, b);
@@ -79,6 +87,17 @@ void settleHeld(Robot& robot, RobotJoint& joint) {
     joint.drives.clear();
 }
 
+/// Led by one without an end, and without limits of its own.
+bool slidesOnAndOn(Robot& robot, const RobotJoint& joint) {
+    if (joint.leader.empty() || joint.factor == 0 || joint.dofs[0].kind == DofKind::Rotation) return false;
+    const auto leader = std::ranges::find(robot.joints, joint.leader, &RobotJoint::name);
+    if (!leader->endless || joint.dofs[0].lower < joint.dofs[0].upper) return false;
+    robot.notes.push_back("joint " + joint.name + " (" + joint.where +
+                          ") slides without limits as its leader turns on and on: left out, " +
+                          robot.links[joint.child].name + " and what hangs on it are tied to nothing");
+    return true;
+}
+
 } // namespace
 
 void checkForest(const Robot& robot) {
@@ -110,6 +129,10 @@ void settleRobot(Robot& robot) {
     checkForest(robot);
     for (RobotJoint& joint : robot.joints)
         if (!joint.leader.empty()) settleFollower(robot, joint);
+    std::vector<RobotJoint> kept;
+    for (const RobotJoint& joint : robot.joints)
+        if (!slidesOnAndOn(robot, joint)) kept.push_back(joint);
+    robot.joints = std::move(kept);
     for (RobotJoint& joint : robot.joints) settleHeld(robot, joint);
 }
 

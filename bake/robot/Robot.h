@@ -18,6 +18,7 @@ struct RobotShape {
     /// and height, its tip up along z, the middle of its height at 0.
     Vec3 size = Vec3::Ones();
     std::string file;                         ///< of a mesh: its name as the robot's file has it
+    Pose unscaled = Pose::Identity();         ///< of a mesh: puts its vertices where they are scaled
     std::shared_ptr<const TriangleMesh> mesh; ///< or the mesh itself, where it stands in the robot's file
     Pose place = Pose::Identity();
     std::string where;   ///< for messages: "line 12"
@@ -26,6 +27,7 @@ struct RobotShape {
 
 struct RobotLink {
     std::string name;
+    bool named = true; ///< false: the file has no name for it, this one was made up
     std::vector<RobotShape> collision, visual;
     std::optional<Vec3> color;     ///< linear RGB
     Pose place = Pose::Identity(); ///< in the world, where no joint says it
@@ -38,6 +40,7 @@ struct RobotJoint {
     int parent = -1, child = -1; ///< indices of links; -1: the world
     Pose origin = Pose::Identity();
     std::vector<Dof> dofs;
+    bool endless = false; ///< it turns on and on: its limits are one whole turn
     /// The joint that this one, of one DOF, follows: value = factor * its value + offset.
     std::string leader;
     double factor = 1, offset = 0;
@@ -63,9 +66,10 @@ struct Robot {
 void checkForest(const Robot& robot);
 
 /// What holds for any format, once all is read: checkForest(). A joint whose limits leave it one value
-/// becomes fixed there. One that follows another moves as far as the other's limits lead it, whatever its own;
-/// the coupling itself is for the scene's motion alone, and noted: in a table both move by themselves, which
-/// only adds poses. One whose leader is none moves by itself, noted.
+/// becomes fixed there. One that follows another moves as far as the other's limits lead it, whatever its
+/// own; the coupling itself is for the scene's motion alone, and noted: in a table both move by themselves,
+/// which only adds poses. One whose leader is none moves by itself, noted. Led by one that turns on and on it
+/// turns all the way round, or slides within its own limits, without which it is left out.
 void settleRobot(Robot& robot);
 
 } // namespace tss

@@ -29,6 +29,7 @@ public:
         scene.metersPerUnit = robot_.metersPerUnit;
         scene.upAxis = robot_.upAxis;
         scene.defaultPrim = freePrimName(scene, robot_.name.empty() ? "Robot" : robot_.name);
+        if (scene.defaultPrim != robot_.name) scene.displayName = robot_.name;
         for (const RobotLink& link : robot_.links) addLink(link);
         const auto isEmpty = [](const Body& body) { return body.mesh.empty(); };
         if (!failures_.empty() && std::ranges::all_of(scene.bodies, isEmpty)) {
@@ -76,7 +77,7 @@ private:
         }
         TriangleMesh mesh = at->second;
         if (!(shape.size.cwiseAbs().minCoeff() > 0)) throw InputError("mesh: expected a scale that is not 0");
-        for (Vec3& v : mesh.vertices) v = v.cwiseProduct(shape.size);
+        for (Vec3& v : mesh.vertices) v = (shape.unscaled * v).cwiseProduct(shape.size);
         if (shape.size.prod() < 0)
             for (Tri& t : mesh.triangles) std::swap(t[1], t[2]);
         return mesh;
@@ -126,6 +127,7 @@ private:
         const std::string name = freePrimName(scene, link.name);
         body.path = "/" + scene.defaultPrim + "/" + name;
         if (name != link.name) body.displayName = link.name;
+        body.named = link.named;
         LinkReport report{body.path, 0, request_.visual};
         const std::size_t failed = failures_.size();
         const auto take = [&](bool visual) {

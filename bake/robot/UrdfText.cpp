@@ -65,8 +65,29 @@ void spellNumbers(const std::string& file, XMLElement& element, const Kept& kept
     }
 }
 
+/// The turn of URDF 1.1's quat_xyzw as the rpy of all versions.
+void spellTurn(const std::string& file, XMLElement& origin) {
+    const auto q = numbersOf(file, origin, "quat_xyzw", 4, 4);
+    if (q.empty()) return;
+    if (origin.Attribute("rpy"))
+        throw InputError(placeOf(file, origin), "expected one of rpy and quat_xyzw, found both");
+    const Eigen::Quaterniond quaternion(q[3], q[0], q[1], q[2]);
+    if (!(quaternion.norm() > 0))
+        throw InputError(placeOf(file, origin), "quat_xyzw: expected one that is not zero");
+    const Eigen::Matrix3d turn = quaternion.normalized().toRotationMatrix();
+    const double across = std::hypot(turn(2, 1), turn(2, 2));
+    const bool upright = across < 1e-9; // turned about z and about x is the same then
+    const double rpy[] = {upright ? 0 : std::atan2(turn(2, 1), turn(2, 2)), std::atan2(-turn(2, 0), across),
+                          upright ? std::atan2(-turn(0, 1), turn(1, 1)) : std::atan2(turn(1, 0), turn(0, 0))};
+    char digits[100];
+    std::snprintf(digits, sizeof digits, "%.17g %.17g %.17g", rpy[0], rpy[1], rpy[2]);
+    origin.SetAttribute("rpy", digits);
+    origin.DeleteAttribute("quat_xyzw");
+}
+
 /// Keeps what is read of the element and of what is in it.
 void prune(XMLElement& element, const std::string& file) {
+    if (element.Name() == std::string_view("origin")) spellTurn(file, element);
     const Kept& kept = keptElements().at(element.Name());
     spellNumbers(file, element, kept);
     for (tinyxml2::XMLNode *child = element.FirstChild(), *next = nullptr; child; child = next) {
@@ -248,6 +269,9 @@ std::string leftOutJoint(const std::string& joint, const std::string& where, con
 
 PrunedUrdf pruneUrdf(XMLElement& robot, const std::string& file) {
     PrunedUrdf pruned;
+    const std::string version = textOf(robot, "version", "1.0");
+    if (version != "1.0" && version != "1" && version != "1.1")
+        throw InputError(placeOf(file, robot), "version: expected 1.0 or 1.1, found \"" + version + "\"");
     if (textOf(robot, "name").empty()) robot.SetAttribute("name", std::filesystem::path(file).stem().c_str());
     const std::set<std::string> links = expectOnce(file, robot, "link");
     expectOnce(file, robot, "joint");
@@ -266,7 +290,7 @@ PrunedUrdf pruneUrdf(XMLElement& robot, const std::string& file) {
 std::string urdfText(const XMLElement& robot) {
     tinyxml2::XMLDocument document;
     tinyxml2::XMLNode* top = document.InsertEndChild(robot.ShallowClone(&document));
-    top->ToElement()->DeleteAttribute("version"); // of the language: there is one
+    top->ToElement()->DeleteAttribute("version"); // what 1.1 adds is spelled in words of 1.0
     for (const auto* child = robot.FirstChildElement(); child; child = child->NextSiblingElement())
         if (child->Name() != std::string_view("material")) top->InsertEndChild(child->DeepClone(&document));
     for (auto* link = top->FirstChildElement("link"); link; link = link->NextSiblingElement("link"))

@@ -88,7 +88,7 @@ PairsWritten writePairs(const SceneModel& scene, const std::vector<PairEvidence>
         count(pair, written);
         written.text += comment(a + ", " + b + ": " + (reason.empty() ? "stay on: " : "") +
                                 (reason == "Adjacent" ? "joined; " : "") + reasonText(scene, pair));
-        if (!reason.empty()) written.text += off(escaped(a), escaped(b), reason);
+        if (!reason.empty()) written.text += off(pair, escaped(a), escaped(b), reason);
     }
     return written;
 }
@@ -102,20 +102,27 @@ std::string heading(const std::string& source) {
 
 PairsWritten srdfOf(const SceneModel& scene, const std::vector<PairEvidence>& evidence,
                     const std::string& source) {
-    PairsWritten written = writePairs(scene, evidence, [](const auto& a, const auto& b, const auto& reason) {
-        return "    <disable_collisions link1=\"" + a + "\" link2=\"" + b + "\" reason=\"" + reason +
-               "\"/>\n";
-    });
-    written.text = heading(source) + "<robot name=\"" + escaped(scene.defaultPrim) + "\">\n" + written.text +
-                   "</robot>\n";
+    PairsWritten written =
+        writePairs(scene, evidence, [](const auto&, const auto& a, const auto& b, const auto& reason) {
+            return "    <disable_collisions link1=\"" + a + "\" link2=\"" + b + "\" reason=\"" + reason +
+                   "\"/>\n";
+        });
+    written.text = heading(source) + "<robot name=\"" +
+                   escaped(scene.displayName.empty() ? scene.defaultPrim : scene.displayName) + "\">\n" +
+                   written.text + "</robot>\n";
     return written;
 }
 
 PairsWritten mjcfExcludesOf(const SceneModel& scene, const std::vector<PairEvidence>& evidence,
                             const std::string& source) {
-    PairsWritten written = writePairs(scene, evidence, [](const auto& a, const auto& b, const auto&) {
-        return "    <exclude body1=\"" + a + "\" body2=\"" + b + "\"/>\n";
-    });
+    const auto named = [&](const PairEvidence& pair) {
+        return scene.bodies[pair.bodyA].named && scene.bodies[pair.bodyB].named;
+    };
+    PairsWritten written =
+        writePairs(scene, evidence, [&](const auto& pair, const auto& a, const auto& b, const auto&) {
+            if (!named(pair)) return comment("left on: MuJoCo knows no body without a name");
+            return "    <exclude body1=\"" + a + "\" body2=\"" + b + "\"/>\n";
+        });
     written.text = heading(source) + "<mujoco>\n  <contact>\n" + written.text + "  </contact>\n</mujoco>\n";
     return written;
 }

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <unordered_set>
 
 namespace tss {
 
@@ -25,17 +27,22 @@ bool canCollide(const SceneModel& scene, int body) {
     });
 }
 
-bool isPair(const SceneModel& scene, int a, int b) {
-    return std::ranges::any_of(scene.pairs, [&](const Pair& pair) {
-        return (pair.bodyA == a && pair.bodyB == b) || (pair.bodyA == b && pair.bodyB == a);
-    });
+/// Paths that prims have.
+std::unordered_set<std::string> pathsOf(const SceneModel& scene) {
+    std::unordered_set<std::string> paths;
+    const auto take = [&](const auto& items) {
+        for (const auto& item : items) paths.insert(item.path);
+    };
+    take(scene.bodies), take(scene.joints), take(scene.muscles), take(scene.pairs);
+    return paths;
 }
 
 /// A path beside the first body that nothing has yet.
-std::string freePath(const SceneModel& scene, const Pair& pair) {
+std::string freePath(const SceneModel& scene, const std::unordered_set<std::string>& paths,
+                     const Pair& pair) {
     const std::string wanted = scene.bodies[pair.bodyA].path + "_" + primName(scene.bodies[pair.bodyB].path);
     std::string path = wanted;
-    for (int k = 2; hasPath(scene, path) || (scene.layer && findPrim(*scene.layer, path)); ++k)
+    for (int k = 2; paths.contains(path) || (scene.layer && findPrim(*scene.layer, path)); ++k)
         path = wanted + std::to_string(k);
     return path;
 }
@@ -53,9 +60,10 @@ std::string obstacle(const SceneModel& scene, const Pair& pair) {
 }
 
 /// The pair of two bodies, B the one that moves; nothing, perhaps with a note, where they are none.
-std::optional<Pair> pairOf(const SceneModel& scene, int a, int b, std::vector<std::string>& notes) {
+std::optional<Pair> pairOf(const SceneModel& scene, const JointWays& ways, int a, int b,
+                           std::vector<std::string>& notes) {
     const std::string both = scene.bodies[a].path + " and " + scene.bodies[b].path;
-    const auto chain = findChain(scene.joints, a, b);
+    const auto chain = ways.chain(a, b);
     if (!chain) {
         notes.push_back(both + ": more than one chain of joints links them, a closed loop");
         return std::nullopt;
@@ -81,7 +89,6 @@ std::optional<Pair> pairOf(const SceneModel& scene, int a, int b, std::vector<st
         notes.push_back(both + ": " + why);
         return std::nullopt;
     }
-    if (pair.path.empty()) pair.path = freePath(scene, pair);
     return pair;
 }
 
@@ -93,11 +100,17 @@ AllPairs addAllPairs(SceneModel& scene) {
     for (int k = 0; k < static_cast<int>(scene.bodies.size()); ++k)
         if (canCollide(scene, k)) bodies.push_back(k);
     const std::size_t first = scene.pairs.size();
+    const JointWays ways(scene.joints);
+    std::unordered_set<std::string> paths = pathsOf(scene);
+    std::set<std::pair<int, int>> known;
+    for (const Pair& pair : scene.pairs) known.insert(std::minmax(pair.bodyA, pair.bodyB));
     for (std::size_t i = 0; i < bodies.size(); ++i)
         for (std::size_t j = i + 1; j < bodies.size(); ++j) {
-            if (isPair(scene, bodies[i], bodies[j])) continue;
-            std::optional<Pair> pair = pairOf(scene, bodies[i], bodies[j], result.notes);
+            if (known.contains({bodies[i], bodies[j]})) continue;
+            std::optional<Pair> pair = pairOf(scene, ways, bodies[i], bodies[j], result.notes);
             if (!pair) continue;
+            if (pair->path.empty()) pair->path = freePath(scene, paths, *pair);
+            paths.insert(pair->path);
             result.added.push_back(pair->path);
             scene.pairs.push_back(std::move(*pair));
         }

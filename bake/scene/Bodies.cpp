@@ -95,8 +95,9 @@ void checkNesting(const SceneReading& reading, std::size_t entry, const std::vec
 Body readBody(const PrimReader& prim, const PrimEntry& entry, const SplitXform& xform) {
     Body body;
     body.path = entry.place.path;
+    body.displayName = originalNameOf(prim.prim());
     if (const auto* data = member<Value::Object>(prim.prim().metadata, "customData"))
-        if (const auto* name = member<std::string>(*data, schema::originalName)) body.displayName = *name;
+        if (const bool* nameless = member<bool>(*data, schema::nameless)) body.named = !*nameless;
     body.placement = xform.placement;
     body.visible = entry.visible;
     body.rigid = hasApi(prim.prim(), "PhysicsRigidBodyAPI");
@@ -139,14 +140,26 @@ void writeBody(Layer& layer, const SceneModel& scene, const Body& body) {
         addApi(prim.prim(), "PhysicsRigidBodyAPI");
         if (hasMesh) addApi(prim.prim(), "PhysicsCollisionAPI");
     }
-    if (!body.displayName.empty())
-        prim.prim().metadata["customData"] = Value::Object{{schema::originalName, Value(body.displayName)}};
+    writeOriginalName(prim.prim(), body.displayName, body.named);
     prim.setUnless(schema::visibility, body.visible ? "inherited" : "invisible", "inherited");
     writePlacement(prim, parentPlacement(scene, body.path).inverse() * body.placement);
     if (hasMesh) writeMesh(prim, body);
 }
 
 } // namespace
+
+std::string originalNameOf(const Prim& prim) {
+    const auto* data = member<Value::Object>(prim.metadata, "customData");
+    const auto* name = data ? member<std::string>(*data, schema::originalName) : nullptr;
+    return name ? *name : "";
+}
+
+void writeOriginalName(Prim& prim, const std::string& name, bool named) {
+    Value::Object data;
+    if (!name.empty()) data.emplace(schema::originalName, Value(name));
+    if (!named) data.emplace(schema::nameless, Value(true));
+    if (!data.empty()) prim.metadata["customData"] = std::move(data);
+}
 
 std::vector<Xform> worldXforms(const SceneReading& reading) {
     std::vector<Xform> world;

@@ -119,16 +119,17 @@ std::vector<std::string> readOrder(const PrimReader& prim) {
     return order;
 }
 
-/// The cone of a spherical joint is read as a box: the angles about the two axes across, each within its
-/// limit.
+/// The cone of a spherical joint is read as a box that holds it, the angles about the two axes across: as the
+/// twist is free, either of them takes up the other's, so that both go as far as the wider. A cone of a right
+/// angle and more is none, nor is one about Y: that turn comes between the other two, which no box holds
+/// then.
 void readCone(const PrimReader& prim, const std::string& token, Dof& dof) {
     const int axis = prim.choice(schema::axis)[0] - 'X', about = token.back() - 'X';
-    double cone = -1;
-    if (about == (axis + 1) % 3) cone = prim.real(schema::coneAngle0, -1);
-    if (about == (axis + 2) % 3) cone = prim.real(schema::coneAngle1, -1);
-    if (cone < 0) cone = 180; // no limit: all the way round
-    dof.lower = toRadians(-cone);
-    dof.upper = toRadians(cone);
+    const double cone0 = prim.real(schema::coneAngle0, -1), cone1 = prim.real(schema::coneAngle1, -1);
+    const double cone = std::max(cone0, cone1);
+    const bool limited = about != axis && axis != 1 && cone0 >= 0 && cone1 >= 0 && cone < 90;
+    dof.lower = toRadians(limited ? -cone : -180);
+    dof.upper = toRadians(limited ? cone : 180);
 }
 
 void readLimits(const PrimReader& prim, const DofSlots& slots, Dof& dof) {

@@ -8,7 +8,8 @@ namespace tss {
 
 namespace {
 
-bool readBodiesOfPrim(const SceneReading& reading, const PrimReader& prim, Pair& pair) {
+bool readBodiesOfPrim(const SceneReading& reading, const JointWays& ways, const PrimReader& prim,
+                      Pair& pair) {
     const auto paths = prim.targets(schema::bodies);
     if (paths.size() != 2 || paths[0] == paths[1]) {
         prim.problem("expected a joint, or a relationship tss:bodies that names two bodies");
@@ -17,7 +18,7 @@ bool readBodiesOfPrim(const SceneReading& reading, const PrimReader& prim, Pair&
     pair.bodyA = reading.body(prim, schema::bodies, paths[0]);
     pair.bodyB = reading.body(prim, schema::bodies, paths[1]);
     if (pair.bodyA < 0 || pair.bodyB < 0) return false;
-    const auto chain = findChain(reading.scene.joints, pair.bodyA, pair.bodyB);
+    const auto chain = ways.chain(pair.bodyA, pair.bodyB);
     if (!chain)
         prim.targetProblem(schema::bodies, "expected one chain of joints from ", paths[0], " to ", paths[1],
                            ", found more than one: a pair cannot be part of a closed loop");
@@ -105,13 +106,14 @@ void writeSettings(Prim& prim, const BakeSettings& settings) {
 
 void readPairs(SceneReading& reading) {
     const auto isPair = [](const Prim& prim) { return hasApi(prim, "TssPairAPI"); };
+    const JointWays ways(reading.scene.joints);
     reading.forPrims(isPair, [&](const PrimReader& prim, int entry) {
         if (!reading.ownPrim(entry, "TssPairAPI")) return;
         Pair pair;
         pair.path = prim.place().path;
         pair.settings = readSettings(prim);
         const bool tied = reading.jointAt.contains(pair.path) ? readBodiesOfJoint(reading, prim, pair)
-                                                              : readBodiesOfPrim(reading, prim, pair);
+                                                              : readBodiesOfPrim(reading, ways, prim, pair);
         if (!tied) return;
         checkMeshes(reading, prim, pair);
         if (checkPairMotion(reading, prim, pair)) reading.scene.pairs.push_back(std::move(pair));

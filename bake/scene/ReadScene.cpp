@@ -36,6 +36,8 @@ void readMetadata(SceneReading& reading) {
     if (reading.layer.metadata.contains("defaultPrim") && !findPrim(reading.layer, "/" + scene.defaultPrim))
         reading.problems.add(metadataPlace("defaultPrim"), "expected the name of a root prim, found \"",
                              scene.defaultPrim, "\"");
+    if (const Prim* root = findPrim(reading.layer, "/" + scene.defaultPrim))
+        scene.displayName = originalNameOf(*root);
     scene.metersPerUnit = number(reading, "metersPerUnit", 0.01, true);
     scene.timeCodesPerSecond = number(reading, "timeCodesPerSecond", 24, true);
     scene.startTimeCode = number(reading, "startTimeCode", 0);
@@ -108,7 +110,7 @@ SceneModel readScene(const Layer& layer, const std::string& fileName) {
 Layer toLayer(const SceneModel& scene) {
     Layer layer;
     writeMetadata(layer, scene);
-    makePrim(layer, "/" + scene.defaultPrim, "Xform");
+    writeOriginalName(makePrim(layer, "/" + scene.defaultPrim, "Xform"), scene.displayName);
     writeBodies(layer, scene);
     writeJoints(layer, scene);
     for (const Pair& pair : scene.pairs) writePair(layer, scene, pair);

@@ -39,6 +39,11 @@ struct SceneReading {
 
 // Each part of a scene, its types, and how it goes from and into a layer.
 
+/// The name that a prim had where it comes from; empty: its own.
+std::string originalNameOf(const Prim& prim);
+/// Keeps it in the metadata; `named` false: that it had none, and its own was made up.
+void writeOriginalName(Prim& prim, const std::string& name, bool named = true);
+
 void readBodies(SceneReading& reading);
 void writeBodies(Layer& layer, const SceneModel& scene);
 /// Transforms to the world, one per entry.

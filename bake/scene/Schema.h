@@ -96,6 +96,7 @@ inline constexpr std::string_view bakePrefix = "tss:bake:";
 
 /// The key in customData for the name that a node had in the OSG graph it came from.
 inline constexpr const char* originalName = "osgName";
+inline constexpr const char* nameless = "nameless"; ///< true: the name was made up
 
 } // namespace schema
 } // namespace tss

@@ -37,6 +37,26 @@ public:
 
 } // namespace
 
+TEST_CASE("the reference of a mesh counts before its scale") {
+    const Tree tree;
+    const std::string file = tree.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n"
+                                                 "f 2 3 4\nf 1 4 3\n");
+    Robot robot;
+    robot.name = "r";
+    RobotLink link;
+    link.name = "a";
+    RobotShape shape;
+    shape.file = file;
+    shape.size = Vec3(0.1, 0.2, 0.3);
+    shape.unscaled.rotate(Eigen::AngleAxisd(-std::acos(0.0), Vec3::UnitZ())).translate(Vec3(-1, 0, 0));
+    link.collision = {shape};
+    robot.links = {link};
+    const RobotScene scene = sceneOf(robot, {}, [](const std::string& name) { return name; });
+    const Eigen::AlignedBox3d box = bounds(scene.scene.bodies[0].mesh);
+    CHECK((box.min() - Vec3(0, 0, 0)).norm() < 1e-9);
+    CHECK((box.max() - Vec3(0.1, 0.2, 0.3)).norm() < 1e-9);
+}
+
 TEST_CASE("a mesh of a package is found upwards by folder, by package.xml, or where it was said to be") {
     const Tree tree;
     const std::string mesh = tree.write("my_arm/meshes/a.stl"), urdf = tree.write("my_arm/urdf/arm.urdf");

@@ -1,6 +1,8 @@
 #ifdef OSGTSS_HAVE_MJCF
 #include "bake/geometry/MeshAudit.h"
+#include "bake/robot/PairEvidence.h"
 #include "bake/robot/ReadMjcf.h"
+#include "bake/robot/WritePairs.h"
 #include "bake/scene/Layer.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
@@ -106,7 +108,12 @@ TEST_CASE("geoms are closed meshes of their sizes: half lengths, between two poi
     CHECK(like(box("<geom type='cylinder' size='1 3' euler='90 0 0'/>"), {-1, -3, -1}, {1, 3, 1}));
     CHECK(like(box("<geom type='ellipsoid' size='1 2 3'/>"), {-1, -2, -3}, {1, 2, 3}));
     CHECK(like(box("<geom type='capsule' size='1' fromto='0 0 0 4 0 0'/>"), {-1, -1, -1}, {5, 1, 1}));
-    CHECK(like(box("<geom type='box' size='.5 .5' fromto='0 0 0 0 4 0'/>"), {-.5, 0, -.5}, {.5, 4, .5}));
+    CHECK(like(box("<geom type='box' size='.5 .1' fromto='0 0 0 0 4 0'/>"), {-.5, 0, -.5}, {.5, 4, .5}));
+    // As MuJoCo has it: its own z towards the first point, by the shortest turn.
+    CHECK((box("<geom type='box' size='.5' fromto='0 0 0 1 2 3'/>").min() - Vec3(-.68, -.581, -.401)).norm() <
+          1e-3);
+    CHECK((box("<geom type='box' size='.5' fromto='0 0 0 1 2 3'/>").max() - Vec3(1.68, 2.581, 3.401)).norm() <
+          1e-3);
     CHECK(like(
         box("<frame pos='0 0 9'><frame euler='0 90 0'><geom type='capsule' size='1 3'/></frame></frame>"),
         {-4, -1, 8}, {4, 1, 10}));
@@ -119,12 +126,15 @@ TEST_CASE("what a class says holds for its elements, and what they say themselve
         "<default class='fine'><geom size='3 3 3' euler='0 0 45'/></default></default></default>" +
         world("<body name='a' childclass='arm'><geom/><body name='b'><joint name='j'/><geom class='fine' "
               "quat='1 0 0 0'/>"
-              "</body><body name='c'><joint name='k' range='-20 20'/><geom class='fine'/></body></body>")));
+              "</body><body name='c'><joint name='k' range='-20 20'/><geom class='fine'/></body>"
+              "<body name='d'><joint name='l'/><geom class='fine' euler='0 0 90'/></body></body>")));
     const auto size = [&](const char* body) {
         return Vec3(bounds(bodyCalled(robot.scene, body).mesh).sizes());
     };
     CHECK(size("a").isApprox(Vec3(2, 2, 2)));
-    CHECK(size("b").isApprox(Vec3(6, 6, 6))); // its own quat, not the class's euler
+    CHECK(size("b").isApprox(
+        Vec3(6 * std::sqrt(2), 6 * std::sqrt(2), 6))); // the class's euler counts, not a quat
+    CHECK(size("d").isApprox(Vec3(6, 6, 6)));          // but its own euler does
     CHECK(size("c").isApprox(Vec3(6 * std::sqrt(2), 6 * std::sqrt(2), 6)));
     CHECK(jointCalled(robot.scene, "j").dofs[0].upper == Approx(10 * degree));
     CHECK(jointCalled(robot.scene, "k").dofs[0].upper == Approx(20 * degree));
@@ -165,10 +175,67 @@ TEST_CASE("bodies whose joint cannot be served are tied to nothing, by name") {
         CHECK(robot.scene.pairs.empty());
     };
     note("<joint axis='0 0 0'/>", "joints whose axis is zero");
-    note("<joint range='2 1'/>", "joints with a lower limit above their upper one");
+    note("<joint limited='true' range='2 1'/>", "joints with a lower limit above their upper one");
     note("<joint limited='true'/>", "joints with limits and no range");
+    note("<joint type='slide' range='1 1'/>", "slides without limits"); // which a range has where it rises
     note("<joint type='screw'/>", "joints of type screw");
     note("<joint type='free' limited='true'/>", "free joints"); // as where a class says limited
+}
+
+TEST_CASE("a range that does not rise is no limit, as to MuJoCo") {
+    const auto turns = [](const std::string& joint) {
+        const RobotScene robot = made(modelOf("<default><joint range='-10 10'/></default>" +
+                                              world("<body name='a'>" + ball + "<body name='b'>" + ball +
+                                                    "<joint name='j' " + joint + "/></body></body>")));
+        const Dof& dof = jointCalled(robot.scene, "j").dofs.at(0);
+        return dof.upper - dof.lower;
+    };
+    CHECK(turns("") == Approx(20 * degree));
+    CHECK(turns("range='0 0'") == Approx(360 * degree));
+    CHECK(turns("range='5 4'") == Approx(360 * degree));
+    CHECK(turns("type='ball' range='0 0'") == Approx(360 * degree));
+}
+
+TEST_CASE("of a body with a geom that cannot be had nothing is made, but for the world's planes") {
+    const auto empty = [](const std::string& geom) {
+        const RobotScene robot = made(modelOf(world("<body name='a'>" + ball + "</body><body name='b'>" +
+                                                    ball + geom + "<joint name='j'/></body>")));
+        return bodyCalled(robot.scene, "b").mesh.empty();
+    };
+    CHECK(empty("<geom type='sdf' size='1'/>"));
+    CHECK(empty("<geom type='boxx' size='1 1 1'/>"));
+    CHECK(empty("<replicate count='6' euler='0 0 60'><geom size='1'/></replicate>"));
+    CHECK(
+        empty("<frame pos='1 0 0'><replicate count='6'><frame><geom size='1'/></frame></replicate></frame>"));
+    CHECK_FALSE(empty("<replicate count='6'><body><geom size='1'/></body></replicate>"));
+    CHECK(empty("<geom type='plane' size='1 1 1'/>"));
+    const RobotScene room = made(modelOf(world("<geom type='plane' size='1 1 1'/>" + ball +
+                                               "<body name='b'>" + ball + "<joint name='j'/></body>")));
+    CHECK_FALSE(bodyCalled(room.scene, "world").mesh.empty()); // what is proven is about the rest of it
+}
+
+TEST_CASE("geoms that a pair names collide, whatever their own bits say") {
+    const auto widest = [](const std::string& contact) {
+        const RobotScene robot =
+            made(modelOf(world("<body name='a'>" + ball + "<body name='b'><joint name='j'/>" + ball +
+                               "<geom name='blade' size='3' contype='0' conaffinity='0'/></body></body>") +
+                         contact));
+        return bounds(bodyCalled(robot.scene, "b").mesh).sizes().maxCoeff();
+    };
+    CHECK(widest("") < 1);
+    CHECK(widest("<contact><pair geom1='blade' geom2='x'/></contact>") > 5);
+}
+
+TEST_CASE("what has no name is excluded by none: MuJoCo would not know it") {
+    const RobotScene robot = made(modelOf(world("<body name='a'>" + ball + "<body pos='1 0 0'>" + ball +
+                                                "<joint range='0 1'/><body name='c' pos='1 0 0'>" + ball +
+                                                "<joint range='0 1'/></body></body></body>")));
+    const SceneModel again = readScene(std::make_shared<const Layer>(layerOf(robot.scene)), "arm.tss");
+    const std::string written = mjcfExcludesOf(again, evidenceOf(again), "arm.tss").text;
+    INFO(written);
+    CHECK(written.find("body1=\"body1\"") == std::string::npos);
+    CHECK(written.find("body2=\"body1\"") == std::string::npos);
+    CHECK(written.find("left on: MuJoCo knows no body without a name") != std::string::npos);
 }
 
 TEST_CASE("three turns hold every turn of a ball up to its angle") {

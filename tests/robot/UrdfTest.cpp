@@ -1,6 +1,7 @@
 #ifdef OSGTSS_HAVE_URDF
 #include "bake/geometry/MeshAudit.h"
 #include "bake/robot/ReadUrdf.h"
+#include "bake/robot/WritePairs.h"
 #include "bake/scene/Layer.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
@@ -136,6 +137,73 @@ TEST_CASE("a joint that mimics goes as far as its leader leads it, and follows i
                                "beyond its own limits 0 to 515.662 degrees"));
     const RobotScene within = madeOfUrdf(follower("", "<limit lower='-1' upper='9'/>"));
     CHECK(hasNote(within.notes, "which leads it from -57.2958 to 114.592 degrees. The scene's"));
+}
+
+TEST_CASE("what one leads that turns on and on goes all the way round, or within its own limits") {
+    const auto led = [](const std::string& type, const std::string& mimic, const std::string& itsLimits) {
+        return madeOfUrdf(
+            robotOf(aLink("base") + aLink("a") + aLink("b") + aJoint("lead", "continuous", "base", "a", "") +
+                    aJoint("follow", type, "base", "b", "<mimic joint='lead' " + mimic + "/>" + itsLimits)));
+    };
+    const auto range = [](const RobotScene& robot) {
+        const Dof& dof = jointCalled(robot.scene, "follow").dofs.at(0);
+        return dof.upper - dof.lower;
+    };
+    const double turn = 2 * std::numbers::pi;
+    CHECK(range(led("revolute", "multiplier='0.5'", limits)) == Approx(turn));
+    CHECK(range(led("revolute", "multiplier='-1' offset='0.1'", limits)) == Approx(turn));
+    CHECK(range(led("continuous", "multiplier='2.5'", "")) >= turn);
+    CHECK(range(led("prismatic", "multiplier='0.05'", limits)) == Approx(3));
+    const RobotScene rack = led("prismatic", "multiplier='0.05'", "<limit effort='1' velocity='1'/>");
+    CHECK(rack.scene.joints.size() == 1);
+    CHECK(hasNote(rack.notes, "slides without limits as its leader turns on and on: left out, b and what"));
+    // A leader of another one's leader.
+    const RobotScene chain = madeOfUrdf(
+        robotOf(aLink("base") + aLink("a") + aLink("b") + aLink("c") +
+                aJoint("follow", "revolute", "base", "c", "<mimic joint='mid' multiplier='0.5'/>" + limits) +
+                aJoint("mid", "revolute", "base", "b", "<mimic joint='lead' multiplier='0.5'/>" + limits) +
+                aJoint("lead", "continuous", "base", "a", "")));
+    CHECK(range(chain) == Approx(turn));
+}
+
+TEST_CASE("URDF 1.1 turns by a quaternion too, and other versions are refused") {
+    const auto placed = [](const std::string& origin) {
+        const RobotScene robot =
+            madeOfUrdf(robotOf(aLink("base") + aLink("a") +
+                               aJoint("j", "revolute", "base", "a", "<origin " + origin + "/>" + limits)));
+        return Eigen::Matrix3d(
+            pose(pairMotion(robot.scene, robot.scene.pairs.at(0)), std::vector{0.0}).linear());
+    };
+    for (const Eigen::Quaterniond& q :
+         {Eigen::Quaterniond(0.5, 0.1, -0.7, 0.2), Eigen::Quaterniond(1, 0, 1, 0),
+          Eigen::Quaterniond(1, 1, -1, 1), Eigen::Quaterniond(0, 0, 0, -3)}) {
+        const auto text = [](double c) { return std::to_string(c) + " "; };
+        const std::string xyzw = "quat_xyzw='" + text(q.x()) + text(q.y()) + text(q.z()) + text(q.w()) + "'";
+        CHECK((placed(xyzw) - q.normalized().toRotationMatrix()).norm() < 1e-9);
+    }
+    CHECK(
+        madeOfUrdf(robotOf(aLink("a", "<collision><origin quat_xyzw='0 0 0 0'/><geometry><box size='1 1 1'/>"
+                                      "</geometry></collision>") +
+                           aLink("b")))
+            .scene.bodies[0]
+            .mesh.empty());
+    const std::string both =
+        robotOf(aLink("base") + aLink("a") +
+                aJoint("j", "revolute", "base", "a", "<origin rpy='0 0 0' quat_xyzw='0 0 0 1'/>" + limits));
+    CHECK(hasNote(madeOfUrdf(both).notes, "expected one of rpy and quat_xyzw"));
+    const auto version = [](const std::string& number) {
+        return "<robot name='r' version='" + number + "'>" + aLink("a") + "</robot>";
+    };
+    CHECK(madeOfUrdf(version("1.1")).scene.bodies.size() == 1);
+    CHECK(refusedUrdf(version("2.0")).find("expected 1.0 or 1.1, found \"2.0\"") != std::string::npos);
+}
+
+TEST_CASE("an SRDF is that of the robot's own name, also where that is no prim's") {
+    std::string text = robotOf(aLink("a") + aLink("b") + aJoint("j", "revolute", "a", "b", limits));
+    text.replace(text.find("'arm'"), 5, "'2-arm robot'");
+    const RobotScene robot = madeOfUrdf(text);
+    const SceneModel again = readScene(std::make_shared<const Layer>(layerOf(robot.scene)), "arm.tss");
+    CHECK(srdfOf(again, {}, "arm.tss").text.find("<robot name=\"2-arm robot\">") != std::string::npos);
 }
 
 TEST_CASE("a joint that nothing leads moves by itself, by name") {

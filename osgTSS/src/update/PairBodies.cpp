@@ -91,12 +91,12 @@ PairBodies::PairBodies(osg::Node& root, const tss::SceneModel& model)
         for (std::size_t k = 0; k < model.bodies.size(); ++k)
             if (isNamed(body, model.bodies[k].path, movedBy[k])) standFor[k].push_back(body);
     }
+    const tss::JointWays ways(_now.joints);
     for (const tss::Pair& pair : model.pairs) {
         if (!pair.table && !pair.proof) continue;
         for (int a : standFor[pair.bodyA])
             for (int b : standFor[pair.bodyB])
-                if (const auto chain = tss::findChain(_now.joints, a, b); !chain || !chain->empty())
-                    _pairs.emplace_back(a, b);
+                if (const auto chain = ways.chain(a, b); !chain || !chain->empty()) _pairs.emplace_back(a, b);
     }
 }
 
