@@ -8,8 +8,16 @@ namespace tss {
 
 namespace {
 
-constexpr Attribute size{"size", "double"}, radius{"radius", "double"}, height{"height", "double"},
+constexpr Attribute size{"size", "double"}, radius{"radius", "double"}, radiusTop{"radiusTop", "double"},
+    radiusBottom{"radiusBottom", "double"}, height{"height", "double"},
     axisOf = declared("token axis", "", anyNumber, "Z X Y");
+
+/// Of a Capsule_1 or Cylinder_1, which have one at each end.
+double sameRadius(const PrimReader& prim, double fallback) {
+    const double top = prim.real(radiusTop, fallback), bottom = prim.real(radiusBottom, fallback);
+    if (top != bottom) throw InputError("expected radiusTop and radiusBottom to be the same");
+    return top;
+}
 
 /// Along z, with USD's fallbacks.
 RobotShape shapeOf(const PrimReader& prim) {
@@ -22,11 +30,12 @@ RobotShape shapeOf(const PrimReader& prim) {
         shape.kind = RobotShape::Kind::Sphere;
         shape.size[0] = prim.real(radius, 1);
     } else {
-        const bool capsule = type == "Capsule";
-        shape.kind = capsule              ? RobotShape::Kind::Capsule
-                     : type == "Cylinder" ? RobotShape::Kind::Cylinder
-                                          : RobotShape::Kind::Cone;
-        shape.size[0] = prim.real(radius, capsule ? 0.5 : 1);
+        const bool capsule = type.starts_with("Capsule");
+        shape.kind = capsule                        ? RobotShape::Kind::Capsule
+                     : type.starts_with("Cylinder") ? RobotShape::Kind::Cylinder
+                                                    : RobotShape::Kind::Cone;
+        const double fallback = capsule ? 0.5 : 1;
+        shape.size[0] = type.ends_with("_1") ? sameRadius(prim, fallback) : prim.real(radius, fallback);
         shape.size[1] = prim.real(height, capsule ? 1 : 2);
     }
     return shape;
@@ -44,7 +53,13 @@ Eigen::Matrix3d turnTo(const PrimReader& prim) {
 } // namespace
 
 bool isGprim(const Prim& prim) {
-    static constexpr std::array types = {"Mesh", "Cube", "Sphere", "Cylinder", "Capsule", "Cone"};
+    static constexpr std::array types = {"Mesh",    "Cube", "Sphere",    "Cylinder",
+                                         "Capsule", "Cone", "Capsule_1", "Cylinder_1"};
+    return std::ranges::find(types, prim.typeName) != types.end();
+}
+
+bool isUnreadSurface(const Prim& prim) {
+    static constexpr std::array types = {"PointInstancer", "NurbsPatch", "TetMesh", "Plane"};
     return std::ranges::find(types, prim.typeName) != types.end();
 }
 

@@ -17,19 +17,38 @@ Value::Array itemsOf(const Value::Object& ops, const char* op) {
     return items ? *items : Value::Array();
 }
 
-/// The stronger list's operations on the weaker one.
+/// The stronger list's operations on the weaker one: a list where that is one, operations on what is weaker
+/// yet where it has operations itself.
 Value joinedLists(const Value& stronger, const Value& weaker) {
-    const auto* ops = stronger.as<Value::Object>();
-    if (!ops) return stronger; // it says all there is
+    const auto *ops = stronger.as<Value::Object>(), *theirs = weaker.as<Value::Object>();
+    if (!ops || ops->contains("explicit")) return stronger; // it says all there is
     std::set<std::string> said;
     for (const char* op : {"prepend", "append", "add", "delete"})
         for (const Value& item : itemsOf(*ops, op)) said.insert(*item.as<std::string>());
-    Value::Array all = itemsOf(*ops, "prepend");
-    for (const std::string& item : listItems(weaker))
-        if (!said.contains(item)) all.emplace_back(item);
+    const auto take = [&](const Value::Array& items, Value::Array& all) {
+        for (const Value& item : items)
+            if (!said.contains(*item.as<std::string>())) all.push_back(item);
+    };
+    Value::Array first = itemsOf(*ops, "prepend"), last, gone = itemsOf(*ops, "delete");
+    if (theirs && !theirs->contains("explicit")) {
+        take(itemsOf(*theirs, "prepend"), first);
+        take(itemsOf(*theirs, "delete"), gone);
+        for (const char* op : {"add", "append"}) take(itemsOf(*theirs, op), last);
+    } else {
+        const std::vector<std::string> items = listItems(weaker);
+        take(Value::Array(items.begin(), items.end()), first);
+    }
     for (const char* op : {"add", "append"})
-        for (const Value& item : itemsOf(*ops, op)) all.push_back(item);
-    return Value(std::move(all));
+        for (const Value& item : itemsOf(*ops, op)) last.push_back(item);
+    if (!theirs || theirs->contains("explicit")) {
+        first.insert(first.end(), last.begin(), last.end());
+        return Value(std::move(first));
+    }
+    Value::Object joined;
+    for (auto& [op, items] :
+         {std::pair<const char*, Value::Array*>{"prepend", &first}, {"append", &last}, {"delete", &gone}})
+        if (!items->empty()) joined.emplace(op, Value(std::move(*items)));
+    return Value(std::move(joined));
 }
 
 void mergeDictionary(Value& stronger, Value& weaker) {

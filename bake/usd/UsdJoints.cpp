@@ -41,6 +41,14 @@ RobotJoint turnedRound(const RobotJoint& joint) {
     return other;
 }
 
+/// Whether time samples give what the limits and frames of a joint are made from.
+bool changesInTime(const Prim& joint) {
+    return std::ranges::any_of(joint.properties, [](const auto& entry) {
+        const auto& [name, property] = entry;
+        return !property.timeSamples.empty() && (name.starts_with("physics:") || name.starts_with("limit:"));
+    });
+}
+
 class Joints {
 public:
     Joints(const SceneReading& reading, const FindJointEnd& findEnd, Robot& robot, LeftOut& leftOut)
@@ -68,8 +76,16 @@ private:
                        end1 = findEnd_(prim, prim.target(schema::body1));
         if (end0.link == end1.link)
             return leftOut_.add("left out: joints that tie a body to itself, or the world", path);
+        if (changesInTime(prim.prim()))
+            return leftOut_.add(
+                "left out: joints whose limits or frames change in time, which tie nothing here", path);
         Joint read;
         readDofs(prim, read);
+        const bool driven = !read.dofs.empty() && (end0.kinematic || end1.kinematic);
+        if (driven && !end0.simulated && !end1.simulated)
+            return leftOut_.add("left out: joints of bodies that are moved from outside (kinematicEnabled), "
+                                "which tie nothing",
+                                path);
         const Pose frame0 = frameAt(end0, prim, schema::localPos0, schema::localRot0),
                    frame1 = frameAt(end1, prim, schema::localPos1, schema::localRot1);
         Edge edge;

@@ -13,6 +13,8 @@ struct JointEnd {
     int link = -1;
     Eigen::Affine3d points = Eigen::Affine3d::Identity();
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    bool simulated = false; ///< joints move it: a rigid body that is not kinematic
+    bool kinematic = false; ///< it is moved from outside
 };
 
 /// The end that a path names; the world for an empty one.

@@ -12,8 +12,8 @@ namespace tss {
 namespace {
 
 constexpr Attribute rigidEnabled{"physics:rigidBodyEnabled", "bool"},
-    collides{"physics:collisionEnabled", "bool"}, approximation{"physics:approximation", "token", true},
-    filtered{"physics:filteredPairs", "rel"};
+    kinematic{"physics:kinematicEnabled", "bool"}, collides{"physics:collisionEnabled", "bool"},
+    approximation{"physics:approximation", "token", true}, filtered{"physics:filteredPairs", "rel"};
 
 class Reader {
 public:
@@ -83,6 +83,21 @@ private:
 
     bool isCollider(std::size_t entry) const { return hasApi(*entries_[entry].prim, "PhysicsCollisionAPI"); }
 
+    /// It collides itself, or is part of what does: of a prim above it that is no shape.
+    bool collidesSomehow(std::size_t entry) const {
+        for (int at = static_cast<int>(entry); at >= 0; at = entries_[at].parent)
+            if (isCollider(at) && (at == static_cast<int>(entry) || !isGprim(*entries_[at].prim)))
+                return reader(at).flag(collides, true);
+        return false;
+    }
+
+    /// A PointInstancer has copies of what is below it, and not that itself.
+    bool isPrototype(std::size_t entry) const {
+        for (int at = entries_[entry].parent; at >= 0; at = entries_[at].parent)
+            if (entries_[at].prim->typeName == "PointInstancer") return true;
+        return false;
+    }
+
     int addLink(const std::string& path, const Eigen::Affine3d& world) {
         constexpr std::size_t most = 500;
         if (robot_.links.size() >= most)
@@ -150,9 +165,13 @@ private:
         for (std::size_t i = 0; i < entries_.size(); ++i) {
             const Prim& prim = *entries_[i].prim;
             remark(i);
-            if (!isGprim(prim)) continue;
-            const bool collider = isCollider(i) && reader(i).flag(collides, true);
+            if (isPrototype(i)) continue;
+            const bool collider = collidesSomehow(i);
             int link = linkOf_[i];
+            if (!isGprim(prim)) {
+                addUnread(i, link, collider);
+                continue;
+            }
             if (link < 0 && physics && !collider) {
                 leftOut_.add("left out: " + prim.typeName +
                                  "s that belong to no rigid body and collide with nothing",
@@ -163,6 +182,25 @@ private:
             if (link < 0 && !physics) link = addLink(pathOf(i), world_[i].matrix), fixed_.push_back(false);
             addShape(i, link, collider);
         }
+    }
+
+    /// A shape that cannot be had: of the rest of its link alone nothing can be proven. The world does
+    /// without planes.
+    void addUnread(std::size_t entry, int link, bool collider) {
+        const Prim& prim = *entries_[entry].prim;
+        const bool own = isCollider(entry) && !isPlain(prim) && reader(entry).flag(collides, true);
+        if (!own && !isUnreadSurface(prim)) return;
+        if (link < 0 && (!collider || prim.typeName == "Plane")) return;
+        RobotShape shape;
+        shape.where = pathOf(entry);
+        shape.problem = "a shape of type " + prim.typeName + " is not read";
+        RobotLink& to = link >= 0 ? robot_.links[link] : scenery_;
+        (collider ? to.collision : to.visual).push_back(std::move(shape));
+    }
+
+    static bool isPlain(const Prim& prim) {
+        static const std::set<std::string> types = {"", "Xform", "Scope"};
+        return types.contains(prim.typeName);
     }
 
     void addShape(std::size_t entry, int link, bool collider) {
@@ -189,17 +227,15 @@ private:
 
     /// What is in the prim and is not read, or read otherwise.
     void remark(std::size_t entry) {
-        static const std::set<std::string> plain = {"", "Xform", "Scope"};
         const Prim& prim = *entries_[entry].prim;
         const std::string& type = prim.typeName;
-        if (!plain.contains(type) && !isGprim(prim) && type.find("Joint") == type.npos)
+        if (!isPlain(prim) && !isGprim(prim) && type.find("Joint") == type.npos)
             leftOut_.add("left out: " +
                              std::string(isCollider(entry) ? "colliders of type " : "prims of type ") + type,
                          pathOf(entry));
-        if (hasApi(prim, "PhysicsCollisionAPI") && !isGprim(prim) && plain.contains(type))
-            leftOut_.add(
-                "colliders that are no gprims themselves; what is below them collides where it says so",
-                pathOf(entry));
+        if (isCollider(entry) && isPlain(prim))
+            leftOut_.add("colliders that are no gprims themselves: all that is below them collides",
+                         pathOf(entry));
         if (const Property* how = prim.property(approximation.name);
             how && how->defaultValue && *how->defaultValue != Value("none"))
             leftOut_.add("meshes that others collide as " + describe(*how->defaultValue) +
@@ -248,6 +284,10 @@ private:
         const Pose place = end.link >= 0 ? robot_.links[end.link].place : Pose::Identity();
         end.points = Eigen::Affine3d(place.inverse(Eigen::Isometry)) * world_[entry].matrix;
         end.turn = place.linear().transpose() * split(world_[entry]).placement.linear();
+        int body = entry;
+        while (body >= 0 && !rigid_[body]) body = entries_[body].parent;
+        end.simulated = body >= 0 && !reader(body).flag(kinematic, false);
+        end.kinematic = body >= 0 && !end.simulated;
         return end;
     }
 

@@ -2,6 +2,29 @@
 
 using namespace tss;
 
+TEST_CASE("lists that several layers and arcs add to hold what each of them adds") {
+    const std::string collider =
+        "#usda 1.0\nover \"R\" ( prepend apiSchemas = [\"SemanticsAPI\"]\n append apiSchemas = [\"Last\"] "
+        "\n delete apiSchemas = [\"GoneAPI\"] ) {}\n";
+    const UsdStage stage = stageOf(Files{
+        {"root.usda", "#usda 1.0\n( subLayers = [@one.usda@, @two.usda@, @three.usda@] )\n"
+                      "def Xform \"R\" ( prepend apiSchemas = [\"FirstAPI\"]\n prepend references = "
+                      "</A> ) { rel x\n prepend rel x = </R/p> }\ndef \"A\" {}\ndef \"B\" { double b = 1 }"
+                      "\ndef \"C\" { double c = 1 }\n"},
+        {"one.usda", collider},
+        {"two.usda", "#usda 1.0\nover \"R\" ( prepend apiSchemas = [\"PhysicsCollisionAPI\", \"GoneAPI\"]"
+                     "\n prepend references = </B> ) { prepend rel x = </R/q> }\n"},
+        {"three.usda", "#usda 1.0\nover \"R\" ( prepend apiSchemas = [\"ThirdAPI\"]\n prepend references = "
+                       "</C> ) { prepend rel x = </R/r> }\n"}});
+    const Prim& prim = primAt(stage, "/R");
+    CHECK(listItems(prim.metadata.at("apiSchemas")) ==
+          std::vector<std::string>{"FirstAPI", "SemanticsAPI", "PhysicsCollisionAPI", "ThirdAPI", "Last"});
+    CHECK(prim.property("b"));
+    CHECK(prim.property("c"));
+    CHECK(listItems(*prim.properties.at("x").targetPaths) ==
+          std::vector<std::string>{"/R/p", "/R/q", "/R/r"});
+}
+
 TEST_CASE("what is stronger wins: local, inherits, variants, references, payloads, specializes") {
     const std::string arm = R"usda(#usda 1.0
 (

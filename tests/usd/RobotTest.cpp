@@ -1,7 +1,9 @@
 #include "bake/model/Kinematics.h"
 #include "tests/usd/Stages.h"
 
+#include <algorithm>
 #include <numbers>
+#include <random>
 
 using namespace tss;
 
@@ -173,6 +175,88 @@ TEST_CASE("D6, spherical and prismatic joints keep their limits, and what ties n
     CHECK(hasNote(slide.notes, "slide without limits, which tie nothing: /R/j"));
     const RobotScene rope = robotScene(twoBoxes("def PhysicsDistanceJoint \"j\" {" + ends + "}"));
     CHECK(hasNote(rope.notes, "PhysicsDistanceJoints, which tie nothing here: /R/j"));
+}
+
+TEST_CASE("the box of a cone of limits holds it, however the body is twisted") {
+    const double degree = std::numbers::pi / 180;
+    const auto ball = [](const std::string& axis, int cone0, int cone1) {
+        const SceneModel scene =
+            robotScene(twoBoxes("def PhysicsSphericalJoint \"j\" {\nrel physics:body0 = </R/a>\n"
+                                "rel physics:body1 = </R/b>\nuniform token physics:axis = \"" +
+                                axis + "\"\nfloat physics:coneAngle0Limit = " + std::to_string(cone0) +
+                                "\nfloat physics:coneAngle1Limit = " + std::to_string(cone1) + " }"))
+                .scene;
+        return scene.joints.at(0).dofs;
+    };
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> share(-1, 1);
+    for (int axis : {0, 1, 2}) {
+        const auto dofs = ball(std::string(1, "XYZ"[axis]), 62, 10);
+        const Vec3 along = Vec3::Unit(axis), first = Vec3::Unit((axis + 1) % 3),
+                   second = Vec3::Unit((axis + 2) % 3);
+        for (int k = 0; k < 300; ++k) {
+            // Swung about either axis or both, either first, and twisted.
+            const Eigen::AngleAxisd one(62 * degree * share(random), first),
+                two(10 * degree * share(random), second), twist(180 * degree * share(random), along);
+            for (const Eigen::Matrix3d& turn : {Eigen::Matrix3d((one * twist).toRotationMatrix()),
+                                                Eigen::Matrix3d((two * twist).toRotationMatrix())}) {
+                const double x = std::atan2(-turn(1, 2), turn(2, 2)),
+                             y = std::asin(std::clamp(turn(0, 2), -1.0, 1.0)),
+                             z = std::atan2(-turn(0, 1), turn(0, 0));
+                const auto within = [&](double a, double b, double c) {
+                    const double q[] = {a, b, c};
+                    for (int d = 0; d < 3; ++d) {
+                        const double value = std::remainder(q[d], 360 * degree);
+                        if (value < dofs[d].lower - 1e-6 || value > dofs[d].upper + 1e-6) return false;
+                    }
+                    return true;
+                };
+                CHECK((within(x, y, z) || within(x + 180 * degree, 180 * degree - y, z + 180 * degree)));
+            }
+        }
+    }
+    CHECK(ball("X", 30, 20)[1].upper == Approx(30 * degree).epsilon(1e-6));
+    CHECK(ball("X", 120, 20)[1].upper == Approx(180 * degree));
+}
+
+TEST_CASE("of a body with a shape that cannot be had nothing is made; what a group holds collides") {
+    const auto widthOf = [](const std::string& second) {
+        return bounds(bodyCalled(robotScene(twoBoxes(hinge, second)).scene, "b").mesh).sizes().maxCoeff();
+    };
+    const std::string api = "( prepend apiSchemas = [\"PhysicsCollisionAPI\"] ) ";
+    CHECK(widthOf("") == Approx(2));
+    const auto empty = [](const std::string& second) {
+        return bodyCalled(robotScene(twoBoxes(hinge, second)).scene, "b").mesh.empty();
+    };
+    CHECK(empty("def PointInstancer \"p\" " + api + "{ def Cube \"proto\" {} }"));
+    CHECK(empty("def NurbsPatch \"p\" " + api + "{}"));
+    CHECK(empty("def Hull \"p\" " + api + "{}")); // whatever that is
+    CHECK(empty("def Capsule_1 \"p\" " + api + "{ double radiusTop = 1\ndouble radiusBottom = 2 }"));
+    CHECK_FALSE(empty("def BasisCurves \"p\" {}"));
+    CHECK_FALSE(empty("def SphereLight \"p\" {}"));
+    CHECK(widthOf("def Capsule_1 \"p\" " + api +
+                  "{ double height = 6\ndouble radiusTop = 0.5\ndouble radiusBottom = 0.5 }") ==
+          Approx(7).epsilon(0.01));
+    CHECK(widthOf("def Cylinder_1 \"p\" " + api + "{ double height = 6 }") == Approx(6).epsilon(0.01));
+    CHECK(widthOf("def Xform \"g\" " + api + "{ def Cube \"big\" { double size = 8 } }") == Approx(8));
+    CHECK(widthOf("def Xform \"g\" { def Cube \"big\" { double size = 8 } }") == Approx(2)); // a visual
+}
+
+TEST_CASE("joints that time or somebody else changes tie nothing, by name") {
+    std::string timed = hinge, moved = twoBoxes(hinge);
+    timed.replace(timed.find("float physics:upperLimit = 90"), 29,
+                  "float physics:upperLimit.timeSamples = { 0: 10, 24: 90 }");
+    const RobotScene later = robotScene(twoBoxes(timed));
+    CHECK(later.scene.joints.empty());
+    CHECK(hasNote(later.notes, "change in time, which tie nothing here: /R/j"));
+    for (const char* body : {"\"a\"", "\"b\""}) {
+        const auto at = moved.find("{", moved.find(std::string("Xform ") + body));
+        moved.insert(at + 1, "\nuniform bool physics:kinematicEnabled = 1\n");
+        const RobotScene robot = robotScene(moved);
+        const bool both = body == std::string("\"b\"");
+        CHECK(robot.scene.joints.empty() == both); // where one is, the other is moved by the joint
+        CHECK(hasNote(robot.notes, "kinematicEnabled), which tie nothing: /R/j") == both);
+    }
 }
 
 TEST_CASE("a joint that closes a loop is left out, the one outside of the articulation first") {
