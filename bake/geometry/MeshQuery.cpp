@@ -226,13 +226,63 @@ double MeshQuery::exactWinding(const Vec3& local) const {
     return sum / (4 * std::numbers::pi);
 }
 
+int MeshQuery::crossings(const Vec3& local) const {
+    const Vec3 along(1, 0.6180339887498949, 0.4142135623730951); // of no grid
+    const Vec3 inverse = along.cwiseInverse();
+    const auto meets = [&](const Bvh::Node& node) {
+        const Eigen::Array3d low = (node.lower - local).array() * inverse.array(),
+                             high = (node.upper - local).array() * inverse.array();
+        const double enters = low.maxCoeff(), leaves = high.minCoeff();
+        return leaves >= 0 && enters <= leaves + 1e-12 * std::abs(leaves);
+    };
+    // Seen along the ray, which is the middle then: a triangle's turns about it. Corners are moved alike in
+    // all triangles, so that the ray slips through no edge.
+    const auto crossing = [&](std::uint32_t triangle) {
+        const Corners& k = corners_[triangle];
+        const Vec3 from[] = {k.a - local, k.b - local, k.c - local};
+        double y[3], z[3];
+        for (int i = 0; i < 3; ++i) {
+            y[i] = from[i].y() - along.y() * from[i].x();
+            z[i] = from[i].z() - along.z() * from[i].x();
+        }
+        int turns = 0;
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3;
+            const double side = y[i] * z[j] - z[i] * y[j];
+            if (z[i] <= 0 && z[j] > 0) turns += side > 0;
+            if (z[i] > 0 && z[j] <= 0) turns -= side < 0;
+        }
+        if (turns == 0) return 0;
+        const double ahead = (from[1] - from[0]).cross(from[2] - from[0]).dot(from[0]);
+        return ahead * turns > 0 ? turns : 0;
+    };
+    int count = 0;
+    std::array<std::uint32_t, 128> stack;
+    std::size_t top = 0;
+    if (!bvh_.empty()) stack[top++] = 0;
+    while (top > 0) {
+        const Bvh::Node& node = bvh_.nodes[stack[--top]];
+        if (!meets(node)) continue;
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+            if (flat_.empty() || !flat_[bvh_.items[i]]) count += crossing(bvh_.items[i]);
+        if (node.count == 0) {
+            stack[top++] = node.first;
+            stack[top++] = node.first + 1;
+        }
+    }
+    return count;
+}
+
 double MeshQuery::windingNumber(const Vec3& p) const {
     const Vec3 local = p - origin_;
+    const int crossed = crossings(local);
     for (const double beta : {2.0, 6.0}) {
         const double w = approximateWinding(local, beta);
-        if (std::abs(w - std::round(w)) <= 0.2) return w;
+        if (std::abs(w - crossed) <= 0.2) return w;
     }
-    return exactWinding(local);
+    // Few openings let the ray out: the mesh is open, or the ray ran along an edge.
+    const double w = approximateWinding(local, 20);
+    return std::abs(std::abs(w) - 0.5) > 0.2 && std::abs(w) < 1.3 ? w : exactWinding(local);
 }
 
 bool MeshQuery::inside(const Vec3& p) const {

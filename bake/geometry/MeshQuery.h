@@ -46,8 +46,8 @@ public:
 
     /// The generalised winding number of the mesh about p: 1 inside a closed mesh, 2 where two closed
     /// components overlap, 0 outside, -1 in an inverted mesh, a fraction about an open one (Jacobson 2013).
-    /// Far triangles count by their dipole (Barill 2018); a value not within 0.2 of an integer is summed
-    /// exactly.
+    /// Far triangles count by their dipole (Barill 2018), nearer ones too where a ray says that this is
+    /// right: many shells on one another add up to much. What is neither is summed exactly.
     double windingNumber(const Vec3& p) const;
 
     /// |winding number| >= 1/2: inside the union of the components, whichever way they are turned.
@@ -84,6 +84,9 @@ private:
     /// Of one triangle; 0 for those without an area, of which rounding could make anything.
     double solidAngleOf(std::uint32_t triangle, const Vec3& local) const;
     double exactWinding(const Vec3& local) const;
+    /// How many more times a ray from there goes out of the mesh than into it: of a closed mesh the winding
+    /// number, but where it runs along an edge.
+    int crossings(const Vec3& local) const;
     /// A node's dipole stands for its triangles when it is farther than beta of its radii.
     double approximateWinding(const Vec3& local, double beta) const;
 

@@ -123,6 +123,25 @@ TEST_CASE("inside is the union of closed components, whichever way they are turn
     CHECK(std::abs(query.windingNumber({1.5, 1.5, 1.5})) == Approx(2));
 }
 
+TEST_CASE("a hundred shells on one another do not make an inside of what is outside") {
+    TriangleMesh shells;
+    const TriangleMesh one =
+        transformed(ballMesh(Vec3::Zero(), 1, 2), Eigen::Affine3d(Eigen::Scaling(Vec3(1, 0.5, 0.2))));
+    for (int k = 0; k < 100; ++k)
+        append(shells, transformed(one, Eigen::Affine3d(Eigen::Scaling(1 - 1e-4 * k))));
+    const MeshQuery query(shells), outermost(one);
+    std::mt19937_64 random(4);
+    int wrong = 0, in = 0;
+    for (int k = 0; k < 4000; ++k) {
+        const Vec3 p = uniformPoint(random, 1.5);
+        if (outermost.distance(p) < 0.02) continue;
+        wrong += query.inside(p) != outermost.inside(p);
+        in += query.inside(p);
+    }
+    CHECK(wrong == 0);
+    CHECK(in > 30);
+}
+
 TEST_CASE("the fast winding number tells in from out like the radius of a lumpy ball") {
     std::mt19937_64 random(7);
     const TriangleMesh mesh = lumpyMesh(random, 4, 0.3);
