@@ -308,8 +308,11 @@ PairSpheres fillToAskAll(const SceneModel& scene, const Pair& pair, const Motion
     }
     const double first = std::max(asked, std::sqrt(diagonal(a.mesh) * diagonal(b.mesh)) / 60);
     Level finest = finestToAskAll(a, b, motion, options, asked, first, {}, progress);
-    const Nesting nesting = nestingOf(a, b, motion, finest.tolerance, progress); // holds for coarser ones too
-    if (nesting.outer)                                                           // it takes more then
+    Nesting nesting = nestingOf(a, b, motion, finest.tolerance, progress); // holds for coarser ones too
+    // Where that was too dear to decide, spheres on the surface serve either case.
+    nesting.outer = {nesting.outer.a || nesting.undecided.a, nesting.outer.b || nesting.undecided.b};
+    nesting.undecided = {};
+    if (nesting.outer) // it takes more then
         finest = finestToAskAll(a, b, motion, options, finest.tolerance, finest.tolerance, nesting, progress);
     PairSpheres spheres = std::move(finest.spheres);
     for (SphereFit* fit : {&spheres.a, &spheres.b}) {

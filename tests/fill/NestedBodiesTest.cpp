@@ -4,6 +4,7 @@
 #include "bake/geometry/MeshQuery.h"
 #include "bake/model/AddPair.h"
 #include "bake/pipeline/Bake.h"
+#include "bake/pipeline/FillPair.h"
 #include "bake/table/Query.h"
 #include "bake/verify/Nesting.h"
 #include "tests/Joints.h"
@@ -43,6 +44,12 @@ SceneModel sceneOf(const Through& through, bool swapped, const std::string& tole
     const int pair = addPair(scene, swapped ? 1 : 0, swapped ? 0 : 1, through.motion, "Slide");
     scene.pairs[pair].settings["tolerance"] = tolerance;
     return scene;
+}
+
+/// Full turns about a point, about axes that lie askew to each other.
+void addTurns(Motion& motion, const Vec3& about, int count) {
+    const Vec3 axes[] = {{1, 0.1, 0.2}, {0.2, 1, -0.1}, {-0.1, 0.2, 1}, {1, 1, 0.3}};
+    for (int k = 0; k < count; ++k) motion.dofs.push_back(joints::turn(about, axes[k % 4], -3.1, 3.1));
 }
 
 } // namespace
@@ -105,6 +112,20 @@ TEST_CASE(
     CHECK(prove(stopped.apart()).reason.empty());
     CHECK(prove(stopped.apart()).cells == 0);
     CHECK_FALSE(prove(0.5).reason.empty()); // inside by more
+}
+
+TEST_CASE("over many DOFs a body of which that could not be decided is hollow: contact is early by little") {
+    const SceneModel scene = sceneOf(Through(-4, 12), false, "0.05");
+    Motion motion = pairMotion(scene, scene.pairs[0]);
+    addTurns(motion, {0, 0.3, 0}, 3);
+    const auto notNested = [](std::string_view step, double) { return step != "nested bodies"; };
+    BakeOptions options;
+    options.tolerance = 0.05;
+    const PairSpheres spheres = fillToAskAll(scene, scene.pairs[0], motion, options, notNested);
+    CHECK(spheres.a.hollow);
+    CHECK_FALSE(spheres.b.hollow); // which has no room for the other
+    CHECK(spheres.a.enclosed < 0.5);
+    CHECK(spheres.stickOut < 0.5);
 }
 
 TEST_CASE("planes that keep a body out of another keep that one from being hollow") {
@@ -223,12 +244,6 @@ TEST_CASE("a body that stays inside a closed one, surfaces apart, never collides
 }
 
 namespace {
-
-/// Full turns about a point, about axes that lie askew to each other.
-void addTurns(Motion& motion, const Vec3& about, int count) {
-    const Vec3 axes[] = {{1, 0.1, 0.2}, {0.2, 1, -0.1}, {-0.1, 0.2, 1}, {1, 1, 0.3}};
-    for (int k = 0; k < count; ++k) motion.dofs.push_back(joints::turn(about, axes[k % 4], -3.1, 3.1));
-}
 
 /// A ball of radius 1 about the origin, stretched.
 TriangleMesh ellipsoid(const Vec3& radii) {
