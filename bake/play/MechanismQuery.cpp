@@ -121,7 +121,8 @@ MechanismQuery::Prepared::Prepared(const SceneModel& scene, const std::vector<in
         planes_ = planes_ || !part.motion.planes.empty();
         for (std::size_t k = 0; k < part.values.size(); ++k) {
             const Dof& dof = part.motion.dofs[k];
-            const double hair = 1e-6 * (dof.upper - dof.lower); // within beyondLimits()'s own
+            const double hair =
+                2e-7 * std::max(std::abs(dof.lower), std::abs(dof.upper)); // as beyondLimits()
             lower_[part.values[k]] = std::max(lower_[part.values[k]], dof.lower - hair);
             upper_[part.values[k]] = std::min(upper_[part.values[k]], dof.upper + hair);
         }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tss {
 
@@ -11,6 +12,8 @@ GapRanges::GapRanges(const Motion& motion, std::span<const TablePair> pairs)
     : motion_(motion), pairs_(pairs), dofs_(motion.dofCount()) {
     for (const Dof& dof : motion.dofs) {
         turns_.push_back(turnBound(dof));
+        rounding_.push_back(4 * std::numeric_limits<double>::epsilon() *
+                            std::max(std::abs(dof.lower), std::abs(dof.upper)));
         paths_ = paths_ || dof.kind == DofKind::Path;
     }
     speeds_.resize(pairs.size() * dofs_);
@@ -35,7 +38,9 @@ double GapRanges::wholeMove() const {
     return move;
 }
 
-GapRanges::Range GapRanges::range(std::size_t p, const MotionFrame& frame, const DofValues& half) const {
+GapRanges::Range GapRanges::range(std::size_t p, const MotionFrame& frame, const DofValues& given) const {
+    DofValues half{};
+    for (std::size_t k = 0; k < dofs_; ++k) half[k] = given[k] + rounding_[k];
     const TablePair& pair = pairs_[p];
     const double* speed = &speeds_[p * dofs_];
     const Vec3 centre = frame.pose * pair.b, apart = centre - pair.a;

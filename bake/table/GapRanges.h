@@ -19,7 +19,8 @@ public:
     struct Range {
         double low = 0, high = 0; ///< scene units; rounding is inside
     };
-    /// Of pair p over the box `half` wide on each side of the values that `frame` was made for.
+    /// Of pair p over the box `half` wide on each side of the values that `frame` was made for, and a little
+    /// wider: by what values as large as the limits may round.
     Range range(std::size_t p, const MotionFrame& frame, const DofValues& half) const;
 
     /// The most that a pair's gap changes per unit of DOF k, over all pairs.
@@ -35,8 +36,8 @@ private:
     const Motion& motion_;
     std::span<const TablePair> pairs_;
     std::size_t dofs_;
-    std::vector<double> speeds_; ///< #pairs by #DOFs
-    std::vector<double> turns_;  ///< one per DOF
+    std::vector<double> speeds_;           ///< #pairs by #DOFs
+    std::vector<double> turns_, rounding_; ///< one per DOF; of its values
     bool paths_ = false;
     DofValues weights_{};
     double slack_ = 0, middleReach_ = 0;

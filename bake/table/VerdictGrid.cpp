@@ -223,9 +223,7 @@ private:
                  int depth) {
         DofValues centre{}, half{};
         centre[0] = lower + 0.5 * (upper - lower);
-        // Outward by what the middle and the half may round.
-        half[0] = 0.5 * (upper - lower) * (1 + GapRanges::wider) +
-                  4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(lower), std::abs(upper));
+        half[0] = 0.5 * (upper - lower) * (1 + GapRanges::wider);
         std::vector<std::uint32_t> near;
         const GapRanges::Range gap = smallest(centre, half, list, near);
         looked_ += list.size();

@@ -67,6 +67,33 @@ TEST_CASE("a verdict from the values alone is the tests' own at every pose, at t
     CHECK(asksWithPieces < 20);
 }
 
+TEST_CASE("verdicts along a path hold where its values are large beside their range, as time stamps are") {
+    const double lower = 1.7e9, range = 0.01;
+    int wrong = 0;
+    for (int k = 0; k < 60; ++k) {
+        Motion motion;
+        Dof path = joints::slide(Vec3::UnitX(), lower, lower + range);
+        path.kind = DofKind::Path;
+        path.path = {{lower, Vec3::Zero(), Eigen::Quaterniond::Identity()},
+                     {lower + range, Vec3(4, 0, 0), Eigen::Quaterniond::Identity()}};
+        path.rest = lower;
+        motion.dofs = {path};
+        if (k % 2) motion.dofs.push_back(joints::slide(Vec3::UnitY(), 0, 1e-3));
+        const double x = 1.2 + 0.0433 * k;
+        const Table table = makeTable({{Vec3(x, 0, 0), 0.1}}, {{Vec3::Zero(), 0.1}}, {{0, 0}}, {}, motion);
+        const PreparedTable prepared(table);
+        const auto pairs = tablePairs(table);
+        double q = lower + range * ((x - 0.2) / 4);
+        for (int i = 0; i < 60; ++i) q = std::nextafter(q, 0.0);
+        for (int i = 0; i < 120; ++i, q = std::nextafter(q, 2 * lower)) {
+            const std::vector<double> at = k % 2 ? std::vector{q, 1e-5 * i / 120} : std::vector{q};
+            const auto gap = static_cast<double>(exact::gap(motion, pairs, at));
+            if (prepared.hit(at.data()) ? gap > prepared.signBand() + 1e-12 : gap < -1e-12) ++wrong;
+        }
+    }
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("no verdict is known beyond the limits") {
     Random random(5);
     for (int dofs = 1; dofs <= 3; ++dofs) {

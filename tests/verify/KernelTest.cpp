@@ -132,6 +132,19 @@ TEST_CASE("verdicts made for other spheres are refused, and for the right ones p
     CHECK(divided >= 5);
 }
 
+TEST_CASE("how far apart verdicts say that bodies stay is proven too") {
+    Motion motion;
+    motion.dofs = {joints::slide(Vec3::UnitX(), 0, 1), joints::slide(Vec3::UnitY(), 0, 1)};
+    const SphereSet a{{Vec3(3.1, 0, 0), 1}, {Vec3(3.1, 3, 0), 1}}, b{{Vec3::Zero(), 1}};
+    const Table table = makeTable(a, b, {{0, 0}, {1, 0}}, {}, motion);
+    const PreparedTable prepared(table);
+    REQUIRE_FALSE(prepared.verdicts().empty());
+    CHECK(verify::refuteVerdicts(table, prepared) == "");
+    Table nearer = table; // free everywhere all the same
+    for (Sphere& s : nearer.a) s.radius += 0.09;
+    CHECK(verify::refuteVerdicts(nearer, prepared) != "");
+}
+
 TEST_CASE("clusters made for other spheres are refused, and for the right ones proven") {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         CAPTURE(seed);
