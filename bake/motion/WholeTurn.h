@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace tss {
 
@@ -30,6 +31,15 @@ inline Motion onceRound(Motion motion) {
 inline double nearestTurn(double value, double to) {
     constexpr double turn = 2 * std::numbers::pi;
     return value + turn * std::round((to - value) / turn);
+}
+
+/// Values that may be asked of a motion's DOFs, those that turn all the way round brought within their limits.
+inline void wrapTurns(const Motion& motion, std::span<double> values) {
+    if (!motion.planes.empty()) return;
+    for (std::size_t k = 0; k < motion.dofs.size(); ++k) {
+        const Dof& dof = motion.dofs[k];
+        if (wholeTurn(dof)) values[k] = nearestTurn(values[k], (dof.lower + dof.upper) / 2);
+    }
 }
 
 } // namespace tss

@@ -6,6 +6,7 @@
 #include "bake/model/Kinematics.h"
 #include "bake/motion/MuscleDeformer.h"
 #include "bake/motion/MuscleSpan.h"
+#include "bake/motion/WholeTurn.h"
 #include "bake/play/JointPlan.h"
 #include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinCosts.h"
@@ -94,7 +95,9 @@ std::vector<double> Player::State::clamped(const std::vector<double>& asked) con
         Motion own;
         own.dofs = joint.dofs;
         own.planes = joint.planes;
-        const auto inside = clampToLimits(own, std::span(asked).subspan(next, joint.dofs.size()));
+        std::vector<double> wish(asked.begin() + next, asked.begin() + next + joint.dofs.size());
+        wrapTurns(own, wish);
+        const auto inside = clampToLimits(own, wish);
         values.insert(values.end(), inside.begin(), inside.end());
         next += joint.dofs.size();
     }

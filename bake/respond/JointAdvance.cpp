@@ -45,7 +45,11 @@ void observe(const JointModel& model, const DofValues& q, const DofValues& step,
 /// from 1 on, where every way ends, are all HUGE_VAL.
 double closingTime(double g, double rate, double acceleration) {
     const double root = std::sqrt(rate * rate + 2 * acceleration * g);
-    if (rate <= 0) return 2 * g < root - rate ? 2 * g / (root - rate) : HUGE_VAL;
+    if (rate <= 0) {
+        const double falls = root - rate;
+        if (falls == 0 && acceleration > 0) return 0; // no room at all, and the rate is about to fall below 0
+        return 2 * g < falls ? 2 * g / falls : HUGE_VAL;
+    }
     return rate + root < acceleration ? (rate + root) / acceleration : HUGE_VAL;
 }
 
@@ -72,7 +76,8 @@ double freeTime(const JointModel& model, const DofValues& q, const DofValues& st
         const double room = near.gap - near.threshold;
         if (time > 0 && near.speed * time < room) continue;
         const JointModel::Pair& pair = model.pairs[near.pair];
-        if (near.rate < 0 && room < 0.05 * pair.contactOffset) {
+        const bool closes = near.rate < 0 || (near.rate == 0 && near.acceleration > 0 && room <= 0);
+        if (closes && room < 0.05 * pair.contactOffset) {
             ws.held[pair.group] |= stoppedStep;
             time = 0; // the others are looked at too: several may hold
         }

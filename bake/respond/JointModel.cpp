@@ -182,7 +182,9 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
     }
     if (model.groups.empty()) model.leastContactOffset = std::numeric_limits<double>::min();
     for (int l = 0; l < dofCount; ++l)
-        if (!(model.lower[l] <= model.upper[l]))
+        if (!model.groups.empty() && std::isinf(model.lower[l]))
+            throw InputError("joint: expected each of its values to be a DOF of some table");
+        else if (!(model.lower[l] <= model.upper[l]))
             throw InputError("joint: expected limits of its tables that overlap");
     findTurns(model);
     if (model.clustered) findChains(model);

@@ -2,6 +2,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/FramePattern.h"
 #include "bake/model/SourceHash.h"
+#include "bake/motion/WholeTurn.h"
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/play/Player.h"
 #include "bake/respond/SkinCosts.h"
@@ -43,6 +44,7 @@ std::size_t countOutside(const SceneModel& scene, const std::vector<std::vector<
             for (const Dof& dof : joint.dofs) {
                 const double value = row[first + slack.size()];
                 slack.push_back(1e-6 * (dof.upper - dof.lower));
+                if (wholeTurn(dof) && joint.planes.empty()) continue; // no end
                 if (value < dof.lower - slack.back() || value > dof.upper + slack.back()) return true;
             }
             for (const LimitPlane& plane : joint.planes) {

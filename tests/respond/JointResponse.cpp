@@ -100,6 +100,25 @@ TEST_CASE("a hinge asked to jump through an obstacle stops in front of it") {
     CHECK(result.q[0] == Approx(contact).epsilon(1e-6));
 }
 
+TEST_CASE("a start as far as a pair gets, and nearer than what is kept, is not left through contact") {
+    Motion motion; // a turn about z and a slide along it; the pair and the axis lie in one plane
+    motion.dofs = {joints::turn(Vec3::Zero(), Vec3::UnitZ(), -0.5, 3.5), joints::slide(Vec3::UnitZ(), -3, 3)};
+    for (const double epsilon : {0.1, 0.0}) {
+        CAPTURE(epsilon);
+        const double radius = epsilon > 0 ? 0.95 : 1 - 4e-7;
+        Table table = makeTable({{Vec3(-1, 0, 0), radius}}, {{Vec3(1, 0, 0), radius}}, {{0, 0}}, {}, motion);
+        table.epsilon = epsilon;
+        const double start = query(table, std::vector<double>{0, 0}).gap;
+        for (const std::vector<double>& asked :
+             {std::vector<double>{1, 0}, {0.45, 0.31}, {2.5, 2.2}, {-0.4, 0}}) {
+            CAPTURE(asked);
+            const Answer answer = respond(table, {0, 0}, asked);
+            CHECK(answer.gap >= start - 1e-9);
+            if (asked[1] == 0) CHECK(answer.q == std::vector<double>{0, 0}); // no way leads out
+        }
+    }
+}
+
 TEST_CASE("a hinge asked within the free part goes there exactly") {
     const Table table = hingeWithObstacle(0.5, -1, 1);
     const std::vector<double> from{-0.9}, to{0.3};
@@ -228,6 +247,7 @@ TEST_CASE("a joint refuses tables that do not fit it") {
     const Table table = hingeWithObstacle(0.5, -1, 1), apart = hingeWithObstacle(0.5, 2, 3);
     CHECK_THROWS_AS(JointResponder(std::vector<TableOnJoint>{{&table, {1}}}, 1), std::runtime_error);
     CHECK_THROWS_AS(JointResponder(std::vector<TableOnJoint>{{&table, {}}}, 1), std::runtime_error);
+    CHECK_THROWS_AS(JointResponder(std::vector<TableOnJoint>{{&table, {0}}}, 2), std::runtime_error);
     CHECK_THROWS_AS(JointResponder(std::vector<TableOnJoint>{{&table, {0}}, {&apart, {0}}}, 1),
                     std::runtime_error);
 }

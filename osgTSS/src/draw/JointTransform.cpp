@@ -103,10 +103,7 @@ void JointTransform::setValues(const std::vector<double>& asked) {
     std::vector<double> wish = _asked;
     for (std::size_t k = 0; k < wish.size() && k < asked.size(); ++k)
         if (std::isfinite(asked[k])) wish[k] = asked[k];
-    for (std::size_t k = 0; k < wish.size(); ++k)
-        if (tss::wholeTurn(_joint->joint.dofs[k]) && _joint->joint.planes.empty())
-            wish[k] =
-                tss::nearestTurn(wish[k], (_joint->joint.dofs[k].lower + _joint->joint.dofs[k].upper) / 2);
+    tss::wrapTurns(_joint->limits, wish);
     _asked = tss::clampToLimits(_joint->limits, wish);
     setResolvedValues(_asked);
 }
