@@ -9,6 +9,8 @@
 #include "bake/spheres/GenerateSpheres.h"
 #include "bake/spheres/RoundToFloat.h"
 
+#include <algorithm>
+
 namespace tss {
 
 FilledMuscles fillMuscles(const SceneModel& scene, const SkinModel& skin, const BakeOptions& options,
@@ -23,8 +25,7 @@ FilledMuscles fillMuscles(const SceneModel& scene, const SkinModel& skin, const 
             filled.searched.push_back({&deformer, {}});
             continue;
         }
-        const SphereOptions how =
-            sphereOptions(options, options.tolerance.value_or(diagonal(surface) / 100));
+        const SphereOptions how = sphereOptions(options, options.tolerance.value_or(diagonal(surface) / 100));
         const SphereFit fit = fitSpheres(cleaned(surface), how, progress);
         if (!fit.note.empty()) report.notes.push_back(pathOf(scene, under[m]) + ": " + fit.note);
         filled.searched.push_back({&deformer, roundToFloat(fit.spheres)});
@@ -40,7 +41,13 @@ void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, Pa
     SkinSearchOptions search;
     search.thickness = floatAbove(2 * (skin.thickness > 0 ? skin.thickness : skinThickness(mesh))) / 2.0;
     search.travel = skin.travel;
-    const SkinParameters parameters = skinParameters(scene, skin);
+    std::vector<std::string> farTurns;
+    const SkinParameters parameters = skinParameters(scene, skin, &farTurns);
+    farTurns.erase(std::unique(farTurns.begin(), farTurns.end()), farTurns.end());
+    for (const std::string& joint : farTurns)
+        report.notes.push_back(joint +
+                               " turns bones by more than half a turn from where it rests: beyond that "
+                               "the skin between them jumps to the other way round");
     SkinMoves moves = skinMoves(mesh, filled.deformers, parameters);
     search.stray = std::move(moves.stray);
     search.shares = std::move(moves.shares);

@@ -31,8 +31,10 @@ std::array<double, 2> endsOf(const Dof& dof) {
     return {end(dof.lower, -1), end(dof.upper, 1)};
 }
 
-/// What the bones under a skin do while one joint value at a time goes to either limit.
-std::vector<BoneSwing> swingsOf(const SceneModel& scene, const SkinModel& skin) {
+/// What the bones under a skin do while one joint value at a time goes to either limit. farTurns: takes the
+/// joints that turn by more than half a turn from rest.
+std::vector<BoneSwing> swingsOf(const SceneModel& scene, const SkinModel& skin,
+                                std::vector<std::string>* farTurns) {
     std::vector<double> values;
     for (const Joint& joint : scene.joints)
         for (const Dof& dof : joint.dofs) values.push_back(dof.rest);
@@ -52,6 +54,9 @@ std::vector<BoneSwing> swingsOf(const SceneModel& scene, const SkinModel& skin) 
                         moves = moves || pose.matrix() != Pose::Identity().matrix();
                 }
                 values = rest;
+                if (moves && farTurns && std::abs(limit - dof.rest) > (1 + 1e-6) * std::numbers::pi &&
+                    dof.kind == DofKind::Rotation)
+                    farTurns->push_back(joint.path);
                 if (moves) swings.push_back(std::move(swing));
             }
             ++next;
@@ -144,7 +149,8 @@ std::vector<std::shared_ptr<const MuscleDeformer>> skinMuscles(const SceneModel&
     return result;
 }
 
-SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin) {
+SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin,
+                              std::vector<std::string>* farTurns) {
     meshOf(scene, skin);
     SkinParameters parameters;
     parameters.stretchCompliance = skin.stretchCompliance;
@@ -153,7 +159,7 @@ SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin) {
     parameters.frames = framesOf(scene, skin);
     for (const UnderSkin& under : underSkin(scene, skin)) parameters.insertions.push_back(under.insertion);
     parameters.shares = sharesOf(scene, skin, parameters.frames);
-    parameters.swings = swingsOf(scene, skin);
+    parameters.swings = swingsOf(scene, skin, farTurns);
     parameters.tether = skin.tether;
     parameters.attach = skin.attach;
     return parameters;

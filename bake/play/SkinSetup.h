@@ -20,8 +20,10 @@ Muscle muscleOf(const SceneModel& scene, const MuscleModel& model);
 std::vector<std::shared_ptr<const MuscleDeformer>> skinMuscles(const SceneModel& scene,
                                                                const SkinModel& skin);
 
-/// How the scene says that the skin behaves; the rest at its defaults.
-SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin);
+/// How the scene says that the skin behaves; the rest at its defaults. farTurns: takes the paths of joints that
+/// turn its bones by more than half a turn from rest, beyond which skin between them goes the other way round.
+SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin,
+                              std::vector<std::string>* farTurns = nullptr);
 
 /// All of it: the rig for SkinResponse. Without a table the skin is carried by what is below it and not kept
 /// out of it. Throws InputError when the table does not fit.

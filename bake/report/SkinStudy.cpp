@@ -82,7 +82,6 @@ SkinTable tableAtRest(const TriangleMesh& mesh, const SkinModel& skin, const Fil
     SkinSearchOptions search;
     search.thickness = skin.thickness;
     search.path = SkinPath::AtRest;
-    search.facingOnly = false;
     SkinSearchCounts counts;
     SkinTable table = searchSkin(mesh, filled.searched, search, {}, &counts);
     study.skinSpheres = counts.skinSpheres;

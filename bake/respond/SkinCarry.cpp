@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace tss {
 namespace {
@@ -37,14 +38,36 @@ std::vector<std::uint32_t> firstAtPlace(const TriangleMesh& mesh) {
     for (const Tri& t : mesh.triangles)
         for (int k = 0; k < 3; ++k) ++sides[std::minmax({t[k], t[(k + 1) % 3]})];
     std::vector<char> rim(mesh.vertices.size(), 0);
-    for (const auto& [edge, count] : sides)
+    double length = 0, farthest = 0;
+    for (const auto& [edge, count] : sides) {
+        length += (mesh.vertices[edge.first] - mesh.vertices[edge.second]).norm();
         if (count == 1) rim[edge.first] = rim[edge.second] = 1;
-    std::map<std::array<double, 3>, std::uint32_t> at;
-    std::vector<std::uint32_t> first;
-    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-        const Vec3& p = mesh.vertices[v];
-        first.push_back(rim[v] ? at.try_emplace({p[0], p[1], p[2]}, v).first->second : v);
     }
+    for (const Vec3& p : mesh.vertices) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
+    // What floats may have rounded, as long as that is nothing beside an edge.
+    const double near =
+        std::min(std::ldexp(farthest, -21), 1e-3 * length / std::max<double>(1, sides.size()));
+    using Place = std::array<double, 3>; // in steps of twice that
+    std::map<Place, std::vector<std::uint32_t>> at;
+    const auto placeOf = [&](const Vec3& p) {
+        const Vec3 steps = near > 0 ? Vec3((p / (2 * near)).array().floor()) : p;
+        return Place{steps[0], steps[1], steps[2]};
+    };
+    const auto find = [&](std::uint32_t v) {
+        const Vec3& p = mesh.vertices[v];
+        for (int corner = 0; corner < 8; ++corner) { // all within reach are in these
+            const Vec3 side((corner & 1) ? near : -near, (corner & 2) ? near : -near,
+                            (corner & 4) ? near : -near);
+            const auto found = at.find(placeOf(p + side));
+            if (found == at.end()) continue;
+            for (const std::uint32_t other : found->second)
+                if ((mesh.vertices[other] - p).norm() <= near) return other;
+        }
+        at[placeOf(p)].push_back(v);
+        return v;
+    };
+    std::vector<std::uint32_t> first;
+    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) first.push_back(rim[v] ? find(v) : v);
     return first;
 }
 
@@ -106,6 +129,23 @@ std::vector<std::vector<double>> frameShares(const SkinGround& ground, const Ski
     return shares;
 }
 
+/// Whether what lies under the skin is rather where its normals point to.
+bool isWoundInwards(const SkinGround& ground) {
+    const std::size_t count = ground.skin.vertices.size();
+    std::vector<double> outward(count, 0); // each vertex's area, by how far its normal points away
+    parallelFor(count, [&](std::size_t v) {
+        const Vec3& x = ground.skin.vertices[v];
+        NearestPoint nearest{};
+        nearest.distance = infinity;
+        for (const ClosestPointQuery& body : ground.locators)
+            if (const NearestPoint near = body.nearest(x, nearest.distance); near.triangle >= 0)
+                nearest = near;
+        if (nearest.distance < infinity)
+            outward[v] = ground.graph.area[v] * (x - nearest.point).normalized().dot(ground.normals[v]);
+    });
+    return std::accumulate(outward.begin(), outward.end(), 0.0) < 0;
+}
+
 } // namespace
 
 SkinGround::SkinGround(const TriangleMesh& mesh,
@@ -126,6 +166,11 @@ SkinGround::SkinGround(const TriangleMesh& mesh,
             within[v] = box.contains(mesh.vertices[v]) && solid.inside(mesh.vertices[v]);
         });
         inside.back().assign(within.begin(), within.end());
+    }
+    inverted = isWoundInwards(*this);
+    if (inverted) {
+        for (Tri& t : skin.triangles) std::swap(t[1], t[2]);
+        for (Vec3& normal : normals) normal = -normal;
     }
     size = skin.vertices.empty() ? 0 : diagonal(skin);
     if (!(size > 0)) size = 1;

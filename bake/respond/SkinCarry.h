@@ -15,6 +15,8 @@ struct SkinGround {
     SkinGraph graph;
     std::vector<Vec3> normals;
     std::vector<ClosestPointQuery> locators; ///< one per body
+    bool inverted =
+        false; ///< the mesh is wound inwards, towards what lies under it; `skin` and `normals` are not
     std::vector<std::vector<Vec3>> surfaceNormals;
     std::vector<std::vector<bool>> inside; ///< #bodies of #V: within a muscle at rest; empty: a bone
     double size = 0;                       ///< diagonal of the skin's bounds, 1 where it has none

@@ -23,8 +23,9 @@ constexpr float leastFacing = 0.1f, fullFacing = 0.5f;
 /// Triangles that a look-up walks over, at most: enough for a slide over a tenth of a fine surface; more
 /// would only serve what is not near its start.
 constexpr int walkSteps = 40;
-/// In radii of the skin: how far a bone is looked for. What is farther meets nothing.
-constexpr float boneReach = 12;
+/// How far a bone is looked for: in radii of the skin, and in sizes of it, whichever is more. What is farther
+/// meets nothing; over the last quarter of the way there it fades.
+constexpr float boneReach = 12, boneReachOfSize = 0.1f;
 
 float smoothStep(float t) {
     t = std::clamp(t, 0.0f, 1.0f);
@@ -123,13 +124,14 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     if (placed.moved) own = placed.turn.transpose() * own;
     SurfacePoint hit;
     Vec3f way = Vec3f::Zero();
+    const float reach = std::max(boneReach * rig.radius, boneReachOfSize);
     if (body.bone()) {
         way = wayOf(rig, scene, row);
         int first = rig.starts[row.first];
         if (row.offset == 0) first = body.locator->entered((x - way).cast<double>(), x.cast<double>());
         if (first < 0) return plane;
         // Deeper than twice its way it is not believed, see comeThrough().
-        const float range = std::min(boneReach * rig.radius, 2 * (way.norm() - row.offset));
+        const float range = std::min(reach, 2 * (way.norm() - row.offset));
         hit = toPoint(body.locator->nearestFacing(x.cast<double>(), static_cast<double>(range),
                                                   own.cast<double>(), first));
     } else {
@@ -143,7 +145,9 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     // Skin inside a muscle may be nearest to a side that faces away from it.
     float trust = trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
     const Vec3f away = x - hit.point;
-    if (body.bone() && smooth.dot(away) < 0) trust *= comeThrough(away.norm(), way.norm() - row.offset);
+    if (body.bone() && smooth.dot(away) < 0)
+        trust *=
+            comeThrough(away.norm(), way.norm() - row.offset) * (1 - smoothStep(4 * away.norm() / reach - 3));
     if (!(trust > 0)) return plane;
     const Tri& t = body.triangles[hit.triangle];
     const Move* at = scene.surface.data() + body.first;

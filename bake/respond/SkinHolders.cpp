@@ -126,19 +126,7 @@ std::vector<std::size_t> nearestOf(const std::vector<FrameHolder>& holders, std:
     return nearest;
 }
 
-/// Whether the skin is wound inwards: bones are inside.
-bool isInverted(const SkinGround& ground, const std::vector<FrameHolder>& holders,
-                const std::vector<std::size_t>& nearest) {
-    double sum = 0;
-    for (std::size_t v = 0; v < nearest.size(); ++v) {
-        const Vec3 way = ground.skin.vertices[v] - holders[nearest[v]].nearest[v];
-        sum += ground.graph.area[v] * way.normalized().dot(ground.normals[v]);
-    }
-    return sum < 0;
-}
-
-double depthOf(const SkinGround& ground, const ClosestPointQuery& skin, bool inverted,
-               const FrameHolder& holder) {
+double depthOf(const SkinGround& ground, const ClosestPointQuery& skin, const FrameHolder& holder) {
     double deepest = 0;
     for (const std::size_t m : holder.bodies) {
         const std::vector<Vec3>& places = ground.bodies[m]->muscle().surface.vertices;
@@ -146,7 +134,7 @@ double depthOf(const SkinGround& ground, const ClosestPointQuery& skin, bool inv
         parallelFor(places.size(), [&](std::size_t v) {
             const NearestPoint near = skin.nearest(places[v], infinity);
             const Vec3 normal = ground.normals[ground.skin.triangles[near.triangle][0]];
-            if (((places[v] - near.point).dot(normal) < 0) != inverted) depth[v] = near.distance;
+            if ((places[v] - near.point).dot(normal) < 0) depth[v] = near.distance;
         });
         for (const double d : depth) deepest = std::max(deepest, d);
     }
@@ -156,15 +144,14 @@ double depthOf(const SkinGround& ground, const ClosestPointQuery& skin, bool inv
 /// Marks those vertices that are apart from the bone: far from it, or the straight way to it leaves the body
 /// and goes in again elsewhere, as from the belly to a leg. Out alone does not count: teeth are not inside of
 /// lips. far: scene units.
-void markApart(const SkinGround& ground, const ClosestPointQuery& skin, bool inverted, double far,
-               FrameHolder& holder) {
+void markApart(const SkinGround& ground, const ClosestPointQuery& skin, double far, FrameHolder& holder) {
     constexpr double away = 1e-3; // of the way, so that it does not begin in the skin
     holder.holder.apart.assign(ground.skin.vertices.size(), 1);
     parallelFor(holder.holder.apart.size(), [&](std::size_t v) {
         if (holder.holder.distance[v] > far) return;
         const Vec3 &x = ground.skin.vertices[v], &to = holder.nearest[v];
         const Vec3 from = x + away * (to - x);
-        holder.holder.apart[v] = (inverted ? skin.entered(to, from) : skin.entered(from, to)) >= 0;
+        holder.holder.apart[v] = skin.entered(from, to) >= 0;
     });
 }
 
@@ -186,13 +173,12 @@ struct FreeParts {
 FreeParts freeParts(const SkinGround& ground, std::vector<FrameHolder>& holders, bool anyStill) {
     const std::size_t count = ground.skin.vertices.size();
     const std::vector<std::size_t> plain = nearestOf(holders, count);
-    const bool inverted = isInverted(ground, holders, plain);
     const ClosestPointQuery skin(ground.skin);
     std::vector<char> isFree(count, 1);
     for (FrameHolder& h : holders) {
-        const double far = anyStill ? std::max(farDistance * h.extent, 2 * depthOf(ground, skin, inverted, h))
+        const double far = anyStill ? std::max(farDistance * h.extent, 2 * depthOf(ground, skin, h))
                                     : stillDistance * h.extent;
-        markApart(ground, skin, inverted, far, h);
+        markApart(ground, skin, far, h);
         for (std::size_t v = 0; v < count; ++v) isFree[v] = isFree[v] && h.holder.apart[v];
     }
     const std::vector<std::size_t> nearest = nearestOf(holders, count);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tss {
 namespace {
@@ -20,7 +21,7 @@ constexpr float leastStep = 0.1f;
 
 SkinPushes::SkinPushes(const SkinFoundation& foundation)
     : foundation_(foundation), dense_(foundation.nodes, 0), stamp_(foundation.nodes, 0),
-      nodes_(foundation.nodes, Move::Zero()) {
+      lastOwner_(foundation.nodes, none), nodes_(foundation.nodes, Move::Zero()) {
     clear();
 }
 
@@ -61,46 +62,69 @@ void SkinPushes::gather(std::span<const SkinPlane> planes) {
 }
 
 /// How much a push of 1 along each new plane's normal moves those before it, and they it, were their normals
-/// alike.
+/// alike. Only planes that have some of the nodes that it moves.
 void SkinPushes::couple() {
     const std::size_t count = ownStart_.size() - 1;
-    const auto dot = [&](std::size_t s) {
-        float sum = 0;
-        for (std::uint32_t e = ownStart_[s]; e < ownStart_[s + 1]; ++e)
-            sum += own_[e].value * dense_[own_[e].index];
-        return sum;
-    };
-    for (std::size_t r = self_.size(); r < count; ++r) {
+    sums_.resize(count, 0);
+    summed_.resize(count, 0);
+    std::vector<std::uint32_t> met;
+    for (std::uint32_t r = static_cast<std::uint32_t>(self_.size()); r < count; ++r) {
+        for (std::uint32_t e = ownStart_[r]; e < ownStart_[r + 1]; ++e) {
+            owners_.push_back({r, own_[e].value, lastOwner_[own_[e].index]});
+            lastOwner_[own_[e].index] = static_cast<std::uint32_t>(owners_.size()) - 1;
+        }
         float peak = 0;
         for (std::uint32_t e = columnStart_[r]; e < columnStart_[r + 1]; ++e) {
-            dense_[column_[e].index] = column_[e].value;
             peak = std::max(peak, std::abs(column_[e].value));
+            for (std::uint32_t o = lastOwner_[column_[e].index]; o != none; o = owners_[o].before) {
+                const Owner& owner = owners_[o];
+                if (!summed_[owner.plane]) met.push_back(owner.plane);
+                summed_[owner.plane] = 1;
+                sums_[owner.plane] += column_[e].value * owner.value;
+            }
         }
         peak_.push_back(peak);
-        for (std::size_t s = 0; s < r; ++s) before_.push_back(dot(s));
-        self_.push_back(dot(r));
-        for (std::uint32_t e = columnStart_[r]; e < columnStart_[r + 1]; ++e) dense_[column_[e].index] = 0;
+        std::sort(met.begin(), met.end());
+        for (const std::uint32_t s : met) {
+            if (s < r && sums_[s] != 0) before_.push_back({s, sums_[s]});
+            if (s < r) sums_[s] = 0;
+            summed_[s] = 0;
+        }
+        met.clear();
+        self_.push_back(std::exchange(sums_[r], 0));
+        beforeStart_.push_back(static_cast<std::uint32_t>(before_.size()));
     }
+    // Those behind each plane.
+    std::vector<std::uint32_t> start(count + 1, 0);
+    for (const Entry& entry : before_) ++start[entry.index + 1];
+    for (std::size_t r = 0; r < count; ++r) start[r + 1] += start[r];
+    std::vector<Entry> behind(before_.size());
+    std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
+    for (std::uint32_t r = 0; r < count; ++r)
+        for (std::uint32_t e = beforeStart_[r]; e < beforeStart_[r + 1]; ++e)
+            behind[next[before_[e].index]++] = {r, before_[e].value};
     coupleStart_.assign(1, 0);
     coupling_.clear();
     fours_.clear();
     for (std::uint32_t r = 0; r < count; ++r) {
-        for (std::uint32_t first = 0; first < count; first += 4) {
-            Four values = Four::Zero();
-            for (std::uint32_t s = first; s < std::min<std::size_t>(first + 4, count); ++s)
-                if (s != r) {
-                    const std::size_t least = std::min(r, s), most = std::max(r, s);
-                    values[s - first] = before_[most * (most - 1) / 2 + least];
-                }
-            if ((values == 0).all()) continue;
-            coupling_.push_back(values);
-            fours_.push_back(first);
-        }
+        const auto take = [&](const Entry& entry) {
+            const std::uint32_t first = entry.index / 4 * 4;
+            if (fours_.size() == coupleStart_.back() || fours_.back() != first) {
+                fours_.push_back(first);
+                coupling_.push_back(Four::Zero());
+            }
+            coupling_.back()[entry.index - first] = entry.value;
+        };
+        std::for_each(before_.begin() + beforeStart_[r], before_.begin() + beforeStart_[r + 1], take);
+        std::for_each(behind.begin() + start[r], behind.begin() + start[r + 1], take);
         coupleStart_.push_back(static_cast<std::uint32_t>(coupling_.size()));
     }
 }
 
 void SkinPushes::clear() {
+    for (const Entry& entry : own_) lastOwner_[entry.index] = none;
+    owners_.clear();
+    beforeStart_.assign(1, 0);
     ownStart_.assign(1, 0);
     columnStart_.assign(1, 0);
     own_.clear();

@@ -30,6 +30,13 @@ private:
         std::uint32_t index;
         float value;
     };
+    static constexpr std::uint32_t none = ~0u;
+    /// A plane that has some of a node, and which has before it.
+    struct Owner {
+        std::uint32_t plane;
+        float value;
+        std::uint32_t before;
+    };
     /// Free to push more or less.
     bool inside(std::span<const SkinPlane> planes, std::size_t r) const {
         return planes[r].push > 0 && planes[r].push < most_[r];
@@ -55,13 +62,19 @@ private:
     std::vector<Entry> column_;                                       ///< how the nodes move when it pushes
     std::vector<Four> coupling_, matrix_; ///< how much nearer to their goal four other planes come by it
     std::vector<std::uint32_t> fours_;    ///< of coupling_: the first of the four
-    std::vector<float> before_; ///< of plane r with each s < r, at r (r - 1) / 2 + s; the same both ways
-    std::vector<float> peak_;   ///< of each plane: most that its push moves a node
+    std::vector<Entry>
+        before_; ///< of each plane those before it that it moves, and how much; the same both ways
+    std::vector<std::uint32_t> beforeStart_; ///< one per plane and an end
+    std::vector<Owner> owners_;
+    std::vector<float> sums_;
+    std::vector<char> summed_;
+    std::vector<float> peak_; ///< of each plane: most that its push moves a node
     std::vector<float> dense_, self_, most_;
     std::vector<float> asked_, lack_; ///< one per plane, up to whole fours
     std::array<std::vector<float>, 3> normals_;
     std::vector<float> step_, way_, left_, answer_; ///< of conjugate gradients
     std::vector<std::uint32_t> seen_, stamp_;
+    std::vector<std::uint32_t> lastOwner_; ///< of each node
     std::vector<Move> nodes_;
     std::uint32_t round_ = 0;
 };

@@ -145,6 +145,7 @@ void SkinResponse::State::showNormals(std::size_t block) {
     const SkinFan *fans = rig_->fans.fans.data(), *fan = fans + rig_->fans.start[block * SkinRig::block];
     const std::uint32_t* ends = rig_->fans.start.data() + 1;
     Vec3* normals = normals_.data();
+    const float outward = rig_->inverted ? -1 : 1;
     for (std::size_t v = block * SkinRig::block; v < last; ++v) {
         Move sum = Move::Zero(); // z, x, y
         const SkinFan* end = fans + ends[v];
@@ -153,9 +154,9 @@ void SkinResponse::State::showNormals(std::size_t block) {
             sum += spoke.cwiseProduct(turned(rim)) - turned(spoke).cwiseProduct(rim);
         }
         const float squared = sum.squaredNorm();
-        const float scale = squared > 0 ? 1 / std::sqrt(squared) : 0;
+        const float scale = squared > 0 ? outward / std::sqrt(squared) : 0;
         sum *= scale;
-        if (scale > 0)
+        if (squared > 0)
             normals[v] =
                 Vec3(static_cast<double>(sum[1]), static_cast<double>(sum[2]), static_cast<double>(sum[0]));
         else

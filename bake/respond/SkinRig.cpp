@@ -55,7 +55,7 @@ std::vector<std::uint32_t> touch(SkinRig& rig, const SkinGround& ground, const S
         indexOf[v] = static_cast<std::uint32_t>(rig.vertices.size());
         rig.vertices.push_back(v);
         rig.rest.push_back(ground.skin.vertices[v]);
-        rig.restNormals.push_back(ground.normals[v]);
+        rig.restNormals.push_back(ground.inverted ? Vec3(-ground.normals[v]) : ground.normals[v]);
     }
     for (std::uint32_t v = 0; v < count; ++v) indexOf[v] = indexOf[ground.first[v]];
     return indexOf;
@@ -98,7 +98,7 @@ void addTriangles(SkinRig& rig, const TriangleMesh& skin, const std::vector<std:
     rig.across = trianglesAcross(rig.triangles);
     rig.fans = skinFans(at, rig.vertices.size());
     for (const Vec3& x : rig.rest) rig.places.push_back(placeOf(rig, x));
-    for (const Vec3& n : rig.restNormals) rig.placeNormals.push_back(toMove(n));
+    for (const Vec3& n : rig.restNormals) rig.placeNormals.push_back(toMove(rig.inverted ? Vec3(-n) : n));
 }
 
 /// What is at the place of a touched vertex too.
@@ -254,6 +254,7 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     rig.parameters = parameters;
     const SkinGround ground(skin, bodies);
     rig.size = ground.size;
+    rig.inverted = ground.inverted;
     if (!skin.vertices.empty()) rig.centre = bounds(skin).center();
     rig.radius = static_cast<float>(std::max(largestRadius(table.table), 1e-3 * rig.size) / rig.size);
     SkinCarriage carriage;

@@ -119,13 +119,14 @@ struct SkinRig {
     std::vector<std::uint32_t>
         vertices;                     ///< indices into the skin mesh, near ones beside each other, then twins
     std::vector<Vec3> rest;           ///< places of the vertices, scene units
-    std::vector<Vec3> restNormals;    ///< unit
+    std::vector<Vec3> restNormals;    ///< unit; of the mesh as it is wound
+    bool inverted = false;            ///< it is wound inwards, which what follows is not
     std::vector<std::uint32_t> twins; ///< of each vertex at the place of another one that other, touched one
     std::vector<Tri> triangles;       ///< of touched vertices only
     std::vector<Tri> across;          ///< beyond each of their edges, -1: none
     SkinFans fans;                    ///< all at a touched vertex, into vertices then borderPlaces
 
-    std::vector<Move> places, placeNormals; ///< rest and restNormals as the run time has them
+    std::vector<Move> places, placeNormals; ///< rest and normals outward as the run time has them
     std::vector<Move> borderPlaces;         ///< of the untouched corners of fans
     /// Touched vertices move in blocks of this many. Around block b, with it, are those with a normal that
     /// hangs on it: around[aroundStart[b]] to around[aroundStart[b + 1]].

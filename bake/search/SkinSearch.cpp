@@ -160,9 +160,8 @@ Box pathBox(const MuscleSweep& sweep, const Vec3& rest, std::size_t v) {
 }
 
 std::vector<SpherePair> pairsOfMuscle(const MuscleSweep& sweep, const SphereSet& spheres,
-                                      const TriangleMesh& skin, const std::vector<Vec3>& normals,
-                                      const std::vector<double>& radii, const SkinSearchOptions& options,
-                                      std::size_t muscle, int stop) {
+                                      const TriangleMesh& skin, const std::vector<double>& radii,
+                                      const SkinSearchOptions& options, std::size_t muscle, int stop) {
     const std::span<const double> stray =
         options.stray.empty() ? std::span<const double>() : std::span<const double>(options.stray[muscle]);
     const auto near = [&](std::uint32_t v) {
@@ -206,8 +205,6 @@ std::vector<SpherePair> pairsOfMuscle(const MuscleSweep& sweep, const SphereSet&
         for (; it != order.end() && boxes[*it].min()[0] <= swept.max()[0]; ++it) {
             const std::uint32_t v = *it;
             if (!boxes[v].intersects(swept)) continue;
-            const double before = normals[v].dot(spheres[j].centre - skin.vertices[v]);
-            if (options.facingOnly && before > spheres[j].radius) continue;
             if (reaches(sweep, j, skin.vertices[v], v, near(v)) ||
                 reachesSwung(sweep, j, swung[v], near(v), carried[v]))
                 found[j].push_back({v, static_cast<std::uint32_t>(j)});
@@ -269,7 +266,6 @@ SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscl
     SkinSearchCounts count;
     const double thickness = options.thickness > 0 ? options.thickness : skinThickness(skin);
     const std::vector<double> radii(skin.vertices.size(), thickness);
-    const std::vector<Vec3> normals = vertexNormals(skin);
 
     SphereSet skinSpheres, muscleSpheres;
     for (const Vec3& v : skin.vertices) skinSpheres.push_back({v, thickness});
@@ -283,8 +279,7 @@ SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscl
         const MuscleSweep sweep = makeSweep(muscles[m], skin, options.path);
         const auto first = static_cast<std::uint32_t>(muscleSpheres.size());
         for (int stop = 0; stop < (insertionOf(options, m) < 0 ? 1 : spanStops); ++stop)
-            for (SpherePair p :
-                 pairsOfMuscle(sweep, muscles[m].spheres, skin, normals, radii, options, m, stop))
+            for (SpherePair p : pairsOfMuscle(sweep, muscles[m].spheres, skin, radii, options, m, stop))
                 pairs.push_back({p.a, p.b + first});
         muscleSpheres.insert(muscleSpheres.end(), muscles[m].spheres.begin(), muscles[m].spheres.end());
         muscleOf.resize(muscleSpheres.size(), static_cast<std::uint32_t>(m));

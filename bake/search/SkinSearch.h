@@ -30,8 +30,6 @@ struct SkinSearchOptions {
     std::vector<BoneSwing> swings; ///< of the bones that the muscles ride on
     std::vector<int> insertions;   ///< #muscles: of one between two bones a muscle that moves with the other
                                    ///< bone, else -1; empty: none
-    bool facingOnly =
-        false; ///< leave out spheres that lie wholly outside the skin, before the vertex's normal
 };
 
 /// The counts that the paper prints.

@@ -1,17 +1,49 @@
+#include "bake/model/AddPair.h"
 #include "bake/pipeline/BakeSkin.h"
+#include "tests/Joints.h"
 #include "tests/geometry/TestMeshes.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 using namespace tss;
 using namespace tss::test;
+
+TEST_CASE("a joint that turns a skin's bones farther than half round is named") {
+    const auto noted = [](double upper) {
+        SceneModel scene;
+        for (const char* path : {"/Limb/A", "/Limb/B", "/Limb/Skin"}) {
+            Body body;
+            body.path = path;
+            const double x = scene.bodies.size() == 1 ? 2 : 0;
+            body.mesh = ballMesh(Vec3(x, 0, 0), scene.bodies.size() < 2 ? 0.9 : 4, 2);
+            scene.bodies.push_back(body);
+        }
+        Motion motion;
+        motion.dofs = {joints::turn(Vec3::Zero(), Vec3::UnitX(), -1, upper)};
+        addJoints(scene, 0, 1, motion, "Twist");
+        SkinModel skin;
+        skin.path = "/Limb/Skin";
+        skin.body = 2;
+        skin.bones = {0, 1};
+        scene.skins = {skin};
+        PairReport report;
+        bakeSkin(scene, scene.skins[0], {}, report, {});
+        return std::ranges::any_of(report.notes, [](const std::string& note) {
+            return note.find("Twist turns bones by more than half a turn") != note.npos;
+        });
+    };
+    CHECK(noted(6));
+    CHECK_FALSE(noted(3.1));
+}
 
 TEST_CASE("what is said of the mesh of one of a skin's bones names that bone") {
     SceneModel scene;
     for (const char* path : {"/Head/Skull", "/Head/Jaw", "/Head/Skin"}) {
         Body body;
         body.path = path;
-        body.mesh = ballMesh(Vec3(0, scene.bodies.size() == 1 ? 2.5 : 0, 0), scene.bodies.size() < 2 ? 1 : 4, 2);
+        body.mesh =
+            ballMesh(Vec3(0, scene.bodies.size() == 1 ? 2.5 : 0, 0), scene.bodies.size() < 2 ? 1 : 4, 2);
         scene.bodies.push_back(body);
     }
     scene.bodies[1].mesh.triangles.pop_back(); // the jaw is open

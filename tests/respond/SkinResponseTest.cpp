@@ -54,6 +54,30 @@ TEST_CASE("a contracting muscle lifts the skin above it") {
     CHECK(lift < 0.1);
 }
 
+TEST_CASE("a skin that is wound inwards is lifted as one that is not, its normals the other way") {
+    const skins::Couple outward = skins::usual();
+    TriangleMesh turned = outward.skin;
+    for (Tri& t : turned.triangles) std::swap(t[1], t[2]);
+    const skins::Couple inward = skins::couple(turned, {skins::muscleBelow(0)});
+    SkinParameters loose; // so that contacts alone lift it
+    loose.attach.assign(turned.vertices.size(), 0);
+    SkinResponse one(outward.rig(loose)), other(inward.rig(loose));
+    for (SkinResponse* response : {&one, &other})
+        CHECK(response->update(std::vector<double>{1}).contacts > 0);
+    REQUIRE(one.vertices().size() == other.vertices().size());
+    double off = 0, turn = 0;
+    for (std::size_t i = 0; i < one.vertices().size(); ++i) {
+        REQUIRE(one.vertices()[i] == other.vertices()[i]);
+        off = std::max(off, (one.positions()[i] - other.positions()[i]).norm());
+        turn = std::max(turn, (one.normals()[i] + other.normals()[i]).norm());
+    }
+    CHECK(off < 1e-5);
+    CHECK(turn < 1e-3);
+    other.update(std::vector<double>{0});
+    CHECK(exactlyAtRest(other));
+    CHECK(other.normals()[0].z() < 0);
+}
+
 TEST_CASE("skin whose triangles share no vertex is lifted as one") {
     const skins::Couple whole = skins::usual();
     TriangleMesh split;

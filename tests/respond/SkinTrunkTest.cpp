@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <random>
 #include <set>
 
 using namespace tss;
@@ -220,6 +221,12 @@ TEST_CASE("lips that touch vertex on vertex at rest are two, rims at one place a
     const SkinGround apart(lips, {}), seamed(splitAt(lips), {});
     for (std::uint32_t v = 0; v < apart.first.size(); ++v) CHECK(apart.first[v] == v);
     CHECK(std::set(seamed.first.begin(), seamed.first.end()).size() < lips.vertices.size());
+    // Where floats have rounded them apart as well.
+    TriangleMesh rounded = splitAt(lips);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> off(-2e-7, 2e-7);
+    for (Vec3& v : rounded.vertices) v += Vec3(off(random), off(random), off(random));
+    CHECK(SkinGround(rounded, {}).first == seamed.first);
 }
 
 TEST_CASE(

@@ -46,7 +46,6 @@ SkinSearchOptions options(SkinPath path) {
     o.thickness = 0.02;
     o.travel = 0.01;
     o.path = path;
-    o.facingOnly = false;
     return o;
 }
 
