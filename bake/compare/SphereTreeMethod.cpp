@@ -33,7 +33,9 @@ public:
         // The spheres that a table uses all belong to the model: every one of their contacts is one of the
         // model's, and they contain the table's own tests.
         StatedError stated{missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)};
-        if (!all) stated.miss = table.certified ? table.boundMiss : std::nullopt;
+        // Without the tolerance from which the tests report on.
+        if (!all) stated.miss.reset();
+        if (!all && table.certified && table.boundMiss) stated.miss = *table.boundMiss + table.epsilon;
         description() = {std::string(all ? "tree-all-" : "tree-used-") + std::to_string(arity) + "-" + how,
                          all ? "sphere tree, all spheres" : "sphere tree, used spheres",
                          std::to_string(arity) + "-ary tree of " +

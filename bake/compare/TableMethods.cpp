@@ -10,7 +10,7 @@ namespace {
 /// A table that lets pairs overlap as they do at rest promises no contact of the meshes there.
 StatedError statedOf(const Table& table) {
     if (!table.certified) return {};
-    return {table.restGaps.empty() ? table.boundMiss : std::nullopt, table.boundEarly};
+    return {table.restRegion.empty() ? table.boundMiss : std::nullopt, table.boundEarly};
 }
 
 /// As the paper runs it: for each sphere of A its row of spheres of B, through indices.
