@@ -159,6 +159,12 @@ std::vector<BakeOption> makeBakeOptions() {
          [](BakeOptions& o, Text key, Text text, double unit) { o.depth = length(key, text, unit, true); }},
         {"max-spheres", "at most so many spheres a body: the best tolerance for them",
          [](BakeOptions& o, Text key, Text text, double) { o.maxSpheres = count(key, text, 1); }},
+        {"max-tests",
+         "at most so many tests a table where all that may touch are kept: the best tolerance for them "
+         "(default 1000000; each takes some 240 bytes while it is baked)",
+         [](BakeOptions& o, Text key, Text text, double) {
+             o.mostTests = static_cast<std::size_t>(count(key, text, 1));
+         }},
         {"reduce", listed(reduceWords),
          [](BakeOptions& o, Text key, Text text, double) { o.reduce = choice(key, text, reduceWords); }},
         {"search", listed(searchWords),

@@ -35,7 +35,7 @@ struct BakeOptions {
     std::uint64_t mostLooks = 2'000'000'000;
     /// As many pairs of spheres a table asks at most where no cover of them is found: few of them in a query,
     /// in clusters, but each takes some 240 bytes in memory.
-    std::size_t mostPairs = 1'000'000;
+    std::size_t mostTests = 1'000'000;
     double metersPerUnit = 1; ///< of the scene, for what is said of lengths
 };
 

@@ -214,7 +214,7 @@ Level finestToAskAll(const Body& a, const Body& b, const Motion& motion, const B
     double tooFine = 0, power = 3; // spheres become fewer with the first to the second of it, of either body
     for (int fills = 1;; ++fills) {
         const double tolerance = last.tolerance, pairs = last.pairs();
-        const double share = pairs / static_cast<double>(options.mostPairs);
+        const double share = pairs / static_cast<double>(options.mostTests);
         if (canAskAll(last.spheres, options))
             good = std::move(last);
         else
@@ -255,7 +255,7 @@ std::optional<double> boundOrUnknown(double bound) {
 }
 
 bool canAskAll(const PairSpheres& spheres, const BakeOptions& options) {
-    return asksForCover(options) && spheres.a.spheres.size() * spheres.b.spheres.size() <= options.mostPairs;
+    return asksForCover(options) && spheres.a.spheres.size() * spheres.b.spheres.size() <= options.mostTests;
 }
 
 bool canAskAllInstead(const BakeOptions& options) {

@@ -105,7 +105,7 @@ TEST_CASE("a budget that ends costs tests and not epsilon: all pairs that may me
     SceneModel scene = lumpyPair(2);
     BakeOptions options;
     options.tolerance = 0.02;
-    if (coarser) options.mostPairs = 3000;
+    if (coarser) options.mostTests = 3000;
     options.atRest = AtRest::Collide;
     if (byWork)
         options.mostLooks = 1000;
@@ -122,7 +122,7 @@ TEST_CASE("a budget that ends costs tests and not epsilon: all pairs that may me
     CHECK(table.boundMiss == 0);
     CHECK(table.boundEarly < 0.3);
     CHECK(table.testCount() > 100);
-    CHECK(table.testCount() <= options.mostPairs);
+    CHECK(table.testCount() <= options.mostTests);
     const bool said = std::any_of(report.notes.begin(), report.notes.end(), [&](const std::string& note) {
         return note.find(byWork ? "1 degree of freedom: all " : "in the budget: all ") != std::string::npos;
     });
@@ -147,7 +147,7 @@ TEST_CASE("a search that ended by its work goes on to its own end where all pair
         BakeOptions options;
         options.tolerance = 0.05;
         options.atRest = AtRest::Collide;
-        options.mostPairs = 1;
+        options.mostTests = 1;
         options.mostLooks = mostLooks;
         PairReport report;
         bakePair(scene, scene.pairs[0], options, report, {});
@@ -214,13 +214,13 @@ TEST_CASE("over four degrees of freedom a tolerance far too fine becomes the fin
     BakeOptions options;
     options.tolerance = 1e-5; // of which one body alone would take more patches than are made
     options.atRest = AtRest::Collide;
-    options.mostPairs = 20'000;
+    options.mostTests = 20'000;
     const Motion motion = pairMotion(scene, scene.pairs[0]);
     const PairSpheres spheres = fillPair(scene, scene.pairs[0], motion, options);
     const std::size_t pairs = spheres.a.spheres.size() * spheres.b.spheres.size();
     CHECK(spheres.askAll);
-    CHECK(pairs <= options.mostPairs);
-    CHECK(pairs > options.mostPairs / 2);
+    CHECK(pairs <= options.mostTests);
+    CHECK(pairs > options.mostTests / 2);
     CHECK(spheres.a.note.find("instead of 1e-05 scene units") != std::string::npos);
 }
 
