@@ -131,7 +131,9 @@ private:
         auto size = numbersOf(file_, geom, "size", 1, 3);
         if (size.size() < (ends.empty() ? count : 1))
             throw InputError(placeOf(file_, geom),
-                             "size: expected " + std::to_string(count) + " numbers for a " + type);
+                             "size: expected " +
+                                 (count == 1 ? "a number" : std::to_string(count) + " numbers") + " for a " +
+                                 type);
         size.resize(3, 0);
         shape.size = vectorOf(size);
         if (!ends.empty() && count > 1) stretch(geom, ends, count == 2, shape);

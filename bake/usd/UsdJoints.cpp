@@ -79,6 +79,11 @@ private:
         if (changesInTime(prim.prim()))
             return leftOut_.add(
                 "left out: joints whose limits or frames change in time, which tie nothing here", path);
+        const std::string& type = prim.prim().typeName;
+        if ((type == "PhysicsRevoluteJoint" || type == "PhysicsPrismaticJoint") &&
+            prim.limit(schema::lowerLimit, -HUGE_VAL) > prim.limit(schema::upperLimit, HUGE_VAL))
+            return leftOut_.add(
+                "left out: joints with a lower limit above their upper one, which tie nothing", path);
         Joint read;
         readDofs(prim, read);
         const bool driven = !read.dofs.empty() && (end0.kinematic || end1.kinematic);

@@ -203,8 +203,9 @@ TEST_CASE(
     CHECK_FALSE(fillPair(scene, scene.pairs[0], motion, options).askAll);
 }
 
-TEST_CASE("over four degrees of freedom a tolerance far too fine becomes the finest of which all pairs can be "
-          "asked") {
+TEST_CASE(
+    "over four degrees of freedom a tolerance far too fine becomes the finest of which all pairs can be "
+    "asked") {
     SceneModel scene = lumpyPair(2);
     while (scene.joints[0].dofs.size() < 4) {
         const auto k = static_cast<Eigen::Index>(scene.joints[0].dofs.size());
@@ -214,7 +215,9 @@ TEST_CASE("over four degrees of freedom a tolerance far too fine becomes the fin
     BakeOptions options;
     options.tolerance = 1e-5; // of which one body alone would take more patches than are made
     options.atRest = AtRest::Collide;
-    options.mostTests = 20'000;
+    setOption(options, "max-tests", "20000", 1);
+    CHECK_THROWS_AS(setOption(options, "max-tests", "0", 1), InputError);
+    REQUIRE(options.mostTests == 20'000);
     const Motion motion = pairMotion(scene, scene.pairs[0]);
     const PairSpheres spheres = fillPair(scene, scene.pairs[0], motion, options);
     const std::size_t pairs = spheres.a.spheres.size() * spheres.b.spheres.size();

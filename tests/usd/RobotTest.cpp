@@ -242,6 +242,15 @@ TEST_CASE("of a body with a shape that cannot be had nothing is made; what a gro
     CHECK(widthOf("def Xform \"g\" { def Cube \"big\" { double size = 8 } }") == Approx(2)); // a visual
 }
 
+TEST_CASE("a joint with limits the wrong way round is left out by name, and the rest comes in") {
+    std::string reversed = hinge;
+    reversed.replace(reversed.find("lowerLimit = -30"), 16, "lowerLimit = 120");
+    const RobotScene made = robotScene(twoBoxes(reversed));
+    CHECK(made.scene.bodies.size() == 2);
+    CHECK(made.scene.joints.empty());
+    CHECK(hasNote(made.notes, "a lower limit above their upper one, which tie nothing: /R/j"));
+}
+
 TEST_CASE("joints that time or somebody else changes tie nothing, by name") {
     std::string timed = hinge, moved = twoBoxes(hinge);
     timed.replace(timed.find("float physics:upperLimit = 90"), 29,
