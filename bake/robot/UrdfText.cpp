@@ -270,8 +270,10 @@ std::string leftOutJoint(const std::string& joint, const std::string& where, con
 PrunedUrdf pruneUrdf(XMLElement& robot, const std::string& file) {
     PrunedUrdf pruned;
     const std::string version = textOf(robot, "version", "1.0");
-    if (version != "1.0" && version != "1" && version != "1.1")
-        throw InputError(placeOf(file, robot), "version: expected 1.0 or 1.1, found \"" + version + "\"");
+    static const std::set<std::string> known = {"1", "1.0", "1.1", "1.2"};
+    if (!known.contains(version))
+        throw InputError(placeOf(file, robot),
+                         "version: expected 1.0, 1.1 or 1.2, found \"" + version + "\"");
     if (textOf(robot, "name").empty()) robot.SetAttribute("name", std::filesystem::path(file).stem().c_str());
     const std::set<std::string> links = expectOnce(file, robot, "link");
     expectOnce(file, robot, "joint");
@@ -290,7 +292,7 @@ PrunedUrdf pruneUrdf(XMLElement& robot, const std::string& file) {
 std::string urdfText(const XMLElement& robot) {
     tinyxml2::XMLDocument document;
     tinyxml2::XMLNode* top = document.InsertEndChild(robot.ShallowClone(&document));
-    top->ToElement()->DeleteAttribute("version"); // what 1.1 adds is spelled in words of 1.0
+    top->ToElement()->DeleteAttribute("version"); // what 1.1 adds is spelled in words of 1.0, 1.2 adds rates
     for (const auto* child = robot.FirstChildElement(); child; child = child->NextSiblingElement())
         if (child->Name() != std::string_view("material")) top->InsertEndChild(child->DeepClone(&document));
     for (auto* link = top->FirstChildElement("link"); link; link = link->NextSiblingElement("link"))

@@ -13,7 +13,8 @@ namespace {
 
 constexpr Attribute rigidEnabled{"physics:rigidBodyEnabled", "bool"},
     kinematic{"physics:kinematicEnabled", "bool"}, collides{"physics:collisionEnabled", "bool"},
-    approximation{"physics:approximation", "token", true}, filtered{"physics:filteredPairs", "rel"};
+    approximation{"physics:approximation", "token", true}, filtered{"physics:filteredPairs", "rel"},
+    prototypes{"prototypes", "rel"};
 
 class Reader {
 public:
@@ -190,12 +191,26 @@ private:
         const Prim& prim = *entries_[entry].prim;
         const bool own = isCollider(entry) && !isPlain(prim) && reader(entry).flag(collides, true);
         if (!own && !isUnreadSurface(prim)) return;
+        collider = collider || (prim.typeName == "PointInstancer" && hasCollidingPrototypes(entry));
         if (link < 0 && (!collider || prim.typeName == "Plane")) return;
         RobotShape shape;
         shape.where = pathOf(entry);
         shape.problem = "a shape of type " + prim.typeName + " is not read";
         RobotLink& to = link >= 0 ? robot_.links[link] : scenery_;
         (collider ? to.collision : to.visual).push_back(std::move(shape));
+    }
+
+    bool hasCollidingPrototypes(std::size_t instancer) const {
+        std::vector<char> within(entries_.size(), 0); // the instancer, or one of its prototypes
+        within[instancer] = 1;
+        for (const std::string& path : reader(instancer).targets(prototypes))
+            if (const int entry = reading_.index.find(path); entry >= 0)
+                within[static_cast<std::size_t>(entry)] = 1;
+        for (std::size_t i = 0; i < entries_.size(); ++i) { // parents come first
+            if (entries_[i].parent >= 0) within[i] |= within[static_cast<std::size_t>(entries_[i].parent)];
+            if (within[i] && isCollider(i)) return true;
+        }
+        return false;
     }
 
     static bool isPlain(const Prim& prim) {

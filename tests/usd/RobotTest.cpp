@@ -229,6 +229,9 @@ TEST_CASE("of a body with a shape that cannot be had nothing is made; what a gro
         return bodyCalled(robotScene(twoBoxes(hinge, second)).scene, "b").mesh.empty();
     };
     CHECK(empty("def PointInstancer \"p\" " + api + "{ def Cube \"proto\" {} }"));
+    CHECK(empty("def PointInstancer \"p\" { def Cube \"proto\" " + api + "{} }"));
+    CHECK(empty("def PointInstancer \"p\" { rel prototypes = </R/b/x> }\ndef Cube \"x\" " + api + "{}"));
+    CHECK_FALSE(empty("def PointInstancer \"p\" { def Cube \"proto\" {} }"));
     CHECK(empty("def NurbsPatch \"p\" " + api + "{}"));
     CHECK(empty("def Hull \"p\" " + api + "{}")); // whatever that is
     CHECK(empty("def Capsule_1 \"p\" " + api + "{ double radiusTop = 1\ndouble radiusBottom = 2 }"));
