@@ -1,6 +1,7 @@
 #include "bake/usd/UsdRobot.h"
 
 #include "bake/usd/AdaptTypes.h"
+#include "bake/usd/Colliders.h"
 #include "bake/usd/Gprims.h"
 #include "bake/usd/UsdJoints.h"
 
@@ -12,15 +13,14 @@ namespace tss {
 namespace {
 
 constexpr Attribute rigidEnabled{"physics:rigidBodyEnabled", "bool"},
-    kinematic{"physics:kinematicEnabled", "bool"}, collides{"physics:collisionEnabled", "bool"},
-    approximation{"physics:approximation", "token", true}, filtered{"physics:filteredPairs", "rel"},
-    prototypes{"prototypes", "rel"};
+    kinematic{"physics:kinematicEnabled", "bool"}, approximation{"physics:approximation", "token", true},
+    filtered{"physics:filteredPairs", "rel"}, prototypes{"prototypes", "rel"};
 
 class Reader {
 public:
     Reader(const UsdStage& stage, const std::string& file)
         : problems_(file), reading_(stage.layer, problems_), entries_(reading_.index.entries),
-          world_(worldXforms(reading_)) {
+          colliders_(reading_), world_(worldXforms(reading_)) {
         robot_.file = file;
         robot_.notes = stage.notes;
     }
@@ -80,23 +80,6 @@ private:
 
     bool isRigid(std::size_t entry) const {
         return hasApi(*entries_[entry].prim, "PhysicsRigidBodyAPI") && reader(entry).flag(rigidEnabled, true);
-    }
-
-    bool isCollider(std::size_t entry) const { return hasApi(*entries_[entry].prim, "PhysicsCollisionAPI"); }
-
-    /// It collides itself, or is part of what does: of a prim above it that is no shape.
-    bool collidesSomehow(std::size_t entry) const {
-        for (int at = static_cast<int>(entry); at >= 0; at = entries_[at].parent)
-            if (isCollider(at) && (at == static_cast<int>(entry) || !isGprim(*entries_[at].prim)))
-                return reader(at).flag(collides, true);
-        return false;
-    }
-
-    /// A PointInstancer has copies of what is below it, and not that itself.
-    bool isPrototype(std::size_t entry) const {
-        for (int at = entries_[entry].parent; at >= 0; at = entries_[at].parent)
-            if (entries_[at].prim->typeName == "PointInstancer") return true;
-        return false;
     }
 
     int addLink(const std::string& path, const Eigen::Affine3d& world) {
@@ -160,14 +143,14 @@ private:
     /// Each gprim to its link; what none has becomes part of the world.
     void placeGprims() {
         bool physics = !robot_.links.empty();
-        for (std::size_t i = 0; i < entries_.size(); ++i) physics = physics || isCollider(i);
+        for (std::size_t i = 0; i < entries_.size(); ++i) physics = physics || colliders_.is(i);
         if (!physics)
             leftOut_.add("no rigid bodies and no colliders: each mesh is a body of its own", robot_.name);
         for (std::size_t i = 0; i < entries_.size(); ++i) {
             const Prim& prim = *entries_[i].prim;
             remark(i);
-            if (isPrototype(i)) continue;
-            const bool collider = collidesSomehow(i);
+            if (colliders_.isPrototype(i)) continue;
+            const bool collider = colliders_.collides(i);
             int link = linkOf_[i];
             if (!isGprim(prim)) {
                 addUnread(i, link, collider);
@@ -189,33 +172,16 @@ private:
     /// without planes.
     void addUnread(std::size_t entry, int link, bool collider) {
         const Prim& prim = *entries_[entry].prim;
-        const bool own = isCollider(entry) && !isPlain(prim) && reader(entry).flag(collides, true);
+        const bool own = colliders_.is(entry) && !isGroup(prim) && colliders_.collides(entry);
         if (!own && !isUnreadSurface(prim)) return;
-        collider = collider || (prim.typeName == "PointInstancer" && hasCollidingPrototypes(entry));
+        collider =
+            collider || (prim.typeName == "PointInstancer" && colliders_.hasCollidingPrototypes(entry));
         if (link < 0 && (!collider || prim.typeName == "Plane")) return;
         RobotShape shape;
         shape.where = pathOf(entry);
         shape.problem = "a shape of type " + prim.typeName + " is not read";
         RobotLink& to = link >= 0 ? robot_.links[link] : scenery_;
         (collider ? to.collision : to.visual).push_back(std::move(shape));
-    }
-
-    bool hasCollidingPrototypes(std::size_t instancer) const {
-        std::vector<char> within(entries_.size(), 0); // the instancer, or one of its prototypes
-        within[instancer] = 1;
-        for (const std::string& path : reader(instancer).targets(prototypes))
-            if (const int entry = reading_.index.find(path); entry >= 0)
-                within[static_cast<std::size_t>(entry)] = 1;
-        for (std::size_t i = 0; i < entries_.size(); ++i) { // parents come first
-            if (entries_[i].parent >= 0) within[i] |= within[static_cast<std::size_t>(entries_[i].parent)];
-            if (within[i] && isCollider(i)) return true;
-        }
-        return false;
-    }
-
-    static bool isPlain(const Prim& prim) {
-        static const std::set<std::string> types = {"", "Xform", "Scope"};
-        return types.contains(prim.typeName);
     }
 
     void addShape(std::size_t entry, int link, bool collider) {
@@ -244,11 +210,12 @@ private:
     void remark(std::size_t entry) {
         const Prim& prim = *entries_[entry].prim;
         const std::string& type = prim.typeName;
-        if (!isPlain(prim) && !isGprim(prim) && type.find("Joint") == type.npos)
-            leftOut_.add("left out: " +
-                             std::string(isCollider(entry) ? "colliders of type " : "prims of type ") + type,
-                         pathOf(entry));
-        if (isCollider(entry) && isPlain(prim))
+        if (!isGroup(prim) && !isGprim(prim) && type.find("Joint") == type.npos)
+            leftOut_.add(
+                "left out: " + std::string(colliders_.is(entry) ? "colliders of type " : "prims of type ") +
+                    type,
+                pathOf(entry));
+        if (colliders_.is(entry) && isGroup(prim))
             leftOut_.add("colliders that are no gprims themselves: all that is below them collides",
                          pathOf(entry));
         if (const Property* how = prim.property(approximation.name);
@@ -377,6 +344,7 @@ private:
     mutable Problems problems_;
     SceneReading reading_;
     const std::vector<PrimEntry>& entries_;
+    Colliders colliders_;
     std::vector<Xform> world_;
     Robot robot_;
     LeftOut leftOut_;
