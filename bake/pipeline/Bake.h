@@ -20,7 +20,7 @@ struct BakeRequest {
     BakeSettings given;             ///< settings that override the scene's own
     std::vector<std::string> pairs; ///< prim paths of the pairs and skins to bake; empty: all
     bool onlyMissing = false;       ///< not those whose table fits the scene and the settings already
-    std::uint64_t mostLooks = BakeOptions().mostLooks; ///< for each pair's cover without a budget
+    double effort = 1; ///< in (0, 1]: this share of what a bake looks at and makes patches of at most
     /// Hears of each that is baked, once it is in the scene.
     std::function<void(const PairReport&)> done{};
     /// Hears of each that cannot be baked after all, and the others are baked; without it the error is

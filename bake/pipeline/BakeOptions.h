@@ -33,8 +33,9 @@ struct BakeOptions {
     /// Looks at pairs of spheres for a cover without a budget, after which all that may touch are asked:
     /// about a minute of one core. Gap-true tables, which cannot do that, have no limit.
     std::uint64_t mostLooks = 2'000'000'000;
+    std::size_t mostPatches = MedialOptions().mostPatches; ///< of surface that a body is cut into
     /// As many pairs of spheres a table asks at most where no cover of them is found: few of them in a query,
-    /// in clusters, but each takes some 240 bytes in memory.
+    /// in clusters, but each takes some 150 bytes in memory.
     std::size_t mostTests = 1'000'000;
     double metersPerUnit = 1; ///< of the scene, for what is said of lengths
 };

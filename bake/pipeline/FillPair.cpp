@@ -103,6 +103,7 @@ PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const B
     zone.atRest = options.atRest;
     zone.maxSpheres = options.maxSpheres;
     zone.conservative = options.conservative;
+    zone.medial.mostPatches = options.mostPatches;
     zone.margin = margin;
     zone.whole = known != nullptr;
     if (known) zone.nesting = *known;
@@ -247,6 +248,7 @@ SphereOptions sphereOptions(const BakeOptions& options, double tolerance) {
     how.maxSpheres = options.maxSpheres;
     how.conservative = options.conservative;
     how.growth = options.growth;
+    how.medial.mostPatches = options.mostPatches;
     return how;
 }
 

@@ -82,7 +82,6 @@ bool listOnStep(const JointModel& model, const DofValues& q, const DofValues& st
 double smallestGap(const JointModel& model, std::size_t g, const Pose& pose) {
     const JointModel::Group& group = model.groups[g];
     const TableClusters& clusters = group.prepared->kernels().clusters();
-    const std::span<const TablePair> groups = clusters.groups(), bounds = clusters.bounds();
     double smallest = infinity;
     Vec3 centre, normal;
     const auto askCluster = [&](std::size_t c) {
@@ -92,19 +91,25 @@ double smallestGap(const JointModel& model, std::size_t g, const Pose& pose) {
             smallest = std::min(
                 smallest, pairGap(model.pairs[group.firstPair + clusters.order()[i]], pose, centre, normal));
     };
-    const auto askGroup = [&](std::size_t of) {
-        const std::size_t first = of * clusters.clustersEach();
-        const std::size_t last = std::min(first + clusters.clustersEach(), bounds.size());
-        for (std::size_t c = first; c < last; ++c)
-            if (gapOfBound(bounds[c], pose) < smallest) askCluster(c);
+    // Of a level these, the nearest first.
+    const auto ask = [&](const auto& self, std::size_t level, std::size_t first, std::size_t last) -> void {
+        const std::vector<TablePair>& bounds = clusters.levels()[level];
+        const auto below = [&](std::size_t k) {
+            const std::size_t of = clusters.ofGroup();
+            if (level == 0) return askCluster(k);
+            self(self, level - 1, k * of, std::min((k + 1) * of, clusters.levels()[level - 1].size()));
+        };
+        std::size_t nearest = first;
+        double least = infinity;
+        for (std::size_t k = first; k < last; ++k)
+            if (const double gap = gapOfBound(bounds[k], pose); gap < least) least = gap, nearest = k;
+        if (!(least < smallest)) return;
+        below(nearest);
+        for (std::size_t k = first; k < last; ++k)
+            if (k != nearest && gapOfBound(bounds[k], pose) < smallest) below(k);
     };
-    std::size_t nearest = 0;
-    double least = infinity;
-    for (std::size_t of = 0; of < groups.size(); ++of)
-        if (const double gap = gapOfBound(groups[of], pose); gap < least) least = gap, nearest = of;
-    askGroup(nearest);
-    for (std::size_t of = 0; of < groups.size(); ++of)
-        if (of != nearest && gapOfBound(groups[of], pose) < smallest) askGroup(of);
+    const std::size_t top = clusters.levels().size() - 1;
+    ask(ask, top, 0, clusters.levels()[top].size());
     return smallest;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/motion/MotionFrame.h"
 #include "bake/table/Contact.h"
+#include "bake/table/TablePairs.h"
 
 namespace tss {
 
@@ -10,6 +11,13 @@ struct alignas(32) ContactTest {
     double contactDistance = 0; ///< of the gap: sum of radii, and the gap at rest
     double middle = 0;          ///< half of radius A less radius B
 };
+
+inline ContactTest contactTest(const TablePair& p) {
+    return {{p.a.x(), p.a.y(), p.a.z(), 1},
+            {p.b.x(), p.b.y(), p.b.z(), 1},
+            p.contactDistance,
+            0.5 * (p.radiusA - p.radiusB)};
+}
 
 /// Gap, point, normal and, of `dofs` DOFs, gradient of one test; `test` is left as it is. A vector kernel of
 /// 256 bits does the same (Kernels.h).

@@ -1,6 +1,7 @@
 #include "bake/table/TableClusters.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
 
@@ -32,21 +33,46 @@ Bounds boundsOf(std::span<const TablePair> pairs, std::span<const std::uint32_t>
     return bounds;
 }
 
-/// Halves the tests where they are spread most, into whole groups and then into whole clusters.
-void sortIntoClusters(std::span<const TablePair> pairs, std::span<std::uint32_t> tests, std::size_t cluster,
-                      std::size_t group) {
+/// Where a test lies, as far as sorting has to know, with its number.
+struct Placed {
+    std::array<float, 6> at;
+    std::uint32_t test;
+};
+
+/// Halves the tests where they are spread most, into whole groups of the last level first and into whole
+/// clusters at last.
+void sortIntoClusters(std::span<Placed> tests, std::size_t cluster, std::size_t ofGroup) {
     if (tests.size() <= cluster) return;
-    const Bounds bounds = boundsOf(pairs, tests);
-    Eigen::Index k = 0;
-    (bounds.upper - bounds.lower).maxCoeff(&k);
-    const std::size_t unit = tests.size() > group ? group : cluster;
+    std::array<float, 6> lower = tests[0].at, upper = tests[0].at;
+    for (const Placed& placed : tests)
+        for (std::size_t k = 0; k < lower.size(); ++k) {
+            lower[k] = std::min(lower[k], placed.at[k]);
+            upper[k] = std::max(upper[k], placed.at[k]);
+        }
+    std::size_t widest = 0;
+    for (std::size_t k = 1; k < lower.size(); ++k)
+        if (upper[k] - lower[k] > upper[widest] - lower[widest]) widest = k;
+    std::size_t unit = cluster;
+    while (unit * ofGroup < tests.size()) unit *= ofGroup;
     const std::size_t half = (tests.size() + unit - 1) / unit / 2 * unit;
-    const auto along = [&](std::uint32_t test) { return k < 3 ? pairs[test].a[k] : pairs[test].b[k - 3]; };
-    std::nth_element(tests.begin(), tests.begin() + half, tests.end(), [&](std::uint32_t x, std::uint32_t y) {
-        return along(x) < along(y) || (along(x) == along(y) && x < y);
+    std::nth_element(tests.begin(), tests.begin() + half, tests.end(), [&](const Placed& x, const Placed& y) {
+        return x.at[widest] < y.at[widest] || (x.at[widest] == y.at[widest] && x.test < y.test);
     });
-    sortIntoClusters(pairs, tests.first(half), cluster, group);
-    sortIntoClusters(pairs, tests.subspan(half), cluster, group);
+    sortIntoClusters(tests.first(half), cluster, ofGroup);
+    sortIntoClusters(tests.subspan(half), cluster, ofGroup);
+}
+
+std::vector<std::uint32_t> inClusters(std::span<const TablePair> pairs, std::size_t cluster,
+                                      std::size_t ofGroup) {
+    std::vector<Placed> tests;
+    for (const TablePair& p : pairs)
+        tests.push_back(
+            {{float(p.a.x()), float(p.a.y()), float(p.a.z()), float(p.b.x()), float(p.b.y()), float(p.b.z())},
+             static_cast<std::uint32_t>(tests.size())});
+    sortIntoClusters(tests, cluster, ofGroup);
+    std::vector<std::uint32_t> order;
+    for (const Placed& placed : tests) order.push_back(placed.test);
+    return order;
 }
 
 TablePair boundOf(std::span<const TablePair> pairs, std::span<const std::uint32_t> tests) {
@@ -88,15 +114,17 @@ TablePair boundOf(std::span<const TablePair> pairs) {
 }
 
 TableClusters::TableClusters(std::span<const TablePair> pairs, std::uint32_t lanes) {
-    const std::size_t blocks = (pairs.size() + lanes - 1) / lanes;
+    if (pairs.empty()) return;
     // One block would be bounded best, but to ask a cluster takes as long as some blocks.
     constexpr std::size_t fewBlocks = 3;
-    testsEach_ = std::max((blocks + most - 1) / most, fewBlocks) * lanes;
-    clustersEach_ = std::size_t((mostOfGroup + lanes - 1) / lanes) * lanes;
-    order_ = allOf(pairs.size());
-    sortIntoClusters(pairs, order_, testsEach_, testsEach_ * clustersEach_);
-    bounds_ = boundsOfEach(pairs, order_, testsEach_);
-    groups_ = boundsOfEach(bounds_, allOf(bounds_.size()), clustersEach_);
+    testsEach_ = fewBlocks * lanes;
+    ofGroup_ = std::size_t((mostOfGroup + lanes - 1) / lanes) * lanes;
+    order_ = inClusters(pairs, testsEach_, ofGroup_);
+    levels_.push_back(boundsOfEach(pairs, order_, testsEach_));
+    do {
+        const std::vector<TablePair>& below = levels_.back();
+        levels_.push_back(boundsOfEach(below, allOf(below.size()), ofGroup_));
+    } while (levels_.back().size() > mostAtTop);
 }
 
 } // namespace tss

@@ -29,7 +29,8 @@ constexpr std::size_t mostTests = 1 << 16;
 constexpr std::size_t mostLikely = 16;
 constexpr int likelyPoses = 512;
 
-/// Poses at which the bodies are nearest to touching: a twentieth of a lattice over the limits.
+/// Poses at which the bodies are nearest to touching, by some of very many pairs: a twentieth of a lattice
+/// over the limits.
 std::vector<std::vector<double>> nearContact(const Motion& motion, const std::vector<TablePair>& pairs) {
     const int count = std::clamp(static_cast<int>(1000000 / (pairs.size() + 1)), 64, 2000);
     const std::vector<std::vector<double>> poses = latticePoses(motion, count);
@@ -37,7 +38,8 @@ std::vector<std::vector<double>> nearContact(const Motion& motion, const std::ve
     for (std::size_t i = 0; i < poses.size(); ++i) {
         const Pose at = pose(motion, poses[i]);
         double least = std::numeric_limits<double>::infinity();
-        for (const TablePair& p : pairs) least = std::min(least, centreDistance(p, at) - p.contactDistance);
+        for (std::size_t p = 0; p < pairs.size(); p += 1 + pairs.size() / mostTests)
+            least = std::min(least, centreDistance(pairs[p], at) - pairs[p].contactDistance);
         order.push_back({std::abs(least), i});
     }
     std::sort(order.begin(), order.end());
@@ -106,11 +108,6 @@ TableKernels::TableKernels(const Table& table, const PrepareOptions& options)
             if (!(featureFormMismatch(*fold_, motion_, pairs_, poses) <= 1e-11 * largest)) fold_.reset();
         }
     }
-    for (const TablePair& p : pairs_)
-        contactTests_.push_back({{p.a.x(), p.a.y(), p.a.z(), 1},
-                                 {p.b.x(), p.b.y(), p.b.z(), 1},
-                                 p.contactDistance,
-                                 0.5 * (p.radiusA - p.radiusB)});
     choose(options);
     if (float_)
         prepareKernels<float>(options.cells);
@@ -262,15 +259,13 @@ void TableKernels::makeCells(CellUse use) {
 template <class T>
 void TableKernels::fillClusters() {
     const double u = float_ ? floatRoundoff : 8 * doubleRoundoff;
-    const auto fillBounds = [&](std::span<const TablePair> pairs, std::vector<Chunk>& store, KernelData& data,
-                                std::vector<Chunk>& rowStore, KernelData& rows) {
+    for (const std::vector<TablePair>& pairs : clusters_.levels()) {
         const Bands bands = directBands(u, pairs);
         clusterBand_ = std::max({clusterBand_, bands.sign, bands.gap});
-        fill<T>({pairs, bands.widening}, kernels_.lanes, {}, store, data);
-        fill<T>({pairs, bands.widening}, 1, {}, rowStore, rows);
-    };
-    fillBounds(clusters_.bounds(), clusterStore_, clusterData_, clusterRowStore_, clusterRows_);
-    fillBounds(clusters_.groups(), groupStore_, groupData_, groupRowStore_, groupRows_);
+        StoredRows& level = bounds_.emplace_back();
+        fill<T>({pairs, bands.widening}, kernels_.lanes, {}, level.store, level.blocks);
+        fill<T>({pairs, bands.widening}, 1, {}, level.rowStore, level.rows);
+    }
 }
 
 template <class T>
@@ -309,13 +304,14 @@ void TableKernels::prepareKernels(CellUse use) {
         fillClusters<T>();
         fillLikely<T>();
     }
+    if (clusters_.empty()) std::ranges::transform(pairs_, std::back_inserter(contactTests_), contactTest);
     room_ = std::max<std::size_t>(1, (pairs_.size() + kernels_.lanes - 1) / kernels_.lanes) * kernels_.lanes;
 }
 
 std::size_t TableKernels::bytes() const {
-    return (blocks_.size() + clusterStore_.size() + groupStore_.size() + likelyStore_.size()) *
-               sizeof(Chunk) +
-           cells_.bytes();
+    std::size_t chunks = blocks_.size() + likelyStore_.size();
+    for (const StoredRows& level : bounds_) chunks += level.store.size();
+    return chunks * sizeof(Chunk) + cells_.bytes();
 }
 
 void TableKernels::features(const double* q, TableFeatures& out) const {

@@ -88,12 +88,12 @@ public:
     const std::optional<FeatureForm>& fold() const { return fold_; } ///< nothing for the direct form
     const KernelData& rows() const { return rows_; }                 ///< one pair after the other
     const KernelData& blocks() const { return data_; }               ///< the same in blocks of lanes()
-    /// Bounds of clusters and of groups of clusters, one after the other and in blocks of lanes().
+    /// Some rows, one after the other and in blocks of lanes().
     struct BoundRows {
         const KernelData &rows, &blocks;
     };
-    BoundRows clusterBounds() const { return {clusterRows_, clusterData_}; }
-    BoundRows groupBounds() const { return {groupRows_, groupData_}; }
+    /// Bounds of a level of clusters().
+    BoundRows boundsOf(std::size_t level) const { return {bounds_[level].rows, bounds_[level].blocks}; }
     /// Tests that a table in clusters asks first (LikelyTests.h), and their rows.
     const std::vector<std::uint32_t>& likely() const { return likely_; }
     BoundRows likelyTests() const { return {likelyRows_, likelyData_}; }
@@ -123,12 +123,17 @@ private:
     }
     /// Some whole blocks of rows.
     KernelData blocksOf(const KernelData& data, std::size_t rowsEach, std::uint32_t part) const;
-    KernelData clustersOf(std::uint32_t group) const;
+    /// Bounds of the level below that number `group` of a level of clusters bounds.
+    KernelData boundsIn(std::size_t level, std::uint32_t group) const;
     KernelData testsOf(std::uint32_t cluster) const;
     /// Calls take(cluster) for each that may have a test under the margin, until it returns true. The margin
     /// may become smaller in between.
     template <class Take>
-    void eachNearCluster(const TableFeatures& f, const double& margin, Take take) const;
+    void eachNearCluster(const TableFeatures& f, const double& margin, const Take& take) const;
+    /// The same of these bounds of a level. Returns whether it ended early.
+    template <class Take>
+    bool eachNear(std::size_t level, const KernelData& bounds, const TableFeatures& f, const double& margin,
+                  const Take& take) const;
     bool hitInClusters(const TableFeatures& f) const;
     bool hitBeyondLikely(const TableFeatures& f) const;
     std::uint32_t hitsOf(const KernelData& rows, const PoseLanes& poses) const;
@@ -160,7 +165,8 @@ private:
 
     Motion motion_;
     std::vector<TablePair> pairs_;
-    std::vector<ContactTest> contactTests_;
+    std::vector<ContactTest>
+        contactTests_; ///< none where there are clusters: they would take a third of the memory
     double epsilon_ = 0, depth_ = 0, margin_ = 0, early_ = 0;
     Vec3 originA_ = Vec3::Zero(), originB_ = Vec3::Zero();
     std::vector<double> widening_;
@@ -177,11 +183,17 @@ private:
     double signBand_ = 0, gapBand_ = 0, condition_ = 0;
     std::size_t room_ = 0;
 
-    std::vector<Chunk> blocks_, rowStore_, clusterStore_, clusterRowStore_, groupStore_, groupRowStore_,
-        likelyStore_, likelyRowStore_;
+    /// Rows as vectors of poses read them, and in blocks.
+    struct StoredRows {
+        std::vector<Chunk> store, rowStore;
+        KernelData blocks, rows;
+    };
+
+    std::vector<Chunk> blocks_, rowStore_, likelyStore_, likelyRowStore_;
+    std::vector<StoredRows> bounds_; ///< a level of clusters each
     KernelSet kernels_;
     LaneKernels laneKernels_;
-    KernelData data_, rows_, clusterData_, clusterRows_, groupData_, groupRows_, likelyData_, likelyRows_;
+    KernelData data_, rows_, likelyData_, likelyRows_;
     std::vector<std::uint32_t> likely_;
     TableCells cells_;
     TableClusters clusters_;

@@ -10,10 +10,9 @@ namespace tss {
 
 namespace {
 
-/// Room for the numbers of all groups, or of the clusters of one, to the end of the last vector.
+/// Room for the numbers of all groups of the last level, or of one, to the end of the last vector.
 constexpr std::size_t mostLanes = 64;
-using GroupList = std::array<std::uint32_t, TableClusters::most / TableClusters::mostOfGroup + mostLanes>;
-using ClusterList = std::array<std::uint32_t, TableClusters::mostOfGroup + mostLanes>;
+using NearList = std::array<std::uint32_t, TableClusters::mostAtTop + mostLanes>;
 
 } // namespace
 
@@ -25,8 +24,8 @@ KernelData TableKernels::blocksOf(const KernelData& data, std::size_t rowsEach, 
     return {begin, static_cast<std::size_t>(end - begin) > step ? begin + step : end, data.columns};
 }
 
-KernelData TableKernels::clustersOf(std::uint32_t group) const {
-    return blocksOf(clusterData_, clusters_.clustersEach(), group);
+KernelData TableKernels::boundsIn(std::size_t level, std::uint32_t group) const {
+    return blocksOf(bounds_[level - 1].blocks, clusters_.ofGroup(), group);
 }
 
 KernelData TableKernels::testsOf(std::uint32_t cluster) const {
@@ -34,16 +33,19 @@ KernelData TableKernels::testsOf(std::uint32_t cluster) const {
 }
 
 template <class Take>
-void TableKernels::eachNearCluster(const TableFeatures& f, const double& margin, Take take) const {
-    GroupList groups;
-    ClusterList clusters;
-    const std::uint32_t count = kernels_.testsWithin(groupData_, f.doubles, margin, groups.data());
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t near =
-            kernels_.testsWithin(clustersOf(groups[i]), f.doubles, margin, clusters.data());
-        for (std::uint32_t k = 0; k < near; ++k)
-            if (take(clusters[k])) return;
-    }
+bool TableKernels::eachNear(std::size_t level, const KernelData& bounds, const TableFeatures& f,
+                            const double& margin, const Take& take) const {
+    NearList near;
+    const std::uint32_t count = kernels_.testsWithin(bounds, f.doubles, margin, near.data());
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (level == 0 ? take(near[i]) : eachNear(level - 1, boundsIn(level, near[i]), f, margin, take))
+            return true;
+    return false;
+}
+
+template <class Take>
+void TableKernels::eachNearCluster(const TableFeatures& f, const double& margin, const Take& take) const {
+    eachNear(bounds_.size() - 1, bounds_.back().blocks, f, margin, take);
 }
 
 bool TableKernels::hitInClusters(const TableFeatures& f) const {
@@ -82,11 +84,12 @@ std::uint32_t TableKernels::hits(const PoseLanes& poses, std::uint32_t asked) co
 }
 
 KernelGap TableKernels::nearestInClusters(const TableFeatures& f) const {
-    const std::int32_t group = kernels_.gap(groupData_, f.doubles).test;
+    std::int32_t nearest = kernels_.gap(bounds_.back().blocks, f.doubles).test;
     // Of a pose that is not a number none is the nearest.
-    if (group < 0) return kernels_.gap(data_, f.doubles);
-    const auto first = static_cast<std::uint32_t>(
-        kernels_.gap(clustersOf(static_cast<std::uint32_t>(group)), f.doubles).test);
+    if (nearest < 0) return kernels_.gap(data_, f.doubles);
+    for (std::size_t level = bounds_.size() - 1; level > 0; --level)
+        nearest = kernels_.gap(boundsIn(level, static_cast<std::uint32_t>(nearest)), f.doubles).test;
+    const auto first = static_cast<std::uint32_t>(nearest);
     KernelGap least = kernels_.gap(testsOf(first), f.doubles);
     double margin = clusterReachOf(std::max(0.0, least.gap));
     eachNearCluster(f, margin, [&](std::uint32_t cluster) {
@@ -127,7 +130,9 @@ void TableKernels::contact(const TableFeatures& f, const MotionFrame& frame, Tab
         out.gap = std::numeric_limits<double>::infinity();
         return;
     }
-    kernels_.contact(contactTests_[std::size_t(out.test)], frame, motion_.dofCount(), out);
+    const auto test = static_cast<std::size_t>(out.test);
+    kernels_.contact(contactTests_.empty() ? contactTest(pairs_[test]) : contactTests_[test], frame,
+                     motion_.dofCount(), out);
 }
 
 double TableKernels::reachOf(double margin) const {

@@ -21,7 +21,7 @@ std::string cellText(const PreparedTable& table) {
     const TableCells& cells = table.kernels().cells();
     if (!table.kernels().clusters().empty())
         return fmt::format("; {} clusters in {} groups", table.kernels().clusters().count(),
-                           table.kernels().clusters().groups().size());
+                           table.kernels().clusters().levels()[1].size());
     if (cells.empty()) return "";
     return fmt::format("; {} cells, in which it looks at {:.2g} % of the tests", cells.rowCount() - 1,
                        100 * cells.looked());

@@ -88,7 +88,7 @@ void addKernel(Json& json, const Table& table) {
                       {"bytes", prepared.bytes()}};
     if (!prepared.kernels().clusters().empty())
         json["kernel"]["clusters"] = {{"count", prepared.kernels().clusters().count()},
-                                      {"groups", prepared.kernels().clusters().groups().size()},
+                                      {"groups", prepared.kernels().clusters().levels()[1].size()},
                                       {"tests", prepared.kernels().clusters().testsEach()}};
     if (!prepared.verdicts().empty())
         json["kernel"]["verdicts"] = {{"asked", prepared.verdicts().asked()},

@@ -46,17 +46,20 @@ std::string refuteClusters(const PreparedTable& prepared, const std::vector<Exac
     const TableClusters& clusters = prepared.kernels().clusters();
     if (clusters.empty()) return {};
     const std::vector<std::uint32_t>& order = clusters.order();
-    if (order.size() != tests.size() || clusters.count() > TableClusters::most)
+    if (order.size() != tests.size() || clusters.levels().back().size() > TableClusters::mostAtTop ||
+        clusters.ofGroup() > TableClusters::mostAtTop)
         return "its clusters do not hold every test once";
-    std::string reason = refuteBounds(prepared, tests, order, clusters.testsEach(), clusters.bounds(),
-                                      prepared.kernels().clusterBounds(), posed);
-    if (!reason.empty()) return reason;
-    std::vector<Exact> bounds;
-    for (const TablePair& bound : clusters.bounds())
-        bounds.push_back({bound.a, bound.b, bound.contactDistance});
-    reason = refuteBounds(prepared, bounds, {}, clusters.clustersEach(), clusters.groups(),
-                          prepared.kernels().groupBounds(), posed);
-    if (!reason.empty()) return "of a group of clusters: " + reason;
+    std::vector<Exact> below = tests;
+    for (std::size_t level = 0; level < clusters.levels().size(); ++level) {
+        const std::vector<TablePair>& bounds = clusters.levels()[level];
+        const std::string reason =
+            refuteBounds(prepared, below, level == 0 ? std::span(order) : std::span<const std::uint32_t>(),
+                         level == 0 ? clusters.testsEach() : clusters.ofGroup(), bounds,
+                         prepared.kernels().boundsOf(level), posed);
+        if (!reason.empty()) return fmt::format("level {} of its clusters: {}", level, reason);
+        below.clear();
+        for (const TablePair& bound : bounds) below.push_back({bound.a, bound.b, bound.contactDistance});
+    }
     // What is asked first, which alone may say that a pose touches, is tests of the table.
     const std::vector<std::uint32_t>& likely = prepared.kernels().likely();
     const TableKernels::BoundRows stored = prepared.kernels().likelyTests();

@@ -219,9 +219,10 @@ void refuseTooFarOff(const tss::SceneModel& model, const tss::Pair& pair) {
     throw tss::InputError(text.str());
 }
 
-/// Somebody waits for the picture: a tenth of what `tss bake` looks for fewer tests. Where that ends it
-/// early, all that may touch are asked, with the same answers.
-constexpr std::uint64_t mostLooks = tss::BakeOptions().mostLooks / 10;
+/// Somebody waits for the picture: a tenth of what `tss bake` does at most. Where that ends the search for
+/// few tests, all that may touch are asked, with the same answers; where it ends the patches, the spheres are
+/// coarser, or the pair is not kept apart, and it is said.
+constexpr double effort = 0.1;
 
 /// A pair or skin that cannot be baked is shown as it moves, and the others are kept apart all the same.
 /// told: notes so far, of which many are about a body and come with each of its pairs.
@@ -230,7 +231,7 @@ void bakeOne(tss::SceneModel& model, const std::string& path, const BakeOptions&
     tss::BakeRequest request;
     request.given = options.settings;
     request.pairs = {path};
-    request.mostLooks = mostLooks;
+    request.effort = effort;
     try {
         if (const int pair = tss::findPair(model, path); pair >= 0) refuseTooFarOff(model, model.pairs[pair]);
         for (const tss::PairReport& report : tss::bake(model, request, progress)) {

@@ -218,13 +218,16 @@ TEST_CASE("a cluster's bound is no farther apart than any of its tests, at any p
         const TableClusters clusters(pairs, 8);
         REQUIRE(clusters.order().size() == pairs.size());
         REQUIRE(clusters.testsEach() % 8 == 0);
-        REQUIRE(clusters.count() <= TableClusters::most);
+        REQUIRE(clusters.levels().back().size() <= TableClusters::mostAtTop);
         for (int i = 0; i < 20; ++i) {
             const std::vector<double> q = random_table::values(random, table.motion);
             for (std::size_t place = 0; place < pairs.size(); ++place) {
-                const TablePair& bound = clusters.bounds()[place / clusters.testsEach()];
-                REQUIRE(exact::gap(table.motion, bound, q) <=
-                        exact::gap(table.motion, pairs[clusters.order()[place]], q));
+                std::size_t at = place / clusters.testsEach();
+                for (const std::vector<TablePair>& level : clusters.levels()) {
+                    REQUIRE(exact::gap(table.motion, level[at], q) <=
+                            exact::gap(table.motion, pairs[clusters.order()[place]], q));
+                    at /= clusters.ofGroup();
+                }
             }
         }
     }
