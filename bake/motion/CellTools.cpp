@@ -45,6 +45,10 @@ std::pair<Cell, Cell> splitCell(const MotionRates& rates, const Cell& cell, std:
     return halves;
 }
 
+bool canSplit(const Cell& cell, std::size_t dof) {
+    return std::nextafter(cell.lower[dof], cell.upper[dof]) < cell.upper[dof];
+}
+
 std::size_t widestDof(const CellMotion& motion, const Vec3& centre, double radius) {
     auto share = motion.shares(motion.centrePose() * centre);
     for (std::size_t k = 0; k < motion.dofs(); ++k) share[k] += motion.relativeShare(k) * radius;

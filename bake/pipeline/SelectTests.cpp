@@ -7,6 +7,7 @@
 #include "bake/search/CertifiedSearch.h"
 #include "bake/search/SampledSearch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -92,6 +93,17 @@ std::optional<Selection> selectFew(const PairTask& task, const CandidatePairs& c
     return selectionOf(task, result);
 }
 
+/// Whether tests with the epsilon that was reached say contact at rest, where the spheres have none.
+bool touchesAtRest(const PairTask& task, const CoverResult& result) {
+    if (!(task.spheres.clearanceAtRest > 0) || task.options.atRest == AtRest::Collide) return false;
+    const Pose rest = pose(task.motion, restValues(task.motion));
+    return std::ranges::any_of(result.pairs, [&](const SpherePair& pair) {
+        const Sphere &a = task.spheres.a.spheres[pair.a], &b = task.spheres.b.spheres[pair.b];
+        const double gap = (rest * b.centre - a.centre).norm() - a.radius - b.radius;
+        return gap > 0 && gap <= result.epsilon;
+    });
+}
+
 /// The least that answers like all at every pose.
 Selection selectCover(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes,
                       const Progress& progress) {
@@ -101,6 +113,13 @@ Selection selectCover(const PairTask& task, const CandidatePairs& candidates, st
         throw BudgetEnded("the budget ended before any bound was proven: expected a longer --budget, or a "
                           "coarser --tolerance or --epsilon");
     Selection selection = selectionOf(task, result);
+    if (!result.complete && touchesAtRest(task, result))
+        throw BudgetEnded(
+            fmt::format("the budget ended at epsilon {}, and the meshes are {} apart at rest, where such a "
+                        "table would report "
+                        "contact: expected a longer --budget, or a coarser --tolerance or --epsilon",
+                        lengthText(result.epsilon, task.options.metersPerUnit),
+                        lengthText(task.spheres.clearanceAtRest, task.options.metersPerUnit)));
     if (!result.complete)
         notes.push_back(fmt::format("the budget ended first: epsilon {} was reached, not {}",
                                     lengthText(result.epsilon, task.options.metersPerUnit),

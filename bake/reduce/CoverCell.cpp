@@ -82,7 +82,8 @@ CellVerdict CellExaminer::examine(const OpenCell& whole) {
         if (auto lacking = counterexampleElsewhere(motion)) return {std::move(lacking), {}};
         double widest = 0;
         for (const PairInCell& pair : here_) widest = std::max(widest, pair.move);
-        if (widest < p_.floor) return {Counterexample{here_.front().contactPair, {}}, {}};
+        if (widest < p_.floor || !canSplit(cell.box, widestDof(motion)))
+            return {Counterexample{here_.front().contactPair, {}}, {}};
     }
     return split(cell, motion, seen);
 }

@@ -52,14 +52,13 @@ public:
         std::vector<NodePair> left = judgeAll(motion, open);
         if (left.empty()) return;
         const std::size_t k = widestDof(motion, p_.treeB[0].centre, p_.treeB[0].radius);
-        const auto [lower, upper] = splitCell(p_.rates, inside, k);
-        if (lower.upper[k] <= inside.lower[k] || lower.upper[k] >= inside.upper[k]) {
-            // No number is left between the limits: what may touch counts as touching.
+        if (!canSplit(inside, k)) { // what may touch counts as touching
             finest_ = true;
             judgeAll(motion, left);
             finest_ = false;
             return;
         }
+        const auto [lower, upper] = splitCell(p_.rates, inside, k);
         run(lower, left);
         run(upper, left);
     }

@@ -124,7 +124,12 @@ public:
             for (const CellTree& part : tree.parts) run(part, open);
             return;
         }
-        const auto [lower, upper] = splitCell(p_.rates, cell, widest(motion, p_.balls[open[0]]));
+        const std::size_t k = widest(motion, p_.balls[open[0]]);
+        if (!canSplit(cell, k)) { // what may be near counts as near
+            for (const std::uint32_t n : open) mark(n);
+            return;
+        }
+        const auto [lower, upper] = splitCell(p_.rates, cell, k);
         run({lower, {}}, open);
         run({upper, {}}, open);
     }

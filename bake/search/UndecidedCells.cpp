@@ -75,8 +75,9 @@ public:
         const Verdict verdict = judge(p_, motion, inherited, open, move);
         hits |= verdict == Verdict::Hit;
         if (verdict != Verdict::Open) return std::nullopt;
-        if (tree.parts.empty() && move <= p_.options.resolution) return left;
-        for (const CellTree& part : tree.parts.empty() ? halves(left.cell, motion) : tree.parts)
+        const std::size_t k = widestDof(motion, p_.treeB[0].centre, p_.treeB[0].radius);
+        if (tree.parts.empty() && (move <= p_.options.resolution || !canSplit(left.cell, k))) return left;
+        for (const CellTree& part : tree.parts.empty() ? halves(left.cell, k) : tree.parts)
             if (std::optional<CellTree> kept = decide(part, open)) left.parts.push_back(std::move(*kept));
         if (left.parts.empty()) return std::nullopt;
         return left;
@@ -85,9 +86,8 @@ public:
     bool hits = false;
 
 private:
-    std::vector<CellTree> halves(const Cell& cell, const CellMotion& motion) const {
-        const auto [lower, upper] =
-            splitCell(p_.rates, cell, widestDof(motion, p_.treeB[0].centre, p_.treeB[0].radius));
+    std::vector<CellTree> halves(const Cell& cell, std::size_t k) const {
+        const auto [lower, upper] = splitCell(p_.rates, cell, k);
         return {CellTree{lower, {}}, CellTree{upper, {}}};
     }
 

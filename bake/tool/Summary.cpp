@@ -73,7 +73,7 @@ Json regionOf(const RestRegion& region, const SceneModel& scene, const Pair& pai
             {"areaB", areaB},
             {"shareA", areaA / area(a)},
             {"shareB", areaB / area(b)},
-            {"depth", knownOrNull(region.depth)}};
+            {"depth", region.depth < 0 ? Json() : Json(region.depth)}};
 }
 
 /// How the run time asks the table, how ill-conditioned that is, and the gaps where rounding may turn the

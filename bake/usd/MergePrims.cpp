@@ -70,6 +70,8 @@ void mergeProperty(Property& own, Property weaker) {
         own.typeName = weaker.typeName;
         own.defaultValue = std::move(weaker.defaultValue);
         own.timeSamples = std::move(weaker.timeSamples);
+    } else if (!own.targetPaths && !weaker.targetPaths && !own.defaultValue) {
+        own.defaultValue = std::move(weaker.defaultValue); // time samples say nothing of the default
     }
     own.other.merge(weaker.other);
 }

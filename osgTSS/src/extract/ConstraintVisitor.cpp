@@ -3,9 +3,11 @@
 #include "SkeletonMeshes.h"
 #include "SoftParts.h"
 #include "SoftTags.h"
+#include "osgTSS/src/EachNode.h"
 #include "osgTSS/src/joints/AnimationChannels.h"
 #include "osgTSS/src/joints/BoneJoint.h"
 #include "osgTSS/src/joints/JointNodes.h"
+#include "osgTSS/src/joints/TaggedJoint.h"
 
 #include "bake/base/Error.h"
 #include "bake/model/AddPair.h"
@@ -21,8 +23,10 @@
 #include <osg/Notify>
 #include <osg/Projection>
 #include <osg/ValueObject>
+#include <osgSim/DOFTransform>
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/Convert>
+#include <osgTSS/JointTransform>
 #include <osgTSS/Overlay>
 
 #include <algorithm>
@@ -55,6 +59,16 @@ std::optional<osg::Vec4> vertexColor(const osg::Drawable& drawable) {
 bool leftOut(const osg::Node& node) {
     bool ignored = false;
     return node.getUserValue("osgTSS:ignored", ignored) && ignored;
+}
+
+bool holdsJoints(osg::Node& node) {
+    bool found = false;
+    eachNode(node, [&](osg::Node& below) {
+        found = found || (below.asTransform() && (movesItself(below) || isTagged(below) ||
+                                                  dynamic_cast<osgSim::DOFTransform*>(&below) ||
+                                                  dynamic_cast<JointTransform*>(&below)));
+    });
+    return found;
 }
 
 std::vector<double> restOf(const tss::Joint& joint) {
@@ -94,7 +108,10 @@ void ConstraintVisitor::enter(osg::Node& node, const Place& place) {
     if (node.getUserValue("osgTSS:collides", group)) _groups[_place.body].insert(group);
     if (const auto skins = tagWords(node, boneTag))
         _soft->addBone(_place.body, node.getName(), wordsOf(*skins));
-    traverse(node);
+    if (auto* levels = dynamic_cast<osg::LOD*>(&node))
+        traverseLevels(*levels);
+    else
+        traverse(node);
     _place = above;
 }
 
@@ -151,20 +168,31 @@ void ConstraintVisitor::apply(osg::Projection&) {}
 
 void ConstraintVisitor::apply(osg::Billboard&) {}
 
+/// Of the levels the finest, seen from nearest or covering the most pixels, and what is drawn together with
+/// it at some distance.
 void ConstraintVisitor::apply(osg::LOD& node) {
     begin(node);
-    if (node.getNumChildren() == 0 || leftOut(node)) return;
-    // The finest level: seen from nearest, or covering the most pixels.
-    unsigned int finest = 0;
+    if (leftOut(node)) return;
+    enter(node, _place);
+}
+
+void ConstraintVisitor::traverseLevels(osg::LOD& node) {
+    const unsigned int levels = std::min(node.getNumChildren(), node.getNumRanges());
     const bool pixels = node.getRangeMode() == osg::LOD::PIXEL_SIZE_ON_SCREEN;
-    for (unsigned int i = 1; i < std::min(node.getNumChildren(), node.getNumRanges()); ++i)
+    unsigned int finest = 0;
+    for (unsigned int i = 1; i < levels; ++i)
         if (pixels ? node.getMaxRange(i) > node.getMaxRange(finest)
                    : node.getMinRange(i) < node.getMinRange(finest))
             finest = i;
-    const Place above = _place;
-    _place.visible = _place.visible && node.getNodeMask() != 0;
-    node.getChild(finest)->accept(*this);
-    _place = above;
+    for (unsigned int i = 0; i < levels; ++i) {
+        osg::Node& level = *node.getChild(i);
+        const bool together =
+            node.getMinRange(i) < node.getMaxRange(finest) && node.getMinRange(finest) < node.getMaxRange(i);
+        if (i == finest || together)
+            level.accept(*this);
+        else if (holdsJoints(level) && _seen.insert(&level).second)
+            warn("the joints of its coarser level \"" + level.getName() + "\" are not served");
+    }
 }
 
 void ConstraintVisitor::apply(osg::Drawable& drawable) {
@@ -230,12 +258,8 @@ void ConstraintVisitor::addRig(osgAnimation::RigGeometry& rig) {
 
 void ConstraintVisitor::enterJoint(osg::Transform& node, FoundJoints found) {
     if (!_seen.insert(&node).second) {
-        if (!_quiet)
-            OSG_NOTICE
-                << "osgTSS: joint " << pathText()
-                << " is reached over several parents; it was extracted at the first, the others follow it"
-                << std::endl;
-        return;
+        return warn("the joint is reached over several parents: it was extracted at the first, the others "
+                    "follow it, and what they meet is not looked at");
     }
     const auto parent = toSimilarity(_place.toBody);
     if (!parent)

@@ -1,7 +1,7 @@
 #include "InstallSkins.h"
-#include "Machines.h"
 #include "bake/base/UnionFind.h"
 #include "osgTSS/src/EachNode.h"
+#include "osgTSS/src/extract/Machines.h"
 #include "osgTSS/src/joints/JointNodes.h"
 
 #include <osg/Notify>
@@ -62,7 +62,10 @@ void removeCallbacks(osg::Node& node) {
                           dynamic_cast<LimitsCallback*>(callback.get()) ||
                           (dynamic_cast<MuscleCallback*>(callback.get()) && !node.asDrawable()) ||
                           dynamic_cast<SkinCallback*>(callback.get());
-        if (ours) node.removeUpdateCallback(callback);
+        if (ours && node.getUpdateCallback() == callback)
+            node.setUpdateCallback(next); // copies of the graph go on sharing what was there
+        else if (ours)
+            node.removeUpdateCallback(callback);
         callback = next;
     }
 }
@@ -127,8 +130,11 @@ Installed install(osg::Node& root, Scene& scene) {
         if (pair.proof) ++installed.proven;
     }
     for (const auto& group : grouped(kept)) installGroup(root, scene, group, installed);
-    if (!kept.empty() || installed.proven > 0)
-        addOutermost(root, *osg::ref_ptr<LimitsCallback>(new LimitsCallback(&scene)));
+    if (!kept.empty() || installed.proven > 0) {
+        osg::ref_ptr<LimitsCallback> limits = new LimitsCallback(&scene);
+        addOutermost(root, *limits);
+        limits->start(root);
+    }
     installSkins(root, scene, installed);
     if (installed.unbaked > 0)
         OSG_NOTICE << "osgTSS: " << installed.unbaked << " of " << model.pairs.size() + model.skins.size()

@@ -55,12 +55,22 @@ osg::ref_ptr<SkinGeometry> shownInsteadOf(osg::Drawable& drawable, const std::st
     return shown;
 }
 
+/// The groups of the graph below root that hold the drawable; copies of the graph may hold it too.
+std::vector<osg::Group*> parentsBelow(osg::Node& root, osg::Drawable& drawable) {
+    std::vector<osg::Group*> parents;
+    for (osg::Group* parent : drawable.getParents()) {
+        const osg::NodePathList paths = parent->getParentalNodePaths(&root);
+        if (std::ranges::any_of(paths, [&](const osg::NodePath& path) { return path.front() == &root; }))
+            parents.push_back(parent);
+    }
+    return parents;
+}
+
 /// A mesh of morph targets stays where what sets its weights looks for it, and is not drawn.
-void replace(osg::Drawable& before, osg::Drawable& after) {
+void replace(osg::Node& root, osg::Drawable& before, osg::Drawable& after) {
     const osg::ref_ptr<osg::Drawable> keep = &before;
     const bool stays = dynamic_cast<osgAnimation::MorphGeometry*>(&before);
-    const osg::Node::ParentList parents = before.getParents();
-    for (osg::Group* parent : parents)
+    for (osg::Group* parent : parentsBelow(root, before))
         if (stays)
             parent->insertChild(parent->getChildIndex(&before) + 1, &after);
         else
@@ -70,19 +80,19 @@ void replace(osg::Drawable& before, osg::Drawable& after) {
     before.setUserValue("osgTSS:ignored", true);
 }
 
-void putBack(SkinGeometry& shown) {
+void putBack(osg::Node& root, SkinGeometry& shown) {
     const osg::ref_ptr<osg::Drawable> before = replacedBy(shown), keep = &shown;
-    if (!dynamic_cast<osgAnimation::MorphGeometry*>(before.get())) return replace(shown, *before);
+    if (!dynamic_cast<osgAnimation::MorphGeometry*>(before.get())) return replace(root, shown, *before);
     before->setNodeMask(shown.getNodeMask());
     before->setUserValue("osgTSS:ignored", false);
-    const osg::Node::ParentList parents = shown.getParents();
-    for (osg::Group* parent : parents) parent->removeChild(&shown);
+    for (osg::Group* parent : parentsBelow(root, shown)) parent->removeChild(&shown);
 }
 
 /// A graph's own skins and muscles, as a visitor finds them.
 class OwnSkins {
 public:
-    OwnSkins(osg::Node& root, Scene& scene, bool activeOnly) : _scene(scene), _model(scene.getModel()) {
+    OwnSkins(osg::Node& root, Scene& scene, bool activeOnly)
+        : _root(root), _scene(scene), _model(scene.getModel()) {
         _visitor.setQuiet(true);
         _visitor.setActiveOnly(activeOnly);
         root.accept(_visitor);
@@ -120,7 +130,7 @@ private:
         if (!drawable || !_shown.insert(drawable).second) return nullptr;
         const osg::ref_ptr<SkinGeometry> shown =
             shownInsteadOf(*drawable, _model.bodies[body].path, at.scale);
-        replace(*drawable, *shown);
+        replace(_root, *drawable, *shown);
         return shown;
     }
 
@@ -138,6 +148,7 @@ private:
         return {};
     }
 
+    osg::Node& _root;
     Scene& _scene;
     const tss::SceneModel& _model;
     ConstraintVisitor _visitor;
@@ -158,7 +169,7 @@ void restoreDrawables(osg::Node& root) {
         if (node.asDrawable() && replacedBy(*node.asDrawable()))
             found.insert(static_cast<SkinGeometry*>(node.asDrawable()));
     });
-    for (const osg::ref_ptr<SkinGeometry>& shown : found) putBack(*shown);
+    for (const osg::ref_ptr<SkinGeometry>& shown : found) putBack(root, *shown);
 }
 
 /// On the root: skins, and muscles between two bones, are deformed after everything else of the scene has

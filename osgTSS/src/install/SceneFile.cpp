@@ -4,6 +4,7 @@
 #include "bake/model/SourceHash.h"
 #include "osgTSS/src/EachNode.h"
 
+#include <osg/Notify>
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/Install>
 #include <osgTSS/SceneFile>
@@ -28,6 +29,7 @@ osg::ref_ptr<osg::Group> createPlayingGraph(Scene& scene, const LoadOptions& opt
 }
 
 osg::ref_ptr<Scene> sceneOf(osg::Node& root) {
+    ConstraintVisitor visitor;
     std::set<Scene*> found;
     eachNode(root, [&](osg::Node& node) {
         if (Scene* scene = Scene::on(node)) found.insert(scene);
@@ -35,10 +37,19 @@ osg::ref_ptr<Scene> sceneOf(osg::Node& root) {
     if (found.size() > 1)
         throw tss::InputError("the graph holds " + std::to_string(found.size()) +
                               " scenes: expected one a file; write the node of each by itself");
-    if (!found.empty()) return *found.begin();
-    ConstraintVisitor visitor;
+    if (found.empty()) {
+        root.accept(visitor);
+        return new Scene(std::make_shared<tss::SceneModel>(visitor.getModel()));
+    }
+    // What has come since it was installed, or stands around it, is missing in the scene.
+    Scene& scene = **found.begin();
+    visitor.setQuiet(true);
     root.accept(visitor);
-    return new Scene(std::make_shared<tss::SceneModel>(visitor.getModel()));
+    const std::size_t joints = visitor.getModel().joints.size(), known = scene.getModel().joints.size();
+    if (joints > known)
+        OSG_WARN << "osgTSS: the scene that is written has " << known << " joints, and the graph " << joints
+                 << ": expected its node alone, or install() of what all of it is baked to" << std::endl;
+    return &scene;
 }
 
 void writeScene(osg::Node& root, const std::string& file) {

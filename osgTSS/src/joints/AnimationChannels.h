@@ -35,6 +35,11 @@ public:
     template <class Value>
     std::vector<Keys<Value>> keys(const std::string& target, const std::string& element) const;
 
+    /// Whether some channel, of whatever type, animates the element.
+    bool animates(const std::string& target, const std::string& element) const {
+        return _channels.contains({target, element});
+    }
+
     using Channels = std::vector<osg::ref_ptr<const osgAnimation::Channel>>;
 
     /// The channels that animate a target, those of each animation together.

@@ -10,7 +10,6 @@
 #include <osgTSS/Convert>
 
 #include <algorithm>
-#include <array>
 #include <cfloat>
 #include <cmath>
 
@@ -50,7 +49,8 @@ tss::TimeSamples oneRound(const osg::AnimationPathCallback& animation, double ra
 class AnimationPathNode : public JointNode {
 public:
     AnimationPathNode(osg::Node& node, osg::AnimationPathCallback& animation)
-        : _node(&node), _animation(&animation), _path(animation.getAnimationPath()), _keys(keysOf(*_path)),
+        : _node(&node), _animation(&animation), _path(animation.getAnimationPath()),
+          _points(_path->getTimeControlPointMap()), _pivot(animation.getPivotPoint()),
           _shown(_path->getFirstTime()) {}
 
     bool valid() const override {
@@ -59,7 +59,8 @@ public:
     }
     std::size_t dofCount() const override { return 1; }
     std::optional<Stray> stray() const override {
-        if (!valid() || (_animation->getAnimationPath() == _path && keysOf(*_path) == _keys))
+        if (!valid() ||
+            (_animation->getAnimationPath() == _path && sameKeys() && _animation->getPivotPoint() == _pivot))
             return std::nullopt;
         return Stray{"its animation path is another one", true};
     }
@@ -89,10 +90,16 @@ public:
     }
 
 private:
-    /// By which a path is known again: how many keys it has, from when to when.
-    static std::array<double, 3> keysOf(const osg::AnimationPath& path) {
-        return {static_cast<double>(path.getTimeControlPointMap().size()), path.getFirstTime(),
-                path.getLastTime()};
+    /// Looks at one key of the path a call, in turn.
+    bool sameKeys() const {
+        const osg::AnimationPath::TimeControlPointMap& now = _path->getTimeControlPointMap();
+        if (now.size() != _points.size()) return false;
+        if (_next == _points.end()) _next = _points.begin();
+        const auto& [time, point] = *_next++;
+        const auto found = now.find(time);
+        return found != now.end() && found->second.getPosition() == point.getPosition() &&
+               found->second.getRotation() == point.getRotation() &&
+               found->second.getScale() == point.getScale();
     }
 
     /// A loop takes its last moment for its first.
@@ -105,8 +112,10 @@ private:
 
     osg::observer_ptr<osg::Node> _node;
     osg::observer_ptr<osg::AnimationPathCallback> _animation;
-    osg::ref_ptr<const osg::AnimationPath> _path; ///< that its tables were made for
-    std::array<double, 3> _keys;
+    osg::ref_ptr<const osg::AnimationPath> _path;    ///< that its tables were made for
+    osg::AnimationPath::TimeControlPointMap _points; ///< of it, as they were then
+    mutable osg::AnimationPath::TimeControlPointMap::const_iterator _next = _points.begin();
+    osg::Vec3d _pivot;
     double _shown;
 };
 

@@ -26,7 +26,9 @@ const char* const tagName = "osgTSS:joint";
 
 class JointTransformNode : public JointNode {
 public:
-    explicit JointTransformNode(JointTransform& node) : _node(&node), _dofs(node.getNumDofs()) {}
+    explicit JointTransformNode(JointTransform& node)
+        : _node(&node), _dofs(node.getNumDofs()), _frame0(node.getJoint().frame0),
+          _frame1(node.getJoint().frame1) {}
 
     bool valid() const override { return _node.valid() && _node->getNumDofs() == _dofs; }
     std::size_t dofCount() const override { return _dofs; }
@@ -34,10 +36,17 @@ public:
     std::vector<double> asked() const override { return _node->getAskedValues(); }
     std::vector<double> shown() const override { return _node->getValues(); }
     void show(const std::vector<double>& values) override { _node->setResolvedValues(values); }
+    std::optional<Stray> stray() const override {
+        const tss::Joint& joint = _node->getJoint();
+        if (joint.frame0.matrix() == _frame0.matrix() && joint.frame1.matrix() == _frame1.matrix())
+            return std::nullopt;
+        return Stray{"its frames are others than its tables were made for", true};
+    }
 
 private:
     osg::observer_ptr<JointTransform> _node;
     std::size_t _dofs;
+    tss::Pose _frame0, _frame1;
 };
 
 /// Joints of a node that moves by itself: what cannot be served is not the application's wish.

@@ -146,6 +146,9 @@ std::vector<MovedAxis> movedAxes(const StackedTransformElement& element, const A
         const auto keys = channels.keys<osg::Quat>(target, name);
         return keys.empty() ? std::vector<MovedAxis>{} : movedTurns(name, keys, rate);
     }
+    if (channels.animates(target, name))
+        throw tss::InputError("a channel animates its element " + name +
+                              ", which neither turns nor slides: a scale or a whole matrix");
     return {};
 }
 

@@ -94,7 +94,7 @@ public:
         const auto rigid = toSimilarity(moved);
         std::vector<double> values(_slots.size());
         if (!rigid) return values; // another matrix than such a joint can have: as at rest
-        const auto turns = turnsOf(rigid->pose.linear(), _order);
+        const auto turns = turnsWithin(rigid->pose.linear());
         for (std::size_t k = 0; k < _slots.size(); ++k) {
             const Slot& slot = _slots[k];
             values[k] = slot.turn ? turns[slot.index] -
@@ -117,8 +117,10 @@ public:
         const std::vector<double> values = asked();
         const osg::Matrixd now = matrixOf(*_node), known = matrixAt(values);
         const double size = 1 + osg::Vec3d(now.getTrans() - _toRest.getTrans()).length();
+        double scale = 0;
+        for (int i = 0; i < 12; ++i) scale = std::max(scale, std::abs(_toRest.ptr()[i]));
         for (int i = 0; i < 16; ++i)
-            if (!(std::abs(now.ptr()[i] - known.ptr()[i]) <= 1e-4 * size))
+            if (!(std::abs(now.ptr()[i] - known.ptr()[i]) <= 1e-4 * (i < 12 ? scale : size)))
                 return Stray{"it stands as none of its degrees of freedom can place it", true};
         for (std::size_t k = 0; k < _slots.size(); ++k)
             if (auto beyond = beyondLimits(_slots[k].dof, values[k])) return beyond;
@@ -131,6 +133,27 @@ private:
         std::size_t index; ///< of a turn its place in the order, of a slide its axis
         tss::Dof dof;
     };
+
+    /// Of the two ways in which three turns make a rotation the one that the limits allow, or nearly.
+    std::array<double, 3> turnsWithin(const Eigen::Matrix3d& rotation) const {
+        const std::array<double, 3> first = turnsOf(rotation, _order),
+                                    other{first[0] + osg::PI, osg::PI - first[1], first[2] + osg::PI};
+        const auto beyond = [&](const std::array<double, 3>& turns) {
+            double sum = 0;
+            std::array<bool, 3> has{};
+            for (const Slot& slot : _slots) {
+                if (!slot.turn) continue;
+                has[slot.index] = true;
+                const double value =
+                    turns[slot.index] - wholeTurns(turns[slot.index], (slot.dof.lower + slot.dof.upper) / 2);
+                sum += std::max({0.0, slot.dof.lower - value, value - slot.dof.upper});
+            }
+            for (std::size_t k = 0; k < has.size(); ++k) // a turn that the node does not have
+                if (!has[k]) sum += std::abs(turns[k] - wholeTurns(turns[k], 0));
+            return sum;
+        };
+        return beyond(other) < beyond(first) - 1e-9 ? other : first;
+    }
 
     osg::Matrixd matrixAt(const std::vector<double>& values) const {
         tss::Pose moved = tss::Pose::Identity();
@@ -148,10 +171,10 @@ private:
         if (auto* transform = dynamic_cast<osg::MatrixTransform*>(_node.get()))
             return transform->setMatrix(matrix);
         auto& transform = static_cast<osg::PositionAttitudeTransform&>(*_node);
-        osg::Vec3d position, scale;
-        osg::Quat attitude, none;
-        matrix.decompose(position, attitude, scale, none);
-        transform.setAttitude(attitude);
+        // Whatever the node's own scale mirrors, it goes on mirroring.
+        osg::Matrixd turned = osg::Matrixd::inverse(osg::Matrixd::scale(transform.getScale())) * matrix;
+        turned.setTrans(0, 0, 0);
+        transform.setAttitude(turned.getRotate());
         transform.setPosition(transform.getPivotPoint() * matrix);
     }
 

@@ -55,6 +55,7 @@ struct JointCallback::Binding {
     std::vector<JointNode*> joints;               ///< of the plan's
     std::vector<double> q;                        ///< where the joints are
     std::vector<double> asked;                    ///< room for what is asked
+    std::vector<double> askedLast;                ///< before it was held, where something was
     std::vector<tss::GroupAnswer> found;
     ContactReport contacts;                ///< carried on when other pairs are kept apart
     std::optional<SkeletonPose> skeletons; ///< where some joint is a bone
@@ -75,6 +76,7 @@ struct JointCallback::Binding {
     void watch(const Scene& scene, const std::vector<std::string>& pairPaths);
     void restoreAsked() const;
     void resolve();
+    bool movedSince() const;
     void tellBeyond();
     void show() const;
 };
@@ -192,8 +194,26 @@ void JointCallback::Binding::resolve() {
     if (!toldBeyond) tellBeyond();
     for (std::size_t k = 0; k < q.size(); ++k)
         if (!std::isfinite(asked[k])) asked[k] = q[k]; // it stays where it is
+    askedLast = asked;
     found = plan->resolve(q, asked);
     q = asked;
+}
+
+/// Whether the joints are asked for other values than at the last resolve(), and than it came to. By what
+/// nodes with floats can tell.
+bool JointCallback::Binding::movedSince() const {
+    std::size_t next = 0;
+    for (const JointNode* joint : joints)
+        for (const double value : joint->asked()) {
+            const auto same = [&](double known) {
+                return std::abs(value - known) <= 1e-6 * (1 + std::abs(known));
+            };
+            if (std::isfinite(value) && !same(q[next]) &&
+                (next >= askedLast.size() || !same(askedLast[next])))
+                return true;
+            ++next;
+        }
+    return false;
 }
 
 /// Once: the graph asks for values that no table was made for, at whose limits the joint stops.
@@ -289,21 +309,35 @@ bool JointCallback::run(osg::Object* object, osg::Object* data) {
     if (!again) binding.restoreAsked();
     const bool result = traverse(object, data);
     if (_bindings->find(*node) != &binding) return result;
-    const osg::ref_ptr<ContactCallback> callback = scene->getContactCallback();
+    if (!binding.stillGood(*scene)) return result; // the animation took a joint away
+    if (!again)
+        resolve(binding, *scene, *visitor);
+    else
+        binding.show();
+    return result;
+}
+
+void JointCallback::resolve(Binding& binding, Scene& scene, osg::NodeVisitor& visitor) {
+    const osg::ref_ptr<ContactCallback> callback = scene.getContactCallback();
     ToldContacts told;
     {
-        const MeasureUpdate measure(scene->getCache().updateTime);
-        if (!binding.stillGood(*scene)) return result; // the animation took a joint away
-        if (!again) {
-            binding.watch(*scene, _pairPaths);
-            binding.resolve();
-        }
+        const MeasureUpdate measure(scene.getCache().updateTime);
+        binding.watch(scene, _pairPaths);
+        binding.resolve();
         binding.show();
-        if (!again && callback)
-            told = binding.contacts.report(*scene, **binding.plan, binding.q, binding.found, *visitor);
+        if (callback)
+            told = binding.contacts.report(scene, **binding.plan, binding.q, binding.found, visitor);
     }
-    if (callback) told.tell(*callback, *visitor);
-    return result;
+    if (callback) told.tell(*callback, visitor);
+}
+
+void JointCallback::hold(osg::Node& node, osg::NodeVisitor& visitor) {
+    if (!_scene || !_bindings->find(node)) return;
+    const osg::ref_ptr<JointCallback> self(this);
+    const osg::ref_ptr<Scene> scene = _scene;
+    Binding& binding = bindingOf(node);
+    binding.updated = true;
+    if (binding.stillGood(*scene) && binding.movedSince()) resolve(binding, *scene, visitor);
 }
 
 } // namespace osgTSS

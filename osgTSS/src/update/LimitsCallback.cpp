@@ -1,25 +1,49 @@
 #include "PerNode.h"
 #include "StandingParts.h"
+#include "osgTSS/src/EachNode.h"
+#include "osgTSS/src/extract/Machines.h"
 #include "osgTSS/src/joints/JointNodes.h"
 
 #include <osg/Node>
 #include <osg/NodeVisitor>
 #include <osg/Notify>
+#include <osg/observer_ptr>
+#include <osgTSS/JointCallback>
 #include <osgTSS/LimitsCallback>
+
+#include <algorithm>
 
 #include <set>
 
 namespace osgTSS {
 
-/// The joints of proofs below one node that can go beyond what the proofs are for, and what stands there.
+namespace {
+
+bool isBelow(const osg::Node& node, const osg::Node& root) {
+    if (&node == &root) return true;
+    for (unsigned int k = 0; k < node.getNumParents(); ++k)
+        if (isBelow(*node.getParent(k), root)) return true;
+    return false;
+}
+
+} // namespace
+
+/// The joints of proofs below one node that can go beyond what the proofs are for, what stands there, and the
+/// callbacks that hold joints.
 struct LimitsCallback::Watch {
     struct Joint {
         std::string path, pair;
         std::unique_ptr<JointNode> node;
     };
+    struct Holder {
+        osg::observer_ptr<osg::Node> node;
+        osg::ref_ptr<JointCallback> callback;
+    };
     std::shared_ptr<const tss::SceneModel> model;
     std::vector<Joint> joints;
+    std::vector<Holder> holders;
     StandingParts parts;
+    bool updated = false; ///< there was an update since
 
     Watch(osg::Node& node, const Scene& scene) : model(scene.shareModel()), parts(node, *model) {
         const auto nodes = findAllJointNodes(node);
@@ -35,6 +59,49 @@ struct LimitsCallback::Watch {
                         joints.push_back({joint.path, pair.path, std::move(access)});
             }
         }
+        eachNode(node, [&](osg::Node& below) {
+            for (osg::Callback* at = below.getUpdateCallback(); at; at = at->getNestedCallback())
+                if (auto* holder = dynamic_cast<JointCallback*>(at)) holders.push_back({&below, holder});
+        });
+    }
+
+    /// The joints once more that something has moved after they were held.
+    unsigned int hold(osg::Node& root, osg::NodeVisitor& visitor) {
+        unsigned int told = 0;
+        std::erase_if(holders, [&](const Holder& holder) {
+            osg::ref_ptr<osg::Node> node;
+            if (!holder.node.lock(node)) return true;
+            if (!isBelow(*node, root)) return false;
+            const osg::Callback* at = node->getUpdateCallback();
+            while (at && at != holder.callback) at = at->getNestedCallback();
+            if (at) {
+                holder.callback->hold(*node, visitor);
+                return false;
+            }
+            OSG_WARN << "osgTSS: the update callback that keeps joints below node \"" << node->getName()
+                     << "\" apart was taken from it; expected addUpdateCallback() for others" << std::endl;
+            ++told;
+            return true;
+        });
+        return told;
+    }
+
+    /// What was not made for this graph, pair by pair, of those whose joints are there.
+    unsigned int tellUnfit(osg::Node& node) const {
+        const auto nodes = findAllJointNodes(node);
+        Machines machines(node, *model);
+        unsigned int told = 0;
+        for (std::size_t p = 0; p < model->pairs.size(); ++p) {
+            const tss::Pair& pair = model->pairs[p];
+            const bool there = std::ranges::all_of(
+                pair.joints, [&](int joint) { return nodes.contains(model->joints[joint].path); });
+            std::string why;
+            if ((!pair.table && !pair.proof) || !there || !machines.placesOf(int(p), why).empty()) continue;
+            OSG_WARN << "osgTSS: pair " << pair.path
+                     << " is kept apart by what does not fit the graph: " << why << std::endl;
+            ++told;
+        }
+        return told;
     }
 
     /// Each joint is told of once, and then not looked at any more.
@@ -76,15 +143,35 @@ void LimitsCallback::setScene(Scene* scene) {
     _watches->clear();
 }
 
+LimitsCallback::Watch& LimitsCallback::watchOf(osg::Node& node) {
+    return _watches->of(
+        node, [&](const Watch*) { return std::make_unique<Watch>(node, *_scene); },
+        [&](const Watch& made) { return made.model == _scene->shareModel(); });
+}
+
+void LimitsCallback::start(osg::Node& node) {
+    _watches->erase(node);
+    if (_scene) watchOf(node);
+}
+
 bool LimitsCallback::run(osg::Object* object, osg::Object* data) {
     const osg::ref_ptr<LimitsCallback> self(this); // an application may take it from its node meanwhile
     const bool result = traverse(object, data);
     osg::Node* node = object ? object->asNode() : nullptr;
     if (!node || !_scene) return result;
-    Watch& watch = _watches->of(
-        *node, [&](const Watch*) { return std::make_unique<Watch>(*node, *_scene); },
-        [&](const Watch& made) { return made.model == _scene->shareModel(); });
-    _warnings += watch.tell();
+    osg::NodeVisitor* visitor = data ? data->asNodeVisitor() : nullptr;
+    const bool started = _watches->find(*node) != nullptr;
+    Watch* watch = &watchOf(*node);
+    if (!watch->updated) {
+        if (!started || watch->parts.anyOther()) {
+            _warnings += watch->tellUnfit(*node);
+            _watches->erase(*node);
+            watch = &watchOf(*node); // from what is there now
+        }
+        watch->updated = true;
+    }
+    if (visitor) _warnings += watch->hold(*node, *visitor);
+    _warnings += watch->tell();
     return result;
 }
 

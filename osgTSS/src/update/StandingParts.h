@@ -4,6 +4,7 @@
 #include <osg/Group>
 #include <osg/observer_ptr>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -24,6 +25,11 @@ public:
     /// Looks at some of it, at all in the course of 64 calls, and says what is other than it was, if that is
     /// part of a body of a pair or may touch one; once, then it looks no more.
     std::optional<std::string> changed();
+
+    /// Whether anything is other than it was, of concern or not.
+    bool anyOther() const {
+        return std::ranges::any_of(_parts, [&](const Part& part) { return isOther(part); });
+    }
 
 private:
     struct Part {

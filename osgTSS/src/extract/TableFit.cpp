@@ -3,8 +3,12 @@
 
 #include "bake/model/SourceHash.h"
 #include "bake/motion/WholeTurn.h"
+#include "bake/table/TablePairs.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <sstream>
 
 namespace osgTSS {
 
@@ -70,6 +74,27 @@ bool sameDof(const tss::Dof& a, const tss::Dof& b, double size) {
     return true;
 }
 
+/// How far a corner of B's box is from where the motion of the table has it, at the worst of some poses.
+double worstOff(const tss::Motion& is, const tss::Motion& was, const tss::TriangleMesh& meshB) {
+    const Eigen::AlignedBox3d box = tss::bounds(meshB);
+    double worst = 0;
+    for (const std::vector<double>& q : tss::latticePoses(was, 64)) {
+        const tss::Pose now = tss::pose(is, q), then = tss::pose(was, q);
+        for (int corner = 0; corner < 8; ++corner) {
+            const tss::Vec3 x = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+            worst = std::max(worst, (now * x - then * x).norm());
+        }
+    }
+    return worst;
+}
+
+/// What a table or a proof has to spare, scene units; nothing where it is not known.
+std::optional<double> spareOf(const tss::Pair& pair) {
+    if (pair.proof) return 0.5 * pair.proof->clearance;
+    if (pair.table && pair.table->boundEarly) return 0.1 * *pair.table->boundEarly;
+    return std::nullopt;
+}
+
 std::string wider(const tss::Dof& now, const tss::Dof& baked) {
     const double slack = same * (1 + std::abs(baked.lower) + std::abs(baked.upper));
     if (tss::wholeTurn(baked) || (now.lower >= baked.lower - slack && now.upper <= baked.upper + slack))
@@ -121,7 +146,16 @@ std::string whyUnfit(const tss::SceneModel& found, const std::vector<int>& joint
         if (!sameDof(is.dofs[k], was.dofs[k], size)) return "the axes of its joint are others";
         if (const std::string why = wider(is.dofs[k], was.dofs[k]); !why.empty()) return why;
     }
-    return samePose(is.base, was.base, size) ? "" : "its joint stands elsewhere on its bodies";
+    if (!samePose(is.base, was.base, size)) return "its joint stands elsewhere on its bodies";
+    const std::optional<double> spare = spareOf(pair);
+    if (!spare || meshB.empty()) return "";
+    const double off = worstOff(is, was, meshB);
+    if (off <= *spare) return "";
+    std::ostringstream text;
+    text << "its bodies are up to " << off
+         << " scene units from where they were when it was baked, more than " << *spare
+         << ", which it has to spare";
+    return text.str();
 }
 
 } // namespace osgTSS

@@ -96,7 +96,9 @@ std::string Machines::unfit(const Extraction& in, const tss::Pair& pair,
     bool made = true;
     for (std::size_t k = 0; k < chain.size() && made; ++k) {
         const auto* node = dynamic_cast<const JointTransform*>(nodes[chain[k]]);
-        made = node && node->getJoint().path == _model.joints[pair.joints[k]].path;
+        const tss::Joint& joint = _model.joints[pair.joints[k]];
+        made = node && node->getJoint().path == joint.path && node->getNumChildren() > 0 &&
+               joint.body1 >= 0 && bodyPath(*node->getChild(0)) == _model.bodies[joint.body1].path;
     }
     const tss::Joint &first = in.found->joints[chain.front()], &model = _model.joints[pair.joints.front()];
     if (made && model.body0 >= 0 && in.found->bodies[first.body0].path != _model.bodies[model.body0].path) {
