@@ -101,13 +101,25 @@ void mergeUnder(Prim& stronger, Prim weaker) {
         [](const Prim& child) -> const std::string& { return child.name; }, mergeUnder);
 }
 
-void movePaths(Prim& prim, const std::string& from, const std::string& to) {
+void mapPaths(Prim& prim, const MapPath& map) {
+    const std::function<void(Value&)> mapAll = [&](Value& paths) {
+        if (auto* array = paths.as<Value::Array>()) {
+            std::erase_if(*array, [&](Value& item) {
+                const auto* path = item.as<std::string>();
+                if (!path) return false;
+                const std::optional<std::string> there = map(*path);
+                if (there) item = Value(*there);
+                return !there;
+            });
+        } else if (auto* ops = paths.as<Value::Object>()) {
+            for (auto& [op, items] : *ops) mapAll(items);
+        }
+    };
     for (auto& [name, property] : prim.properties) {
-        if (property.targetPaths) moveBelow(*property.targetPaths, from, to);
+        if (property.targetPaths) mapAll(*property.targetPaths);
         if (const auto found = property.other.find("connectionPaths"); found != property.other.end())
-            moveBelow(found->second, from, to);
+            mapAll(found->second);
     }
-    for (Prim& child : prim.children) movePaths(child, from, to);
 }
 
 } // namespace tss

@@ -1,6 +1,9 @@
 #pragma once
 #include "bake/scene/Layer.h"
 
+#include <functional>
+#include <optional>
+
 namespace tss {
 
 /// Puts what a weaker opinion says below what the stronger one does: list ops are joined, dictionaries too,
@@ -10,7 +13,11 @@ void mergeUnder(Prim& stronger, Prim weaker);
 /// The same for the metadata alone.
 void mergeMetadata(Value::Object& stronger, Value::Object weaker);
 
-/// A prim from one path below another one: so are the paths in it that name what is inside.
-void movePaths(Prim& prim, const std::string& from, const std::string& to);
+/// A path as it is called elsewhere; none: nowhere.
+using MapPath = std::function<std::optional<std::string>(const std::string& path)>;
+
+/// The paths that a prim's relationships and connections name, as they are called elsewhere; those that are
+/// nowhere there are left away.
+void mapPaths(Prim& prim, const MapPath& map);
 
 } // namespace tss

@@ -29,11 +29,10 @@ struct UsdStage {
 /// Reads a stage from the text of its first layer. Where that one names no other file, and itself by
 /// references alone, it is kept as it stands; a layer that this software wrote is then the same again. Else
 /// sublayers, inherits, the variants that are selected, references, payloads and specializes are composed in
-/// USD's order of strength, and none of them is left in the layer. A class that a stronger layer overrides
-/// for a weaker one's inherits is not found there. What an arc names that is not there (a file, or one that is
-/// no text of USD, a prim, a variant) is left out, noted. So is one that leads back to itself, or below what is
-/// above its own prim and only there by other arcs. Throws InputError: as parseUsda(), sublayers that lead back to
-/// themselves, more than 64 arcs in each other, and what makes more than 65536 prims or 16777216 numbers.
+/// USD's order of strength (PrimSites), and none of them is left in the layer. What an arc names that is not
+/// there (a file, or one that is no text of USD, a prim, a variant) is left out, noted, and so is one that
+/// leads back to itself. Throws InputError: as parseUsda(), sublayers that lead back to themselves, more than
+/// 64 arcs in each other, and what makes more than 65536 prims or 16777216 numbers.
 UsdStage readStage(const std::string& text, const std::string& file, const OpenUsd& open);
 
 } // namespace tss
