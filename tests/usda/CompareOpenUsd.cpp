@@ -47,6 +47,11 @@ void addOwn(const tss::Prim& prim, const std::string& path, Lines& lines) {
     for (const tss::Prim& child : prim.children) addOwn(child, path + "/" + child.name, lines);
 }
 
+std::optional<double> numberOf(pxr::VtValue value) {
+    if (value.IsHolding<bool>() || !value.Cast<double>().IsHolding<double>()) return std::nullopt;
+    return value.Get<double>();
+}
+
 void addTheirs(const pxr::UsdPrim& prim, Lines& lines) {
     if (!prim.IsActive()) return;
     const std::string path = prim.GetPath().GetString();
@@ -65,13 +70,15 @@ void addTheirs(const pxr::UsdPrim& prim, Lines& lines) {
         }
         const auto attribute = property.As<pxr::UsdAttribute>();
         pxr::VtValue value;
-        if (attribute.Get(&value, pxr::UsdTimeCode::Default()) && value.IsHolding<double>())
-            lines.insert(fmt::format("{} = {}", at, value.Get<double>()));
+        const auto written = attribute.GetResolveInfo(pxr::UsdTimeCode::Default()).GetSource();
+        if (written == pxr::UsdResolveInfoSourceDefault && attribute.Get(&value, pxr::UsdTimeCode::Default()))
+            if (const auto number = numberOf(value)) lines.insert(fmt::format("{} = {}", at, *number));
         std::vector<double> times;
         attribute.GetTimeSamples(&times);
         for (const double time : times)
-            if (attribute.Get(&value, time) && value.IsHolding<double>())
-                lines.insert(fmt::format("{} at {} = {}", at, time, value.Get<double>()));
+            if (attribute.Get(&value, time))
+                if (const auto number = numberOf(value))
+                    lines.insert(fmt::format("{} at {} = {}", at, time, *number));
     }
     for (const pxr::UsdPrim& child : prim.GetAllChildren()) addTheirs(child, lines);
 }
