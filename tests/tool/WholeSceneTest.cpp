@@ -127,6 +127,21 @@ TEST_CASE("bodies that overlap at rest get a joint to paste, and what hangs on t
     CHECK((pose(wrist, std::vector{0.03}) * tss::Vec3(0, 0, 2.05) - tss::Vec3(0, 0, 2.05)).norm() < 1e-6);
 }
 
+TEST_CASE("info says of what overlaps at rest and is left out that it is") {
+    const Folder folder;
+    writeObj(boxMesh({-1, -1, -2}, {1, 1, 0}), folder / "block.obj");
+    writeObj(boxMesh({-0.5, -0.5, -0.1}, {0.5, 0.5, 2}), folder / "arm.obj");
+    REQUIRE(
+        runTss("make -o out.tss --a block.obj --b arm.obj --dof trans:0,0,1:-0.5:0.5", folder.path()).exit ==
+        0);
+    REQUIRE(runTss("bake out.tss -o out.tss --tolerance 0.1 --at-rest ignore --quiet", folder.path()).exit ==
+            0);
+    const Ran text = runTss("info out.tss", folder.path());
+    CHECK(text.out.find("that overlap at rest and are left out") != std::string::npos);
+    const Json json = Json::parse(runTss("info out.tss --json", folder.path()).out);
+    CHECK(json["pairs"][0]["restRegion"]["depth"].is_null());
+}
+
 TEST_CASE("values of one kind have names of their own") {
     const Folder folder;
     writeLimb(folder);
