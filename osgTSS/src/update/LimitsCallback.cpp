@@ -26,6 +26,12 @@ bool isBelow(const osg::Node& node, const osg::Node& root) {
     return false;
 }
 
+bool standsOn(const osg::Node& node, const osg::Callback& callback) {
+    const osg::Callback* at = node.getUpdateCallback();
+    while (at && at != &callback) at = at->getNestedCallback();
+    return at;
+}
+
 } // namespace
 
 /// The joints of proofs below one node that can go beyond what the proofs are for, what stands there, and the
@@ -63,27 +69,6 @@ struct LimitsCallback::Watch {
             for (osg::Callback* at = below.getUpdateCallback(); at; at = at->getNestedCallback())
                 if (auto* holder = dynamic_cast<JointCallback*>(at)) holders.push_back({&below, holder});
         });
-    }
-
-    /// The joints once more that something has moved after they were held.
-    unsigned int hold(osg::Node& root, osg::NodeVisitor& visitor) {
-        unsigned int told = 0;
-        std::erase_if(holders, [&](const Holder& holder) {
-            osg::ref_ptr<osg::Node> node;
-            if (!holder.node.lock(node)) return true;
-            if (!isBelow(*node, root)) return false;
-            const osg::Callback* at = node->getUpdateCallback();
-            while (at && at != holder.callback) at = at->getNestedCallback();
-            if (at) {
-                holder.callback->hold(*node, visitor);
-                return false;
-            }
-            OSG_WARN << "osgTSS: the update callback that keeps joints below node \"" << node->getName()
-                     << "\" apart was taken from it; expected addUpdateCallback() for others" << std::endl;
-            ++told;
-            return true;
-        });
-        return told;
     }
 
     /// What was not made for this graph, pair by pair, of those whose joints are there.
@@ -149,6 +134,29 @@ LimitsCallback::Watch& LimitsCallback::watchOf(osg::Node& node) {
         [&](const Watch& made) { return made.model == _scene->shareModel(); });
 }
 
+/// The joints once more that something has moved after they were held. Contact callbacks of the application
+/// hear of it, which may change what is installed.
+unsigned int LimitsCallback::hold(osg::Node& root, osg::NodeVisitor& visitor) {
+    unsigned int told = 0;
+    std::vector<Watch::Holder> holders = std::move(watchOf(root).holders);
+    std::erase_if(holders, [&](const Watch::Holder& holder) {
+        osg::ref_ptr<osg::Node> node;
+        if (!holder.node.lock(node)) return true;
+        if (!isBelow(*node, root)) return false;
+        if (standsOn(*node, *holder.callback)) {
+            holder.callback->hold(*node, visitor);
+            return false;
+        }
+        if (!standsOn(root, *this)) return true; // all of it was taken away
+        OSG_WARN << "osgTSS: the update callback that keeps joints below node \"" << node->getName()
+                 << "\" apart was taken from it; expected addUpdateCallback() for others" << std::endl;
+        ++told;
+        return true;
+    });
+    if (_scene && watchOf(root).holders.empty()) watchOf(root).holders = std::move(holders);
+    return told;
+}
+
 void LimitsCallback::start(osg::Node& node) {
     _watches->erase(node);
     if (_scene) watchOf(node);
@@ -170,8 +178,8 @@ bool LimitsCallback::run(osg::Object* object, osg::Object* data) {
         }
         watch->updated = true;
     }
-    if (visitor) _warnings += watch->hold(*node, *visitor);
-    _warnings += watch->tell();
+    if (visitor) _warnings += hold(*node, *visitor);
+    if (_scene) _warnings += watchOf(*node).tell();
     return result;
 }
 
