@@ -1,5 +1,5 @@
 #!/bin/bash
-# Reads all scenes and COUNT random stages with OpenUSD and here: tests/usda/openusd.sh [COUNT]. Expects a build
+# Reads all scenes, extreme ones too, and COUNT random stages with OpenUSD and here: tests/usda/openusd.sh [COUNT]. Expects a build
 # that was configured with -DOSGTSS_OPENUSD=DIR, where OpenUSD is installed (24.08 was, of its base and usd parts,
 # without Python and imaging). Stages whose arcs are references, payloads, variants and time samples are to be the same;
 # of classes, of which Pcp leaves out those that several arcs lead to, how many are not is said.
@@ -8,7 +8,8 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 count=${1:-200}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-for scene in "$root"/scenes/*.tss; do
+"$root/build/bin/tss-extreme" scenes "$work/extreme" >/dev/null 2>&1
+for scene in "$root"/scenes/*.tss "$work"/extreme/*.tss; do
     "$root/build/bin/tss" convert "$scene" "$work/$(basename "$scene" .tss).usda" >/dev/null
 done
 echo "scenes:"
