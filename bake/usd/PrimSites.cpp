@@ -7,7 +7,7 @@ namespace tss {
 
 namespace {
 
-constexpr std::size_t mostArcs = 64, mostSites = 4'000'000;
+constexpr std::size_t mostArcs = 64, mostOfPrim = 200'000, mostSites = 20'000'000;
 
 bool isUnder(const std::string& path, const std::string& root) {
     return path.starts_with(root) &&
@@ -87,12 +87,14 @@ std::optional<std::string> inStage(const PrimSite& site, const std::string& path
 }
 
 std::unique_ptr<PrimSite> PrimSites::top(const UsdLayer& layer, const std::string& name) {
+    ofPrim_ = 0;
     auto site = siteOf(layer, "/" + name);
     chooseVariants(*site);
     return site;
 }
 
 std::unique_ptr<PrimSite> PrimSites::child(const PrimSite& prim, const std::string& name, bool ownBelow) {
+    ofPrim_ = 0;
     auto site = extended(prim, name, nullptr);
     if (!ownBelow) site->spec = nullptr;
     open_.push_back({site->layer, site->path});
@@ -107,7 +109,7 @@ std::unique_ptr<PrimSite> PrimSites::child(const PrimSite& prim, const std::stri
 std::unique_ptr<PrimSite> PrimSites::siteOf(const UsdLayer& layer, const std::string& path) {
     std::unique_ptr<PrimSite> site;
     if (const auto cut = path.rfind('/'); cut == 0) {
-        site = std::make_unique<PrimSite>();
+        site = newSite(layer, nullptr, path);
         site->layer = &layer;
         site->path = path;
         site->spec = stacks_.find(layer, path);
@@ -122,6 +124,14 @@ std::unique_ptr<PrimSite> PrimSites::siteOf(const UsdLayer& layer, const std::st
     return site;
 }
 
+std::unique_ptr<PrimSite> PrimSites::newSite(const UsdLayer& layer, const UsdSpec* spec,
+                                             const std::string& path) {
+    if (++ofPrim_ > mostOfPrim || ++made_ > mostSites)
+        stacks_.refuse(layer, spec, path,
+                       "expected arcs that lead to at most 200000 places of a prim, and 20000000 in all");
+    return std::make_unique<PrimSite>();
+}
+
 const UsdSpec* PrimSites::childOf(const UsdSpec& spec, const std::string& name) {
     if (spec.children.empty()) return nullptr;
     auto& names = children_[&spec];
@@ -134,10 +144,7 @@ const UsdSpec* PrimSites::childOf(const UsdSpec& spec, const std::string& name) 
 /// The same places for a child. Places that say nothing of it are left out; the first one stays.
 std::unique_ptr<PrimSite> PrimSites::extended(const PrimSite& site, const std::string& name,
                                               PrimSite* above) {
-    if (++made_ > mostSites)
-        stacks_.refuse(*site.layer, site.spec, site.path,
-                       "expected less: what the arcs make of each other is more than 4000000 places");
-    auto made = std::make_unique<PrimSite>();
+    auto made = newSite(*site.layer, site.spec, site.path);
     made->layer = site.layer;
     made->path = site.path + "/" + name;
     made->spec = site.spec ? childOf(*site.spec, name) : nullptr;

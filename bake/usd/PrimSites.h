@@ -42,6 +42,7 @@ public:
 private:
     std::unique_ptr<PrimSite> siteOf(const UsdLayer& layer, const std::string& path);
     std::unique_ptr<PrimSite> extended(const PrimSite& site, const std::string& name, PrimSite* above);
+    std::unique_ptr<PrimSite> newSite(const UsdLayer& layer, const UsdSpec* spec, const std::string& path);
     const UsdSpec* childOf(const UsdSpec& spec, const std::string& name);
     void follow(PrimSite& site);
     void followArcs(PrimSite& site);
@@ -55,7 +56,7 @@ private:
     LayerStacks& stacks_;
     std::vector<std::pair<const UsdLayer*, std::string>> open_; ///< sites that arcs are being followed from
     std::map<const UsdSpec*, std::unordered_map<std::string, const UsdSpec*>> children_;
-    std::size_t made_ = 0;
+    std::size_t ofPrim_ = 0, made_ = 0; ///< places that were looked at, for one prim and in all
 };
 
 /// A path of the site as it is in the prim's own namespace; none: it is out of what an arc brings along.

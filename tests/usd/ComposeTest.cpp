@@ -155,6 +155,18 @@ TEST_CASE("references that make more of each other than fits are refused") {
           std::string::npos);
 }
 
+TEST_CASE("arcs that lead to more places than fit are refused") {
+    std::string text =
+        "def \"A\" ( inherits = </C39> ) {}\nclass \"C0\" { double x = 1 }\nclass \"D0\" { double x = 1 }\n";
+    for (int k = 1; k < 40; ++k) {
+        const std::string at = std::to_string(k), below = std::to_string(k - 1);
+        for (const char* name : {"C", "D"})
+            text += std::string("class \"") + name + at + "\" ( references = [</C" + below + ">, </D" +
+                    below + ">] ) {}\n";
+    }
+    CHECK(refusalOf(text).find("at most 200000 places") != std::string::npos);
+}
+
 TEST_CASE("a layer of other units is said, and not converted") {
     const UsdStage stage = stageOf(
         Files{{"root.usda", "#usda 1.0\n( metersPerUnit = 1 )\ndef \"A\" ( references = @b.usda@</B> ) {}"},
