@@ -7,6 +7,9 @@
 #include "bake/scene/SceneFile.h"
 #include "bake/table/PreparedTable.h"
 #include "bake/table/TablePairs.h"
+#ifdef OSGTSS_VAMP
+#include "tests/bench/VampPanda.h"
+#endif
 
 #include <algorithm>
 #include <chrono>
@@ -315,6 +318,58 @@ void timeAnswers(const SceneModel& scene, const Judge& judge, const MechanismQue
                judge.truths.size(), judge.left, fcl, met, slow);
 }
 
+#ifdef OSGTSS_VAMP
+/// VAMP's Panda on the same configurations: how long it takes, and what FCL says of either's answers. Only
+/// the pairs that FCL can judge are asked here.
+void compareVamp(const SceneModel& scene, const Judge& judge, std::size_t configurations) {
+    Configurations draw(scene);
+    if (draw.values() != 7) return fmt::print("VAMP's Panda has 7 values, this has {}\n", draw.values());
+    const MechanismQuery query(judged(scene, judge));
+    MechanismWorkspace ws = query.workspace();
+    std::vector<double> values(configurations * 7);
+    for (std::size_t i = 0; i < configurations; ++i) draw.next(&values[i * 7]);
+    std::vector<char> theirs(configurations), ours(configurations);
+    const std::vector<double> alone =
+        time(configurations, 5,
+             {[&] {
+                  for (std::size_t i = 0; i < configurations; ++i)
+                      theirs[i] = vamp_panda::touches(&values[i * 7]);
+              },
+              [&] {
+                  for (std::size_t i = 0; i < configurations; ++i)
+                      ours[i] = query.ask(&values[i * 7], ws).verdict == Answer::Contact;
+              }});
+    std::vector<double> open; // of both: VAMP's lanes stop together at the first that touches
+    for (std::size_t i = 0; i < configurations; ++i)
+        if (!theirs[i] && !ours[i]) open.insert(open.end(), &values[i * 7], &values[i * 7] + 7);
+    std::vector<vamp_panda::Eight> eights(open.size() / 56);
+    for (std::size_t i = 0; i < eights.size() * 8; ++i)
+        for (std::size_t k = 0; k < 7; ++k)
+            eights[i / 8].joints[k][i % 8] = static_cast<float>(open[i * 7 + k]);
+    std::vector<MechanismAnswer> many(eights.size() * 8);
+    std::size_t touched = 0;
+    const std::vector<double> lanes = time(many.size(), 5,
+                                           {[&] {
+                                                for (const vamp_panda::Eight& eight : eights)
+                                                    touched += vamp_panda::anyTouches(eight);
+                                            },
+                                            [&] { query.ask(open.data(), many.size(), many.data(), ws); }});
+    std::size_t meets = 0, missed = 0, early = 0, oursMissed = 0, oursEarly = 0;
+    for (std::size_t i = 0; i < configurations; ++i) {
+        const bool met = judge.touching(posedBodies(scene, {&values[i * 7], 7})) != nullptr;
+        meets += met;
+        (met ? missed : early) += met != bool(theirs[i]);
+        (met ? oursMissed : oursEarly) += met != bool(ours[i]);
+    }
+    fmt::print(
+        "VAMP {:.0f} ns a configuration, here {:.0f} ns; of {} free by both side by side {:.0f} ns ({} "
+        "touch there), here {:.0f} ns\n"
+        "of {}, {} touch by FCL: VAMP misses {} and is early {} times, here {} and {}\n",
+        alone[0], alone[1], many.size(), lanes[0], touched, lanes[1], configurations, meets, missed, early,
+        oursMissed, oursEarly);
+}
+#endif
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -341,5 +396,8 @@ int main(int argc, char** argv) {
                query.provenCount(), query.unanswered().size(), prepared.count());
 
     timeAnswers(scene, judge, query);
+#ifdef OSGTSS_VAMP
+    compareVamp(scene, judge, configurations);
+#endif
     countMissed(scene, judge, configurations, near);
 }
