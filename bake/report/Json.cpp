@@ -26,10 +26,11 @@ Json jsonOf(const PairStudy& study) {
               {"trianglesA", study.trianglesA},
               {"trianglesB", study.trianglesB},
               {"dofs", study.dofs},
-              {"neverCollides", study.neverCollides},
-              {"clearanceMm", study.clearance * mm},
               {"times", {{"seconds", study.seconds}, {"fclDirectlyNs", study.fclDirectly.median}}}};
-    if (study.neverCollides) return json;
+    if (study.never) {
+        json["never"] = *study.never;
+        return json;
+    }
     json["uniformPoses"] = study.uniformPoses;
     json["touchingUniform"] = study.touchingUniform;
     json["nearPoses"] = study.nearPoses;

@@ -4,6 +4,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/Stopwatch.h"
 #include "bake/geometry/MeshAudit.h"
+#include "bake/report/Text.h"
 
 #include <fmt/format.h>
 
@@ -169,6 +170,16 @@ void describe(PairStudy& study, const SceneModel& scene, const Pair& pair, const
     }
 }
 
+/// Of a model without a test.
+std::string neverText(const Model& model, double millimetres) {
+    if (!model.proof && !model.problem.table.certified)
+        return "At none of the poses explored do the spheres of the two meet within these limits.";
+    const std::string apart = model.proof ? fmt::format(": their surfaces stay {} mm apart at every pose",
+                                                        number(model.proof->clearance * millimetres))
+                                          : "";
+    return "The two can never meet within these limits" + apart + ", proven.";
+}
+
 /// Tables of ever finer spheres; returns the place of the one as asked for.
 std::size_t addTolerances(PairStudy& study, const SceneModel& scene, const Pair& pair,
                           const BakeOptions& asked, bool quick, const Progress& progress,
@@ -291,9 +302,8 @@ PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptio
     std::vector<StudiedModel> field;
     const std::size_t base = addTolerances(study, scene, pair, asked, options.quick, progress, field);
     const Model& model = *field[base].model;
-    if (model.proof) {
-        study.neverCollides = true;
-        study.clearance = model.proof->clearance;
+    if (model.proof || model.problem.table.testCount() == 0) {
+        study.never = neverText(model, study.millimetres);
         finish();
         return study;
     }

@@ -233,7 +233,7 @@ std::string facts(const PairStudy& study) {
                                    study.trianglesB, study.nameA, study.trianglesA);
     for (std::size_t k = 0; k < study.dofs.size(); ++k) text += (k ? ", " : " by ") + study.dofs[k];
     text += ".\n\n";
-    if (study.neverCollides) return text;
+    if (study.never) return text;
     text += fmt::format("Judged at {} poses spread uniformly over the limits, {} of them touching, and at {} "
                         "poses near contact, both ends of segments bisected to a millionth of the limits; "
                         "timed at the first {} of the uniform poses (slow methods at fewer, at least 100). "
@@ -255,11 +255,8 @@ std::string facts(const PairStudy& study) {
 
 std::string pairText(const PairStudy& study, const std::vector<Plot>& plots, bool besidePaper) {
     std::string text = fmt::format("## {}\n\n", study.path) + facts(study);
-    if (study.neverCollides)
-        return text +
-               fmt::format("The two can never meet within these limits: their surfaces stay {} mm apart at "
-                           "every pose, proven. No table is needed and no method has anything to find.\n\n",
-                           number(study.clearance * study.millimetres));
+    if (study.never)
+        return text + *study.never + " No table is needed and no method has anything to find.\n\n";
     text +=
         (besidePaper ? "### Beside the paper\n\n" : "### The table\n\n") + countTable(study, besidePaper) +
         "\n### Error against run time\n\n" + pictureText(plots, "pareto") + frontText(study) +

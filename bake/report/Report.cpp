@@ -80,8 +80,8 @@ Report makeReport(const SceneModel& scene, const std::string& sceneFile, const s
     const bool alone = result.pairs.size() + result.skins.size() == 1;
     for (const PairStudy& study : result.pairs)
         result.pairPlots.push_back(
-            study.neverCollides ? std::vector<Plot>{}
-                                : drawPlots(study, folder, stemOf(study.path, alone), result.plotProblem));
+            study.never ? std::vector<Plot>{}
+                        : drawPlots(study, folder, stemOf(study.path, alone), result.plotProblem));
     for (const SkinStudy& study : result.skins)
         result.skinPlots.push_back(drawPlots(study, folder, stemOf(study.path, alone), result.plotProblem));
     result.seconds = watch.seconds();

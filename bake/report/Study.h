@@ -93,8 +93,7 @@ struct PairStudy {
     std::vector<std::string> dofs; ///< name and limits in words
     std::string leadingDof, leadingUnit;
     double millimetres = 1; ///< in a scene unit
-    bool neverCollides = false;
-    double clearance = 0;
+    std::optional<std::string> never; ///< that the two never meet, in words: nothing is compared then
     std::vector<std::string> notes;
     std::size_t uniformPoses = 0, nearPoses = 0, touchingUniform = 0, timedPoses = 0;
     std::optional<double> earlyBound; ///< scene units; of the base's table

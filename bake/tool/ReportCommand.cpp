@@ -45,7 +45,7 @@ Json summary(const reporting::Report& report, const std::string& folder) {
                             {"worstMm", row.worst() * pair.millimetres},
                             {"nanoseconds", row.times.median}});
         json["pairs"].push_back(
-            {{"path", pair.path}, {"neverCollides", pair.neverCollides}, {"methods", rows}});
+            {{"path", pair.path}, {"neverCollides", pair.never.has_value()}, {"methods", rows}});
     }
     for (const auto& skin : report.skins)
         json["skins"].push_back({{"path", skin.path},

@@ -82,7 +82,7 @@ TEST_CASE(
     const Report report = makeReport(scene, "somewhere/arm.tss", folder.path, quickOptions());
     REQUIRE(report.pairs.size() == 1);
     const PairStudy& study = report.pairs[0];
-    CHECK_FALSE(study.neverCollides);
+    CHECK_FALSE(study.never);
     CHECK(study.touchingUniform > 100);
     CHECK(study.touchingUniform < study.uniformPoses);
     CHECK(study.nearPoses >= 100);
@@ -199,10 +199,20 @@ TEST_CASE(
 TEST_CASE("a pair that never meets is reported as proven, with nothing to compare") {
     const OutFolder folder;
     const Report report = makeReport(armScene(0.05), "arm.tss", folder.path, quickOptions());
-    CHECK(report.pairs[0].neverCollides);
-    CHECK(report.pairs[0].clearance > 0);
+    REQUIRE(report.pairs[0].never);
+    CHECK_THAT(*report.pairs[0].never, Catch::Contains("can never meet") && Catch::Contains("mm apart"));
     CHECK(report.pairs[0].rows.empty());
     CHECK(readWholeFile(folder.path + "/report.md").find("can never meet") != std::string::npos);
+}
+
+TEST_CASE("a pair of which no spheres meet, and no clearance is proven, has nothing to compare either") {
+    const OutFolder folder;
+    SceneModel scene = armScene(0.05);
+    scene.pairs[0].settings["search"] = "sampled";
+    const Report report = makeReport(scene, "arm.tss", folder.path, quickOptions());
+    REQUIRE(report.pairs[0].never);
+    CHECK_THAT(*report.pairs[0].never, Catch::StartsWith("At none of the poses explored"));
+    CHECK(report.pairs[0].rows.empty());
 }
 
 TEST_CASE("a report on a scene without pairs, or on a path that is not there, says so") {
