@@ -135,7 +135,7 @@ void SkinPushes::clear() {
 }
 
 /// What each plane still lacks, and how much of it a push of each other one gives: the matrix of the problem.
-void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base) {
+void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base, float deepest) {
     const std::size_t count = planes.size(), whole = (count + 3) / 4 * 4;
     asked_.assign(whole, 0);
     for (std::vector<float>& normals : normals_) normals.assign(whole, 0);
@@ -160,8 +160,10 @@ void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base
             asked = asked.max((coupling_[e] != 0).select(four(asked_, first), Four::Zero()));
         }
         // No push moves any place by more than a few times what is lacking around its own, which may give way
-        // less than those beside it.
-        most_[r] = self_[r] > 0 ? mostPush * asked.maxCoeff() / std::max(self_[r], peak_[r]) : 0;
+        // less than those beside it; a plane that was turned where pushes had thrown the skin asks for more
+        // than anything lacked.
+        most_[r] =
+            self_[r] > 0 ? mostPush * std::min(asked.maxCoeff(), deepest) / std::max(self_[r], peak_[r]) : 0;
     }
     for (std::size_t r = 0; r < count; ++r) {
         planes[r].push = std::min(planes[r].push, most_[r]);
@@ -273,12 +275,12 @@ float SkinPushes::energy(std::span<const SkinPlane> planes) const {
     return sum;
 }
 
-void SkinPushes::solve(std::span<SkinPlane> planes, std::span<const Move> base, int sweeps) {
+void SkinPushes::solve(std::span<SkinPlane> planes, std::span<const Move> base, float deepest, int sweeps) {
     if (planes.size() > self_.size()) {
         gather(planes);
         couple();
     }
-    prepare(planes, base);
+    prepare(planes, base, deepest);
     for (int done = 0; done < sweeps;) {
         float largest = 0;
         for (int k = 0; k < sweepsBetween && done < sweeps; ++k, ++done) largest = sweep(planes, k % 2 != 0);

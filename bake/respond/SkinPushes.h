@@ -16,9 +16,10 @@ public:
     void clear();
 
     /// Solves for planes of a skin that stands as `base`, starting from their pushes. Planes that were there
-    /// at the last call since clear() come first and may have other normals and levels only. sweeps: at most;
-    /// they end when no place changes any more.
-    void solve(std::span<SkinPlane> planes, std::span<const Move> base, int sweeps);
+    /// at the last call since clear() come first and may have other normals and levels only. deepest: what
+    /// any lacks as the skin is carried, which bounds the pushes. sweeps: at most; they end when no place
+    /// changes any more.
+    void solve(std::span<SkinPlane> planes, std::span<const Move> base, float deepest, int sweeps);
 
     /// Adds the moves by the planes' pushes to #touched places, and marks the blocks of those. Returns how
     /// many planes push.
@@ -43,7 +44,7 @@ private:
     }
     void gather(std::span<const SkinPlane> planes);
     void couple();
-    void prepare(std::span<SkinPlane> planes, std::span<const Move> base);
+    void prepare(std::span<SkinPlane> planes, std::span<const Move> base, float deepest);
     void spread(std::size_t r, float change);
     void addRow(std::size_t r, float factor, std::vector<float>& sums) const;
     Four four(const std::vector<float>& values, std::uint32_t first) const {

@@ -149,6 +149,7 @@ void SkinResistance::clear() {
     rows_.clear();
     seenRows_.clear();
     planes_.clear();
+    found_.clear();
     seen_.clear();
     pushes_.clear();
     left_.clear();
@@ -176,6 +177,13 @@ void SkinResistance::lookUpFirst(const SkinScene& scene) {
     const SkinClock::Scope scope(clock_, SkinPart::Sort);
     for (std::uint32_t r = 0; r < rig_.rows.size(); ++r)
         if (mayMeet(rig_, scene, rig_.rows[r])) lookAt(scene, r);
+}
+
+/// What the deepest of the rows that were found lacks.
+float SkinResistance::deepestFound() const {
+    float deepest = 0;
+    for (const Found& one : found_) deepest = std::max(deepest, -one.plane.gap);
+    return deepest;
 }
 
 /// Turns the planes there are and fills found_, by what contacts have moved. Returns the most that one of the
@@ -216,25 +224,42 @@ float SkinResistance::lookUpAgain(const SkinScene& scene) {
 std::size_t SkinResistance::push(SkinScene& scene) {
     clear();
     std::size_t pushing = 0;
-    float last = std::numeric_limits<float>::max();
+    float last = std::numeric_limits<float>::max(), least = last, deepest = 0;
     int stalled = 0;
-    for (int round = 0; round < lookUps; ++round) {
-        float lack = 0;
-        if (round == 0)
+    for (int round = 0;; ++round) {
+        float lack = 0, now = 0;
+        if (round == 0) {
             lookUpFirst(scene);
-        else
+            deepest = deepestFound();
+        } else {
             lack = lookUpAgain(scene);
+            now = std::max(lack, deepestFound());
+            if (now < least) {
+                least = now;
+                best_.swap(applied_);
+            }
+        }
         // What is twice no less deep than before is asked for more than the skin can give.
         stalled = lack < last ? 0 : stalled + 1;
-        if (found_.empty() && (lack <= settled || stalled > 1)) break;
+        if (round == lookUps || (found_.empty() && (lack <= settled || stalled > 1))) {
+            // Bones that press skin from two sides: deeper than without any push.
+            if (now > deepest) pushing = apply(scene, best_);
+            return pushing;
+        }
         last = lack;
         const SkinClock::Scope scope(clock_, SkinPart::Pushes);
         addDeepest();
-        pushes_.solve(planes_, scene.carried, rig_.parameters.iterations);
-        takeBack(scene);
-        pushing = pushes_.apply(planes_, scene.skin, pushed_);
-        findStirred(scene);
+        pushes_.solve(planes_, scene.carried, deepest, rig_.parameters.iterations);
+        applied_ = planes_;
+        pushing = apply(scene, applied_);
     }
+}
+
+/// The skin as it is carried and pushed by these planes. Returns how many push.
+std::size_t SkinResistance::apply(SkinScene& scene, std::span<const SkinPlane> planes) {
+    takeBack(scene);
+    const std::size_t pushing = pushes_.apply(planes, scene.skin, pushed_);
+    findStirred(scene);
     return pushing;
 }
 

@@ -48,13 +48,16 @@ private:
     void findStirred(const SkinScene& scene);
     std::uint64_t placeOfChoice(const SkinRow& row, const SkinPlane& plane) const;
     void addDeepest();
+    std::size_t apply(SkinScene& scene, std::span<const SkinPlane> planes);
+    float deepestFound() const;
 
     const SkinRig& rig_;
     SkinClock& clock_;
     SkinPushes pushes_;
     std::vector<SkinPlane> planes_;
-    std::vector<std::uint32_t> rows_;    ///< of planes_
-    std::vector<std::uint32_t> planeOf_; ///< #rows: 1 + its place in planes_, 0: none
+    std::vector<SkinPlane> applied_, best_; ///< planes_ as they pushed last, and where least was lacking then
+    std::vector<std::uint32_t> rows_;       ///< of planes_
+    std::vector<std::uint32_t> planeOf_;    ///< #rows: 1 + its place in planes_, 0: none
     std::vector<Found> found_;
     std::vector<Seen> seen_;
     std::vector<std::uint32_t> seenRows_; ///< of seen_
