@@ -154,6 +154,7 @@ SkinFoundation skinFoundation(const TriangleMesh& skin, const SkinGraph& graph,
                               const std::vector<bool>& pushed, const std::vector<double>& firmness,
                               double length, double stretchCompliance, double bendCompliance) {
     SkinFoundation foundation;
+    foundation.length = length;
     std::vector<std::uint32_t> sources;
     for (std::uint32_t v = 0; v < pushed.size(); ++v)
         if (pushed[v]) sources.push_back(v);

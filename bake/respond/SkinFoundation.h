@@ -10,6 +10,7 @@ namespace tss {
 /// moves by the weighted mean of how they move. Columns are cut where they have died away, so what is pushed
 /// is exactly what is tabulated, and scalar, so that they serve whatever way the skin is turned.
 struct SkinFoundation {
+    double length = 0; ///< l
     std::size_t nodes = 0;
     std::vector<std::uint32_t> start, node; ///< of vertex v: node[start[v]] to node[start[v + 1]]
     std::vector<float> weight;              ///< #node, of a vertex 1 together; vertices never moved have none

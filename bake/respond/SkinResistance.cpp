@@ -1,6 +1,7 @@
 #include "bake/respond/SkinResistance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace tss {
@@ -9,6 +10,10 @@ namespace {
 /// Times that contacts are looked up, at most, after the first time where those before have moved the skin
 /// to: new ones are met there, and planes of curved surfaces have turned.
 constexpr int lookUps = 8;
+
+/// Contacts that move the skin farther than this many times what the deepest lacks and a length of the
+/// foundation have thrown it: a thrown place is in nothing any more, and seems to lack nothing.
+constexpr float mostMove = 2;
 
 /// Turns a plane to what its row meets now. What it pushes stays as it was first found, since it has hardly
 /// slid, and so does its push.
@@ -88,17 +93,22 @@ void SkinResistance::takeBack(SkinScene& scene) {
     }
 }
 
-/// Which vertices contacts have moved from where they were carried to.
+/// Which vertices contacts have moved from where they were carried to, and how far at most.
 void SkinResistance::findStirred(const SkinScene& scene) {
     constexpr float still = settled * settled;
+    float farthest = 0;
     for (std::size_t b = 0; b < pushed_.size(); ++b) {
         if (pushed_[b] == 0) continue;
         const std::size_t last = std::min((b + 1) * SkinRig::block, stirred_.size());
         const Move *skin = scene.skin.data(), *carried = scene.carried.data();
         char* stirred = stirred_.data();
-        for (std::size_t v = b * SkinRig::block; v < last; ++v)
-            stirred[v] = (skin[v] - carried[v]).squaredNorm() > still;
+        for (std::size_t v = b * SkinRig::block; v < last; ++v) {
+            const float squared = (skin[v] - carried[v]).squaredNorm();
+            stirred[v] = squared > still;
+            farthest = std::max(farthest, squared);
+        }
     }
+    farthest_ = std::sqrt(farthest);
 }
 
 /// Whether that is so of any that a plane holds.
@@ -223,35 +233,33 @@ float SkinResistance::lookUpAgain(const SkinScene& scene) {
 
 std::size_t SkinResistance::push(SkinScene& scene) {
     clear();
-    std::size_t pushing = 0;
-    float last = std::numeric_limits<float>::max(), least = last, deepest = 0;
-    int stalled = 0;
-    for (int round = 0;; ++round) {
-        float lack = 0, now = 0;
-        if (round == 0) {
-            lookUpFirst(scene);
-            deepest = deepestFound();
-        } else {
-            lack = lookUpAgain(scene);
-            now = std::max(lack, deepestFound());
-            if (now < least) {
-                least = now;
-                best_.swap(applied_);
-            }
+    lookUpFirst(scene);
+    if (found_.empty()) return 0;
+    const float deepest = deepestFound();
+    const float mostMoved = mostMove * (deepest + static_cast<float>(rig_.foundation.length));
+    float last = 0, least = std::numeric_limits<float>::max();
+    best_.clear();
+    for (int round = 1, stalled = 0;; ++round) {
+        std::size_t pushing = 0;
+        {
+            const SkinClock::Scope scope(clock_, SkinPart::Pushes);
+            addDeepest();
+            pushes_.solve(planes_, scene.carried, deepest, rig_.parameters.iterations);
+            applied_ = planes_;
+            pushing = apply(scene, applied_);
+        }
+        const float lack = lookUpAgain(scene), now = std::max(lack, deepestFound());
+        const bool thrown = farthest_ > mostMoved;
+        if (!thrown && now < least) {
+            least = now;
+            best_.swap(applied_);
         }
         // What is twice no less deep than before is asked for more than the skin can give.
         stalled = lack < last ? 0 : stalled + 1;
-        if (round == lookUps || (found_.empty() && (lack <= settled || stalled > 1))) {
-            // Bones that press skin from two sides: deeper than without any push.
-            if (now > deepest) pushing = apply(scene, best_);
-            return pushing;
-        }
         last = lack;
-        const SkinClock::Scope scope(clock_, SkinPart::Pushes);
-        addDeepest();
-        pushes_.solve(planes_, scene.carried, deepest, rig_.parameters.iterations);
-        applied_ = planes_;
-        pushing = apply(scene, applied_);
+        if (round < lookUps && (!found_.empty() || (lack > settled && stalled < 2))) continue;
+        // Bones that press skin from two sides may leave it thrown, or deeper than without any push.
+        return thrown || now > deepest ? apply(scene, best_) : pushing;
     }
 }
 
