@@ -1,4 +1,5 @@
 #include "bake/table/PreparedTable.h"
+#include "tests/Joints.h"
 #include "tests/table/ExactGap.h"
 #include "tests/table/RandomTable.h"
 
