@@ -52,14 +52,20 @@ void checkPair(const SceneModel& scene, const Pair& pair, const BakeOptions& opt
 
 void checkSkin(const SceneModel& scene, const SkinModel& skin, const BakeOptions& options) {
     checkBody(scene.bodies[skin.body]);
+    for (const UnderSkin& under : underSkin(scene, skin))
+        if (under.body >= 0) checkBody(scene.bodies[under.body]);
     const auto muscles = skinMuscles(scene, skin);
     for (const auto& muscle : muscles)
         if (const TriangleMesh& surface = muscle->muscle().surface; !surface.empty())
             checkOptions(sphereOptions(options, options.tolerance.value_or(diagonal(surface) / 100)));
     checkSkin(scene.bodies[skin.body].mesh, muscles.size(), skinParameters(scene, skin));
+    const double size = diagonal(scene.bodies[skin.body].mesh);
     for (const double length : {skin.thickness, skin.travel})
-        if (!(length >= 0) || !std::isfinite(length))
-            throw InputError("thickness and travel of a skin must be finite lengths of at least 0");
+        if (!(length >= 0 && length <= 100 * size))
+            throw InputError(fmt::format(
+                "thickness and travel of a skin must be lengths of at least 0 and at "
+                "most a hundred times its size, {}; found {}",
+                lengthText(100 * size, scene.metersPerUnit), lengthText(length, scene.metersPerUnit)));
 }
 
 template <class Item, class Check>

@@ -178,7 +178,7 @@ std::vector<SkinFollowing> Player::State::following() const {
 }
 
 std::vector<TriangleMesh> Player::State::worldMeshes() const {
-    const std::vector<Pose> placements = posedBodies(scene_, values_);
+    std::vector<Pose> placements = posedBodies(scene_, values_);
     std::vector<TriangleMesh> meshes;
     for (const Body& body : scene_.bodies) meshes.push_back(body.mesh);
     for (const Skin& skin : skins_) {
@@ -187,12 +187,17 @@ std::vector<TriangleMesh> Player::State::worldMeshes() const {
         for (std::size_t k = 0; k < positions.size(); ++k)
             meshes[model.body].vertices[skin.response.vertices()[k]] = positions[k];
         for (std::size_t m = 0; m < model.muscles.size(); ++m) {
-            if (skin.muscles[m]->rigid()) continue;
-            const int body = scene_.muscles[model.muscles[m]].body;
-            const Pose toBody =
-                scene_.bodies[body].placement.inverse(Eigen::Isometry) * scene_.bodies[model.body].placement;
-            meshes[body].vertices = verticesBetween(*skin.muscles[m], skin.activations[m], farOf(skin, m));
-            for (Vec3& v : meshes[body].vertices) v = toBody * v;
+            const MuscleModel& muscle = scene_.muscles[model.muscles[m]];
+            const Pose toBody = scene_.bodies[muscle.body].placement.inverse(Eigen::Isometry) *
+                                scene_.bodies[model.body].placement;
+            if (!skin.muscles[m]->rigid()) {
+                std::vector<Vec3>& vertices = meshes[muscle.body].vertices;
+                vertices = verticesBetween(*skin.muscles[m], skin.activations[m], farOf(skin, m));
+                for (Vec3& v : vertices) v = toBody * v;
+            }
+            if (muscle.bone >= 0 && !skin.poses.empty()) // it goes with that, whatever its own prim does
+                placements[muscle.body] =
+                    placements[model.body] * skin.poses[m] * toBody.inverse(Eigen::Isometry);
         }
     }
     for (std::size_t k = 0; k < meshes.size(); ++k)

@@ -32,6 +32,19 @@ double withoutLeast(double share) {
     return share > leastShare ? (share - leastShare) / (1 - leastShare) : 0;
 }
 
+/// The same for all shares of each vertex, of which what holds still has the rest: 1 together as before.
+void dropLeast(std::vector<std::vector<double>>& shares) {
+    for (std::size_t v = 0; !shares.empty() && v < shares[0].size(); ++v) {
+        double still = 1, sum = 0;
+        for (auto& list : shares) {
+            still -= list[v];
+            sum += list[v] = withoutLeast(list[v]);
+        }
+        sum += withoutLeast(still);
+        for (auto& list : shares) list[v] /= sum;
+    }
+}
+
 /// Of each vertex the first at its place, where both are on rims as along a seam; lips that touch are two.
 std::vector<std::uint32_t> firstAtPlace(const TriangleMesh& mesh) {
     std::map<std::pair<int, int>, int> sides; // of each edge
@@ -68,6 +81,18 @@ std::vector<std::uint32_t> firstAtPlace(const TriangleMesh& mesh) {
     };
     std::vector<std::uint32_t> first;
     for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) first.push_back(rim[v] ? find(v) : v);
+    return first;
+}
+
+/// What the scene says of the two apart makes them two: rims of lips that touch.
+std::vector<std::uint32_t> seamsOf(const TriangleMesh& mesh, const SkinParameters& p) {
+    std::vector<std::uint32_t> first = firstAtPlace(mesh);
+    for (std::uint32_t v = 0; v < first.size(); ++v) {
+        const auto differs = [&](const std::vector<double>& list) {
+            return !list.empty() && list[v] != list[first[v]];
+        };
+        if (differs(p.tether) || differs(p.attach) || std::ranges::any_of(p.shares, differs)) first[v] = v;
+    }
     return first;
 }
 
@@ -149,8 +174,9 @@ bool isWoundInwards(const SkinGround& ground) {
 } // namespace
 
 SkinGround::SkinGround(const TriangleMesh& mesh,
-                       const std::vector<std::shared_ptr<const MuscleDeformer>>& under)
-    : first(firstAtPlace(mesh)), skin(joined(mesh, first)), bodies(under), graph(skinGraph(skin)),
+                       const std::vector<std::shared_ptr<const MuscleDeformer>>& under,
+                       const SkinParameters& parameters)
+    : first(seamsOf(mesh, parameters)), skin(joined(mesh, first)), bodies(under), graph(skinGraph(skin)),
       normals(skinNormals(skin)) {
     locators.reserve(bodies.size());
     for (const auto& body : bodies) {
@@ -172,7 +198,13 @@ SkinGround::SkinGround(const TriangleMesh& mesh,
         for (Tri& t : skin.triangles) std::swap(t[1], t[2]);
         for (Vec3& normal : normals) normal = -normal;
     }
-    size = skin.vertices.empty() ? 0 : diagonal(skin);
+    Eigen::AlignedBox3d box;
+    for (const Tri& t : mesh.triangles)
+        for (const int v : t) box.extend(mesh.vertices[static_cast<std::size_t>(v)]);
+    if (!box.isEmpty()) {
+        centre = box.center();
+        size = box.diagonal().norm();
+    }
     if (!(size > 0)) size = 1;
     length = std::max(size / lengthsPerSize, graph.meanEdge);
 }
@@ -190,8 +222,9 @@ SkinCarriage carrySkin(const SkinGround& ground, const SkinParameters& p) {
     const auto free = [&](std::size_t v) { return p.tether.empty() ? 1 : 1 - p.tether[v]; };
     SkinCarriage carriage;
     carriage.frames = frameShares(ground, p, framesOf(ground, p));
+    if (p.shares.empty()) dropLeast(carriage.frames);
     for (auto& list : carriage.frames)
-        for (std::size_t v = 0; v < count; ++v) list[v] = free(v) * withoutLeast(list[v]);
+        for (std::size_t v = 0; v < count; ++v) list[v] *= free(v);
 
     std::vector<std::vector<double>> holds;
     std::vector<double> sum(count, 0);

@@ -6,7 +6,8 @@ namespace tss {
 
 /// A skin and what lies under it, measured once for all steps of makeSkinRig().
 struct SkinGround {
-    SkinGround(const TriangleMesh& mesh, const std::vector<std::shared_ptr<const MuscleDeformer>>& under);
+    SkinGround(const TriangleMesh& mesh, const std::vector<std::shared_ptr<const MuscleDeformer>>& under,
+               const SkinParameters& parameters);
 
     std::vector<std::uint32_t>
         first;         ///< #V: the first vertex at the same place; seams of textures repeat them
@@ -19,7 +20,8 @@ struct SkinGround {
         false; ///< the mesh is wound inwards, towards what lies under it; `skin` and `normals` are not
     std::vector<std::vector<Vec3>> surfaceNormals;
     std::vector<std::vector<bool>> inside; ///< #bodies of #V: within a muscle at rest; empty: a bone
-    double size = 0;                       ///< diagonal of the skin's bounds, 1 where it has none
+    Vec3 centre = Vec3::Zero();            ///< of the bounds of the skin's triangles
+    double size = 0;                       ///< diagonal of these bounds, 1 where it has none
     double length =
         0; ///< over which skin gives way: of the sheet on its foundation, and of what muscles carry
 };

@@ -27,7 +27,7 @@ SkinMoves skinMoves(const TriangleMesh& skin,
     SkinMoves moves;
     moves.stray.assign(bodies.size(), std::vector<double>(skin.vertices.size(), 0));
     moves.shares = moves.stray;
-    const SkinGround ground(skin, bodies);
+    const SkinGround ground(skin, bodies, parameters);
     const std::vector<int> frames = framesOf(ground, parameters);
     const SkinCarriage carriage = carrySkin(ground, parameters);
     std::vector<bool> taken(carriage.frames.size(), false);

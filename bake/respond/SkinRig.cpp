@@ -252,10 +252,10 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     auto result = std::make_shared<SkinRig>();
     SkinRig& rig = *result;
     rig.parameters = parameters;
-    const SkinGround ground(skin, bodies);
+    const SkinGround ground(skin, bodies, parameters);
     rig.size = ground.size;
     rig.inverted = ground.inverted;
-    if (!skin.vertices.empty()) rig.centre = bounds(skin).center();
+    rig.centre = ground.centre;
     rig.radius = static_cast<float>(std::max(largestRadius(table.table), 1e-3 * rig.size) / rig.size);
     SkinCarriage carriage;
     std::vector<SkinBefore> before;

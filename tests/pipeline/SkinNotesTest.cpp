@@ -1,5 +1,6 @@
 #include "bake/model/AddPair.h"
 #include "bake/pipeline/BakeSkin.h"
+#include "bake/pipeline/CheckBake.h"
 #include "tests/Joints.h"
 #include "tests/geometry/TestMeshes.h"
 
@@ -55,4 +56,30 @@ TEST_CASE("what is said of the mesh of one of a skin's bones names that bone") {
     fillMuscles(scene, skin, {}, report);
     REQUIRE(report.notes.size() == 1);
     CHECK(report.notes[0].find("/Head/Jaw: 3 open or misoriented edges") == 0);
+}
+
+TEST_CASE(
+    "a skin of nonsensical thickness, or over a bone without area, is refused before anything is made") {
+    SceneModel scene;
+    for (const char* path : {"/Head/Skull", "/Head/Jaw", "/Head/Skin"}) {
+        Body body;
+        body.path = path;
+        body.mesh =
+            ballMesh(Vec3(0, scene.bodies.size() == 1 ? 2.5 : 0, 0), scene.bodies.size() < 2 ? 1 : 4, 2);
+        scene.bodies.push_back(body);
+    }
+    SkinModel skin;
+    skin.path = "/Head/Skin";
+    skin.body = 2;
+    skin.bones = {0, 1};
+    scene.skins = {skin};
+    CHECK(refusedByBake(scene, {}).empty());
+    scene.skins[0].thickness = 1e30;
+    REQUIRE(refusedByBake(scene, {}).size() == 1);
+    CHECK(std::string(refusedByBake(scene, {})[0].what()).find("a hundred times its size") !=
+          std::string::npos);
+    scene.skins[0].thickness = 0;
+    scene.bodies[1].mesh = {{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}, {Tri(0, 1, 2)}};
+    REQUIRE(refusedByBake(scene, {}).size() == 1);
+    CHECK(refusedByBake(scene, {})[0].where.path == "/Head/Jaw");
 }

@@ -3,6 +3,7 @@
 #include "bake/model/AddPair.h"
 #include "bake/table/Table.h"
 #include "tests/Joints.h"
+#include "tests/Shapes.h"
 
 #include <catch2/catch.hpp>
 #include <numbers>
@@ -32,4 +33,45 @@ TEST_CASE("a joint that turns all the way round is played on where its limits me
     const double angle = std::remainder(stopped.values[0], 360 * degree) / degree;
     CHECK(angle > 95);
     CHECK(angle < 125);
+}
+
+TEST_CASE("the muscles on a bone are shown where the bone has taken them") {
+    SceneModel scene;
+    const auto add = [&](const std::string& name, TriangleMesh mesh) {
+        Body body;
+        body.path = "/Limb/" + name;
+        body.mesh = std::move(mesh);
+        scene.bodies.push_back(std::move(body));
+    };
+    add("Upper", boxMesh({-2, -0.2, -0.2}, {-0.2, 0.2, 0.2}));
+    add("Lower", boxMesh({0.2, -0.2, -0.2}, {2, 0.2, 0.2}));
+    add("Belly", boxMesh({0.5, -0.1, 0.3}, {1.5, 0.1, 0.5}));
+    add("Skin", ballMesh(Vec3::Zero(), 3, 3));
+    Motion motion;
+    motion.dofs = {joints::turn(Vec3::Zero(), Vec3::UnitY(), -1, 1)};
+    addJoints(scene, 0, 1, motion, "Elbow");
+    MuscleModel muscle;
+    muscle.path = "/Limb/Muscle";
+    muscle.body = 2;
+    muscle.bone = 1;
+    muscle.muscle.fibre = {{0.5, 0, 0.4}, {1.5, 0, 0.4}};
+    muscle.muscle.surface = scene.bodies[2].mesh;
+    SkinModel skin;
+    skin.path = "/Limb/Skin";
+    skin.body = 3;
+    skin.bones = {0, 1};
+    skin.muscles = {0};
+    for (const double range : {1.0, 0.0}) { // one that contracts, though it is at rest, and a rigid one
+        INFO(range);
+        muscle.muscle.activationUpper = range;
+        scene.muscles = {muscle};
+        scene.skins = {skin};
+        std::vector<std::string> warnings;
+        Player player(scene, warnings);
+        player.step({0.7}, 0);
+        const std::vector<TriangleMesh> meshes = player.worldMeshes();
+        const Pose turned(Eigen::AngleAxisd(0.7, Vec3::UnitY()));
+        for (std::size_t v = 0; v < 8; ++v)
+            CHECK((meshes[2].vertices[v] - turned * scene.bodies[2].mesh.vertices[v]).norm() < 1e-6);
+    }
 }

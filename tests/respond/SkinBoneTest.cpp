@@ -1,5 +1,6 @@
 #include "SkinShapes.h"
 #include "tests/FloatTraps.h"
+#include "tests/Shapes.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -102,6 +103,60 @@ TEST_CASE("a bone that swings wide takes its skin along as it turns; skin far fr
         }
         CHECK(leastCosine > 0.9);
     }
+}
+
+TEST_CASE("skin that all its bones take along together goes all the way, by weights found or given") {
+    const TriangleMesh skin = revolved({{1, 0}, {1, 1}, {1, 2}, {1, 3}, {1, 4}, {1, 5}, {0.5, 6}}, 16);
+    std::vector<std::shared_ptr<const MuscleDeformer>> bones;
+    SkinParameters parameters;
+    for (int k = 0; k < 4; ++k) {
+        bones.push_back(skins::boneOf(boxMesh({-0.3, -0.3, 1.5 * k}, {0.3, 0.3, 1.5 * k + 1})));
+        parameters.frames.push_back(k);
+    }
+    SkinTable nothingMet;
+    nothingMet.table.rowOffsets = {0};
+    const Pose slid(Eigen::Translation3d(100, 0, 0));
+    for (const bool given : {false, true}) {
+        INFO(given);
+        SkinParameters own = parameters;
+        // Each bone by itself, so that none is known to move with another.
+        for (int k = 1; k < 4; ++k) {
+            std::vector<Pose> swing(4, Pose::Identity());
+            for (int j = k; j < 4; ++j) swing[j] = Pose(Eigen::AngleAxisd(0.5, Vec3::UnitY()));
+            own.swings.push_back({swing});
+        }
+        if (given) own.shares.assign(4, std::vector<double>(skin.vertices.size(), 0.25));
+        SkinResponse response(makeSkinRig(skin, bones, nothingMet, own));
+        response.update(std::vector<double>(4, 0), std::vector<Pose>(4, slid));
+        REQUIRE(response.vertices().size() == skin.vertices.size());
+        for (std::size_t k = 0; k < response.vertices().size(); ++k)
+            CHECK((response.positions()[k] - slid * skin.vertices[response.vertices()[k]]).norm() < 1e-4);
+    }
+}
+
+TEST_CASE("a vertex of no triangle changes nothing of a skin") {
+    TriangleMesh skin = revolved({{1, 0}, {1, 1}, {1, 2}, {1, 3}, {1, 4}, {1, 5}, {0.5, 6}}, 16);
+    const std::vector<std::shared_ptr<const MuscleDeformer>> bones{
+        skins::boneOf(boxMesh({-0.3, -0.3, 0}, {0.3, 0.3, 2.5})),
+        skins::boneOf(boxMesh({-0.3, -0.3, 3}, {0.3, 0.3, 5.5}))};
+    const Pose bent(Eigen::Translation3d(0, 0, 2.75) * Eigen::AngleAxisd(0.6, Vec3::UnitY()) *
+                    Eigen::Translation3d(0, 0, -2.75));
+    SkinParameters parameters;
+    parameters.swings = {{{Pose::Identity(), bent}}};
+    SkinTable nothingMet;
+    nothingMet.table.rowOffsets = {0};
+    const auto moved = [&] {
+        SkinResponse response(makeSkinRig(skin, bones, nothingMet, parameters));
+        response.update(std::vector<double>{0, 0}, std::vector<Pose>{Pose::Identity(), bent});
+        std::vector<Vec3> places = skin.vertices;
+        for (std::size_t k = 0; k < response.vertices().size(); ++k)
+            places[response.vertices()[k]] = response.positions()[k];
+        return places;
+    };
+    const std::vector<Vec3> without = moved();
+    skin.vertices.emplace_back(500, 0, 0);
+    const std::vector<Vec3> with = moved();
+    for (std::size_t v = 0; v < without.size(); ++v) CHECK(with[v] == without[v]);
 }
 
 TEST_CASE("a bone that is thrown out of all bounds, or is no number, leaves its skin at rest") {
