@@ -228,9 +228,10 @@ SkinHolder stillOf(const std::vector<FrameHolder>& holders, const FreeParts& fre
     SkinHolder still{std::vector<double>(holders[0].holder.distance.size(), 0), infinity, {}, {}};
     double longest = 0;
     for (const FrameHolder& h : holders) {
-        longest = std::max(longest, stillDistance * h.extent);
-        for (std::size_t v = 0; v < still.distance.size(); ++v)
-            still.distance[v] = std::max(still.distance[v], stillDistance * h.extent - h.holder.distance[v]);
+        longest = std::max(longest, 2 * stillDistance * h.extent);
+        for (std::size_t v = 0; v < still.distance.size(); ++v) // at that distance as near as the bone
+            still.distance[v] =
+                std::max(still.distance[v], 2 * stillDistance * h.extent - h.holder.distance[v]);
     }
     for (const FreePart& part : free.parts) {
         const bool isEnd = part.beside.size() == 1 && part.area < free.held[part.beside.begin()->first];

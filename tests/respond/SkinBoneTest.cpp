@@ -134,6 +134,25 @@ TEST_CASE("skin that all its bones take along together goes all the way, by weig
     }
 }
 
+TEST_CASE("where every bone moves, skin within half a bone's size of them goes along") {
+    const TriangleMesh skin = revolved({{0.8, 0.1}, {0.8, 1}, {0.8, 2}, {0.8, 3}, {0.8, 4}, {0.4, 4.5}}, 16);
+    std::vector<std::shared_ptr<const MuscleDeformer>> bones;
+    for (int k = 0; k < 3; ++k)
+        bones.push_back(skins::boneOf(boxMesh({-0.3, -0.3, 1.5 * k}, {0.3, 0.3, 1.5 * k + 1.2})));
+    const Pose slid(Eigen::Translation3d(1, 0, 0));
+    SkinParameters parameters;
+    parameters.swings = {{std::vector<Pose>(3, slid)}}; // a root
+    SkinTable nothingMet;
+    nothingMet.table.rowOffsets = {0};
+    SkinResponse response(makeSkinRig(skin, bones, nothingMet, parameters));
+    response.update(std::vector<double>(3, 0), std::vector<Pose>(3, slid));
+    REQUIRE(response.vertices().size() == skin.vertices.size());
+    double behind = 0;
+    for (std::size_t k = 0; k < response.vertices().size(); ++k)
+        behind += (response.positions()[k] - slid * skin.vertices[response.vertices()[k]]).norm();
+    CHECK(behind < 0.05 * static_cast<double>(skin.vertices.size()));
+}
+
 TEST_CASE("a vertex of no triangle changes nothing of a skin") {
     TriangleMesh skin = revolved({{1, 0}, {1, 1}, {1, 2}, {1, 3}, {1, 4}, {1, 5}, {0.5, 6}}, 16);
     const std::vector<std::shared_ptr<const MuscleDeformer>> bones{
