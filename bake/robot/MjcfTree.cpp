@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <sstream>
 
 namespace tss {
 
@@ -97,12 +98,24 @@ const std::map<std::string, std::set<std::string>>& read() {
     return names;
 }
 
+/// A size of fewer numbers than that of the class leaves the class's others as they are.
+std::string wholeSize(const std::string& own, const std::string& ofClass) {
+    std::istringstream said(own), others(ofClass);
+    std::string word, skipped, whole = own;
+    while (said >> word) others >> skipped;
+    while (others >> word) whole += " " + word;
+    return whole;
+}
+
 class Defaults {
 public:
     Defaults(XMLElement& model, const std::string& file) : file_(file) {
         classes_["main"];
-        for (auto* e = model.FirstChildElement("default"); e; e = e->NextSiblingElement("default"))
-            readClass(*e, textOf(*e, "class", "main"), classes_["main"]);
+        // Those at the top are all one class, that of elements without any, whatever it is called.
+        for (auto* e = model.FirstChildElement("default"); e; e = e->NextSiblingElement("default")) {
+            readClass(*e, "main", classes_["main"]);
+            if (e->Attribute("class")) classes_[textOf(*e, "class")] = classes_["main"];
+        }
         for (auto* e = model.FirstChildElement("asset"); e; e = e->NextSiblingElement("asset"))
             apply(*e, "main");
         for (auto* e = model.FirstChildElement("worldbody"); e; e = e->NextSiblingElement("worldbody"))
@@ -116,7 +129,11 @@ private:
             const auto kind = read().find(e->Name());
             if (kind == read().end()) continue;
             for (const auto* a = e->FirstAttribute(); a; a = a->Next())
-                if (kind->second.contains(a->Name())) defaults[e->Name()][a->Name()] = checked(*e, *a);
+                if (kind->second.contains(a->Name())) {
+                    std::string& value = defaults[e->Name()][a->Name()];
+                    value = a->Name() == std::string_view("size") ? wholeSize(checked(*e, *a), value)
+                                                                  : checked(*e, *a);
+                }
         }
         classes_[name] = defaults;
         if (classes_.size() > mostClasses)
@@ -154,9 +171,13 @@ private:
             if (own == defaults.end()) continue;
             const bool turned = std::ranges::any_of(
                 turns, [&](const std::string& turn) { return e->Attribute(turn.c_str()); });
-            for (const auto& [attribute, value] : own->second)
-                if (!e->Attribute(attribute.c_str()) && !(turned && turns.contains(attribute)))
+            for (const auto& [attribute, value] : own->second) {
+                const char* said = e->Attribute(attribute.c_str());
+                if (said && attribute == "size")
+                    e->SetAttribute("size", wholeSize(said, value).c_str());
+                else if (!said && !(turned && turns.contains(attribute)))
                     e->SetAttribute(attribute.c_str(), value.c_str());
+            }
         }
     }
 
@@ -185,6 +206,12 @@ Eigen::Quaterniond axesTurn(const Vec3& x, const Vec3& y) {
 }
 
 } // namespace
+
+Eigen::Quaterniond turnOfZ(const Vec3& z) {
+    // Of opposite directions MuJoCo turns about x.
+    if (z.z() < 0 && z.head<2>().norm() < 1e-10 * z.norm()) return {0, 1, 0, 0};
+    return turnBetween(Vec3::UnitZ(), z);
+}
 
 double MjcfCompiler::angle(double value) const {
     return degrees ? value * std::numbers::pi / 180 : value;
@@ -248,7 +275,7 @@ Pose placeOfElement(const XMLElement& element, const std::string& file, const Mj
         nonZero(vector(xy).cross(vector(xy, 3)));
         turn = axesTurn(vector(xy), vector(xy, 3));
     } else if (const auto z = given("zaxis", 3); !z.empty()) {
-        turn = turnBetween(Vec3::UnitZ(), nonZero(vector(z)));
+        turn = turnOfZ(nonZero(vector(z)));
     } else if (const auto e = given("euler", 3); !e.empty()) {
         turn = eulerTurn(e, compiler);
     } else if (const auto q = given("quat", 4); !q.empty()) {

@@ -23,6 +23,9 @@ MjcfCompiler readCompiler(const tinyxml2::XMLElement& model, const std::string& 
 /// Gives each geom, joint and mesh the attributes of its default class that it has none of its own for.
 void applyDefaults(tinyxml2::XMLElement& model, const std::string& file);
 
+/// The turn that takes z to a direction, as MuJoCo does.
+Eigen::Quaterniond turnOfZ(const Vec3& z);
+
 /// Where an element stands in its parent: pos, and one of quat, axisangle, xyaxes, zaxis, euler.
 Pose placeOfElement(const tinyxml2::XMLElement& element, const std::string& file,
                     const MjcfCompiler& compiler);

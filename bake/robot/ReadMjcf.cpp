@@ -1,6 +1,5 @@
 #include "bake/robot/ReadMjcf.h"
 
-#include "bake/motion/TurnBetween.h"
 #include "bake/robot/MjcfTree.h"
 #include "bake/robot/Xml.h"
 
@@ -35,18 +34,17 @@ public:
             readAssets(*e);
         for (auto* e = model.FirstChildElement("contact"); e; e = e->NextSiblingElement("contact"))
             for (auto* pair = e->FirstChildElement("pair"); pair; pair = pair->NextSiblingElement("pair"))
-                for (const char* geom : {"geom1", "geom2"})
-                    if (pair->Attribute(geom)) paired_.insert(textOf(*pair, geom));
+                pairs_.emplace_back(textOf(*pair, "geom1"), textOf(*pair, "geom2"));
+        names_.insert("world");
         std::size_t bodies = 0;
         for (auto* e = model.FirstChildElement("worldbody"); e; e = e->NextSiblingElement("worldbody"))
-            bodies += countBodies(*e);
+            bodies += countBodies(*e), nameBodies(*e);
         several_ = bodies > 1;
         world_.name = "world";
         for (auto* e = model.FirstChildElement("worldbody"); e; e = e->NextSiblingElement("worldbody"))
             readGeoms(*e, Pose::Identity(), world_);
         const bool solid = !world_.collision.empty() || !world_.visual.empty();
         if (solid) robot.links.push_back(world_);
-        names_.insert("world");
         for (auto* e = model.FirstChildElement("worldbody"); e; e = e->NextSiblingElement("worldbody"))
             readBodies(*e, Pose::Identity(), solid ? 0 : -1);
         for (auto* e = model.FirstChildElement("contact"); e; e = e->NextSiblingElement("contact"))
@@ -62,6 +60,16 @@ private:
             if (e->Name() == std::string_view("frame")) count += countBodies(*e);
         }
         return count;
+    }
+
+    void nameBodies(const XMLElement& parent) {
+        for (auto* e = parent.FirstChildElement(); e; e = e->NextSiblingElement()) {
+            const std::string_view kind = e->Name();
+            const std::string name = kind == "body" ? textOf(*e, "name") : "";
+            if (!name.empty() && !names_.insert(name).second)
+                throw InputError(placeOf(file_, *e), "expected a name that no other body has");
+            if (kind == "body" || kind == "frame") nameBodies(*e);
+        }
     }
 
     void readAssets(const XMLElement& assets) {
@@ -105,7 +113,7 @@ private:
         if (!(length > 0)) throw InputError(placeOf(file_, element), "fromto: expected two points");
         shape.place = Pose::Identity();
         shape.place.translation() = (from + to) / 2;
-        shape.place.linear() = turnBetween(Vec3::UnitZ(), from - to).toRotationMatrix();
+        shape.place.linear() = turnOfZ(from - to).toRotationMatrix();
         if (!twoSizes) shape.size[1] = shape.size[0];
         shape.size[twoSizes ? 1 : 2] = length / 2;
     }
@@ -180,8 +188,16 @@ private:
             RobotShape shape;
             if (!readShape(*e, &link == &world_, shape)) continue;
             shape.place = place * shape.place;
-            const bool meets = textOf(*e, "contype", "1") != "0" || textOf(*e, "conaffinity", "1") != "0" ||
-                               paired_.contains(textOf(*e, "name"));
+            const std::string name = textOf(*e, "name");
+            if (!name.empty()) bodyOf_[name] = link.name;
+            const auto bits = [&](const char* attribute) {
+                const auto number = numbersOf(file_, *e, attribute, 1, 1);
+                return number.empty() || number[0] != 0;
+            };
+            const bool meets =
+                bits("contype") || bits("conaffinity") || std::ranges::any_of(pairs_, [&](const auto& pair) {
+                    return !name.empty() && (pair.first == name || pair.second == name);
+                });
             if (const auto rgba = numbersOf(file_, *e, "rgba", 4, 4); !rgba.empty() && !link.color)
                 link.color = Vec3(rgba[0], rgba[1], rgba[2]).cwiseMax(0).cwiseMin(1);
             (meets ? link.collision : link.visual).push_back(shape);
@@ -204,12 +220,13 @@ private:
         link.name = textOf(element, "name");
         link.named = !link.name.empty();
         if (!link.named) link.name = "body" + std::to_string(robot_.links.size());
-        if (!names_.insert(link.name).second)
-            throw InputError(placeOf(file_, element), "expected a name that no other body has");
+        while (!link.named && names_.contains(link.name)) link.name += "_";
+        const Pose origin = place * placeOfElement(element, file_, compiler_);
+        link.place = parent < 0 ? origin : robot_.links[parent].place * origin;
         readGeoms(element, Pose::Identity(), link);
         const int index = static_cast<int>(robot_.links.size());
         robot_.links.push_back(link);
-        readJoints(element, place * placeOfElement(element, file_, compiler_), parent, index);
+        readJoints(element, origin, parent, index);
         readBodies(element, Pose::Identity(), index);
     }
 
@@ -312,7 +329,14 @@ private:
                 if (!names_.contains(name))
                     throw InputError(placeOf(file_, *e),
                                      "expected the name of a body, found \"" + name + "\"");
-            robot_.unpaired.emplace_back(a, b);
+            // What a <pair> names MuJoCo tests all the same.
+            if (std::ranges::any_of(pairs_, [&](const auto& pair) {
+                    const std::string &one = bodyOf_[pair.first], &other = bodyOf_[pair.second];
+                    return (one == a && other == b) || (one == b && other == a);
+                }))
+                leaveOut("excludes of bodies whose geoms a pair names", a + " and " + b);
+            else
+                robot_.unpaired.emplace_back(a, b);
         }
     }
 
@@ -342,7 +366,8 @@ private:
     RobotLink world_;
     std::map<std::string, MeshAsset> meshes_;
     std::set<std::string> names_, fileless_;
-    std::set<std::string> paired_; ///< geoms that a <pair> names: they collide whatever their own bits
+    std::vector<std::pair<std::string, std::string>> pairs_;  ///< geoms that collide whatever their own bits
+    std::map<std::string, std::string> bodyOf_;               ///< of geoms that have a name
     std::map<std::string, std::vector<std::string>> leftOut_; ///< names by kind
     bool several_ = false;                                    ///< bodies stand in the world beside each other
 };
