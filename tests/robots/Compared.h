@@ -5,6 +5,7 @@
 #include "bake/robot/MeshFiles.h"
 #include "bake/robot/RobotScene.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <functional>
 #include <map>
@@ -81,6 +82,25 @@ inline bool isLacking(const RobotScene& made, const std::string& link) {
         if (note.starts_with("left out: ") && note.find("(<link " + link + ">)") != note.npos) return true;
     return false;
 }
+
+/// Points among which those near a place are found.
+class Points {
+public:
+    explicit Points(std::vector<Vec3> points) : points_(std::move(points)) {
+        std::ranges::sort(points_, {}, [](const Vec3& p) { return p.x(); });
+    }
+
+    bool hasNear(const Vec3& place, double most) const {
+        const auto x = [](const Vec3& p) { return p.x(); };
+        for (auto p = std::ranges::lower_bound(points_, place.x() - most, {}, x);
+             p != points_.end() && p->x() <= place.x() + most; ++p)
+            if ((*p - place).norm() <= most) return true;
+        return false;
+    }
+
+private:
+    std::vector<Vec3> points_;
+};
 
 /// How often each text was met.
 using Tally = std::map<std::string, int>;

@@ -382,7 +382,7 @@ class Model:
         if self.may(.2):
             self.chance.shuffle(sections)
         written = ''.join(sections) + self.rest()
-        if self.may(.2):
+        if self.may(.12):
             written = self.spoil(written)
         with open(os.path.join(self.folder, 'robot.xml'), 'w') as file:
             file.write(f'<mujoco model="m">\n{written}</mujoco>\n')

@@ -1,0 +1,337 @@
+// Reads URDF files with urdfdom and with readUrdf(), and says where a link, a joint, a shape or a pair is
+// another: compare_urdfdom FILE.urdf... Exit status 1 where one of them differs. The reader leans on urdfdom
+// too, of a text that it has tidied first: this one reads the file as it is. What docs/ROBOTS.md says is left
+// out or taken otherwise is no difference where it is said of that link or joint.
+#include "bake/geometry/Import.h"
+#include "bake/robot/ReadUrdf.h"
+#include "tests/robots/Compared.h"
+
+#include <console_bridge/console.h>
+#include <numbers>
+#include <random>
+#include <set>
+#include <urdf_parser/urdf_parser.h>
+
+using namespace tss;
+
+namespace {
+
+constexpr double pi = std::numbers::pi, close = 1e-6;
+
+using Theirs = urdf::ModelInterfaceSharedPtr;
+
+struct Silent : console_bridge::OutputHandler {
+    void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+        if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first.empty()) first = text;
+    }
+    std::string first;
+};
+
+Vec3 vectorOf(const urdf::Vector3& v) {
+    return {v.x, v.y, v.z};
+}
+
+Pose poseOf(const urdf::Pose& of) {
+    double roll = 0, pitch = 0, yaw = 0;
+    of.rotation.getRPY(roll, pitch, yaw);
+    Pose pose = Pose::Identity();
+    pose.translate(vectorOf(of.position));
+    pose.rotate(Eigen::AngleAxisd(yaw, Vec3::UnitZ()) * Eigen::AngleAxisd(pitch, Vec3::UnitY()) *
+                Eigen::AngleAxisd(roll, Vec3::UnitX()));
+    return pose;
+}
+
+/// How a joint moves: what it is led by counts, not its own limits.
+struct Range {
+    double lower = 0, upper = 0;
+    bool endless = false, moves = false;
+};
+
+class Comparison {
+public:
+    Comparison(const std::string& file, const urdf::ModelInterface& theirs, const Own& own,
+               Differences& differences)
+        : file_(file), theirs_(theirs), own_(own), robot_(own.robot), differ_(differences),
+          above_(holders(own.robot)),
+          random_(std::hash<std::string>()(file.substr(file.find_last_of('/') + 1))) {}
+
+    /// The number of links that were compared.
+    int compare() {
+        if (robot_.links.size() != theirs_.links_.size())
+            return differ_.add(
+                       fmt::format("{} links, urdfdom has {}", robot_.links.size(), theirs_.links_.size())),
+                   0;
+        for (std::size_t link = 0; link < robot_.links.size(); ++link) {
+            if (!theirs_.getLink(robot_.links[link].name))
+                return differ_.add("link " + robot_.links[link].name + ": urdfdom has none"), 0;
+            compareJoint(static_cast<int>(link));
+            compareShape(static_cast<int>(link));
+        }
+        for (int k = 0; k < 20; ++k) comparePoses(k);
+        comparePairs();
+        return static_cast<int>(robot_.links.size());
+    }
+
+private:
+    urdf::JointConstSharedPtr jointOf(int link) const {
+        return theirs_.getLink(robot_.links[link].name)->parent_joint;
+    }
+
+    static Range ownRange(const urdf::Joint& joint) {
+        Range range;
+        range.endless = joint.type == urdf::Joint::CONTINUOUS;
+        range.moves =
+            range.endless || joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::PRISMATIC;
+        if (range.endless) {
+            range.lower = -pi;
+            range.upper = pi;
+        } else if (range.moves) {
+            range.lower = joint.limits->lower;
+            range.upper = joint.limits->upper;
+            range.moves = range.lower <= range.upper; // else it is left out
+        }
+        return range;
+    }
+
+    /// Through what leads it, at most as often as there are joints; its own where nothing does.
+    Range rangeOf(const urdf::Joint& joint) const {
+        const Range own = ownRange(joint);
+        double factor = 1, offset = 0;
+        const urdf::Joint* at = &joint;
+        for (std::size_t steps = 0; at->mimic; ++steps) {
+            if (steps > theirs_.joints_.size()) return own;
+            offset += factor * at->mimic->offset;
+            factor *= at->mimic->multiplier;
+            const auto leader = theirs_.joints_.find(at->mimic->joint_name);
+            if (leader == theirs_.joints_.end() || !ownRange(*leader->second).moves) return own;
+            at = leader->second.get();
+        }
+        if (at == &joint) return own;
+        const Range leads = ownRange(*at);
+        Range led = own;
+        led.endless = false;
+        if (leads.endless && factor != 0) {
+            if (joint.type == urdf::Joint::PRISMATIC) {
+                led.moves = own.lower < own.upper;
+                return led;
+            }
+            const double half = pi * std::max(1.0, std::abs(factor));
+            led.lower = offset - half;
+            led.upper = offset + half;
+            return led;
+        }
+        led.lower = std::min(factor * leads.lower, factor * leads.upper) + offset;
+        led.upper = std::max(factor * leads.lower, factor * leads.upper) + offset;
+        return led;
+    }
+
+    void compareJoint(int link) {
+        const auto theirs = jointOf(link);
+        const std::string at = "link " + robot_.links[link].name;
+        if (!theirs || above_[link] < 0) {
+            const bool fits = !theirs || (theirs->type != urdf::Joint::FIXED && !rangeOf(*theirs).moves);
+            if (above_[link] >= 0) differ_.add(at + ": hangs on a joint, not so by urdfdom");
+            if (!fits) differ_.add(at + ": its joint is left out");
+            return;
+        }
+        const RobotJoint& own = robot_.joints[above_[link]];
+        const std::string name = "joint " + own.name;
+        if (own.name != theirs->name) differ_.add(name + ": urdfdom calls it " + theirs->name);
+        if (own.parent < 0 || robot_.links[own.parent].name != theirs->parent_link_name)
+            differ_.add(name + ": another parent");
+        if (theirs->type == urdf::Joint::FIXED) {
+            if (!own.dofs.empty()) differ_.add(name + ": moves");
+            return;
+        }
+        const Range range = rangeOf(*theirs);
+        if (!range.moves) return differ_.add(name + ": is not left out");
+        if (range.lower == range.upper) {
+            if (!own.dofs.empty()) differ_.add(name + ": moves, by its limits it does not");
+            return;
+        }
+        if (own.dofs.size() != 1) return differ_.add(name + ": does not move");
+        const Dof& dof = own.dofs[0];
+        if ((dof.kind == DofKind::Translation) != (theirs->type == urdf::Joint::PRISMATIC))
+            differ_.add(name + ": another kind");
+        if ((dof.axis - vectorOf(theirs->axis).normalized()).norm() > close)
+            differ_.add(name + ": another axis");
+        if (std::abs(dof.lower - range.lower) > close || std::abs(dof.upper - range.upper) > close)
+            differ_.add(fmt::format("{}: limits {} to {}, by urdfdom {} to {}", name, dof.lower, dof.upper,
+                                    range.lower, range.upper));
+    }
+
+    double between(double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random_);
+    }
+
+    void comparePoses(int round) {
+        std::vector<std::vector<double>> values(robot_.joints.size());
+        std::map<std::string, double> theirValues;
+        for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+            for (const Dof& dof : robot_.joints[j].dofs)
+                values[j].push_back(round == 0 ? std::clamp(0.0, dof.lower, dof.upper)
+                                               : between(dof.lower, dof.upper));
+            const Range range = rangeOf(*theirs_.getJoint(robot_.joints[j].name));
+            theirValues[robot_.joints[j].name] = values[j].empty() ? range.lower : values[j][0];
+        }
+        const std::vector<Pose> poses = posedBodies(own_.made.scene, sceneValues(robot_, values));
+        for (std::size_t link = 0; link < robot_.links.size(); ++link) {
+            Pose their = Pose::Identity();
+            int at = static_cast<int>(link);
+            for (; above_[at] >= 0; at = robot_.joints[above_[at]].parent) {
+                const urdf::Joint& joint = *jointOf(at);
+                Pose moved = poseOf(joint.parent_to_joint_origin_transform);
+                const Vec3 axis = vectorOf(joint.axis).normalized();
+                const double value = theirValues[joint.name];
+                if (joint.type == urdf::Joint::PRISMATIC)
+                    moved.translate(value * axis);
+                else if (joint.type != urdf::Joint::FIXED)
+                    moved.rotate(Eigen::AngleAxisd(value, axis));
+                their = moved * their;
+            }
+            const Pose own = poses[at].inverse(Eigen::Isometry) * poses[link];
+            const double apart = (own.matrix() - their.matrix()).norm();
+            if (apart > close * (1 + their.translation().norm()))
+                return differ_.add(
+                    fmt::format("link {}: its pose differs by {}", robot_.links[link].name, apart));
+        }
+    }
+
+    /// The points of a shape's outline, and how far it may be off there.
+    std::vector<std::pair<Vec3, double>> outline(const urdf::Geometry& geometry, const Pose& place) const {
+        std::vector<std::pair<Vec3, double>> points;
+        const auto add = [&](const Vec3& p, double slack) { points.emplace_back(place * p, slack); };
+        if (const auto* box = dynamic_cast<const urdf::Box*>(&geometry)) {
+            for (int k = 0; k < 8; ++k)
+                add(vectorOf(box->dim).cwiseProduct(
+                        Vec3(k & 1 ? .5 : -.5, k & 2 ? .5 : -.5, k & 4 ? .5 : -.5)),
+                    close);
+        } else if (const auto* sphere = dynamic_cast<const urdf::Sphere*>(&geometry)) {
+            for (int k = 0; k < 6; ++k)
+                add((k & 1 ? 1 : -1) * sphere->radius * Vec3::Unit(k / 2), .01 * sphere->radius);
+        } else if (const auto* cylinder = dynamic_cast<const urdf::Cylinder*>(&geometry)) {
+            const double r = cylinder->radius;
+            for (const double h : {cylinder->length / 2, -cylinder->length / 2})
+                for (const Vec3& p :
+                     {Vec3(r, 0, h), Vec3(-r, 0, h), Vec3(0, r, h), Vec3(0, -r, h), Vec3(0, 0, h)})
+                    add(p, .01 * r);
+        } else if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(&geometry)) {
+            for (const Vec3& p :
+                 importMesh(meshesOf(file_, {})(mesh->filename), MeshAxes::AsWritten).vertices)
+                add(p.cwiseProduct(vectorOf(mesh->scale)), close);
+        }
+        return points;
+    }
+
+    void compareShape(int link) {
+        const std::string at = "link " + robot_.links[link].name;
+        if (isLacking(own_.made, robot_.links[link].name)) return;
+        const auto theirs = theirs_.getLink(robot_.links[link].name);
+        const TriangleMesh& mesh = own_.made.scene.bodies[link].mesh;
+        std::vector<Vec3> wanted;
+        double slack = close;
+        const Points own(mesh.vertices);
+        const auto take = [&](const auto& items) {
+            for (const auto& item : items)
+                for (const auto& [p, most] : outline(*item->geometry, poseOf(item->origin))) {
+                    wanted.push_back(p);
+                    slack = std::max(slack, most);
+                    if (!own.hasNear(p, most * (1 + p.norm())))
+                        return differ_.add(
+                            fmt::format("{}: its shape does not come to {} {} {}, urdfdom's does", at, p.x(),
+                                        p.y(), p.z()));
+                }
+        };
+        take(theirs->collision_array);
+        if (wanted.empty()) take(theirs->visual_array);
+        if (wanted.empty() != mesh.empty()) return differ_.add(at + ": one has a shape, the other none");
+        Eigen::AlignedBox3d box, theirBox;
+        for (const Vec3& v : mesh.vertices) box.extend(v);
+        for (const Vec3& v : wanted) theirBox.extend(v);
+        // Round ones turned askew stand out of the box of their outline.
+        if (!wanted.empty() &&
+            (box.sizes() - theirBox.sizes()).maxCoeff() > 0.45 * theirBox.sizes().maxCoeff())
+            differ_.add(at + ": a larger shape than urdfdom's");
+    }
+
+    void comparePairs() {
+        std::set<std::pair<int, int>> made;
+        for (const Pair& pair : own_.made.scene.pairs)
+            made.insert({std::min(pair.bodyA, pair.bodyB), std::max(pair.bodyA, pair.bodyB)});
+        const int count = static_cast<int>(robot_.links.size());
+        for (int a = 0; a < count; ++a)
+            for (int b = a + 1; b < count; ++b) {
+                if (rootOf(robot_, above_, a) != rootOf(robot_, above_, b)) continue;
+                std::set<int> way;
+                for (int end : {a, b})
+                    for (int at = end; above_[at] >= 0; at = robot_.joints[above_[at]].parent)
+                        if (!way.insert(above_[at]).second) way.erase(above_[at]);
+                std::size_t values = 0;
+                for (int j : way) values += robot_.joints[j].dofs.size();
+                const bool shapeless =
+                    own_.made.scene.bodies[a].mesh.empty() || own_.made.scene.bodies[b].mesh.empty();
+                const bool wanted = !shapeless && values > 0 && values <= maxDofs;
+                if (wanted != made.contains({a, b}))
+                    differ_.add(fmt::format("links {} and {}: {} pair", robot_.links[a].name,
+                                            robot_.links[b].name, wanted ? "no" : "a"));
+            }
+    }
+
+    std::string file_;
+    const urdf::ModelInterface& theirs_;
+    const Own& own_;
+    const Robot& robot_;
+    Differences& differ_;
+    std::vector<int> above_; ///< the joint that holds a link
+    std::mt19937 random_;
+};
+
+Tally lenient, strict;
+int refused = 0; ///< by both
+
+/// What docs/ROBOTS.md says is refused.
+bool isSaid(const std::string& refusal) {
+    for (const char* words : {"no more than", "document type", "no link has a shape that can be had",
+                              "no folder of a package", "UTF-8", "xacro"})
+        if (refusal.find(words) != refusal.npos) return true;
+    return false;
+}
+
+bool same(const std::string& file, int& links) {
+    Differences differences(file);
+    const std::string text = readWholeFile(file);
+    const Own own = readOwn([&] { return readUrdf(text, file); }, file);
+    Silent silent;
+    console_bridge::useOutputHandler(&silent);
+    Theirs theirs;
+    try {
+        // Of a loop urdfdom makes links that hold each other for ever.
+        if (own.refusal.find("close a loop") == own.refusal.npos) theirs = urdf::parseURDF(text);
+    } catch (const std::exception& error) {
+        silent.first = error.what();
+    }
+    console_bridge::restorePreviousOutputHandler();
+    if (!theirs) {
+        refused += !own.refusal.empty();
+        if (own.refusal.empty()) ++lenient[silent.first.substr(0, silent.first.find('\n'))];
+    } else if (own.refusal.empty()) {
+        links += Comparison(file, *theirs, own, differences).compare();
+    } else if (isSaid(own.refusal)) {
+        ++strict[own.refusal.substr(std::min(own.refusal.find("): "), own.refusal.size()))];
+    } else {
+        differences.add("refused here: " + own.refusal);
+    }
+    return !differences.any();
+}
+
+} // namespace
+
+int main(int count, char** files) {
+    int differ = 0, links = 0;
+    for (int k = 1; k < count; ++k) differ += !same(files[k], links);
+    printTally("read here, refused by urdfdom", lenient);
+    printTally("refused here as the documentation says", strict);
+    fmt::print("{} files, {} refused by both, {} links that both read, {} files differ\n", count - 1, refused,
+               links, differ);
+    return differ > 0;
+}
