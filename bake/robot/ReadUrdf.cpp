@@ -139,7 +139,8 @@ private:
         if (model->type == urdf::Joint::PLANAR) return leaveOut("is planar, without limits");
         if (model->type == urdf::Joint::FLOATING) return leaveOut("is floating, without limits");
         if (model->type != urdf::Joint::FIXED) {
-            if (const auto& limits = model->limits; limits && limits->lower > limits->upper)
+            const auto& limits = model->limits;
+            if (model->type != urdf::Joint::CONTINUOUS && limits->lower > limits->upper)
                 return leaveOut("has a lower limit above its upper one");
             readDof(*model, joint);
         }

@@ -24,49 +24,60 @@ std::string rangeText(const Robot& robot, const Dof& dof) {
     return text(dof.lower) + " to " + text(dof.upper) + (dof.kind == DofKind::Rotation ? " degrees" : " m");
 }
 
-/// Why a follower does not follow, having found the joint that leads it in the end; empty where it does. Its
-/// own limits do not stop it: who applies a `mimic` does not look at them.
-std::string findLeader(const Robot& robot, RobotJoint& joint) {
-    const auto named = [&](const std::string& name) {
-        return std::ranges::find_if(robot.joints, [&](const RobotJoint& j) { return j.name == name; });
-    };
-    for (std::size_t steps = 0;; ++steps) {
-        const auto leader = named(joint.leader);
-        if (leader == robot.joints.end() || leader->dofs.size() != 1)
-            return "mimics \"" + joint.leader + "\", which is no joint that turns or slides within limits";
-        if (steps > robot.joints.size()) return "is one of joints that mimic each other in a circle";
-        if (!leader->leader.empty()) {
-            joint.offset += joint.factor * leader->offset;
-            joint.factor *= leader->factor;
-            joint.leader = leader->leader;
-            continue;
-        }
-        Dof& dof = joint.dofs[0];
-        const Dof& leads = leader->dofs[0];
-        if (leader->endless && joint.factor != 0) {
-            if (dof.kind != DofKind::Rotation) return ""; // its own limits are all there is
-            const double half = std::numbers::pi * std::max(1.0, std::abs(joint.factor));
-            dof.lower = joint.offset - half;
-            dof.upper = joint.offset + half;
-            return "";
-        }
-        const double a = joint.factor * leads.lower + joint.offset,
-                     b = joint.factor * leads.upper + joint.offset;
-        dof.lower = std::min(a, b);
-        dof.upper = std::max(a, b);
-        return "";
-    }
+using Joints = std::vector<RobotJoint>;
+
+Joints::const_iterator named(const Robot& robot, const std::string& name) {
+    return std::ranges::find(robot.joints, name, &RobotJoint::name);
 }
 
-/// The limits that a follower has, through others that follow too; without a leader it moves by itself.
-void settleFollower(Robot& robot, RobotJoint& joint) {
-    const Dof own = joint.dofs[0];
-    if (const std::string why = findLeader(robot, joint); !why.empty()) {
-        robot.notes.push_back("joint " + joint.name + " (" + joint.where + ") " + why +
-                              ": it moves by itself");
-        joint.leader.clear();
+/// Why a follower does not follow; empty where it does.
+std::string whyAlone(const Robot& robot, const RobotJoint& joint) {
+    auto leader = named(robot, joint.leader);
+    if (leader == robot.joints.end() || leader->dofs.size() != 1)
+        return "mimics \"" + joint.leader + "\", which is no joint that turns or slides within limits";
+    for (std::size_t steps = 0; steps < robot.joints.size() && leader != robot.joints.end(); ++steps) {
+        if (&*leader == &joint) return "is one of joints that mimic each other in a circle";
+        if (leader->leader.empty()) break;
+        leader = named(robot, leader->leader);
+    }
+    return "";
+}
+
+/// Finds the joint that leads a follower in the end. Its own limits do not stop it: who applies a `mimic`
+/// does not look at them.
+void findLeader(const Robot& robot, RobotJoint& joint) {
+    auto leader = named(robot, joint.leader);
+    for (; !leader->leader.empty(); leader = named(robot, leader->leader)) {
+        joint.offset += joint.factor * leader->offset;
+        joint.factor *= leader->factor;
+        joint.leader = leader->leader;
+    }
+    Dof& dof = joint.dofs[0];
+    const Dof& leads = leader->dofs[0];
+    if (leader->endless && joint.factor != 0) {
+        if (dof.kind != DofKind::Rotation) return; // its own limits are all there is
+        const double half = std::numbers::pi * std::max(1.0, std::abs(joint.factor));
+        dof.lower = joint.offset - half;
+        dof.upper = joint.offset + half;
         return;
     }
+    const double a = joint.factor * leads.lower + joint.offset, b = joint.factor * leads.upper + joint.offset;
+    dof.lower = std::min(a, b);
+    dof.upper = std::max(a, b);
+}
+
+/// Without a leader a follower moves by itself, and leads those that follow it.
+void settleLeader(Robot& robot, RobotJoint& joint) {
+    const std::string why = whyAlone(robot, joint);
+    if (why.empty()) return;
+    robot.notes.push_back("joint " + joint.name + " (" + joint.where + ") " + why + ": it moves by itself");
+    joint.leader.clear();
+}
+
+/// The limits that a follower has, through others that follow too.
+void settleFollower(Robot& robot, RobotJoint& joint) {
+    const Dof own = joint.dofs[0];
+    findLeader(robot, joint);
     const Dof& led = joint.dofs[0];
     const double rounding = 1e-9 * (own.upper - own.lower);
     const bool beyond = led.lower < own.lower - rounding || led.upper > own.upper + rounding;
@@ -127,6 +138,8 @@ void checkForest(const Robot& robot) {
 
 void settleRobot(Robot& robot) {
     checkForest(robot);
+    for (RobotJoint& joint : robot.joints)
+        if (!joint.leader.empty()) settleLeader(robot, joint);
     for (RobotJoint& joint : robot.joints)
         if (!joint.leader.empty()) settleFollower(robot, joint);
     std::vector<RobotJoint> kept;

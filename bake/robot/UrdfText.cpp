@@ -103,6 +103,8 @@ void prune(XMLElement& element, const std::string& file) {
 /// The one shape of a visual or collision, which has what its kind needs; null where there is none.
 const XMLElement* shapeOf(const std::string& file, const XMLElement& item) {
     const XMLElement* geometry = item.FirstChildElement("geometry");
+    if (geometry && geometry->NextSiblingElement("geometry"))
+        throw InputError(placeOf(file, item), "expected one <geometry>");
     const XMLElement* shape = geometry ? geometry->FirstChildElement() : nullptr;
     if (!shape) return nullptr;
     if (shape->NextSiblingElement())

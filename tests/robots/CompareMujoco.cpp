@@ -59,47 +59,24 @@ Model load(const std::string& file, std::string& refusal) {
     return model;
 }
 
-/// How far outside of a shape of MuJoCo a point of its frame lies, by its smallest radius; round ones alone.
-double outside(int type, const mjtNum* size, const Vec3& p) {
-    const double around = std::hypot(p.x(), p.y());
-    if (type == mjGEOM_SPHERE) return p.norm() / size[0] - 1;
-    if (type == mjGEOM_CAPSULE)
-        return std::hypot(around, std::max(0.0, std::abs(p.z()) - size[1])) / size[0] - 1;
-    if (type == mjGEOM_CYLINDER) {
-        if (std::abs(std::abs(p.z()) - size[1]) > close) return -1; // all corners are on its ends
-        return around < close ? 0 : around / size[0] - 1;
+Solid solidOf(const mjModel& m, int geom) {
+    static const std::map<int, RobotShape::Kind> kinds = {
+        {mjGEOM_SPHERE, RobotShape::Kind::Sphere},     {mjGEOM_CAPSULE, RobotShape::Kind::Capsule},
+        {mjGEOM_CYLINDER, RobotShape::Kind::Cylinder}, {mjGEOM_ELLIPSOID, RobotShape::Kind::Ellipsoid},
+        {mjGEOM_BOX, RobotShape::Kind::Box},           {mjGEOM_MESH, RobotShape::Kind::Mesh}};
+    Solid solid;
+    solid.kind = kinds.at(m.geom_type[geom]);
+    solid.size = vectorOf(m.geom_size + 3 * geom);
+    solid.place = poseOf(m.geom_pos + 3 * geom, m.geom_quat + 4 * geom);
+    if (solid.kind != RobotShape::Kind::Mesh) return solid;
+    // They are of single numbers, about their middles.
+    solid.rounding = 4 * close * (1 + solid.place.translation().norm() + m.geom_rbound[geom]);
+    const int mesh = m.geom_dataid[geom];
+    for (int f = 0; f < 3 * m.mesh_facenum[mesh]; ++f) {
+        const float* v = m.mesh_vert + 3 * (m.mesh_vertadr[mesh] + m.mesh_face[3 * m.mesh_faceadr[mesh] + f]);
+        solid.corners.emplace_back(v[0], v[1], v[2]);
     }
-    return Vec3(p.x() / size[0], p.y() / size[1], p.z() / size[2]).norm() - 1;
-}
-
-/// Points that the surface of a shape must come near to, in its frame.
-std::vector<Vec3> outline(const mjModel& m, int geom) {
-    const mjtNum* s = m.geom_size + 3 * geom;
-    const int type = m.geom_type[geom];
-    std::vector<Vec3> points;
-    if (type == mjGEOM_MESH) {
-        const int mesh = m.geom_dataid[geom];
-        for (int f = 0; f < 3 * m.mesh_facenum[mesh]; ++f) {
-            const float* v =
-                m.mesh_vert + 3 * (m.mesh_vertadr[mesh] + m.mesh_face[3 * m.mesh_faceadr[mesh] + f]);
-            points.emplace_back(v[0], v[1], v[2]);
-        }
-    } else if (type == mjGEOM_BOX) {
-        for (int k = 0; k < 8; ++k)
-            points.emplace_back(k & 1 ? s[0] : -s[0], k & 2 ? s[1] : -s[1], k & 4 ? s[2] : -s[2]);
-    } else {
-        const double across = type == mjGEOM_ELLIPSOID ? s[1] : s[0];
-        const double length = type == mjGEOM_CAPSULE || type == mjGEOM_CYLINDER ? s[1] : 0;
-        for (const double side : {-1.0, 1.0}) {
-            points.emplace_back(side * s[0], 0, length), points.emplace_back(side * s[0], 0, -length);
-            points.emplace_back(0, side * across, length), points.emplace_back(0, side * across, -length);
-            const double tip = type == mjGEOM_CYLINDER    ? s[1]
-                               : type == mjGEOM_ELLIPSOID ? s[2]
-                                                          : s[0] + length;
-            points.emplace_back(0, 0, side * tip);
-        }
-    }
-    return points;
+    return solid;
 }
 
 class Comparison {
@@ -306,40 +283,11 @@ private:
             return differ_.add(fmt::format("{}: {} shape, MuJoCo has {} geoms", bodyName(body),
                                            mesh.empty() ? "no" : "a", geoms.size()));
         if (discarded) return;
-        std::vector<std::pair<int, Pose>> round;
-        const Points own(mesh.vertices);
-        std::vector<Vec3> exact;
-        for (int g : geoms) {
-            const Pose place = poseOf(m_.geom_pos + 3 * g, m_.geom_quat + 4 * g);
-            const bool isRound = m_.geom_type[g] != mjGEOM_BOX && m_.geom_type[g] != mjGEOM_MESH;
-            if (isRound) round.emplace_back(g, place);
-            for (const Vec3& at : outline(m_, g)) {
-                const Vec3 p = place * at;
-                if (!isRound) exact.push_back(p);
-                // The corners of a round one lie elsewhere around.
-                if (!own.hasNear(p, isRound ? 0.07 * m_.geom_rbound[g] : single(p, g)))
-                    return differ_.add(fmt::format("{}: its shape does not come to {} {} {}, MuJoCo's does",
-                                                   bodyName(body), p.x(), p.y(), p.z()));
-            }
-        }
-        const Points theirs(std::move(exact));
-        std::set<int> used;
-        for (const Tri& t : mesh.triangles) used.insert({t[0], t[1], t[2]});
-        for (int v : used) {
-            const Vec3& p = mesh.vertices[v];
-            const bool onRound = std::ranges::any_of(round, [&](const auto& of) {
-                const double out = outside(m_.geom_type[of.first], m_.geom_size + 3 * of.first,
-                                           of.second.inverse(Eigen::Isometry) * p);
-                return out > -close && out < 0.0061;
-            });
-            if (!onRound && !theirs.hasNear(p, single(p, geoms.front())))
-                return differ_.add(fmt::format("{}: its shape comes to {} {} {}, MuJoCo's does not",
-                                               bodyName(body), p.x(), p.y(), p.z()));
-        }
+        std::vector<Solid> solids;
+        for (int g : geoms) solids.push_back(solidOf(m_, g));
+        if (const std::string words = shapeDifference(mesh, solids); !words.empty())
+            differ_.add(bodyName(body) + ": " + words);
     }
-
-    /// How far MuJoCo's meshes, of single numbers about their middles, may be off.
-    double single(const Vec3& p, int geom) const { return 4 * close * (1 + p.norm() + m_.geom_rbound[geom]); }
 
     /// Whether MuJoCo tests geoms of two bodies ever.
     bool mayMeet(int a, int b) const {

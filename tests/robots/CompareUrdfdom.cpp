@@ -32,19 +32,16 @@ Vec3 vectorOf(const urdf::Vector3& v) {
 }
 
 Pose poseOf(const urdf::Pose& of) {
-    double roll = 0, pitch = 0, yaw = 0;
-    of.rotation.getRPY(roll, pitch, yaw);
+    const urdf::Rotation& r = of.rotation; // its angles are less right than this
     Pose pose = Pose::Identity();
-    pose.translate(vectorOf(of.position));
-    pose.rotate(Eigen::AngleAxisd(yaw, Vec3::UnitZ()) * Eigen::AngleAxisd(pitch, Vec3::UnitY()) *
-                Eigen::AngleAxisd(roll, Vec3::UnitX()));
+    pose.translate(vectorOf(of.position)).rotate(Eigen::Quaterniond(r.w, r.x, r.y, r.z).normalized());
     return pose;
 }
 
 /// How a joint moves: what it is led by counts, not its own limits.
 struct Range {
     double lower = 0, upper = 0;
-    bool endless = false, moves = false;
+    bool endless = false, moves = false, circles = false;
 };
 
 class Comparison {
@@ -93,17 +90,19 @@ private:
         return range;
     }
 
-    /// Through what leads it, at most as often as there are joints; its own where nothing does.
+    /// Through what leads it. What mimics a joint that does not move within limits moves by itself; of those
+    /// that mimic each other in a circle some one does.
     Range rangeOf(const urdf::Joint& joint) const {
         const Range own = ownRange(joint);
         double factor = 1, offset = 0;
         const urdf::Joint* at = &joint;
         for (std::size_t steps = 0; at->mimic; ++steps) {
-            if (steps > theirs_.joints_.size()) return own;
+            if (steps > theirs_.joints_.size())
+                return Range{own.lower, own.upper, own.endless, own.moves, true};
+            const auto leader = theirs_.joints_.find(at->mimic->joint_name);
+            if (leader == theirs_.joints_.end() || !ownRange(*leader->second).moves) break;
             offset += factor * at->mimic->offset;
             factor *= at->mimic->multiplier;
-            const auto leader = theirs_.joints_.find(at->mimic->joint_name);
-            if (leader == theirs_.joints_.end() || !ownRange(*leader->second).moves) return own;
             at = leader->second.get();
         }
         if (at == &joint) return own;
@@ -129,7 +128,8 @@ private:
         const auto theirs = jointOf(link);
         const std::string at = "link " + robot_.links[link].name;
         if (!theirs || above_[link] < 0) {
-            const bool fits = !theirs || (theirs->type != urdf::Joint::FIXED && !rangeOf(*theirs).moves);
+            const bool fits = !theirs || vectorOf(theirs->axis).isZero(0) ||
+                              (theirs->type != urdf::Joint::FIXED && !rangeOf(*theirs).moves);
             if (above_[link] >= 0) differ_.add(at + ": hangs on a joint, not so by urdfdom");
             if (!fits) differ_.add(at + ": its joint is left out");
             return;
@@ -144,6 +144,7 @@ private:
             return;
         }
         const Range range = rangeOf(*theirs);
+        if (range.circles) return;
         if (!range.moves) return differ_.add(name + ": is not left out");
         if (range.lower == range.upper) {
             if (!own.dofs.empty()) differ_.add(name + ": moves, by its limits it does not");
@@ -172,6 +173,7 @@ private:
                 values[j].push_back(round == 0 ? std::clamp(0.0, dof.lower, dof.upper)
                                                : between(dof.lower, dof.upper));
             const Range range = rangeOf(*theirs_.getJoint(robot_.joints[j].name));
+            if (range.circles && values[j].empty()) return;
             theirValues[robot_.joints[j].name] = values[j].empty() ? range.lower : values[j][0];
         }
         const std::vector<Pose> poses = posedBodies(own_.made.scene, sceneValues(robot_, values));
@@ -197,30 +199,30 @@ private:
         }
     }
 
-    /// The points of a shape's outline, and how far it may be off there.
-    std::vector<std::pair<Vec3, double>> outline(const urdf::Geometry& geometry, const Pose& place) const {
-        std::vector<std::pair<Vec3, double>> points;
-        const auto add = [&](const Vec3& p, double slack) { points.emplace_back(place * p, slack); };
+    Solid solidOf(const urdf::Geometry& geometry, const Pose& place) const {
+        Solid solid;
+        solid.place = place;
         if (const auto* box = dynamic_cast<const urdf::Box*>(&geometry)) {
-            for (int k = 0; k < 8; ++k)
-                add(vectorOf(box->dim).cwiseProduct(
-                        Vec3(k & 1 ? .5 : -.5, k & 2 ? .5 : -.5, k & 4 ? .5 : -.5)),
-                    close);
+            solid.kind = RobotShape::Kind::Box;
+            solid.size = vectorOf(box->dim) / 2;
         } else if (const auto* sphere = dynamic_cast<const urdf::Sphere*>(&geometry)) {
-            for (int k = 0; k < 6; ++k)
-                add((k & 1 ? 1 : -1) * sphere->radius * Vec3::Unit(k / 2), .01 * sphere->radius);
+            solid.kind = RobotShape::Kind::Sphere;
+            solid.size = {sphere->radius, 0, 0};
         } else if (const auto* cylinder = dynamic_cast<const urdf::Cylinder*>(&geometry)) {
-            const double r = cylinder->radius;
-            for (const double h : {cylinder->length / 2, -cylinder->length / 2})
-                for (const Vec3& p :
-                     {Vec3(r, 0, h), Vec3(-r, 0, h), Vec3(0, r, h), Vec3(0, -r, h), Vec3(0, 0, h)})
-                    add(p, .01 * r);
+            solid.kind = RobotShape::Kind::Cylinder;
+            solid.size = {cylinder->radius, cylinder->length / 2, 0};
         } else if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(&geometry)) {
-            for (const Vec3& p :
-                 importMesh(meshesOf(file_, {})(mesh->filename), MeshAxes::AsWritten).vertices)
-                add(p.cwiseProduct(vectorOf(mesh->scale)), close);
+            solid.corners = importMesh(meshesOf(file_, {})(mesh->filename), MeshAxes::AsWritten).vertices;
+            for (Vec3& p : solid.corners) p = p.cwiseProduct(vectorOf(mesh->scale));
         }
-        return points;
+        return solid;
+    }
+
+    template <class Items>
+    std::vector<Solid> solidsOf(const Items& items) const {
+        std::vector<Solid> solids;
+        for (const auto& item : items) solids.push_back(solidOf(*item->geometry, poseOf(item->origin)));
+        return solids;
     }
 
     void compareShape(int link) {
@@ -228,30 +230,11 @@ private:
         if (isLacking(own_.made, robot_.links[link].name)) return;
         const auto theirs = theirs_.getLink(robot_.links[link].name);
         const TriangleMesh& mesh = own_.made.scene.bodies[link].mesh;
-        std::vector<Vec3> wanted;
-        double slack = close;
-        const Points own(mesh.vertices);
-        const auto take = [&](const auto& items) {
-            for (const auto& item : items)
-                for (const auto& [p, most] : outline(*item->geometry, poseOf(item->origin))) {
-                    wanted.push_back(p);
-                    slack = std::max(slack, most);
-                    if (!own.hasNear(p, most * (1 + p.norm())))
-                        return differ_.add(
-                            fmt::format("{}: its shape does not come to {} {} {}, urdfdom's does", at, p.x(),
-                                        p.y(), p.z()));
-                }
-        };
-        take(theirs->collision_array);
-        if (wanted.empty()) take(theirs->visual_array);
-        if (wanted.empty() != mesh.empty()) return differ_.add(at + ": one has a shape, the other none");
-        Eigen::AlignedBox3d box, theirBox;
-        for (const Vec3& v : mesh.vertices) box.extend(v);
-        for (const Vec3& v : wanted) theirBox.extend(v);
-        // Round ones turned askew stand out of the box of their outline.
-        if (!wanted.empty() &&
-            (box.sizes() - theirBox.sizes()).maxCoeff() > 0.45 * theirBox.sizes().maxCoeff())
-            differ_.add(at + ": a larger shape than urdfdom's");
+        std::vector<Solid> solids = solidsOf(theirs->collision_array);
+        if (solids.empty()) solids = solidsOf(theirs->visual_array);
+        if (solids.empty() != mesh.empty()) return differ_.add(at + ": one has a shape, the other none");
+        if (const std::string words = shapeDifference(mesh, solids); !words.empty())
+            differ_.add(at + ": " + words);
     }
 
     void comparePairs() {
@@ -292,7 +275,7 @@ int refused = 0; ///< by both
 /// What docs/ROBOTS.md says is refused.
 bool isSaid(const std::string& refusal) {
     for (const char* words : {"no more than", "document type", "no link has a shape that can be had",
-                              "no folder of a package", "UTF-8", "xacro"})
+                              "no folder of a package", "UTF-8", "and no other place", "xacro"})
         if (refusal.find(words) != refusal.npos) return true;
     return false;
 }
@@ -311,6 +294,7 @@ bool same(const std::string& file, int& links) {
         silent.first = error.what();
     }
     console_bridge::restorePreviousOutputHandler();
+    if (!silent.first.empty()) theirs.reset(); // it gives what it had read until there
     if (!theirs) {
         refused += !own.refusal.empty();
         if (own.refusal.empty()) ++lenient[silent.first.substr(0, silent.first.find('\n'))];

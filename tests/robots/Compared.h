@@ -102,6 +102,87 @@ private:
     std::vector<Vec3> points_;
 };
 
+/// A shape as the other program has it.
+struct Solid {
+    RobotShape::Kind kind = RobotShape::Kind::Mesh;
+    Vec3 size = Vec3::Zero(); ///< half lengths, radii first
+    Pose place = Pose::Identity();
+    std::vector<Vec3> corners; ///< of a mesh, in the shape's frame
+    double rounding = 0;       ///< by how much those may be off
+
+    bool isRound() const { return kind != RobotShape::Kind::Mesh && kind != RobotShape::Kind::Box; }
+};
+
+/// Points that the surface comes near to, in the shape's frame.
+inline std::vector<Vec3> outline(const Solid& solid) {
+    using Kind = RobotShape::Kind;
+    const Vec3& s = solid.size;
+    std::vector<Vec3> points = solid.corners;
+    if (solid.kind == Kind::Box)
+        for (int k = 0; k < 8; ++k)
+            points.emplace_back(k & 1 ? s[0] : -s[0], k & 2 ? s[1] : -s[1], k & 4 ? s[2] : -s[2]);
+    if (!solid.isRound()) return points;
+    const double across = solid.kind == Kind::Ellipsoid ? s[1] : s[0];
+    const double half = solid.kind == Kind::Capsule || solid.kind == Kind::Cylinder ? s[1] : 0;
+    const double tip = solid.kind == Kind::Cylinder    ? half
+                       : solid.kind == Kind::Ellipsoid ? s[2]
+                                                       : s[0] + half;
+    for (const double side : {-1.0, 1.0}) {
+        for (const double height : {half, -half})
+            points.emplace_back(side * s[0], 0, height), points.emplace_back(0, side * across, height);
+        points.emplace_back(0, 0, side * tip);
+    }
+    return points;
+}
+
+/// How far outside of a round shape a point of its frame lies, by its radius; of a cylinder, one of its ends.
+inline double outside(const Solid& solid, const Vec3& p) {
+    using Kind = RobotShape::Kind;
+    const Vec3& s = solid.size;
+    const double around = std::hypot(p.x(), p.y());
+    if (solid.kind == Kind::Sphere) return p.norm() / s[0] - 1;
+    if (solid.kind == Kind::Capsule)
+        return std::hypot(around, std::max(0.0, std::abs(p.z()) - s[1])) / s[0] - 1;
+    if (solid.kind == Kind::Cylinder) {
+        if (std::abs(std::abs(p.z()) - s[1]) > 1e-6) return -1;
+        return around < 1e-6 ? 0 : around / s[0] - 1;
+    }
+    return p.cwiseQuotient(s).norm() - 1;
+}
+
+/// Where a mesh is another than all these shapes; empty where it is none. Round ones it encloses closely.
+inline std::string shapeDifference(const TriangleMesh& mesh, const std::vector<Solid>& solids) {
+    constexpr double close = 1e-6, most = 0.0061;
+    const Points own(mesh.vertices);
+    std::vector<Vec3> exact;
+    double rounding = close;
+    for (const Solid& solid : solids) {
+        rounding = std::max(rounding, solid.rounding);
+        for (const Vec3& at : outline(solid)) {
+            const Vec3 p = solid.place * at;
+            if (!solid.isRound()) exact.push_back(p);
+            // The corners of a round one may lie elsewhere around.
+            const double slack = solid.isRound() ? 0.07 * at.norm() : solid.rounding + close * (1 + p.norm());
+            if (!own.hasNear(p, slack))
+                return fmt::format("its shape does not come to {} {} {}, theirs does", p.x(), p.y(), p.z());
+        }
+    }
+    const Points theirs(std::move(exact));
+    std::vector<bool> used(mesh.vertices.size());
+    for (const Tri& t : mesh.triangles) used[t[0]] = used[t[1]] = used[t[2]] = true;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        const Vec3& p = mesh.vertices[v];
+        const bool known = !used[v] || theirs.hasNear(p, rounding + close * (1 + p.norm())) ||
+                           std::ranges::any_of(solids, [&](const Solid& solid) {
+                               if (!solid.isRound()) return false;
+                               const double out = outside(solid, solid.place.inverse(Eigen::Isometry) * p);
+                               return out > -close && out < most;
+                           });
+        if (!known) return fmt::format("its shape comes to {} {} {}, theirs does not", p.x(), p.y(), p.z());
+    }
+    return "";
+}
+
 /// How often each text was met.
 using Tally = std::map<std::string, int>;
 

@@ -110,7 +110,7 @@ class Robot:
             ('<robot ', '<robot version="1.1" '), ('<robot ', '<robot version="2.0" '), ('name="r"', ''),
             ('</robot>', '<link name="alone"/></robot>'), ('</robot>', '<joint name="more"/></robot>'),
             ('</robot>', '<gazebo reference="l0"><x/></gazebo><transmission name="t"><type>s</type></transmission></robot>'),
-            ('</robot>', '<!-- an end --></robot>'), ('<link ', '<?odd?><link '), ('<robot', '<!DOCTYPE robot><robot'),
+            ('</robot>', '<!-- an end --></robot>'), ('<robot', '<!DOCTYPE robot><robot'),
             ('filename="', 'filename="none/'), ('<mimic joint="', '<mimic joint="no'), ('xyz="', 'xyz="1e400 '),
             ('xyz="', 'xyz="+'), ('<limit', '<limit/><limit'), ('<axis', '<axis xyz="0 1 0"/><axis'),
             ('<origin', '<origin xyz="1 2 3"/><origin'), ('<mimic', '<mimic joint="j0"/><mimic'),
