@@ -98,6 +98,22 @@ void settleHeld(Robot& robot, RobotJoint& joint) {
     joint.drives.clear();
 }
 
+/// Some exporters write limits of thousands of turns where there are none, further than is served: one turn
+/// goes through the same poses.
+void settleEndless(Robot& robot, RobotJoint& joint) {
+    constexpr double farthest = 1e5; // radians
+    for (Dof& dof : joint.dofs) {
+        if (dof.kind != DofKind::Rotation || !joint.drives.empty()) continue;
+        const double most = std::max(std::abs(dof.lower), std::abs(dof.upper));
+        if (most <= farthest || dof.upper - dof.lower < 2 * std::numbers::pi) continue;
+        robot.notes.push_back("joint " + joint.name + " (" + joint.where + ") has the limits " +
+                              rangeText(robot, dof) + ": taken as one whole turn");
+        dof.lower = -std::numbers::pi;
+        dof.upper = std::numbers::pi;
+        joint.endless = joint.dofs.size() == 1;
+    }
+}
+
 /// Led by one without an end, and without limits of its own.
 bool slidesOnAndOn(Robot& robot, const RobotJoint& joint) {
     if (joint.leader.empty() || joint.factor == 0 || joint.dofs[0].kind == DofKind::Rotation) return false;
@@ -138,10 +154,12 @@ void checkForest(const Robot& robot) {
 
 void settleRobot(Robot& robot) {
     checkForest(robot);
+    for (RobotJoint& joint : robot.joints) settleEndless(robot, joint);
     for (RobotJoint& joint : robot.joints)
         if (!joint.leader.empty()) settleLeader(robot, joint);
     for (RobotJoint& joint : robot.joints)
         if (!joint.leader.empty()) settleFollower(robot, joint);
+    for (RobotJoint& joint : robot.joints) settleEndless(robot, joint); // those that are led so far
     std::vector<RobotJoint> kept;
     for (const RobotJoint& joint : robot.joints)
         if (!slidesOnAndOn(robot, joint)) kept.push_back(joint);

@@ -84,6 +84,7 @@ TEST_CASE("orientations are read in each of their forms, and in the compiler's a
     CHECK(same(placed("axisangle='0 0 3 90'"), turned));
     CHECK(same(placed("xyaxes='0 2 0 -1 1 0'"), turned));
     CHECK(same(placed("zaxis='1 0 0'"), Eigen::Quaterniond(about({0, 1, 0}, 90))));
+    CHECK(same(placed("zaxis='0 0 -2'"), Eigen::Quaterniond(about({1, 0, 0}, 180)))); // as MuJoCo does
     const auto x = about({1, 0, 0}, 20), y = about({0, 1, 0}, 30), z = about({0, 0, 1}, 40);
     CHECK(same(placed("euler='20 30 40'"), x * y * z));
     CHECK(same(placed("euler='20 30 40'", "<compiler eulerseq='XYZ'/>"), z * y * x));
@@ -141,6 +142,43 @@ TEST_CASE("what a class says holds for its elements, and what they say themselve
     CHECK(pairMotion(robot.scene, robot.scene.pairs[0]).dofs[0].axis.isApprox(Vec3::UnitX()));
     CHECK(refused(modelOf(world("<body><geom class='nobody' size='1'/></body>"))).find("found \"nobody\"") !=
           std::string::npos);
+}
+
+TEST_CASE("the class at the top holds for all, whatever it is called and in however many parts") {
+    const auto size = [](const std::string& top, const std::string& geom) {
+        const RobotScene robot = made(modelOf(top + world("<body name='a'>" + geom + "</body>")));
+        return Vec3(bounds(robot.scene.bodies[0].mesh).sizes());
+    };
+    const std::string top = "<default class='top'><geom type='box' size='1 2 3'/>"
+                            "<default class='small'><geom size='.5'/></default></default>";
+    CHECK(size(top, "<geom/>").isApprox(Vec3(2, 4, 6)));
+    CHECK(size(top, "<geom class='top'/>").isApprox(Vec3(2, 4, 6)));
+    CHECK(size(top + "<default><geom size='5'/></default>", "<geom/>").isApprox(Vec3(10, 4, 6)));
+    // A size of fewer numbers leaves the others as they are.
+    CHECK(size(top, "<geom size='3'/>").isApprox(Vec3(6, 4, 6)));
+    CHECK(size(top, "<geom class='small'/>").isApprox(Vec3(1, 4, 6)));
+    CHECK(size(top, "<geom class='small' size='3 1'/>").isApprox(Vec3(6, 2, 6)));
+}
+
+TEST_CASE("bodies without a name take none that another has") {
+    const RobotScene robot =
+        made(modelOf(world("<body name='a'>" + ball + "<body>" + ball + "<body name='body1'>" + ball +
+                           "<joint/></body></body></body>")));
+    CHECK(bodyCalled(robot.scene, "body1").named);
+    CHECK_FALSE(bodyCalled(robot.scene, "body1_").named);
+    CHECK_FALSE(refused(modelOf(world("<body>" + ball + "</body>") +
+                                "<contact><exclude body1='body0' body2='world'/></contact>"))
+                    .empty()); // it is no name of the file's
+}
+
+TEST_CASE("bodies that are tied to nothing stand where they do in the file") {
+    const RobotScene robot =
+        made(modelOf(world("<body name='a' pos='1 0 0'><freejoint/>" + ball + "<body name='b' pos='0 2 0'>" +
+                           ball + "<joint type='slide'/></body></body>")));
+    CHECK(posedBodies(robot.scene, {})[0].translation() == Vec3(1, 0, 0));
+    CHECK(posedBodies(robot.scene, {})[1].translation() == Vec3(1, 2, 0));
+    const RobotScene alone = made(modelOf(world("<body name='a' pos='1 0 0'>" + ball + "</body>")));
+    CHECK(posedBodies(alone.scene, {})[0].translation() == Vec3(1, 0, 0));
 }
 
 TEST_CASE("what is not served is left out by name, and the rest comes in") {
@@ -224,6 +262,23 @@ TEST_CASE("geoms that a pair names collide, whatever their own bits say") {
     };
     CHECK(widest("") < 1);
     CHECK(widest("<contact><pair geom1='blade' geom2='x'/></contact>") > 5);
+    // Nor does an exclude count of their bodies.
+    const auto pairs = [](const std::string& pair) {
+        return made(modelOf(world("<body name='a'><geom name='one' size='.1'/></body><body name='b'><joint/>"
+                                  "<geom name='two' size='.1'/></body>") +
+                            "<contact><exclude body1='a' body2='b'/>" + pair + "</contact>"))
+            .scene.pairs.size();
+    };
+    CHECK(pairs("") == 0);
+    CHECK(pairs("<pair geom1='two' geom2='one'/>") == 1);
+}
+
+TEST_CASE("geoms whose bits are none do not collide, however it is written") {
+    for (const char* zero : {"0", " 0 ", "00", "-0"}) {
+        const std::string geom = "<geom size='3' contype='" + std::string(zero) + "' conaffinity='0'/>";
+        const RobotScene robot = made(modelOf(world("<body name='a'>" + ball + geom + "</body>")));
+        CHECK(bounds(robot.scene.bodies[0].mesh).sizes().maxCoeff() < 1);
+    }
 }
 
 TEST_CASE("what has no name is excluded by none: MuJoCo would not know it") {

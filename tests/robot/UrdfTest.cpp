@@ -225,6 +225,44 @@ TEST_CASE("a joint that nothing leads moves by itself, by name") {
          "mimics \"nobody\", which is no joint that turns or slides within limits");
 }
 
+TEST_CASE("what follows one that nothing leads follows it, in whichever order they stand") {
+    const std::string links = aLink("base") + aLink("a") + aLink("b");
+    const std::string wide = "<limit lower='-3' upper='3'/>";
+    const std::string first = aJoint("first", "revolute", "base", "a", "<mimic joint='second'/>" + limits);
+    for (const char* leader : {"nobody", "second", "first"}) {
+        const std::string second =
+            aJoint("second", "revolute", "base", "b", std::string("<mimic joint='") + leader + "'/>" + wide);
+        const bool circle = leader == std::string("first"); // then the first of them moves by itself
+        INFO(leader);
+        CHECK(jointCalled(madeOfUrdf(robotOf(links + first + second)).scene, "first").dofs[0].upper ==
+              (circle ? 2 : 3));
+        CHECK(jointCalled(madeOfUrdf(robotOf(links + second + first)).scene, "first").dofs[0].upper == 3);
+    }
+}
+
+TEST_CASE("limits of thousands of turns are one whole turn, and those of a continuous joint are none") {
+    const auto turning = [](const std::string& type, const std::string& itsLimits) {
+        return madeOfUrdf(
+            robotOf(aLink("base") + aLink("a") + aJoint("wheel", type, "base", "a", itsLimits)));
+    };
+    const RobotScene far = turning("revolute", "<limit lower='-1e16' upper='1e16'/>");
+    CHECK(jointCalled(far.scene, "wheel").dofs[0].upper == Approx(std::numbers::pi));
+    CHECK(hasNote(far.notes, "degrees: taken as one whole turn"));
+    const RobotScene odd = turning("continuous", "<limit lower='1' upper='-1'/>");
+    REQUIRE(odd.scene.joints.size() == 1);
+    CHECK(jointCalled(odd.scene, "wheel").dofs[0].upper == Approx(std::numbers::pi));
+}
+
+TEST_CASE("of two geometries in a collision none is taken, by name") {
+    const std::string one = "<geometry><box size='1 1 1'/></geometry>";
+    for (const std::string& other : {one, std::string("<geometry/>")}) {
+        const RobotScene robot =
+            madeOfUrdf(robotOf(aLink("a") + aLink("b", "<collision>" + other + one + "</collision>")));
+        CHECK(bodyCalled(robot.scene, "b").mesh.empty());
+        CHECK(hasNote(robot.notes, "(<link b>): expected one <geometry>"));
+    }
+}
+
 TEST_CASE("what a URDF gets wrong is refused with file, line and element") {
     const auto says = [](const std::string& text, const std::string& words) {
         const std::string message = refusedUrdf(text);

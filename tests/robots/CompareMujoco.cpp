@@ -181,7 +181,7 @@ private:
         if (!slide && (dof.origin - vectorOf(m_.jnt_pos + 3 * j)).norm() > close)
             differ_.add(name + ": another anchor");
         const double ref = m_.qpos0[m_.jnt_qposadr[j]];
-        const bool limited = m_.jnt_limited[j];
+        const bool limited = m_.jnt_limited[j] && (slide || m_.jnt_range[2 * j + 1] < 1e5);
         const double lower = limited ? m_.jnt_range[2 * j] - ref : -pi,
                      upper = limited ? m_.jnt_range[2 * j + 1] - ref : pi;
         if (std::abs(dof.lower - lower) > close || std::abs(dof.upper - upper) > close)

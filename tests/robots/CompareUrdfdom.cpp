@@ -76,7 +76,9 @@ private:
 
     static Range ownRange(const urdf::Joint& joint) {
         Range range;
-        range.endless = joint.type == urdf::Joint::CONTINUOUS;
+        range.endless =
+            joint.type == urdf::Joint::CONTINUOUS ||
+            (joint.type == urdf::Joint::REVOLUTE && joint.limits->upper - joint.limits->lower > 1e5);
         range.moves =
             range.endless || joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::PRISMATIC;
         if (range.endless) {
