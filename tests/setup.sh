@@ -15,7 +15,7 @@ packages_build=(
 )
 packages_pictures=(openscenegraph xvfb xauth libgl1-mesa-dri libegl-mesa0)
 packages_report=(libfcl-dev libbullet-dev libcgal-dev libpng-dev gnuplot-nox)
-packages_tests=(catch2 libfcl-dev parallel help2man)
+packages_tests=(catch2 libfcl-dev libmujoco-dev parallel help2man)
 packages_api=(doxygen)
 packages_fuzz=(clang libclang-rt-14-dev)
 packages_browser=(chromium)

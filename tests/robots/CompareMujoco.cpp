@@ -384,7 +384,7 @@ bool same(const std::string& file, int& bodies) {
     }
     if (!own.refusal.empty()) {
         if (isSaid(own.refusal))
-            ++strict[own.refusal.substr(own.refusal.find("): ") + 3)];
+            ++strict[reasonOf(own.refusal)];
         else
             differences.add("refused here: " + own.refusal);
     } else {

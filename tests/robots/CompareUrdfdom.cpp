@@ -303,7 +303,7 @@ bool same(const std::string& file, int& links) {
     } else if (own.refusal.empty()) {
         links += Comparison(file, *theirs, own, differences).compare();
     } else if (isSaid(own.refusal)) {
-        ++strict[own.refusal.substr(std::min(own.refusal.find("): "), own.refusal.size()))];
+        ++strict[reasonOf(own.refusal)];
     } else {
         differences.add("refused here: " + own.refusal);
     }

@@ -186,6 +186,12 @@ inline std::string shapeDifference(const TriangleMesh& mesh, const std::vector<S
 /// How often each text was met.
 using Tally = std::map<std::string, int>;
 
+/// A refusal without the file and the line.
+inline std::string reasonOf(const std::string& refusal) {
+    const auto place = refusal.find("): "), file = refusal.find(": ");
+    return refusal.substr(place != refusal.npos ? place + 3 : file != refusal.npos ? file + 2 : 0);
+}
+
 inline void printTally(const std::string& title, const Tally& tally) {
     for (const auto& [text, count] : tally) fmt::print("{}: {} times: {}\n", title, count, text);
 }

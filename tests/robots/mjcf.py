@@ -22,6 +22,7 @@ class Model:
         self.count = 0
         self.budget = self.chance.randint(2, 9)
         self.included = 0
+        self.field = False
         self.class_turn = self.one('', '', '', 'axisangle', 'euler', 'xyaxes', 'zaxis')
 
     # Chance.
@@ -123,10 +124,13 @@ class Model:
 
     def geom(self, own=True, world=False):
         kinds = ['sphere', 'capsule', 'cylinder', 'box', 'ellipsoid'] + (['mesh'] if self.meshes else [])
-        kind = self.chance.choice(kinds + (['plane', 'plane'] if world else []))
+        kind = self.chance.choice(kinds + (['plane', 'plane'] if world else [])
+                                  + (['hfield'] if self.field and world else []))
         found = {} if kind == 'sphere' and self.may(.6) else {'type': kind}
         if kind == 'plane':
             found['size'] = '1 1 .1'
+        elif kind == 'hfield':
+            found['hfield'] = 'hills'
         elif kind == 'mesh':
             found['mesh'] = self.chance.choice(self.meshes)
         elif self.may(.97 if own else .5):
@@ -137,7 +141,7 @@ class Model:
                 k = self.chance.randrange(3)
                 end = [start[i] + (self.one(-.5, .5) if i == k else 0) for i in range(3)]
             found['fromto'] = text(start + end)
-        if kind not in ('mesh', 'plane') and self.meshes and self.may(.03):
+        if kind not in ('mesh', 'plane', 'hfield') and self.meshes and self.may(.03):
             found['mesh'] = self.chance.choice(self.meshes)  # fitted to it
         found.update(self.turn(own) if 'fromto' in found else self.place(.6 if own else .1, own))
         found.update(self.bits() if self.may(.6 if own else .25) else {})
@@ -284,6 +288,12 @@ class Model:
             attributes.update(self.some_class())
             self.meshes.append(called)
             inside += self.element('mesh', attributes)
+        if self.may(.05):
+            self.meshes.append('inline')
+            inside += self.element('mesh', {'name': 'inline', 'vertex': '0 0 0 1 0 0 0 1 0 0 0 1'})
+        if self.may(.1):
+            self.field = True
+            inside += self.element('hfield', {'name': 'hills', 'nrow': '3', 'ncol': '3', 'size': '1 1 .1 .1'})
         return self.apart(self.element('asset', {}, inside)) if inside else ''
 
     def compiler(self):
@@ -360,7 +370,11 @@ class Model:
     def write(self):
         os.makedirs(self.folder, exist_ok=True)
         compiler = self.compiler()
-        head = self.element('compiler', compiler)
+        head = ''
+        if self.may(.2):  # the later one counts
+            head = self.element('compiler', {'angle': self.one('degree', 'radian'), 'eulerseq': 'zxy'})
+            compiler.setdefault('angle', 'degree' if self.degrees else 'radian')
+        head += self.apart(self.element('compiler', compiler))
         if self.may(.3):
             head += self.element('option', {'timestep': '.002'})
         top = self.one('', '', 'main', 'top')
