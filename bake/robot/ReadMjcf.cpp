@@ -76,7 +76,7 @@ private:
         for (auto* e = assets.FirstChildElement("mesh"); e; e = e->NextSiblingElement("mesh")) {
             MeshAsset mesh;
             const std::string file = textOf(*e, "file");
-            const auto slash = file.find_last_of('/');
+            const auto slash = file.find_last_of("/\\");
             const std::string bare = slash == file.npos ? file : file.substr(slash + 1);
             const std::string name = textOf(*e, "name", bare.substr(0, bare.find_last_of('.')));
             if (file.empty()) {

@@ -127,6 +127,8 @@ private:
         link.collision = readShapes(element, "collision", model->collision_array);
         link.visual = readShapes(element, "visual", model->visual_array);
         link.color = urdfColor(file_, element);
+        for (auto at = model; at->parent_joint; at = at->getParent()) // where its joints are at 0
+            link.place = poseOf(at->parent_joint->parent_to_joint_origin_transform) * link.place;
     }
 
     void readJoint(RobotJoint joint) {

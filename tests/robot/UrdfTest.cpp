@@ -253,6 +253,14 @@ TEST_CASE("limits of thousands of turns are one whole turn, and those of a conti
     CHECK(jointCalled(odd.scene, "wheel").dofs[0].upper == Approx(std::numbers::pi));
 }
 
+TEST_CASE("links that are tied to nothing stand where their joints put them") {
+    const RobotScene robot =
+        madeOfUrdf(robotOf(aLink("base") + aLink("a") + aLink("b") +
+                           aJoint("up", "revolute", "base", "a", "<origin xyz='0 0 1'/>" + limits) +
+                           aJoint("swim", "floating", "a", "b", "<origin xyz='2 0 0'/>")));
+    CHECK(posedBodies(robot.scene, std::vector{0.0})[2].translation() == Vec3(2, 0, 1));
+}
+
 TEST_CASE("of two geometries in a collision none is taken, by name") {
     const std::string one = "<geometry><box size='1 1 1'/></geometry>";
     for (const std::string& other : {one, std::string("<geometry/>")}) {

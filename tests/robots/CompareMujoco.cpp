@@ -2,6 +2,9 @@
 // another: compare_mujoco FILE.xml... Exit status 1 where one of them differs. What docs/ROBOTS.md says is
 // left out or taken otherwise is no difference where it is said of that body.
 #include "bake/robot/ReadMjcf.h"
+#ifdef OSGTSS_HAVE_URDF
+#include "bake/robot/ReadUrdf.h"
+#endif
 #include "tests/robots/Compared.h"
 
 #include <algorithm>
@@ -37,18 +40,27 @@ struct DeleteData {
 };
 using Model = std::unique_ptr<mjModel, DeleteModel>;
 
-/// Limits are taken from ranges as MuJoCo does since 3.0, where the file does not say otherwise.
-std::string withAutoLimits(std::string text) {
-    if (text.find("autolimits") != text.npos) return text;
-    const auto root = text.find("<mujoco"), end = text.find('>', root);
+bool isUrdf(const std::string& text) {
+    return text.find("<robot") != text.npos;
+}
+
+/// Limits are taken from ranges as MuJoCo does since 3.0, where the file does not say otherwise. Of a URDF
+/// all links are to be bodies, whatever they weigh.
+std::string settled(std::string text) {
+    const auto root = text.find(isUrdf(text) ? "<robot" : "<mujoco"), end = text.find('>', root);
     if (root == text.npos || end == text.npos || text[end - 1] == '/') return text;
+    if (isUrdf(text))
+        return text.insert(
+            end + 1, "<mujoco><compiler autolimits='true' fusestatic='false' discardvisual='false' "
+                     "strippath='true' balanceinertia='true' boundmass='1' boundinertia='1'/></mujoco>");
+    if (text.find("autolimits") != text.npos) return text;
     return text.insert(end + 1, "<compiler autolimits='true'/>");
 }
 
 Model load(const std::string& file, std::string& refusal) {
     auto disk = std::make_unique<mjVFS>();
     mj_defaultVFS(disk.get());
-    const std::string text = withAutoLimits(readWholeFile(file));
+    const std::string text = settled(readWholeFile(file));
     const std::string name = file.substr(file.find_last_of('/') + 1);
     mj_makeEmptyFileVFS(disk.get(), name.c_str(), static_cast<int>(text.size()));
     std::memcpy(disk->filedata[0], text.data(), text.size());
@@ -81,8 +93,10 @@ Solid solidOf(const mjModel& m, int geom) {
 
 class Comparison {
 public:
-    Comparison(const std::string& file, const mjModel& model, const Own& own, Differences& differences)
-        : m_(model), own_(own), robot_(own.robot), differ_(differences), above_(holders(own.robot)),
+    Comparison(const std::string& file, const mjModel& model, const Own& own, bool urdf,
+               Differences& differences)
+        : m_(model), urdf_(urdf), own_(own), robot_(own.robot), differ_(differences),
+          above_(holders(own.robot)),
           random_(std::hash<std::string>()(file.substr(file.find_last_of('/') + 1))) {}
 
     /// The number of bodies that were compared.
@@ -106,9 +120,9 @@ private:
         return name.empty() ? fmt::format("body {} without a name", body) : "body " + name;
     }
 
-    /// The link of each body: both are in the order of the file.
+    /// The link of each body. MuJoCo's are in the order of an MJCF; of a URDF they have names.
     bool matchBodies() {
-        const bool solid = !robot_.links.empty() && robot_.links[0].name == "world";
+        const bool solid = !urdf_ && !robot_.links.empty() && robot_.links[0].name == "world";
         links_.assign(m_.nbody, -1);
         if (solid) links_[0] = 0;
         if (static_cast<int>(robot_.links.size()) - solid != m_.nbody - 1) {
@@ -116,8 +130,11 @@ private:
             return false;
         }
         for (int body = 1; body < m_.nbody; ++body) {
-            const int link = links_[body] = body - 1 + solid;
             const std::string name = nameOf(mjOBJ_BODY, body);
+            const auto same = std::ranges::find(robot_.links, name, &RobotLink::name);
+            const int link = links_[body] =
+                urdf_ ? static_cast<int>(same - robot_.links.begin()) : body - 1 + solid;
+            if (urdf_ && same == robot_.links.end()) return differ_.add("no link " + name), false;
             if (robot_.links[link].named ? name != robot_.links[link].name : !name.empty()) {
                 differ_.add(fmt::format("{}: here it is {}", bodyName(body), robot_.links[link].name));
                 return false;
@@ -143,6 +160,7 @@ private:
         if (joint.parent != links_[parent]) differ_.add(at + ": another parent");
         std::vector<Dof> dofs = joint.dofs;
         if (dofs.empty() && count == 1 && isHeld(first)) return;
+        if (!joint.leader.empty()) return; // which MuJoCo does not know
         for (int j = first; j < first + count; ++j) {
             const std::string name = at + fmt::format(", joint {} {}", j - first, nameOf(mjOBJ_JOINT, j));
             const bool ball = m_.jnt_type[j] == mjJNT_BALL;
@@ -158,7 +176,9 @@ private:
     }
 
     /// A ball with limits may have no range; hinges and slides MuJoCo refuses then.
-    bool isHeld(int j) const { return m_.jnt_limited[j] && m_.jnt_range[2 * j] >= m_.jnt_range[2 * j + 1]; }
+    bool isHeld(int j) const {
+        return (m_.jnt_limited[j] || urdf_) && m_.jnt_range[2 * j] >= m_.jnt_range[2 * j + 1];
+    }
 
     /// Free joints and slides without a range tie a body to nothing, and so does the hand of who moves mocap.
     void checkUntied(int body) {
@@ -180,6 +200,7 @@ private:
                                     m_.jnt_axis[3 * j + 2]));
         if (!slide && (dof.origin - vectorOf(m_.jnt_pos + 3 * j)).norm() > close)
             differ_.add(name + ": another anchor");
+        if (urdf_ && dof.upper - dof.lower > 2 * pi - close) return; // MuJoCo gives a continuous joint limits
         const double ref = m_.qpos0[m_.jnt_qposadr[j]];
         const bool limited = m_.jnt_limited[j] && (slide || m_.jnt_range[2 * j + 1] < 1e5);
         const double lower = limited ? m_.jnt_range[2 * j] - ref : -pi,
@@ -211,9 +232,15 @@ private:
         std::unique_ptr<mjData, DeleteData> data(mj_makeData(&m_));
         std::vector<std::vector<double>> values(robot_.joints.size());
         for (int body = 1; body < m_.nbody; ++body) {
-            if (!isTied(body) || robot_.joints[above_[links_[body]]].dofs.empty()) continue;
+            if (!isTied(body)) continue;
             const int index = above_[links_[body]];
             const int first = m_.body_jntadr[body], count = m_.body_jntnum[body];
+            if (robot_.joints[index].dofs.empty()) {
+                if (!robot_.joints[index].leader.empty())
+                    return; // held where it is led, which MuJoCo does not know
+                if (urdf_ && count == 1) data->qpos[m_.jnt_qposadr[first]] = m_.jnt_range[2 * first];
+                continue;
+            }
             for (int j = first; j < first + count; ++j) {
                 mjtNum* q = data->qpos + m_.jnt_qposadr[j];
                 const int parts = m_.jnt_type[j] == mjJNT_BALL ? 3 : 1;
@@ -293,6 +320,8 @@ private:
     bool mayMeet(int a, int b) const {
         const int signature = ((a + 1) << 16) + b + 1;
         for (int p = 0; p < m_.npair; ++p) {
+            if (isEndless(m_.geom_type[m_.pair_geom1[p]]) || isEndless(m_.geom_type[m_.pair_geom2[p]]))
+                continue;
             const int one = m_.geom_bodyid[m_.pair_geom1[p]], other = m_.geom_bodyid[m_.pair_geom2[p]];
             if (std::min(one, other) == a && std::max(one, other) == b) return true;
         }
@@ -338,7 +367,7 @@ private:
                 const auto shapeless = [&](int body) {
                     return own_.made.scene.bodies[links_[body]].mesh.empty();
                 };
-                const bool has = made.contains({links_[a], links_[b]});
+                const bool has = made.contains(std::minmax(links_[a], links_[b]));
                 const std::size_t values = valuesBetween(a, b);
                 const bool can = !shapeless(a) && !shapeless(b) && values > 0 && values <= maxDofs;
                 const std::string at = bodyName(a) + " and " + bodyName(b);
@@ -349,6 +378,7 @@ private:
     }
 
     const mjModel& m_;
+    const bool urdf_;
     const Own& own_;
     const Robot& robot_;
     Differences& differ_;
@@ -371,9 +401,13 @@ bool same(const std::string& file, int& bodies) {
     Differences differences(file);
     std::string refusal;
     const Model model = load(file, refusal);
+    const std::string text = readWholeFile(file);
     const Own own = readOwn(
         [&] {
-            return readMjcf(readWholeFile(file), file,
+#ifdef OSGTSS_HAVE_URDF
+            if (isUrdf(text)) return readUrdf(text, file);
+#endif
+            return readMjcf(text, file,
                             [&](const std::string& name) { return readWholeFile(meshesOf(file, {})(name)); });
         },
         file);
@@ -388,7 +422,7 @@ bool same(const std::string& file, int& bodies) {
         else
             differences.add("refused here: " + own.refusal);
     } else {
-        bodies += Comparison(file, *model, own, differences).compare();
+        bodies += Comparison(file, *model, own, isUrdf(text), differences).compare();
     }
     return !differences.any();
 }

@@ -118,7 +118,7 @@ class Model:
         count = {'sphere': 1, 'capsule': 2, 'cylinder': 2, 'box': 3, 'ellipsoid': 3}[kind]
         if self.may(.15):
             count = self.chance.randint(count, 3)
-        elif self.may(.05):
+        elif self.may(.05) and not self.discards:  # else MuJoCo may not look at it
             count = 1
         return text(self.length() for _ in range(count))
 
@@ -310,6 +310,7 @@ class Model:
         for name, likely in (('strippath', .2), ('balanceinertia', .2), ('fitaabb', .2), ('discardvisual', .1)):
             if self.may(likely):
                 found[name] = self.one('true', 'false')
+        self.discards = found.get('discardvisual') == 'true'
         if self.may(.2):
             found['inertiafromgeom'] = self.one('true', 'auto')
         if self.may(.1):

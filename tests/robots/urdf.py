@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Writes random robots in URDF: urdf.py FOLDER FIRST LAST, seed N as FOLDER/robots/N.urdf, with the meshes beside
-them. Most are right by urdfdom; some have one thing that it refuses, or that is odd."""
+"""Writes random robots in URDF: urdf.py FOLDER FIRST LAST [right], seed N as FOLDER/robots/N.urdf, with the meshes beside
+them. Most are right by urdfdom; some have one thing that it refuses, or that is odd,
+but for `right`: MuJoCo may crash of such."""
 import os
 import random
 import sys
@@ -130,7 +131,7 @@ class Robot:
         if self.may(.5):
             self.chance.shuffle(parts)
         written = f'<robot name="r">\n{"".join(parts)}</robot>\n'
-        if self.may(.25):
+        if self.may(.25) and sys.argv[4:] != ['right']:
             written = self.spoil(written)
         with open(file, 'w') as out:
             out.write(('<?xml version="1.0"?>\n' if self.may(.5) else '') + written)
