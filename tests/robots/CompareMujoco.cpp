@@ -231,6 +231,7 @@ private:
     void comparePoses(int round) {
         std::unique_ptr<mjData, DeleteData> data(mj_makeData(&m_));
         std::vector<std::vector<double>> values(robot_.joints.size());
+        bool atZero = round == 0;
         for (int body = 1; body < m_.nbody; ++body) {
             if (!isTied(body)) continue;
             const int index = above_[links_[body]];
@@ -238,7 +239,10 @@ private:
             if (robot_.joints[index].dofs.empty()) {
                 if (!robot_.joints[index].leader.empty())
                     return; // held where it is led, which MuJoCo does not know
-                if (urdf_ && count == 1) data->qpos[m_.jnt_qposadr[first]] = m_.jnt_range[2 * first];
+                if (urdf_ && count == 1) {
+                    data->qpos[m_.jnt_qposadr[first]] = m_.jnt_range[2 * first];
+                    atZero = false;
+                }
                 continue;
             }
             for (int j = first; j < first + count; ++j) {
@@ -270,7 +274,7 @@ private:
             if (apart > close * (1 + their.translation().norm()))
                 return differ_.add(
                     fmt::format("{}: its pose differs by {}, sample {}", bodyName(body), apart, round));
-            if (round == 0 && (poses[links_[body]].matrix() - theirs(body).matrix()).norm() > close)
+            if (atZero && (poses[links_[body]].matrix() - theirs(body).matrix()).norm() > close)
                 return differ_.add(bodyName(body) + ": stands elsewhere in the world as modelled");
         }
     }
