@@ -35,6 +35,7 @@ public:
         for (auto* e = model.FirstChildElement("contact"); e; e = e->NextSiblingElement("contact"))
             for (auto* pair = e->FirstChildElement("pair"); pair; pair = pair->NextSiblingElement("pair"))
                 pairs_.emplace_back(textOf(*pair, "geom1"), textOf(*pair, "geom2"));
+        for (const auto& [one, other] : pairs_) paired_.insert({one, other});
         names_.insert("world");
         std::size_t bodies = 0;
         for (auto* e = model.FirstChildElement("worldbody"); e; e = e->NextSiblingElement("worldbody"))
@@ -195,9 +196,7 @@ private:
                 return number.empty() || number[0] != 0;
             };
             const bool meets =
-                bits("contype") || bits("conaffinity") || std::ranges::any_of(pairs_, [&](const auto& pair) {
-                    return !name.empty() && (pair.first == name || pair.second == name);
-                });
+                bits("contype") || bits("conaffinity") || (!name.empty() && paired_.contains(name));
             if (const auto rgba = numbersOf(file_, *e, "rgba", 4, 4); !rgba.empty() && !link.color)
                 link.color = Vec3(rgba[0], rgba[1], rgba[2]).cwiseMax(0).cwiseMin(1);
             (meets ? link.collision : link.visual).push_back(shape);
@@ -323,17 +322,18 @@ private:
     }
 
     void readExcludes(const XMLElement& contact) {
+        std::set<std::pair<std::string, std::string>> tested; // bodies of geoms that a <pair> names
+        for (const auto& [one, other] : pairs_) {
+            tested.emplace(bodyOf_[one], bodyOf_[other]);
+            tested.emplace(bodyOf_[other], bodyOf_[one]);
+        }
         for (auto* e = contact.FirstChildElement("exclude"); e; e = e->NextSiblingElement("exclude")) {
             const std::string a = textOf(*e, "body1"), b = textOf(*e, "body2");
             for (const std::string& name : {a, b})
                 if (!names_.contains(name))
                     throw InputError(placeOf(file_, *e),
                                      "expected the name of a body, found \"" + name + "\"");
-            // What a <pair> names MuJoCo tests all the same.
-            if (std::ranges::any_of(pairs_, [&](const auto& pair) {
-                    const std::string &one = bodyOf_[pair.first], &other = bodyOf_[pair.second];
-                    return (one == a && other == b) || (one == b && other == a);
-                }))
+            if (tested.contains({a, b})) // by MuJoCo all the same
                 leaveOut("excludes of bodies whose geoms a pair names", a + " and " + b);
             else
                 robot_.unpaired.emplace_back(a, b);
@@ -366,8 +366,9 @@ private:
     RobotLink world_;
     std::map<std::string, MeshAsset> meshes_;
     std::set<std::string> names_, fileless_;
-    std::vector<std::pair<std::string, std::string>> pairs_;  ///< geoms that collide whatever their own bits
-    std::map<std::string, std::string> bodyOf_;               ///< of geoms that have a name
+    std::vector<std::pair<std::string, std::string>> pairs_; ///< geoms that a <pair> names
+    std::set<std::string> paired_;              ///< each of them: it collides whatever its own bits
+    std::map<std::string, std::string> bodyOf_; ///< of geoms that have a name
     std::map<std::string, std::vector<std::string>> leftOut_; ///< names by kind
     bool several_ = false;                                    ///< bodies stand in the world beside each other
 };

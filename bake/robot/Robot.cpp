@@ -24,9 +24,7 @@ std::string rangeText(const Robot& robot, const Dof& dof) {
     return text(dof.lower) + " to " + text(dof.upper) + (dof.kind == DofKind::Rotation ? " degrees" : " m");
 }
 
-using Joints = std::vector<RobotJoint>;
-
-Joints::const_iterator named(const Robot& robot, const std::string& name) {
+std::vector<RobotJoint>::const_iterator named(const Robot& robot, const std::string& name) {
     return std::ranges::find(robot.joints, name, &RobotJoint::name);
 }
 

@@ -66,11 +66,11 @@ struct Robot {
 void checkForest(const Robot& robot);
 
 /// What holds for any format, once all is read: checkForest(). A joint whose limits leave it one value
-/// becomes fixed there; one that turns further than is served turns once round. One that follows another moves as far as the other's limits lead it, whatever its
-/// own; the coupling itself is for the scene's motion alone, and noted: in a table both move by themselves,
-/// which only adds poses. One whose leader is none, or itself in the end,
-/// moves by itself, noted, and leads on. Led by one that turns on and on it
-/// turns all the way round, or slides within its own limits, without which it is left out.
+/// becomes fixed there; one that turns further than is served turns once round. One that follows another
+/// moves as far as the other's limits lead it, whatever its own; the coupling itself is for the scene's
+/// motion alone, and noted: in a table both move by themselves, which only adds poses. One whose leader is
+/// none, or itself in the end, moves by itself, noted, and leads on. Led by one that turns on and on it turns
+/// all the way round, or slides within its own limits, without which it is left out.
 void settleRobot(Robot& robot);
 
 } // namespace tss

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # judges.sh PROGRAMS FOLDER [COUNT]: COUNT random models in MJCF are read by MuJoCo and here, and COUNT random robots in
 # URDF by urdfdom and here, and by MuJoCo, too, with those of compare_mujoco and compare_urdfdom that are in the folder
-# PROGRAMS; the models go into FOLDER. All joints, shapes, poses and pairs are to be the same, but for what docs/ROBOTS.md says.
+# PROGRAMS; the models go into FOLDER. All joints, shapes, poses and pairs are to be the same, but for what
+# docs/ROBOTS.md says. A minute; a model is made again by its number: mjcf.py FOLDER N N.
 # Exit 77, which CTest takes as skipped, where neither program was built.
 set -euo pipefail
 programs=$1 folder=$2 count=${3:-2000}
