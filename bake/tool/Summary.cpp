@@ -174,7 +174,7 @@ std::string butForRegion(const Json& item, double metersPerUnit) {
     const Json region = item.value("restRegion", Json());
     if (region.is_null()) return "";
     const auto part = [&](const char* area, const char* share) {
-        return fmt::format("{} ({:.2g} %)", squareText(region[area].get<double>(), metersPerUnit),
+        return fmt::format("{} ({:.3g} %)", squareText(region[area].get<double>(), metersPerUnit),
                            100 * region[share].get<double>());
     };
     const bool ignored = region["depth"].is_null();

@@ -1,5 +1,6 @@
 #include "bake/respond/JointResponder.h"
 #include "bake/table/Query.h"
+#include "tests/Joints.h"
 #include "tests/respond/Walk.h"
 
 #include <catch2/catch.hpp>
