@@ -7,11 +7,34 @@
 #include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinMoves.h"
 #include "bake/spheres/GenerateSpheres.h"
+#include "bake/spheres/Patches.h"
 #include "bake/spheres/RoundToFloat.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace tss {
+
+/// The spheres of what lies under a skin. They only tell what the skin may meet: where the tolerance, which
+/// may be meant for pairs, is too fine for them, the usual one serves.
+static SphereFit fitUnder(const TriangleMesh& surface, const BakeOptions& options, double metersPerUnit,
+                          std::vector<std::string>& notes, const Progress& progress) {
+    const double usual = diagonal(surface) / 100, asked = options.tolerance.value_or(usual);
+    const auto fit = [&](double tolerance) {
+        SphereFit made = fitSpheres(cleaned(surface), sphereOptions(options, tolerance), progress);
+        if (!made.note.empty()) notes.push_back(made.note);
+        return made;
+    };
+    try {
+        return fit(asked);
+    } catch (const TooFine&) {
+        if (asked >= usual) throw;
+    }
+    notes.push_back(fmt::format("a tolerance of {} in place of {}, which takes too many patches; skin meets "
+                                "the mesh itself",
+                                lengthText(usual, metersPerUnit), lengthText(asked, metersPerUnit)));
+    return fit(usual);
+}
 
 FilledMuscles fillMuscles(const SceneModel& scene, const SkinModel& skin, const BakeOptions& options,
                           PairReport& report, const Progress& progress) {
@@ -25,9 +48,9 @@ FilledMuscles fillMuscles(const SceneModel& scene, const SkinModel& skin, const 
             filled.searched.push_back({&deformer, {}});
             continue;
         }
-        const SphereOptions how = sphereOptions(options, options.tolerance.value_or(diagonal(surface) / 100));
-        const SphereFit fit = fitSpheres(cleaned(surface), how, progress);
-        if (!fit.note.empty()) report.notes.push_back(pathOf(scene, under[m]) + ": " + fit.note);
+        std::vector<std::string> notes;
+        const SphereFit fit = fitUnder(surface, options, scene.metersPerUnit, notes, progress);
+        for (const std::string& note : notes) report.notes.push_back(pathOf(scene, under[m]) + ": " + note);
         filled.searched.push_back({&deformer, roundToFloat(fit.spheres)});
     }
     return filled;

@@ -12,7 +12,7 @@
 
 namespace tss {
 
-/// How a skin behaves (METHOD 6.5). Everything between 0 and 1e12 and beyond is stable.
+/// How a skin behaves (METHOD 6.5). Compliances and other values between 0 and 1e12 and beyond throw nothing.
 struct SkinParameters {
     double stretchCompliance = 0; ///< of the sheet that answers contacts, >= 0; at 1 it is half as stiff
     double bendCompliance = 0;    ///< the same of its bending, >= 0

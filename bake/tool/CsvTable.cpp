@@ -52,11 +52,13 @@ constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
 DofColumns named(const SceneModel& scene, const std::vector<JointDof>& which, std::vector<Dof> dofs) {
     DofColumns columns{std::move(dofs), {}};
     std::map<std::string, int> count;
+    const bool several = !which.empty() && which.front().joint != which.back().joint;
     for (const JointDof& one : which) {
         const Joint& joint = scene.joints[one.joint];
         const std::string name = primName(joint.path), own = joint.dofs[one.dof].name;
-        columns.names.push_back({joint.path + ":" + own, name + ":" + own, name});
-        if (own != name) columns.names.back().push_back(own);
+        columns.names.push_back({joint.path + ":" + own, name + ":" + own, own});
+        // The last is what messages say: of several joints the joint.
+        if (own != name) columns.names.back().insert(columns.names.back().end() - (several ? 0 : 1), name);
         for (const std::string& word : columns.names.back()) ++count[word];
     }
     for (std::vector<std::string>& names : columns.names) // the first, with the whole path, is no other's

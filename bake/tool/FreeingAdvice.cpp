@@ -142,7 +142,7 @@ private:
         Motion wider = move.motion;
         for (const StopBeyond& stop : move.beyond) {
             const Dof& dof = motion_.dofs[stop.dof];
-            where += fmt::format("{}at {:.4g}{}{}", where.empty() ? "" : " and ", toUser(dof, stop.value),
+            where += fmt::format("{}by {:.4g}{}{}", where.empty() ? "" : " and ", toUser(dof, stop.value),
                                  dof.kind == DofKind::Rotation ? " degrees" : "",
                                  dof.name.empty() ? "" : " of " + dof.name);
             // A little farther, so that it is contact that stops it.
@@ -163,7 +163,7 @@ private:
         }
         const std::string words = dofs_ ? option(move.shift, wider, true) : "";
         console_.say(fmt::format("    {} meets nothing within these limits then; it would {}{}{}", b_, where,
-                                 dofs_ ? ". For limits that end at contact:\n    " : "", words));
+                                 dofs_ ? ". For limits that go on past contact:\n    " : "", words));
         return {{"where", where}, {"option", words}};
     }
 

@@ -27,6 +27,28 @@ void listSites(const PrimSite& site, std::vector<const PrimSite*>& list) {
     for (const auto& below : site.below) listSites(*below, list);
 }
 
+void listPaths(const std::vector<UsdSpec>& specs, const std::string& above, std::set<std::string>& paths) {
+    for (const UsdSpec& spec : specs) {
+        const std::string path = above + "/" + spec.prim.name;
+        paths.insert(path);
+        listPaths(spec.children, path, paths);
+    }
+}
+
+/// Whether what prims reference in the same layer is written there, and not above or below themselves: then
+/// the scene's own reader follows it.
+bool referencesStand(const std::vector<UsdSpec>& specs, const std::string& above,
+                     const std::set<std::string>& paths) {
+    return std::ranges::all_of(specs, [&](const UsdSpec& spec) {
+        const std::string path = above + "/" + spec.prim.name;
+        for (const std::string& target : arcsOf(spec.prim, "references"))
+            if (!paths.contains(target) || (path + "/").starts_with(target + "/") ||
+                (target + "/").starts_with(path + "/"))
+                return false;
+        return referencesStand(spec.children, path, paths);
+    });
+}
+
 class Composition {
 public:
     Composition(const std::string& text, const std::string& file, const OpenUsd& open)
@@ -36,7 +58,11 @@ public:
         UsdStage stage;
         UsdLayer& first = stacks_.first();
         stage.layer.metadata = first.metadata;
-        const bool asItIs = first.subLayers.empty() && std::ranges::none_of(first.children, needsComposition);
+        std::set<std::string> paths;
+        listPaths(first.children, "", paths);
+        const bool asItIs = first.subLayers.empty() &&
+                            std::ranges::none_of(first.children, needsComposition) &&
+                            referencesStand(first.children, "", paths);
         if (asItIs) {
             for (UsdSpec& child : first.children) stage.layer.children.push_back(takePrim(child));
         } else {

@@ -58,6 +58,28 @@ TEST_CASE("what is said of the mesh of one of a skin's bones names that bone") {
     CHECK(report.notes[0].find("/Head/Jaw: 3 open or misoriented edges") == 0);
 }
 
+TEST_CASE("a tolerance that is too fine for what lies under a skin is made coarser there, and said") {
+    SceneModel scene;
+    for (const char* path : {"/Head/Skull", "/Head/Skin"}) {
+        Body body;
+        body.path = path;
+        body.mesh = ballMesh(Vec3::Zero(), scene.bodies.empty() ? 1 : 4, 3);
+        scene.bodies.push_back(body);
+    }
+    SkinModel skin;
+    skin.path = "/Head/Skin";
+    skin.body = 1;
+    skin.bones = {0};
+    PairReport report;
+    BakeOptions options;
+    options.tolerance = 1e-5;
+    const FilledMuscles filled = fillMuscles(scene, skin, options, report);
+    REQUIRE(report.notes.size() == 1);
+    CHECK_THAT(report.notes[0], Catch::StartsWith("/Head/Skull: a tolerance of ") &&
+                                    Catch::Contains("which takes too many patches"));
+    CHECK(filled.searched[0].spheres.size() > 10);
+}
+
 TEST_CASE(
     "a skin of nonsensical thickness, or over a bone without area, is refused before anything is made") {
     SceneModel scene;

@@ -118,7 +118,7 @@ TEST_CASE(
         REQUIRE(first.exit == 0);
         const Json advice = Json::parse(first.out)["freeingMoves"][0];
         CHECK(advice["stops"].get<int>() + advice["freePoses"].get<int>() == advice["poses"].get<int>());
-        // Where it would meet nothing, make prints limits that end at contact.
+        // Where it would meet nothing, make prints limits that go past contact.
         std::string option = advice["option"];
         if (!advice["beyond"].is_null()) option = advice["beyond"]["option"];
         if (option.find("--dof") == std::string::npos) option += " " + hinge;

@@ -129,6 +129,17 @@ TEST_CASE("what arcs name and is not there is left out by name, and the rest com
                   "left out: root.usda: @gone.usda@: no such file"));
 }
 
+TEST_CASE("references into the same layer lead where other references lead, or are left out by name") {
+    const std::string lib = "def \"Lib\" { def \"Part\" { double x = 3 } }\n";
+    const UsdStage missing = stageOf(lib + "def \"A\" ( references = [</Lib/part>, </Lib/Part>] ) {}");
+    CHECK(numberAt(missing, "/A", "x") == 3);
+    CHECK(hasNote(missing.notes, "(</A>): /Lib/part: there is no prim /Lib/part in"));
+    const UsdStage through =
+        stageOf(lib + "def \"B\" ( references = </Lib> ) {}\ndef \"A\" ( references = </B/Part> ) {}");
+    CHECK(numberAt(through, "/A", "x") == 3);
+    CHECK(hasNote(stageOf("def \"A\" ( references = </A> ) { double x = 1 }").notes, "leads back to itself"));
+}
+
 TEST_CASE("an arc that leads back to itself is left out by name, sublayers that do are refused") {
     const auto refused = [](const Files& files) { return refusal([&] { stageOf(files); }); };
     const std::string head = "#usda 1.0\n";
