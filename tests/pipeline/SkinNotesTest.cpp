@@ -10,6 +10,28 @@
 using namespace tss;
 using namespace tss::test;
 
+namespace {
+
+/// Two balls as bones in a larger one, the skin.
+SceneModel headScene() {
+    SceneModel scene;
+    for (const char* path : {"/Head/Skull", "/Head/Jaw", "/Head/Skin"}) {
+        Body body;
+        body.path = path;
+        body.mesh =
+            ballMesh(Vec3(0, scene.bodies.size() == 1 ? 2.5 : 0, 0), scene.bodies.size() < 2 ? 1 : 4, 2);
+        scene.bodies.push_back(body);
+    }
+    SkinModel skin;
+    skin.path = "/Head/Skin";
+    skin.body = 2;
+    skin.bones = {0, 1};
+    scene.skins = {skin};
+    return scene;
+}
+
+} // namespace
+
 TEST_CASE("a joint that turns a skin's bones farther than half round is named") {
     const auto noted = [](double upper) {
         SceneModel scene;
@@ -39,21 +61,10 @@ TEST_CASE("a joint that turns a skin's bones farther than half round is named") 
 }
 
 TEST_CASE("what is said of the mesh of one of a skin's bones names that bone") {
-    SceneModel scene;
-    for (const char* path : {"/Head/Skull", "/Head/Jaw", "/Head/Skin"}) {
-        Body body;
-        body.path = path;
-        body.mesh =
-            ballMesh(Vec3(0, scene.bodies.size() == 1 ? 2.5 : 0, 0), scene.bodies.size() < 2 ? 1 : 4, 2);
-        scene.bodies.push_back(body);
-    }
+    SceneModel scene = headScene();
     scene.bodies[1].mesh.triangles.pop_back(); // the jaw is open
-    SkinModel skin;
-    skin.path = "/Head/Skin";
-    skin.body = 2;
-    skin.bones = {0, 1};
     PairReport report;
-    fillMuscles(scene, skin, {}, report);
+    fillMuscles(scene, scene.skins[0], {}, report);
     REQUIRE(report.notes.size() == 1);
     CHECK(report.notes[0].find("/Head/Jaw: 3 open or misoriented edges") == 0);
 }
@@ -82,19 +93,7 @@ TEST_CASE("a tolerance that is too fine for what lies under a skin is made coars
 
 TEST_CASE(
     "a skin of nonsensical thickness, or over a bone without area, is refused before anything is made") {
-    SceneModel scene;
-    for (const char* path : {"/Head/Skull", "/Head/Jaw", "/Head/Skin"}) {
-        Body body;
-        body.path = path;
-        body.mesh =
-            ballMesh(Vec3(0, scene.bodies.size() == 1 ? 2.5 : 0, 0), scene.bodies.size() < 2 ? 1 : 4, 2);
-        scene.bodies.push_back(body);
-    }
-    SkinModel skin;
-    skin.path = "/Head/Skin";
-    skin.body = 2;
-    skin.bones = {0, 1};
-    scene.skins = {skin};
+    SceneModel scene = headScene();
     CHECK(refusedByBake(scene, {}).empty());
     scene.skins[0].thickness = 1e30;
     REQUIRE(refusedByBake(scene, {}).size() == 1);
