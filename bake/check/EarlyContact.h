@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/model/SceneModel.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace tss {
@@ -19,8 +20,12 @@ struct EarlyContact {
         0; ///< scene units: one that leaves the joint most of its clearance; 0: none needed or found
     double shareThen = 0; ///< of the free ones, with that tolerance: no more than this
 
-    /// The tolerance is coarse beside the joint's clearance: it is reported early, or sticks.
-    bool coarse() const { return restReported || share > 0.1; }
+    /// The tolerance is coarse beside the joint's clearance: it is reported early, or sticks. Where most
+    /// poses touch, the few others are near contact whatever the tolerance.
+    bool coarse() const { return restReported || share * freePoses > 0.1 * std::max(freePoses, poses / 2); }
+
+    /// The meshes touch at most poses, though not all.
+    bool touching() const { return !stuck() && 2 * freePoses < poses; }
 
     /// The bodies overlap wherever the joint goes: it cannot leave its rest.
     bool stuck() const { return close && 20 * freePoses < poses; }

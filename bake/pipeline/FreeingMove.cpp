@@ -131,7 +131,10 @@ FreeingMoves freeingMoves(const TriangleMesh& a, const TriangleMesh& b, const Mo
                           const FreeingOptions& options) {
     FreeingMoves found;
     FreeingTrial trial(a, b, motion, options.seconds);
-    if (!trial.overlapsAtRest()) return found;
+    if (!trial.overlapsAtRest()) {
+        found.elsewhere = trial.touchingElsewhere();
+        return found;
+    }
     std::vector<char> wanted;
     for (const char stop : trial.stops()) wanted.push_back(!stop);
     JointMove move = smallMove(trial, wanted, JointMove::Zero(), false);

@@ -3,6 +3,7 @@
 #include "bake/motion/Motion.h"
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace tss {
@@ -34,10 +35,17 @@ struct FreeingOptions {
     double seconds = std::numeric_limits<double>::infinity(); ///< for looking; then what was found by then
 };
 
+/// Where surfaces that are apart at rest touch nevertheless at most of the poses.
+struct TouchingElsewhere {
+    std::size_t touching = 0, poses = 0; ///< of the poses tried
+    std::vector<double> values;          ///< of the joint, in the middle of those that touch
+};
+
 /// Moves, and whether there was time to look for all.
 struct FreeingMoves {
     std::vector<FreeingMove> moves;
     bool complete = true;
+    std::optional<TouchingElsewhere> elsewhere;
 };
 
 /// Small moves for surfaces that overlap where the joint rests: first the one that frees most, of such the

@@ -55,8 +55,40 @@ void FreeingTrial::addSweeps(int count, std::vector<std::vector<double>>& into) 
         }
 }
 
+bool FreeingTrial::touches(std::size_t pose) const {
+    return a_.distanceTo(b_, unmoved_[pose], 1e-6 * size_) < 1e-6 * size_;
+}
+
 bool FreeingTrial::overlapsAtRest() const {
-    return a_.distanceTo(b_, unmoved_.front(), 1e-6 * size_) < 1e-6 * size_;
+    return touches(0);
+}
+
+std::optional<TouchingElsewhere> FreeingTrial::touchingElsewhere() const {
+    std::vector<char> touching(lookedAt_);
+    parallelFor(lookedAt_, [&](std::size_t k) { touching[k] = touches(k); });
+    const auto count = static_cast<std::size_t>(std::ranges::count(touching, char{1}));
+    if (2 * count <= lookedAt_) return std::nullopt;
+    std::vector<double> middle;
+    for (std::size_t d = 0; d < motion_.dofCount(); ++d) {
+        std::vector<double> values;
+        for (std::size_t k = 0; k < lookedAt_; ++k)
+            if (touching[k]) values.push_back(values_[k][d]);
+        std::ranges::nth_element(values, values.begin() + values.size() / 2);
+        middle.push_back(values[values.size() / 2]);
+    }
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < lookedAt_; ++k)
+        if (touching[k] &&
+            (best == 0 || apartInLimits(values_[k], middle) < apartInLimits(values_[best], middle)))
+            best = k;
+    return TouchingElsewhere{count, lookedAt_, values_[best]};
+}
+
+double FreeingTrial::apartInLimits(const std::vector<double>& p, const std::vector<double>& q) const {
+    double away = 0;
+    for (std::size_t d = 0; d < q.size(); ++d)
+        away += std::abs(p[d] - q[d]) / std::max(motion_.dofs[d].upper - motion_.dofs[d].lower, 1e-300);
+    return away;
 }
 
 void FreeingTrial::findStops(const TriangleMesh& a, const TriangleMesh& b) {
@@ -128,10 +160,7 @@ std::size_t FreeingTrial::addMissed(const JointMove& move, std::vector<char>& wa
         std::size_t best = 0;
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < lookedAt_; ++k) {
-            double away = 0;
-            for (std::size_t d = 0; d < q.size(); ++d)
-                away += std::abs(q[d] - values_[k][d]) /
-                        std::max(motion_.dofs[d].upper - motion_.dofs[d].lower, 1e-300);
+            const double away = apartInLimits(q, values_[k]);
             if (away < least) least = away, best = k;
         }
         return best;

@@ -23,6 +23,7 @@ public:
     double margin() const { return margin_; } ///< what counts as apart
     std::size_t poseCount() const { return values_.size(); }
     bool overlapsAtRest() const;
+    std::optional<TouchingElsewhere> touchingElsewhere() const;
 
     /// For each pose whether the bodies meet there elsewhere than where they overlap at rest.
     const std::vector<char>& stops() const { return stops_; }
@@ -44,7 +45,10 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    bool touches(std::size_t pose) const;
     void addSweeps(int steps, std::vector<std::vector<double>>& into) const;
+    /// How far apart values of the joint are, as shares of its limits, added up.
+    double apartInLimits(const std::vector<double>& p, const std::vector<double>& q) const;
     void findStops(const TriangleMesh& a, const TriangleMesh& b);
     std::vector<StopBeyond> stopsBeyond(const Motion& motion) const;
 

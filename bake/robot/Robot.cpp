@@ -125,6 +125,14 @@ bool slidesOnAndOn(Robot& robot, const RobotJoint& joint) {
 
 } // namespace
 
+void moveChild(RobotJoint& joint, const Vec3& by) {
+    joint.origin = Pose(joint.origin * Eigen::Translation3d(by));
+    for (Dof& dof : joint.dofs) {
+        dof.origin -= by;
+        dof.frame = Pose(Eigen::Translation3d(-by) * dof.frame);
+    }
+}
+
 void checkForest(const Robot& robot) {
     constexpr std::size_t most = 500;
     if (robot.links.size() > most)

@@ -61,6 +61,9 @@ struct Robot {
     std::vector<std::string> notes; ///< what was left out or taken otherwise than it stands there, by name
 };
 
+/// Moves the child, with what hangs on it, by `by` in its own frame; its DOFs stay where they are.
+void moveChild(RobotJoint& joint, const Vec3& by);
+
 /// That links hang on each other as a forest: from the joints' parents and children alone. Throws InputError
 /// with file and line for a link that hangs on two, for a closed loop, for more than 500 links.
 void checkForest(const Robot& robot);

@@ -63,20 +63,26 @@ void remarkTolerance(const SceneModel& scene, const BakeOptions& options, const 
             scene.metersPerUnit));
 }
 
-/// Where some have tables and others have none, a bake goes on with these.
-bool goesOn(const SceneModel& scene, const BakeArguments& arguments, const Console& console) {
-    if (arguments.again || !arguments.request.pairs.empty()) return false;
-    BakeRequest missing = arguments.request;
-    missing.onlyMissing = true;
-    std::size_t there = 0, not_ = 0;
-    const auto count = [&](const auto& item) { ++(toBake(scene, item, missing) ? not_ : there); };
-    for (const Pair& pair : scene.pairs) count(pair);
-    for (const SkinModel& skin : scene.skins) count(skin);
+/// Where some have tables and others have none, a bake goes on with these: their paths.
+std::optional<std::vector<std::string>> goesOn(const SceneModel& scene, const BakeArguments& arguments,
+                                               const Console& console) {
+    if (arguments.again || !arguments.request.pairs.empty()) return std::nullopt;
+    BakeRequest request = arguments.request;
+    request.onlyMissing = true;
+    std::vector<std::string> missing;
+    const auto look = [&](const auto& item) {
+        if (toBake(scene, item, request)) missing.push_back(item.path);
+    };
+    for (const Pair& pair : scene.pairs) look(pair);
+    for (const SkinModel& skin : scene.skins) look(skin);
+    const std::size_t all = scene.pairs.size() + scene.skins.size(), there = all - missing.size();
     // Of what is all baked only what is too coarse is baked again by --finer.
-    if (there == 0 || (not_ == 0 && !arguments.finer)) return false;
+    if (there == 0 || (missing.empty() && !arguments.finer)) return std::nullopt;
     console.say(
-        fmt::format("{} of {} baked already: going on with the others (--again: all)", there, there + not_));
-    return true;
+        missing.empty()
+            ? fmt::format("all {} baked already: again those too coarse for their joint (--again: all)", all)
+            : fmt::format("{} of {} baked already: going on with the others (--again: all)", there, all));
+    return missing;
 }
 
 /// Of several things that bake() refuses it throws the first.
@@ -114,19 +120,22 @@ void endIncomplete(const BakeArguments& arguments, const KeptParts& parts, const
                    shellWord(written), shellWord(arguments.output));
 }
 
-/// The meshes overlap at rest, or as good as that, and at many other poses too.
+/// The meshes overlap at most poses; or at rest, or as good as that, and at many others too.
 bool hasNoRoom(const Json& pair) {
     const Json early = pair.value("earlyContact", Json());
-    if (early.is_null() || !early["close"].get<bool>()) return false;
+    if (early.is_null()) return false;
+    if (!early["close"].get<bool>()) return early["touching"].get<bool>();
     return early["stuck"].get<bool>() || early["held"].get<bool>() ||
            10 * early["freePoses"].get<int>() < 9 * early["poses"].get<int>();
 }
 
 /// Bakes the pairs again whose spheres stick out too far for the clearance of their joint, each with the
-/// tolerance that leaves most of it.
-void bakeFiner(SceneModel& scene, const BakeRequest& request, KeptParts& parts, const Console& console) {
+/// tolerance that leaves most of it. Returns their paths.
+std::vector<std::string> bakeFiner(SceneModel& scene, const BakeRequest& request, KeptParts& parts,
+                                   const Console& console) {
+    std::vector<std::string> again;
     for (const Pair& pair : scene.pairs) {
-        if (!parts.complete()) return;
+        if (!parts.complete()) break;
         const auto& asked = request.pairs;
         if (!asked.empty() && std::ranges::find(asked, pair.path) == asked.end()) continue;
         const std::optional<EarlyContact> early = measureEarlyContact(scene, pair);
@@ -140,8 +149,22 @@ void bakeFiner(SceneModel& scene, const BakeRequest& request, KeptParts& parts, 
         finer.onlyMissing = false;
         finer.given["tolerance"] = fmt::format("{}", early->tolerance);
         finer.given.erase("max-spheres");
+        again.push_back(pair.path);
         parts.run(finer);
     }
+    return again;
+}
+
+/// Of a summary those pairs and skins alone.
+Json only(Json summary, const std::vector<std::string>& paths) {
+    for (const char* kind : {"pairs", "skins"}) {
+        Json kept = Json::array();
+        for (Json& item : summary[kind])
+            if (std::ranges::find(paths, item["path"].get<std::string>()) != paths.end())
+                kept.push_back(std::move(item));
+        summary[kind] = std::move(kept);
+    }
+    return summary;
 }
 
 void runBake(BakeArguments& arguments, Console& console) {
@@ -154,12 +177,16 @@ void runBake(BakeArguments& arguments, Console& console) {
     remarkTolerance(scene, optionsFor({}, arguments.request.given, scene.metersPerUnit), console);
     const Json pairs = arguments.allPairs ? addPairs(scene, console) : Json();
     KeptParts parts(scene, arguments.output, readBakeTimes(arguments.input), console);
+    std::optional<std::vector<std::string>> now; // what is baked, where it is not all
     if (!arguments.pairsOnly) {
-        arguments.request.onlyMissing = goesOn(scene, arguments, console);
+        now = goesOn(scene, arguments, console);
+        arguments.request.onlyMissing = now.has_value();
         tellOtherRefusals(scene, arguments);
         inFile(arguments.input, [&] {
             parts.run(arguments.request);
-            if (arguments.finer) bakeFiner(scene, arguments.request, parts, console);
+            if (!arguments.finer) return;
+            for (const std::string& path : bakeFiner(scene, arguments.request, parts, console))
+                if (now) now->push_back(path);
         });
     }
     const std::string written = parts.write();
@@ -171,9 +198,10 @@ void runBake(BakeArguments& arguments, Console& console) {
     result["output"] = arguments.output;
     result["notes"] = parts.notes();
     if (arguments.allPairs) result["allPairs"] = pairs;
-    const std::string told = arguments.pairsOnly  ? "none is baked yet\n"
-                             : arguments.allPairs ? describe(result) + tally(result["pairs"])
-                                                  : describe(result);
+    const std::string told = arguments.pairsOnly   ? "none is baked yet\n"
+                             : now && now->empty() ? "nothing was baked\n"
+                             : arguments.allPairs  ? describe(result) + tally(result["pairs"])
+                                                   : describe(now ? only(result, *now) : result);
     console.say(told + "wrote " + arguments.output);
     for (std::size_t k = 0; k < scene.pairs.size(); ++k)
         if (hasNoRoom(result["pairs"][k]))

@@ -172,9 +172,14 @@ DofRows readDofRows(const std::string& file, const DofColumns& columns, bool ste
             values[k] = withoutRounding(columns.dofs[k], values[k]);
         read.rows.push_back(std::move(values));
     }
-    if (order.empty() && columns.dofs.size() > 1 && !csv.header.empty())
-        read.remark = fmt::format(
-            "{}: its first line has none of the names {}: the columns are taken in that order", file, words);
+    if (order.empty() && !csv.header.empty())
+        read.remark =
+            columns.dofs.size() > 1
+                ? fmt::format("{}: its first line has none of the names {}: the columns are taken in that "
+                              "order",
+                              file, words)
+                : fmt::format("{}: its first line is not the name {}: the column is taken for it", file,
+                              words);
     return read;
 }
 

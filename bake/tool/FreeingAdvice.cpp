@@ -70,7 +70,8 @@ public:
     Json say(const TriangleMesh& a, const TriangleMesh& b) {
         Json advice = Json::array();
         constexpr double seconds = 20;
-        const auto [moves, complete] = freeingMoves(a, b, motion_, {dofs_, seconds});
+        const auto [moves, complete, elsewhere] = freeingMoves(a, b, motion_, {dofs_, seconds});
+        if (elsewhere) sayElsewhere(*elsewhere);
         if (!complete)
             console_.say(fmt::format("{}: the meshes overlap where the joint rests; the search for moves "
                                      "that free it ended after {} s{}",
@@ -79,14 +80,9 @@ public:
         if (moves.empty()) return advice;
         size_ = std::min(diagonal(a), diagonal(b));
         console_.say(fmt::format(
-            "{}: the meshes overlap where the joint rests. {} out of {}, found by trying, the best first:",
-            pair_.path,
-            form_ == Form::None    ? "Moves of " + b_
-            : form_ == Form::Joint ? "Options of tss make, in place of those given (or the same in a robot's "
-                                     "file, where it was made of one), that move " +
-                                         b_
-                                   : "Options of tss make, in place of those given, that move " + b_,
-            a_));
+            "{}: the meshes overlap where the joint rests. Options of tss make that move "
+            "{} out of {}, found by\n  trying, the best first{}:",
+            pair_.path, b_, a_, form_ == Form::TwoMeshes ? "; they take the place of those given" : ""));
         for (const FreeingMove& move : moves) advice.push_back(sayMove(move));
         return advice;
     }
@@ -96,24 +92,43 @@ private:
 
     /// dofs: with these of the motion, where they can be said.
     std::string option(const Vec3& shift, const Motion& motion, bool dofs) const {
+        if (form_ != Form::TwoMeshes && !dofs)
+            return fmt::format("--offset {}={}", shellWord(b_), vectorText(shift, size_));
         const std::string by = vectorText(already_ + shift, size_);
-        if (form_ == Form::None) return fmt::format("all of {} moved by {} in its own frame", b_, by);
         std::vector<std::string> texts;
-        if (dofs_ && dofs)
+        if (dofs)
             for (const Dof& dof : motion.dofs) texts.push_back(dofText(dof, size_));
         if (form_ == Form::Joint)
             return fmt::format("--joint '{}={},{}:{};offset:{}'", primName(pair_.path), a_, b_,
-                               dofs_ ? fmt::format("{}", fmt::join(texts, ";")) : "DOFS AS GIVEN", by);
+                               fmt::join(texts, ";"), by);
         std::string text = "--b-offset=" + by;
         for (const std::string& dof : texts) text += " --dof " + dof;
         return text;
     }
 
+    /// Apart at rest: what overlaps on purpose is not known.
+    void sayElsewhere(const TouchingElsewhere& elsewhere) const {
+        std::vector<std::string> values;
+        for (std::size_t k = 0; k < motion_.dofCount(); ++k)
+            values.push_back(fmt::format("{:.4g}", toUser(motion_.dofs[k], elsewhere.values[k])));
+        const std::string rest = fmt::format("{}", fmt::join(values, ","));
+        console_.say(fmt::format(
+            "{}: the meshes are apart at rest and touch at {} of {} poses. Where they should not, look at "
+            "origin, axis\n  and limits. Where it is the joint's own surfaces that overlap, let it rest "
+            "there "
+            "({}): they are free\n  then, and moves of {} that give them room are looked for",
+            pair_.path, elsewhere.touching, elsewhere.poses,
+            form_ == Form::TwoMeshes ? "--rest=" + rest : "tss:rest " + rest, b_));
+    }
+
     Json sayMove(const FreeingMove& move) const {
-        const bool axes = form_ == Form::Joint || move.axes.norm() > 1e-6 * size_;
-        const std::string words = option(move.shift, move.motion, axes);
-        std::string text = fmt::format("  {}\n    {} lies {} elsewhere, free at {} of {} poses", words, b_,
-                                       length(move.moved), move.free, move.poses);
+        const std::string words = option(move.shift, move.motion, move.axes.norm() > 1e-6 * size_);
+        const char* beside = form_ == Form::TwoMeshes ? ""
+                             : words.starts_with("--offset")
+                                 ? "beside the options given: "
+                                 : "in place of that --joint (in a robot's file, move the axis likewise): ";
+        std::string text = fmt::format("  {}\n    {}{} lies {} elsewhere, free at {} of {} poses", words,
+                                       beside, b_, length(move.moved), move.free, move.poses);
         if (move.freeAtRest) text += fmt::format(", {} apart at rest", length(move.atRest));
         if (move.free > 0) text += fmt::format(", {} where it is closest", length(move.least));
         if (move.stops > 0) text += fmt::format("; stopped by contact at {}, as before", move.stops);

@@ -96,12 +96,19 @@ void remarkSizes(const SceneModel& scene, const Console& console) {
         console.say(fmt::format("note: the meshes are {} long if one of their units is {} m; if they are "
                                 "not, say what it is: --meters-per-unit 0.001 for millimetres",
                                 lengthText(size, 1), scene.metersPerUnit));
+    if (const std::string text = unlikeUnits(scene); !text.empty()) console.say("note: " + text);
 }
 
-/// Limits that small are mostly radians.
-void remarkRadians(const Motion& motion, const Console& console) {
+/// Limits that small are mostly radians; others let nothing move, or go round and round.
+void remarkLimits(const Motion& motion, const Console& console) {
     for (const Dof& dof : motion.dofs) {
         const double span = toUser(dof, dof.upper) - toUser(dof, dof.lower);
+        if (span == 0)
+            console.say(fmt::format("note: the limits of {} leave it one value: it stands still", dof.name));
+        if (dof.kind == DofKind::Rotation && span > 360)
+            console.say(fmt::format("note: {} turns by {:.6g} degrees in all, the same poses more than once; "
+                                    "-180:180 is one whole turn",
+                                    dof.name, span));
         if (dof.kind == DofKind::Rotation && span > 0 && span <= 2 * std::numbers::pi)
             console.say(fmt::format(
                 "note: {} turns by {:.3g} degrees in all; limits are degrees, not radians", dof.name, span));
@@ -131,22 +138,32 @@ double parseUnit(const std::string& text) {
     return metres;
 }
 
+/// What makes no sense beside a robot's file. Not left to the parser, which would say so before it says of a
+/// misspelt option, whose value is taken for a robot's file, that there is none of that name.
+constexpr const char* notForRobots[] = {
+    "--a",       "--b",    "--dof",   "--b-offset", "--rest", "--meters-per-unit",
+    "--up-axis", "--body", "--joint", "--skin",     "--bone", "--muscle"};
+
 /// A robot's file, or two meshes and a motion: one of the two, and all of it.
-void checkUsage(const MakeArguments& arguments) {
+void checkUsage(const MakeArguments& arguments, const CLI::App& command) {
+    if (!arguments.robot.input.empty())
+        for (const char* option : notForRobots)
+            if (command.count(option) > 0) throw CLI::ExcludesError(option, "a robot's file");
     if (!arguments.robot.input.empty() || arguments.isWhole()) return;
     if (arguments.a.empty()) throw CLI::RequiredError("--a, or --body, or a robot's file");
     if (arguments.b.empty()) throw CLI::RequiredError("--b");
     if (arguments.dofs.empty()) throw CLI::RequiredError("--dof");
 }
 
-void make(MakeArguments& arguments, const Console& console) {
-    checkUsage(arguments);
+void make(MakeArguments& arguments, const CLI::App& command, const Console& console) {
+    checkUsage(arguments, command);
     checkOutput(arguments);
     if (!arguments.robot.input.empty())
         return makeRobot(arguments.robot, arguments.motion, arguments.output, console);
     arguments.metersPerUnit = parseUnit(arguments.unit);
     if (arguments.isWhole()) {
         arguments.pairs = arguments.robot.pairs;
+        arguments.offsets = arguments.robot.offsets;
         return makeWholeScene(arguments, console);
     }
     SceneModel scene;
@@ -166,7 +183,7 @@ void make(MakeArguments& arguments, const Console& console) {
     saveScene(scene, arguments.output);
     console.say("joint  " + describeDofs(motion, scene.metersPerUnit));
     remarkSizes(scene, console);
-    remarkRadians(motion, console);
+    remarkLimits(motion, console);
     remarkFarAxes(motion, scene, console);
     console.say("wrote " + arguments.output + "; next: tss bake " + shellWord(arguments.output) +
                 " -o BAKED.tss");
@@ -196,16 +213,20 @@ void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& ar
         ->check(CLI::IsMember({"neighbours", "all"}))
         ->excludes(command.get_option("--a"))
         ->capture_default_str();
-    for (const char* other :
-         {"--a", "--b", "--dof", "--b-offset", "--rest", "--meters-per-unit", "--up-axis"})
-        input->excludes(command.get_option(other));
+    command
+        .add_option(
+            "--offset", robot.offsets,
+            "LINK=X,Y,Z: moves a link or --body, with what hangs on it, at its joint by that, in its own "
+            "frame; repeat, they add up")
+        ->allow_extra_args(false)
+        ->excludes(command.get_option("--a"));
 }
 
 void addWholeSceneOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& arguments) {
     WholeSceneArguments& whole = *arguments;
     const auto add = [&](const char* name, std::vector<std::string>& texts, const char* description) {
         CLI::Option* option = command.add_option(name, texts, description)->allow_extra_args(false);
-        for (const char* other : {"--a", "--b", "--dof", "--b-offset", "--rest", "robot"})
+        for (const char* other : {"--a", "--b", "--dof", "--b-offset", "--rest"})
             option->excludes(command.get_option(other));
         return option;
     };
@@ -255,7 +276,7 @@ void addMake(CLI::App& app, Console& console) {
                     "The limits are degrees; for meshes in millimetres add --meters-per-unit 0.001.\n"
                     "A robot:\n  tss make robot.urdf -o robot.tss --package my_robot=../my_robot\n" +
                     app.get_footer());
-    command->callback([arguments, &console] { make(*arguments, console); });
+    command->callback([arguments, command, &console] { make(*arguments, *command, console); });
 }
 
 } // namespace tss::tool

@@ -5,6 +5,7 @@
 #include "bake/robot/MeshFiles.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/tool/Command.h"
+#include "bake/tool/DofSpec.h"
 #ifdef OSGTSS_HAVE_URDF
 #include "bake/robot/ReadUrdf.h"
 #endif
@@ -16,6 +17,7 @@
 #include "bake/usd/UsdRobot.h"
 #endif
 
+#include <algorithm>
 #include <filesystem>
 
 namespace tss::tool {
@@ -61,6 +63,7 @@ Robot readRobot(const RobotFile& from, const FindMesh& find) {
 #ifdef OSGTSS_HAVE_URDF
     if (!from.srdf.empty()) readSrdf(robot, readWholeFile(from.srdf), from.srdf);
 #endif
+    moveLinks(robot, from.offsets);
     return robot;
 }
 
@@ -80,7 +83,8 @@ RobotScene sceneOfOurs(const UsdStage& stage, const std::string& file) {
 
 /// The scene of a `.usda`: as it stands there where it is one of this software, else that of the robot that
 /// its UsdPhysics describes. Its files may lie in the folders of the packages too.
-RobotScene readUsdScene(const std::string& file, const Packages& packages, const RobotSceneRequest& request) {
+RobotScene readUsdScene(const std::string& file, const Packages& packages, const RobotSceneRequest& request,
+                        const std::vector<std::string>& offsets) {
     std::vector<std::string> folders;
     for (const auto& [name, folder] : packages)
         if (!folder.empty()) folders.push_back(folder);
@@ -89,20 +93,48 @@ RobotScene readUsdScene(const std::string& file, const Packages& packages, const
     const UsdFile first = inFile(file, [&] { return open(name); });
     if (!first.missing.empty()) throw InputError(Where{file}, first.missing);
     UsdStage stage = readStage(first.text, file, open);
+    if (stage.ours && !offsets.empty())
+        throw InputError(Where{file}, "is a scene of osgTSS already; --offset is for one to make");
     if (stage.ours) return sceneOfOurs(stage, file);
     const FindMesh none = [](const std::string& name) -> std::string { return name; };
-    return sceneOf(robotOf(std::move(stage), file), request, none);
+    Robot robot = robotOf(std::move(stage), file);
+    moveLinks(robot, offsets);
+    return sceneOf(robot, request, none);
 }
 
 #else
 
-RobotScene readUsdScene(const std::string& file, const Packages&, const RobotSceneRequest&) {
+RobotScene readUsdScene(const std::string& file, const Packages&, const RobotSceneRequest&,
+                        const std::vector<std::string>&) {
     throw InputError(Where{file}, "this build reads no USD (OSGTSS_USDA is off)");
 }
 
 #endif
 
 } // namespace
+
+int linkCalled(const Robot& robot, const std::string& name, const std::string& option) {
+    std::string known;
+    for (std::size_t i = 0; i < robot.links.size(); ++i) {
+        if (robot.links[i].name == name) return static_cast<int>(i);
+        known += (known.empty() ? "" : ", ") + robot.links[i].name;
+    }
+    throw InputError(option + ": no body is called \"" + name + "\"; expected one of " + known);
+}
+
+void moveLinks(Robot& robot, const std::vector<std::string>& offsets) {
+    for (const std::string& text : offsets) {
+        const std::string option = "--offset " + text;
+        const auto sign = text.rfind('=');
+        if (sign == text.npos) throw InputError(option + ": expected LINK=X,Y,Z");
+        const int link = linkCalled(robot, text.substr(0, sign), option);
+        const Vec3 by = parseVector(text.substr(sign + 1), option);
+        const auto joint = std::ranges::find(robot.joints, link, &RobotJoint::child);
+        if (joint == robot.joints.end())
+            throw InputError(option + ": expected a link that moves; no joint holds this one");
+        moveChild(*joint, by);
+    }
+}
 
 std::array<CLI::Option*, 2> addRobotFileOptions(CLI::App& command, RobotFile& file) {
     return {command
@@ -141,7 +173,7 @@ RobotScene readRobotScene(const RobotFile& from) {
         if (!from.srdf.empty())
             throw CLI::ValidationError("--srdf",
                                        "is for URDF and MJCF; a .usda says itself which pairs are filtered");
-        return readUsdScene(from.input, packages, request);
+        return readUsdScene(from.input, packages, request, from.offsets);
     }
     const FindMesh find = meshesOf(from.input, packages);
     const Robot robot = readRobot(from, find);

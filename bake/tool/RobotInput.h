@@ -9,8 +9,16 @@ struct RobotFile {
     std::string input;                 ///< URDF, MJCF or .usda
     std::vector<std::string> packages; ///< "NAME=DIR"
     std::string srdf;                  ///< a file; empty: none
+    std::vector<std::string> offsets;  ///< "LINK=X,Y,Z", see moveLinks()
     std::string geometry = "collision", pairs = "all";
 };
+
+/// The link of that name. Throws InputError that quotes the option and names all there are.
+int linkCalled(const Robot& robot, const std::string& name, const std::string& option);
+
+/// Moves links, with what hangs on them: "LINK=X,Y,Z", in the link's own frame, units of the robot. Throws
+/// InputError.
+void moveLinks(Robot& robot, const std::vector<std::string>& offsets);
 
 /// --package and --srdf.
 std::array<CLI::Option*, 2> addRobotFileOptions(CLI::App& command, RobotFile& file);

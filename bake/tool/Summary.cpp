@@ -107,6 +107,7 @@ void addEarlyContact(Json& json, const SceneModel& scene, const Pair& pair) {
                             {"close", early->close},
                             {"share", early->share},
                             {"atRest", early->restReported},
+                            {"touching", early->touching()},
                             {"coarse", early->coarse()},
                             {"tolerance", early->tolerance > 0 ? Json(early->tolerance) : Json()},
                             {"shareThen", early->tolerance > 0 ? Json(early->shareThen) : Json()}};
@@ -143,7 +144,7 @@ std::string describeEarlyContact(const Json& pair, double metersPerUnit) {
                         "it rest where nothing\n               touches (tss make --rest, --b-offset){}\n",
                         excepted);
     if (const int poses = early["poses"].get<int>(), free = early["freePoses"].get<int>();
-        !early["stuck"].get<bool>() && 2 * free < poses)
+        early["touching"].get<bool>())
         text += fmt::format("  touching     the meshes touch at {} of {} poses: where they should not, look "
                             "at origin, axis and limits\n",
                             poses - free, poses);
@@ -185,15 +186,29 @@ std::string butForRegion(const Json& item, double metersPerUnit) {
                                      lengthText(region["depth"].get<double>(), metersPerUnit));
 }
 
+/// Where so much of a body is excepted that the bounds say little of it.
+std::string warnOfRegion(const Json& item) {
+    const Json region = item.value("restRegion", Json());
+    if (region.is_null()) return "";
+    std::string text;
+    for (const auto& [body, share] : {std::pair{"A", "shareA"}, std::pair{"B", "shareB"}})
+        if (const double percent = 100 * region[share].get<double>(); percent > 50)
+            text += fmt::format(
+                "  excepted     {:.3g} % of the surface of {} overlap at rest: of that part no contact is "
+                "told{}\n",
+                percent, body, region["depth"].is_null() ? "" : " but where it goes deeper than at rest");
+    return text;
+}
+
 /// How the table is asked, and what a query finds by the values of the joint alone.
 std::string kernelText(const Json& kernel, double metersPerUnit) {
     std::string text = fmt::format("  query        {} in {}, condition {:.3g}, verdicts right beyond {}\n",
                                    kernel["form"].get<std::string>(), kernel["precision"].get<std::string>(),
                                    kernel["condition"].get<double>(), length(kernel["band"], metersPerUnit));
     if (kernel.contains("clusters"))
-        text +=
-            fmt::format("  clusters     {} of {} tests, in {} groups\n", kernel["clusters"]["count"].dump(),
-                        kernel["clusters"]["tests"].dump(), kernel["clusters"]["groups"].dump());
+        text += fmt::format("  clusters     {}, each of {} tests, in {} groups\n",
+                            kernel["clusters"]["count"].dump(), kernel["clusters"]["tests"].dump(),
+                            kernel["clusters"]["groups"].dump());
     if (kernel.contains("verdicts"))
         text +=
             fmt::format("  verdicts     tests are asked in {:.2g} % of the limits; {} bytes\n",
@@ -279,7 +294,8 @@ std::string describeTable(const Json& item, double metersPerUnit) {
                         item["usedB"].dump(), item["tests"].dump(), item["products"].dump());
     const Json& met = item["candidatePairs"];
     text += fmt::format(
-        "  can meet     {}{}\n", met.is_null() ? "uncounted pairs" : counted(met.get<std::size_t>(), "pair"),
+        "  can meet     {}{}\n",
+        met.is_null() ? "more pairs than are counted" : counted(met.get<std::size_t>(), "pair"),
         item["lowerBound"].is_null()
             ? ""
             : "; no table has fewer than " + counted(item["lowerBound"].get<std::size_t>(), "test"));
@@ -331,6 +347,7 @@ std::string describeItem(const Json& item, double metersPerUnit) {
     } else {
         text += describeTable(item, metersPerUnit);
     }
+    text += warnOfRegion(item);
     if (item.contains("kernel")) text += kernelText(item["kernel"], metersPerUnit);
     text +=
         fmt::format("  made by      {}, {} bytes", item["method"].get<std::string>(), item["bytes"].dump());

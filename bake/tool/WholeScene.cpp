@@ -38,15 +38,6 @@ Named namedMesh(const std::string& text) {
     return result;
 }
 
-int linkCalled(const Robot& robot, const std::string& name, const std::string& option) {
-    std::string known;
-    for (std::size_t i = 0; i < robot.links.size(); ++i) {
-        if (robot.links[i].name == name) return static_cast<int>(i);
-        known += (known.empty() ? "" : ", ") + robot.links[i].name;
-    }
-    throw InputError(option + ": no body is called \"" + name + "\"; expected one of " + known);
-}
-
 /// NAME=PARENT,CHILD:DOF[;DOF...][;offset:X,Y,Z]
 RobotJoint parseJoint(const Robot& robot, const std::string& text, double metersPerUnit) {
     const std::string option = "--joint " + text;
@@ -72,8 +63,7 @@ RobotJoint parseJoint(const Robot& robot, const std::string& text, double meters
         joint.dofs.back().name.clear();
     }
     // The DOFs are as the parent has them, also where the child is moved first.
-    joint.origin.translation() = moved;
-    for (Dof& dof : joint.dofs) dof.origin -= moved;
+    moveChild(joint, moved);
     return joint;
 }
 
@@ -104,6 +94,7 @@ Robot robotOf(const WholeSceneArguments& arguments) {
     }
     for (const std::string& text : arguments.joints)
         robot.joints.push_back(parseJoint(robot, text, arguments.metersPerUnit));
+    moveLinks(robot, arguments.offsets);
     settleRobot(robot);
     return robot;
 }
@@ -175,17 +166,7 @@ public:
 
     /// Meshes that differ by a thousand in size are mostly in different units.
     void remarkUnits() {
-        double least = 0, most = 0;
-        std::string small, large;
-        for (const Body& body : scene_.bodies) {
-            if (body.mesh.empty()) continue;
-            const double size = diagonal(body.mesh);
-            if (small.empty() || size < least) least = size, small = body.path;
-            if (large.empty() || size > most) most = size, large = body.path;
-        }
-        if (most > 300 * least)
-            note(fmt::format("{} is {:.3g} times as large as {}; are their meshes in the same unit?", large,
-                             most / least, small));
+        if (const std::string text = unlikeUnits(scene_); !text.empty()) note(text);
     }
 
 private:
@@ -309,6 +290,20 @@ private:
 };
 
 } // namespace
+
+std::string unlikeUnits(const SceneModel& scene) {
+    double least = 0, most = 0;
+    std::string small, large;
+    for (const Body& body : scene.bodies) {
+        if (body.mesh.empty()) continue;
+        const double size = diagonal(body.mesh);
+        if (small.empty() || size < least) least = size, small = body.path;
+        if (large.empty() || size > most) most = size, large = body.path;
+    }
+    if (most <= 300 * least) return "";
+    return fmt::format("{} is {:.3g} times as large as {}; are their meshes in the same unit?", large,
+                       most / least, small);
+}
 
 void makeWholeScene(const WholeSceneArguments& arguments, const Console& console) {
     const Robot robot = robotOf(arguments);

@@ -167,7 +167,7 @@ void warnOf(const tss::SceneModel& model, const tss::Pair& pair) {
     else if (early->coarse())
         text << "its tolerance is too coarse: contact is reported at " << int(100 * early->share)
              << " % of the poses where nothing touches";
-    else if (2 * early->freePoses < early->poses)
+    else if (early->touching())
         text << "the meshes touch at " << early->poses - early->freePoses << " of " << early->poses
              << " poses";
     else

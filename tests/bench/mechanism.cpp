@@ -323,7 +323,8 @@ void timeAnswers(const SceneModel& scene, const Judge& judge, const MechanismQue
 /// the pairs that FCL can judge are asked here.
 void compareVamp(const SceneModel& scene, const Judge& judge, std::size_t configurations) {
     Configurations draw(scene);
-    if (draw.values() != 7) return fmt::print("VAMP's Panda has 7 values, this has {}\n", draw.values());
+    if (draw.values() != 7 || scene.defaultPrim.find("panda") == scene.defaultPrim.npos)
+        return fmt::print("not beside VAMP's Panda: this is none of 7 values\n");
     const MechanismQuery query(judged(scene, judge));
     MechanismWorkspace ws = query.workspace();
     std::vector<double> values(configurations * 7);

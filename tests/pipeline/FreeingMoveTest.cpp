@@ -54,6 +54,21 @@ TEST_CASE("bodies that are apart at rest need no shift, and those that nothing f
     CHECK(freeingMoves(wall, pin, hinge(-0.1, 0.1)).moves.empty());
 }
 
+TEST_CASE("where bodies that are apart at rest touch at most poses, values among those are told") {
+    // A bar that turns about its middle into a plate on either side: free only near rest.
+    const TriangleMesh plate = boxMesh({-5, -1, -2}, {5, 1, 0}), bar = boxMesh({-4, -1, 0.1}, {4, 1, 1});
+    const FreeingMoves none = freeingMoves(plate, bar, hinge(-0.02, 0.02));
+    CHECK_FALSE(none.elsewhere);
+    const FreeingMoves found = freeingMoves(plate, bar, hinge(-0.02, 0.5));
+    CHECK(found.moves.empty());
+    REQUIRE(found.elsewhere);
+    CHECK(2 * found.elsewhere->touching > found.elsewhere->poses);
+    CHECK(found.elsewhere->values.at(0) == Approx(0.27).margin(0.04)); // from 0.025 on
+    Motion there = hinge(-0.02, 0.5);
+    there.dofs[0].rest = found.elsewhere->values[0];
+    CHECK_FALSE(freeingMoves(plate, bar, there).moves.empty());
+}
+
 TEST_CASE("a joint that overlaps at rest is freed as far as what stops it elsewhere") {
     // A lever on a block that it is sunk into at one end, with a post near its other end: turning down it
     // meets the post.

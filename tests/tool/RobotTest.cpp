@@ -42,6 +42,40 @@ Ran made(const std::string& arguments, const Folder& folder) {
 } // namespace
 
 #ifdef OSGTSS_HAVE_URDF
+TEST_CASE("a link of a robot is moved at its joint, which stays, with what hangs on it") {
+    const Folder folder;
+    writeArm(folder);
+    made("my_arm/arm.urdf -o arm.tss", folder);
+    made("my_arm/arm.urdf -o moved.tss --offset upper-arm=0.1,0.2,0 --offset upper-arm=0,0,0.05", folder);
+    const tss::SceneModel arm = tss::loadScene(folder / "arm.tss"),
+                          moved = tss::loadScene(folder / "moved.tss");
+    const tss::Vec3 by(0.1, 0.2, 0.05);
+    for (std::size_t k = 0; k < arm.bodies.size(); ++k) {
+        const std::string& path = arm.bodies[k].path;
+        const bool goes = path.ends_with("upper_arm") || path.ends_with("tool");
+        const tss::Vec3 moves =
+            moved.bodies[k].placement.translation() - arm.bodies[k].placement.translation();
+        INFO(path);
+        CHECK((moves - (goes ? by : tss::Vec3::Zero())).norm() < 1e-6);
+    }
+    // The axis is where it was.
+    for (const tss::Pair& pair : arm.pairs) {
+        const tss::Motion before = pairMotion(arm, pair),
+                          now = pairMotion(moved, moved.pairs[&pair - arm.pairs.data()]);
+        if (pair.joints.size() != 1 || !arm.joints[pair.joints[0]].path.ends_with("shoulder")) continue;
+        const std::vector<double> q{1.1};
+        CHECK((pose(now, q).translation() - pose(before, q) * by).norm() < 1e-6);
+    }
+    CHECK(runTss("make my_arm/arm.urdf -o no.tss --offset base=1,0,0", folder.path()).exit == 1);
+    const Ran unknown = runTss("make my_arm/arm.urdf -o no.tss --offset arm=1,0,0", folder.path());
+    CHECK(unknown.exit == 1);
+    CHECK(unknown.err.find("upper-arm") != std::string::npos);
+    const Ran misspelt = runTss("make --a my_arm/upper.obj --bb 3 -o no.tss", folder.path());
+    CHECK(misspelt.exit == 2);
+    CHECK(misspelt.err.find("--bb") != std::string::npos);
+    CHECK(runTss("make my_arm/arm.urdf --rest 3 -o no.tss", folder.path()).exit == 2);
+}
+
 TEST_CASE("a URDF is made, baked, and written as an SRDF that says Never only where it was proven") {
     const Folder folder;
     writeArm(folder);
