@@ -19,8 +19,10 @@ struct FreeingMove {
     Vec3 shift = Vec3::Zero(); ///< in B's frame, scene units
     Vec3 axes = Vec3::Zero();  ///< of the origins of all turns, in A's frame, scene units
     Motion motion;             ///< with both
-    double moved = 0; ///< by how much B lies elsewhere than before, over the limits: root of the mean square
+    double moved = 0;  ///< by how much B lies elsewhere than before, over the limits: root of the mean square
+    double margin = 0; ///< scene units: what counts as apart
     std::size_t free = 0;  ///< of the poses tried, those where the surfaces are apart by the margin
+    std::size_t meets = 0; ///< of the poses tried, those where they touch
     std::size_t poses = 0; ///< tried: rest and others spread over the limits
     std::size_t stops = 0; ///< of the poses tried, those where contact elsewhere than at rest is kept
     bool freeAtRest = false;

@@ -217,15 +217,15 @@ FreeingMove FreeingTrial::measured(const JointMove& move) const {
     found.atRest = std::min(distances.front(), size_);
     found.freeAtRest = distances.front() > margin_;
     found.least = size_;
-    bool meets = false;
+    found.margin = margin_;
     for (std::size_t k = 0; k < lookedAt_; ++k) {
-        meets |= distances[k] <= 0;
+        found.meets += distances[k] <= 0;
         found.stops += stops_[k] && distances[k] <= 0;
         if (distances[k] <= margin_) continue;
         ++found.free;
         found.least = std::min(found.least, distances[k]);
     }
-    if (!meets) found.beyond = stopsBeyond(found.motion);
+    if (found.meets == 0) found.beyond = stopsBeyond(found.motion);
     return found;
 }
 

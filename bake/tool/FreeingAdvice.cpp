@@ -131,6 +131,8 @@ private:
                                        beside, b_, length(move.moved), move.free, move.poses);
         if (move.freeAtRest) text += fmt::format(", {} apart at rest", length(move.atRest));
         if (move.free > 0) text += fmt::format(", {} where it is closest", length(move.least));
+        if (const std::size_t near = move.poses - move.free - move.meets; near > 0)
+            text += fmt::format(", at {} less than {} apart", near, length(move.margin));
         if (move.stops > 0) text += fmt::format("; stopped by contact at {}, as before", move.stops);
         std::string tolerance;
         // Spheres of both bodies stick out: together they are to leave some of the room.

@@ -20,6 +20,7 @@
 #include <chrono>
 #include <filesystem>
 #include <limits>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -219,6 +220,14 @@ void refuseTooFarOff(const tss::SceneModel& model, const tss::Pair& pair) {
     throw tss::InputError(text.str());
 }
 
+/// What the bake says names options as the command has them: here they are words of -O.
+std::string inWords(const std::string& text) {
+    static const std::regex again("--again "), withValue("--([a-z-]+) ([0-9][0-9.e-]*|medial)"),
+        alone("--([a-z-]+)");
+    return std::regex_replace(std::regex_replace(std::regex_replace(text, again, ""), withValue, "$1=$2"),
+                              alone, "$1");
+}
+
 /// Somebody waits for the picture: a tenth of what `tss bake` does at most. Where that ends the search for
 /// few tests, all that may touch are asked, with the same answers; where it ends the patches, the spheres are
 /// coarser, or the pair is not kept apart, and it is said.
@@ -243,11 +252,11 @@ void bakeOne(tss::SceneModel& model, const std::string& path, const BakeOptions&
                 if (skin.path == path) made = std::to_string(skin.table->table.testCount()) + " tests";
             OSG_NOTICE << "osgTSS: baked " << path << " in " << report.seconds << " s: " << made << std::endl;
             for (const std::string& note : report.notes)
-                if (told.insert(note).second) OSG_NOTICE << "osgTSS:   " << note << std::endl;
+                if (told.insert(note).second) OSG_NOTICE << "osgTSS:   " << inWords(note) << std::endl;
             if (pair >= 0) warnOf(model, model.pairs[pair]);
         }
     } catch (const tss::InputError& error) {
-        OSG_WARN << "osgTSS: " << path << " is not kept apart: " << error.what() << std::endl;
+        OSG_WARN << "osgTSS: " << path << " is not kept apart: " << inWords(error.what()) << std::endl;
     }
 }
 
