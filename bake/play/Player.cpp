@@ -157,7 +157,7 @@ Player::Step Player::State::step(const std::vector<double>& asked, double timeCo
         skin.activations = skinActivations(scene_, model, timeCode);
         skin.poses = skinPoses(scene_, model, placements);
         const double skinBegan = threadSeconds();
-        skin.response.update(skin.activations, skin.poses);
+        result.pushed.push_back(skin.response.update(skin.activations, skin.poses).pushed);
         result.skinSeconds.push_back(threadSeconds() - skinBegan);
         const std::vector<double> now = depths(skin, skin.response.positions());
         double worst = 0;

@@ -28,8 +28,10 @@ public:
         JointStatus status = JointStatus::Free; ///< the gravest of all
         std::vector<double> residualDepths;     ///< one per skin: how deep its vertices are in the muscles'
                                                 ///< surfaces beyond their depth at rest, scene units
-        double jointSeconds = 0;                ///< of this thread's processor time, for all joints
-        std::vector<double> skinSeconds;        ///< the same, one per skin: for its update alone
+        std::vector<double> pushed; ///< one per skin: how far contacts move it, at most, from where muscles
+                                    ///< and bones carry it, scene units
+        double jointSeconds = 0;    ///< of this thread's processor time, for all joints
+        std::vector<double> skinSeconds; ///< the same, one per skin: for its update alone
     };
     /// How truly each skin follows its bones after the last step.
     std::vector<SkinFollowing> following() const;

@@ -18,6 +18,9 @@ public:
     /// Moves the skin of a scene as it is carried. Returns how many planes push.
     std::size_t push(SkinScene& scene);
 
+    /// How far the last push() moved skin at most from where it is carried; of no meaning where none pushes.
+    float farthest() const { return farthest_; }
+
     /// Whether contacts may have moved vertices of a block.
     bool pushed(std::size_t block) const { return pushed_[block] != 0; }
 

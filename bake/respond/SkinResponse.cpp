@@ -49,6 +49,7 @@ public:
     std::vector<Pose> poses_;
     std::vector<Vec3> shift_; ///< #touched; empty: none
     std::size_t contacts_ = 0;
+    double pushed_ = 0; ///< as SkinUpdate has it
     bool atRest_ = true;
 };
 
@@ -93,6 +94,7 @@ SkinUpdate SkinResponse::State::update(std::span<const double> activations, std:
         show();
     }
     result.contacts = contacts_;
+    result.pushed = pushed_;
     return result;
 }
 
@@ -115,12 +117,14 @@ void SkinResponse::State::deform() {
         placeBodies(*rig_, activations_, poses_, shift_, scene_);
     }
     contacts_ = resistance_.push(scene_);
+    pushed_ = contacts_ > 0 ? rig_->size * static_cast<double>(resistance_.farthest()) : 0;
 }
 
 void SkinResponse::State::toRest() {
     positions_ = rig_->rest;
     normals_ = rig_->restNormals;
     contacts_ = 0;
+    pushed_ = 0;
     atRest_ = true;
 }
 

@@ -15,6 +15,7 @@ struct SkinUpdate {
     bool moved = false;       ///< positions or normals changed since the last update
     bool rest = false;        ///< the skin is exactly as modelled
     std::size_t contacts = 0; ///< planes that push
+    double pushed = 0;        ///< scene units: how far they move skin, at most, from where it is carried
 };
 
 /// A skin that follows its muscles and bones (METHOD 6.5). One instance a skin on the screen; the rig is

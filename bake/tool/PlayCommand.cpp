@@ -103,10 +103,11 @@ std::string line(const SceneModel& scene, std::size_t number, const std::vector<
 
 /// What a skin has done at worst, in words and as data.
 nlohmann::json sayFollowing(const SceneModel& scene, const SkinModel& skin, const SkinFollowing& worst,
-                            const Console& console) {
+                            double pushed, const Console& console) {
     console.say(fmt::format("  {}: edges {:.2f} to {:.2f} of their length at rest (1st and 99th percentile), "
-                            "{} triangles turned over, at worst",
-                            skin.path, worst.shortest, worst.longest, worst.turnedOver));
+                            "{} triangles turned over, moved by contacts by {}, at worst",
+                            skin.path, worst.shortest, worst.longest, worst.turnedOver,
+                            lengthText(pushed, scene.metersPerUnit)));
     nlohmann::json bones = nlohmann::json::array();
     const std::vector<UnderSkin> under = underSkin(scene, skin);
     for (std::size_t m = 0; m < worst.bones.size(); ++m) {
@@ -122,6 +123,7 @@ nlohmann::json sayFollowing(const SceneModel& scene, const SkinModel& skin, cons
     return {{"skin", skin.path},
             {"edges", {worst.shortest, worst.longest}},
             {"turnedOver", worst.turnedOver},
+            {"pushed", pushed},
             {"bones", bones}};
 }
 
@@ -202,13 +204,16 @@ void play(const PlayArguments& arguments, const Console& console) {
     double deepest = 0, jointSeconds = 0;
     std::vector<double> skinSeconds(scene.skins.size(), 0);
     std::vector<SkinFollowing> following(scene.skins.size());
+    std::vector<double> pushed(scene.skins.size(), 0);
     for (std::size_t k = 0; k < steps.size(); ++k) {
         const Player::Step step = player.step(steps[k], scene.startTimeCode + static_cast<double>(k));
         text += line(scene, k, steps[k], step);
         ++statuses[name(step.status)];
         jointSeconds += step.jointSeconds;
-        for (std::size_t skin = 0; skin < skinSeconds.size(); ++skin)
+        for (std::size_t skin = 0; skin < skinSeconds.size(); ++skin) {
             skinSeconds[skin] += step.skinSeconds[skin];
+            pushed[skin] = std::max(pushed[skin], step.pushed[skin]);
+        }
         for (double depth : step.residualDepths) deepest = std::max(deepest, depth);
         const std::vector<SkinFollowing> now = player.following();
         for (std::size_t skin = 0; skin < now.size(); ++skin) following[skin].worsen(now[skin]);
@@ -226,7 +231,7 @@ void play(const PlayArguments& arguments, const Console& console) {
                     ": so far it is in what is below it, beyond its depth at rest");
     nlohmann::json skins = nlohmann::json::array();
     for (std::size_t k = 0; k < scene.skins.size(); ++k) {
-        skins.push_back(sayFollowing(scene, scene.skins[k], following[k], console));
+        skins.push_back(sayFollowing(scene, scene.skins[k], following[k], pushed[k], console));
         if (arguments.timings)
             skins.back()["costs"] = sayParts(scene.skins[k], costs[k], skinSeconds[k], console);
     }

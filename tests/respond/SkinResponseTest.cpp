@@ -148,6 +148,18 @@ TEST_CASE("skin keeps the distance to the muscle that it had at rest, up to its 
     }
 }
 
+TEST_CASE("an update says how far contacts move the skin") {
+    const skins::Couple couple = skins::usual();
+    SkinParameters loose; // so that contacts alone lift it
+    loose.attach.assign(couple.skin.vertices.size(), 0);
+    SkinResponse response(couple.rig(loose));
+    const SkinUpdate lifted = response.update(std::vector<double>{1});
+    CHECK(lifted.pushed > 0.01);
+    CHECK(lifted.pushed == Approx(largestMove(response)).margin(1e-5));
+    CHECK(response.update(std::vector<double>{1}).pushed == lifted.pushed); // also where nothing is new
+    CHECK(response.update(std::vector<double>{0}).pushed == 0);
+}
+
 TEST_CASE("the skin is exactly at rest again after 0, 1, 0") {
     SkinResponse response(skins::usual().rig());
     for (int round = 0; round < 3; ++round) {
