@@ -4,13 +4,13 @@
 #include "bake/geometry/MeshAudit.h"
 #include "bake/model/Kinematics.h"
 #include "bake/pipeline/BakeOptions.h"
+#include "bake/pipeline/FirstLook.h"
 #include "bake/robot/RobotScene.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/DofSpec.h"
 #include "bake/tool/OwnMotion.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace tss::tool {
@@ -50,27 +50,15 @@ void remarkBodySizes(const SceneModel& scene, const Console& console) {
     }
 }
 
-double oneDigit(double value) {
-    const double digit = std::pow(10, std::floor(std::log10(value)));
-    return std::round(value / digit) * digit;
-}
-
 /// The command to go on with: where there are many pairs, with some minutes of searching for all together.
-/// Where they have more than three joint values, as a whole arm's have, the default's spheres are more than a
-/// first look is worth: a thirtieth of the usual link instead.
 std::string nextCommand(const SceneModel& scene, const std::string& output) {
-    std::string command = "tss bake " + shellWord(output) + " -o BAKED.tss";
-    const double pairs = static_cast<double>(scene.pairs.size());
-    const std::string budget =
-        fmt::format(" --budget {:g}", pairs > 0 ? std::min(5.0, oneDigit(200 / pairs)) : 5);
-    const auto isLong = [&](const Pair& pair) { return pairDofs(scene, pair).size() > 3; };
-    if (std::ranges::none_of(scene.pairs, isLong)) return command + (pairs > 40 ? budget : "");
-    std::vector<double> sizes; // millimetres
-    for (const Body& body : scene.bodies)
-        if (!body.mesh.empty()) sizes.push_back(1000 * scene.metersPerUnit * diagonal(body.mesh));
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    return command + fmt::format(" --tolerance {:g}mm", oneDigit(*middle / 30)) + budget;
+    const std::string command = "tss bake " + shellWord(output) + " -o BAKED.tss",
+                      budget = fmt::format(" --budget {:g}", firstBudget(scene));
+    if (std::ranges::any_of(scene.pairs, [&](const Pair& pair) { return isLongChain(scene, pair); }))
+        return command +
+               fmt::format(" --tolerance {:g}mm", 1000 * scene.metersPerUnit * firstTolerance(scene)) +
+               budget;
+    return command + (scene.pairs.size() > 40 ? budget : "");
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/check/EarlyContact.h"
 #include "bake/model/SourceHash.h"
+#include "bake/pipeline/FirstLook.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/ToLayer.h"
@@ -233,6 +234,25 @@ std::string inWords(const std::string& text) {
 /// coarser, or the pair is not kept apart, and it is said.
 constexpr double effort = 0.1;
 
+/// settings: those asked for.
+void setFirstLook(tss::SceneModel& model, const std::map<std::string, std::string>& settings) {
+    std::ostringstream tolerance, budget;
+    tolerance << tss::firstTolerance(model);
+    budget << tss::firstBudget(model);
+    const bool asked = settings.contains("tolerance");
+    std::size_t coarse = 0;
+    for (tss::Pair& pair : model.pairs) {
+        if (!tss::isLongChain(model, pair)) continue;
+        if (!asked) pair.settings["tolerance"] = tolerance.str();
+        if (!settings.contains("budget")) pair.settings["budget"] = budget.str();
+        ++coarse;
+    }
+    if (coarse > 0 && !asked)
+        OSG_NOTICE << "osgTSS: " << coarse
+                   << " pairs have more than three joint values: tolerance=" << tolerance.str()
+                   << " for a first look at them; a finer one in -O takes longer" << std::endl;
+}
+
 /// A pair or skin that cannot be baked is shown as it moves, and the others are kept apart all the same.
 /// told: notes so far, of which many are about a body and come with each of its pairs.
 void bakeOne(tss::SceneModel& model, const std::string& path, const BakeOptions& options,
@@ -275,6 +295,7 @@ osg::ref_ptr<Scene> bake(osg::Node& root, const BakeOptions& options, const Bake
     tss::optionsFor({}, options.settings, 1); // set in code: a wrong one is no pair's fault
     tagNodes(root, options);
     std::shared_ptr<tss::SceneModel> model = extract(root, options);
+    if (options.firstLook) setFirstLook(*model, options.settings);
     for (tss::Pair& pair : model->pairs)
         for (const auto& [key, value] : options.settings) pair.settings[key] = value;
     for (tss::SkinModel& skin : model->skins)

@@ -105,6 +105,7 @@ private:
 
     static void bake(osg::Node& root, const osgTSS::LoadOptions& load, const std::string& source) {
         osgTSS::BakeOptions given(usable(load.others));
+        given.firstLook = true;
         // Beside the file, as it is found: baked once, and again where it has changed.
         if (given.cache.empty()) given.cache = osgDB::findDataFile(source) + ".cache.tss";
         osg::ref_ptr<osgTSS::Scene> scene = osgTSS::bake(root, given, Outlook(root, given));

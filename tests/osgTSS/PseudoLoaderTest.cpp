@@ -1,7 +1,10 @@
 #include "Files.h"
 #include "Heard.h"
+#include "Nodes.h"
 
 #include "examples/tank/Tank.h"
+
+#include "bake/model/Kinematics.h"
 
 #include <catch2/catch.hpp>
 #include <osgSim/DOFTransform>
@@ -143,6 +146,40 @@ TEST_CASE("a pseudo-loader's wrong option is told and passed over") {
           1);
     CHECK(heard.times("\"wide\"") == 1);
     CHECK(heard.times("option light: expected on or off, found \"dim\"") == 1);
+}
+
+TEST_CASE("for a first look pairs over many joint values, and they alone, get coarser spheres") {
+    // Five boxes in a row, each turned a little against the one before it.
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    osg::Group* above = root;
+    for (int k = 0; k < 5; ++k) {
+        osg::ref_ptr<osg::MatrixTransform> link =
+            new osg::MatrixTransform(osg::Matrix::translate(k > 0 ? 1 : 0, 0, 0));
+        link->setName("link" + std::to_string(k));
+        if (k > 0) link->setUserValue("osgTSS:dofs", std::string("rotZ:-5:5"));
+        link->addChild(nodes::box(osg::Vec3()));
+        above->addChild(link);
+        above = link;
+    }
+    const auto settings = [&](const std::string& words, bool firstLook) {
+        osgTSS::BakeOptions options(words);
+        options.firstLook = firstLook;
+        const osg::ref_ptr<osgTSS::Scene> scene = osgTSS::bake(*root, options);
+        std::map<std::size_t, std::set<std::string>> byValues; // of how many joint values: the tolerances
+        for (const tss::Pair& pair : scene->getModel().pairs) {
+            const auto found = pair.settings.find("tolerance");
+            byValues[pairDofs(scene->getModel(), pair).size()].insert(
+                found == pair.settings.end() ? "" : found->second);
+        }
+        return byValues;
+    };
+    using Tolerances = std::set<std::string>;
+    auto found = settings("pairs=all", true);
+    CHECK(found[1] == Tolerances{""});
+    CHECK(found[3] == Tolerances{""});
+    CHECK(found[4] == Tolerances{"0.02"}); // of boxes of 0.69
+    CHECK(settings("pairs=all", false)[4] == Tolerances{""});
+    CHECK(settings("pairs=all tolerance=0.1", true)[4] == Tolerances{"0.1"});
 }
 
 TEST_CASE("a pseudo-loader's file that is not there is refused") {
