@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <cstring>
 #include <fcntl.h>
+#include <optional>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace tss {
 
@@ -22,29 +25,70 @@ struct Temporary {
     int descriptor = -1;
     std::string name;
     bool kept = false;
+    Temporary() = default;
+    Temporary(Temporary&& other) noexcept
+        : descriptor(std::exchange(other.descriptor, -1)), name(std::exchange(other.name, {})),
+          kept(other.kept) {}
     ~Temporary() {
         if (descriptor >= 0) ::close(descriptor);
         if (!kept && !name.empty()) ::unlink(name.c_str());
     }
 };
 
-} // namespace
+/// What a name stands for: links are followed, so that the file they name is replaced and they stay.
+struct Target {
+    std::string name;
+    std::optional<mode_t> mode; ///< of the file that is there
+};
 
-void writeFileAtomically(const std::string& file, std::string_view content) {
-    // A link is followed, so that the file it names is replaced and the link stays.
-    std::error_code error;
-    const std::filesystem::path resolved = std::filesystem::weakly_canonical(file, error);
-    const std::string target = error ? file : resolved.string();
+/// Throws InputError where that is no regular file.
+Target targetOf(const std::string& file) {
+    constexpr int mostLinks = 40;
+    std::filesystem::path path = file;
+    std::error_code none;
+    for (int k = 0; k < mostLinks && std::filesystem::is_symlink(path, none); ++k)
+        path = path.parent_path() / std::filesystem::read_symlink(path, none);
+    Target target{path.string(), {}};
     struct stat status {};
-    const bool exists = ::stat(target.c_str(), &status) == 0;
-    if (exists && !S_ISREG(status.st_mode))
-        throw InputError(Where{file}, "cannot be written: expected a regular file");
+    if (::stat(target.name.c_str(), &status) != 0) return target;
+    if (!S_ISREG(status.st_mode)) throw InputError(Where{file}, "cannot be written: expected a regular file");
+    target.mode = status.st_mode & 07777;
+    return target;
+}
 
+/// A file beside the target, under a name that is not too long where the target's is not.
+Temporary temporaryFor(const Target& target, const std::string& file) {
+    constexpr std::size_t longest = 240; // of 255 bytes
+    const std::filesystem::path path = target.name;
+    std::string pattern =
+        (path.parent_path() / path.filename().string().substr(0, longest)).string() + ".XXXXXX";
     Temporary temporary;
-    std::string pattern = target + ".XXXXXX";
     temporary.descriptor = ::mkstemp(pattern.data());
     if (temporary.descriptor < 0) fail(file, "cannot be written");
     temporary.name = pattern;
+    return temporary;
+}
+
+} // namespace
+
+void expectWritable(const std::string& file) {
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    std::error_code none;
+    if (!folder.empty() && !std::filesystem::is_directory(folder, none))
+        throw InputError(Where{file}, "cannot be written: there is no folder " + folder.string());
+    if (std::filesystem::is_directory(file, none))
+        throw InputError(Where{file}, "cannot be written: it is a folder");
+    const Target target = targetOf(file);
+    if (std::filesystem::path(target.name).filename().string().size() > NAME_MAX) {
+        errno = ENAMETOOLONG;
+        fail(file, "cannot be written");
+    }
+    temporaryFor(target, file);
+}
+
+void writeFileAtomically(const std::string& file, std::string_view content) {
+    const Target target = targetOf(file);
+    Temporary temporary = temporaryFor(target, file);
     while (!content.empty()) {
         const ssize_t written = ::write(temporary.descriptor, content.data(), content.size());
         if (written < 0 && errno == EINTR) continue;
@@ -53,11 +97,11 @@ void writeFileAtomically(const std::string& file, std::string_view content) {
     }
     const mode_t mask = ::umask(0);
     ::umask(mask);
-    ::fchmod(temporary.descriptor, exists ? status.st_mode & 07777 : 0666 & ~mask);
+    ::fchmod(temporary.descriptor, target.mode ? *target.mode : 0666 & ~mask);
     const int closed = ::close(temporary.descriptor);
     temporary.descriptor = -1;
     if (closed != 0) fail(file, "cannot be written");
-    if (::rename(temporary.name.c_str(), target.c_str()) != 0) fail(file, "cannot be written");
+    if (::rename(temporary.name.c_str(), target.name.c_str()) != 0) fail(file, "cannot be written");
     temporary.kept = true;
 }
 

@@ -9,6 +9,9 @@ namespace tss {
 /// and no partial file is left. Throws InputError with the file and the system's reason.
 void writeFileAtomically(const std::string& file, std::string_view content);
 
+/// Throws InputError where that would not write the file: before long work, not after it.
+void expectWritable(const std::string& file);
+
 /// The whole content of a regular file. Throws InputError with the file and the system's reason.
 std::string readWholeFile(const std::string& file);
 

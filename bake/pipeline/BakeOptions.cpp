@@ -57,7 +57,12 @@ int count(const std::string& key, const std::string& text, int least) {
 }
 
 double length(const std::string& key, const std::string& text, double metersPerUnit, bool zeroAllowed) {
-    const double value = parseLength(text, metersPerUnit);
+    double value = 0;
+    try {
+        value = parseLength(text, metersPerUnit);
+    } catch (const InputError& error) {
+        throw InputError("--" + key + ": " + error.message);
+    }
     if (value < 0 || (value == 0 && !zeroAllowed))
         throw InputError("--" + key + ": expected a length " + (zeroAllowed ? ">= 0" : "> 0") + ", found \"" +
                          text + "\"");

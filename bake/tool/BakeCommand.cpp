@@ -171,12 +171,14 @@ void runBake(BakeArguments& arguments, Console& console) {
     if (arguments.inscribed) arguments.request.given["conservative"] = "false";
     if (arguments.keep) arguments.request.given["keep-spheres"] = "true";
     const ThreadLimit limit(arguments.threads);
-    expectWritable(arguments.output);
+    expectScene(arguments.output);
+    if (arguments.pairsOnly && !(arguments.request.given.empty() && arguments.request.pairs.empty()))
+        throw CLI::ValidationError("--pairs-only", "bakes nothing: settings and --pair do nothing beside it");
     SceneModel scene = loadScene(arguments.input);
     // What is wrong with them is no fault of the file.
     remarkTolerance(scene, optionsFor({}, arguments.request.given, scene.metersPerUnit), console);
     const Json pairs = arguments.allPairs ? addPairs(scene, console) : Json();
-    KeptParts parts(scene, arguments.output, readBakeTimes(arguments.input), console);
+    KeptParts parts(scene, arguments.input, arguments.output, readBakeTimes(arguments.input), console);
     std::optional<std::vector<std::string>> now; // what is baked, where it is not all
     if (!arguments.pairsOnly) {
         now = goesOn(scene, arguments, console);
@@ -243,8 +245,9 @@ void addBake(CLI::App& app, Console& console) {
     command->add_flag("--finer", arguments->finer,
                       "bake a pair whose spheres are too coarse for its joint's clearance again, with the "
                       "tolerance that info proposes");
-    command->add_flag("--again", arguments->again,
-                      "bake all, also those that a bake of the same settings has left baked");
+    command->add_flag(
+        "--again", arguments->again,
+        "where some are baked already bake these too; a scene that is all baked is baked again anyway");
     command->add_option("--threads", arguments->threads, "worker threads (default: one a core)")
         ->check(CLI::Range(1, 1024));
     command->footer("Where not all can be baked, or Ctrl-C comes, what is done is in BAKED.incomplete.tss, "

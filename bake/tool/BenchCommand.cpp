@@ -43,15 +43,16 @@ void runBench(const BenchArguments& arguments, const Console& console) {
     const BenchResult result = benchQueries(table, pair.table->motion, arguments.queries, with);
     const char* form = table.form() == KernelForm::Fold ? "fold" : "direct";
     const char* precision = table.precision() == KernelPrecision::Float ? "float" : "double";
-    console.say(fmt::format("{}: {}, {} bytes; {} {} of {} features, {}{}", pair.path,
-                            counted(table.testCount(), "test"), table.bytes(), precision, form,
-                            table.kernels().featureCount(), name(table.target()), cellText(table)));
-    console.say(fmt::format("{} queries ({}): {:.2f} ns each, features of a pose {:.2f} ns{}; {} hits",
-                            arguments.queries, arguments.with, result.nanoseconds, result.featureNanoseconds,
-                            with == BenchWith::Pose ? "" : " more", result.hits));
-    console.say(fmt::format("rounding: no touch missed, none reported from farther than {}; gaps within {}",
-                            lengthText(table.signBand(), scene.metersPerUnit),
-                            lengthText(table.gapBand(), scene.metersPerUnit)));
+    console.answer(fmt::format("{}: {}, {} bytes; {} {} of {} features, {}{}", pair.path,
+                               counted(table.testCount(), "test"), table.bytes(), precision, form,
+                               table.kernels().featureCount(), name(table.target()), cellText(table)));
+    console.answer(fmt::format("{} queries ({}): {:.2f} ns each, features of a pose {:.2f} ns{}; {} hits",
+                               arguments.queries, arguments.with, result.nanoseconds,
+                               result.featureNanoseconds, with == BenchWith::Pose ? "" : " more",
+                               result.hits));
+    console.answer(fmt::format(
+        "rounding: no touch missed, none reported from farther than {}; gaps within {}",
+        lengthText(table.signBand(), scene.metersPerUnit), lengthText(table.gapBand(), scene.metersPerUnit)));
     console.print({{"path", pair.path},
                    {"tests", table.testCount()},
                    {"bytes", table.bytes()},
@@ -79,7 +80,9 @@ void addBench(CLI::App& app, Console& console) {
     auto arguments = std::make_shared<BenchArguments>();
     command->add_option("scene", arguments->scene, "a baked scene")->required();
     command->add_option("--pair", arguments->pair, "prim path of the pair (not needed when there is one)");
-    command->add_option("--queries", arguments->queries, "how many")->capture_default_str();
+    command->add_option("--queries", arguments->queries, "how many")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     command->add_option("--kernel", arguments->kernel, "best, scalar, sse2, avx2, avx512 or neon")
         ->capture_default_str();
     command

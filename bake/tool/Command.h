@@ -17,6 +17,8 @@ struct Console {
 
     /// A line for people: on stdout, or on stderr with --json; nothing with --quiet.
     void say(const std::string& text) const;
+    /// What was asked for, also with --quiet.
+    void answer(const std::string& text) const;
     /// The result with --json.
     void print(const Json& result) const;
     /// A progress bar on stderr when that is a terminal; nothing otherwise.
@@ -35,8 +37,10 @@ bool isMeshName(const std::string& file);
 /// Throws InputError where the output would replace a file that is read.
 void refuseOverwriting(const std::string& output, std::initializer_list<std::string> inputs);
 
-/// Throws InputError where an output cannot be written: before long work, not after it.
-void expectWritable(const std::string& output);
+/// Throws InputError where a scene cannot be written under this name, or a text for people and other
+/// programs: before long work, not after it.
+void expectScene(const std::string& output);
+void expectText(const std::string& output);
 
 /// Adds --json and --quiet to a command.
 CLI::App* addCommand(CLI::App& app, Console& console, const std::string& name,

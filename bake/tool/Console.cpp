@@ -1,5 +1,6 @@
 #include "bake/tool/Command.h"
 
+#include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 
 #include <algorithm>
@@ -17,8 +18,13 @@ void Console::say(const std::string& text) const {
     if (!quiet) fmt::print(json ? stderr : stdout, "{}\n", text);
 }
 
+void Console::answer(const std::string& text) const {
+    fmt::print(json ? stderr : stdout, "{}\n", text);
+}
+
 void Console::print(const Json& result) const {
-    if (json) fmt::print("{}\n", result.dump());
+    // Names of files may be no UTF-8.
+    if (json) fmt::print("{}\n", result.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 Progress Console::progress() const {
@@ -64,17 +70,20 @@ void refuseOverwriting(const std::string& output, std::initializer_list<std::str
     }
 }
 
-void expectWritable(const std::string& output) {
-    const std::filesystem::path folder = std::filesystem::path(output).parent_path();
-    std::error_code none;
-    if (!folder.empty() && !std::filesystem::is_directory(folder, none))
-        throw InputError(Where{output}, "cannot be written: there is no folder " + folder.string());
-    if (std::filesystem::is_directory(output, none))
-        throw InputError(Where{output}, "cannot be written: it is a folder");
-    const std::string within = folder.empty() ? "." : folder.string();
-    if (::access(within.c_str(), W_OK | X_OK) != 0)
+void expectScene(const std::string& output) {
+    if (!output.ends_with(".tss"))
         throw InputError(Where{output},
-                         fmt::format("cannot be written: {}: {}", within, std::strerror(errno)));
+                         "is no name of a scene; expected one that ends in .tss, such as jaw.tss");
+    expectWritable(output);
+}
+
+void expectText(const std::string& output) {
+    const std::string extension = std::filesystem::path(output).extension().string();
+    if (isMeshName(output) || extension == ".tss" || extension == ".usda" || extension == ".urdf" ||
+        extension == ".xml")
+        throw InputError(Where{output},
+                         "is the name of a scene, a robot or a mesh; expected one such as out.csv");
+    expectWritable(output);
 }
 
 CLI::App* addCommand(CLI::App& app, Console& console, const std::string& name,

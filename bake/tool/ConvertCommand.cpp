@@ -12,6 +12,7 @@
 #include "bake/scene/WriteUsda.h"
 #include "bake/spheres/GenerateSpheres.h"
 #include "bake/tool/Command.h"
+#include "bake/tool/DofSpec.h"
 #include "bake/tool/RobotInput.h"
 
 #include <cmath>
@@ -28,8 +29,7 @@ struct ConvertArguments {
     RobotFile robot; ///< of an input that is one
     std::string input, output;
     bool binary = false, buffers = false, filteredPairs = false;
-    double metersPerUnit = 1;
-    std::string tolerance;
+    std::string unit = "1", tolerance;
     int maxSpheres = 0;
     std::vector<std::string> given; ///< options that stand on the command line
 };
@@ -41,7 +41,7 @@ std::string extension(const std::string& file) {
 /// A scene of one body from a mesh file; of a glTF, a body a node.
 Layer meshLayer(const ConvertArguments& arguments, std::vector<std::string>& notes) {
     SceneModel scene;
-    scene.metersPerUnit = arguments.metersPerUnit;
+    scene.metersPerUnit = parseUnit(arguments.unit, "--meters-per-unit");
     if (isGltf(arguments.input)) scene.upAxis = 'Y';
     const std::string stem = std::filesystem::path(arguments.input).stem().string();
     scene.defaultPrim = freePrimName(scene, stem);
@@ -54,7 +54,7 @@ Layer meshLayer(const ConvertArguments& arguments, std::vector<std::string>& not
     if (isGltf(arguments.input)) {
         for (ImportedNode& node : importNodes(arguments.input, &leftOut)) {
             Body& body = add(node.name.empty() ? stem : node.name);
-            const SplitXform place = split({node.place, false});
+            const SplitXform place = tss::split({node.place, false});
             body.placement = place.placement;
             if (place.stretched)
                 for (Vec3& v : node.mesh.vertices) v = place.stretch * v;
@@ -103,8 +103,8 @@ SpheresWritten curoboSpheresOf(const SceneModel& scene, const SphereOptions& opt
         if (!std::isfinite(fit.protrusion) || fit.coverage > 0)
             throw InputError(Where{"", "", body.path}, "its mesh cannot be covered by spheres with a bound");
         if (!fit.note.empty()) written.notes.push_back(name + ": " + fit.note);
-        written.text += fmt::format("  {}: # {} spheres, out of the link by at most {:.4g} mm{}\n",
-                                    quoted(name), fit.spheres.size(), 1000 * metre * fit.protrusion,
+        written.text += fmt::format("  {}: # {}, out of the link by at most {:.4g} mm{}\n", quoted(name),
+                                    counted(fit.spheres.size(), "sphere"), 1000 * metre * fit.protrusion,
                                     fit.hollow ? "; taken for its surface alone" : "");
         for (const Sphere& sphere : fit.spheres) {
             const Vec3 centre = metre * sphere.centre;
@@ -203,6 +203,7 @@ void refuseIdleOptions(const ConvertArguments& arguments) {
 void convert(const ConvertArguments& arguments, const Console& console) {
     refuseIdleOptions(arguments);
     refuseOverwriting(arguments.output, {arguments.input});
+    expectWritable(arguments.output);
     if (extension(arguments.output) == ".yml" || extension(arguments.output) == ".yaml")
         return writeSpheresOf(arguments, console);
     if (extension(arguments.output) == ".srdf" || extension(arguments.output) == ".xml")
@@ -248,7 +249,8 @@ void addConvert(CLI::App& app, Console& console) {
         "--filtered-pairs", arguments->filteredPairs,
         "of a baked scene: PhysicsFilteredPairsAPI for the pairs that are proven never to meet");
     addRobotFileOptions(*command, arguments->robot);
-    command->add_option("--meters-per-unit", arguments->metersPerUnit, "of a mesh")->capture_default_str();
+    command->add_option("--meters-per-unit", arguments->unit, "of a mesh: metres, or a length such as 1mm")
+        ->capture_default_str();
     command->add_option("--tolerance", arguments->tolerance,
                         "of a .yml: how far a sphere may stick out of its link (1cm)");
     command

@@ -110,6 +110,7 @@ CsvTable readCsv(const std::string& file) {
     CsvTable csv;
     std::string text = readWholeFile(file);
     if (text.starts_with(byteOrderMark)) text.erase(0, byteOrderMark.size());
+    if (text.find('\n') == text.npos) std::ranges::replace(text, '\r', '\n'); // as old programs end lines
     std::istringstream stream(text);
     std::string line;
     for (int number = 1; std::getline(stream, line); ++number) {
@@ -131,6 +132,7 @@ CsvTable readCsv(const std::string& file) {
             row.push_back(parseNumber(cells[k], fmt::format("{}:{}: column {}", file, number, k + 1)));
         csv.rows.push_back(std::move(row));
     }
+    if (csv.rows.empty()) throw InputError(Where{file}, "expected at least one row of numbers");
     return csv;
 }
 

@@ -128,6 +128,17 @@ bool isParsedName(const std::string& name) {
            name.find_first_not_of("0123456789", kind.size()) == name.npos;
 }
 
+double parseUnit(const std::string& text, const std::string& option) {
+    double metres = 0;
+    try {
+        metres = parseLength(text, 1);
+    } catch (const InputError&) {
+    }
+    if (!(metres > 0 && std::isfinite(metres)))
+        throw InputError(option + ": expected a number > 0 or a length such as 1mm, found \"" + text + "\"");
+    return metres;
+}
+
 std::string describeDofs(const Motion& motion, double metersPerUnit) {
     std::string text;
     for (const Dof& dof : motion.dofs) {

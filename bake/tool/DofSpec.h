@@ -32,6 +32,9 @@ std::vector<double> parseNumbers(const std::string& text, const std::string& wha
 /// "open 0 to 24 degrees, rest 0; push 0 to 2 times 9.04 mm, rest 0; ..."
 std::string describeDofs(const Motion& motion, double metersPerUnit);
 
+/// What a unit is long in metres: "0.001", or as well "1mm". Throws InputError that quotes the option.
+double parseUnit(const std::string& text, const std::string& option);
+
 /// Values of a DOF as people write them: degrees for rotations, else as they are.
 double toUser(const Dof& dof, double q);
 double fromUser(const Dof& dof, double value);

@@ -1,13 +1,20 @@
 #include "bake/tool/DrivenSteps.h"
 
+#include "bake/base/Error.h"
 #include "bake/base/Stopwatch.h"
 #include "bake/play/Player.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace tss::tool {
 
 std::vector<std::vector<double>> drivenSteps(const SceneModel& scene) {
+    constexpr double most = 1e7;
+    if (scene.endTimeCode - scene.startTimeCode > most)
+        throw InputError(
+            fmt::format("the motion goes over {:.3g} time codes, a step each; expected at most {:g}",
+                        scene.endTimeCode - scene.startTimeCode, most));
     std::vector<std::vector<double>> steps;
     for (int k = 0; scene.startTimeCode + k <= scene.endTimeCode; ++k) {
         const double time = scene.startTimeCode + k;
@@ -26,8 +33,9 @@ void addResiduals(Json& summary, const SceneModel& scene) {
     constexpr double patience = 20; // seconds
     const bool baked =
         std::ranges::any_of(scene.skins, [](const SkinModel& skin) { return skin.table != nullptr; });
+    if (!baked) return;
     const auto steps = drivenSteps(scene);
-    if (!baked || steps.size() < 2) return;
+    if (steps.size() < 2) return;
     std::vector<std::string> warnings; // of the pairs; `tss play` tells them
     Player player(scene, warnings);
     std::vector<double> deepest(scene.skins.size(), 0);

@@ -4,6 +4,7 @@
 #include "bake/tool/Summary.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace tss::tool {
 
@@ -17,15 +18,18 @@ void addInfo(CLI::App& app, Console& console) {
     command->callback([file, paths, &console] {
         if (*paths) {
             const SceneModel scene = loadScene(*file);
-            for (const Pair& pair : scene.pairs) fmt::print("{}\n", pair.path);
-            for (const SkinModel& skin : scene.skins) fmt::print("{}\n", skin.path);
+            std::vector<std::string> all;
+            for (const Pair& pair : scene.pairs) all.push_back(pair.path);
+            for (const SkinModel& skin : scene.skins) all.push_back(skin.path);
+            if (!console.json && !all.empty()) console.answer(fmt::format("{}", fmt::join(all, "\n")));
+            console.print({{"paths", all}});
             return;
         }
         Json result = summary(loadScene(*file));
         addTimes(result, readBakeTimes(*file));
         std::string text = describe(result);
         text.pop_back();
-        console.say(text);
+        if (!console.json) console.answer(text);
         console.print(result);
     });
 }

@@ -31,6 +31,24 @@ void install(void (*handler)(int)) {
     }
 }
 
+bool hasTable(const SceneModel& scene) {
+    for (const Pair& pair : scene.pairs)
+        if (pair.table || pair.proof) return true;
+    for (const SkinModel& skin : scene.skins)
+        if (skin.table) return true;
+    return false;
+}
+
+/// A name that no file of an earlier bake has, which may hold more than this one will.
+std::string freeName(const std::string& output) {
+    std::string name = incompleteName(output);
+    std::error_code none;
+    for (int k = 2; std::filesystem::exists(name, none); ++k) name = incompleteName(output, k);
+    return name;
+}
+
+} // namespace
+
 /// While it lives, SIGINT and SIGTERM are heard instead of ending the program; the second one ends it.
 class Interrupt {
 public:
@@ -45,29 +63,25 @@ public:
     static int signal() { return came; }
 };
 
-bool hasTable(const SceneModel& scene) {
-    for (const Pair& pair : scene.pairs)
-        if (pair.table || pair.proof) return true;
-    for (const SkinModel& skin : scene.skins)
-        if (skin.table) return true;
-    return false;
-}
-
-} // namespace
-
-std::string incompleteName(const std::string& output) {
+std::string incompleteName(const std::string& output, int number) {
     std::filesystem::path path(output);
     const std::string extension = path.extension().string();
     path.replace_extension();
-    return path.string() + ".incomplete" + extension;
+    return path.string() + ".incomplete" + (number > 1 ? std::to_string(number) : "") + extension;
 }
 
-KeptParts::KeptParts(SceneModel& scene, std::string output, BakeTimes times, const Console& console)
-    : scene_(scene), output_(std::move(output)), incomplete_(incompleteName(output_)),
-      times_(std::move(times)), console_(console) {}
+KeptParts::KeptParts(SceneModel& scene, const std::string& input, std::string output, BakeTimes times,
+                     const Console& console)
+    : scene_(scene), output_(std::move(output)), times_(std::move(times)), console_(console) {
+    std::error_code none;
+    kept_ = std::filesystem::equivalent(input, incompleteName(output_), none);
+    incomplete_ = kept_ ? incompleteName(output_) : freeName(output_);
+}
+
+KeptParts::~KeptParts() = default;
 
 void KeptParts::run(BakeRequest request) {
-    const Interrupt interrupt;
+    if (!interrupt_) interrupt_ = std::make_unique<Interrupt>();
     request.done = [&](const PairReport& report) { done(report); };
     request.failed = [&](const InputError& error) { failures_.push_back(error); };
     request.interrupted = [] { return Interrupt::signal() != 0; };
@@ -98,11 +112,15 @@ void KeptParts::done(const PairReport& report) {
 }
 
 std::string KeptParts::write() {
-    if (!complete() && !hasTable(scene_)) return {};
+    if (!complete() && !hasTable(scene_)) {
+        interrupt_.reset();
+        return {};
+    }
     const std::string file = complete() ? output_ : incomplete_;
     writeTo(file);
     std::error_code none;
     if (complete() && kept_) std::filesystem::remove(incomplete_, none);
+    interrupt_.reset();
     return file;
 }
 

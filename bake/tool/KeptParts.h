@@ -5,17 +5,24 @@
 #include "bake/tool/BakeTimes.h"
 #include "bake/tool/Command.h"
 
+#include <memory>
+
 namespace tss::tool {
 
-/// "jaw.incomplete.tss" for "jaw.tss": what a bake that did not come to its end leaves, so that a file of the
-/// name asked for is always whole.
-std::string incompleteName(const std::string& output);
+class Interrupt;
+
+/// "jaw.incomplete.tss" for "jaw.tss", or "jaw.incomplete2.tss": what a bake that did not come to its end
+/// leaves, so that a file of the name asked for is always whole.
+std::string incompleteName(const std::string& output, int number = 1);
 
 /// Bakes a scene for a file. What is done is kept in the incomplete file, now and then while it goes on, and
-/// where it cannot go on; once all is done that file is gone.
+/// where it cannot go on; once all is done that file is gone. One that an earlier bake has left stays, unless
+/// it is what this one goes on with. Signals are heard until all is written.
 class KeptParts {
 public:
-    KeptParts(SceneModel& scene, std::string output, BakeTimes times, const Console& console);
+    KeptParts(SceneModel& scene, const std::string& input, std::string output, BakeTimes times,
+              const Console& console);
+    ~KeptParts();
 
     /// Notes of the bake go to people as it ends, and stay in notes().
     void run(BakeRequest request);
@@ -36,14 +43,16 @@ private:
     void writeTo(const std::string& file) const;
 
     SceneModel& scene_;
-    const std::string output_, incomplete_;
+    const std::string output_;
+    std::string incomplete_;
+    std::unique_ptr<Interrupt> interrupt_;
     BakeTimes times_;
     const Console& console_;
     Json notes_ = Json::object();
     std::vector<InputError> failures_;
     std::vector<std::string> missing_;
     int signal_ = 0;
-    bool kept_ = false; ///< the incomplete file is of this run
+    bool kept_ = false; ///< the incomplete file is this bake's own
     Stopwatch sinceKept_;
 };
 

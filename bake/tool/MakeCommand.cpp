@@ -66,8 +66,8 @@ Motion parseMotion(const MakeArguments& arguments) {
         Dof& dof = motion.dofs[k];
         const double value = fromUser(dof, rest[k]);
         if (!arguments.rest.empty() && (value < dof.lower || value > dof.upper))
-            throw InputError(fmt::format("--rest: expected {} to {} for {}, found {}", toUser(dof, dof.lower),
-                                         toUser(dof, dof.upper), dof.name, rest[k]));
+            throw InputError(fmt::format("--rest: expected {:.6g} to {:.6g} for {}, found {}",
+                                         toUser(dof, dof.lower), toUser(dof, dof.upper), dof.name, rest[k]));
         dof.rest = std::clamp(value, dof.lower, dof.upper);
     }
     return motion;
@@ -115,29 +115,6 @@ void remarkLimits(const Motion& motion, const Console& console) {
     }
 }
 
-/// The output is a scene: no input, and none that looks like a mesh.
-void checkOutput(const MakeArguments& arguments) {
-    refuseOverwriting(arguments.output, {arguments.a, arguments.b, arguments.robot.input,
-                                         arguments.robot.srdf, arguments.motion});
-    expectWritable(arguments.output);
-    if (isMeshName(arguments.output))
-        throw InputError(Where{arguments.output},
-                         "is the name of a mesh; expected one of a scene, such as jaw.tss");
-}
-
-/// "0.001", or as well "1mm".
-double parseUnit(const std::string& text) {
-    double metres = 0;
-    try {
-        metres = parseLength(text, 1);
-    } catch (const InputError&) {
-    }
-    if (!(metres > 0))
-        throw InputError("--meters-per-unit: expected a number > 0 or a length such as 1mm, found \"" + text +
-                         "\"");
-    return metres;
-}
-
 /// What makes no sense beside a robot's file. Not left to the parser, which would say so before it says of a
 /// misspelt option, whose value is taken for a robot's file, that there is none of that name.
 constexpr const char* notForRobots[] = {
@@ -157,10 +134,10 @@ void checkUsage(const MakeArguments& arguments, const CLI::App& command) {
 
 void make(MakeArguments& arguments, const CLI::App& command, const Console& console) {
     checkUsage(arguments, command);
-    checkOutput(arguments);
+    expectScene(arguments.output);
     if (!arguments.robot.input.empty())
         return makeRobot(arguments.robot, arguments.motion, arguments.output, console);
-    arguments.metersPerUnit = parseUnit(arguments.unit);
+    arguments.metersPerUnit = parseUnit(arguments.unit, "--meters-per-unit");
     if (arguments.isWhole()) {
         arguments.pairs = arguments.robot.pairs;
         arguments.offsets = arguments.robot.offsets;

@@ -23,6 +23,18 @@ void take(std::vector<Item>& into, const std::vector<Item>& from, const std::str
     }
 }
 
+/// What a part has made of its own scene is to be good for this one: its joints, limits and meshes are the
+/// same.
+template <class Item>
+void expectFit(const SceneModel& scene, const std::vector<Item>& items, const SceneModel& part,
+               const std::vector<Item>& its, const std::string& file) {
+    for (std::size_t k = 0; k < items.size(); ++k) {
+        if (its[k].sourceHash.empty() || !staleness(part, its[k]).empty()) continue;
+        if (const std::string stale = staleness(scene, items[k]); !stale.empty())
+            throw InputError(Where{file, "", its[k].path}, "was baked from another scene: " + stale);
+    }
+}
+
 } // namespace
 
 void addMerge(CLI::App& app, Console& console) {
@@ -32,17 +44,20 @@ void addMerge(CLI::App& app, Console& console) {
     command->add_option("parts", *parts, "the same scene with different pairs baked")->required();
     command->add_option("-o,--output", *output, "the scene with all tables")->required();
     command->callback([parts, output, &console] {
+        expectScene(*output);
         SceneModel scene = loadScene(parts->front());
         BakeTimes times = readBakeTimes(parts->front());
         for (std::size_t k = 1; k < parts->size(); ++k) {
             const SceneModel part = loadScene((*parts)[k]);
             take(scene.pairs, part.pairs, (*parts)[k]);
             take(scene.skins, part.skins, (*parts)[k]);
+            expectFit(scene, scene.pairs, part, part.pairs, (*parts)[k]);
+            expectFit(scene, scene.skins, part, part.skins, (*parts)[k]);
             times.merge(readBakeTimes((*parts)[k]));
         }
         saveScene(scene, *output);
         writeBakeTimes(*output, times);
-        console.say("merged " + std::to_string(parts->size()) + " parts into " + *output);
+        console.say("merged " + counted(parts->size(), "part") + " into " + *output);
         console.print({{"output", *output}, {"parts", parts->size()}});
     });
 }

@@ -13,25 +13,26 @@ namespace {
 
 /// What a column can drive.
 struct Track {
-    std::string name;
+    std::vector<std::string> names; ///< the last is what messages say
     TimeSamples* samples;
     std::function<double(double)> fromUser;
 };
 
 /// All of a scene, each without samples.
 std::vector<Track> clearedTracks(SceneModel& scene) {
+    const DofColumns columns = dofColumns(scene);
     std::vector<Track> tracks;
     for (Joint& joint : scene.joints) {
         joint.drives.assign(joint.dofs.size(), {});
         for (std::size_t k = 0; k < joint.dofs.size(); ++k) {
             const Dof& dof = joint.dofs[k];
-            tracks.push_back({primName(joint.path) + (joint.dofs.size() > 1 ? ":" + dof.name : ""),
-                              &joint.drives[k], [&dof](double value) { return fromUser(dof, value); }});
+            tracks.push_back({columns.names[tracks.size()], &joint.drives[k],
+                              [&dof](double value) { return fromUser(dof, value); }});
         }
     }
     for (MuscleModel& muscle : scene.muscles) {
         muscle.activation = {};
-        tracks.push_back({primName(muscle.path), &muscle.activation, [](double value) { return value; }});
+        tracks.push_back({{primName(muscle.path)}, &muscle.activation, [](double value) { return value; }});
     }
     return tracks;
 }
@@ -41,11 +42,12 @@ std::vector<const Track*> columnsOf(const std::vector<Track>& tracks, const std:
                                     std::size_t first, const std::string& file) {
     std::vector<const Track*> columns;
     for (std::size_t k = first; k < header.size(); ++k) {
-        const auto found =
-            std::ranges::find_if(tracks, [&](const Track& track) { return track.name == header[k]; });
+        const auto found = std::ranges::find_if(tracks, [&](const Track& track) {
+            return std::ranges::find(track.names, header[k]) != track.names.end();
+        });
         if (found == tracks.end()) {
             std::string names;
-            for (const Track& track : tracks) names += (names.empty() ? "" : ", ") + track.name;
+            for (const Track& track : tracks) names += (names.empty() ? "" : ", ") + track.names.back();
             throw InputError(Where{file},
                              "no joint or muscle is called \"" + header[k] + "\"; expected some of " + names);
         }
@@ -68,7 +70,6 @@ void applyMotion(SceneModel& scene, const std::string& file) {
         for (const Track& track : tracks) columns.push_back(&track);
     else
         columns = columnsOf(tracks, csv.header, timed, file);
-    if (csv.rows.empty()) throw InputError(Where{file}, "expected at least one row");
     double before = 0;
     for (std::size_t r = 0; r < csv.rows.size(); ++r) {
         const std::vector<double>& row = csv.rows[r];

@@ -181,7 +181,9 @@ std::vector<std::string> unbaked(const SceneModel& scene) {
 
 void play(const PlayArguments& arguments, const Console& console) {
     refuseOverwriting(arguments.output, {arguments.scene, arguments.motion});
-    if (!arguments.meshes.empty() && !isFramePattern(arguments.meshes))
+    if (!arguments.output.empty()) expectText(arguments.output);
+    if (!arguments.meshes.empty() &&
+        !(isFramePattern(arguments.meshes) && arguments.meshes.ends_with(".obj")))
         throw InputError("--mesh-out: expected a name with a number in it, like f_%04d.obj, found \"" +
                          arguments.meshes + "\"");
     const SceneModel scene = loadScene(arguments.scene);
@@ -222,7 +224,7 @@ void play(const PlayArguments& arguments, const Console& console) {
                                 objText(scene, player.worldMeshes()));
     }
     if (!arguments.output.empty()) writeFileAtomically(arguments.output, text);
-    console.say(fmt::format("{} steps{}", steps.size(),
+    console.say(fmt::format("{}{}", counted(steps.size(), "step"),
                             arguments.output.empty() ? "" : ", wrote " + arguments.output));
     for (const auto& [status, count] : statuses) console.say(fmt::format("  {:<10}{}", status, count));
     console.say(costText(scene, steps.size(), jointSeconds, skinSeconds));

@@ -83,6 +83,7 @@ void runAllPairs(const QueryArguments& arguments, const Console& console) {
 
 void runQuery(const QueryArguments& arguments, const Console& console) {
     refuseOverwriting(arguments.output, {arguments.scene, arguments.poses});
+    expectText(arguments.output);
     if (arguments.allPairs) return runAllPairs(arguments, console);
     const SceneModel scene = loadScene(arguments.scene);
     const Pair& pair = chooseFreshPair(scene, arguments.pair, arguments.scene);

@@ -52,7 +52,7 @@ void addTable(Json& json, const Table& table) {
     json["usedB"] = used.b;
     json["tests"] = table.testCount();
     json["products"] = 4 * table.testCount(); // 3 squares and the squared radius, as the paper counts
-    if (table.record.candidatePairs == 0) json["candidatePairs"] = nullptr;
+    if (table.record.candidatePairs == 0 && table.testCount() > 0) json["candidatePairs"] = nullptr;
     json["lowerBound"] = table.record.lowerBound ? Json(table.record.lowerBound) : Json();
     json["boundMiss"] = knownOrNull(table.boundMiss);
     json["boundEarly"] = knownOrNull(table.boundEarly);
@@ -287,6 +287,12 @@ std::string describeEarly(const Json& item, double metersPerUnit) {
                              length(surfaces, metersPerUnit));
 }
 
+/// A body of a pair has a surface, and no sphere was made of it.
+bool hasNoSpheres(const Json& item) {
+    return (item["spheresA"] == 0 || item["spheresB"] == 0) && item["boundMiss"].is_null() &&
+           !item.contains("travel");
+}
+
 /// The lines of a pair or skin that has a table.
 std::string describeTable(const Json& item, double metersPerUnit) {
     std::string text;
@@ -299,7 +305,10 @@ std::string describeTable(const Json& item, double metersPerUnit) {
         item["lowerBound"].is_null()
             ? ""
             : "; no table has fewer than " + counted(item["lowerBound"].get<std::size_t>(), "test"));
-    if (item["tests"] == 0 && !item["certified"].get<bool>() && !item.contains("travel"))
+    if (hasNoSpheres(item))
+        text +=
+            "  no spheres   were made of a body: the table reports no contact, and nothing is known of it\n";
+    else if (item["tests"] == 0 && !item["certified"].get<bool>() && !item.contains("travel"))
         text += "  no contact   at any sampled pose: no proof that the bodies never meet\n";
     const double travel = item.value("travel", 0.0);
     if (travel > 0)
@@ -318,7 +327,9 @@ std::string describeTable(const Json& item, double metersPerUnit) {
         text += fmt::format("  bounds       miss {}, early {}, epsilon {}, {}{}\n",
                             length(item["boundMiss"], metersPerUnit), describeEarly(item, metersPerUnit),
                             length(item["epsilon"], metersPerUnit),
-                            item["certified"].get<bool>() ? "certified for every pose" : "sampled poses only",
+                            hasNoSpheres(item)              ? "of no spheres"
+                            : item["certified"].get<bool>() ? "certified for every pose"
+                                                            : "sampled poses only",
                             butForRegion(item, metersPerUnit));
     if (item.contains("earlyContact")) text += describeEarlyContact(item, metersPerUnit);
     return text;

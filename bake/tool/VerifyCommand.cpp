@@ -193,9 +193,11 @@ void addVerify(CLI::App& app, Console& console) {
     auto file = std::make_shared<std::string>();
     auto budget = std::make_shared<double>(0);
     command->add_option("scene", *file, "a baked scene")->required();
-    command->add_option(
-        "--budget", *budget,
-        "seconds a pair or skin, after which it is not decided; 0 (default): as long as it takes");
+    command
+        ->add_option(
+            "--budget", *budget,
+            "seconds a pair or skin, after which it is not decided; 0 (default): as long as it takes")
+        ->check(CLI::NonNegativeNumber);
     command->footer("Proven from the file and the meshes alone, at every pose of the limits: that some test "
                     "reports where the\n"
                     "meshes meet (miss); that where a test reports they are as near as stated (early); that "

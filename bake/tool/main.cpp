@@ -3,8 +3,12 @@
 #include "bake/base/Error.h"
 #include "bake/tool/Command.h"
 
+#include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <fmt/format.h>
+#include <iostream>
 
 namespace {
 
@@ -25,6 +29,8 @@ std::string hintFor(const tss::InputError& error) {
     if (tss::tool::isMeshName(file)) return "; of a mesh `tss convert` makes a scene, of two `tss make`";
     for (const char* robot : {".urdf", ".xml", ".mjcf", ".usda"})
         if (file.ends_with(robot)) return "; of a robot's file `tss make` makes a scene";
+    for (const char* graph : {".osg", ".osgt", ".osgb", ".osgx", ".ive"})
+        if (file.ends_with(graph)) return "; of a graph `osgconv " + file + ".tss OUT.tss` makes a scene";
     return "";
 }
 
@@ -38,6 +44,14 @@ bool mistyped(const CLI::App& app, const std::string& word) {
     if (word.starts_with('-')) return false;
     fmt::print(stderr, "tss: \"{}\" is no command; expected one of{}\n", word, names);
     return true;
+}
+
+/// The exit code, unless what was said has not got out.
+int said(int code) {
+    std::cout.flush();
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return code;
+    fmt::print(stderr, "tss: standard output cannot be written: {}\n", std::strerror(errno));
+    return std::max(code, 1);
 }
 
 } // namespace
@@ -68,9 +82,9 @@ int main(int argc, char** argv) {
     if (argc > 1 && mistyped(app, argv[1])) return 2;
     try {
         app.parse(argc, argv);
-        return console.exitCode;
+        return said(console.exitCode);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+        return said(app.exit(error) == 0 ? 0 : 2);
     } catch (const tss::InputError& error) {
         return fail(console, 1, std::string(error.what()) + hintFor(error), error.where);
     } catch (const std::bad_alloc&) {

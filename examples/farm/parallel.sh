@@ -14,5 +14,5 @@ trap 'rm -rf "$parts"' EXIT
 
 # One thread a bake: the cores are busy with other pairs.
 "$tss" info "$scene" --paths |
-    parallel --halt now,fail=1 "$tss" bake "$scene" -o "$parts/{#}.tss" --pair {} --threads 1 --quiet "$@"
+    parallel -q --halt now,fail=1 "$tss" bake "$scene" -o "$parts/{#}.tss" --pair {} --threads 1 --quiet "$@"
 "$tss" merge "$scene" "$parts"/*.tss -o "$out"

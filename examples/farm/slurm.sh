@@ -11,10 +11,13 @@ shift 2
 parts=$(mktemp -d -p "$(dirname "$out")" parts.XXXXXX)
 "$tss" info "$scene" --paths >"$parts/pairs"
 
-task="pair=\$(sed -n \"\${SLURM_ARRAY_TASK_ID}p\" '$parts/pairs')
-exec '$tss' bake '$scene' -o '$parts'/\$SLURM_ARRAY_TASK_ID.tss --pair \"\$pair\" --threads 1 --quiet $(printf '%q ' "$@")"
+# As the shell of a task reads them.
+quoted() { [ $# -eq 0 ] || printf '%q ' "$@"; }
+task="cd $(quoted "$parts")
+pair=\$(sed -n \"\${SLURM_ARRAY_TASK_ID}p\" pairs)
+exec $(quoted "$tss" bake "$scene") -o \$SLURM_ARRAY_TASK_ID.tss --pair \"\$pair\" --threads 1 --quiet $(quoted "$@")"
 array=$(printf '#!/bin/bash\n%s\n' "$task" |
     sbatch --parsable --array "1-$(wc -l <"$parts/pairs")" --cpus-per-task 1 --output "$parts/%a.log")
-merge="'$tss' merge '$scene' '$parts'/*.tss -o '$out' && rm -r '$parts'"
+merge="cd $(quoted "$parts") && $(quoted "$tss" merge "$scene") ./*.tss -o $(quoted "$out") && rm -r $(quoted "$parts")"
 printf '#!/bin/bash\n%s\n' "$merge" |
     sbatch --parsable --dependency "afterok:$array" --output "$parts.log"

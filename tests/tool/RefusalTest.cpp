@@ -74,8 +74,8 @@ TEST_CASE("bad input is exit 1 with a message that says where, and leaves no fil
         refused("make -o out.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1 --meters-per-unit '" + unit +
                     "'",
                 "such as 1mm, found \"" + unit + "\"");
-    refused("make -o a.obj --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", "is read here");
-    refused("make -o out.stl --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", "name of a mesh");
+    refused("make -o a.obj --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", "ends in .tss");
+    refused("make -o out.stl --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", "ends in .tss");
     refused("make -o no/out.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", "no folder no");
     CHECK(readText(folder.path() / "a.obj").starts_with("v "));
     CHECK(fileCount(folder.path()) == 3);
@@ -83,7 +83,7 @@ TEST_CASE("bad input is exit 1 with a message that says where, and leaves no fil
     REQUIRE(runTss("make -o ok.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", folder.path()).exit == 0);
     refused("query ok.tss --poses bad.tss -o r.csv", "no table");
     refused("bake ok.tss -o out.tss --tolerance -1mm", "--tolerance");
-    refused("bake ok.tss -o out.tss --tolerance 1furlong", "tss: length"); // no fault of the file
+    refused("bake ok.tss -o out.tss --tolerance 1furlong", "tss: --tolerance: length"); // no fault of the file
     refused("bake ok.tss -o out.tss --spheres cubes", "medial");
     refused("bake ok.tss -o out.tss --spheres growth --growth 0.1,0.1mm,1,1", "START,STEP,END,MAXRADIUS");
     refused("bake ok.tss -o out.tss --spheres growth --growth 0.1,0.1,1", "START,STEP,END,MAXRADIUS");

@@ -187,7 +187,7 @@ TEST_CASE("what a robot's file needs and has not is exit 1 with the place, and l
     CHECK(without.out.find("its package is left out") != std::string::npos);
     CHECK(runTss("make alone/arm.urdf -o found.tss --package my_arm=moved", folder.path()).exit == 0);
     refused("alone/arm.urdf -o out.tss --package my_arm=nowhere", 1, "there is no folder nowhere");
-    refused("alone/arm.urdf -o alone/arm.urdf --package my_arm=moved", 1, "is read here");
+    refused("alone/arm.urdf -o alone/arm.urdf --package my_arm=moved", 1, "ends in .tss");
     refused("moved/upper.obj -o out.tss", 1,
             "is a mesh; expected a robot's file, or two meshes as --a and --b");
     refused("without.tss -o out.tss", 1, "is a scene already");
