@@ -129,3 +129,28 @@ TEST_CASE("A mesh of morph targets is a skin: what they make of it is kept out o
     free.frame(1);
     CHECK(Squeeze::at(*held.morph).asVector() == Squeeze::at(*free.morph).asVector());
 }
+
+TEST_CASE("A copy of a face that plays is moved by its own weights, and is itself put back") {
+    Squeeze original(osgAnimation::MorphGeometry::NORMALIZED);
+    const osg::ref_ptr<Scene> scene = osgTSS::bake(*original.root);
+    REQUIRE(install(*original.root, *scene).skins == 1);
+    original.frame(0);
+    const unsigned int all = osg::CopyOp::DEEP_COPY_ALL, some = osg::CopyOp::DEEP_COPY_NODES |
+                                                                osg::CopyOp::DEEP_COPY_DRAWABLES |
+                                                                osg::CopyOp::DEEP_COPY_CALLBACKS;
+    const osg::ref_ptr<osg::Group> copy =
+        osg::clone(original.root.get(), osg::CopyOp(GENERATE_COPY(all, some)));
+    auto* morph = find<osgAnimation::MorphGeometry>(*copy);
+    auto* shown = find<SkinGeometry>(*copy);
+    REQUIRE(morph);
+    REQUIRE(shown);
+    REQUIRE(morph != original.morph);
+    morph->setWeight(0, 1);
+    original.playback.frame(*copy, 1);
+    CHECK(thinnest(*shown->getVertices()) < 0.42f);
+    CHECK(thinnest(*shown->getVertices()) > bone - 0.02f);
+    uninstall(*copy);
+    CHECK(morph->getNodeMask() == ~0u);
+    CHECK(find<SkinGeometry>(*copy) == nullptr);
+    CHECK(original.morph->getNodeMask() == 0);
+}

@@ -2,7 +2,9 @@
 
 #include "osgTSS/src/EachNode.h"
 
+#include <osg/UserDataContainer>
 #include <osg/ValueObject>
+#include <osgAnimation/MorphGeometry>
 #include <osgTSS/Convert>
 
 namespace osgTSS {
@@ -11,6 +13,18 @@ namespace {
 
 const char* const tagName = "osgTSS:body";
 const char* const scaleName = "osgTSS:bodyScale";
+
+/// A mesh of morph targets has stayed in its place, before what is drawn instead: in a copy of the graph it
+/// is that one which plays, not what the other one remembers. Any other drawable itself.
+osg::Drawable* morphBefore(osg::Drawable& shown, osg::Drawable& remembered) {
+    if (!dynamic_cast<osgAnimation::MorphGeometry*>(&remembered)) return &remembered;
+    for (osg::Group* parent : shown.getParents())
+        for (unsigned int k = parent->getChildIndex(&shown); k-- > 0;) {
+            auto* morph = dynamic_cast<osgAnimation::MorphGeometry*>(parent->getChild(k));
+            if (morph && morph->getName() == remembered.getName()) return morph;
+        }
+    return &remembered;
+}
 
 } // namespace
 
@@ -29,6 +43,15 @@ double bodyScale(const osg::Node& node) {
     double scale = 1;
     node.getUserValue(scaleName, scale);
     return scale;
+}
+
+osg::Drawable* replacedBy(osg::Drawable& drawable) {
+    osg::UserDataContainer* container =
+        dynamic_cast<SkinGeometry*>(&drawable) ? drawable.getUserDataContainer() : nullptr;
+    for (unsigned int k = 0; container && k < container->getNumUserObjects(); ++k)
+        if (auto* replaced = dynamic_cast<osg::Drawable*>(container->getUserObject(k)))
+            return morphBefore(drawable, *replaced);
+    return nullptr;
 }
 
 BodyNodes findBodyNodes(osg::Node& root) {

@@ -20,6 +20,9 @@ std::string bodyPath(const osg::Node& node);
 /// The factor that a node was tagged with.
 double bodyScale(const osg::Node& node);
 
+/// The drawable that install() has put this one in place of; null: none.
+osg::Drawable* replacedBy(osg::Drawable& drawable);
+
 struct BodyFrame {
     osg::Node* node = nullptr;
     double scale = 1;

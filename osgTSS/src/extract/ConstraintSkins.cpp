@@ -2,6 +2,7 @@
 #include "SkeletonMeshes.h"
 #include "SoftParts.h"
 #include "SoftTags.h"
+#include "osgTSS/src/draw/BodyNodes.h"
 #include "osgTSS/src/joints/AnimationChannels.h"
 
 #include "bake/base/Error.h"

@@ -1,11 +1,10 @@
 #include "SoftParts.h"
 
+#include "osgTSS/src/draw/BodyNodes.h"
 #include "osgTSS/src/draw/DrawnVertices.h"
 
 #include "bake/base/Error.h"
 #include "bake/play/FindFibre.h"
-
-#include <osg/UserDataContainer>
 
 #include <algorithm>
 #include <map>
@@ -20,14 +19,6 @@ bool means(const std::vector<std::string>& names, const std::string& name) {
 }
 
 } // namespace
-
-osg::Drawable* replacedBy(osg::Drawable& drawable) {
-    osg::UserDataContainer* container =
-        dynamic_cast<SkinGeometry*>(&drawable) ? drawable.getUserDataContainer() : nullptr;
-    for (unsigned int k = 0; container && k < container->getNumUserObjects(); ++k)
-        if (auto* replaced = dynamic_cast<osg::Drawable*>(container->getUserObject(k))) return replaced;
-    return nullptr;
-}
 
 osg::ref_ptr<osg::Geometry> restGeometryOf(osg::Drawable& drawable) {
     if (osg::Drawable* replaced = replacedBy(drawable)) return restGeometryOf(*replaced);

@@ -18,9 +18,6 @@ osg::ref_ptr<osg::Geometry> restGeometryOf(osg::Drawable& drawable);
 /// The farthest that a vertex may be moved by morph targets, all weights from 0 to 1, in its own lengths.
 double reachOf(const osgAnimation::MorphGeometry& morph);
 
-/// The drawable that install() has put this one in place of; null: none.
-osg::Drawable* replacedBy(osg::Drawable& drawable);
-
 /// What a visitor meets of skins, of muscles and of the bones below them.
 class SoftParts {
 public:
