@@ -1,20 +1,10 @@
-#include "Limb.h"
+#include "Character.h"
 
 #include <catch2/catch.hpp>
 #include <osg/ShapeDrawable>
-#include <osgAnimation/BasicAnimationManager>
-#include <osgAnimation/Bone>
-#include <osgAnimation/RigGeometry>
-#include <osgAnimation/Skeleton>
-#include <osgAnimation/StackedMatrixElement>
-#include <osgAnimation/StackedQuaternionElement>
-#include <osgAnimation/UpdateBone>
 #include <osgTSS/Bake>
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/Install>
-#include <osgTSS/SkinGeometry>
-
-#include <map>
 
 using namespace osgTSS;
 
@@ -22,52 +12,26 @@ namespace {
 
 /// A rigged sleeve over two bones that its keys bend by 80 degrees in two seconds. On the first bone there is
 /// a ball about the elbow, nearly as thick as the sleeve.
-struct Arm {
-    osg::ref_ptr<osg::Group> root = new osg::Group;
-    osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
-    osg::ref_ptr<osgAnimation::RigGeometry> rig = new osgAnimation::RigGeometry;
-    osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    osg::ref_ptr<osg::Geometry> source =
-        Limb::tube(0, Limb::length, Limb::rings, Limb::sides, Limb::radius, true);
-    osgAnimation::Bone *upper, *lower;
-    Playback playback;
-
+struct Arm : Character {
     static constexpr float elbow = 2, ball = 0.45f;
 
     explicit Arm(const char* words) {
-        root->addChild(skeleton);
-        skeleton->setDefaultUpdateCallback();
-        upper = addBone("Upper", nullptr, osg::Vec3());
-        lower = addBone("Lower", upper, osg::Vec3(elbow, 0, 0));
-        addKeys();
+        addBone("Upper", "", osg::Matrix());
+        addBone("Lower", "Upper", osg::Matrix::translate(elbow, 0, 0));
+        addKeys("Lower", {turn(0), turn(20), turn(40), turn(60), turn(80)});
+        animation->setPlayMode(osgAnimation::Animation::ONCE);
         addBall();
-        osg::ref_ptr<osgAnimation::VertexInfluenceMap> influences = new osgAnimation::VertexInfluenceMap;
-        const auto& vertices = static_cast<const osg::Vec3Array&>(*source->getVertexArray());
-        for (unsigned int v = 0; v < vertices.size(); ++v) {
-            const float share = lowerShare(vertices[v]);
-            if (share < 1) (*influences)["Upper"].emplace_back(v, 1 - share);
-            if (share > 0) (*influences)["Lower"].emplace_back(v, share);
-        }
-        for (auto& [name, influence] : *influences) influence.setName(name);
         source->getOrCreateStateSet()->setTextureAttributeAndModes(0, new osg::Texture2D);
-        rig->setName("Sleeve");
-        rig->setSourceGeometry(source);
-        rig->setInfluenceMap(influences);
-        if (words) rig->setUserValue("osgTSS:skin", std::string(words));
-        geode->addDrawable(rig);
-        skeleton->addChild(geode);
+        dress(
+            [](const osg::Vec3& point) {
+                const float share = lowerShare(point);
+                return std::map<std::string, float>{{"Upper", 1 - share}, {"Lower", share}};
+            },
+            words);
     }
 
     static float lowerShare(const osg::Vec3& point) {
         return osg::clampBetween(point.x() - elbow + 0.5f, 0.f, 1.f);
-    }
-
-    void frame(unsigned int number) { playback.frame(*root, number); }
-
-    /// What is drawn.
-    const osg::Vec3Array& drawn() const {
-        auto* skin = dynamic_cast<SkinGeometry*>(geode->getDrawable(0));
-        return skin ? *skin->getVertices() : static_cast<const osg::Vec3Array&>(*rig->getVertexArray());
     }
 
     /// How deep a vertex is in the ball.
@@ -79,47 +43,13 @@ struct Arm {
     }
 
 private:
-    osgAnimation::Bone* addBone(const std::string& name, osgAnimation::Bone* parent, const osg::Vec3& at) {
-        osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone(name);
-        const osg::Matrix inSkeleton = osg::Matrix::translate(at);
-        bone->setInvBindMatrixInSkeletonSpace(osg::Matrix::inverse(inSkeleton));
-        bone->setMatrixInSkeletonSpace(inSkeleton);
-        bone->setMatrix(inSkeleton);
-        osg::ref_ptr<osgAnimation::UpdateBone> update = new osgAnimation::UpdateBone(name);
-        update->getStackedTransforms().push_back(
-            new osgAnimation::StackedMatrixElement("bindmatrix", inSkeleton));
-        update->getStackedTransforms().push_back(
-            new osgAnimation::StackedQuaternionElement("quaternion", osg::Quat()));
-        bone->setUpdateCallback(update);
-        (parent ? static_cast<osg::Group&>(*parent) : *skeleton).addChild(bone);
-        return bone;
-    }
-
-    void addKeys() {
-        osg::ref_ptr<osgAnimation::QuatSphericalLinearChannel> channel =
-            new osgAnimation::QuatSphericalLinearChannel;
-        channel->setName("quaternion");
-        channel->setTargetName("Lower");
-        auto* keys = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
-        for (int k = 0; k <= 4; ++k)
-            keys->push_back(osgAnimation::QuatKeyframe(
-                0.5 * k, osg::Quat(osg::DegreesToRadians(20.0 * k), osg::Vec3(0, 1, 0))));
-        osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
-        animation->addChannel(channel);
-        animation->setPlayMode(osgAnimation::Animation::ONCE);
-        osg::ref_ptr<osgAnimation::BasicAnimationManager> manager = new osgAnimation::BasicAnimationManager;
-        manager->registerAnimation(animation);
-        manager->playAnimation(animation);
-        root->addUpdateCallback(manager);
-    }
-
     void addBall() {
         osg::ref_ptr<osg::ShapeDrawable> shape =
             new osg::ShapeDrawable(new osg::Sphere(osg::Vec3(elbow, 0, 0), ball));
         shape->setUserValue("osgTSS:bone", true);
         osg::ref_ptr<osg::Geode> below = new osg::Geode;
         below->addDrawable(shape);
-        upper->addChild(below);
+        bones.at("Upper")->addChild(below);
     }
 };
 

@@ -1,47 +1,22 @@
 #pragma once
-#include "Playback.h"
-
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
-#include <osgAnimation/BasicAnimationManager>
-#include <osgAnimation/Bone>
-#include <osgAnimation/RigGeometry>
-#include <osgAnimation/Skeleton>
-#include <osgAnimation/StackedMatrixElement>
-#include <osgAnimation/StackedQuaternionElement>
-#include <osgAnimation/UpdateBone>
-
-#include <array>
-#include <map>
-#include <vector>
+#include "Rigged.h"
 
 /// A figure that sits: a torso, a thigh to the front, and an arm above it of two parts, one rigged mesh. The
 /// keys swing the arm down through the thigh and up again, and lift the thigh a little.
-class Sitter {
+class Sitter : public Rigged {
 public:
-    osg::ref_ptr<osg::Group> root = new osg::Group;
-    osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
-    osg::ref_ptr<osgAnimation::RigGeometry> rig = new osgAnimation::RigGeometry;
-    std::map<std::string, osgAnimation::Bone*> bones;
-    osg::ref_ptr<osgAnimation::BasicAnimationManager> manager = new osgAnimation::BasicAnimationManager;
-    osg::ref_ptr<osgAnimation::Animation> animation = new osgAnimation::Animation;
-
     static constexpr float shoulder = 1.0f, elbow = 0.7f, half = 0.1f;
     static constexpr double swing = 60, lift = 4, bend = 15; ///< of the keys, degrees
 
     Sitter() {
-        root->addChild(skeleton);
-        skeleton->setDefaultUpdateCallback();
-        root->addUpdateCallback(manager);
-        addBone("Torso", nullptr, osg::Vec3(0, 0, 0));
-        addBone("Thigh", "Torso", osg::Vec3(0.2f, 0, 0));
-        addBone("Upper", "Torso", osg::Vec3(0.2f, 0, shoulder));
-        addBone("Fore", "Upper", osg::Vec3(elbow, 0, shoulder));
+        addBone("Torso", "", osg::Matrix());
+        addBone("Thigh", "Torso", osg::Matrix::translate(0.2f, 0, 0));
+        addBone("Upper", "Torso", osg::Matrix::translate(0.2f, 0, shoulder));
+        addBone("Fore", "Upper", osg::Matrix::translate(elbow, 0, shoulder));
         addMesh();
-        const osg::Vec3 y(0, 1, 0);
-        addKeys("Thigh", y, {0, -lift, 0});
-        addKeys("Upper", y, {0, swing, 0});
-        addKeys("Fore", y, {-bend, bend, 0});
+        addKeys("Thigh", {turn(0), turn(-lift), turn(0)}, 2);
+        addKeys("Upper", {turn(0), turn(swing), turn(0)}, 2);
+        addKeys("Fore", {turn(-bend), turn(bend), turn(-bend)}, 2);
         manager->registerAnimation(animation);
     }
 
@@ -76,42 +51,6 @@ public:
     }
 
 private:
-    void addBone(const std::string& name, const char* above, const osg::Vec3& at) {
-        osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone(name);
-        osgAnimation::Bone* parent = above ? bones.at(above) : nullptr;
-        const osg::Matrix inSkeleton = osg::Matrix::translate(at);
-        bone->setInvBindMatrixInSkeletonSpace(osg::Matrix::inverse(inSkeleton));
-        bone->setMatrixInSkeletonSpace(inSkeleton);
-        const osg::Matrix local =
-            parent ? inSkeleton * parent->getInvBindMatrixInSkeletonSpace() : inSkeleton;
-        bone->setMatrix(local);
-        osg::ref_ptr<osgAnimation::UpdateBone> update = new osgAnimation::UpdateBone(name);
-        update->getStackedTransforms().push_back(new osgAnimation::StackedMatrixElement("bindmatrix", local));
-        update->getStackedTransforms().push_back(
-            new osgAnimation::StackedQuaternionElement("quaternion", osg::Quat()));
-        bone->setUpdateCallback(update);
-        bones[name] = bone;
-        if (parent)
-            parent->addChild(bone);
-        else
-            skeleton->addChild(bone);
-    }
-
-    void addKeys(const std::string& target, const osg::Vec3& axis, const std::vector<double>& degrees) {
-        osg::ref_ptr<osgAnimation::QuatSphericalLinearChannel> channel =
-            new osgAnimation::QuatSphericalLinearChannel;
-        channel->setName("quaternion");
-        channel->setTargetName(target);
-        auto* keys = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
-        double time = 0;
-        for (double angle : degrees) {
-            const osg::Quat turn(osg::DegreesToRadians(angle), axis);
-            keys->push_back(osgAnimation::QuatKeyframe(time, turn));
-            time += 2;
-        }
-        animation->addChannel(channel);
-    }
-
     using Weights = std::vector<std::pair<std::string, float>>;
 
     /// A tube along x with square rings, closed at its ends. weights: of each ring.

@@ -5,6 +5,7 @@
 #include "SoftTags.h"
 #include "osgTSS/src/EachNode.h"
 #include "osgTSS/src/joints/AnimationChannels.h"
+#include "osgTSS/src/joints/BoneBound.h"
 #include "osgTSS/src/joints/BoneJoint.h"
 #include "osgTSS/src/joints/JointNodes.h"
 #include "osgTSS/src/joints/TaggedJoint.h"
@@ -147,11 +148,16 @@ void ConstraintVisitor::applyTransform(osg::Transform& node) {
     if (!why.empty() && _seen.insert(&node).second) warn("it moves, but is no joint: " + why);
     osg::Matrix matrix = _place.toBody;
     const auto stands = standingBone(node);
-    if (stands && !still && why.empty())
+    const bool moves = !still && ((movesItself(node) && !stands) || moved || !why.empty());
+    auto* bone = dynamic_cast<osgAnimation::Bone*>(&node);
+    const auto bound = moves && bone ? boneBound(*bone) : std::nullopt;
+    if (bound)
+        matrix = *bound * matrix;
+    else if (stands && !still && why.empty())
         matrix = *stands * matrix;
     else
         node.computeLocalToWorldMatrix(matrix, this);
-    if (!still && ((movesItself(node) && !stands) || moved || !why.empty())) return enterMoved(node, matrix);
+    if (moves) return enterMoved(node, matrix);
     Place place = _place;
     place.toBody = matrix;
     enter(node, place);

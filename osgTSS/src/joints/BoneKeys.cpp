@@ -86,15 +86,4 @@ osg::Matrixd boneNow(Bone& bone) {
     return matrix;
 }
 
-std::optional<osg::Matrixd> boneBound(Bone& bone) {
-    const osg::Matrixd& toBone = bone.getInvBindMatrixInSkeletonSpace();
-    if (toBone.isIdentity()) return std::nullopt;
-    Bone* parent = bone.getBoneParent();
-    osg::Matrixd bound = osg::Matrixd::inverse(toBone);
-    if (!parent) return bound;
-    const osg::Matrixd& toParent = parent->getInvBindMatrixInSkeletonSpace();
-    if (toParent.isIdentity()) return std::nullopt;
-    return bound * toParent;
-}
-
 } // namespace osgTSS

@@ -4,8 +4,6 @@
 #include <osg/Matrixd>
 #include <osgAnimation/Bone>
 
-#include <optional>
-
 namespace osgTSS {
 
 /// The matrices that the keys of each animation take a bone through, also between keys: what its stack of
@@ -14,8 +12,5 @@ std::vector<std::vector<osg::Matrixd>> boneRuns(osgAnimation::Bone& bone, const 
 
 /// What the stack of the bone says now; the bone's own matrix where it has none.
 osg::Matrixd boneNow(osgAnimation::Bone& bone);
-
-/// Where a bone stands in its parent when the mesh is bound to it; nothing for one that says nothing of that.
-std::optional<osg::Matrixd> boneBound(osgAnimation::Bone& bone);
 
 } // namespace osgTSS

@@ -1,5 +1,6 @@
 #include "BoneMotion.h"
 
+#include "BoneBound.h"
 #include "BoneKeys.h"
 #include "JointNode.h"
 #include "Turns.h"
@@ -33,7 +34,8 @@ struct Sample {
 /// Poses of the bone against its parent, and the scale that it has at all of them.
 struct Samples {
     std::vector<Sample> all;
-    double still = 0; ///< turns of less are none
+    double still = 0;  ///< turns of less are none
+    bool skin = false; ///< that of its skeleton follows it
     double scale = 0;
     double off = 0;
     double size = 0;      ///< length that the matrices' digits are of
@@ -44,7 +46,8 @@ struct Samples {
         if (!similarity) throw tss::InputError("its keys shear it, or scale its axes differently");
         if (scale == 0) scale = similarity->scale;
         if (std::abs(similarity->scale - scale) > fewDigits * std::abs(scale))
-            throw tss::InputError("its keys change its size");
+            throw tss::InputError(std::string("its keys change its size") +
+                                  (skin ? ", which its skin does not follow" : ""));
         off = std::max(off, similarity->off);
         size = std::max(size, similarity->pose.translation().norm());
         all.push_back({similarity->pose, first});
@@ -54,12 +57,14 @@ struct Samples {
 Samples samplesOf(osgAnimation::Bone& bone, const AnimationChannels& channels) {
     Samples samples;
     samples.still = boneStill(bone);
+    samples.skin = wearsSkin(bone);
     for (const auto& run : boneRuns(bone, channels))
         for (std::size_t k = 0; k < run.size(); ++k) samples.add(run[k], k == 0);
     const std::optional<osg::Matrixd> bound = boneBound(bone);
-    if (samples.all.empty()) {
-        samples.add(boneNow(bone), true);
-    } else if (bound && toSimilarity(*bound)) {
+    // A bone that no key moves may stand otherwise than it is bound, which only a skin looks at.
+    const bool keyed = !samples.all.empty();
+    if (!keyed) samples.add(boneNow(bone), true);
+    if (bound && (keyed || samples.skin) && toSimilarity(*bound)) {
         samples.rest = samples.all.size();
         samples.add(*bound, true);
         samples.size = std::max(samples.size, bone.getInvBindMatrixInSkeletonSpace().getTrans().length());

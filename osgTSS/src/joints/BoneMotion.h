@@ -17,8 +17,9 @@ double boneStill(const osg::Node& bone);
 /// How a bone moves against its parent node, by the keys of all animations and the pose that it was bound in.
 /// One joint whose DOFs are the axes that the keys use: "slide.x" ... "slide.z", then one "turn", or "turn1"
 /// to "turn3"; its limits are the range of the keys and boneSlack. A joint without DOFs is a bone that
-/// stands, where its frame0 is. Rest is the bound pose. Throws tss::InputError with the reason for keys that
-/// are no rigid motion, or turn too far about several axes.
+/// stands, where its frame0 is. Rest is the bound pose; where a skin is bound to a bone that stands otherwise
+/// without any key, it is a joint from the one pose to the other. Throws tss::InputError with the reason for
+/// keys that are no rigid motion, or turn too far about several axes.
 FoundJoints boneMotion(osgAnimation::Bone& bone, const AnimationChannels& channels);
 
 } // namespace osgTSS

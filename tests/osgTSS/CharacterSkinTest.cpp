@@ -1,0 +1,145 @@
+#include "Character.h"
+#include "Heard.h"
+
+#include <catch2/catch.hpp>
+#include <osgAnimation/RigTransformHardware>
+#include <osgAnimation/StackedScaleElement>
+#include <osgTSS/Bake>
+#include <osgTSS/Install>
+
+using namespace osgTSS;
+
+namespace {
+
+/// Parts of the sleeve about x = 1 and about x = 2.5 are between two of three bones.
+std::map<std::string, float> threeShares(const osg::Vec3& point) {
+    const float b = osg::clampBetween(2 * (point.x() - 0.75f), 0.f, 1.f);
+    const float c = osg::clampBetween(2 * (point.x() - 2.25f), 0.f, 1.f);
+    return {{"A", 1 - b}, {"B", b * (1 - c)}, {"C", b * c}};
+}
+
+/// Three bones. at: of the root bone; bent: the second one in the file, against the pose that it is bound in.
+struct Tail : Character {
+    explicit Tail(float at = 0.01f, double bent = 0) {
+        addBone("A", "", osg::Matrix::translate(at, 0, 0));
+        addBone("B", "A", osg::Matrix::translate(1, 0, 0), turn(bent));
+        addBone("C", "B", osg::Matrix::translate(2.5, 0, 0));
+    }
+    /// The skin: its sleeve is held; else osgAnimation draws it.
+    void wear(bool skin) { dress(threeShares, skin ? "" : nullptr); }
+
+    const osg::Vec3Array& shape() const {
+        return static_cast<const osg::Vec3Array&>(*source->getVertexArray());
+    }
+    osg::Vec3Array& vertices() { return static_cast<osg::Vec3Array&>(*source->getVertexArray()); }
+    osg::Vec3Array& normals() { return static_cast<osg::Vec3Array&>(*source->getNormalArray()); }
+    osg::Vec2Array& texture() { return static_cast<osg::Vec2Array&>(*source->getTexCoordArray(0)); }
+    osg::DrawElementsUInt& triangles() {
+        return static_cast<osg::DrawElementsUInt&>(*source->getPrimitiveSet(0));
+    }
+    /// One more vertex, as another one is.
+    unsigned int addLike(unsigned int vertex, const osg::Vec3& away = osg::Vec3()) {
+        vertices().push_back(osg::Vec3(vertices()[vertex] + away));
+        normals().push_back(osg::Vec3(normals()[vertex]));
+        texture().push_back(osg::Vec2(texture()[vertex]));
+        return vertices().size() - 1;
+    }
+    void bend() {
+        addKeys("B", {turn(10), turn(40), turn(10)});
+        addKeys("C", {turn(10), turn(50), turn(10)});
+    }
+};
+
+osg::ref_ptr<Scene> held(Tail& tail) {
+    const osg::ref_ptr<Scene> scene = osgTSS::bake(*tail.root);
+    const Installed done = install(*tail.root, *scene);
+    CHECK(done.skins == 1);
+    CHECK(done.stale == 0);
+    return scene;
+}
+
+/// The farthest in some frames that a held sleeve is from one that osgAnimation draws.
+double farthest(Tail& skin, Tail& plain, unsigned int first = 0) {
+    double most = 0;
+    for (unsigned int number = first; number < first + 24; number += 6) {
+        skin.frame(number);
+        plain.frame(number);
+        most = std::max(most, skin.off(plain));
+    }
+    return most;
+}
+
+/// The same of two that are made alike.
+template <class Make>
+double farthest(const Make& make) {
+    Tail skin, plain;
+    make(skin);
+    skin.wear(true);
+    make(plain);
+    plain.wear(false);
+    const osg::ref_ptr<Scene> scene = held(skin);
+    return farthest(skin, plain);
+}
+
+} // namespace
+
+TEST_CASE("A root bone that is bound at the origin is bound there, and its skin follows from there") {
+    Tail skin(0), plain(0);
+    skin.bend();
+    plain.bend();
+    skin.wear(true);
+    plain.wear(false);
+    const osg::ref_ptr<Scene> scene = held(skin);
+    CHECK(farthest(skin, plain) < 1e-5);
+}
+
+TEST_CASE("A bone that no key moves and that stands otherwise than it is bound bends its skin") {
+    Tail skin(0.01f, 30), plain(0.01f, 30);
+    for (Tail* tail : {&skin, &plain}) tail->addKeys("C", {Tail::turn(0), Tail::turn(50), Tail::turn(0)});
+    skin.wear(true);
+    plain.wear(false);
+    const osg::ref_ptr<Scene> scene = held(skin);
+    CHECK(farthest(skin, plain) < 1e-5);
+}
+
+TEST_CASE("A bone that is no joint carries its skin from where it is bound") {
+    const auto tumble = [](Tail& tail) {
+        std::vector<osg::Quat> turns{Tail::turn(30)};
+        for (int k = 1; k <= 40; ++k) {
+            osg::Quat any(std::sin(k), std::sin(2 * k + 1), std::cos(3 * k), std::cos(5 * k + 2));
+            turns.push_back(any /= any.length());
+        }
+        tail.addKeys("B", turns);
+    };
+    Tail skin(0.01f, 30), plain(0.01f, 30);
+    tumble(skin);
+    tumble(plain);
+    skin.wear(true);
+    plain.wear(false);
+    const Heard heard;
+    const osg::ref_ptr<Scene> scene = held(skin);
+    REQUIRE(heard.times("about several axes") == 1);
+    CHECK(farthest(skin, plain) < 1e-5);
+    // Made anew while it moves.
+    const osg::ref_ptr<Scene> again = held(skin);
+    CHECK(farthest(skin, plain, 30) < 1e-5);
+}
+
+TEST_CASE("A bone whose keys change its size is named as one whose skin does not") {
+    Tail tail;
+    tail.bend();
+    auto& update = dynamic_cast<osgAnimation::UpdateBone&>(*tail.bones["B"]->getUpdateCallback());
+    update.getStackedTransforms().push_back(
+        new osgAnimation::StackedScaleElement("scale", osg::Vec3(1, 1, 1)));
+    osg::ref_ptr<osgAnimation::Vec3LinearChannel> channel = new osgAnimation::Vec3LinearChannel;
+    channel->setName("scale");
+    channel->setTargetName("B");
+    auto* keys = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
+    keys->push_back(osgAnimation::Vec3Keyframe(0, osg::Vec3(1, 1, 1)));
+    keys->push_back(osgAnimation::Vec3Keyframe(1, osg::Vec3(2, 2, 2)));
+    tail.animation->addChannel(channel);
+    tail.wear(true);
+    const Heard heard;
+    const osg::ref_ptr<Scene> scene = osgTSS::bake(*tail.root);
+    CHECK(heard.times("its keys change its size, which its skin does not follow") == 1);
+}
