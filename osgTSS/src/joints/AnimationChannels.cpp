@@ -66,37 +66,57 @@ void readAny(const Channel& channel, std::vector<Keys<osg::Quat>>& out) {
     read<QuatSphericalLinearChannel>(channel, curve, out) || read<QuatStepChannel>(channel, 1, out);
 }
 
+std::vector<AnimationManagerBase*> managersOn(osg::Node& node) {
+    std::vector<AnimationManagerBase*> found;
+    for (osg::Callback* callback = node.getUpdateCallback(); callback;
+         callback = callback->getNestedCallback())
+        if (auto* manager = dynamic_cast<AnimationManagerBase*>(callback)) found.push_back(manager);
+    return found;
+}
+
+/// The node itself first.
+void addAbove(const osg::Node& node, std::vector<const osg::Node*>& above) {
+    if (std::ranges::find(above, &node) != above.end()) return;
+    above.push_back(&node);
+    for (unsigned int k = 0; k < node.getNumParents(); ++k) addAbove(*node.getParent(k), above);
+}
+
 } // namespace
 
 std::vector<AnimationManagerBase*> animationManagers(osg::Node& root) {
     std::vector<AnimationManagerBase*> found;
     eachNode(root, [&](osg::Node& node) {
-        for (osg::Callback* callback = node.getUpdateCallback(); callback;
-             callback = callback->getNestedCallback())
-            if (auto* manager = dynamic_cast<AnimationManagerBase*>(callback))
-                if (std::ranges::find(found, manager) == found.end()) found.push_back(manager);
+        for (AnimationManagerBase* manager : managersOn(node))
+            if (std::ranges::find(found, manager) == found.end()) found.push_back(manager);
     });
     return found;
 }
 
 AnimationChannels::AnimationChannels(osg::Node& root) {
-    for (AnimationManagerBase* manager : animationManagers(root))
-        for (const auto& animation : manager->getAnimationList()) addAnimation(*animation);
+    eachNode(root, [&](osg::Node& node) {
+        if (_managed.contains(&node)) return; // it has several parents
+        for (AnimationManagerBase* manager : managersOn(node))
+            for (const auto& animation : manager->getAnimationList()) {
+                std::map<std::string, Channels> targets;
+                for (const auto& channel : animation->getChannels())
+                    targets[channel->getTargetName()].push_back(channel);
+                _managed[&node].insert(targets.begin(), targets.end());
+            }
+    });
 }
 
-void AnimationChannels::addAnimation(osgAnimation::Animation& animation) {
-    std::map<std::string, Channels> targets;
-    for (const auto& channel : animation.getChannels()) {
-        _channels[{channel->getTargetName(), channel->getName()}].push_back(channel);
-        targets[channel->getTargetName()].push_back(channel);
+std::vector<AnimationChannels::Channels> AnimationChannels::of(const osg::Node& node,
+                                                               const std::string& target) const {
+    std::vector<Channels> found;
+    std::vector<const osg::Node*> above;
+    addAbove(node, above);
+    for (const osg::Node* at : above) {
+        const auto managed = _managed.find(at);
+        if (managed == _managed.end()) continue;
+        const auto [first, last] = managed->second.equal_range(target);
+        for (auto entry = first; entry != last; ++entry) found.push_back(entry->second);
     }
-    for (auto& [target, channels] : targets) _targets[target].push_back(std::move(channels));
-}
-
-const std::vector<AnimationChannels::Channels>& AnimationChannels::of(const std::string& target) const {
-    static const std::vector<Channels> none;
-    const auto found = _targets.find(target);
-    return found != _targets.end() ? found->second : none;
+    return found;
 }
 
 std::vector<double> keyTimes(const Channel& channel) {
@@ -115,18 +135,39 @@ std::vector<double> keyTimes(const Channel& channel) {
     return times;
 }
 
+bool isCurve(const Channel& channel) {
+    const Sampler* sampler = channel.getSampler();
+    const KeyframeContainer* keys = sampler ? sampler->getKeyframeContainer() : nullptr;
+    return dynamic_cast<const FloatCubicBezierKeyframeContainer*>(keys) ||
+           dynamic_cast<const DoubleCubicBezierKeyframeContainer*>(keys) ||
+           dynamic_cast<const Vec2CubicBezierKeyframeContainer*>(keys) ||
+           dynamic_cast<const Vec3CubicBezierKeyframeContainer*>(keys) ||
+           dynamic_cast<const Vec4CubicBezierKeyframeContainer*>(keys);
+}
+
 template <class Value>
-std::vector<Keys<Value>> AnimationChannels::keys(const std::string& target,
+std::vector<Keys<Value>> AnimationChannels::keys(const osg::Node& node, const std::string& target,
                                                  const std::string& element) const {
     std::vector<Keys<Value>> all;
-    const auto found = _channels.find({target, element});
-    if (found == _channels.end()) return all;
-    for (const auto& channel : found->second) readAny(*channel, all);
+    for (const Channels& animation : of(node, target))
+        for (const auto& channel : animation)
+            if (channel->getName() == element) readAny(*channel, all);
     return all;
 }
 
-template std::vector<Keys<double>> AnimationChannels::keys(const std::string&, const std::string&) const;
-template std::vector<Keys<osg::Vec3d>> AnimationChannels::keys(const std::string&, const std::string&) const;
-template std::vector<Keys<osg::Quat>> AnimationChannels::keys(const std::string&, const std::string&) const;
+bool AnimationChannels::animates(const osg::Node& node, const std::string& target,
+                                 const std::string& element) const {
+    return std::ranges::any_of(of(node, target), [&](const Channels& animation) {
+        return std::ranges::any_of(animation,
+                                   [&](const auto& channel) { return channel->getName() == element; });
+    });
+}
+
+template std::vector<Keys<double>> AnimationChannels::keys(const osg::Node&, const std::string&,
+                                                           const std::string&) const;
+template std::vector<Keys<osg::Vec3d>> AnimationChannels::keys(const osg::Node&, const std::string&,
+                                                               const std::string&) const;
+template std::vector<Keys<osg::Quat>> AnimationChannels::keys(const osg::Node&, const std::string&,
+                                                              const std::string&) const;
 
 } // namespace osgTSS

@@ -8,7 +8,6 @@
 
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace osgTSS {
@@ -23,34 +22,36 @@ struct Keys {
     std::vector<Value> values;
 };
 
-/// The channels of all osgAnimation managers of a graph, by the target that they animate (the name of an
-/// update callback) and its element.
+/// The channels of the osgAnimation managers of a graph, by the target that they animate (the name of an
+/// update callback) and its element. A manager animates what is at and below the nodes that it stands on:
+/// another character may have bones of the same names.
 class AnimationChannels {
 public:
     AnimationChannels() = default;
     explicit AnimationChannels(osg::Node& root);
 
-    /// The keys of each channel that animates the element; with values between the keys where the channel is
-    /// a curve. Channels of another type are left out.
+    /// The keys of each channel that animates the element of the node; with values between the keys where the
+    /// channel is a curve. Channels of another type are left out.
     template <class Value>
-    std::vector<Keys<Value>> keys(const std::string& target, const std::string& element) const;
+    std::vector<Keys<Value>> keys(const osg::Node& node, const std::string& target,
+                                  const std::string& element) const;
 
     /// Whether some channel, of whatever type, animates the element.
-    bool animates(const std::string& target, const std::string& element) const {
-        return _channels.contains({target, element});
-    }
+    bool animates(const osg::Node& node, const std::string& target, const std::string& element) const;
 
     using Channels = std::vector<osg::ref_ptr<const osgAnimation::Channel>>;
 
-    /// The channels that animate a target, those of each animation together.
-    const std::vector<Channels>& of(const std::string& target) const;
+    /// The channels that animate the node under the target's name, those of each animation together.
+    std::vector<Channels> of(const osg::Node& node, const std::string& target) const;
 
 private:
-    void addAnimation(osgAnimation::Animation& animation);
-
-    std::map<std::pair<std::string, std::string>, Channels> _channels;
-    std::map<std::string, std::vector<Channels>> _targets;
+    /// Of each animation of the managers that stand on one node, by target.
+    using Managed = std::multimap<std::string, Channels>;
+    std::map<const osg::Node*, Managed> _managed;
 };
+
+/// Whether the values between the channel's keys swing as a curve does.
+bool isCurve(const osgAnimation::Channel& channel);
 
 /// When a channel has keys, seconds, rising; of a channel of an unknown type its start and its end.
 std::vector<double> keyTimes(const osgAnimation::Channel& channel);

@@ -12,22 +12,26 @@ namespace {
 
 using namespace osgAnimation;
 
-/// Places looked at from one key to the next, the first key among them: turns bend between keys.
-constexpr int stepsBetweenKeys = 4;
+/// Places looked at from one key to the next, the first key among them: turns bend between keys, and curves
+/// swing.
+constexpr int stepsBetweenKeys = 4, stepsOfCurve = 32;
 
-/// Elements of its own, so that nothing of what plays is touched.
+/// Elements of its own, so that nothing of what plays is touched. What this animation does not move is where
+/// another one begins that does: where it is now may be of the moment.
 class StackCopy {
 public:
-    StackCopy(UpdateMatrixTransform& stack, const AnimationChannels::Channels& channels) {
-        for (const auto& element : stack.getStackedTransforms())
+    StackCopy(UpdateMatrixTransform& stack, const AnimationChannels::Channels& animation,
+              const std::vector<AnimationChannels::Channels>& all) {
+        for (const auto& element : stack.getStackedTransforms()) {
             _elements.push_back(osg::clone(element.get(), osg::CopyOp::DEEP_COPY_ALL));
-        for (const auto& channel : channels)
-            for (const auto& element : _elements) {
-                if (element->getName() != channel->getName()) continue;
-                osg::ref_ptr<Channel> copy = channel->clone();
-                Target* target = element->getOrCreateTarget();
-                if (target && copy->setTarget(target)) _channels.push_back(copy);
+            const Channels own = channelsOf(*_elements.back(), animation);
+            _channels.insert(_channels.end(), own.begin(), own.end());
+            for (std::size_t k = 0, moved = own.size(); moved == 0 && k < all.size(); ++k) {
+                const Channels other = channelsOf(*_elements.back(), all[k]);
+                for (const auto& channel : other) channel->update(channel->getStartTime(), 1, 0);
+                moved = other.size();
             }
+        }
     }
 
     std::vector<double> times() const {
@@ -39,6 +43,12 @@ public:
         std::ranges::sort(all);
         all.erase(std::unique(all.begin(), all.end()), all.end());
         return all;
+    }
+
+    int steps() const {
+        return std::ranges::any_of(_channels, [](const auto& channel) { return isCurve(*channel); })
+                   ? stepsOfCurve
+                   : stepsBetweenKeys;
     }
 
     osg::Matrixd at(double time) const {
@@ -53,8 +63,23 @@ public:
     }
 
 private:
+    using Channels = std::vector<osg::ref_ptr<Channel>>;
+
+    /// Copies of those that move an element of this name, which move this one.
+    static Channels channelsOf(StackedTransformElement& element,
+                               const AnimationChannels::Channels& animation) {
+        Channels found;
+        for (const auto& channel : animation) {
+            if (element.getName() != channel->getName()) continue;
+            const osg::ref_ptr<Channel> copy = channel->clone();
+            Target* target = element.getOrCreateTarget();
+            if (target && copy->setTarget(target)) found.push_back(copy);
+        }
+        return found;
+    }
+
     std::vector<osg::ref_ptr<StackedTransformElement>> _elements;
-    std::vector<osg::ref_ptr<Channel>> _channels;
+    Channels _channels;
 };
 
 } // namespace
@@ -63,14 +88,16 @@ std::vector<std::vector<osg::Matrixd>> boneRuns(Bone& bone, const AnimationChann
     std::vector<std::vector<osg::Matrixd>> runs;
     UpdateMatrixTransform* stack = callbackOf<UpdateMatrixTransform>(bone.getUpdateCallback());
     if (!stack) return runs;
-    for (const AnimationChannels::Channels& animation : channels.of(stack->getName())) {
-        const StackCopy copy(*stack, animation);
+    const std::vector<AnimationChannels::Channels> animations = channels.of(bone, stack->getName());
+    for (const AnimationChannels::Channels& animation : animations) {
+        const StackCopy copy(*stack, animation, animations);
         const std::vector<double> times = copy.times();
         if (times.empty()) continue;
+        const int steps = copy.steps();
         std::vector<osg::Matrixd> run;
         for (std::size_t k = 0; k + 1 < times.size(); ++k)
-            for (int step = 0; step < stepsBetweenKeys; ++step)
-                run.push_back(copy.at(times[k] + (times[k + 1] - times[k]) * step / stepsBetweenKeys));
+            for (int step = 0; step < steps; ++step)
+                run.push_back(copy.at(times[k] + (times[k + 1] - times[k]) * step / steps));
         run.push_back(copy.at(times.back()));
         runs.push_back(std::move(run));
     }

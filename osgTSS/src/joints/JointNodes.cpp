@@ -78,7 +78,7 @@ std::optional<FoundJoints> jointsOf(osg::Transform& node, const AnimationChannel
     if (const auto* animation = animationPathOf(node))
         return ifServed([&] { return animationPathJoint(*animation, timeCodesPerSecond); }, why);
     if (auto* animation = stackOf(node))
-        return ifServed([&] { return stackedJoints(*animation, channels, timeCodesPerSecond); }, why);
+        return ifServed([&] { return stackedJoints(node, *animation, channels, timeCodesPerSecond); }, why);
     return std::nullopt;
 }
 

@@ -127,15 +127,15 @@ Eigen::Matrix3d product(const std::array<double, 3>& angles, const std::array<in
 
 } // namespace
 
-std::vector<MovedAxis> movedAxes(const StackedTransformElement& element, const AnimationChannels& channels,
-                                 const std::string& target, double rate) {
+std::vector<MovedAxis> movedAxes(const StackedTransformElement& element, const osg::Node& node,
+                                 const AnimationChannels& channels, const std::string& target, double rate) {
     const std::string& name = element.getName();
     if (const auto* turn = dynamic_cast<const StackedRotateAxisElement*>(&element)) {
-        const auto keys = channels.keys<double>(target, name);
+        const auto keys = channels.keys<double>(node, target, name);
         return keys.empty() ? std::vector<MovedAxis>{} : movedAboutAxis(*turn, keys, rate);
     }
     if (dynamic_cast<const StackedTranslateElement*>(&element)) {
-        const auto keys = channels.keys<osg::Vec3d>(target, name);
+        const auto keys = channels.keys<osg::Vec3d>(node, target, name);
         std::vector<MovedAxis> moved;
         for (int k = 0; k < 3 && !keys.empty(); ++k)
             moved.push_back(spanning(name + translationName[k], tss::DofKind::Translation, k,
@@ -143,10 +143,10 @@ std::vector<MovedAxis> movedAxes(const StackedTransformElement& element, const A
         return moved;
     }
     if (dynamic_cast<const StackedQuaternionElement*>(&element)) {
-        const auto keys = channels.keys<osg::Quat>(target, name);
+        const auto keys = channels.keys<osg::Quat>(node, target, name);
         return keys.empty() ? std::vector<MovedAxis>{} : movedTurns(name, keys, rate);
     }
-    if (channels.animates(target, name))
+    if (channels.animates(node, target, name))
         throw tss::InputError("a channel animates its element " + name +
                               ", which neither turns nor slides: a scale or a whole matrix");
     return {};

@@ -17,8 +17,9 @@ struct MovedAxis {
     Eigen::Quaterniond axes = Eigen::Quaterniond::Identity(); ///< the DOF's axes in the stack's
 };
 
-/// The DOFs of one element, from the parent inwards; none when no channel moves it. Throws tss::InputError.
-std::vector<MovedAxis> movedAxes(const osgAnimation::StackedTransformElement& element,
+/// The DOFs of one element of a node, from the parent inwards; none when no channel moves it. Throws
+/// tss::InputError.
+std::vector<MovedAxis> movedAxes(const osgAnimation::StackedTransformElement& element, const osg::Node& node,
                                  const AnimationChannels& channels, const std::string& target,
                                  double timeCodesPerSecond);
 

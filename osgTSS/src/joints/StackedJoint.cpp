@@ -102,12 +102,12 @@ osgAnimation::UpdateMatrixTransform* stackOf(osg::Node& node) {
     return callbackOf<osgAnimation::UpdateMatrixTransform>(node.getUpdateCallback());
 }
 
-FoundJoints stackedJoints(osgAnimation::UpdateMatrixTransform& animation, const AnimationChannels& channels,
-                          double timeCodesPerSecond) {
+FoundJoints stackedJoints(const osg::Node& node, osgAnimation::UpdateMatrixTransform& animation,
+                          const AnimationChannels& channels, double timeCodesPerSecond) {
     ChainMaker chain;
     for (const auto& element : animation.getStackedTransforms()) {
         const std::vector<MovedAxis> moved =
-            movedAxes(*element, channels, animation.getName(), timeCodesPerSecond);
+            movedAxes(*element, node, channels, animation.getName(), timeCodesPerSecond);
         for (const MovedAxis& axis : moved) chain.addDof(axis.dof, axis.drive, axis.axes);
         if (moved.empty())
             chain.addFixed(rigid(element->getAsMatrix(), ("element " + element->getName()).c_str()));
