@@ -143,3 +143,75 @@ TEST_CASE("A bone whose keys change its size is named as one whose skin does not
     const osg::ref_ptr<Scene> scene = osgTSS::bake(*tail.root);
     CHECK(heard.times("its keys change its size, which its skin does not follow") == 1);
 }
+
+TEST_CASE("A bone that is hidden goes on to carry its skin, and so does one that is taken out") {
+    Tail skin, plain;
+    skin.bend();
+    plain.bend();
+    skin.wear(true);
+    plain.wear(false);
+    const osg::ref_ptr<Scene> scene = held(skin);
+    CHECK(farthest(skin, plain) < 1e-5);
+    for (Tail* tail : {&skin, &plain}) tail->bones["B"]->setNodeMask(0);
+    CHECK(farthest(skin, plain, 24) < 1e-5);
+    for (Tail* tail : {&skin, &plain}) tail->bones["B"]->setNodeMask(~0u);
+    skin.frame(54);
+    const std::vector<osg::Vec3> before = skin.drawn().asVector();
+    osg::ref_ptr<osg::Node> out = skin.bones["B"];
+    for (const bool kept : {true, false}) {
+        skin.bones["A"]->removeChild(skin.bones["B"]);
+        if (!kept) out = nullptr;
+        skin.frame(kept ? 55 : 56);
+        CHECK(skin.drawn().asVector() == before);
+    }
+}
+
+TEST_CASE("A copy that was made while a character was bent is drawn as it stands from its first frame") {
+    Tail first(0.5f), second(0.5f);
+    first.bend();
+    second.bend();
+    first.wear(true);
+    second.wear(true);
+    const osg::ref_ptr<Scene> scene = held(first);
+    install(*second.root, *scene);
+    first.frame(0);
+    first.frame(12);
+    const osg::ref_ptr<osg::Group> copy = osg::clone(first.root.get(), osg::CopyOp::DEEP_COPY_ALL);
+    auto* shown = find<SkinGeometry>(*copy);
+    REQUIRE(shown);
+    auto* bone = find<osgAnimation::Bone>(*copy, "B");
+    // As it is bound: nothing has moved since rest.
+    find<osgAnimation::Bone>(*copy, "C")->setUpdateCallback(nullptr);
+    bone->setUpdateCallback(nullptr);
+    bone->setMatrix(osg::Matrix::translate(0.5, 0, 0));
+    find<osgAnimation::Bone>(*copy, "C")->setMatrix(osg::Matrix::translate(1.5, 0, 0));
+    Playback playback;
+    playback.frame(*copy, 0);
+    double off = 0;
+    for (std::size_t v = 0; v < first.shape().size(); ++v)
+        off = std::max<double>(off, ((*shown->getVertices())[v] - first.shape()[v]).length());
+    CHECK(off < 1e-5);
+}
+
+TEST_CASE("A character that is walked about by a transform above its skeleton stays whole") {
+    const bool tagged = GENERATE(false, true);
+    Tail skin, plain;
+    std::vector<osg::ref_ptr<osg::MatrixTransform>> places;
+    for (Tail* tail : {&skin, &plain}) {
+        tail->bend();
+        tail->wear(tail == &skin);
+        places.push_back(new osg::MatrixTransform);
+        if (tagged) places.back()->setUserValue("osgTSS:moved", true);
+        tail->root->removeChild(tail->skeleton);
+        places.back()->addChild(tail->skeleton);
+        tail->root->addChild(places.back());
+    }
+    const osg::ref_ptr<Scene> scene = held(skin);
+    for (unsigned int number = 0; number < 24; number += 6) {
+        for (const auto& place : places) place->setMatrix(osg::Matrix::translate(0.1 * number, 0, 0));
+        skin.frame(number);
+        plain.frame(number);
+        CAPTURE(number);
+        CHECK(skin.off(plain) < 1e-5);
+    }
+}

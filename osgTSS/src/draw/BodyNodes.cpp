@@ -2,6 +2,7 @@
 
 #include "osgTSS/src/EachNode.h"
 
+#include <osg/Transform>
 #include <osg/UserDataContainer>
 #include <osg/ValueObject>
 #include <osgAnimation/MorphGeometry>
@@ -13,6 +14,7 @@ namespace {
 
 const char* const tagName = "osgTSS:body";
 const char* const scaleName = "osgTSS:bodyScale";
+const char* const carrierName = "osgTSS:carrier";
 
 /// A mesh of morph targets has stayed in its place, before what is drawn instead: in a copy of the graph it
 /// is that one which plays, not what the other one remembers. Any other drawable itself.
@@ -54,6 +56,16 @@ osg::Drawable* replacedBy(osg::Drawable& drawable) {
     return nullptr;
 }
 
+void tagCarrier(SkinGeometry& skin, const std::string& bodyPath) {
+    skin.setUserValue(carrierName, bodyPath);
+}
+
+std::string carrierPath(const SkinGeometry& skin) {
+    std::string path;
+    skin.getUserValue(carrierName, path);
+    return path;
+}
+
 BodyNodes findBodyNodes(osg::Node& root) {
     BodyNodes found;
     eachNode(root, [&](osg::Node& node) {
@@ -62,6 +74,17 @@ BodyNodes findBodyNodes(osg::Node& root) {
         if (node.getUserValue(tagName, path)) found.frames.emplace(path, BodyFrame{&node, bodyScale(node)});
     });
     return found;
+}
+
+std::optional<osg::Matrixd> toAbove(osg::Node& owner, osg::Node& node) {
+    for (const osg::NodePath& path : node.getParentalNodePaths(&owner)) {
+        if (path.empty() || path.front() != &owner) continue;
+        osg::Matrix matrix;
+        for (osg::Node* at : path)
+            if (at->asTransform()) at->asTransform()->computeLocalToWorldMatrix(matrix, nullptr);
+        return matrix;
+    }
+    return std::nullopt;
 }
 
 tss::Pose carriedSince(const osg::Matrixd& world, const osg::Matrixd& toFrame, double scale,

@@ -6,6 +6,7 @@
 #include <osgTSS/SkinGeometry>
 
 #include <map>
+#include <optional>
 #include <string>
 
 namespace osgTSS {
@@ -19,6 +20,11 @@ std::string bodyPath(const osg::Node& node);
 
 /// The factor that a node was tagged with.
 double bodyScale(const osg::Node& node);
+
+/// The body that carries the skin as a whole: what is part of it too never moves against the skin, wherever
+/// the application takes both.
+void tagCarrier(SkinGeometry& skin, const std::string& bodyPath);
+std::string carrierPath(const SkinGeometry& skin);
 
 /// The drawable that install() has put this one in place of; null: none.
 osg::Drawable* replacedBy(osg::Drawable& drawable);
@@ -34,6 +40,10 @@ struct BodyNodes {
     std::map<std::string, SkinGeometry*> shapes;
 };
 BodyNodes findBodyNodes(osg::Node& root);
+
+/// From a node's children to what the owner hangs in, whatever is hidden on the way; nothing where the node
+/// is not below the owner.
+std::optional<osg::Matrixd> toAbove(osg::Node& owner, osg::Node& node);
 
 /// How far a node has been carried since rest, in a frame; exactly nothing for less than rounding, and where
 /// there is no telling. world: of the node; toFrame: from the world; scale: from the frame's lengths to the

@@ -110,7 +110,7 @@ public:
         const std::string stored = skin.sourceHash.empty() ? tss::sourceHash(_model, skin) : skin.sourceHash;
         if (tss::sourceHash(_found, now) != stored)
             return "the graph holds another mesh, other bones or muscles than it was made from";
-        put(skin.body, now.body);
+        const osg::ref_ptr<SkinGeometry> drawn = put(skin.body, now.body);
         for (std::size_t k = 0; k < skin.muscles.size(); ++k) {
             const tss::MuscleModel& muscle = _model.muscles[skin.muscles[k]];
             const osg::ref_ptr<SkinGeometry> shown = put(muscle.body, _found.muscles[now.muscles[k]].body);
@@ -118,7 +118,12 @@ public:
                 shown->addUpdateCallback(new MuscleCallback(&_scene, muscle.path));
         }
         const auto under = tss::underSkin(_model, skin), here = tss::underSkin(_found, now);
-        for (std::size_t k = 0; k < under.size(); ++k) tag(under[k].bone, here[k].bone);
+        const std::string carrier = drawn ? carrierOf(*drawn) : "";
+        for (std::size_t k = 0; k < under.size(); ++k) {
+            tag(under[k].bone, here[k].bone);
+            if (under[k].bone >= 0 && here[k].bone >= 0 && carrier == _found.bodies[here[k].bone].path)
+                tagCarrier(*drawn, _model.bodies[under[k].bone].path);
+        }
         return "";
     }
 
@@ -138,6 +143,20 @@ private:
         if (body < 0 || foundBody < 0) return;
         const ConstraintVisitor::BodyNode at = nodeOf(foundBody);
         if (at.node) tagBody(*at.node, _model.bodies[body].path, at.scale);
+    }
+
+    /// The body of the graph that a drawable hangs in.
+    std::string carrierOf(osg::Drawable& drawable) const {
+        const auto& nodes = _visitor.getBodyNodes();
+        std::size_t carrier = 0; // what no joint moves
+        for (const osg::NodePath& path : drawable.getParentalNodePaths(&_root)) {
+            if (path.front() != &_root) continue;
+            for (const osg::Node* at : path)
+                for (std::size_t b = 0; b < nodes.size(); ++b)
+                    if (nodes[b].node == at && at != &drawable) carrier = b;
+            break;
+        }
+        return const_cast<ConstraintVisitor&>(_visitor).getModel().bodies[carrier].path;
     }
 
     /// Bodies may have been put in another order when they were rounded.

@@ -77,10 +77,12 @@ struct Shown {
     /// Whether it looks otherwise than in the last update.
     bool change(osg::Node& owner, double now) {
         tss::Pose moved = tss::Pose::Identity();
-        if (span && frame.valid() && insertion.valid())
-            moved = carriedSince(insertion->getWorldMatrices(&owner).at(0),
-                                 osg::Matrixd::inverse(frame->getWorldMatrices(&owner).at(0)), scale,
-                                 restInverse);
+        if (span && frame.valid() && insertion.valid()) {
+            const auto fromBone = toAbove(owner, *insertion), from = toAbove(owner, *frame);
+            moved = fromBone && from
+                        ? carriedSince(*fromBone, osg::Matrixd::inverse(*from), scale, restInverse)
+                        : far;
+        }
         if (now == activation && moved.matrix() == far.matrix()) return false;
         activation = now;
         far = moved;

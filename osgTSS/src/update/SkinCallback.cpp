@@ -40,7 +40,7 @@ struct Played {
     std::vector<tss::Pose> poses;
     std::vector<tss::Vec3> shift;                ///< by morph targets
     unsigned int traversal = 0, frameNumber = 0; ///< of the last update
-    bool updated = false;
+    bool updated = false, written = false;
 
     Played(osg::Node& owner, const Scene& scene, const std::string& path);
     void findBones(const BodyNodes& nodes);
@@ -91,8 +91,9 @@ void Played::findBones(const BodyNodes& nodes) {
         Bone bone;
         bone.muscle = under.muscle;
         const int body = under.bone;
-        const auto found = body < 0 ? nodes.frames.end() : nodes.frames.find(model->bodies[body].path);
-        bone.outside = body >= 0 && found == nodes.frames.end() && drawn; // its root is a transform
+        const bool along = body < 0 || model->bodies[body].path == carrierPath(*geometry);
+        const auto found = along ? nodes.frames.end() : nodes.frames.find(model->bodies[body].path);
+        bone.outside = !along && found == nodes.frames.end() && drawn; // its root is a transform
         if (found != nodes.frames.end()) bone.node = found->second.node;
         if (bone.node.valid() || bone.outside) {
             bone.restInverse = (skinInverse * model->bodies[body].placement).inverse(Eigen::Isometry);
@@ -102,15 +103,20 @@ void Played::findBones(const BodyNodes& nodes) {
     }
 }
 
-/// How far each of them has been carried since rest, in the skin's frame.
+/// How far each of them has been carried since rest, in the skin's frame. One that was taken out of the graph
+/// stays where it was.
 void Played::pose(osg::Node& owner) {
-    poses.assign(bones.size(), tss::Pose::Identity());
-    const osg::Matrixd toSkin = osg::Matrixd::inverse(frame->getWorldMatrices(&owner).at(0));
+    poses.resize(bones.size(), tss::Pose::Identity());
+    const std::optional<osg::Matrixd> fromSkin = toAbove(owner, *frame);
+    if (!fromSkin) return;
+    const osg::Matrixd toSkin = osg::Matrixd::inverse(*fromSkin);
     for (std::size_t k = 0; k < bones.size(); ++k) {
-        if (!bones[k].node.valid() && !bones[k].outside) continue;
-        const osg::Matrixd toOwner =
-            bones[k].outside ? osg::Matrixd() : bones[k].node->getWorldMatrices(&owner).at(0);
-        poses[k] = carriedSince(toOwner, toSkin, scale, bones[k].restInverse);
+        std::optional<osg::Matrixd> fromBone;
+        if (bones[k].outside)
+            fromBone = osg::Matrixd();
+        else if (bones[k].node.valid())
+            fromBone = toAbove(owner, *bones[k].node);
+        if (fromBone) poses[k] = carriedSince(*fromBone, toSkin, scale, bones[k].restInverse);
     }
 }
 
@@ -133,7 +139,9 @@ void Played::update(osg::Node& owner, osg::NodeVisitor& visitor, const Scene& sc
         activations.push_back(bone.muscle < 0 ? 0 : scene.getActivation(bone.muscle, time));
     if (riding) pose(owner);
     if (morph.valid() && drawn) morphed(visitor);
-    if (!response->update(activations, poses, shift).moved) return;
+    const bool moved = response->update(activations, poses, shift).moved;
+    if (written && !moved) return;
+    written = true; // a copy of a graph is drawn as the graph stood until then
     if (drawn)
         drawn->deform(*geometry, response->rig().vertices, response->positions(), response->normals());
     else
