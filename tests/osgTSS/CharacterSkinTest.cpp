@@ -193,6 +193,25 @@ TEST_CASE("A copy that was made while a character was bent is drawn as it stands
     CHECK(off < 1e-5);
 }
 
+TEST_CASE("A rigged mesh is no muscle, by name, and goes on to be drawn") {
+    Tail held, plain;
+    held.bend();
+    plain.bend();
+    held.wear(false);
+    plain.wear(false);
+    held.rig->setUserValue("osgTSS:muscle", std::string("contract=0.2"));
+    const osg::ref_ptr<osg::Geometry> outer = Limb::tube(0, Limb::length, 17, 12, 0.8f, false);
+    outer->setUserValue("osgTSS:skin", true);
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(outer);
+    held.skeleton->addChild(geode);
+    const Heard heard;
+    const osg::ref_ptr<Scene> scene = osgTSS::bake(*held.root);
+    CHECK(heard.times("Sleeve: it is no muscle") == 1);
+    install(*held.root, *scene);
+    CHECK(farthest(held, plain) < 1e-5);
+}
+
 TEST_CASE("A character that is walked about by a transform above its skeleton stays whole") {
     const bool tagged = GENERATE(false, true);
     Tail skin, plain;

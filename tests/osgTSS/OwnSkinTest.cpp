@@ -257,3 +257,21 @@ TEST_CASE("A skin whose geometry has changed since it was baked does not play, a
     CHECK(heard.times("another mesh") == 1);
     CHECK(limb.skinGeode->getDrawable(0) == limb.skin);
 }
+
+TEST_CASE("A muscle hears of its activation on the node that stands there under its name, too") {
+    Limb limb;
+    Played played(limb);
+    limb.muscle->setUserValue("osgTSS:activation", 0.0);
+    played.frame();
+    auto* shown = find<SkinGeometry>(*limb.root, "Biceps");
+    REQUIRE(shown);
+    const std::vector<osg::Vec3> slack = shown->getVertices()->asVector();
+    shown->setUserValue("osgTSS:activation", 1.0);
+    played.frame();
+    const std::vector<osg::Vec3> tight = shown->getVertices()->asVector();
+    CHECK(tight != slack);
+    limb.muscle->setUserValue("osgTSS:activation", 0.5); // what is said last counts
+    played.frame();
+    CHECK(shown->getVertices()->asVector() != tight);
+    CHECK(shown->getVertices()->asVector() != slack);
+}

@@ -79,6 +79,9 @@ bool ConstraintVisitor::addSoft(osg::Drawable& drawable) {
         osg::Drawable* own = replacedBy(drawable);
         if (dynamic_cast<osgAnimation::MorphGeometry*>(own ? own : &drawable))
             throw tss::InputError("expected a shape of its own, and it has morph targets");
+        if (dynamic_cast<osgAnimation::RigGeometry*>(own ? own : &drawable))
+            throw tss::InputError(
+                "expected a shape of its own, and bones turn it (osgAnimation::RigGeometry)");
         if (std::string words; (own ? *own : drawable).getUserValue(activationTag, words))
             model.activation = parseActivation(words, _model.timeCodesPerSecond);
         addSoftBody(drawable, "Muscle");

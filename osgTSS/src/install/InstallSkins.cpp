@@ -4,6 +4,7 @@
 #include "osgTSS/src/draw/BodyNodes.h"
 #include "osgTSS/src/draw/DrawnVertices.h"
 #include "osgTSS/src/extract/SoftParts.h"
+#include "osgTSS/src/extract/SoftTags.h"
 
 #include "bake/base/Error.h"
 #include "bake/model/SourceHash.h"
@@ -49,7 +50,9 @@ osg::ref_ptr<SkinGeometry> shownInsteadOf(osg::Drawable& drawable, const std::st
     shown->setStateSet(drawable.getStateSet() ? drawable.getStateSet() : source.getStateSet());
     if (const osg::UserDataContainer* container = drawable.getUserDataContainer())
         shown->setUserDataContainer(osg::clone(container, osg::CopyOp::DEEP_COPY_USERDATA));
-    shown->getOrCreateUserDataContainer()->addUserObject(&drawable);
+    osg::UserDataContainer& values = *shown->getOrCreateUserDataContainer();
+    values.removeUserObject(values.getUserObjectIndex(activationTag)); // what is written there is new
+    values.addUserObject(&drawable);
     shown->setPath(body);
     tagBody(*shown, body, scale);
     return shown;

@@ -21,6 +21,31 @@ namespace osgTSS {
 
 namespace {
 
+/// The number that the application has written on a drawable; nothing where it has not.
+std::optional<double> writtenOn(const osg::Drawable* drawable) {
+    double wide = 0;
+    float narrow = 0;
+    if (drawable && drawable->getUserValue(activationTag, wide)) return wide;
+    if (drawable && drawable->getUserValue(activationTag, narrow)) return narrow;
+    return std::nullopt;
+}
+
+/// What the application asks for: what it has written last, on its own drawable or on the geometry that
+/// stands there under its name.
+struct Asked {
+    std::optional<double> value, here, own;
+
+    void look(SkinGeometry& geometry) {
+        const std::optional<double> nowHere = writtenOn(&geometry), nowOwn = writtenOn(replacedBy(geometry));
+        if (nowHere != here)
+            value = nowHere;
+        else if (nowOwn != own)
+            value = nowOwn;
+        here = nowHere;
+        own = nowOwn;
+    }
+};
+
 /// A muscle as one drawable shows it.
 struct Shown {
     osg::observer_ptr<SkinGeometry> geometry;
@@ -34,6 +59,7 @@ struct Shown {
     tss::TriangleMesh mesh;
     std::optional<DrawnVertices> drawn; ///< of a geometry that the muscle was made from; else one per vertex
     double activation = std::numeric_limits<double>::quiet_NaN();
+    Asked asked;
 
     tss::Pose far = tss::Pose::Identity(); ///< of the insertion's bone since rest, in the surface's frame
     double scale = 1;                      ///< from the frame's lengths to the surface's
@@ -92,16 +118,6 @@ struct Shown {
     }
 };
 
-/// The number that the application has written on its own drawable; nothing where it has not.
-std::optional<double> askedOf(SkinGeometry& geometry) {
-    const osg::Drawable* own = replacedBy(geometry);
-    double wide = 0;
-    float narrow = 0;
-    if (own && own->getUserValue(activationTag, wide)) return wide;
-    if (own && own->getUserValue(activationTag, narrow)) return narrow;
-    return std::nullopt;
-}
-
 } // namespace
 
 struct MuscleCallback::States : PerNode<Shown> {};
@@ -132,7 +148,8 @@ bool MuscleCallback::run(osg::Object* object, osg::Object* data) {
     if (!shown.deformer || !geometry || !geometry->getVertices() ||
         (!shown.drawn && geometry->getVertices()->size() != shown.mesh.vertices.size()))
         return result;
-    if (const auto asked = askedOf(*geometry)) _scene->setActivation(shown.muscle, *asked);
+    shown.asked.look(*geometry);
+    if (shown.asked.value) _scene->setActivation(shown.muscle, *shown.asked.value);
     const double time = _scene->getClock().timeCode(*visitor->getFrameStamp());
     if (!shown.change(*node, _scene->getActivation(shown.muscle, time))) return result;
     const std::vector<tss::Vec3> normals = tss::vertexNormals(shown.mesh);
