@@ -212,6 +212,58 @@ TEST_CASE("A rigged mesh is no muscle, by name, and goes on to be drawn") {
     CHECK(farthest(held, plain) < 1e-5);
 }
 
+TEST_CASE("Of several entries at a vertex's place the one that is drawn says which bones hold it") {
+    // As where several meshes share an array, of which others come first.
+    Tail skin, plain;
+    for (Tail* tail : {&skin, &plain}) {
+        tail->bend();
+        const unsigned int count = tail->vertices().size();
+        for (unsigned int v = 0; v < count; ++v) tail->addLike(v);
+        for (auto& corner : tail->triangles()) corner += count;
+        tail->wear(tail == &skin);
+        for (auto& [bone, influence] : *tail->influences)
+            std::erase_if(influence, [&](const auto& held) { return held.first < count; });
+    }
+    const osg::ref_ptr<Scene> scene = held(skin);
+    CHECK(farthest(skin, plain) < 1e-5);
+}
+
+TEST_CASE("What is drawn of a skin as lines goes with the surface that it stands on") {
+    const double off = farthest([](Tail& tail) {
+        tail.bend();
+        const osg::ref_ptr<osg::DrawElementsUInt> hair = new osg::DrawElementsUInt(GL_LINES);
+        for (int side = 0; side < Limb::sides; ++side) {
+            const unsigned int root = Limb::at(28, side);
+            hair->push_back(tail.addLike(root));
+            hair->push_back(tail.addLike(root, tail.normals()[root] * 0.3f));
+        }
+        tail.source->addPrimitiveSet(hair);
+    });
+    CHECK(off < 1e-4);
+}
+
+TEST_CASE("Vertices at one place that different bones hold are told of") {
+    // As closed lips: two tubes that end in one ring.
+    Tail tail;
+    tail.bend();
+    tail.source = Limb::tube(0, 2, 17, Limb::sides, Limb::radius, true);
+    const osg::ref_ptr<osg::Geometry> other = Limb::tube(2, 4, 17, Limb::sides, Limb::radius, true);
+    const auto& more = static_cast<const osg::Vec3Array&>(*other->getVertexArray());
+    const unsigned int count = tail.vertices().size();
+    for (const osg::Vec3& vertex : more) tail.vertices()[tail.addLike(0)] = vertex;
+    for (const unsigned int corner : static_cast<osg::DrawElementsUInt&>(*other->getPrimitiveSet(0)))
+        tail.triangles().push_back(count + corner);
+    tail.dress([](const osg::Vec3&) { return std::map<std::string, float>{{"A", 1.f}}; }, "");
+    auto& first = (*tail.influences)["A"];
+    auto& second = (*tail.influences)["B"];
+    second.assign(first.begin() + count, first.end());
+    second.setName("B");
+    first.resize(count);
+    const Heard heard;
+    const osg::ref_ptr<Scene> scene = osgTSS::bake(*tail.root);
+    CHECK(heard.times("at 17 places of it stand vertices that different bones hold") == 1);
+}
+
 TEST_CASE("A character that is walked about by a transform above its skeleton stays whole") {
     const bool tagged = GENERATE(false, true);
     Tail skin, plain;

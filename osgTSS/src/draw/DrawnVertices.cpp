@@ -1,10 +1,12 @@
 #include "DrawnVertices.h"
 #include "PointGrid.h"
 
+#include "bake/geometry/MeshQuery.h"
 #include "bake/motion/TurnBetween.h"
 
 #include <osgTSS/Convert>
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -15,7 +17,29 @@ namespace {
 /// Of the mesh's size: float coordinates that went through a file or another unit agree to this.
 constexpr double same = 1e-5;
 
+std::size_t nearestCorner(const tss::TriangleMesh& mesh, const tss::MeshQuery& surface,
+                          const tss::Vec3& point) {
+    const int triangle = surface.closest(point).triangle;
+    int best = 0;
+    for (int k = 1; k < 3; ++k)
+        if ((mesh.corner(triangle, k) - point).squaredNorm() <
+            (mesh.corner(triangle, best) - point).squaredNorm())
+            best = k;
+    return static_cast<std::size_t>(mesh.triangles[triangle][best]);
+}
+
 } // namespace
+
+std::vector<bool> verticesIn(const osg::Geometry& geometry, bool triangles) {
+    const osg::Array* vertices = geometry.getVertexArray();
+    std::vector<bool> used(vertices ? vertices->getNumElements() : 0, false);
+    for (const auto& primitives : geometry.getPrimitiveSetList()) {
+        if (!primitives || (triangles && primitives->getMode() < GL_TRIANGLES)) continue;
+        for (unsigned int k = 0; k < primitives->getNumIndices(); ++k)
+            if (const unsigned int vertex = primitives->index(k); vertex < used.size()) used[vertex] = true;
+    }
+    return used;
+}
 
 std::optional<DrawnVertices> DrawnVertices::of(const osg::Geometry& rest, const tss::TriangleMesh& mesh,
                                                double scale, std::vector<tss::Vec3> restNormals) {
@@ -24,25 +48,27 @@ std::optional<DrawnVertices> DrawnVertices::of(const osg::Geometry& rest, const 
     const Eigen::AlignedBox3d box = tss::bounds(mesh);
     const PointGrid grid(mesh.vertices, same * (box.diagonal().norm() + 1e-2 * box.center().norm()) +
                                             std::numeric_limits<float>::min());
-    std::vector<int> meshVertex;
-    std::vector<std::uint32_t> count(mesh.vertices.size() + 1, 0);
-    for (const osg::Vec3& vertex : *vertices) {
-        const tss::Vec3 point = scale * toCore(vertex);
-        meshVertex.push_back(point.allFinite() ? grid.nearest(point) : -1);
-        if (meshVertex.back() >= 0) ++count[static_cast<std::size_t>(meshVertex.back()) + 1];
+    const std::vector<bool> used = verticesIn(rest, false);
+    std::vector<std::vector<std::uint32_t>> standing(mesh.vertices.size()); ///< at each vertex of the mesh
+    std::vector<std::uint32_t> beside;
+    for (std::uint32_t i = 0; i < vertices->size(); ++i) {
+        const tss::Vec3 point = scale * toCore((*vertices)[i]);
+        if (!point.allFinite()) continue;
+        if (const int v = grid.nearest(point); v >= 0)
+            standing[v].push_back(i);
+        else if (used[i])
+            beside.push_back(i);
     }
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-        if (count[v + 1] == 0) return std::nullopt;
-
+    if (std::ranges::any_of(standing, [](const auto& of) { return of.empty(); })) return std::nullopt;
+    if (!beside.empty()) {
+        const tss::MeshQuery surface(mesh);
+        for (const std::uint32_t i : beside)
+            standing[nearestCorner(mesh, surface, scale * toCore((*vertices)[i]))].push_back(i);
+    }
     DrawnVertices drawn;
     drawn._scale = scale;
     drawn._restNormals = std::move(restNormals);
-    drawn._start = std::move(count);
-    std::partial_sum(drawn._start.begin(), drawn._start.end(), drawn._start.begin());
-    drawn._drawn.resize(drawn._start.back());
-    std::vector<std::uint32_t> next(drawn._start.begin(), drawn._start.end() - 1);
-    for (std::size_t i = 0; i < meshVertex.size(); ++i)
-        if (meshVertex[i] >= 0) drawn._drawn[next[meshVertex[i]]++] = static_cast<std::uint32_t>(i);
+    drawn.take(standing, beside.empty() ? nullptr : &mesh, *vertices);
     const auto* normals = dynamic_cast<const osg::Vec3Array*>(rest.getNormalArray());
     if (normals && normals->size() == vertices->size())
         for (const std::uint32_t vertex : drawn._drawn)
@@ -52,19 +78,35 @@ std::optional<DrawnVertices> DrawnVertices::of(const osg::Geometry& rest, const 
     return drawn;
 }
 
+/// mesh: where some of them stand beside it.
+void DrawnVertices::take(const std::vector<std::vector<std::uint32_t>>& standing,
+                         const tss::TriangleMesh* mesh, const osg::Vec3Array& vertices) {
+    _start = {0};
+    for (const auto& at : standing) {
+        _drawn.insert(_drawn.end(), at.begin(), at.end());
+        _start.push_back(static_cast<std::uint32_t>(_drawn.size()));
+    }
+    if (!mesh) return;
+    for (std::size_t v = 0; v < standing.size(); ++v)
+        for (const std::uint32_t i : standing[v])
+            _away.push_back(_scale * toCore(vertices[i]) - mesh->vertices[v]);
+}
+
 void DrawnVertices::deform(SkinGeometry& shown, std::span<const std::uint32_t> vertices,
                            std::span<const tss::Vec3> positions, std::span<const tss::Vec3> normals) {
     _moved.clear();
     _positions.clear();
     _normals.clear();
+    const bool turns = !_drawnNormals.empty() || !_away.empty();
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         const std::size_t v = vertices[k];
-        const bool turned = !_drawnNormals.empty() && normals[k] != _restNormals[v];
+        const bool turned = turns && !_restNormals.empty() && normals[k] != _restNormals[v];
         const Eigen::Quaterniond turn =
             turned ? tss::turnBetween(_restNormals[v], normals[k]) : Eigen::Quaterniond::Identity();
         for (std::uint32_t d = _start[v]; d < _start[v + 1]; ++d) {
             _moved.push_back(_drawn[d]);
-            _positions.push_back(positions[k] / _scale);
+            _positions.push_back((_away.empty() ? positions[k] : tss::Vec3(positions[k] + turn * _away[d])) /
+                                 _scale);
             if (_drawnNormals.empty())
                 _normals.push_back(tss::Vec3::Zero());
             else

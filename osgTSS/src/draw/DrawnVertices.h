@@ -11,9 +11,12 @@
 
 namespace osgTSS {
 
+/// Which vertices of a geometry some primitive draws, and which a triangle.
+std::vector<bool> verticesIn(const osg::Geometry& geometry, bool triangles);
+
 /// Which vertices of a geometry stand for each vertex of a mesh: along a seam of texture coordinates or of
 /// normals several are at one place, and move as one. Their normals are turned as the mesh's own is since
-/// rest.
+/// rest. What lines and points draw beside the mesh, as hair, goes with the vertex that it is nearest to.
 class DrawnVertices {
 public:
     /// scale: from the geometry's lengths to the mesh's (negative: mirrored). restNormals: of the mesh, one a
@@ -22,7 +25,7 @@ public:
     static std::optional<DrawnVertices> of(const osg::Geometry& rest, const tss::TriangleMesh& mesh,
                                            double scale, std::vector<tss::Vec3> restNormals);
 
-    /// Those of one vertex of the mesh.
+    /// Those of one vertex of the mesh; those that stand at its place first.
     std::span<const std::uint32_t> of(std::size_t vertex) const {
         return {_drawn.data() + _start[vertex], _drawn.data() + _start[vertex + 1]};
     }
@@ -35,11 +38,15 @@ public:
                 std::span<const tss::Vec3> normals);
 
 private:
+    void take(const std::vector<std::vector<std::uint32_t>>& standing, const tss::TriangleMesh* mesh,
+              const osg::Vec3Array& vertices);
+
     double _scale = 1;
     std::vector<std::uint32_t> _start,
         _drawn; ///< of mesh vertex v: _drawn[_start[v]] to _drawn[_start[v + 1]]
     std::vector<tss::Vec3> _restNormals, _drawnNormals; ///< of the mesh, and one for each of _drawn; the
                                                         ///< latter may be empty
+    std::vector<tss::Vec3> _away;                       ///< of each of _drawn from its vertex at rest
     std::vector<std::uint32_t> _all;                    ///< vertices of the mesh
     std::vector<std::uint32_t> _moved;                  ///< room for one call
     std::vector<tss::Vec3> _positions, _normals;

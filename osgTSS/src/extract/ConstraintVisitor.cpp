@@ -234,9 +234,14 @@ void ConstraintVisitor::applySkeleton(osg::Transform& node) {
     std::unique_ptr<SkeletonMeshes> outer = std::move(_skeleton);
     _skeleton = std::make_unique<SkeletonMeshes>(node);
     applyTransform(node);
-    for (const SkeletonMeshes::Skin& skin : _skeleton->skins)
-        _soft->setWeights(_model, skin.body, *skin.rig, skin.scale,
-                          [&](const std::string& bone) { return _skeleton->bodyOf(bone); });
+    for (const SkeletonMeshes::Skin& skin : _skeleton->skins) {
+        const std::size_t torn =
+            _soft->setWeights(_model, skin.body, *skin.rig, skin.scale,
+                              [&](const std::string& bone) { return _skeleton->bodyOf(bone); });
+        if (torn > 0)
+            warn("skin " + skin.rig->getName() + ": at " + std::to_string(torn) +
+                 " places of it stand vertices that different bones hold, and go on to move as one");
+    }
     for (RigParts::Part& part : _skeleton->parts()) {
         tss::Body& body = _model.bodies[part.body];
         const bool first = body.mesh.empty();

@@ -18,6 +18,38 @@ bool means(const std::vector<std::string>& names, const std::string& name) {
     return names.empty() || std::ranges::find(names, name) != names.end();
 }
 
+/// Shares of bodies in an entry of a vertex array, their sum 1; none: nothing holds it.
+using Held = std::map<int, double>;
+
+std::vector<Held> heldBy(const osgAnimation::RigGeometry& rig, std::size_t count,
+                         const std::function<int(const std::string&)>& bodyOf) {
+    std::vector<Held> held(count);
+    if (const auto* influences = rig.getInfluenceMap())
+        for (const auto& [name, influence] : *influences) {
+            const int bone = bodyOf(name);
+            for (const auto& [vertex, weight] : influence)
+                if (bone >= 0 && vertex < held.size() && weight > 0) held[vertex][bone] += weight;
+        }
+    for (Held& of : held) {
+        double sum = 0;
+        for (const auto& [bone, weight] : of) sum += weight;
+        for (auto& [bone, weight] : of) weight /= sum;
+    }
+    return held;
+}
+
+/// By more than an exporter rounds.
+bool differ(const Held& a, const Held& b) {
+    constexpr double rounded = 0.05;
+    const auto more = [](const Held& one, const Held& other) {
+        return std::ranges::any_of(one, [&](const auto& share) {
+            const auto found = other.find(share.first);
+            return share.second > rounded + (found != other.end() ? found->second : 0);
+        });
+    };
+    return more(a, b) || more(b, a);
+}
+
 } // namespace
 
 osg::ref_ptr<osg::Geometry> restGeometryOf(osg::Drawable& drawable) {
@@ -77,26 +109,30 @@ tss::MuscleModel SoftParts::finished(const tss::SceneModel& scene, const Muscle&
 }
 
 /// Vertices that no bone holds move with what carries the mesh, as those do whose weights are all 0.
-void SoftParts::setWeights(tss::SceneModel& scene, int body, osgAnimation::RigGeometry& rig, double scale,
-                           const std::function<int(const std::string&)>& bodyOf) {
+std::size_t SoftParts::setWeights(tss::SceneModel& scene, int body, osgAnimation::RigGeometry& rig,
+                                  double scale, const std::function<int(const std::string&)>& bodyOf) {
     const auto skin =
         std::ranges::find_if(_skins, [&](const Skin& found) { return found.model.body == body; });
     const tss::TriangleMesh& mesh = scene.bodies[body].mesh;
-    const auto drawn = DrawnVertices::of(*restGeometryOf(rig), mesh, scale, {});
-    if (skin == _skins.end() || !drawn) return;
+    const osg::ref_ptr<osg::Geometry> source = restGeometryOf(rig);
+    const auto drawn = DrawnVertices::of(*source, mesh, scale, {});
+    if (skin == _skins.end() || !drawn) return 0;
     skin->rigged = true;
-    std::vector<std::map<int, double>> held(restGeometryOf(rig)->getVertexArray()->getNumElements());
-    if (const auto* influences = rig.getInfluenceMap())
-        for (const auto& [name, influence] : *influences) {
-            const int bone = bodyOf(name);
-            for (const auto& [vertex, weight] : influence)
-                if (bone >= 0 && vertex < held.size() && weight > 0) held[vertex][bone] += weight;
-        }
-    tss::SkinWeights& weights = skin->model.weights;
-    std::map<int, std::uint32_t> places;
+    const std::vector<Held> held = heldBy(rig, source->getVertexArray()->getNumElements(), bodyOf);
+    const std::vector<bool> used = verticesIn(*source, true);
+    std::vector<Held> holding;
+    std::size_t torn = 0;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        std::map<int, double>& of = held[drawn->of(v).front()];
-        if (of.empty()) of[skin->carrier] = 1;
+        std::vector<Held> entries;
+        for (const std::uint32_t entry : drawn->of(v))
+            if (used[entry] && !held[entry].empty()) entries.push_back(held[entry]);
+        if (entries.empty()) entries.push_back({{skin->carrier, 1}});
+        holding.push_back(entries.front());
+        torn += std::ranges::any_of(entries, [&](const Held& other) { return differ(other, entries[0]); });
+    }
+    std::map<int, std::uint32_t> places;
+    tss::SkinWeights& weights = skin->model.weights;
+    for (const Held& of : holding) {
         weights.influences = std::max(weights.influences, of.size());
         for (const auto& [bone, weight] : of) places.emplace(bone, 0u);
     }
@@ -105,17 +141,15 @@ void SoftParts::setWeights(tss::SceneModel& scene, int body, osgAnimation::RigGe
         weights.joints.push_back(bone);
         scene.bodies[bone].rigid = true; // a body, also where it has no mesh
     }
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        const std::map<int, double>& of = held[drawn->of(v).front()];
-        double sum = 0;
-        for (const auto& [bone, weight] : of) sum += weight;
-        for (const auto& [bone, weight] : of) {
+    for (std::size_t v = 0; v < holding.size(); ++v) {
+        for (const auto& [bone, weight] : holding[v]) {
             weights.indices.push_back(places.at(bone));
-            weights.weights.push_back(weight / sum);
+            weights.weights.push_back(weight);
         }
         weights.indices.resize((v + 1) * weights.influences, 0);
         weights.weights.resize((v + 1) * weights.influences, 0);
     }
+    return torn;
 }
 
 void SoftParts::setCarried(tss::SceneModel& scene, int body) {

@@ -32,8 +32,9 @@ public:
     bool empty() const { return _skins.empty() && _muscles.empty(); }
 
     /// The weights that a rigged mesh has, for its skin. bodyOf: of a bone by its name, -1: not known.
-    void setWeights(tss::SceneModel& scene, int body, osgAnimation::RigGeometry& rig, double scale,
-                    const std::function<int(const std::string&)>& bodyOf);
+    /// Returns at how many places there are vertices that different bones hold.
+    std::size_t setWeights(tss::SceneModel& scene, int body, osgAnimation::RigGeometry& rig, double scale,
+                           const std::function<int(const std::string&)>& bodyOf);
 
     /// Of a mesh whose shape something else makes: bones do not turn it, it moves with its carrier alone.
     void setCarried(tss::SceneModel& scene, int body);
