@@ -142,3 +142,24 @@ TEST_CASE("A table of one character serves two that are alike", "[osgTSS]") {
         CHECK(other.depth() == 0);
     }
 }
+
+TEST_CASE("A mesh that comes to a skeleton later is drawn as its bones are held", "[osgTSS]") {
+    Sitter sitter;
+    const osg::ref_ptr<Scene> scene = osgTSS::bake(*sitter.root, BakeOptions("tolerance=0.05"));
+    REQUIRE(install(*sitter.root, *scene).joints >= 1);
+    sitter.play();
+    Playback playback;
+    playback.frames(*sitter.root, 0, 5);
+    const osg::ref_ptr<osgAnimation::RigGeometry> late = new osgAnimation::RigGeometry;
+    late->setSourceGeometry(sitter.rig->getSourceGeometry());
+    late->setInfluenceMap(sitter.rig->getInfluenceMap());
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(late);
+    sitter.skeleton->addChild(geode);
+    for (unsigned int frame = 6; frame < 96; ++frame) {
+        playback.frame(*sitter.root, frame);
+        INFO("frame " << frame);
+        const auto& drawn = static_cast<const osg::Vec3Array&>(*late->getVertexArray());
+        CHECK(std::vector<osg::Vec3>(drawn.begin(), drawn.end()) == sitter.drawn());
+    }
+}

@@ -286,3 +286,42 @@ TEST_CASE("A character that is walked about by a transform above its skeleton st
         CHECK(skin.off(plain) < 1e-5);
     }
 }
+
+TEST_CASE("A skin in the place of a mesh that hardware deforms has none of its program") {
+    Tail tail;
+    tail.bend();
+    tail.wear(true);
+    tail.source->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+    const osg::ref_ptr<osgAnimation::RigTransformHardware> hardware = new osgAnimation::RigTransformHardware;
+    hardware->setShader(new osg::Shader(osg::Shader::VERTEX, "void main() { gl_Position = ftransform(); }"));
+    tail.rig->setRigTransformImplementation(hardware);
+    tail.frame(0);
+    tail.frame(1);
+    const osg::StateSet* rigged = tail.rig->getStateSet();
+    REQUIRE(rigged);
+    REQUIRE(rigged->getAttribute(osg::StateAttribute::PROGRAM));
+    const osg::ref_ptr<Scene> scene = held(tail);
+    const osg::StateSet* state = tail.geode->getDrawable(0)->getStateSet();
+    REQUIRE(state);
+    CHECK(state->getAttribute(osg::StateAttribute::PROGRAM) == nullptr);
+    CHECK(state->getMode(GL_BLEND) == osg::StateAttribute::ON);
+    uninstall(*tail.root);
+    CHECK(tail.geode->getDrawable(0)->getStateSet() == rigged);
+    CHECK(rigged->getAttribute(osg::StateAttribute::PROGRAM));
+}
+
+TEST_CASE("A copy of a character's nodes and drawables has a mesh of its own when both are put back") {
+    Tail tail;
+    tail.bend();
+    tail.wear(true);
+    const osg::ref_ptr<Scene> scene = held(tail);
+    const osg::ref_ptr<osg::Group> copy = osg::clone(
+        tail.root.get(), osg::CopyOp(osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_DRAWABLES |
+                                     osg::CopyOp::DEEP_COPY_CALLBACKS));
+    uninstall(*copy);
+    uninstall(*tail.root);
+    auto* mesh = find<osgAnimation::RigGeometry>(*copy);
+    REQUIRE(mesh);
+    CHECK(mesh != tail.rig.get());
+    CHECK(find<osgAnimation::RigGeometry>(*tail.root) == tail.rig.get());
+}

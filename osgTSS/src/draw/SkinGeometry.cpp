@@ -1,5 +1,6 @@
 #include <OpenThreads/ScopedLock>
 #include <osg/NodeVisitor>
+#include <osg/UserDataContainer>
 #include <osgTSS/Convert>
 #include <osgTSS/SkinGeometry>
 
@@ -39,6 +40,17 @@ const osg::Vec3Array* vec3Array(const osg::Array* array) {
     return dynamic_cast<const osg::Vec3Array*>(array);
 }
 
+/// Values of its own, and a copy of the drawable that it stands in place of, which is drawn again one day.
+void copyReplaced(osg::Object& shown, const osg::CopyOp& copyop) {
+    if (!shown.getUserDataContainer()) return;
+    const osg::ref_ptr<osg::UserDataContainer> values =
+        osg::clone(shown.getUserDataContainer(), osg::CopyOp::SHALLOW_COPY);
+    for (unsigned int k = 0; k < values->getNumUserObjects(); ++k)
+        if (auto* drawable = dynamic_cast<osg::Drawable*>(values->getUserObject(k)))
+            values->setUserObject(k, copyop(drawable));
+    shown.setUserDataContainer(values);
+}
+
 } // namespace
 
 SkinGeometry::SkinGeometry() {
@@ -50,6 +62,9 @@ SkinGeometry::SkinGeometry() {
 SkinGeometry::SkinGeometry(const SkinGeometry& other, const osg::CopyOp& copyop)
     : osg::Drawable(other, copyop), _path(other._path) {
     setDataVariance(DYNAMIC);
+    const auto flags = copyop.getCopyFlags();
+    if ((flags & osg::CopyOp::DEEP_COPY_DRAWABLES) && !(flags & osg::CopyOp::DEEP_COPY_USERDATA))
+        copyReplaced(*this, copyop);
     if (!other._rest) return;
     const bool deep = (copyop.getCopyFlags() & osg::CopyOp::DEEP_COPY_ARRAYS) != 0;
     setRestGeometry(deep ? osg::clone(other._rest.get(), copyop) : other._rest.get());

@@ -13,6 +13,7 @@
 
 #include <osg/Notify>
 #include <osg/ValueObject>
+#include <osgAnimation/RigTransformHardware>
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/MuscleCallback>
 #include <osgTSS/SkinCallback>
@@ -31,6 +32,21 @@ int find(const tss::SceneModel& scene, const std::string& skin) {
     return -1;
 }
 
+/// What a drawable is drawn with; of a mesh that hardware deforms without what deforms it.
+osg::ref_ptr<osg::StateSet> stateOf(osg::Drawable& drawable, osg::Geometry& source) {
+    const osg::ref_ptr<osg::StateSet> state =
+        drawable.getStateSet() ? drawable.getStateSet() : source.getStateSet();
+    auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable);
+    auto* hardware =
+        rig ? dynamic_cast<osgAnimation::RigTransformHardware*>(rig->getRigTransformImplementation())
+            : nullptr;
+    if (!state || !hardware || !hardware->getMatrixPaletteUniform()) return state;
+    osg::ref_ptr<osg::StateSet> plain = osg::clone(state.get(), osg::CopyOp::SHALLOW_COPY);
+    plain->removeAttribute(osg::StateAttribute::PROGRAM);
+    plain->removeUniform(hardware->getMatrixPaletteUniform());
+    return plain;
+}
+
 /// Shows what the drawable shows, its state and all its other arrays kept, and lets its vertices be moved.
 osg::ref_ptr<SkinGeometry> shownInsteadOf(osg::Drawable& drawable, const std::string& body, double scale) {
     const osg::ref_ptr<osg::Geometry> keep = restGeometryOf(drawable);
@@ -47,7 +63,7 @@ osg::ref_ptr<SkinGeometry> shownInsteadOf(osg::Drawable& drawable, const std::st
     shown->setNodeMask(drawable.getNodeMask());
     shown->setCullingActive(drawable.getCullingActive());
     shown->setCullCallback(drawable.getCullCallback());
-    shown->setStateSet(drawable.getStateSet() ? drawable.getStateSet() : source.getStateSet());
+    shown->setStateSet(stateOf(drawable, source));
     if (const osg::UserDataContainer* container = drawable.getUserDataContainer())
         shown->setUserDataContainer(osg::clone(container, osg::CopyOp::DEEP_COPY_USERDATA));
     osg::UserDataContainer& values = *shown->getOrCreateUserDataContainer();

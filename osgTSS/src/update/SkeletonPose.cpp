@@ -1,8 +1,10 @@
 #include "SkeletonPose.h"
 
 #include "osgTSS/src/CallbackOf.h"
+#include "osgTSS/src/EachNode.h"
 
 #include <osg/NodeVisitor>
+#include <osgAnimation/RigGeometry>
 #include <osgAnimation/UpdateBone>
 
 namespace osgTSS {
@@ -26,10 +28,6 @@ public:
         }
         traverse(node);
         _in = above;
-    }
-    void apply(osg::Geometry& drawable) override {
-        if (auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable); rig && _in >= 0)
-            _found[_in].rigs.emplace_back(rig);
     }
 
 private:
@@ -55,9 +53,11 @@ void SkeletonPose::refresh() const {
             bone->setMatrixInSkeletonSpace(now);
             changed = true;
         }
-        if (!changed) continue;
-        for (const auto& rig : one.rigs)
-            if (rig.valid() && rig->getSkeleton() && rig->getSkeleton() == one.skeleton.get()) rig->update();
+        if (!changed || !one.skeleton.valid()) continue;
+        eachNode(*one.skeleton, [&](osg::Node& node) { // meshes may have come
+            auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&node);
+            if (rig && rig->getSkeleton() == one.skeleton.get()) rig->update();
+        });
     }
 }
 

@@ -2,7 +2,6 @@
 #include <osg/Node>
 #include <osg/observer_ptr>
 #include <osgAnimation/Bone>
-#include <osgAnimation/RigGeometry>
 #include <osgAnimation/Skeleton>
 
 #include <vector>
@@ -24,7 +23,6 @@ private:
     struct One {
         osg::observer_ptr<osgAnimation::Skeleton> skeleton;
         std::vector<osg::observer_ptr<osgAnimation::Bone>> bones; ///< parents first; those with an update
-        std::vector<osg::observer_ptr<osgAnimation::RigGeometry>> rigs;
     };
     std::vector<One> _skeletons;
 
