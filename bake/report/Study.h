@@ -16,6 +16,7 @@ struct ReportOptions {
     std::vector<std::string> methods;        ///< parts of names wanted; empty: all
     std::vector<std::vector<double>> motion; ///< steps to count tests along, one value per DOF (radians,
                                              ///< scene units); empty: the scene's own drives, or a sweep
+    std::string motionFile;                  ///< that they were read from, for what the report says of itself
     std::vector<std::string> pairs;          ///< prim paths; empty: all
     std::uint64_t seed = 20;
     bool besidePaper = false; ///< also the paper's own counts, and what this project set out to reach
@@ -92,7 +93,7 @@ struct PairStudy {
     std::size_t trianglesA = 0, trianglesB = 0;
     std::vector<std::string> dofs; ///< name and limits in words
     std::string leadingDof, leadingUnit;
-    double millimetres = 1; ///< in a scene unit
+    double millimetres = 1;           ///< in a scene unit
     std::optional<std::string> never; ///< that the two never meet, in words: nothing is compared then
     std::vector<std::string> notes;
     std::size_t uniformPoses = 0, nearPoses = 0, touchingUniform = 0, timedPoses = 0;

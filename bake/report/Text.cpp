@@ -1,6 +1,7 @@
 #include "bake/report/Text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace tss::reporting {
 
@@ -45,6 +46,15 @@ std::string pictureText(const std::vector<Plot>& plots, const std::string& part)
     return "";
 }
 
+/// As the command line has them.
+std::string optionsText(const ReportOptions& options) {
+    std::string text = options.quick ? " --quick" : "";
+    for (const std::string& pair : options.pairs) text += " --pair " + pair;
+    if (!options.methods.empty()) text += fmt::format(" --methods {}", fmt::join(options.methods, ","));
+    if (!options.motionFile.empty()) text += " --motion " + options.motionFile;
+    return text;
+}
+
 std::string markdownOf(const Report& report) {
     const Machine& machine = report.machine;
     std::string text = fmt::format(
@@ -56,8 +66,8 @@ std::string markdownOf(const Report& report) {
         "beforehand, and a method starts from whichever of them it needs. The truth is the meshes' own (FCL, "
         "exact triangle tests). Error figures are the same in every run with this seed; times are this "
         "machine's.\n\n",
-        report.scene, report.scene, report.options.quick ? " --quick" : "", report.options.seed,
-        report.seconds, machine.processor, machine.cores, machine.compiler, machine.build, machine.vectors,
+        report.scene, report.scene, optionsText(report.options), report.options.seed, report.seconds,
+        machine.processor, machine.cores, machine.compiler, machine.build, machine.vectors,
         machine.libraries);
     if (!report.plotProblem.empty()) text += report.plotProblem + "\n\n";
     for (std::size_t k = 0; k < report.pairs.size(); ++k)

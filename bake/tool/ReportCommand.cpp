@@ -30,7 +30,7 @@ std::vector<std::vector<double>> readMotion(const SceneModel& scene, const Repor
             pair = &candidate;
         }
     if (!pair) throw InputError(arguments.scene + ": expected a pair of rigid bodies for --motion");
-    return readDofRows(arguments.motion, dofColumns(scene, *pair)).rows;
+    return readDofRows(arguments.motion, dofColumns(scene, *pair), true).rows;
 }
 
 Json summary(const reporting::Report& report, const std::string& folder) {
@@ -58,6 +58,7 @@ Json summary(const reporting::Report& report, const std::string& folder) {
 void runReport(ReportArguments& arguments, const Console& console) {
     const SceneModel scene = loadScene(arguments.scene);
     arguments.options.pairs = arguments.pairs;
+    arguments.options.motionFile = arguments.motion;
     if (!arguments.motion.empty()) arguments.options.motion = readMotion(scene, arguments);
     const reporting::Report report = reporting::makeReport(scene, arguments.scene, arguments.output,
                                                            arguments.options, console.progress());
