@@ -78,10 +78,10 @@ MuscleDeformer::MuscleDeformer(Muscle muscle)
         const Vec3& x = mesh.vertices[v];
         const double s = parameter(x);
         const Vec3 offset = medial.empty() ? Vec3(x - linePoint(s)) : medial[v];
-        points_.push_back({x, s, offset, normals_[v], 0});
         shares_.push_back(!muscle_.insertionShares.empty() ? muscle_.insertionShares[v]
                           : ring_                          ? (1 - std::cos(2 * std::numbers::pi * s)) / 2
                                                            : contractionIntegral(s));
+        points_.push_back({x, s, offset, normals_[v], 0, shares_.back()});
     }
 }
 
@@ -90,9 +90,12 @@ double MuscleDeformer::gain(double s, double activation) const {
     return (muscle_.form == MuscleForm::Sheet ? 1 / length : 1 / std::sqrt(length)) - 1;
 }
 
-Vec3 MuscleDeformer::slide(double s, double activation) const {
+Vec3 MuscleDeformer::slide(const MusclePoint& point, double activation) const {
+    const double s = point.s;
     if (ring_) return -activation * muscle_.maxContraction * ring_->spoke(s);
-    const double shift = -activation * muscle_.maxContraction * (contractionIntegral(s) - anchorIntegral_);
+    double shift = -activation * muscle_.maxContraction * (contractionIntegral(s) - anchorIntegral_);
+    // Between two bones what is drawn towards the anchor is held by the bone that it comes from.
+    if (muscle_.spans) shift *= s > muscle_.anchor ? 1 - point.share : point.share;
     return shift == 0 ? Vec3(Vec3::Zero()) : Vec3(fibre_.point(s + shift) - fibre_.point(s));
 }
 
@@ -119,7 +122,7 @@ MuscleState MuscleDeformer::state(double activation) const {
     std::vector<Vec3> p(points_.size()), q(points_.size());
     for (std::size_t v = 0; v < p.size(); ++v) {
         const MusclePoint& x = points_[v];
-        p[v] = x.rest - centre + slide(x.s, state.activation);
+        p[v] = x.rest - centre + slide(x, state.activation);
         q[v] = gain(x.s, state.activation) * x.offset;
     }
     state.thickening = swellingFor(volume_, swollenVolume(volume_, p, q, muscle_.surface.triangles), 1);
@@ -134,12 +137,12 @@ std::vector<Vec3> MuscleDeformer::vertices(const MuscleState& state) const {
 
 Vec3 MuscleDeformer::map(const MusclePoint& point, const MuscleState& state) const {
     if (state.activation == 0) return point.rest;
-    return point.rest + slide(point.s, state.activation) +
+    return point.rest + slide(point, state.activation) +
            state.thickening * gain(point.s, state.activation) * point.offset;
 }
 
 MusclePoint MuscleDeformer::bind(const Vec3& rest) const {
-    MusclePoint point{rest, parameter(rest), Vec3::Zero(), Vec3::Zero(), 0};
+    MusclePoint point{rest, parameter(rest), Vec3::Zero(), Vec3::Zero(), 0, 0};
     const NearestPoint near = locator_.nearest(rest, std::numeric_limits<double>::infinity());
     if (near.triangle < 0) return point;
     const Tri& t = muscle_.surface.triangles[near.triangle];
@@ -147,6 +150,7 @@ MusclePoint MuscleDeformer::bind(const Vec3& rest) const {
     for (int k = 0; k < 3; ++k) {
         onSurface += near.weights[k] * points_[t[k]].offset;
         point.normal += near.weights[k] * normals_[t[k]];
+        point.share += near.weights[k] * shares_[t[k]];
     }
     point.normal.normalize();
     const bool outside = (rest - near.point).dot(point.normal) >= 0;

@@ -15,6 +15,7 @@ struct MusclePoint {
     Vec3 offset = Vec3::Zero(); ///< what thickens: from the fibre line (tube) or medial surface (sheet)
     Vec3 normal = Vec3::Zero(); ///< outward, of the nearest surface
     double height = 0;          ///< above the surface, negative inside, scene units
+    double share = 0;           ///< of the motion of the insertion's bone
 };
 
 /// A muscle at one activation.
@@ -39,8 +40,9 @@ inline bool isRigid(const Muscle& muscle) {
 /// shape bit for bit; a < 0 stretches.
 class MuscleDeformer {
 public:
-    /// Throws InputError: an open or inside-out surface of what is not rigid, a bad fibre, a contraction that
-    /// would turn the muscle over within its activation range.
+    /// Throws InputError: an open, flat or inside-out surface of what is not rigid, a shell of it that is
+    /// inside out, a bad fibre, a contraction that would turn the muscle over within its activation range,
+    /// take a ring through its own middle, or leave no shape with the volume at rest.
     explicit MuscleDeformer(Muscle muscle);
     MuscleDeformer(const MuscleDeformer&) = delete;
     MuscleDeformer& operator=(const MuscleDeformer&) = delete;
@@ -76,7 +78,7 @@ public:
 private:
     double parameter(const Vec3& x) const { return ring_ ? ring_->parameter(x) : fibre_.parameter(x); }
     Vec3 linePoint(double s) const { return ring_ ? ring_->point(s) : fibre_.point(s); }
-    Vec3 slide(double s, double activation) const;
+    Vec3 slide(const MusclePoint& point, double activation) const;
     double gain(double s, double activation) const;
 
     Muscle muscle_;

@@ -31,9 +31,11 @@ private:
     double swell(const std::vector<Pose>& poses, std::span<const Vec3> places) const;
 
     std::vector<Tri> triangles_;
+    Eigen::Vector4d side_;        ///< Muscle::side
     std::vector<double> shares_;  ///< #V, of the insertion's bone
     std::vector<Vec3> gradients_; ///< #V, of the shares along the surface, per length
     std::vector<Vec3> swelling_;
+    double slope_ = 0; ///< of six times the volume by the factor on swelling_, at rest
 };
 
 /// The vertices of a muscle, in the frame of its origin's bone. far: see MuscleSpan::carry(); of a muscle

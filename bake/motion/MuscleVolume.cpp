@@ -42,4 +42,35 @@ double swellingFor(double wanted, const std::array<double, 4>& c, double start) 
     return k;
 }
 
+double boundedSwelling(const std::array<double, 4>& c, double leastSlope, double least, double most) {
+    // Where the slope c1 + 2 c2 k + 3 c3 k^2 crosses the least one.
+    std::array<double, 2> crossings{0, 0};
+    const double a = 3 * c[3], b = 2 * c[2], rest = c[1] - leastSlope, inside = b * b - 4 * a * rest;
+    if (inside > 0) {
+        const double q = -(b + std::copysign(std::sqrt(inside), b)) / 2;
+        crossings = {a != 0 ? q / a : 0, q != 0 ? rest / q : 0};
+        if (crossings[0] > crossings[1]) std::swap(crossings[0], crossings[1]);
+    }
+    /// The cubic's value at k, without what it would fall short of the least slope.
+    const auto value = [&](double k) {
+        double sum = c[0] + k * leastSlope, from = 0;
+        for (const double crossing : {crossings[k < 0], crossings[k >= 0], k}) {
+            const double to = k < 0 ? std::clamp(crossing, k, from) : std::clamp(crossing, from, k);
+            const double middle = (from + to) / 2;
+            if (rest + middle * (b + middle * a) > 0)
+                sum += rest * (to - from) + c[2] * (to * to - from * from) +
+                       c[3] * (to * to * to - from * from * from);
+            from = to;
+        }
+        return sum;
+    };
+    if (c[0] == 0) return 0;
+    double low = c[0] > 0 ? least : 0, high = c[0] > 0 ? 0 : most;
+    if (value(low) >= 0) return low;
+    if (value(high) <= 0) return high;
+    for (double middle = (low + high) / 2; low < middle && middle < high; middle = (low + high) / 2)
+        (value(middle) < 0 ? low : high) = middle;
+    return high;
+}
+
 } // namespace tss

@@ -18,4 +18,8 @@ std::array<double, 4> swollenVolume(double wanted, std::span<const Vec3> places,
 /// of `wanted`, any k will do: start.
 double swellingFor(double wanted, const std::array<double, 4>& cubic, double start);
 
+/// The same that changes continuously with the cubic and stays within [least, most]: the root of the cubic as
+/// it would be if its slope were nowhere less than leastSlope, > 0. Where it is not, the root itself.
+double boundedSwelling(const std::array<double, 4>& cubic, double leastSlope, double least, double most);
+
 } // namespace tss

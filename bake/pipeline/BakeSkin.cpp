@@ -4,6 +4,7 @@
 #include "bake/geometry/MeshAudit.h"
 #include "bake/model/SourceHash.h"
 #include "bake/pipeline/FillPair.h"
+#include "bake/pipeline/MuscleNotes.h"
 #include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinMoves.h"
 #include "bake/spheres/GenerateSpheres.h"
@@ -71,6 +72,7 @@ void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, Pa
         report.notes.push_back(joint +
                                " turns bones by more than half a turn from where it rests: beyond that "
                                "the skin between them jumps to the other way round");
+    for (const std::string& note : muscleNotes(scene, skin, filled.deformers)) report.notes.push_back(note);
     SkinMoves moves = skinMoves(mesh, filled.deformers, parameters);
     search.stray = std::move(moves.stray);
     search.shares = std::move(moves.shares);

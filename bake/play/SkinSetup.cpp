@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/model/Kinematics.h"
 #include "bake/motion/MuscleDeformer.h"
+#include "bake/play/MuscleWays.h"
 #include "bake/respond/MuscleShares.h"
 #include "bake/respond/SkinRig.h"
 
@@ -120,7 +121,10 @@ Muscle muscleOf(const SceneModel& scene, const MuscleModel& model) {
         for (Vec3& v : mesh.vertices) v = pose * v;
         return mesh;
     };
-    muscle.insertionShares = insertionShares(muscle.surface, bone(model.bone), bone(model.insertionBone));
+    const MuscleWays ways = muscleWays(scene, model);
+    muscle.side = ways.side;
+    muscle.insertionShares =
+        insertionShares(muscle.surface, bone(model.bone), bone(model.insertionBone), ways.far);
     return muscle;
 }
 
@@ -138,6 +142,7 @@ std::vector<std::shared_ptr<const MuscleDeformer>> skinMuscles(const SceneModel&
         if (pose.matrix() != Pose::Identity().matrix()) {
             for (Vec3& v : muscle.surface.vertices) v = pose * v;
             for (Vec3& v : muscle.fibre) v = pose * v;
+            muscle.side.head<3>() = pose.linear() * muscle.side.head<3>();
         }
         try {
             result.push_back(std::make_shared<const MuscleDeformer>(std::move(muscle)));

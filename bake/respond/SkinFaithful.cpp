@@ -13,7 +13,8 @@ constexpr int pushRounds = 8; ///< spheres that one vertex leaves in an update, 
 Pose poseOf(const SkinSpheres& spheres, std::span<const Pose> poses, std::size_t s) {
     const std::uint32_t m = spheres.body[s];
     if (spheres.insertion[m] < 0) return poses[m];
-    return blendBetween(poses[m], poses[static_cast<std::size_t>(spheres.insertion[m])], spheres.share[s]);
+    return blendBetween(poses[m], poses[static_cast<std::size_t>(spheres.insertion[m])], spheres.share[s],
+                        spheres.side[m]);
 }
 
 } // namespace
@@ -36,6 +37,7 @@ SkinSpheres skinSpheres(const SkinTable& table,
     }
     for (std::size_t m = 0; m < bodies.size(); ++m) {
         const Muscle& muscle = bodies[m]->muscle();
+        spheres.side.push_back(muscle.side);
         spheres.tracks.push_back(makeTrack(*bodies[m], points[m],
                                            activationNodes(muscle.activationLower, muscle.activationUpper)));
     }

@@ -21,6 +21,7 @@ struct SkinSpheres {
     std::vector<std::uint32_t> body, at; ///< #spheres: its body, and which point of its track it is
     std::vector<double> radius;          ///< #spheres, at activation 0
     std::vector<int> insertion;          ///< #bodies: see SkinParameters::insertions
+    std::vector<Eigen::Vector4d> side;   ///< #bodies: see Muscle::side
     std::vector<double> share;           ///< #spheres: of the motion of the insertion's bone
 };
 

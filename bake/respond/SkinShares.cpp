@@ -36,16 +36,15 @@ constexpr int certaintyPower = 8;
 constexpr double steepShare = 3;
 constexpr int steepRounds = 3; ///< of solves that see the slope of the one before
 /// Where bones would draw a triangle together to less than this share of its area, or turn it over, it is
-/// made stiffer by this factor, so many times at most: a little is left for muscles and contacts to take, and
-/// what gets stiff slowly disturbs little around it.
-constexpr double leastArea = 0.15, stiffer = 1.2;
-constexpr int stifferRounds = 16;
+/// made stiffer: a little is left for muscles and contacts to take.
+constexpr double leastArea = 0.15;
 
 struct Claims {
     std::vector<std::uint32_t> holder; ///< #V
     std::vector<double> weight;        ///< #V, how firmly: area over squared distance, without a unit
     std::vector<double> size;          ///< #V, of the smaller one of the two that meet here
     std::vector<ShellVertex> shells;   ///< #V; empty where all skin has a seed
+    std::vector<std::uint32_t> ends;   ///< #holders or fewer: see SkinStrokes::leastAtEnds
 };
 
 /// For each vertex how much farther than a holder the nearest other one is; infinite for the only one.
@@ -104,10 +103,27 @@ std::vector<std::vector<std::uint32_t>> seedsOf(const std::vector<SkinHolder>& h
     return all ? clear : seeds;
 }
 
+/// Of each holder that has a seed the one that lies farthest, along the skin, from the seeds of others.
+std::vector<std::uint32_t> endsOf(const std::vector<std::uint32_t>& holder,
+                                  const std::vector<double>& nearest, const std::vector<double>& second,
+                                  std::size_t holders) {
+    std::vector<std::uint32_t> ends;
+    for (std::size_t h = 0; h < holders; ++h) {
+        double farthest = 0;
+        for (std::uint32_t v = 0; v < holder.size(); ++v)
+            if (holder[v] == h && nearest[v] == 0 && std::isfinite(second[v]) && second[v] > farthest) {
+                if (farthest == 0) ends.push_back(v);
+                farthest = second[v];
+                ends.back() = v;
+            }
+    }
+    return ends;
+}
+
 Claims claim(const TriangleMesh& skin, const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
     const std::size_t count = graph.vertices();
     std::vector<double> nearest(count, infinity), second(count, infinity);
-    Claims claims{std::vector<std::uint32_t>(count, 0), {}, {}, {}};
+    Claims claims{std::vector<std::uint32_t>(count, 0), {}, {}, {}, {}};
     std::vector<std::uint32_t> rival(count, 0);
     const std::vector<std::vector<std::uint32_t>> seeds = seedsOf(holders);
     for (std::uint32_t h = 0; h < holders.size(); ++h) {
@@ -127,6 +143,7 @@ Claims claim(const TriangleMesh& skin, const SkinGraph& graph, const std::vector
             }
         }
     }
+    claims.ends = endsOf(claims.holder, nearest, second, holders.size());
     claims.shells = heldShells(skin, holders, nearest);
     std::vector<char> sure(count, 0);
     for (const SkinHolder& h : holders)
@@ -184,7 +201,7 @@ bool stiffenDrawn(const TriangleMesh& skin, const std::vector<std::vector<double
     for (const std::vector<DualPose>& motion : strokes.motions) {
         parallelFor(poses.size(), [&](std::size_t v) {
             const double free = strokes.tether.empty() ? 1 : 1 - strokes.tether[v];
-            PoseBlend blend;
+            PoseBlend blend(strokes.asGiven);
             for (std::size_t h = 0; h < motion.size(); ++h) blend.add(free * shares[h][v], motion[h]);
             poses[v] = blend.pose();
         });
@@ -198,7 +215,7 @@ bool stiffenDrawn(const TriangleMesh& skin, const std::vector<std::vector<double
         }
     }
     for (std::size_t i = 0; i < drawn.size(); ++i)
-        if (drawn[i]) stiffness[i] *= stiffer;
+        if (drawn[i]) stiffness[i] *= strokes.stiffer;
     return std::find(drawn.begin(), drawn.end(), 1) != drawn.end();
 }
 
@@ -279,8 +296,12 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
         stiffen(skin, claims, shares, stiffness);
         spread.solve(stiffness, shares);
     }
-    for (int round = 0; round < stifferRounds && stiffenDrawn(skin, shares, strokes, stiffness); ++round)
+    for (int round = 0; round < strokes.rounds && stiffenDrawn(skin, shares, strokes, stiffness); ++round) {
+        std::vector<std::vector<double>> before = shares;
         spread.solve(stiffness, shares);
+        for (const std::uint32_t v : claims.ends)
+            if (shares[claims.holder[v]][v] < strokes.leastAtEnds) return before;
+    }
     return shares;
 }
 

@@ -16,6 +16,12 @@ struct SkinHolder {
 struct SkinStrokes {
     std::vector<std::vector<DualPose>> motions; ///< of #holders or fewer each, since rest; others hold still
     std::span<const double> tether;             ///< #V in [0,1]; empty: 0
+    bool asGiven = false;                       ///< motions go the way round that their quaternions say
+    int rounds = 16;      ///< of solves, at most, each after what would be turned over was made stiffer:
+    double stiffer = 1.2; ///< by this factor; what gets stiff slowly disturbs little around it
+    /// A holder's end is its seed farthest from all others: it is held by so much at least, or the rounds
+    /// end.
+    double leastAtEnds = 0;
 };
 
 /// Which share of a vertex follows each holder (METHOD 6.5): #holders of #V, >= 0, all of a vertex 1

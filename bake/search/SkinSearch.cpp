@@ -20,6 +20,7 @@ struct MuscleSweep {
     MuscleTrack spheres;
     std::vector<double> radii;  ///< #nodes blocks of #spheres
     std::vector<double> shares; ///< #spheres: of the motion of the insertion's bone
+    Eigen::Vector4d side;       ///< Muscle::side
     MuscleTrack skin;           ///< where it carries each skin vertex; no points when skin is sought at rest
 };
 
@@ -28,7 +29,7 @@ MuscleSweep makeSweep(const SkinSearchMuscle& muscle, const TriangleMesh& skin, 
     const std::vector<double> nodes = activationNodes(m.activationLower, m.activationUpper);
     std::vector<MusclePoint> points;
     for (const Sphere& s : muscle.spheres) points.push_back(muscle.deformer->bind(s.centre));
-    MuscleSweep sweep{makeTrack(*muscle.deformer, points, nodes), {}, {}, {}};
+    MuscleSweep sweep{makeTrack(*muscle.deformer, points, nodes), {}, {}, m.side, {}};
     for (const Sphere& s : muscle.spheres) sweep.shares.push_back(muscle.deformer->insertionShare(s.centre));
     for (std::size_t i = 0; i < sweep.spheres.thicknesses.size(); ++i)
         sweep.radii.push_back(sweep.spheres.thicknesses[i] * muscle.spheres[i % points.size()].radius);
@@ -69,11 +70,11 @@ int insertionOf(const SkinSearchOptions& options, std::size_t m) {
 }
 
 /// Where a skin vertex is, seen from the bone of muscle m, at each station of each swing; rest where it does
-/// not move against it. share: between two bones, from what the muscle moves with there.
+/// not move against it. share: between two bones, from what the muscle moves with there, round its side.
 using SwungPaths = std::vector<std::vector<Vec3>>;
 
-SwungPaths swungPaths(const SkinSearchOptions& options, std::size_t m, double share, const Vec3& x,
-                      std::size_t v) {
+SwungPaths swungPaths(const SkinSearchOptions& options, std::size_t m, double share,
+                      const Eigen::Vector4d& side, const Vec3& x, std::size_t v) {
     SwungPaths paths;
     for (const BoneSwing& swing : options.swings) {
         std::vector<Vec3> path{x};
@@ -89,8 +90,8 @@ SwungPaths swungPaths(const SkinSearchOptions& options, std::size_t m, double sh
             const Vec3 y = carried ? blend.pose() * x : x;
             const Pose& origin = station[m];
             const int insertion = insertionOf(options, m);
-            path.push_back(
-                (insertion < 0 ? origin : blendBetween(origin, station[insertion], share)).inverse() * y);
+            const Pose own = insertion < 0 ? origin : blendBetween(origin, station[insertion], share, side);
+            path.push_back(own.inverse() * y);
             moves = moves || path.back() != x;
         }
         if (moves) paths.push_back(std::move(path));
@@ -108,11 +109,11 @@ int stopOf(double share) {
 }
 
 /// How far a vertex may be elsewhere, seen from half way to the next stop.
-double betweenStops(const SkinSearchOptions& options, std::size_t m, int stop, const Vec3& x, std::size_t v,
-                    const SwungPaths& paths) {
+double betweenStops(const SkinSearchOptions& options, std::size_t m, int stop, const Eigen::Vector4d& way,
+                    const Vec3& x, std::size_t v, const SwungPaths& paths) {
     if (insertionOf(options, m) < 0 || paths.empty()) return 0;
     const double side = stop + 1 < spanStops ? 0.5 : -0.5;
-    const SwungPaths beside = swungPaths(options, m, (stop + side) / (spanStops - 1), x, v);
+    const SwungPaths beside = swungPaths(options, m, (stop + side) / (spanStops - 1), way, x, v);
     double most = 0;
     for (std::size_t k = 0; k < std::min(paths.size(), beside.size()); ++k)
         for (std::size_t s = 0; s < paths[k].size(); ++s)
@@ -176,9 +177,9 @@ std::vector<SpherePair> pairsOfMuscle(const MuscleSweep& sweep, const SphereSet&
         boxes[v] = pathBox(sweep, skin.vertices[v], v);
         carried[v] =
             std::max((boxes[v].max() - skin.vertices[v]).norm(), (boxes[v].min() - skin.vertices[v]).norm());
-        swung[v] =
-            swungPaths(options, muscle, static_cast<double>(stop) / (spanStops - 1), skin.vertices[v], v);
-        carried[v] += betweenStops(options, muscle, stop, skin.vertices[v], v, swung[v]);
+        swung[v] = swungPaths(options, muscle, static_cast<double>(stop) / (spanStops - 1), sweep.side,
+                              skin.vertices[v], v);
+        carried[v] += betweenStops(options, muscle, stop, sweep.side, skin.vertices[v], v, swung[v]);
         double slack = 0;
         for (const std::vector<Vec3>& path : swung[v])
             for (std::size_t s = 0; s + 1 < path.size(); ++s) {

@@ -81,6 +81,67 @@ TEST_CASE("its ends go with their bones, and nothing moves while these do not") 
         }
 }
 
+TEST_CASE("between two bones an active muscle keeps its ends on them, wherever its anchor is") {
+    for (const double anchor : {0.0, 0.4, 1.0}) {
+        INFO("anchor " << anchor);
+        Muscle own = betweenBones().muscle();
+        own.anchor = anchor;
+        const MuscleDeformer muscle(std::move(own));
+        const std::vector<Vec3> active = muscle.vertices(1.0);
+        double ends = 0, belly = 0;
+        for (std::size_t v = 0; v < active.size(); ++v) {
+            const MusclePoint& point = muscle.surfacePoints()[v];
+            const double moved = (active[v] - point.rest).norm();
+            (point.s < 0.01 || point.s > 0.99 ? ends : belly) =
+                std::max(point.s < 0.01 || point.s > 0.99 ? ends : belly, moved);
+            CHECK(muscle.bind(point.rest).share == Approx(point.share).margin(1e-9));
+        }
+        CHECK(ends < 1e-3);
+        CHECK(belly > 0.05);
+        CHECK(enclosedVolume(active, muscle.muscle().surface.triangles) ==
+              Approx(muscle.restVolume()).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("pushed together until it folds, a muscle loses volume little by little and never jumps") {
+    const MuscleDeformer muscle = betweenBones();
+    const MuscleSpan span(muscle);
+    const auto at = [&](double together) {
+        std::vector<Vec3> places = muscle.vertices(0.0);
+        const double swell = span.carry(Pose(Eigen::Translation3d(-together, 0, 0)), places);
+        CHECK(swell >= 0);
+        CHECK(swell <= 2);
+        return places;
+    };
+    constexpr double step = 0.01;
+    std::vector<Vec3> before = at(0);
+    for (double together = step; together < 3.9; together += step) {
+        const std::vector<Vec3> now = at(together);
+        double most = 0;
+        for (std::size_t v = 0; v < now.size(); ++v) most = std::max(most, (now[v] - before[v]).norm());
+        INFO("pushed together by " << together);
+        CHECK(most < 3 * step);
+        before = now;
+    }
+}
+
+TEST_CASE("a muscle that its bones turn by more than half a turn goes on the way round that it is told") {
+    Muscle own = betweenBones().muscle();
+    own.side = {0, std::sin(55 * pi / 180), 0, std::cos(55 * pi / 180)}; // of 110 degrees
+    const MuscleDeformer muscle(std::move(own));
+    const MuscleSpan span(muscle);
+    std::vector<Vec3> before = muscle.vertices(0.0);
+    for (double degrees = 1; degrees < 220; ++degrees) {
+        std::vector<Vec3> now = muscle.vertices(0.0);
+        span.carry(hinge(degrees), now);
+        double most = 0;
+        for (std::size_t v = 0; v < now.size(); ++v) most = std::max(most, (now[v] - before[v]).norm());
+        INFO(degrees << " degrees");
+        CHECK(most < 0.2);
+        before = now;
+    }
+}
+
 TEST_CASE("its normals are those of its surface as it is bent") {
     const MuscleDeformer muscle = betweenBones();
     const MuscleSpan span(muscle);

@@ -1,0 +1,81 @@
+#include "bake/play/MuscleWays.h"
+
+#include "bake/model/AddPair.h"
+#include "bake/model/Kinematics.h"
+#include "bake/motion/MuscleSpan.h"
+#include "bake/play/SkinSetup.h"
+#include "tests/BentEllipsoid.h"
+#include "tests/Joints.h"
+#include "tests/Shapes.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tss;
+
+namespace {
+
+constexpr double degree = M_PI / 180;
+
+/// Three bones in a row with a hinge between each two, and a muscle from the first to the last over them.
+SceneModel overTwoJoints(double lower, double upper) {
+    SceneModel scene;
+    const std::vector<std::pair<double, double>> spans{{-150, -35}, {-25, 25}, {35, 150}};
+    for (const auto& [from, to] : spans) {
+        Body bone;
+        bone.path = "/Limb/Bone" + std::to_string(scene.bodies.size());
+        bone.mesh = boxMesh({from, -15, -30}, {to, 15, 0});
+        scene.bodies.push_back(bone);
+    }
+    for (int k = 0; k < 2; ++k) {
+        Motion motion;
+        motion.dofs = {joints::turn({k == 0 ? -30.0 : 30.0, 0, -15}, Vec3::UnitY(), lower, upper)};
+        addJoints(scene, k, k + 1, motion, k == 0 ? "First" : "Second");
+    }
+    test::BentEllipsoid shape;
+    shape.origin = {-100, 0, 5};
+    shape.insertion = {100, 0, 5};
+    shape.bend = 25;
+    shape.halfWidth = shape.halfHeight = 10;
+    MuscleModel muscle;
+    muscle.path = "/Limb/Muscle";
+    muscle.muscle = test::bentEllipsoid(shape);
+    Body belly;
+    belly.path = "/Limb/Belly";
+    belly.mesh = muscle.muscle.surface;
+    scene.bodies.push_back(belly);
+    muscle.body = 3;
+    muscle.bone = 0;
+    muscle.insertionBone = 2;
+    scene.muscles = {muscle};
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("a muscle over two joints goes on where they turn its bones by more than half a turn together") {
+    const SceneModel scene = overTwoJoints(0, 110 * degree);
+    CHECK_FALSE(muscleWays(scene, scene.muscles[0]).unclear);
+    const MuscleDeformer muscle(muscleOf(scene, scene.muscles[0]));
+    const auto at = [&](double angle) {
+        return verticesBetween(
+            muscle, 0.5,
+            insertionMotion(scene, scene.muscles[0], posedBodies(scene, std::vector<double>{angle, angle})));
+    };
+    std::vector<Vec3> before = at(0);
+    for (double angle = 1; angle <= 110; ++angle) {
+        const std::vector<Vec3> now = at(angle * degree);
+        double most = 0;
+        for (std::size_t v = 0; v < now.size(); ++v) most = std::max(most, (now[v] - before[v]).norm());
+        INFO("both by " << angle << " degrees");
+        CHECK(most < 8); // the last bone's end moves by 150 a radian and joint
+        before = now;
+    }
+}
+
+TEST_CASE("where joints turn a muscle by more than half a turn either way it is said to be unclear") {
+    SceneModel scene = overTwoJoints(-110 * degree, 110 * degree);
+    CHECK(muscleWays(scene, scene.muscles[0]).unclear);
+    scene = overTwoJoints(-80 * degree, 80 * degree);
+    CHECK_FALSE(muscleWays(scene, scene.muscles[0]).unclear);
+    CHECK(muscleWays(scene, scene.muscles[0]).side == Eigen::Vector4d(0, 0, 0, 1));
+}

@@ -1,0 +1,94 @@
+#include "bake/respond/MuscleShares.h"
+
+#include "bake/motion/MuscleSpan.h"
+#include "bake/motion/MuscleVolume.h"
+#include "tests/BentEllipsoid.h"
+#include "tests/Shapes.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tss;
+
+namespace {
+
+constexpr double degree = M_PI / 180;
+
+/// Two bones along x that meet at 0, a fifth of their length high and as wide.
+TriangleMesh boneAt(double from, double to) {
+    const double half = std::abs(to - from) / 10;
+    return boxMesh({std::min(from, to), -half, -2 * half}, {std::max(from, to), half, 0});
+}
+
+/// A muscle that lies with both ends on these bones, bulging upwards.
+Muscle flexorOf(double length) {
+    test::BentEllipsoid shape;
+    shape.origin = {-length / 2, 0, 0};
+    shape.insertion = {length / 2, 0, 0};
+    shape.bend = length / 10;
+    shape.halfWidth = shape.halfHeight = length / 20;
+    shape.rings = 40;
+    Muscle muscle = test::bentEllipsoid(shape);
+    muscle.spans = true;
+    return muscle;
+}
+
+/// Of the lower bone about y, in the middle of the bones' height: it closes over the muscle.
+Pose closed(double degrees, double height) {
+    const Vec3 at(0, 0, -height);
+    return Eigen::Translation3d(at) * Eigen::AngleAxisd(-degrees * degree, Vec3::UnitY()) *
+           Eigen::Translation3d(-at);
+}
+
+int turnedOver(const MuscleDeformer& muscle, const std::vector<Vec3>& now, const Pose& far) {
+    const TriangleMesh& rest = muscle.muscle().surface;
+    const auto normal = [](const std::vector<Vec3>& x, const Tri& t) -> Vec3 {
+        return (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+    };
+    int count = 0;
+    for (const Tri& t : rest.triangles) {
+        double share = 0;
+        for (const int v : t) share += muscle.insertionShares()[v] / 3;
+        const Pose here = blendBetween(Pose::Identity(), far, share);
+        count += normal(now, t).dot(here.linear() * normal(rest.vertices, t)) < 0;
+    }
+    return count;
+}
+
+} // namespace
+
+TEST_CASE("a muscle's ends are their bones' however short it is against them") {
+    for (const double length : {25.0, 12.0, 6.0}) {
+        INFO("length " << length << " between bones of 200");
+        const Muscle muscle = flexorOf(length);
+        const std::vector<double> shares =
+            insertionShares(muscle.surface, boneAt(-200, -length / 6), boneAt(length / 6, 200));
+        CHECK(shares.front() < 1e-3);
+        CHECK(shares.back() > 1 - 1e-3);
+    }
+}
+
+TEST_CASE("a muscle inside of a joint that closes turns nothing over and keeps its volume, active or not") {
+    Muscle flexor = flexorOf(200);
+    const TriangleMesh upper = boneAt(-205, -5), lower = boneAt(5, 205);
+    std::vector<DualPose> far;
+    for (const double degrees : {32.0, 64.0, 96.0, 128.0}) far.emplace_back(closed(degrees, 20));
+    flexor.insertionShares = insertionShares(flexor.surface, upper, lower, far);
+    const MuscleDeformer muscle(flexor);
+    const MuscleSpan span(muscle);
+    CHECK(muscle.insertionShares().front() < 0.01);
+    CHECK(muscle.insertionShares().back() > 0.99);
+    for (const double activation : {0.0, 1.0}) {
+        std::vector<Vec3> before = muscle.vertices(activation);
+        for (double degrees = 1; degrees <= 120; ++degrees) {
+            INFO("activation " << activation << ", " << degrees << " degrees");
+            std::vector<Vec3> now = muscle.vertices(activation);
+            span.carry(closed(degrees, 20), now);
+            CHECK(enclosedVolume(now, flexor.surface.triangles) == Approx(muscle.restVolume()).epsilon(1e-9));
+            CHECK(turnedOver(muscle, now, closed(degrees, 20)) == 0);
+            double most = 0;
+            for (std::size_t v = 0; v < now.size(); ++v) most = std::max(most, (now[v] - before[v]).norm());
+            CHECK(most < 4);
+            before = now;
+        }
+    }
+}
