@@ -1,6 +1,7 @@
 #include "bake/motion/MuscleDeformer.h"
 
 #include "bake/base/Error.h"
+#include "bake/geometry/ConnectedParts.h"
 #include "bake/motion/MuscleMedial.h"
 #include "bake/motion/MuscleVolume.h"
 
@@ -44,6 +45,23 @@ Muscle checked(Muscle muscle) {
     return muscle;
 }
 
+/// Throws for a shell that is inside out. One inside of another is a hollow, and is to be.
+void checkShells(const TriangleMesh& mesh) {
+    const std::vector<TriangleMesh> shells = connectedParts(mesh);
+    for (const TriangleMesh& shell : shells) {
+        if (!(enclosedVolume(shell.vertices, shell.triangles) < 0)) continue;
+        const Eigen::AlignedBox3d box = bounds(shell);
+        const bool hollow = std::any_of(shells.begin(), shells.end(), [&](const TriangleMesh& other) {
+            return enclosedVolume(other.vertices, other.triangles) > 0 && bounds(other).contains(box);
+        });
+        const Vec3 at = box.center();
+        if (!hollow)
+            throw InputError("the surface of a muscle has " + std::to_string(shells.size()) +
+                             " shells, and that about (" + std::to_string(at.x()) + ", " +
+                             std::to_string(at.y()) + ", " + std::to_string(at.z()) + ") is inside out");
+    }
+}
+
 } // namespace
 
 MuscleDeformer::MuscleDeformer(Muscle muscle)
@@ -53,8 +71,9 @@ MuscleDeformer::MuscleDeformer(Muscle muscle)
       locator_(muscle_.surface) {
     const TriangleMesh& mesh = muscle_.surface;
     volume_ = enclosedVolume(mesh.vertices, mesh.triangles);
-    if (!(volume_ > 0) && !rigid())
+    if (!enclosesVolume(mesh) && !rigid())
         throw InputError("the surface of a muscle is inside out or flat: its volume is not positive");
+    if (!rigid()) checkShells(mesh);
     const double lower = muscle_.activationLower, upper = muscle_.activationUpper;
     if (!(std::isfinite(lower) && std::isfinite(upper) && lower <= upper))
         throw InputError("the activation range of a muscle must be finite and rising");
@@ -83,6 +102,31 @@ MuscleDeformer::MuscleDeformer(Muscle muscle)
                                                            : contractionIntegral(s));
         points_.push_back({x, s, offset, normals_[v], 0, shares_.back()});
     }
+    for (const double end : {lower, upper})
+        if (!rigid() && !holdsAt(end)) refuse(end);
+}
+
+/// Its volume is kept, and no part of a ring has gone through the middle.
+bool MuscleDeformer::holdsAt(double activation) const {
+    constexpr double kept = 1e-6; // of the volume
+    const std::vector<Vec3> now = vertices(activation);
+    if (!(std::abs(enclosedVolume(now, muscle_.surface.triangles) - volume_) <= kept * volume_)) return false;
+    for (std::size_t v = 0; v < now.size() && ring_; ++v)
+        if (!(ring_->outward(now[v], points_[v].s) > 0)) return false;
+    return true;
+}
+
+void MuscleDeformer::refuse(double end) const {
+    double works = 0, fails = 1; // of the contraction there
+    for (int i = 0; i < 20; ++i) {
+        const double middle = (works + fails) / 2;
+        (holdsAt(middle * end) ? works : fails) = middle;
+    }
+    throw InputError("a muscle may " + std::string(end < 0 ? "lengthen" : "shorten") + " by at most " +
+                     std::to_string(works * std::abs(end) * muscle_.maxContraction) + " of its " +
+                     (ring_ ? "length: beyond that it goes through its own middle"
+                            : "chord: beyond that it goes through itself") +
+                     " or cannot keep its volume");
 }
 
 double MuscleDeformer::gain(double s, double activation) const {

@@ -80,6 +80,8 @@ private:
     Vec3 linePoint(double s) const { return ring_ ? ring_->point(s) : fibre_.point(s); }
     Vec3 slide(const MusclePoint& point, double activation) const;
     double gain(double s, double activation) const;
+    bool holdsAt(double activation) const;
+    [[noreturn]] void refuse(double end) const; ///< of the activation range, where it does not hold
 
     Muscle muscle_;
     std::optional<MuscleRing> ring_;

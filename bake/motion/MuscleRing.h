@@ -16,6 +16,9 @@ public:
     /// From the ring's axis, which stands upright on its plane, to point(s): what narrowing shortens.
     Vec3 spoke(double s) const;
 
+    /// How far a point lies from the axis on the side of point(s).
+    double outward(const Vec3& x, double s) const { return along(s).dot(x - middle_); }
+
 private:
     struct Knot {
         double s;

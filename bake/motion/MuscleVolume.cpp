@@ -14,6 +14,17 @@ double enclosedVolume(const std::vector<Vec3>& vertices, const std::vector<Tri>&
     return sum / 6;
 }
 
+bool enclosesVolume(const TriangleMesh& mesh) {
+    constexpr double flat = 1e-9; // mean thickness, as a share of the size
+    if (mesh.empty()) return false;
+    double area = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Vec3& a = mesh.corner(t, 0);
+        area += (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).norm() / 2;
+    }
+    return enclosedVolume(mesh.vertices, mesh.triangles) > flat * area * diagonal(mesh);
+}
+
 std::array<double, 4> swollenVolume(double wanted, std::span<const Vec3> places,
                                     std::span<const Vec3> swelling, const std::vector<Tri>& triangles) {
     std::array<double, 4> c{-6 * wanted, 0, 0, 0};

@@ -9,6 +9,9 @@ namespace tss {
 /// The volume enclosed by a closed mesh, positive when it is outward oriented.
 double enclosedVolume(const std::vector<Vec3>& vertices, const std::vector<Tri>& triangles);
 
+/// Whether a closed mesh encloses more than what rounding makes of a flat one.
+bool enclosesVolume(const TriangleMesh& mesh);
+
 /// Six times the volume of a closed mesh whose vertices are places + k swelling, less six times `wanted`: a
 /// cubic in k, c[0] + c[1] k + c[2] k^2 + c[3] k^3. Places should lie near the origin, or rounding is large.
 std::array<double, 4> swollenVolume(double wanted, std::span<const Vec3> places,

@@ -139,6 +139,24 @@ TEST_CASE("muscles that cannot be served are refused") {
     SECTION("inside out") {
         for (Tri& t : muscle.surface.triangles) std::swap(t[0], t[1]);
     }
+    SECTION("flat, as a surface from both sides") {
+        muscle.surface.vertices = {{0, 0, 0}, {1, 0.1, 0.3}, {0.9, 1, 0.7}, {0.1, 1.1, 0.5}};
+        muscle.surface.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}};
+        const Eigen::Isometry3d away =
+            Eigen::Translation3d(3, 2, 1) * Eigen::AngleAxisd(0.05, Vec3(1, 2, 3).normalized());
+        for (Vec3& v : muscle.surface.vertices) v = away * v;
+    }
+    SECTION("a hair's breadth of volume") {
+        for (Vec3& v : muscle.surface.vertices) v.z() *= 1e-12;
+    }
+    SECTION("of two shells, the smaller inside out") {
+        const Muscle other = bentMuscle(MuscleForm::Tube, 0.2);
+        const int first = static_cast<int>(muscle.surface.vertices.size());
+        for (const Vec3& v : other.surface.vertices)
+            muscle.surface.vertices.push_back(0.9 * v + Vec3(0, 0, 3));
+        for (const Tri& t : other.surface.triangles)
+            muscle.surface.triangles.emplace_back(first + t[0], first + t[2], first + t[1]);
+    }
     SECTION("no fibre") {
         muscle.fibre.resize(1);
     }

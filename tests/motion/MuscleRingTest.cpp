@@ -96,6 +96,47 @@ TEST_CASE("a ring's line is found from its mesh") {
     CHECK(MuscleDeformer(ring).state(1).thickening == Approx(1).epsilon(0.1));
 }
 
+TEST_CASE("a wide ring may narrow until it meets in its middle, and no more") {
+    constexpr int around = 48, across = 24;
+    Muscle muscle;
+    muscle.form = MuscleForm::Ring;
+    for (int i = 0; i < around; ++i)
+        for (int k = 0; k < across; ++k) {
+            const double u = turn * i / around, r = 20 + 15 * std::cos(turn * k / across);
+            muscle.surface.vertices.emplace_back(r * std::cos(u), r * std::sin(u),
+                                                 2.5 * std::sin(turn * k / across));
+            const int a = i * across + k, b = i * across + (k + 1) % across,
+                      c = (i + 1) % around * across + k, d = (i + 1) % around * across + (k + 1) % across;
+            muscle.surface.triangles.emplace_back(a, d, b);
+            muscle.surface.triangles.emplace_back(a, c, d);
+        }
+    if (enclosedVolume(muscle.surface.vertices, muscle.surface.triangles) < 0)
+        for (Tri& t : muscle.surface.triangles) std::swap(t[1], t[2]);
+    muscle.fibre = ringLine(muscle.surface);
+    muscle.maxContraction = 0.1;
+    CHECK_NOTHROW(MuscleDeformer(muscle));
+    muscle.maxContraction = 0.4;
+    CHECK_THROWS_WITH(MuscleDeformer(muscle), Catch::Contains("its own middle"));
+}
+
+TEST_CASE("the line of a ring that is higher than wide goes round where it is open") {
+    constexpr int around = 48, across = 24;
+    TriangleMesh ring;
+    for (int i = 0; i < around; ++i)
+        for (int k = 0; k < across; ++k) {
+            const double u = turn * i / around, r = 10 + 3 * std::cos(turn * k / across);
+            ring.vertices.emplace_back(r * std::cos(u), r * std::sin(u), 15 * std::sin(turn * k / across));
+            const int a = i * across + k, b = i * across + (k + 1) % across,
+                      c = (i + 1) % around * across + k, d = (i + 1) % around * across + (k + 1) % across;
+            ring.triangles.emplace_back(a, d, b);
+            ring.triangles.emplace_back(a, c, d);
+        }
+    for (const Vec3& p : ringLine(ring)) {
+        CHECK(p.z() == Approx(0).margin(0.5));
+        CHECK(p.head<2>().norm() == Approx(10).margin(1));
+    }
+}
+
 TEST_CASE("rings of muscle that cannot be served are refused") {
     const FloatTrapsOff traps; // what is not a number is handed over on purpose
     Muscle muscle = mouthRing();
