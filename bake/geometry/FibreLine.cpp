@@ -136,25 +136,33 @@ std::vector<Vec3> fibreLine(const TriangleMesh& mesh, int inner) {
     return line;
 }
 
-std::vector<Vec3> ringLine(const TriangleMesh& mesh, int points) {
+namespace {
+
+/// Triangles as points with areas.
+struct Spots {
     std::vector<Vec3> centres;
     std::vector<double> areas;
     Vec3 middle = Vec3::Zero();
     double whole = 0;
+};
+
+Spots spotsOf(const TriangleMesh& mesh) {
+    Spots spots;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
-        centres.push_back((a + b + c) / 3);
-        areas.push_back((b - a).cross(c - a).norm() / 2);
-        middle += areas.back() * centres.back();
-        whole += areas.back();
+        spots.centres.push_back((a + b + c) / 3);
+        spots.areas.push_back((b - a).cross(c - a).norm() / 2);
+        spots.middle += spots.areas.back() * spots.centres.back();
+        spots.whole += spots.areas.back();
     }
-    if (!(whole > 0)) throw InputError("a muscle's mesh has no area; expected a closed surface");
-    middle /= whole;
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (std::size_t t = 0; t < centres.size(); ++t)
-        spread += areas[t] / whole * (centres[t] - middle) * (centres[t] - middle).transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread); // the least extent first
-    const Vec3 x = axes.eigenvectors().col(2), y = axes.eigenvectors().col(1);
+    if (!(spots.whole > 0)) throw InputError("a muscle's mesh has no area; expected a closed surface");
+    spots.middle /= spots.whole;
+    return spots;
+}
+
+/// The middles of slices about an axis; fewer than `points` where some are empty.
+std::vector<Vec3> lineAbout(const Spots& spots, const Vec3& x, const Vec3& y, int points) {
+    const auto& [centres, areas, middle, whole] = spots;
     std::vector<Vec3> sums(points, Vec3::Zero());
     std::vector<double> weights(points, 0);
     for (std::size_t t = 0; t < centres.size(); ++t) {
@@ -168,6 +176,43 @@ std::vector<Vec3> ringLine(const TriangleMesh& mesh, int points) {
     for (int k = 0; k < points; ++k)
         if (weights[k] > 0) line.push_back(sums[k] / weights[k]);
     return line;
+}
+
+/// Whether the axis upright on x and y through the middle meets no triangle.
+bool isOpen(const TriangleMesh& mesh, const Vec3& middle, const Vec3& x, const Vec3& y) {
+    const auto side = [&](const Vec3& a, const Vec3& b) { // of the axis, seen along it
+        return x.dot(a - middle) * y.dot(b - middle) - y.dot(a - middle) * x.dot(b - middle);
+    };
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Vec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
+        const double ab = side(a, b), bc = side(b, c), ca = side(c, a);
+        if ((ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0)) return false;
+    }
+    return true;
+}
+
+} // namespace
+
+std::vector<Vec3> ringLine(const TriangleMesh& mesh, int points) {
+    const Spots spots = spotsOf(mesh);
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (std::size_t t = 0; t < spots.centres.size(); ++t) {
+        const Vec3 from = spots.centres[t] - spots.middle;
+        spread += spots.areas[t] / spots.whole * from * from.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread); // the least extent first
+    const auto about = [&](int axis) {
+        return std::pair<Vec3, Vec3>(axes.eigenvectors().col(axis == 2 ? 1 : 2),
+                                     axes.eigenvectors().col(axis == 0 ? 1 : 0));
+    };
+    // A ring that is higher than wide has its least extent across: it goes round where it is open.
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto [x, y] = about(axis);
+        std::vector<Vec3> line = lineAbout(spots, x, y, points);
+        if (static_cast<int>(line.size()) == points && isOpen(mesh, spots.middle, x, y)) return line;
+    }
+    const auto [x, y] = about(0);
+    return lineAbout(spots, x, y, points);
 }
 
 } // namespace tss

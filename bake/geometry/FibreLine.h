@@ -10,8 +10,9 @@ namespace tss {
 /// no meaning. Throws InputError for a mesh without area.
 std::vector<Vec3> fibreLine(const TriangleMesh& mesh, int inner = 7);
 
-/// The same of a muscle that closes on itself: `points` middles of slices around the axis of least extent, or
-/// fewer where a slice is empty. Throws InputError for a mesh without area.
+/// The same of a muscle that closes on itself: `points` middles of slices around the axis that it is open
+/// along, that of least extent where several are; around that where none is, and fewer where a slice is
+/// empty. Throws InputError for a mesh without area.
 std::vector<Vec3> ringLine(const TriangleMesh& mesh, int points = 16);
 
 } // namespace tss

@@ -31,6 +31,13 @@ double contractionIntegral(double s) {
     return contractionPeak() * (s < ramp ? ramp * stepIntegral(s / ramp) : ramp / 2 + (s - ramp));
 }
 
+bool goesOnAlongChord(const std::vector<Vec3>& points) {
+    const Vec3 chord = points.back() - points.front();
+    for (std::size_t i = 1; i < points.size(); ++i)
+        if (!(chord.dot(points[i] - points[i - 1]) > 0)) return false;
+    return true;
+}
+
 MuscleFibre::MuscleFibre(const std::vector<Vec3>& points) {
     if (points.size() < 2) throw InputError("the fibre of a muscle needs at least 2 points");
     for (const Vec3& p : points)

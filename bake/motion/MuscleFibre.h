@@ -28,6 +28,10 @@ private:
     std::vector<Knot> knots_;
 };
 
+/// Whether a line goes on along its chord all the way: what comes back, as of a muscle that winds round by
+/// more than half a turn, is left out of MuscleFibre.
+bool goesOnAlongChord(const std::vector<Vec3>& points);
+
 /// How the shortening spreads along the fibre: a bump with smooth ends on [0, 1] and an integral of 1.
 double contractionBump(double s);
 /// Its integral from 0: 0 before the origin, 1 beyond the insertion.

@@ -7,6 +7,8 @@
 #include "bake/geometry/MeshQuery.h"
 #include "bake/model/AddPair.h"
 #include "bake/model/ShowMotion.h"
+#include "bake/motion/MuscleFibre.h"
+#include "bake/motion/MuscleVolume.h"
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/robot/RobotScene.h"
 #include "bake/scene/Layer.h"
@@ -137,6 +139,9 @@ public:
         if (!auditMesh(mesh).watertight)
             note(named.name +
                  " is not closed, and bake will refuse it: a muscle's volume is that of a closed surface");
+        else if (!enclosesVolume(mesh))
+            note(named.name + " is flat or inside out, and bake will refuse it: expected a muscle with a "
+                              "volume");
         model.muscle.surface = mesh;
         if (model.insertionBone == model.bone) model.insertionBone = -1;
         model.muscle.spans = model.insertionBone >= 0;
@@ -145,6 +150,9 @@ public:
         } else {
             model.muscle.fibre = fibreLine(mesh);
             orient(model, placement);
+            if (!goesOnAlongChord(model.muscle.fibre))
+                note(named.name + " winds round so far that its line comes back along the way from end to "
+                                  "end: it will not shorten along all of it; cut it into two muscles");
         }
         scene_.muscles.push_back(model);
         sayMuscle(named.name, model);
