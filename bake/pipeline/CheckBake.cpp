@@ -4,6 +4,7 @@
 #include "bake/motion/MotionBound.h"
 #include "bake/motion/MuscleDeformer.h"
 #include "bake/pipeline/FillPair.h"
+#include "bake/play/FreeMuscles.h"
 #include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinRig.h"
 
@@ -91,6 +92,15 @@ std::vector<InputError> refusedByBake(const SceneModel& scene, const BakeRequest
     for (const SkinModel& skin : scene.skins)
         if (toBake(scene, skin, request))
             collect(refused, skin, [&] { checkSkin(scene, skin, options(skin.settings)); });
+    return refused;
+}
+
+std::vector<InputError> unplayableMuscles(const SceneModel& scene) {
+    std::vector<InputError> refused;
+    for (std::size_t m = 0; m < scene.muscles.size(); ++m)
+        if (!underSomeSkin(scene, m))
+            collect(refused, scene.muscles[m],
+                    [&] { const MuscleDeformer muscle(muscleOf(scene, scene.muscles[m])); });
     return refused;
 }
 

@@ -8,4 +8,7 @@ namespace tss {
 /// empty: nothing that shows without making spheres. Takes no longer than reading the scene.
 std::vector<InputError> refusedByBake(const SceneModel& scene, const BakeRequest& request = {});
 
+/// The same of muscles that lie under no skin: bake has nothing to do with them, but they do not play.
+std::vector<InputError> unplayableMuscles(const SceneModel& scene);
+
 } // namespace tss

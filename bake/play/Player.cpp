@@ -7,6 +7,7 @@
 #include "bake/motion/MuscleDeformer.h"
 #include "bake/motion/MuscleSpan.h"
 #include "bake/motion/WholeTurn.h"
+#include "bake/play/FreeMuscles.h"
 #include "bake/play/JointPlan.h"
 #include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinCosts.h"
@@ -60,9 +61,11 @@ private:
     std::vector<std::size_t> places_; ///< of each value of the plan, among all joints' values
     std::vector<double> values_;
     std::vector<Skin> skins_;
+    FreeMuscles freeMuscles_;
 };
 
-Player::State::State(const SceneModel& scene, std::vector<std::string>& warnings) : scene_(scene) {
+Player::State::State(const SceneModel& scene, std::vector<std::string>& warnings)
+    : scene_(scene), freeMuscles_(scene, warnings) {
     std::vector<std::string> paths;
     for (const Pair& pair : scene.pairs) paths.push_back(pair.path);
     plan_ = makeJointPlan(scene, paths, &warnings);
@@ -151,6 +154,7 @@ Player::Step Player::State::step(const std::vector<double>& asked, double timeCo
         result.gap = std::min(result.gap, query(*pair.table, pose(pair.table->motion, q)).gap);
     }
 
+    freeMuscles_.activate(timeCode);
     const std::vector<Pose> placements = posedBodies(scene_, values_);
     for (Skin& skin : skins_) {
         const SkinModel& model = scene_.skins[skin.index];
@@ -181,6 +185,7 @@ std::vector<TriangleMesh> Player::State::worldMeshes() const {
     std::vector<Pose> placements = posedBodies(scene_, values_);
     std::vector<TriangleMesh> meshes;
     for (const Body& body : scene_.bodies) meshes.push_back(body.mesh);
+    freeMuscles_.pose(meshes, placements);
     for (const Skin& skin : skins_) {
         const SkinModel& model = scene_.skins[skin.index];
         const auto positions = skin.response.positions();

@@ -2,7 +2,9 @@
 #include "bake/scene/ValidateScene.h"
 #include "bake/tool/Command.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace tss::tool {
 
@@ -26,7 +28,9 @@ void validate(const std::string& file, Console& console) {
     const std::vector<LocatedError> errors = validateScene(file, &warnings, [](const SceneModel& scene) {
         BakeRequest request;
         request.onlyMissing = true;
-        return refusedByBake(scene, request);
+        std::vector<InputError> refused = refusedByBake(scene, request);
+        std::ranges::copy(unplayableMuscles(scene), std::back_inserter(refused));
+        return refused;
     });
     Json result = {
         {"file", file}, {"valid", errors.empty()}, {"errors", Json::array()}, {"warnings", Json::array()}};

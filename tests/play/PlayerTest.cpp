@@ -1,6 +1,7 @@
 #include "bake/play/Player.h"
 
 #include "bake/model/AddPair.h"
+#include "bake/motion/MuscleDeformer.h"
 #include "bake/table/Table.h"
 #include "tests/Joints.h"
 #include "tests/Shapes.h"
@@ -33,6 +34,45 @@ TEST_CASE("a joint that turns all the way round is played on where its limits me
     const double angle = std::remainder(stopped.values[0], 360 * degree) / degree;
     CHECK(angle > 95);
     CHECK(angle < 125);
+}
+
+TEST_CASE("a muscle under no skin plays: it contracts, and goes with its bone") {
+    SceneModel scene;
+    for (const double x : {-1.0, 1.0}) {
+        Body bone;
+        bone.path = x < 0 ? "/Limb/Upper" : "/Limb/Lower";
+        bone.mesh = boxMesh({x - 0.8, -0.2, -0.2}, {x + 0.8, 0.2, 0.2});
+        scene.bodies.push_back(bone);
+    }
+    Motion motion;
+    motion.dofs = {joints::turn(Vec3::Zero(), Vec3::UnitY(), -1, 1)};
+    addJoints(scene, 0, 1, motion, "Elbow");
+    Body belly;
+    belly.path = "/Limb/Belly";
+    belly.mesh = ballMesh({1, 0, 0.6}, 0.4, 3);
+    scene.bodies.push_back(belly);
+    MuscleModel muscle;
+    muscle.path = "/Limb/Muscle";
+    muscle.body = 2;
+    muscle.bone = 1;
+    muscle.muscle.fibre = {{0.6, 0, 0.6}, {1.4, 0, 0.6}};
+    muscle.muscle.surface = belly.mesh;
+    muscle.activation = TimeSamples{{0}, {1}};
+    scene.muscles = {muscle};
+    std::vector<std::string> warnings;
+    Player player(scene, warnings);
+    player.step({0.7}, 0);
+    const std::vector<Vec3> now = player.worldMeshes()[2].vertices;
+    const std::vector<Vec3> active = MuscleDeformer(muscle.muscle).vertices(1.0);
+    const Pose turned(Eigen::AngleAxisd(0.7, Vec3::UnitY()));
+    for (std::size_t v = 0; v < now.size(); ++v) CHECK((now[v] - turned * active[v]).norm() < 1e-9);
+    CHECK((active[0] - belly.mesh.vertices[0]).norm() > 0.01);
+    CHECK(warnings.empty());
+    scene.muscles[0].muscle.surface.triangles.pop_back();
+    Player without(scene, warnings);
+    CHECK(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+        return warning.find("/Limb/Muscle does not play") != std::string::npos;
+    }));
 }
 
 TEST_CASE("the muscles on a bone are shown where the bone has taken them") {
