@@ -103,15 +103,15 @@ MuscleDeformer::MuscleDeformer(Muscle muscle)
         points_.push_back({x, s, offset, normals_[v], 0, shares_.back()});
     }
     for (const double end : {lower, upper})
-        if (!rigid() && !holdsAt(end)) refuse(end);
+        if (ring_ && !holdsAt(end)) refuse(end);
 }
 
-/// Its volume is kept, and no part of a ring has gone through the middle.
+/// Of a ring: its volume is kept, and no part of it has gone through the middle.
 bool MuscleDeformer::holdsAt(double activation) const {
     constexpr double kept = 1e-6; // of the volume
     const std::vector<Vec3> now = vertices(activation);
     if (!(std::abs(enclosedVolume(now, muscle_.surface.triangles) - volume_) <= kept * volume_)) return false;
-    for (std::size_t v = 0; v < now.size() && ring_; ++v)
+    for (std::size_t v = 0; v < now.size(); ++v)
         if (!(ring_->outward(now[v], points_[v].s) > 0)) return false;
     return true;
 }
@@ -122,11 +122,9 @@ void MuscleDeformer::refuse(double end) const {
         const double middle = (works + fails) / 2;
         (holdsAt(middle * end) ? works : fails) = middle;
     }
-    throw InputError("a muscle may " + std::string(end < 0 ? "lengthen" : "shorten") + " by at most " +
-                     std::to_string(works * std::abs(end) * muscle_.maxContraction) + " of its " +
-                     (ring_ ? "length: beyond that it goes through its own middle"
-                            : "chord: beyond that it goes through itself") +
-                     " or cannot keep its volume");
+    throw InputError("a ring of muscle may " + std::string(end < 0 ? "lengthen" : "shorten") +
+                     " by at most " + std::to_string(works * std::abs(end) * muscle_.maxContraction) +
+                     " of its length: beyond that it goes through its own middle or cannot keep its volume");
 }
 
 double MuscleDeformer::gain(double s, double activation) const {

@@ -42,7 +42,7 @@ class MuscleDeformer {
 public:
     /// Throws InputError: an open, flat or inside-out surface of what is not rigid, a shell of it that is
     /// inside out, a bad fibre, a contraction that would turn the muscle over within its activation range,
-    /// take a ring through its own middle, or leave no shape with the volume at rest.
+    /// take a ring through its own middle, or leave it none with the volume at rest.
     explicit MuscleDeformer(Muscle muscle);
     MuscleDeformer(const MuscleDeformer&) = delete;
     MuscleDeformer& operator=(const MuscleDeformer&) = delete;
@@ -81,7 +81,7 @@ private:
     Vec3 slide(const MusclePoint& point, double activation) const;
     double gain(double s, double activation) const;
     bool holdsAt(double activation) const;
-    [[noreturn]] void refuse(double end) const; ///< of the activation range, where it does not hold
+    [[noreturn]] void refuse(double end) const; ///< of the activation range of a ring
 
     Muscle muscle_;
     std::optional<MuscleRing> ring_;
