@@ -100,4 +100,16 @@ inline Couple usual() {
     return couple(vaultedSheet(32, 1, 0.01, 0.3), {muscleBelow(0)});
 }
 
+inline void run(tss::SkinResponse& response, double activation, int frames) {
+    for (int f = 0; f < frames; ++f) response.update(std::vector<double>{activation});
+}
+
+inline bool exactlyAtRest(const tss::SkinResponse& response) {
+    for (std::size_t i = 0; i < response.positions().size(); ++i)
+        if (response.positions()[i] != response.rig().rest[i] ||
+            response.normals()[i] != response.rig().restNormals[i])
+            return false;
+    return true;
+}
+
 } // namespace skins

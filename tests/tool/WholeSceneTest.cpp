@@ -2,6 +2,7 @@
 #include "bake/scene/SceneFile.h"
 #include "tests/tool/Swing.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 using Json = nlohmann::json;
@@ -79,6 +80,51 @@ TEST_CASE("a muscle from one body to another lies between both") {
     const Ran played = runTss("play limb.tss -o limb.csv", folder.path());
     INFO(played.err);
     CHECK(played.exit == 0);
+}
+
+TEST_CASE("of muscles that cannot do what is asked, make, validate and bake say it") {
+    const Folder folder;
+    writeLimb(folder);
+    // Winding: most of a circle. Open: without one triangle.
+    tss::TriangleMesh winding = ballMesh({0, 0, 0}, 1, 4);
+    for (tss::Vec3& v : winding.vertices) {
+        const double angle = 0.9 * M_PI * v.x(), away = 2 - 0.2 * v.y();
+        v = {away * std::cos(angle), away * std::sin(angle), 0.2 * v.z()};
+    }
+    writeObj(winding, folder / "winding.obj");
+    const auto says = [&](const std::string& muscle, const std::string& words) {
+        const Ran ran = runTss("make -o m.tss " + limb + "--muscle " + muscle + ",from=upper", folder.path());
+        INFO(ran.out << ran.err);
+        CHECK(ran.exit == 0);
+        CHECK(ran.out.find(words) != std::string::npos);
+    };
+    for (tss::Tri& t : winding.triangles) std::swap(t[1], t[2]);
+    writeObj(winding, folder / "inwards.obj");
+    says("inwards.obj", "inwards is flat or inside out");
+    says("winding.obj", "winding winds round so far");
+    tss::TriangleMesh open = ballMesh({0, 0, 2}, 1, 2);
+    open.triangles.pop_back();
+    writeObj(open, folder / "open.obj");
+    says("open.obj", "open is not closed");
+    const Ran invalid = runTss("validate m.tss", folder.path()); // also where it lies under no skin
+    CHECK(invalid.exit == 1);
+    CHECK(invalid.out.find("closed") + invalid.err.find("closed") != 2 * std::string::npos);
+
+    // A sheet over a hinge that closes nearly all the way has nowhere to go.
+    tss::TriangleMesh sheet = ballMesh({0, 0, 0}, 1, 4);
+    for (tss::Vec3& v : sheet.vertices)
+        v = tss::Vec3(2.05, 0, 0.3) + v.cwiseProduct(tss::Vec3(1.8, 0.8, 0.04));
+    writeObj(sheet, folder / "sheet.obj");
+    const Ran made = runTss("make -o s.tss --body upper.obj --body lower.obj --joint "
+                            "'knee=upper,lower:rot:2.05,0,0:0,1,0:-150:0' --skin hide.obj "
+                            "--muscle sheet.obj,from=upper,to=lower,sheet",
+                            folder.path());
+    INFO(made.err);
+    REQUIRE(made.exit == 0);
+    const Ran baked = runTss("bake s.tss -o b.tss --tolerance 0.1 --budget 1", folder.path());
+    INFO(baked.out << baked.err);
+    REQUIRE(baked.exit == 0);
+    CHECK(baked.out.find("sheet cannot keep its volume") != std::string::npos);
 }
 
 TEST_CASE("the same hinge is the same motion whichever way it is made") {
