@@ -122,7 +122,7 @@ TEST_CASE("a motion of one's own is the scene's, by the names of its joints") {
     writeText(folder.path() / "m.csv", "time,Jiont\n0,0\n");
     const Ran misspelt = runTss(make + " --motion m.csv", folder.path());
     CHECK(misspelt.exit == 1);
-    CHECK(misspelt.err.find("no joint or muscle is called \"Jiont\"; expected some of Joint") !=
+    CHECK(misspelt.err.find("no joint or muscle is called \"Jiont\"; expected some of rot") !=
           std::string::npos);
     writeText(folder.path() / "m.csv", "step,Joint\n0,0\n0,1\n");
     CHECK(runTss(make + " --motion m.csv", folder.path()).err.find("times that rise") != std::string::npos);
