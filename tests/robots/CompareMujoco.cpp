@@ -5,91 +5,19 @@
 #ifdef OSGTSS_HAVE_URDF
 #include "bake/robot/ReadUrdf.h"
 #endif
-#include "tests/robots/Compared.h"
+#include "tests/robots/MujocoModel.h"
 
 #include <algorithm>
-#include <cstring>
-#include <memory>
-#include <mujoco/mujoco.h>
 #include <numbers>
 #include <random>
 #include <set>
 
 using namespace tss;
+using namespace mujoco;
 
 namespace {
 
-constexpr double pi = std::numbers::pi, close = 1e-6;
-
-Vec3 vectorOf(const mjtNum* n) {
-    return {n[0], n[1], n[2]};
-}
-
-Pose poseOf(const mjtNum* place, const mjtNum* turn) {
-    Pose pose = Pose::Identity();
-    pose.linear() = Eigen::Quaterniond(turn[0], turn[1], turn[2], turn[3]).normalized().toRotationMatrix();
-    pose.translation() = vectorOf(place);
-    return pose;
-}
-
-struct DeleteModel {
-    void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-struct DeleteData {
-    void operator()(mjData* data) const { mj_deleteData(data); }
-};
-using Model = std::unique_ptr<mjModel, DeleteModel>;
-
-bool isUrdf(const std::string& text) {
-    return text.find("<robot") != text.npos;
-}
-
-/// Limits are taken from ranges as MuJoCo does since 3.0, where the file does not say otherwise. Of a URDF
-/// all links are to be bodies, whatever they weigh.
-std::string settled(std::string text) {
-    const auto root = text.find(isUrdf(text) ? "<robot" : "<mujoco"), end = text.find('>', root);
-    if (root == text.npos || end == text.npos || text[end - 1] == '/') return text;
-    if (isUrdf(text))
-        return text.insert(
-            end + 1, "<mujoco><compiler autolimits='true' fusestatic='false' discardvisual='false' "
-                     "strippath='true' balanceinertia='true' boundmass='1' boundinertia='1'/></mujoco>");
-    if (text.find("autolimits") != text.npos) return text;
-    return text.insert(end + 1, "<compiler autolimits='true'/>");
-}
-
-Model load(const std::string& file, std::string& refusal) {
-    auto disk = std::make_unique<mjVFS>();
-    mj_defaultVFS(disk.get());
-    const std::string text = settled(readWholeFile(file));
-    const std::string name = file.substr(file.find_last_of('/') + 1);
-    mj_makeEmptyFileVFS(disk.get(), name.c_str(), static_cast<int>(text.size()));
-    std::memcpy(disk->filedata[0], text.data(), text.size());
-    char error[1000] = "";
-    Model model(mj_loadXML(file.c_str(), disk.get(), error, sizeof error));
-    mj_deleteVFS(disk.get());
-    if (!model) refusal = error;
-    return model;
-}
-
-Solid solidOf(const mjModel& m, int geom) {
-    static const std::map<int, RobotShape::Kind> kinds = {
-        {mjGEOM_SPHERE, RobotShape::Kind::Sphere},     {mjGEOM_CAPSULE, RobotShape::Kind::Capsule},
-        {mjGEOM_CYLINDER, RobotShape::Kind::Cylinder}, {mjGEOM_ELLIPSOID, RobotShape::Kind::Ellipsoid},
-        {mjGEOM_BOX, RobotShape::Kind::Box},           {mjGEOM_MESH, RobotShape::Kind::Mesh}};
-    Solid solid;
-    solid.kind = kinds.at(m.geom_type[geom]);
-    solid.size = vectorOf(m.geom_size + 3 * geom);
-    solid.place = poseOf(m.geom_pos + 3 * geom, m.geom_quat + 4 * geom);
-    if (solid.kind != RobotShape::Kind::Mesh) return solid;
-    // They are of single numbers, about their middles.
-    solid.rounding = 4 * close * (1 + solid.place.translation().norm() + m.geom_rbound[geom]);
-    const int mesh = m.geom_dataid[geom];
-    for (int f = 0; f < 3 * m.mesh_facenum[mesh]; ++f) {
-        const float* v = m.mesh_vert + 3 * (m.mesh_vertadr[mesh] + m.mesh_face[3 * m.mesh_faceadr[mesh] + f]);
-        solid.corners.emplace_back(v[0], v[1], v[2]);
-    }
-    return solid;
-}
+constexpr double pi = std::numbers::pi;
 
 class Comparison {
 public:
@@ -194,18 +122,19 @@ private:
     void compareDof(int j, const Dof& dof, const std::string& name) {
         const bool slide = m_.jnt_type[j] == mjJNT_SLIDE;
         if ((dof.kind == DofKind::Translation) != slide) return differ_.add(name + ": another kind");
-        if ((dof.axis - vectorOf(m_.jnt_axis + 3 * j)).norm() > close)
+        if ((dof.axis - vectorOf(m_.jnt_axis + 3 * j)).norm() > rounded)
             differ_.add(fmt::format("{}: axis {} {} {}, MuJoCo's {} {} {}", name, dof.axis.x(), dof.axis.y(),
                                     dof.axis.z(), m_.jnt_axis[3 * j], m_.jnt_axis[3 * j + 1],
                                     m_.jnt_axis[3 * j + 2]));
-        if (!slide && (dof.origin - vectorOf(m_.jnt_pos + 3 * j)).norm() > close)
+        if (!slide && (dof.origin - vectorOf(m_.jnt_pos + 3 * j)).norm() > rounded)
             differ_.add(name + ": another anchor");
-        if (urdf_ && dof.upper - dof.lower > 2 * pi - close) return; // MuJoCo gives a continuous joint limits
+        if (urdf_ && dof.upper - dof.lower > 2 * pi - rounded)
+            return; // MuJoCo gives a continuous joint limits
         const double ref = m_.qpos0[m_.jnt_qposadr[j]];
         const bool limited = m_.jnt_limited[j] && (slide || m_.jnt_range[2 * j + 1] < 1e5);
         const double lower = limited ? m_.jnt_range[2 * j] - ref : -pi,
                      upper = limited ? m_.jnt_range[2 * j + 1] - ref : pi;
-        if (std::abs(dof.lower - lower) > close || std::abs(dof.upper - upper) > close)
+        if (std::abs(dof.lower - lower) > rounded || std::abs(dof.upper - upper) > rounded)
             differ_.add(fmt::format("{}: limits {} to {}, MuJoCo's {} to {}", name, dof.lower, dof.upper,
                                     lower, upper));
     }
@@ -216,9 +145,9 @@ private:
             const Dof& dof = dofs[k];
             const double needed = most < pi / 2 ? most : k == 1 ? pi / 2 : pi;
             if (dof.kind != DofKind::Rotation || dof.axis != Vec3::Unit(k) ||
-                (dof.origin - vectorOf(m_.jnt_pos + 3 * j)).norm() > close)
+                (dof.origin - vectorOf(m_.jnt_pos + 3 * j)).norm() > rounded)
                 differ_.add(name + ": no ball");
-            if (dof.lower > -needed + close || dof.upper < needed - close)
+            if (dof.lower > -needed + rounded || dof.upper < needed - rounded)
                 differ_.add(name + ": limits of less than the ball's angle");
         }
     }
@@ -271,10 +200,10 @@ private:
             const Pose own = rootPose.inverse(Eigen::Isometry) * poses[links_[body]];
             const Pose their = theirs(root).inverse(Eigen::Isometry) * theirs(body);
             const double apart = (own.matrix() - their.matrix()).norm();
-            if (apart > close * (1 + their.translation().norm()))
+            if (apart > rounded * (1 + their.translation().norm()))
                 return differ_.add(
                     fmt::format("{}: its pose differs by {}, sample {}", bodyName(body), apart, round));
-            if (atZero && (poses[links_[body]].matrix() - theirs(body).matrix()).norm() > close)
+            if (atZero && (poses[links_[body]].matrix() - theirs(body).matrix()).norm() > rounded)
                 return differ_.add(bodyName(body) + ": stands elsewhere in the world as modelled");
         }
     }
