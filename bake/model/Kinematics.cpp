@@ -211,6 +211,12 @@ std::string primName(const std::string& path) {
     return path.substr(path.rfind('/') + 1);
 }
 
+std::vector<std::size_t> firstValues(const SceneModel& scene) {
+    std::vector<std::size_t> first{0};
+    for (const Joint& joint : scene.joints) first.push_back(first.back() + joint.dofs.size());
+    return first;
+}
+
 std::vector<JointDof> pairDofs(const SceneModel& scene, const Pair& pair) {
     std::vector<JointDof> dofs;
     int body = pair.bodyA;

@@ -34,6 +34,10 @@ struct JointDof {
     std::size_t dof = 0;
 };
 
+/// Of each joint the place of its first value among those of all joints in file order; behind the last how
+/// many there are.
+std::vector<std::size_t> firstValues(const SceneModel& scene);
+
 /// Which of the joints' DOFs each DOF of pairMotion() is: those of a joint that is crossed from body1 to
 /// body0 come in reverse order.
 std::vector<JointDof> pairDofs(const SceneModel& scene, const Pair& pair);

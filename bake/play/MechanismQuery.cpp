@@ -132,12 +132,10 @@ MechanismQuery::Prepared::Prepared(const SceneModel& scene, const std::vector<in
 
 MechanismQuery::Prepared::Part MechanismQuery::Prepared::partOf(const SceneModel& scene, int pair) const {
     const Pair& of = scene.pairs[pair];
-    std::vector<std::uint32_t> first{0};
-    for (const Joint& joint : scene.joints)
-        first.push_back(first.back() + static_cast<std::uint32_t>(joint.dofs.size()));
+    const std::vector<std::size_t> first = firstValues(scene);
     Part part{pair, of.table ? of.table->motion : pairMotion(scene, of), {}, true};
     for (const JointDof& dof : pairDofs(scene, of))
-        part.values.push_back(first[dof.joint] + static_cast<std::uint32_t>(dof.dof));
+        part.values.push_back(static_cast<std::uint32_t>(first[dof.joint] + dof.dof));
     if (part.values.size() != part.motion.dofCount())
         throw InputError(Where{"", "", of.path}, "its joints have other degrees of freedom than its table");
     for (std::size_t k = 1; k < part.values.size(); ++k)

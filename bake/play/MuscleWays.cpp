@@ -18,16 +18,6 @@ constexpr double wholeTurnNear = -0.9; ///< cosine of half the turn: 308 degrees
 /// Values of all DOFs of the scene at the end of a way.
 using Values = std::vector<double>;
 
-std::vector<std::size_t> firstDofs(const SceneModel& scene) {
-    std::vector<std::size_t> first;
-    std::size_t next = 0;
-    for (const Joint& joint : scene.joints) {
-        first.push_back(next);
-        next += joint.dofs.size();
-    }
-    return first;
-}
-
 Values restValues(const SceneModel& scene) {
     Values rest;
     for (const Joint& joint : scene.joints)
@@ -38,7 +28,7 @@ Values restValues(const SceneModel& scene) {
 /// The ends that one value at a time goes to, joint by joint of the chain.
 std::vector<std::vector<Values>> jointEnds(const SceneModel& scene, const std::vector<int>& chain,
                                            const Values& rest) {
-    const std::vector<std::size_t> first = firstDofs(scene);
+    const std::vector<std::size_t> first = firstValues(scene);
     std::vector<std::vector<Values>> ends;
     for (const int j : chain) {
         ends.emplace_back();

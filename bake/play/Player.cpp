@@ -21,16 +21,6 @@
 
 namespace tss {
 
-namespace {
-
-std::vector<std::size_t> firstValues(const SceneModel& scene) {
-    std::vector<std::size_t> first{0};
-    for (const Joint& joint : scene.joints) first.push_back(first.back() + joint.dofs.size());
-    return first;
-}
-
-} // namespace
-
 class Player::State {
 public:
     State(const SceneModel& scene, std::vector<std::string>& warnings);
