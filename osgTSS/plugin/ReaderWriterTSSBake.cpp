@@ -11,7 +11,6 @@
 #include <osgTSS/ViewerCallback>
 
 #include <chrono>
-#include <cmath>
 #include <exception>
 
 namespace {
@@ -19,32 +18,25 @@ namespace {
 /// Says what is being done to who waits for the picture, now and then, and once how it would go quicker.
 class Outlook {
 public:
-    Outlook(const osg::Node& root, const osgTSS::BakeOptions& options)
-        : _radius(root.getBound().radius()), _kept(options.cache != "off"),
-          _coarse(options.settings.contains("tolerance")) {}
+    explicit Outlook(const osgTSS::BakeOptions& options) : _kept(options.cache != "off") {}
 
     bool operator()(const std::string& what, double done) {
         constexpr auto every = std::chrono::seconds(5);
         const Time::time_point now = Time::now();
         if (now - _said < every) return true;
+        if (_said == _start)
+            OSG_NOTICE << "osgTSS: a coarser tolerance= and a shorter budget= in -O are quicker"
+                       << (_kept ? "; what is baked by then is kept for the next load" : "") << std::endl;
         _said = now;
         OSG_NOTICE << "osgTSS: baked " << int(100 * done) << " % after "
                    << std::chrono::duration_cast<std::chrono::seconds>(now - _start).count() << " s, now "
                    << what << std::endl;
-        if (_coarse || !(_radius > 0)) return true;
-        _coarse = true;
-        const double share = 0.01 * _radius, digit = std::pow(10, std::floor(std::log10(share)));
-        OSG_NOTICE << "osgTSS: a coarser tolerance is quicker: tolerance="
-                   << std::round(share / digit) * digit << " budget=2, for example, in -O"
-                   << (_kept ? "; what is baked by then is kept for the next load" : "") << std::endl;
         return true;
     }
 
 private:
     using Time = std::chrono::steady_clock;
-    const double _radius;
     const bool _kept;
-    bool _coarse; ///< said, or asked for
     const Time::time_point _start = Time::now();
     Time::time_point _said = _start;
 };
@@ -108,7 +100,7 @@ private:
         given.firstLook = true;
         // Beside the file, as it is found: baked once, and again where it has changed.
         if (given.cache.empty()) given.cache = osgDB::findDataFile(source) + ".cache.tss";
-        osg::ref_ptr<osgTSS::Scene> scene = osgTSS::bake(root, given, Outlook(root, given));
+        osg::ref_ptr<osgTSS::Scene> scene = osgTSS::bake(root, given, Outlook(given));
         scene->setClock(osgTSS::Clock(scene->getModel(), load.clock));
         scene->setName(osgDB::getSimpleFileName(source));
         osgTSS::install(root, *scene);
