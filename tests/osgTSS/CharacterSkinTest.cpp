@@ -58,6 +58,15 @@ osg::ref_ptr<Scene> held(Tail& tail) {
     return scene;
 }
 
+/// Two that bend alike, of which the first one's sleeve is held.
+osg::ref_ptr<Scene> bentAndHeld(Tail& skin, Tail& plain) {
+    for (Tail* tail : {&skin, &plain}) {
+        tail->bend();
+        tail->wear(tail == &skin);
+    }
+    return held(skin);
+}
+
 /// The farthest in some frames that a held sleeve is from one that osgAnimation draws.
 double farthest(Tail& skin, Tail& plain, unsigned int first = 0) {
     double most = 0;
@@ -85,11 +94,7 @@ double farthest(const Make& make) {
 
 TEST_CASE("A root bone that is bound at the origin is bound there, and its skin follows from there") {
     Tail skin(0), plain(0);
-    skin.bend();
-    plain.bend();
-    skin.wear(true);
-    plain.wear(false);
-    const osg::ref_ptr<Scene> scene = held(skin);
+    const osg::ref_ptr<Scene> scene = bentAndHeld(skin, plain);
     CHECK(farthest(skin, plain) < 1e-5);
 }
 
@@ -146,11 +151,7 @@ TEST_CASE("A bone whose keys change its size is named as one whose skin does not
 
 TEST_CASE("A bone that is hidden goes on to carry its skin, and so does one that is taken out") {
     Tail skin, plain;
-    skin.bend();
-    plain.bend();
-    skin.wear(true);
-    plain.wear(false);
-    const osg::ref_ptr<Scene> scene = held(skin);
+    const osg::ref_ptr<Scene> scene = bentAndHeld(skin, plain);
     CHECK(farthest(skin, plain) < 1e-5);
     for (Tail* tail : {&skin, &plain}) tail->bones["B"]->setNodeMask(0);
     CHECK(farthest(skin, plain, 24) < 1e-5);
