@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace tss {
 
@@ -110,7 +111,8 @@ public:
         for (std::size_t i = 0; i < levels.size(); ++i) {
             if (!narrow(levels[i])) break;
             if (i == 0) levels = coarsened(std::move(levels));
-            if (whole_) levels.resize(1); // a finer level would need poses that this one decides
+            // A finer level would need poses that this one decides, or be as large once more for nothing.
+            if (whole_ || restDecides_) levels.resize(1);
             if (!fit(levels[i])) {
                 if (i > 0 && note_.empty()) fitBetween(levels[i - 1], levels[i]);
                 break;
@@ -123,8 +125,8 @@ public:
                                 result_.levels.back().tolerance, finest, options_.maxSpheres);
         result_.a = a_.result(options_);
         result_.b = b_.result(options_);
-        noteRegion(result_.a, a_);
-        noteRegion(result_.b, b_);
+        noteMore(result_.a, a_);
+        noteMore(result_.b, b_);
         for (ContactZoneBody* body : {&result_.a, &result_.b})
             if (!note_.empty()) body->fit.note += (body->fit.note.empty() ? "" : "; ") + note_;
         return std::move(result_);
@@ -189,13 +191,21 @@ private:
         }
     }
 
-    void noteRegion(ContactZoneBody& made, const Body& body) const {
-        const std::size_t region = body.rest.region.spheres.size();
-        if (options_.maxSpheres <= 0 || 2 * region <= static_cast<std::size_t>(options_.maxSpheres)) return;
-        made.fit.note +=
-            fmt::format("{}what overlaps at rest takes {} spheres, and the rest as many: more than the {} "
-                        "asked for",
-                        made.fit.note.empty() ? "" : "; ", region, options_.maxSpheres);
+    /// Why there are more spheres than were asked for.
+    void noteMore(ContactZoneBody& made, const Body& body) const {
+        const std::size_t region = body.rest.region.spheres.size(), asked = options_.maxSpheres;
+        if (asked == 0 || made.fit.spheres.size() <= asked) return;
+        const std::string add = made.fit.note.empty() ? "" : "; ";
+        if (2 * region > asked)
+            made.fit.note +=
+                fmt::format("{}what overlaps at rest takes {} spheres, and the rest as many: more "
+                            "than the {} asked for",
+                            add, region, asked);
+        else if (body.rest.neighbour)
+            made.fit.note +=
+                fmt::format("{}the surfaces are {:.4g} scene units apart at rest: spheres that are "
+                            "apart there too are more than the {} asked for",
+                            add, body.rest.neighbour->clearance, asked);
     }
 
     /// How many spheres a body may take. What overlaps at rest has its own, whatever the level; where these
@@ -204,27 +214,39 @@ private:
         return std::max(static_cast<std::size_t>(options_.maxSpheres), 2 * body.rest.region.spheres.size());
     }
 
-    bool few(double tolerance) {
+    /// How many times the spheres that it may take a body has; infinite where that was given up.
+    double excess(double tolerance) {
         try {
             for (Body* body : {&a_, &b_})
                 body->fit(tolerance, forTrial(options_.medial, most(*body)), progress_);
+        } catch (const RestTooClose& error) { // which no tolerance changes
+            throw RestTooClose(
+                fmt::format("{}, or no limit of {} spheres", error.message, options_.maxSpheres));
         } catch (const TooFine&) {
-            return false;
+            return std::numeric_limits<double>::infinity();
         }
-        return a_.count() <= most(a_) && b_.count() <= most(b_);
+        const auto share = [&](const Body& body) { return double(body.count()) / double(most(body)); };
+        return std::max(share(a_), share(b_));
     }
 
-    /// The levels from the finest tolerance on with which no body takes too many spheres.
+    /// The levels from the finest tolerance on with which no body takes too many spheres. Twice the tolerance
+    /// takes half as many, except where the bodies are near each other at rest: then no tolerance helps.
     std::vector<double> coarsened(std::vector<double> levels) {
         if (options_.maxSpheres <= 0) return levels;
         const std::size_t planned = levels.size();
         const double widest = std::min(a_.solid.diagonal(), b_.solid.diagonal());
-        while (!few(levels[0]) && levels[0] < widest) levels.insert(levels.begin(), 2 * levels[0]);
-        if (levels.size() == planned) return levels;
+        double before = excess(levels[0]);
+        while (before > 1 && levels[0] < widest && !restDecides_) {
+            levels.insert(levels.begin(), 2 * levels[0]);
+            const double now = excess(levels[0]);
+            restDecides_ |= now > 1 && now > 0.75 * before && std::isfinite(before);
+            before = now;
+        }
+        if (levels.size() == planned || restDecides_) return levels;
         double good = levels[0], bad = levels[1];
         for (int round = 0; round < 3; ++round) {
             const double middle = std::sqrt(good * bad);
-            (few(middle) ? good : bad) = middle;
+            (excess(middle) <= 1 ? good : bad) = middle;
         }
         levels[0] = good;
         return levels;
@@ -331,7 +353,8 @@ private:
     ContactZoneFit result_;
     HollowBodies entered_;
     const bool clearAtRest_;
-    const bool whole_; ///< no part of the surfaces is left out as out of reach
+    const bool whole_;         ///< no part of the surfaces is left out as out of reach
+    bool restDecides_ = false; ///< how many spheres there are, and not the tolerance
     bool hits_ = false;
     bool decided_ = false; ///< no pose is left whose verdict the spheres do not know
     std::string note_;

@@ -215,6 +215,34 @@ TEST_CASE("a limit on spheres that what overlaps at rest takes alone leaves the 
     CHECK(fit.a.fit.protrusion < 0.5);
 }
 
+TEST_CASE("bodies near each other at rest that take more spheres than a limit are told of soon, or refused") {
+    const auto fitted = [](double gap, int most, int& looks) {
+        const Scene scene = slidingOver(boxMesh({0, 0, 1 + gap}, {1, 1, 2}));
+        ContactZoneOptions options = tolerance(0.02);
+        options.atRest = AtRest::Offset;
+        options.maxSpheres = most;
+        looks = 0;
+        return fitContactZone(scene.a, scene.b, scene.motion, options,
+                              [&](std::string_view step, double done) {
+                                  looks += step == "patches" && done == 1;
+                                  return true;
+                              });
+    };
+    int looks = 0;
+    const ContactZoneFit fit = fitted(0.004, 50, looks);
+    CHECK(fit.a.fit.spheres.size() > 50);
+    CHECK(fit.a.fit.note.find("0.004 scene units apart at rest") != std::string::npos);
+    CHECK(fit.a.fit.note.find("more than the 50 asked for") != std::string::npos);
+    CHECK(looks <= 8); // of two bodies: asked for, twice as coarse, and made
+    std::string refusal;
+    try {
+        fitted(1e-4, 50, looks);
+    } catch (const RestTooClose& error) {
+        refusal = error.message;
+    }
+    CHECK(refusal.find("or no limit of 50 spheres") != std::string::npos);
+}
+
 TEST_CASE("a work stopped early is coarser and misses nothing") {
     const Scene scene = lumpyPair(7);
     const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.0005),
