@@ -101,7 +101,7 @@ GrowthOptions growth(const std::string& text, double metersPerUnit) {
 
 double parseNumber(const std::string& text, const std::string& what) {
     double value = 0;
-    const char* begin = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
+    const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-');
     const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
         throw InputError(what + ": expected a finite number, found \"" + text + "\"");

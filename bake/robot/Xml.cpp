@@ -129,7 +129,7 @@ std::vector<double> numbersOf(const std::string& file, const XMLElement& element
     std::string_view rest = text;
     for (auto at = rest.find_first_not_of(blanks); at != rest.npos; at = rest.find_first_not_of(blanks)) {
         rest.remove_prefix(at);
-        if (rest[0] == '+') rest.remove_prefix(1);
+        if (rest[0] == '+' && rest.substr(1, 1) != "-") rest.remove_prefix(1);
         double value = 0;
         const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
         rest.remove_prefix(end - rest.data());

@@ -372,6 +372,7 @@ TEST_CASE("what an MJCF gets wrong is refused with file, line and element") {
     says(body("<geom size='-1'/>"), "lengths above 0");
     says(body("<geom size='1' quat='0 0 0 0'/>"), "not zero");
     says(body("<geom size='1' pos='0 0'/>"), "pos: expected 3 finite numbers");
+    says(body("<geom size='1' pos='0 0 +-1'/>"), "pos: expected 3 finite numbers");
     says(body("<geom type='capsule' size='1' fromto='1 1 1 1 1 1'/>"), "expected two points");
     says(body("<geom type='mesh' mesh='m'/>"), "found \"m\"");
     says(body("<body name='a'/>"), "no other body");

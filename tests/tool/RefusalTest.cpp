@@ -69,6 +69,7 @@ TEST_CASE("bad input is exit 1 with a message that says where, and leaves no fil
     refused("make -o out.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,0:0:1", "axis that is not zero");
     refused("make -o out.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:5:1", "LO <= HI");
     refused("make -o out.tss --a a.obj --b a.obj --dof trans:0,0,1:nan:1", "finite number");
+    refused("make -o out.tss --a a.obj --b a.obj --dof trans:0,0,1:0:+-1", "found \"+-1\"");
     refused("make -o out.tss --a a.obj --b a.obj --dof swing:0,0,1:0:1", "rot:ORIGIN");
     for (const std::string unit : {"0", "-1", "nan", "mm", "1 parsec"})
         refused("make -o out.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1 --meters-per-unit '" + unit +
