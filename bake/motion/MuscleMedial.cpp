@@ -7,17 +7,43 @@ namespace {
 
 constexpr int smoothingRounds = 8;
 constexpr int bisections = 30;
+constexpr double leastLength = 0.3; // of a normal that unit ones are averaged to
 
-/// Largest r with dist(x - r n, mesh) >= r - slack: monotone in r.
-double touchingBall(const Vec3& x, const Vec3& n, double largest, double slack,
+/// Whether a point whose nearest one of the surface is `hit` lies on the outer side of its triangle. Near an
+/// edge that says little unless the point is before the triangle.
+bool beyond(const TriangleMesh& mesh, const Vec3& point, const NearestPoint& hit) {
+    const Vec3& a = mesh.corner(hit.triangle, 0);
+    const Vec3 n = (mesh.corner(hit.triangle, 1) - a).cross(mesh.corner(hit.triangle, 2) - a);
+    return (point - hit.point).dot(n) > 0.5 * hit.distance * n.norm();
+}
+
+/// Largest r with dist(x - r n, mesh) >= r - slack that does not leave the body: monotone in r.
+double touchingBall(const TriangleMesh& mesh, const Vec3& x, const Vec3& n, double largest, double slack,
                     const ClosestPointQuery& locator) {
     double lower = 0, upper = largest;
     for (int i = 0; i < bisections; ++i) {
         const double r = (lower + upper) / 2;
-        const NearestPoint hit = locator.nearest(x - r * n, r);
-        (hit.triangle < 0 || hit.distance >= r - slack ? lower : upper) = r;
+        const Vec3 centre = x - r * n;
+        const NearestPoint hit = locator.nearest(centre, r);
+        const bool inside = hit.triangle < 0 || (hit.distance >= r - slack && !beyond(mesh, centre, hit));
+        (inside ? lower : upper) = r;
     }
     return lower;
+}
+
+/// Inscribed balls fill a body: what they thicken it by, to first order, is no less than its volume. Coarse
+/// and rough surfaces touch smaller ones at their corners: these are made as much larger as that lacks.
+void fillVolume(const TriangleMesh& mesh, std::vector<Vec3>& offsets) {
+    const Vec3& o = mesh.vertices.front();
+    double volume = 0, thickened = 0;
+    for (const Tri& t : mesh.triangles) {
+        const Vec3 a = mesh.vertices[t[0]] - o, b = mesh.vertices[t[1]] - o, c = mesh.vertices[t[2]] - o;
+        const Vec3 n = (b - a).cross(c - a) / 6;
+        volume += n.dot(a);
+        thickened += n.dot(offsets[t[0]] + offsets[t[1]] + offsets[t[2]]);
+    }
+    if (!(thickened > 0 && thickened < volume)) return;
+    for (Vec3& offset : offsets) offset *= volume / thickened;
 }
 
 std::vector<std::vector<int>> neighbours(const TriangleMesh& mesh) {
@@ -67,13 +93,16 @@ std::vector<Vec3> medialOffsets(const TriangleMesh& mesh, const ClosestPointQuer
     std::vector<double> radii(mesh.vertices.size(), 0);
     for (std::size_t v = 0; v < radii.size(); ++v) {
         const double length = directions[v].norm();
-        directions[v] = length > 0 ? Vec3(directions[v] / length) : normals[v];
+        // On so coarse a mesh that the muscle's other side is among the neighbours, normals cancel.
+        const bool outward = length > leastLength;
+        directions[v] = outward ? Vec3(directions[v] / length) : normals[v];
         if (normals[v].squaredNorm() > 0)
-            radii[v] = touchingBall(mesh.vertices[v], normals[v], largest, slack, locator);
+            radii[v] = touchingBall(mesh, mesh.vertices[v], normals[v], largest, slack, locator);
     }
     smooth(radii, rings);
     std::vector<Vec3> offsets(radii.size());
     for (std::size_t v = 0; v < radii.size(); ++v) offsets[v] = radii[v] * directions[v];
+    if (!offsets.empty()) fillVolume(mesh, offsets);
     return offsets;
 }
 

@@ -100,6 +100,19 @@ TEST_CASE("a sheet thickens across, not along its width") {
     CHECK(length(tight, Vec3::UnitY()) < 1.1 * length(rest, Vec3::UnitY()));
 }
 
+TEST_CASE("a sheet far thinner than its edges are long thickens in its middle and not at its rim") {
+    test::BentEllipsoid shape;
+    shape.halfWidth = 0.3;
+    shape.halfHeight = 0.004;
+    shape.rings = shape.sectors = 12;
+    Muscle thin = test::bentEllipsoid(shape);
+    thin.form = MuscleForm::Sheet;
+    thin.maxContraction = 0.3;
+    const MuscleDeformer muscle(std::move(thin));
+    CHECK(muscle.state(1).thickening > 0.3);
+    for (const MusclePoint& point : muscle.surfacePoints()) CHECK(point.offset.norm() < 2 * shape.halfHeight);
+}
+
 TEST_CASE("a point that the muscle carries moves with the surface below it") {
     const MuscleDeformer muscle(bentMuscle(MuscleForm::Tube, 0.2));
     const std::vector<Vec3> normals = vertexNormals(muscle.muscle().surface);

@@ -14,17 +14,21 @@ namespace {
 using std::numbers::pi;
 
 /// A muscle of length 4 along x, bent upwards, between two bones.
-MuscleDeformer betweenBones() {
+MuscleDeformer betweenBones(int rings = 40, int sectors = 32, double roughness = 0) {
     test::BentEllipsoid shape;
     shape.origin = {0, 0, 0};
     shape.insertion = {4, 0, 0};
     shape.bend = 0.5;
     shape.halfWidth = 0.5;
     shape.halfHeight = 0.4;
-    shape.rings = 40;
-    shape.sectors = 32;
+    shape.rings = rings;
+    shape.sectors = sectors;
     Muscle muscle = test::bentEllipsoid(shape);
     muscle.spans = true;
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> off(0, roughness);
+    if (roughness > 0)
+        for (Vec3& vertex : muscle.surface.vertices) vertex += Vec3(off(random), off(random), off(random));
     return MuscleDeformer(std::move(muscle));
 }
 
@@ -51,6 +55,25 @@ TEST_CASE("a muscle between two bones keeps its volume, at every activation and 
         CHECK(enclosedVolume(places, muscle.muscle().surface.triangles) ==
               Approx(muscle.restVolume()).epsilon(1e-9));
         CHECK(std::abs(swell) < 1);
+    }
+}
+
+TEST_CASE("a coarse or rough muscle between two bones keeps its volume as a fine one does") {
+    struct Shape {
+        int rings, sectors;
+        double roughness;
+    };
+    for (const Shape shape : {Shape{6, 5, 0}, Shape{4, 4, 0}, Shape{3, 3, 0}, Shape{40, 32, 0.02}}) {
+        CAPTURE(shape.rings, shape.roughness);
+        const MuscleDeformer muscle = betweenBones(shape.rings, shape.sectors, shape.roughness);
+        const MuscleSpan span(muscle);
+        for (const double degrees : {-60, -20, 30, 90}) {
+            CAPTURE(degrees);
+            std::vector<Vec3> places = muscle.vertices(0);
+            span.carry(hinge(degrees), places);
+            CHECK(enclosedVolume(places, muscle.muscle().surface.triangles) ==
+                  Approx(muscle.restVolume()).epsilon(1e-9));
+        }
     }
 }
 
