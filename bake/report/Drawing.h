@@ -10,13 +10,13 @@ std::string quoted(const std::string& text);
 const char* colour(std::size_t k);
 
 /// Collects the plots of one study: writes data and script into folder/plots, runs gnuplot, keeps what was
-/// drawn. In a script, FILE stands for the data's name in quotes.
+/// drawn. In a script, the variable FILE is the data's name.
 class Drawing {
 public:
     /// stem: what the names of all files begin with.
     Drawing(std::string folder, std::string stem);
 
-    void draw(const std::string& name, const std::string& data, std::string script,
+    void draw(const std::string& name, const std::string& data, const std::string& script,
               const std::string& caption, int width = 900, int height = 560);
 
     std::vector<Plot> plots;

@@ -33,6 +33,7 @@ void checkPaths(const SceneModel& scene, const ReportOptions& options, const std
 
 void checkMethods(const std::vector<std::string>& wanted) {
     for (const std::string& part : wanted) {
+        if (part.empty()) throw InputError("--methods: expected parts of names, found an empty one");
         std::string all;
         bool found = false;
         for (const std::string name : methodNames()) {
@@ -62,6 +63,9 @@ Report makeReport(const SceneModel& scene, const std::string& sceneFile, const s
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw InputError(Where{folder}, "cannot make the folder: " + error.message());
+    std::filesystem::create_directory(folder + "/plots", error);
+    for (const char* file : {"/plots/pareto.svg", "/report.csv", "/report.json", "/report.md", "/index.html"})
+        expectWritable(folder + file);
     const Stopwatch watch;
     Report result;
     result.scene = std::filesystem::path(sceneFile).filename().string();

@@ -33,6 +33,10 @@ std::string shareText(std::size_t part, std::size_t whole) {
     return whole == 0 ? "–" : part == 0 ? "0" : fmt::format("{} of {}", part, whole);
 }
 
+std::string counted(std::size_t count, const std::string& thing) {
+    return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
 std::string notRunText(const std::vector<NotRun>& notRun) {
     std::string text;
     for (const NotRun& entry : notRun) text += fmt::format("- {}: {}.\n", entry.method, entry.reason);
@@ -41,7 +45,7 @@ std::string notRunText(const std::vector<NotRun>& notRun) {
 
 std::string pictureText(const std::vector<Plot>& plots, const std::string& part) {
     for (const Plot& plot : plots)
-        if (plot.file.find(part) != std::string::npos)
+        if (plot.file.ends_with("/" + part + ".svg") || plot.file.ends_with("-" + part + ".svg"))
             return fmt::format("![{}]({})\n\n{}\n\n", part, plot.file, plot.caption);
     return "";
 }
@@ -59,16 +63,24 @@ std::string markdownOf(const Report& report) {
     const Machine& machine = report.machine;
     std::string text = fmt::format(
         "# Error against run time: {}\n\n"
-        "Made by `tss report {}{}`, seed {}, in {:.0f} s on {} ({} cores), {}, {}, kernels in {}; {}.\n\n"
-        "All methods answer the same question about the same poses in one process: does the moving body "
-        "touch the other? They take turns on one thread after a warm-up; times are medians over the rounds, "
-        "with the tenth and ninetieth percentile. Each query is given its DOF values and its pose, made "
-        "beforehand, and a method starts from whichever of them it needs. The truth is the meshes' own (FCL, "
-        "exact triangle tests). Error figures are the same in every run with this seed; times are this "
-        "machine's.\n\n",
+        "Made by `tss report {}{}`, seed {}, in {:.0f} s on {} ({} cores), {}, {}, kernels in {}; {}.\n\n",
         report.scene, report.scene, optionsText(report.options), report.options.seed, report.seconds,
         machine.processor, machine.cores, machine.compiler, machine.build, machine.vectors,
         machine.libraries);
+    text +=
+        report.pairs.empty()
+            ? "Times are medians on one thread, and this machine's. Error figures are the same in every "
+              "run.\n\n"
+            : "All methods answer the same question about the same poses in one process: does the moving "
+              "body "
+              "touch the other? They take turns on one thread after a warm-up; times are medians over the "
+              "rounds, "
+              "with the tenth and ninetieth percentile. Each query is given its DOF values and its pose, "
+              "made "
+              "beforehand, and a method starts from whichever of them it needs. The truth is the meshes' own "
+              "(FCL, "
+              "exact triangle tests). Error figures are the same in every run with this seed; times are this "
+              "machine's.\n\n";
     if (!report.plotProblem.empty()) text += report.plotProblem + "\n\n";
     for (std::size_t k = 0; k < report.pairs.size(); ++k)
         text += pairText(report.pairs[k], report.pairPlots[k], report.options.besidePaper);

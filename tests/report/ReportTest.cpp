@@ -1,65 +1,17 @@
 #include "bake/report/Report.h"
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
-#include "bake/model/AddPair.h"
 #include "bake/scene/SceneFile.h"
-#include "tests/Shapes.h"
+#include "tests/report/Arm.h"
 
 #include <catch2/catch.hpp>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <png.h>
-#include <unistd.h>
 
 using namespace tss;
 using namespace tss::reporting;
 
 namespace {
-
-/// A ball on an arm that turns down to a ball on a base, and slides a little.
-SceneModel armScene(double lowest) {
-    SceneModel scene;
-    scene.defaultPrim = "Arm";
-    scene.metersPerUnit = 0.01;
-    const auto body = [&](const std::string& name, const TriangleMesh& mesh) {
-        Body part;
-        part.path = "/Arm/" + name;
-        part.mesh = mesh;
-        part.rigid = true;
-        scene.bodies.push_back(part);
-    };
-    body("Base", ballMesh({3, 0, -1}, 0.8, 3));
-    body("Lever", ballMesh({3, 0, 0.9}, 0.7, 3));
-    Motion motion;
-    Dof turn;
-    turn.name = "turn";
-    turn.axis = Vec3::UnitY();
-    turn.lower = -0.2;
-    turn.upper = lowest;
-    Dof slide;
-    slide.name = "slide";
-    slide.kind = DofKind::Translation;
-    slide.axis = Vec3::UnitY();
-    slide.lower = -0.5;
-    slide.upper = 0.5;
-    motion.dofs = {slide, turn};
-    addPair(scene, 0, 1, motion, "Hinge");
-    scene.pairs[0].settings["tolerance"] = "0.1";
-    return scene;
-}
-
-struct OutFolder {
-    std::string path =
-        (std::filesystem::temp_directory_path() / ("tss-report-" + std::to_string(getpid()))).string();
-    ~OutFolder() { std::filesystem::remove_all(path); }
-};
-
-ReportOptions quickOptions() {
-    ReportOptions options;
-    options.quick = true;
-    options.methods = {"tss", "fcl-obbrss", "tree-all", "gap-grid", "angular-region"};
-    return options;
-}
 
 /// A report's figures without what a clock says.
 nlohmann::json withoutTimes(nlohmann::json json) {
@@ -147,6 +99,9 @@ TEST_CASE("a method that there is none of is refused before anything is made") {
     options.methods.push_back("foo");
     CHECK_THROWS_WITH(makeReport(armScene(0.6), "arm.tss", folder.path, options),
                       Catch::Contains("\"foo\"") && Catch::Contains("bullet-gimpact"));
+    options.methods = {""};
+    CHECK_THROWS_WITH(makeReport(armScene(0.6), "arm.tss", folder.path, options),
+                      Catch::Contains("an empty one"));
     CHECK_FALSE(std::filesystem::exists(folder.path));
 }
 
