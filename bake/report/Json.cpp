@@ -31,6 +31,7 @@ Json jsonOf(const PairStudy& study) {
         json["never"] = *study.never;
         return json;
     }
+    json["notes"] = study.notes;
     json["uniformPoses"] = study.uniformPoses;
     json["touchingUniform"] = study.touchingUniform;
     json["nearPoses"] = study.nearPoses;
@@ -63,6 +64,9 @@ Json jsonOf(const SkinStudy& study) {
     const double mm = study.millimetres;
     Json json{{"path", study.path},
               {"muscles", study.muscles},
+              {"bones", study.bones},
+              {"below", study.partCount()},
+              {"part", study.partName()},
               {"skinSpheres", study.skinSpheres},
               {"muscleSpheres", study.muscleSpheres},
               {"usedSkin", study.usedSkin},

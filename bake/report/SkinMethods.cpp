@@ -172,8 +172,9 @@ void addMethod(SkinStudy& study, const SkinSetting& setting, const std::string& 
 void addEllipsoids(SkinStudy& study, const SkinSetting& setting, const std::vector<std::uint32_t>& vertices,
                    const std::string& name, const std::string& against) {
     addMethod(study, setting, name,
-              "one bent ellipsoid a muscle, refitted each step (not timed; a test ends early where the "
-              "sphere's centre is inside), against " +
+              "one bent ellipsoid a " + study.partName() +
+                  ", refitted each step (not timed; a test ends early where the sphere's centre is inside), "
+                  "against " +
                   against,
               [&](const SkinStep& step, Found& found) {
                   return byEllipsoids(setting, vertices, step, found, false);
@@ -201,15 +202,17 @@ void runSkinMethods(const SkinSetting& setting, SkinStudy& study) {
     RefittedTree muscleAll(setting.steps[0].muscle, 8);
     addMethod(study, setting, "tss", "the table's tests, skin at its rest place (the paper's way)",
               [&](const SkinStep& step, Found& found) { return byTable(setting, step, found); });
-    addMethod(study, setting, "all-pairs", "every skin sphere against every muscle sphere",
+    const std::string part = study.partName();
+    addMethod(study, setting, "all-pairs", "every skin sphere against every " + part + " sphere",
               [&](const SkinStep& step, Found& found) { return allPairs(setting, step, found); });
     addMethod(study, setting, "tree-all-8",
-              "trees over all skin and all muscle spheres, the muscle's refitted each step (case 1)",
+              "trees over all skin and all " + part + " spheres, the " + part +
+                  "'s refitted each step (case 1)",
               [&](const SkinStep& step, Found& found) {
                   return byTrees(skinAll, every, muscleAll, step.muscle, found);
               });
     addMethod(study, setting, "tree-used-8",
-              "trees over the table's skin spheres and all muscle spheres (case 2)",
+              "trees over the table's skin spheres and all " + part + " spheres (case 2)",
               [&](const SkinStep& step, Found& found) {
                   return byTrees(skinUsed, setting.rowVertex, muscleAll, step.muscle, found);
               });

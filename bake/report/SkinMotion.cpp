@@ -2,6 +2,8 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/geometry/Solid.h"
+#include "bake/motion/BoneSwing.h"
+#include "bake/motion/MuscleSpan.h"
 #include "bake/motion/MuscleVolume.h"
 #include "bake/play/SkinSetup.h"
 #include "bake/report/Timing.h"
@@ -14,37 +16,7 @@ namespace tss::reporting {
 
 namespace {
 
-using Muscles = std::vector<std::shared_ptr<const MuscleDeformer>>;
-using Activations = std::vector<double>;
-
-/// The scene's own activations, or all of them from their lower end to their upper one and back.
-std::vector<Activations> motionOf(const SceneModel& scene, const SkinModel& skin, const Muscles& muscles,
-                                  int steps, std::string& inWords) {
-    std::vector<Activations> asked;
-    bool animated = scene.endTimeCode > scene.startTimeCode;
-    if (animated) {
-        for (int s = 0; s < steps; ++s)
-            asked.push_back(skinActivations(scene, skin,
-                                            scene.startTimeCode +
-                                                (scene.endTimeCode - scene.startTimeCode) * s / (steps - 1)));
-        animated = std::ranges::any_of(asked, [&](const Activations& a) { return a != asked[0]; });
-    }
-    inWords = animated ? "the scene's own animation" : "all activations up and down again";
-    if (animated) return asked;
-    asked.clear();
-    for (int s = 0; s < steps; ++s) {
-        Activations a;
-        for (const auto& muscle : muscles) {
-            const double low = std::max(0.0, muscle->muscle().activationLower),
-                         high = muscle->muscle().activationUpper;
-            a.push_back(low + (1 - std::abs(1 - 2.0 * s / (steps - 1))) * (high - low));
-        }
-        asked.push_back(std::move(a));
-    }
-    return asked;
-}
-
-/// The muscles' surfaces at one step.
+/// The surfaces below the skin at one step.
 struct Truth {
     std::vector<Solid> solids;
 
@@ -61,15 +33,30 @@ struct Truth {
     }
 };
 
-Truth truthAt(const Muscles& muscles, const Activations& activations) {
-    Truth truth;
-    for (std::size_t m = 0; m < muscles.size(); ++m) {
-        if (muscles[m]->muscle().surface.empty()) continue; // moves skin and has no shape
-        truth.solids.emplace_back(
-            TriangleMesh{muscles[m]->vertices(activations[m]), muscles[m]->muscle().surface.triangles});
+/// What is below a skin.
+struct Below {
+    const Muscles& muscles;
+    std::vector<UnderSkin> under; ///< one each
+
+    /// Where the vertices of one are.
+    std::vector<Vec3> places(std::size_t m, const SkinAsked& asked) const {
+        const int insertion = under[m].insertion;
+        const bool spans = insertion >= 0 && !asked.poses.empty();
+        const Pose far = spans ? between(asked.poses[m], asked.poses[insertion]) : Pose::Identity();
+        std::vector<Vec3> places = verticesBetween(*muscles[m], asked.activations[m], far);
+        if (!asked.poses.empty())
+            for (Vec3& v : places) v = asked.poses[m] * v;
+        return places;
     }
-    return truth;
-}
+    Truth at(const SkinAsked& asked) const {
+        Truth truth;
+        for (std::size_t m = 0; m < muscles.size(); ++m)
+            if (!muscles[m]->muscle().surface.empty()) // else it moves skin and has no shape
+                truth.solids.emplace_back(
+                    TriangleMesh{places(m, asked), muscles[m]->muscle().surface.triangles});
+        return truth;
+    }
+};
 
 /// How much deeper than at rest the deepest is.
 double deepestBeyond(const std::vector<double>& now, const std::vector<double>& rest) {
@@ -97,16 +84,15 @@ std::vector<Vec3> placesOf(const SkinResponse& response, const TriangleMesh& mes
     return places;
 }
 
-/// The skin at every step when the solver may go on until nothing moves.
-std::vector<std::vector<Vec3>> convergedSteps(const SceneModel& scene, const SkinModel& skin,
-                                              const Muscles& muscles, const std::vector<Activations>& asked) {
-    SkinParameters parameters = skinParameters(scene, skin);
-    parameters.iterations = 2000;
-    SkinResponse response(makeSkinRig(scene.bodies[skin.body].mesh, muscles, *skin.table, parameters));
+/// Where a response has the skin at every step.
+std::vector<std::vector<Vec3>> stepsOf(std::shared_ptr<const SkinRig> rig,
+                                       const std::vector<SkinAsked>& asked, const TriangleMesh& mesh,
+                                       const SkinRig& places) {
+    SkinResponse response(std::move(rig));
     std::vector<std::vector<Vec3>> steps;
-    for (const Activations& activations : asked) {
-        response.update(activations);
-        steps.emplace_back(response.positions().begin(), response.positions().end());
+    for (const SkinAsked& step : asked) {
+        response.update(step.activations, step.poses);
+        steps.push_back(placesOf(response, mesh, places));
     }
     return steps;
 }
@@ -115,31 +101,30 @@ std::vector<std::vector<Vec3>> convergedSteps(const SceneModel& scene, const Ski
 struct Played {
     const TriangleMesh& mesh;
     const SkinRig& rig;
-    const std::vector<Activations>& asked;
+    const std::vector<SkinAsked>& asked;
     std::vector<double> rest; ///< #touched: depths at rest
     std::vector<Truth> truths;
-    std::vector<std::vector<Vec3>> converged;
+    std::vector<std::vector<Vec3>> converged; ///< by a solver that may go on until nothing moves
+    std::vector<std::vector<Vec3>> untouched; ///< where nothing pushes
     double restArea = 0;
 };
 
 /// What a step asks, and what would be left at it untouched and converged.
-void studyStep(SkinMotionStudy& study, const Played& played, const Muscles& muscles, std::size_t s) {
-    const Activations& asked = played.asked[s];
-    double mean = 0;
-    for (const double a : asked) mean += a / static_cast<double>(asked.size());
-    study.perStepAsked.push_back(mean);
+void studyStep(SkinMotionStudy& study, const Played& played, const Below& below, std::size_t s) {
+    const SkinAsked& asked = played.asked[s];
+    study.perStepAsked.push_back(meanActivation(below.muscles, asked.activations));
     const Truth& truth = played.truths[s];
-    study.perStepUntouched.push_back(deepestBeyond(truth.depths(played.rig.rest), played.rest));
+    study.perStepUntouched.push_back(deepestBeyond(truth.depths(played.untouched[s]), played.rest));
     study.untouched = std::max(study.untouched, study.perStepUntouched.back());
     const std::vector<Vec3>& converged = played.converged[s];
     study.converged = std::max(study.converged, deepestBeyond(truth.depths(converged), played.rest));
     for (std::size_t v = 0; v < study.touched; ++v)
         study.farthestMove = std::max(study.farthestMove, (converged[v] - played.rig.rest[v]).norm());
-    for (std::size_t m = 0; m < muscles.size(); ++m) {
-        if (muscles[m]->rigid()) continue;
-        const auto& triangles = muscles[m]->muscle().surface.triangles;
-        const double volume = enclosedVolume(muscles[m]->vertices(asked[m]), triangles);
-        study.muscleVolume = std::max(study.muscleVolume, std::abs(volume / muscles[m]->restVolume() - 1));
+    for (std::size_t m = 0; m < below.muscles.size(); ++m) {
+        const MuscleDeformer& muscle = *below.muscles[m];
+        if (muscle.rigid()) continue;
+        const double volume = enclosedVolume(below.places(m, asked), muscle.muscle().surface.triangles);
+        study.muscleVolume = std::max(study.muscleVolume, std::abs(volume / muscle.restVolume() - 1));
     }
 }
 
@@ -152,7 +137,7 @@ SkinAnswer answerOf(const Played& played, std::shared_ptr<const SkinRig> rig, st
     const double steps = static_cast<double>(played.asked.size());
     for (std::size_t s = 0; s < played.asked.size(); ++s) {
         const double before = threadSeconds();
-        const bool moved = response.update(played.asked[s]).moved;
+        const bool moved = response.update(played.asked[s].activations, played.asked[s].poses).moved;
         if (moved) times.push_back(1e9 * (threadSeconds() - before));
         const std::vector<Vec3> positions = placesOf(response, played.mesh, played.rig);
         perStep.push_back(deepestBeyond(played.truths[s].depths(positions), played.rest));
@@ -178,7 +163,10 @@ SkinAnswer answerOf(const Played& played, std::shared_ptr<const SkinRig> rig, st
 SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, const Muscles& muscles,
                                 bool quick) {
     SkinMotionStudy study;
-    const std::vector<Activations> asked = motionOf(scene, skin, muscles, quick ? 37 : 73, study.motion);
+    const SkinAskedMotion motion = skinAskedMotion(scene, skin, muscles, quick ? 37 : 73);
+    const std::vector<SkinAsked>& asked = motion.steps;
+    study.motion = motion.inWords;
+    study.bones = motion.bones;
     study.steps = asked.size();
     const TriangleMesh& mesh = scene.bodies[skin.body].mesh;
     const auto rigOf = [&](int sweeps) {
@@ -191,16 +179,22 @@ SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, 
     const auto rig = rigOf(usual);
     study.touched = rig->vertices.size();
     if (study.touched == 0) return study;
+    const Below below{muscles, underSkin(scene, skin)};
+    const SkinAsked atRest{std::vector<double>(muscles.size(), 0.0), {}};
+    SkinModel carried = skin;
+    carried.table = nullptr;
     Played played{mesh,
                   *rig,
                   asked,
-                  truthAt(muscles, Activations(muscles.size(), 0.0)).depths(rig->rest),
+                  below.at(atRest).depths(rig->rest),
                   {},
-                  convergedSteps(scene, skin, muscles, asked),
+                  stepsOf(rigOf(2000), asked, mesh, *rig),
+                  motion.bones ? stepsOf(skinRig(scene, carried), asked, mesh, *rig)
+                               : std::vector<std::vector<Vec3>>(asked.size(), rig->rest),
                   areaOf(rig->rest, rig->triangles)};
     for (std::size_t s = 0; s < asked.size(); ++s) {
-        played.truths.push_back(truthAt(muscles, asked[s]));
-        studyStep(study, played, muscles, s);
+        played.truths.push_back(below.at(asked[s]));
+        studyStep(study, played, below, s);
     }
     std::vector<int> settings{0, 1, 2, 4, 8, 16, 32, 64, 128};
     if (std::ranges::find(settings, usual) == settings.end()) settings.push_back(usual);

@@ -23,13 +23,16 @@ void drawMethods(Drawing& drawing, const SkinStudy& study) {
     drawing.draw(
         "pareto", data,
         fmt::format(
-            "set logscale xy\nset xlabel \"time a step, µs (median)\"\nset ylabel \"worst error, mm\"\n"
-            "set title \"Which skin spheres touch: error against run time\"\nset offsets graph 0.1, graph "
+            "set logscale xy\nset xlabel \"time a step, µs (median)\"\nset ylabel \"worst error, mm (bottom: "
+            "none)\"\nset format y \"%g\"\nset title \"Which skin spheres touch: error against run "
+            "time\"\nset offsets graph 0.1, graph "
             "0.1, graph 0.3, graph 0.3\nplot {}, NaN with points pt 6 lw 2 lc rgb \"#444444\" title "
             "\"hollow: misses contacts\"\n",
             series),
-        "Worst error against the muscles' surfaces (deepest contact missed or farthest early contact) "
-        "against the time of a step.",
+        fmt::format(
+            "Worst error against the {}s' surfaces (deepest contact missed or farthest early contact) "
+            "against the time of a step.",
+            study.muscles > 0 && study.bones > 0 ? "part" : study.partName()),
         900, 480);
 }
 
@@ -52,6 +55,10 @@ void drawSteps(Drawing& drawing, const SkinStudy& study) {
                  "and an ellipsoid, which takes some ten times the products.");
 }
 
+std::string whereNothingPushes(const SkinStudy& study) {
+    return study.motion.bones ? "if the skin were only carried" : "if the skin stayed at rest";
+}
+
 void drawAnswers(Drawing& drawing, const SkinStudy& study) {
     std::string data[2], labels;
     for (const SkinAnswer& a : study.motion.answers) {
@@ -71,11 +78,12 @@ void drawAnswers(Drawing& drawing, const SkinStudy& study) {
             "linespoints lw 2 pt 7 lc rgb \"{}\" title \"deepest left\", FILE index 0 using 1:3 with "
             "linespoints lw 2 dt 2 pt 6 lc rgb \"{}\" title \"farthest from converged\", FILE index 1 using "
             "1:2 with points pt 5 ps 1.3 lc rgb \"{}\" title \"deepest left, the paper's way\", {} with "
-            "lines dt 3 lw 2 lc rgb \"#444444\" title \"if the skin stayed at rest\"\n",
+            "lines dt 3 lw 2 lc rgb \"#444444\" title {}\n",
             labels, colour(0), colour(1), colour(2),
-            std::max(drawnAsNone, study.millimetres * study.motion.untouched)),
-        "Residual depth of the skin in the muscles, and distance to the converged solve, against the time of "
-        "an update, for several numbers of sweeps.",
+            std::max(drawnAsNone, study.millimetres * study.motion.untouched),
+            quoted(whereNothingPushes(study))),
+        "Residual depth of the skin in what is below it, and distance to the converged solve, against the "
+        "time of an update, for several numbers of sweeps.",
         1000, 520);
 }
 
@@ -86,16 +94,21 @@ void drawDepth(Drawing& drawing, const SkinStudy& study) {
         data += fmt::format("{} {} {} {}\n", s, motion.perStepAsked[s],
                             study.millimetres * motion.perStepUntouched[s],
                             study.millimetres * motion.perStepUsual[s]);
-    drawing.draw(
-        "depth", data,
-        "set xlabel \"step of the motion\"\nset ylabel \"deepest skin vertex, mm\"\nset y2label "
-        "\"activation\"\nset ytics nomirror\nset y2tics\nset y2range [0:*]\nset yrange [0:*]\nset autoscale "
-        "xfix\n"
-        "set key outside top center horizontal\nset tmargin 5\nset title \"Overlap along the motion\" offset "
-        "0,1\nplot FILE using 1:3 with lines lw 2 lc rgb \"#dd181f\" title \"if the skin stayed at rest\", "
-        "FILE using 1:4 with lines lw 2 lc rgb \"#0060ad\" title \"left by the response\", FILE using 1:2 "
-        "axes x1y2 with lines lw 1.5 dt 2 lc rgb \"#5b5b5b\" title \"activation (right)\"\n",
-        "How much deeper than at rest the deepest skin vertex is in a muscle, step by step.");
+    const bool contracts = study.activations > 1;
+    std::string script = "set xlabel \"step of the motion\"\nset ylabel \"deepest skin vertex, mm\"\nset "
+                         "yrange [0:*]\nset autoscale xfix\nset key outside top center horizontal\nset "
+                         "tmargin 5\nset title \"Overlap along the motion\" offset 0,1\n";
+    if (contracts)
+        script += "set y2label \"activation\"\nset ytics nomirror\nset y2tics\nset y2range [0:*]\n";
+    script += fmt::format("plot FILE using 1:3 with lines lw 2 lc rgb \"#dd181f\" title {}, FILE using 1:4 "
+                          "with lines lw 2 lc rgb \"#0060ad\" title \"left by the response\"{}\n",
+                          quoted(whereNothingPushes(study)),
+                          contracts ? ", FILE using 1:2 axes x1y2 with lines lw 1.5 dt 2 lc rgb \"#5b5b5b\" "
+                                      "title \"activation (right)\""
+                                    : "");
+    drawing.draw("depth", data, script,
+                 fmt::format("How much deeper than at rest the deepest skin vertex is in a {}, step by step.",
+                             study.partName()));
 }
 
 } // namespace
@@ -104,7 +117,7 @@ std::vector<Plot> drawPlots(const SkinStudy& study, const std::string& folder, c
                             std::string& problem) {
     Drawing drawing(folder, stem);
     drawMethods(drawing, study);
-    drawSteps(drawing, study);
+    if (study.activations > 1) drawSteps(drawing, study);
     if (study.motion.untouched > 0) {
         drawAnswers(drawing, study);
         drawDepth(drawing, study);

@@ -4,11 +4,21 @@
 #include "bake/base/Stopwatch.h"
 #include "bake/pipeline/BakeSkin.h"
 #include "bake/report/SkinMethods.h"
+#include "bake/report/Text.h"
 #include "bake/search/SkinSearch.h"
 
 #include <algorithm>
 
 namespace tss::reporting {
+
+std::string SkinStudy::partName() const {
+    return bones == 0 ? "muscle" : muscles == 0 ? "bone" : "muscle or bone";
+}
+
+std::string SkinStudy::partCount() const {
+    const std::string text = muscles > 0 || bones == 0 ? counted(muscles, "muscle") : "";
+    return bones == 0 ? text : (text.empty() ? "" : text + " and ") + counted(bones, "bone");
+}
 
 namespace {
 
@@ -17,12 +27,13 @@ SkinStep makeStep(const SkinSetting& setting,
                   const std::vector<MuscleTrack>& tracks, const std::vector<SphereSet>& rest, double share) {
     SkinStep step;
     step.distances.assign(setting.skin.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> activations(deformers.size(), 0.0);
     for (std::size_t m = 0; m < deformers.size(); ++m) {
         const Muscle& muscle = deformers[m]->muscle();
         if (muscle.surface.empty()) continue;
         const double activation =
             muscle.activationLower + share * (muscle.activationUpper - muscle.activationLower);
-        step.activation += activation / static_cast<double>(deformers.size());
+        activations[m] = activation;
         const TrackPlace place = locate(tracks[m].nodes, activation);
         for (std::size_t s = 0; s < rest[m].size(); ++s)
             step.muscle.push_back({trackPosition(tracks[m], place, s),
@@ -37,6 +48,7 @@ SkinStep makeStep(const SkinSetting& setting,
             step.distances[v] = std::min(step.distances[v], query.inside(p) ? -distance : distance);
         });
     }
+    step.activation = meanActivation(deformers, activations);
     return step;
 }
 
@@ -99,7 +111,7 @@ SkinSetting settingOf(const TriangleMesh& mesh, const SkinModel& skin, const Ski
     for (const Vec3& v : mesh.vertices) setting.skin.push_back({v, study.thickness});
     setting.table = wholeTable(atRest, muscles.rest, setting.rowVertex);
     for (int k = 0; k < study.activations; ++k) {
-        const double share = static_cast<double>(k) / (study.activations - 1);
+        const double share = study.activations > 1 ? static_cast<double>(k) / (study.activations - 1) : 0;
         setting.steps.push_back(
             makeStep(setting, muscles.filled.deformers, muscles.tracks, muscles.rest, share));
         study.activation.push_back(setting.steps.back().activation);
@@ -120,13 +132,17 @@ SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const Report
     SkinStudy study;
     study.path = skin.path;
     study.millimetres = 1000 * scene.metersPerUnit;
-    study.activations = options.quick ? 9 : 33;
+    study.muscles = skin.muscles.size();
+    study.bones = skin.bones.size();
     const TriangleMesh& mesh = scene.bodies[skin.body].mesh;
     const BakeOptions settings = optionsFor(skin.settings, {}, scene.metersPerUnit);
     PairReport notes;
     const MusclesInMotion muscles = musclesInMotion(scene, skin, settings, notes);
     for (const SphereSet& spheres : muscles.rest) study.muscleSpheres += spheres.size();
-    study.muscles = muscles.filled.deformers.size();
+    if (!anyContracts(muscles.filled.deformers))
+        study.activations = 1;
+    else
+        study.activations = options.quick ? 9 : 33;
     const SkinTable atRest = tableAtRest(mesh, skin, muscles.filled, study);
 
     SceneModel baked = scene;
@@ -138,12 +154,14 @@ SkinStudy studySkin(const SceneModel& scene, const SkinModel& skin, const Report
     study.carriedTests = carried.table->table.testCount();
 
     runSkinMethods(settingOf(mesh, skin, atRest, muscles, study), study);
-    study.notRun.push_back({"FCL, Bullet on the skin",
-                            "they answer for triangles of two rigid meshes; here each skin vertex "
-                            "needs its own verdict on a surface that deforms"});
+    study.notRun.push_back(
+        {"FCL, Bullet on the skin", "they answer for triangles of two rigid meshes; here each skin vertex "
+                                    "needs its own verdict" +
+                                        std::string(study.muscles ? " on a surface that deforms" : "")});
     study.notRun.push_back({"angular region, allowed paths, C-space grid",
-                            "one activation a muscle would fit a grid, but each of the vertices needs one of "
-                            "its own: that is a stored animation, not a test"});
+                            std::string(study.muscles ? "one activation a muscle" : "one value a joint") +
+                                " would fit a grid, but each of the vertices needs one of its own: that is a "
+                                "stored animation, not a test"});
     report(progress, skin.path + ": skin in motion", 0.5);
     study.motion = studySkinMotion(scene, carried, muscles.filled.deformers, options.quick);
     study.seconds = watch.seconds();
