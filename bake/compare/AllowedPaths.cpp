@@ -37,8 +37,9 @@ public:
         const double seconds = watch.seconds();
         description() = {"allowed-paths-" + std::to_string(count),
                          "allowed paths",
-                         std::to_string(count) + " paths along " + problem.motion.dofs[leading_].name +
-                             ", their free stretches stored, " + std::to_string(steps) +
+                         std::to_string(count) + (count == 1 ? " path along " : " paths along ") +
+                             problem.motion.dofs[leading_].name + ", their free stretches stored, " +
+                             std::to_string(steps) +
                              " samples a path and bisected ends; a query takes the nearest path",
                          {},
                          first_.size() * sizeof(first_[0]) + stretches_.size() * sizeof(Stretch),

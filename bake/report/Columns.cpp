@@ -18,6 +18,7 @@ Json timeOf(double nanoseconds) {
 }
 
 std::string firstContactText(const PairStudy& study, const Row& row) {
+    if (row.firstContact.motions == 0) return "–";
     if (row.firstContact.motions == row.firstContact.never) return "never";
     std::string text = number(study.millimetres * row.firstContact.worstLength) + " mm";
     if (study.leadingUnit == "degrees") text += ", " + number(toDegrees(row.firstContact.worstAngle)) + "°";
@@ -136,6 +137,7 @@ Columns<BakePoint> modelColumns(const PairStudy& study) {
         {"tests", "", "tests", [](P p) { return p.tests; }},
         {"restTests", "", "", [](P p) { return p.restTests; }},
         {"lowerBound", "", "lower bound", [](P p) { return known(p.lowerBound); }},
+        {"certified", "", "", [](P p) { return p.certified; }},
         {"bytes", "", "bytes", [](P p) { return p.bytes; }, [](P p) { return bytesText(p.bytes); }},
         {"times/sphereSeconds", "", "spheres, s", [](P p) { return p.sphereSeconds; }},
         {"times/tableSeconds", "", "table, s", [](P p) { return p.tableSeconds; }},
@@ -169,7 +171,7 @@ Columns<SkinMethod> methodColumns(const SkinStudy& study) {
         {"tests", "tests", "tests a step", [](M m) { return m.tests; }},
         {"products", "products", "products a step", [](M m) { return m.products; }},
         {"times/medianNs", "nsMedian", "time a step", [](M m) { return timeOf(m.nanoseconds); },
-         [](M m) { return timeText(m.nanoseconds); }},
+         [](M m) { return m.nanoseconds > 0 ? timeText(m.nanoseconds) : "–"; }},
         {"missed", "missed", "missed", [](M m) { return m.missed; }},
         {"deepestMissMm", "deepestMissMm", "deepest missed, mm", [mm](M m) { return mm * m.deepestMiss; },
          [mm](M m) { return m.missed ? number(mm * m.deepestMiss) : ""; }},
@@ -193,7 +195,7 @@ Columns<SkinAnswer> answerColumns(const SkinStudy& study) {
          }},
         {"usual", "", "", [](A a) { return a.usual; }},
         {"times/medianNs", "", "time an update", [](A a) { return timeOf(a.nanoseconds); },
-         [](A a) { return timeText(a.nanoseconds); }},
+         [](A a) { return a.nanoseconds > 0 ? timeText(a.nanoseconds) : "–"; }},
         {"deepestMm", "", "deepest left, mm", [mm](A a) { return mm * a.deepest; }},
         {"meanDepthMm", "", "mean of the steps, mm", [mm](A a) { return mm * a.meanDepth; }},
         {"farthestFromConvergedMm", "", "farthest from converged, mm", [mm](A a) { return mm * a.farthest; }},

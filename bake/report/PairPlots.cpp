@@ -128,10 +128,11 @@ void drawRegion(Drawing& drawing, const PairStudy& study) {
         "region", data,
         fmt::format(
             "set xlabel {}\nset ylabel \"poses that collide, %\"\nset yrange [0:105]\n"
-            "set title \"Angular region of collision\"\n{}plot FILE using 1:2 with lines lw 2 lc rgb "
+            "set title \"{}egion of collision\"\n{}plot FILE using 1:2 with lines lw 2 lc rgb "
             "\"#0060ad\" title \"spheres of {}\", FILE using 1:3 with lines lw 2 lc rgb \"#dd181f\" title "
             "\"meshes\", NaN with lines lw 10 lc rgb \"#fbe3e4\" title \"region of the meshes\"\n",
-            quoted(fmt::format("{}, {}", study.leadingDof, study.leadingUnit)), shaded, study.base.name),
+            quoted(fmt::format("{}, {}", study.leadingDof, study.leadingUnit)),
+            study.leadingUnit == "degrees" ? "Angular r" : "R", shaded, study.base.name),
         "Share of poses that collide by the leading DOF, the other DOFs anywhere in their limits (the "
         "paper's Figure 2i).");
 }

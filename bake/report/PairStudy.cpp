@@ -4,6 +4,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/Stopwatch.h"
 #include "bake/geometry/MeshAudit.h"
+#include "bake/report/PairNotes.h"
 #include "bake/report/Text.h"
 
 #include <fmt/format.h>
@@ -79,6 +80,7 @@ BakePoint bakePoint(const StudiedModel& studied) {
     point.tests = table.testCount();
     for (const double gap : table.restGaps) point.restTests += gap < 0 ? 1 : 0;
     point.bytes = tableBytes(table);
+    point.certified = table.certified;
     if (table.record.lowerBound > 0) point.lowerBound = static_cast<double>(table.record.lowerBound);
     point.sphereSeconds = model.sphereSeconds;
     point.tableSeconds = model.tableSeconds;
@@ -164,20 +166,26 @@ void describe(PairStudy& study, const SceneModel& scene, const Pair& pair, const
     study.millimetres = 1000 * scene.metersPerUnit;
     for (const Dof& dof : motion.dofs) {
         const double factor = dof.kind == DofKind::Rotation ? toDegrees(1) : 1;
-        study.dofs.push_back(fmt::format("{}: {:.4g} to {:.4g}{}", dof.name, dof.lower * factor,
-                                         dof.upper * factor,
-                                         dof.kind == DofKind::Rotation ? " degrees" : ""));
+        study.dofs.push_back(fmt::format("{}: {:.4g} to {:.4g} {}", dof.name, dof.lower * factor,
+                                         dof.upper * factor, unitOf(dof, scene.metersPerUnit)));
     }
 }
 
-/// Of a model without a test.
-std::string neverText(const Model& model, double millimetres) {
-    if (!model.proof && !model.problem.table.certified)
-        return "At none of the poses explored do the spheres of the two meet within these limits.";
-    const std::string apart = model.proof ? fmt::format(": their surfaces stay {} mm apart at every pose",
-                                                        number(model.proof->clearance * millimetres))
-                                          : "";
-    return "The two can never meet within these limits" + apart + ", proven.";
+/// A scene may ask for so many spheres at most: the tolerance that these reach is the one to study.
+BakeOptions byTolerance(PairStudy& study, const SceneModel& scene, const Pair& pair, BakeOptions asked,
+                        const Progress& progress) {
+    if (asked.maxSpheres == 0) return asked;
+    report(progress, study.path + ": spheres, as many as the scene asks for", 0);
+    const StudiedModel most{makeModel(scene, pair, {"", asked}), "", Field::Whole, {}};
+    const BakePoint point = bakePoint(most);
+    study.notes.push_back(fmt::format("The scene asks for at most {} spheres a body; these, {} + {}, stick "
+                                      "out by {} mm, the tolerance that "
+                                      "this report starts from.",
+                                      asked.maxSpheres, point.spheresA, point.spheresB,
+                                      number(point.protrusion * study.millimetres)));
+    asked.maxSpheres = 0;
+    if (point.protrusion > 0) asked.tolerance = point.protrusion;
+    return asked;
 }
 
 /// Tables of ever finer spheres; returns the place of the one as asked for.
@@ -242,7 +250,12 @@ std::vector<StudiedModel> otherRecipes(const SceneModel& scene, const Pair& pair
               }),
          "the paper's own: spheres by growth in the narrow regions, sampled search, reduction by "
          "co-occurrence");
-    fill(with("growth, certified", [](BakeOptions& o) { o.spheres = SphereMethod::Growth; }),
+    fill(with("growth, certified",
+              [](BakeOptions& o) {
+                  o.spheres = SphereMethod::Growth;
+                  o.search = SearchMethod::Certified;
+                  o.reduce = ReduceMethod::Cover;
+              }),
          "the paper's spheres by growth, with the certified search and cover");
     if (!quick) {
         models.push_back({wholeBodies(base, with("whole bodies", [](BakeOptions&) {})),
@@ -262,17 +275,36 @@ std::vector<StudiedModel> otherRecipes(const SceneModel& scene, const Pair& pair
         tabulate(sampled("minimal over samples", ReduceMethod::Minimal),
                  "our spheres, the smallest set that answers alike at the poses explored (the paper's M_ss)");
     }
-    if (!ruleOfSpheres(base.problem.a, base.problem.b, base.problem.motion, AtRest::Ignore).empty())
-        fill(with("at rest: offset", [](BakeOptions& o) { o.atRest = AtRest::Offset; }),
-             "what `tss bake` stores: the region that overlaps at rest touches only where it goes deeper");
+    const AtRest asked = optionsFor(pair.settings, {}, scene.metersPerUnit).atRest;
+    const bool ignored = asked == AtRest::Ignore;
+    if (asked != AtRest::Collide &&
+        !ruleOfSpheres(base.problem.a, base.problem.b, base.problem.motion, AtRest::Ignore).empty())
+        fill(with(ignored ? "at rest: ignore" : "at rest: offset", [&](BakeOptions& o) { o.atRest = asked; }),
+             ignored
+                 ? "what `tss bake` stores by the scene's settings: the region that overlaps at rest never "
+                   "touches"
+                 : "what `tss bake` stores: the region that overlaps at rest touches only where it goes "
+                   "deeper");
     return models;
+}
+
+std::string unitOf(const Dof& dof, double metersPerUnit) {
+    switch (dof.kind) {
+    case DofKind::Rotation:
+        return "degrees";
+    case DofKind::Translation:
+        return "times " + lengthText(dof.axis.norm(), metersPerUnit);
+    case DofKind::Path:
+        return "of its path";
+    }
+    return "";
 }
 
 std::vector<const Row*> paretoFront(const std::vector<Row>& rows, const std::function<double(const Row&)>& x,
                                     const std::function<double(const Row&)>& y) {
     std::vector<const Row*> sorted, front;
     for (const Row& row : rows)
-        if (x(row) > 0) sorted.push_back(&row);
+        if (x(row) > 0 && !row.slow()) sorted.push_back(&row);
     std::ranges::stable_sort(sorted, [&](const Row* a, const Row* b) { return x(*a) < x(*b); });
     for (const Row* row : sorted)
         if (front.empty() || y(*row) < y(*front.back())) front.push_back(row);
@@ -298,12 +330,12 @@ PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptio
     study.trianglesA = a.triangles.size();
     study.trianglesB = b.triangles.size();
 
-    const BakeOptions asked = baseOptions(scene, pair, a, b);
+    const BakeOptions asked = byTolerance(study, scene, pair, baseOptions(scene, pair, a, b), progress);
     std::vector<StudiedModel> field;
     const std::size_t base = addTolerances(study, scene, pair, asked, options.quick, progress, field);
     const Model& model = *field[base].model;
     if (model.proof || model.problem.table.testCount() == 0) {
-        study.never = neverText(model, study.millimetres);
+        study.never = neverText(scene, pair, model);
         finish();
         return study;
     }
@@ -326,6 +358,7 @@ PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptio
     study.touchingUniform = uniform.touching();
     study.nearPoses = near.queries().size();
     study.leftOut = uniform.leftOut() + near.leftOut();
+    for (std::string& note : notesOf(study)) study.notes.push_back(std::move(note));
     study.earlyBound = model.problem.table.boundEarly;
     if (study.earlyBound) study.freeWithinBound = uniform.freeWithin(*study.earlyBound);
     for (StudiedModel& studied : field) {

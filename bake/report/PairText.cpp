@@ -39,6 +39,11 @@ std::size_t place(const std::string& family) {
                                     std::begin(order));
 }
 
+/// As the paper has it where the leading DOF turns.
+std::string regionName(const PairStudy& study) {
+    return study.leadingUnit == "degrees" ? "angular region" : "region";
+}
+
 std::string methodTable(const PairStudy& study) {
     std::vector<Row> rows;
     for (const Row& row : study.rows)
@@ -60,7 +65,9 @@ std::string frontText(const PairStudy& study) {
                             row->setting.empty() ? "" : fmt::format(" with {}", row->setting),
                             timeText(row->times.median), number(mm * row->worst()),
                             row->misses() ? fmt::format(", {} contacts missed", row->misses()) : "");
-    return text + ".\n\n";
+    return text + (std::ranges::any_of(study.rows, &Row::slow)
+                       ? ". Slow methods, judged at fewer poses, take no part.\n\n"
+                       : ".\n\n");
 }
 
 /// One line a model: what the table costs and errs, and how its methods over the same spheres or on the
@@ -177,23 +184,25 @@ std::string countTable(const PairStudy& study, bool besidePaper) {
     };
     for (const BakePoint& recipe : study.recipes)
         if (recipe.name == "paper") column("the paper's recipe on this pair", recipe);
-    column(fmt::format("{}{}, every pose proven", paper("this software: "), ours.name), ours);
+    column(fmt::format("{}{}, {}", paper("this software: "), ours.name,
+                       ours.certified ? "every pose proven" : "sampled poses only"),
+           ours);
     std::string text = head + "\n" + rule + "\n| spheres |" + paper(" 1158 + 812 |") + spheres +
                        "\n| spheres used |" + paper(" 9 + 22 |") + used + "\n| tests a step |" +
                        paper(" 22 |") + tests + "\n| products a step |" + paper(" 88 |") + products + "\n\n";
     if (ours.lowerBound)
-        text += fmt::format(
-            "No table that gives the answers of these spheres at every pose has fewer than {} tests. ",
-            number(*ours.lowerBound));
+        text += fmt::format("No table that gives the answers of these spheres at {} has fewer than {}. ",
+                            ours.certified ? "every pose" : "the poses explored",
+                            counted(static_cast<std::size_t>(*ours.lowerBound), "test"));
     const StepStudy& steps = study.steps;
     const auto shareOf = [&](std::size_t part) {
         return 100 * static_cast<double>(part) /
                static_cast<double>(std::max<std::size_t>(1, steps.leading.size()));
     };
     text += fmt::format(
-        "Steps in the angular region of collision: {:.0f} % of {} along {} by the meshes, {:.0f} % by the "
+        "Steps in the {} of collision: {:.0f} % of {} along {} by the meshes, {:.0f} % by the "
         "spheres of {}{}.{}\n",
-        shareOf(steps.inMeshRegion), steps.leading.size(), steps.motion,
+        regionName(study), shareOf(steps.inMeshRegion), steps.leading.size(), steps.motion,
         shareOf(static_cast<std::size_t>(std::ranges::count(steps.inRegion, char{1}))), ours.name,
         paper(" (the paper: 22 %)"),
         paper(" The pairs and their limits are not the same: the counts say of what size such tables are, "
@@ -239,7 +248,7 @@ std::string facts(const PairStudy& study) {
                         "timed at the first {} of the uniform poses (slow methods at fewer, at least 100). "
                         "Contact at rest counts as contact, as the meshes say.",
                         study.uniformPoses, study.touchingUniform, study.nearPoses, study.timedPoses);
-    if (study.earlyBound)
+    if (study.earlyBound && study.touchingUniform < study.uniformPoses)
         text += fmt::format(" At {} of the {} free ones the meshes are nearer than {} mm, the early bound of "
                             "the table with spheres of {}: only there may it report contact early.",
                             study.freeWithinBound, study.uniformPoses - study.touchingUniform,
@@ -248,7 +257,9 @@ std::string facts(const PairStudy& study) {
         text += fmt::format(" {} poses were left out: a closed part of one body is wholly inside the other "
                             "there, which is contact for solids and none for surfaces.",
                             study.leftOut);
-    return text + "\n\n";
+    text += "\n\n";
+    for (const std::string& note : study.notes) text += note + "\n\n";
+    return text;
 }
 
 } // namespace
@@ -283,11 +294,14 @@ std::string pairText(const PairStudy& study, const std::vector<Plot>& plots, boo
         pictureText(plots, "region");
     for (const auto& [region, whose] : {std::pair(&study.region.meshes, std::string("meshes")),
                                         std::pair(&study.region.spheres, "spheres of " + study.base.name)})
-        text += region->upper > region->lower
-                    ? fmt::format("The angular region of collision of the {} is {:.3g} to {:.3g} {} of {}.\n",
-                                  whose, region->lower, region->upper, study.leadingUnit, study.leadingDof)
-                    : fmt::format("There is no angular region of collision of the {}: nothing collided.\n",
-                                  whose);
+        text +=
+            region->upper > region->lower
+                ? fmt::format("The {} of collision of the {} is {:.3g} to {:.3g} {} of {}; {:.3g} % of the "
+                              "poses in it collide.\n",
+                              regionName(study), whose, region->lower, region->upper, study.leadingUnit,
+                              study.leadingDof, 100 * region->meanShare())
+                : fmt::format("There is no {} of collision of the {}: nothing collided.\n", regionName(study),
+                              whose);
     text += "\n";
     text += "### Sweeps\n\n" + sizeTable(study) + "\n" + pictureText(plots, "bake") +
             pictureText(plots, "epsilon") + pictureText(plots, "memory") + samplingTable(study) + "\n" +

@@ -37,9 +37,11 @@ struct Row {
     double worst() const; ///< scene units: the deepest miss or the farthest early contact, whichever is more
     double wrong() const; ///< share of the uniform poses with a wrong verdict
     std::size_t misses() const { return uniform.missed + near.missed; }
+    /// Judged at some of the poses only: its worst error is not to be held against those of others.
+    bool slow() const { return about.slow; }
 };
 
-/// The rows that no other beats in both numbers, by rising x; rows with x <= 0 take no part.
+/// The rows that no other beats in both numbers, by rising x; rows with x <= 0 and slow ones take no part.
 std::vector<const Row*> paretoFront(const std::vector<Row>& rows, const std::function<double(const Row&)>& x,
                                     const std::function<double(const Row&)>& y);
 
@@ -63,6 +65,8 @@ struct RegionCurve {
     std::vector<double> middle, share;
     double lower = 0, upper = 0; ///< equal: there is none
 
+    /// Of the samples in the region those that collide.
+    double meanShare() const;
     bool contains(double value) const { return upper > lower && value >= lower && value <= upper; }
 };
 struct RegionStudy {
@@ -83,6 +87,7 @@ struct BakePoint {
     double tolerance = 0, epsilon = 0; ///< scene units
     double protrusion = 0;             ///< scene units: no sphere sticks out of its body by more
     std::size_t spheresA = 0, spheresB = 0, usedA = 0, usedB = 0, tests = 0, restTests = 0, bytes = 0;
+    bool certified = false;           ///< for every pose, not for those explored alone
     std::optional<double> lowerBound; ///< of tests for the same answers
     double sphereSeconds = 0, tableSeconds = 0;
 };
@@ -91,11 +96,11 @@ struct BakePoint {
 struct PairStudy {
     std::string path, nameA, nameB;
     std::size_t trianglesA = 0, trianglesB = 0;
-    std::vector<std::string> dofs; ///< name and limits in words
-    std::string leadingDof, leadingUnit;
-    double millimetres = 1;           ///< in a scene unit
-    std::optional<std::string> never; ///< that the two never meet, in words: nothing is compared then
-    std::vector<std::string> notes;
+    std::vector<std::string> dofs;       ///< name and limits in words
+    std::string leadingDof, leadingUnit; ///< unit: see unitOf()
+    double millimetres = 1;              ///< in a scene unit
+    std::optional<std::string> never;    ///< that the two never meet, in words: nothing is compared then
+    std::vector<std::string> notes;      ///< sentences of what a reader has to know first
     std::size_t uniformPoses = 0, nearPoses = 0, touchingUniform = 0, timedPoses = 0;
     std::optional<double> earlyBound; ///< scene units; of the base's table
     std::size_t freeWithinBound = 0;  ///< free uniform poses with the meshes nearer than that
@@ -112,6 +117,9 @@ struct PairStudy {
     std::vector<BakePoint> recipes;    ///< other ways to make spheres and table, the paper's own first
     double seconds = 0;
 };
+
+/// What a DOF's values are: "degrees", "times 1 mm", "of its path".
+std::string unitOf(const Dof& dof, double metersPerUnit);
 
 PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptions& options,
                     const Progress& progress);

@@ -97,13 +97,24 @@ double missedShare(const CollisionMethod& whole, const CollisionMethod& table,
 
 } // namespace
 
+double RegionCurve::meanShare() const {
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < middle.size(); ++k)
+        if (contains(middle[k])) {
+            sum += share[k];
+            ++count;
+        }
+    return count ? sum / static_cast<double>(count) : 0;
+}
+
 void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, const Model& model,
                 const MeshTruth& truth, const ReportOptions& options, int steps) {
     const ComparedPair& problem = model.problem;
     const std::size_t leading = leadingDof(problem);
     const Dof& dof = problem.motion.dofs[leading];
     study.leadingDof = dof.name;
-    study.leadingUnit = dof.kind == DofKind::Rotation ? "degrees" : "of its axis";
+    study.leadingUnit = unitOf(dof, scene.metersPerUnit);
     const auto whole = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
     study.region.spheres = regionOf(problem.motion, leading, 76, 400, options.seed + 4,
                                     [&](const PoseQuery& query) { return whole->hit(query); });
