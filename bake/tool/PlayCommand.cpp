@@ -96,7 +96,8 @@ std::string line(const SceneModel& scene, std::size_t number, const std::vector<
         for (const Joint& joint : scene.joints)
             for (const Dof& dof : joint.dofs) text += fmt::format(",{:.15g}", toUser(dof, (*row)[column++]));
     }
-    text += fmt::format(",{},{}", step.gap, name(step.status));
+    text += std::isfinite(step.gap) ? fmt::format(",{}", step.gap) : ","; // no table has a test
+    text += fmt::format(",{}", name(step.status));
     for (double depth : step.residualDepths) text += fmt::format(",{}", depth);
     return text + "\n";
 }

@@ -108,12 +108,12 @@ void runQuery(const QueryArguments& arguments, const Console& console) {
         } else {
             const QueryResult r = query(*pair.table, pose(motion, q));
             hits += r.hit() && !out;
-            text += fmt::format("{},{},{},{},{},{},{},{},{}", r.gap,
-                                out       ? "nan"
-                                : r.hit() ? "1"
-                                          : "0",
-                                r.test, r.point.x(), r.point.y(), r.point.z(), r.normal.x(), r.normal.y(),
-                                r.normal.z());
+            const std::string hit = out ? "nan" : r.hit() ? "1" : "0";
+            if (r.test < 0) // the table has none
+                text += "," + hit + ",-1,,,,,,";
+            else
+                text += fmt::format("{},{},{},{},{},{},{},{},{}", r.gap, hit, r.test, r.point.x(),
+                                    r.point.y(), r.point.z(), r.normal.x(), r.normal.y(), r.normal.z());
         }
         text += meshes ? fmt::format(",{}\n", meshes->a.distanceTo(meshes->b, pose(motion, q))) : "\n";
     }
@@ -135,8 +135,8 @@ void addQuery(CLI::App& app, Console& console) {
         ->add_option("-o,--output", arguments->output,
                      "CSV: table_gap,hit,pair,px,py,pz,nx,ny,nz; lengths in scene units, point and normal in "
                      "body A's frame. table_gap is that of the table's spheres: where it is above 0 it is no "
-                     "distance of the meshes. Beyond the limits no bound holds: hit is nan there, and so is "
-                     "the table_gap of a pair that never collides")
+                     "distance of the meshes; a table without a test has none. Beyond the limits no bound "
+                     "holds: hit is nan there, and so is the table_gap of a pair that never collides")
         ->required();
     command->add_flag(
         "--distance", arguments->distance,

@@ -97,6 +97,24 @@ TEST_CASE("bodies that cannot meet get a proof, no table, and play as asked") {
     CHECK(readText(folder.path() / "baked.tss").find("\"TssTable\"") == std::string::npos);
 }
 
+TEST_CASE("of a table without a test no gap is told, where none is") {
+    const Folder folder;
+    writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
+    writeObj(boxMesh({5, -1, -1}, {6, 1, 1}), folder / "b.obj");
+    REQUIRE(runTss("make -o far.tss --a a.obj --b b.obj --dof trans:1,0,0:0:3", folder.path()).exit == 0);
+    const Ran baked = runTss("bake far.tss -o baked.tss --tolerance 0.2 --search sampled --samples 50 --json",
+                             folder.path());
+    INFO(baked.err);
+    REQUIRE(baked.exit == 0);
+    REQUIRE(Json::parse(baked.out)["pairs"][0]["tests"] == 0);
+    writeText(folder.path() / "q.csv", "0\n3\n9\n");
+    REQUIRE(runTss("query baked.tss --poses q.csv -o r.csv", folder.path()).exit == 0);
+    CHECK(readText(folder.path() / "r.csv") ==
+          "table_gap,hit,pair,px,py,pz,nx,ny,nz\n,0,-1,,,,,,\n,0,-1,,,,,,\n,nan,-1,,,,,,\n");
+    REQUIRE(runTss("play baked.tss -o p.csv", folder.path()).exit == 0);
+    CHECK(readText(folder.path() / "p.csv").find("inf") == std::string::npos);
+}
+
 TEST_CASE("the paper's bake: growth, sampled search, co-occurrence, with the growth's lengths as fractions "
           "or in units") {
     const Folder folder;
