@@ -85,6 +85,26 @@ std::optional<std::vector<std::string>> goesOn(const SceneModel& scene, const Ba
     return missing;
 }
 
+/// What is given and does nothing with the other settings of all that is to be baked is a mistake.
+void refuseIdle(const SceneModel& scene, const BakeRequest& request) {
+    const auto serves = [&](const auto& items, const auto& used) {
+        return std::ranges::any_of(items, [&](const auto& item) {
+            const bool asked =
+                request.pairs.empty() || std::ranges::find(request.pairs, item.path) != request.pairs.end();
+            return asked && used(optionsFor(item.settings, request.given, scene.metersPerUnit));
+        });
+    };
+    const auto growth = [](const BakeOptions& o) { return o.spheres == SphereMethod::Growth; };
+    const auto samples = [](const BakeOptions& o) {
+        return o.search == SearchMethod::Sampled || o.reduce == ReduceMethod::Minimal;
+    };
+    if (request.given.contains("growth") && !serves(scene.pairs, growth) && !serves(scene.skins, growth))
+        throw CLI::ValidationError("--growth", "does something with --spheres growth alone");
+    if (request.given.contains("samples") && !serves(scene.pairs, samples))
+        throw CLI::ValidationError("--samples",
+                                   "does something with --search sampled or --reduce minimal alone");
+}
+
 /// Of several things that bake() refuses it throws the first.
 void tellOtherRefusals(const SceneModel& scene, const BakeArguments& arguments) {
     const std::vector<InputError> refused = refusedByBake(scene, arguments.request);
@@ -178,6 +198,7 @@ void runBake(BakeArguments& arguments, Console& console) {
     // What is wrong with them is no fault of the file.
     remarkTolerance(scene, optionsFor({}, arguments.request.given, scene.metersPerUnit), console);
     const Json pairs = arguments.allPairs ? addPairs(scene, console) : Json();
+    refuseIdle(scene, arguments.request);
     KeptParts parts(scene, arguments.input, arguments.output, readBakeTimes(arguments.input), console);
     std::optional<std::vector<std::string>> now; // what is baked, where it is not all
     if (!arguments.pairsOnly) {

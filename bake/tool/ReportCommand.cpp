@@ -30,7 +30,14 @@ std::vector<std::vector<double>> readMotion(const SceneModel& scene, const Repor
             pair = &candidate;
         }
     if (!pair) throw InputError(arguments.scene + ": expected a pair of rigid bodies for --motion");
-    return readDofRows(arguments.motion, dofColumns(scene, *pair), true).rows;
+    const auto rows = readDofRows(arguments.motion, dofColumns(scene, *pair), true).rows;
+    const Motion motion = pairMotion(scene, *pair);
+    for (std::size_t row = 0; row < rows.size(); ++row)
+        if (beyondLimits(motion, rows[row]))
+            throw InputError(
+                fmt::format("{}: row {} is outside the limits ({}), where no table says anything",
+                            arguments.motion, row + 1, describeDofs(motion, scene.metersPerUnit)));
+    return rows;
 }
 
 Json summary(const reporting::Report& report, const std::string& folder) {
@@ -93,7 +100,10 @@ void addReport(CLI::App& app, Console& console) {
     command->add_option("--methods", arguments->options.methods, "parts of the names of the methods wanted")
         ->delimiter(',')
         ->allow_extra_args(false);
-    command->add_option("--seed", arguments->options.seed, "of the random poses");
+    command->add_option("--seed", arguments->options.seed, "of the random poses")
+        ->check([](const std::string& text) {
+            return std::string(text.starts_with('-') ? "expected a whole number from 0 on" : "");
+        });
     command->add_flag("--quick", arguments->options.quick, "fewer poses and settings, a minute or two");
     command->add_flag("--beside-paper", arguments->options.besidePaper,
                       "also the paper's own counts and the goals of osgTSS, as docs/REPORT.md has them");

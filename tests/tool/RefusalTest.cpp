@@ -48,6 +48,43 @@ TEST_CASE("never to collide takes a distance of the meshes, and touching is none
     CHECK_FALSE(baked("at.obj", "--at-rest collide")["neverCollides"].get<bool>());
 }
 
+TEST_CASE("a setting that does nothing with the others is refused, and one of the scene's counts") {
+    const Folder folder;
+    writeSwing(folder);
+    const auto exits = [&](const std::string& arguments) {
+        const Ran ran = runTss("bake " + arguments + " -o out.tss --quiet --tolerance 1mm", folder.path());
+        INFO(ran.err);
+        return ran.exit;
+    };
+    CHECK(exits("swing.tss --samples 100") == 2);
+    CHECK(exits("swing.tss --growth 0.01,0.01,0.1,0.02") == 2);
+    CHECK(exits("swing.tss --samples 100 --spheres growth") == 2);
+    CHECK_FALSE(std::filesystem::exists(folder / "out.tss"));
+    CHECK_THAT(runTss("bake swing.tss -o out.tss --samples 100", folder.path()).err,
+               Catch::Contains("--search sampled"));
+    CHECK(exits("swing.tss --samples 100 --reduce minimal") == 0);
+    CHECK(exits("swing.tss --samples 100 --search sampled") == 0);
+    std::filesystem::rename(folder / "out.tss", folder / "sampled.tss");
+    CHECK(exits("sampled.tss --samples 200") == 0); // the scene has kept --search sampled
+}
+
+TEST_CASE("a report refuses a motion that leaves the limits, and a seed below 0") {
+    const Folder folder;
+    writeSwing(folder);
+    if (runTss("report --help", folder.path()).exit != 0) {
+        WARN("skipped, this build has no report");
+        return;
+    }
+    writeText(folder.path() / "m.csv", "rot\n0\n91\n");
+    const Ran beyond = runTss("report swing.tss -o out --quick --motion m.csv", folder.path());
+    CHECK(beyond.exit == 1);
+    CHECK_THAT(beyond.err, Catch::Contains("m.csv: row 2 is outside the limits"));
+    const Ran seed = runTss("report swing.tss -o out --quick --seed -1", folder.path());
+    CHECK(seed.exit == 2);
+    CHECK_THAT(seed.err, Catch::Contains("from 0 on"));
+    CHECK_FALSE(std::filesystem::exists(folder / "out"));
+}
+
 TEST_CASE("bad input is exit 1 with a message that says where, and leaves no file") {
     const Folder folder;
     writeObj(boxMesh({0, 0, 0}, {1, 1, 1}), folder / "a.obj");
@@ -84,7 +121,8 @@ TEST_CASE("bad input is exit 1 with a message that says where, and leaves no fil
     REQUIRE(runTss("make -o ok.tss --a a.obj --b a.obj --dof rot:0,0,0:0,0,1:0:1", folder.path()).exit == 0);
     refused("query ok.tss --poses bad.tss -o r.csv", "no table");
     refused("bake ok.tss -o out.tss --tolerance -1mm", "--tolerance");
-    refused("bake ok.tss -o out.tss --tolerance 1furlong", "tss: --tolerance: length"); // no fault of the file
+    refused("bake ok.tss -o out.tss --tolerance 1furlong",
+            "tss: --tolerance: length"); // no fault of the file
     refused("bake ok.tss -o out.tss --spheres cubes", "medial");
     refused("bake ok.tss -o out.tss --spheres growth --growth 0.1,0.1mm,1,1", "START,STEP,END,MAXRADIUS");
     refused("bake ok.tss -o out.tss --spheres growth --growth 0.1,0.1,1", "START,STEP,END,MAXRADIUS");
