@@ -41,7 +41,8 @@ std::vector<JointWorkspace> workspaces(const JointPlan& plan);
 
 /// Takes all values from `last` towards `q` so that no pair collides, and leaves in q what was reached.
 /// Several groups are asked in turn until none changes anything any more; where they do not agree after some
-/// rounds everything stays at `last`, and the answers tell what stopped them. One answer a group.
+/// rounds everything stays at `last`, and the answers tell what stopped them. A value of q that is no finite
+/// number stays at `last`. One answer a group.
 std::vector<GroupAnswer> resolve(const JointPlan& plan, const std::vector<double>& last,
                                  std::vector<double>& q, std::vector<JointWorkspace>& workspaces);
 

@@ -17,6 +17,7 @@
 #include "bake/table/Query.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tss {
@@ -89,6 +90,8 @@ std::vector<double> Player::State::clamped(const std::vector<double>& asked) con
         own.dofs = joint.dofs;
         own.planes = joint.planes;
         std::vector<double> wish(asked.begin() + next, asked.begin() + next + joint.dofs.size());
+        for (std::size_t k = 0; k < wish.size(); ++k)
+            if (!std::isfinite(wish[k])) wish[k] = values_[next + k];
         wrapTurns(own, wish);
         const auto inside = clampToLimits(own, wish);
         values.insert(values.end(), inside.begin(), inside.end());

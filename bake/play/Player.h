@@ -36,6 +36,8 @@ public:
     /// How truly each skin follows its bones after the last step.
     std::vector<SkinFollowing> following() const;
 
+    /// asked: one value a DOF of all joints, in file order; one that is no finite number leaves its DOF where
+    /// it is. Throws InputError for another number of values.
     Step step(const std::vector<double>& asked, double timeCode);
 
     /// From now on each step adds what the parts of the skins' updates cost: one per skin of the scene, which

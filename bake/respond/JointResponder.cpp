@@ -264,8 +264,10 @@ JointAnswer JointResponder::Prepared::respond(const double* last, const double* 
     std::copy_n(last, model_.dofCount, from.begin());
     std::copy_n(asked, model_.dofCount, to.begin());
     wrapTurns(model_, from);
-    for (int l = 0; l < model_.dofCount; ++l)
+    for (int l = 0; l < model_.dofCount; ++l) {
+        if (!std::isfinite(to[l])) to[l] = from[l];
         if (model_.round[l]) to[l] = nearestTurn(to[l], from[l]);
+    }
     JointAnswer answer =
         within(clampToLimits(model_, from.data(), ws), clampToLimits(model_, to.data(), ws), ws);
     wrapTurns(model_, answer.q);

@@ -69,8 +69,9 @@ public:
 
     JointWorkspace workspace() const;
 
-    /// last, asked: dofCount values each, finite. Both are clamped into the limits first. workspace.held()
-    /// then says of each table whether it held the joint: of a joint that is not Free at least one did.
+    /// last, asked: dofCount values each, of `last` finite; an asked value that is no finite number leaves
+    /// its DOF where it was. Both are clamped into the limits first. workspace.held() then says of each table
+    /// whether it held the joint: of a joint that is not Free at least one did.
     JointAnswer respond(const double* last, const double* asked, JointWorkspace& workspace) const;
 
     int dofCount() const;

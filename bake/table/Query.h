@@ -11,7 +11,8 @@ struct QueryResult {
     bool hit() const { return gap <= 0; }
 };
 
-/// The plain query: every test of the table at pose T(q), in double. METHOD 4 without the fold.
+/// The plain query: every test of the table at pose T(q), in double. METHOD 4 without the fold. Throws
+/// InputError for values that are not finite or not one a DOF.
 QueryResult query(const Table& table, const Pose& pose);
 QueryResult query(const Table& table, std::span<const double> q);
 

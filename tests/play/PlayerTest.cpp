@@ -7,6 +7,7 @@
 #include "tests/Shapes.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numbers>
 
 using namespace tss;
@@ -34,6 +35,28 @@ TEST_CASE("a joint that turns all the way round is played on where its limits me
     const double angle = std::remainder(stopped.values[0], 360 * degree) / degree;
     CHECK(angle > 95);
     CHECK(angle < 125);
+}
+
+TEST_CASE("a step that asks for no number stays, and the next one still stops at contact") {
+    SceneModel scene;
+    scene.bodies.resize(2);
+    scene.bodies[0].path = "/Scene/wall";
+    scene.bodies[1].path = "/Scene/slide";
+    Motion motion;
+    motion.dofs = {joints::slide(Vec3::UnitX(), 0, 5), joints::slide(Vec3::UnitY(), -1, 1)};
+    motion.planes = {{{1, 1}, 5}};
+    addPair(scene, 0, 1, motion, "Slide");
+    scene.pairs[0].table = std::make_shared<const Table>(makeTable(
+        {{Vec3(3, 0, 0), 0.5}}, {{Vec3(0, 0, 0), 0.5}}, {{0, 0}}, {}, pairMotion(scene, scene.pairs[0])));
+    std::vector<std::string> warnings;
+    Player player(scene, warnings);
+    player.step({1, 0.25}, 0);
+    const Player::Step none = player.step({std::nan(""), 0.5}, 1);
+    CHECK(none.values == std::vector<double>{1, 0.5});
+    CHECK(none.gap < 2);
+    const Player::Step next = player.step({4, HUGE_VAL}, 2);
+    CHECK(next.values[0] < 3);
+    CHECK(next.gap > 0);
 }
 
 TEST_CASE("a muscle under no skin plays: it contracts, and goes with its bone") {

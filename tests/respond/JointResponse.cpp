@@ -4,6 +4,7 @@
 #include "tests/respond/Walk.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 using namespace tss;
 using random_table::Random;
@@ -127,6 +128,18 @@ TEST_CASE("a hinge asked within the free part goes there exactly") {
     CHECK(result.status == JointStatus::Free);
     CHECK(result.q == to);
     CHECK(result.gap == query(table, to).gap);
+}
+
+TEST_CASE("an asked value that is no number leaves its joint where it was, free and in contact") {
+    const Table table = hingeWithObstacle(1.0, -2, 2);
+    for (const double none : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+        const Answer free = respond(table, {0.25}, {none});
+        CHECK(free.q[0] == 0.25);
+        CHECK(free.status == JointStatus::Free);
+        const Answer next = respond(table, free.q, {2});
+        CHECK(next.q[0] < 1);
+        CHECK(respond(table, next.q, {none}).q[0] == next.q[0]);
+    }
 }
 
 TEST_CASE("a wheel on a slope slides along it to the nearest pose") {
