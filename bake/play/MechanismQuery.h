@@ -45,7 +45,7 @@ public:
     ~MechanismQuery();
 
     /// One per DOF of all joints of the scene, in file order, DOFs in the joint's order: radians and scene
-    /// units.
+    /// units. posedBodies() says where the bodies stand at such values.
     std::size_t valueCount() const;
     /// Pairs that have neither table nor proof.
     const std::vector<int>& unanswered() const;

@@ -11,7 +11,7 @@
 #include "bake/play/JointPlan.h"
 #include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinCosts.h"
-#include "bake/respond/SkinFollowing.h"
+#include "bake/respond/SkinFollowMeasure.h"
 #include "bake/respond/SkinResponse.h"
 #include "bake/respond/SkinRig.h"
 #include "bake/table/Query.h"

@@ -5,8 +5,10 @@ cmake_policy(SET CMP0057 NEW) # IN_LIST
 set(open
     bake/base/Error.h
     bake/model/AddPair.h
+    bake/model/Kinematics.h
     bake/model/SceneModel.h
     bake/model/SourceHash.h
+    bake/motion/MotionFrame.h
     bake/play/JointPlan.h
     bake/play/MechanismQuery.h
     bake/play/Player.h
@@ -14,10 +16,12 @@ set(open
     bake/respond/JointResponder.h
     bake/respond/SkinCosts.h
     bake/respond/SkinResponse.h
+    bake/scene/Layer.h
     bake/scene/SceneFile.h
     bake/table/Contact.h
     bake/table/PreparedTable.h
-    bake/table/Query.h)
+    bake/table/Query.h
+    bake/table/TablePairs.h)
 set(known "")
 while(open)
     list(POP_FRONT open header)

@@ -1,6 +1,6 @@
 #include "SkinShapes.h"
 
-#include "bake/respond/SkinFollowing.h"
+#include "bake/respond/SkinFollowMeasure.h"
 #include "bake/respond/SkinResponse.h"
 
 #include <catch2/catch.hpp>

@@ -5,7 +5,7 @@
 #include "bake/geometry/FibreLine.h"
 #include "bake/motion/MuscleVolume.h"
 #include "bake/respond/MuscleShares.h"
-#include "bake/respond/SkinFollowing.h"
+#include "bake/respond/SkinFollowMeasure.h"
 #include "bake/respond/SkinResponse.h"
 
 #include <iostream>

@@ -1,4 +1,4 @@
-#include "bake/respond/SkinFollowing.h"
+#include "bake/respond/SkinFollowMeasure.h"
 
 #include "bake/base/Parallel.h"
 
