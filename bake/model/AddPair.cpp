@@ -150,6 +150,10 @@ std::string freePrimName(const SceneModel& scene, const std::string& wanted) {
 std::vector<int> addJoints(SceneModel& scene, int bodyA, int bodyB, const Motion& motion,
                            const std::string& name) {
     checkMotion(motion);
+    const int count = static_cast<int>(scene.bodies.size());
+    if (bodyA < -1 || bodyA >= count || bodyB < 0 || bodyB >= count || bodyA == bodyB)
+        throw InputError("a joint: expected the indices of two of the scene's " + std::to_string(count) +
+                         " bodies, found " + std::to_string(bodyA) + " and " + std::to_string(bodyB));
     const Pose placement = bodyA < 0 ? Pose::Identity() : scene.bodies[bodyA].placement;
     if (bodyA >= 0) scene.bodies[bodyA].rigid = true;
     scene.bodies[bodyB].rigid = true;
@@ -175,6 +179,7 @@ std::vector<int> addJoints(SceneModel& scene, int bodyA, int bodyB, const Motion
 }
 
 int addPair(SceneModel& scene, int bodyA, int bodyB, const Motion& motion, const std::string& name) {
+    if (bodyA < 0) throw InputError("a pair: expected two bodies, found the world for one");
     Pair pair;
     pair.bodyA = bodyA;
     pair.bodyB = bodyB;

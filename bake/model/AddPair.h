@@ -8,7 +8,7 @@ namespace tss {
 /// axes of one frame; otherwise a chain of joints with an Xform between each two of them, and a pair prim
 /// that names its ends. Bodies A and B must be in the scene, paths of siblings under /DEFAULTPRIM. `name`:
 /// of the new prims. Returns the index of the pair. Throws InputError for a motion that checkMotion()
-/// refuses.
+/// refuses, and for bodies that the scene does not have.
 int addPair(SceneModel& scene, int bodyA, int bodyB, const Motion& motion, const std::string& name);
 
 /// The joints alone, and no pair of them: indices into scene.joints, the chain from A to B. Body A may be -1,

@@ -1,6 +1,7 @@
 #include "bake/play/JointPlan.h"
 
 #include "bake/base/Error.h"
+#include "bake/model/CheckIndices.h"
 #include "bake/model/Kinematics.h"
 #include "bake/motion/MotionBound.h"
 #include "bake/table/Query.h"
@@ -118,6 +119,7 @@ void addOrPart(const SceneModel& scene, const std::vector<Placed>& tables, Joint
 std::shared_ptr<const JointPlan> makeJointPlan(const SceneModel& scene,
                                                const std::vector<std::string>& pairPaths,
                                                std::vector<std::string>* warnings) {
+    checkIndices(scene);
     auto plan = std::make_shared<JointPlan>();
     std::vector<Placed> tables;
     for (const std::string& path : pairPaths) {

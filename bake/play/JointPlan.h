@@ -31,7 +31,8 @@ struct GroupAnswer : JointAnswer {
 /// Pairs without a table are passed over. All tables go into one group; where that has more values than a
 /// response serves, into as few as are found. What cannot be served is left out;
 /// `warnings` then says which pair and why, and what of the others a person should know: a table that is too
-/// coarse for its joint, or says contact where that rests.
+/// coarse for its joint, or says contact where that rests. Throws InputError for a scene that checkIndices()
+/// refuses.
 std::shared_ptr<const JointPlan> makeJointPlan(const SceneModel& scene,
                                                const std::vector<std::string>& pairPaths,
                                                std::vector<std::string>* warnings = nullptr);

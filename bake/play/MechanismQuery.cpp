@@ -1,6 +1,7 @@
 #include "bake/play/MechanismQuery.h"
 
 #include "bake/base/Error.h"
+#include "bake/model/CheckIndices.h"
 #include "bake/model/Kinematics.h"
 #include "bake/play/ChainPoses.h"
 #include "bake/table/TableKernels.h"
@@ -89,6 +90,7 @@ private:
 
 MechanismQuery::Prepared::Prepared(const SceneModel& scene, const std::vector<int>& order)
     : bodyCount_(scene.bodies.size()) {
+    checkIndices(scene);
     std::vector<int> chained, withTable;
     for (int k = 0; k < static_cast<int>(scene.pairs.size()); ++k) {
         const Pair& pair = scene.pairs[k];

@@ -38,7 +38,8 @@ class MechanismQuery {
 public:
     /// Tables and proofs are taken to be those of this scene as it is (staleness()); pairs without either are
     /// left out, see unanswered(). order: indices of pairs with a table, all of them, to be asked in that
-    /// order. Throws InputError for a table that does not fit its joints.
+    /// order. Throws InputError for a table that does not fit its joints, and for indices beyond the scene's
+    /// bodies and joints.
     explicit MechanismQuery(const SceneModel& scene, const std::vector<int>& order = {});
     MechanismQuery(MechanismQuery&&) noexcept;
     MechanismQuery& operator=(MechanismQuery&&) noexcept;

@@ -3,6 +3,7 @@
 
 #include "bake/base/ThreadTime.h"
 #include "bake/geometry/Solid.h"
+#include "bake/model/CheckIndices.h"
 #include "bake/model/Kinematics.h"
 #include "bake/motion/MuscleDeformer.h"
 #include "bake/motion/MuscleSpan.h"
@@ -204,7 +205,7 @@ std::vector<TriangleMesh> Player::State::worldMeshes() const {
 }
 
 Player::Player(const SceneModel& scene, std::vector<std::string>& warnings)
-    : state_(std::make_unique<State>(scene, warnings)) {}
+    : state_((checkIndices(scene), std::make_unique<State>(scene, warnings))) {}
 Player::Player(Player&&) noexcept = default;
 Player& Player::operator=(Player&&) noexcept = default;
 Player::~Player() = default;

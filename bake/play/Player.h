@@ -13,7 +13,8 @@ struct SkinCosts;
 /// step.
 class Player {
 public:
-    /// warnings: pairs that cannot be served. Throws InputError for a skin whose table does not fit.
+    /// warnings: pairs that cannot be served. Throws InputError for a skin whose table does not fit, and for
+    /// indices beyond the scene's bodies, joints and muscles.
     /// Keeps a reference to the scene.
     Player(const SceneModel& scene, std::vector<std::string>& warnings);
     Player(SceneModel&& scene, std::vector<std::string>& warnings) = delete;

@@ -1,5 +1,6 @@
 #include "bake/scene/SceneFile.h"
 
+#include "bake/model/CheckIndices.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneParts.h"
@@ -13,6 +14,7 @@ SceneModel loadScene(const std::string& file) {
 }
 
 Layer layerOf(const SceneModel& scene) {
+    checkIndices(scene);
     if (!scene.layer) return toLayer(scene);
     Layer layer = *scene.layer;
     storeTables(layer, scene);

@@ -5,6 +5,7 @@ cmake_policy(SET CMP0057 NEW) # IN_LIST
 set(open
     bake/base/Error.h
     bake/model/AddPair.h
+    bake/model/CheckIndices.h
     bake/model/Kinematics.h
     bake/model/SceneModel.h
     bake/model/SourceHash.h

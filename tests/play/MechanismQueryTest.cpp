@@ -203,4 +203,6 @@ TEST_CASE("a table for other joints than the scene's is refused, a pair without 
     tabled->table = std::make_shared<Table>(other);
     CHECK_THROWS_AS(MechanismQuery(scene), InputError);
     CHECK_THROWS_AS(MechanismQuery(scene, {0, 0}), InputError);
+    scene.joints[0].body1 = 1000;
+    CHECK_THROWS_WITH(MechanismQuery(scene), Catch::Contains(scene.joints[0].path));
 }
