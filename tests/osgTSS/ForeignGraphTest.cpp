@@ -222,6 +222,37 @@ TEST_CASE("a joint that stands at no number at first starts from where it rests"
     CHECK(lost.to(3) < 2);
 }
 
+TEST_CASE("a tagged transform whose matrix is no number stays where it is, and is kept apart after it") {
+    const bool attitude = GENERATE(false, true);
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(box(osg::Vec3(3, 0, 0), 0.5f));
+    osg::ref_ptr<osg::Transform> slide =
+        attitude ? static_cast<osg::Transform*>(new osg::PositionAttitudeTransform)
+                 : new osg::MatrixTransform;
+    slide->setName("Slide");
+    slide->setUserValue("osgTSS:dofs", std::string("transX:0:5"));
+    slide->addChild(box(osg::Vec3(), 0.5f));
+    root->addChild(slide);
+    const osg::ref_ptr<Scene> scene = bake(*root, BakeOptions("tolerance=0.05 budget=0.5"));
+    REQUIRE(install(*root, *scene).joints == 1);
+    Playback playback;
+    unsigned int frame = 0;
+    const auto to = [&](double x) {
+        if (attitude)
+            slide->asPositionAttitudeTransform()->setPosition(osg::Vec3d(x, 0, 0));
+        else
+            slide->asMatrixTransform()->setMatrix(osg::Matrixd::translate(x, 0, 0));
+        playback.frame(*root, frame++);
+        osg::Matrix now;
+        slide->computeLocalToWorldMatrix(now, nullptr);
+        return now.getTrans().x();
+    };
+    CHECK(to(1) == 1);
+    for (const double none : {std::nan(""), HUGE_VAL}) CHECK(to(none) == 1);
+    playback.frame(*root, frame++); // and nothing brings it back
+    CHECK(to(4) < 2);
+}
+
 TEST_CASE("a tag whose words have become nonsense lets its joint go, and the update goes on") {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(box(osg::Vec3(3, 0, 0), 0.5f));

@@ -62,6 +62,10 @@ std::vector<tss::Dof> dofsOf(const osg::Node& node) {
     return dofs;
 }
 
+bool isFinite(const osg::Matrixd& matrix) {
+    return std::all_of(matrix.ptr(), matrix.ptr() + 16, [](double value) { return std::isfinite(value); });
+}
+
 /// The node's matrix by the values of its DOFs, and back: M = rest pivot D pivot^-1 as columns.
 class TaggedNode : public JointNode {
 public:
@@ -89,6 +93,8 @@ public:
     }
 
     std::vector<double> asked() const override {
+        if (!isFinite(matrixOf(*_node)))
+            return std::vector<double>(_slots.size(), std::numeric_limits<double>::quiet_NaN());
         const osg::Matrixd moved =
             osg::Matrixd::inverse(_fromPivot) * matrixOf(*_node) * osg::Matrixd::inverse(_toRest);
         const auto rigid = toSimilarity(moved);
@@ -106,9 +112,12 @@ public:
     std::vector<double> shown() const override { return asked(); }
 
     void show(const std::vector<double>& values) override {
-        _stopped = values != asked();
-        if (!_stopped) return;
+        if (values == asked()) {
+            _stopped = false;
+            return;
+        }
         _asked = matrixOf(*_node);
+        _stopped = isFinite(_asked); // what is no number is not wished for again
         write(matrixAt(values));
         _shown = matrixOf(*_node);
     }
@@ -119,7 +128,7 @@ public:
         const double size = 1 + osg::Vec3d(now.getTrans() - _toRest.getTrans()).length();
         double scale = 0;
         for (int i = 0; i < 12; ++i) scale = std::max(scale, std::abs(_toRest.ptr()[i]));
-        for (int i = 0; i < 16; ++i)
+        for (int i = 0; i < 16 && isFinite(now); ++i)
             if (!(std::abs(now.ptr()[i] - known.ptr()[i]) <= 1e-4 * (i < 12 ? scale : size)))
                 return Stray{"it stands as none of its degrees of freedom can place it", true};
         for (std::size_t k = 0; k < _slots.size(); ++k)
