@@ -7,6 +7,7 @@
 #include <osgTSS/Bake>
 
 using namespace osgTSS;
+using namespace files;
 using namespace nodes;
 
 namespace {
@@ -220,6 +221,29 @@ TEST_CASE("a joint that stands at no number at first starts from where it rests"
     CHECK(install(*lost.root, *lost.scene).joints == 1);
     CHECK(lost.to(none) == 0);
     CHECK(lost.to(3) < 2);
+}
+
+TEST_CASE("uninstall leaves no scene on an application's graph, and what is written then is the graph") {
+    Slide yard{osg::Matrixd()};
+    CHECK(yard.play().joints == 1);
+    const osg::ref_ptr<osg::MatrixTransform> copy = osg::clone(yard.root.get(), osg::CopyOp::DEEP_COPY_NODES);
+    uninstall(*yard.root);
+    CHECK(Scene::on(*yard.root) == nullptr);
+    CHECK(Scene::on(*copy) == yard.scene);
+    yard.root->addChild(box(osg::Vec3(0, 9, 0), 0.5f));
+    writeScene(*yard.root, (scratch() / "after.tss").string());
+    const osg::ref_ptr<Scene> after = readScene((scratch() / "after.tss").string());
+    CHECK_FALSE(after->getModel().pairs.at(0).table);
+    CHECK(after->getModel().bodies.at(0).mesh.vertices.size() >
+          yard.scene->getModel().bodies.at(0).mesh.vertices.size());
+    CHECK(install(*copy, *Scene::on(*copy)).joints == 1); // which holds it alone
+}
+
+TEST_CASE("uninstall leaves a graph that was made from a scene its scene") {
+    const osg::ref_ptr<osg::Node> made = load(saveHinge());
+    REQUIRE(made);
+    uninstall(*made);
+    CHECK(Scene::on(*made));
 }
 
 TEST_CASE("a tagged transform whose matrix is no number stays where it is, and is kept apart after it") {

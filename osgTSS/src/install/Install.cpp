@@ -5,6 +5,8 @@
 #include "osgTSS/src/joints/JointNodes.h"
 
 #include <osg/Notify>
+#include <osg/UserDataContainer>
+#include <osg/ValueObject>
 #include <osgAnimation/Bone>
 #include <osgAnimation/Skeleton>
 #include <osgTSS/Install>
@@ -52,6 +54,30 @@ osg::Node* lowestAbove(osg::Node& root, const std::vector<osg::Node*>& nodes) {
         return dynamic_cast<osgAnimation::Skeleton*>(node);
     });
     return bones && skeleton != common.rend() ? *skeleton : common.back();
+}
+
+/// On a node that install() hung a scene on. What createGraph() makes has its scene from there, and keeps it.
+const char* const hungTag = "osgTSS:hung";
+
+void hang(osg::Node& root, Scene& scene) {
+    const bool had = Scene::on(root);
+    scene.attachTo(root);
+    if (!had) root.setUserValue(hungTag, true);
+}
+
+void takeOffScene(osg::Node& node) {
+    bool hung = false;
+    if (!node.getUserValue(hungTag, hung)) return;
+    osg::UserDataContainer* container = node.getUserDataContainer();
+    if (container->referenceCount() > 1) { // shared by copies of the graph
+        container = osg::clone(container, osg::CopyOp::SHALLOW_COPY);
+        node.setUserDataContainer(container);
+    }
+    for (unsigned int i = container->getNumUserObjects(); i-- > 0;) {
+        const osg::Object* object = container->getUserObject(i);
+        if (object->getName() == hungTag || dynamic_cast<const Scene*>(object))
+            container->removeUserObject(i);
+    }
 }
 
 void removeCallbacks(osg::Node& node) {
@@ -104,8 +130,9 @@ void installGroup(osg::Node& root, Scene& scene, const std::vector<PairPlace>& g
 } // namespace
 
 Installed install(osg::Node& root, Scene& scene) {
+    const osg::ref_ptr<Scene> keep = &scene; // that the root may have alone
     uninstall(root);
-    scene.attachTo(root);
+    hang(root, scene);
     const tss::SceneModel& model = scene.getModel();
     Installed installed;
     Machines machines(root, model);
@@ -150,6 +177,7 @@ Installed install(osg::Node& root, const tss::SceneModel& model) {
 
 void uninstall(osg::Node& root) {
     eachNode(root, removeCallbacks);
+    eachNode(root, takeOffScene);
     restoreDrawables(root);
 }
 
