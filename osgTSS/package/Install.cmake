@@ -37,7 +37,8 @@ endif()
 install(FILES LICENSE README.md DESTINATION ${OSGTSS_DOCUMENTS})
 install(DIRECTORY docs DESTINATION ${OSGTSS_DOCUMENTS} # where README has them
         FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
-install(DIRECTORY examples/hinge DESTINATION ${OSGTSS_DOCUMENTS}/examples) # that they begin with
+# What the documents name; doghead alone is of the repository, whose scenes it makes.
+install(DIRECTORY examples DESTINATION ${OSGTSS_DOCUMENTS} PATTERN doghead EXCLUDE PATTERN run.sh EXCLUDE)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/osgTSSConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/package/osgTSSConfig.cmake

@@ -4,6 +4,7 @@ cmake_policy(PUSH)
 cmake_policy(SET CMP0057 NEW) # IN_LIST
 set(open
     bake/base/Error.h
+    bake/base/FramePattern.h
     bake/model/AddPair.h
     bake/model/CheckIndices.h
     bake/model/Kinematics.h

@@ -9,6 +9,7 @@ work=$build/consumer
 rm -rf "$work"
 mkdir -p "$work"
 cmake --install "$build" --prefix "$work/prefix" >"$work/install.log"
+
 # Moved, so that nothing in it may name the place it was installed to.
 mv "$work/prefix" "$work/moved"
 prefix=$work/moved
@@ -33,6 +34,21 @@ headers=$(grep -vE '/(Convert|SkinGeometry)>' <<<"$headers")
 c++ -std=c++17 -Wall -Wextra -Werror -fsyntax-only -x c++ - $(pkg-config --cflags osgTSS) <<<"$headers"
 c++ -std=c++20 -O1 "$here/main.cpp" -o "$work/consumer" $(pkg-config --cflags --libs osgTSS)
 LD_LIBRARY_PATH=$libraries "$work/consumer" "$scene"
+
+echo "the installed examples, all that the installed documents name"
+documents=$(dirname "$(find "$prefix" -name LICENSE)")
+for example in $(grep -rohP '\bexamples/[a-z]+(?![a-z.])' "$documents" | sort -u); do
+    # Makes the repository's scenes, and is not installed.
+    if [ ! -d "$documents/$example" ] && [ "$example" != examples/doghead ]; then
+        echo "$example is not installed"
+        exit 1
+    fi
+done
+cmake -S "$documents/examples" -B "$work/examples" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
+      >"$work/configure.log"
+cmake --build "$work/examples" >"$work/build.log" || { cat "$work/build.log"; exit 1; }
+"$work/examples/bin/example_core" "$scene" 0 0.1
+"$work/examples/bin/example_contacts" "$scene" 10 >/dev/null
 
 noOsg() {
     if ldd "$1" | grep libosg | grep -v libosgTSSCore; then
