@@ -10,6 +10,16 @@ rm -rf "$work"
 mkdir -p "$work"
 cmake --install "$build" --prefix "$work/prefix" >"$work/install.log"
 
+echo "uninstalled, from where DESTDIR says"
+DESTDIR=$work/staged cmake --install "$build" --prefix "$work/nowhere" >"$work/install.log"
+uninstall() { cmake -D BINARY_DIR="$build" -P "$here/../../osgTSS/package/uninstall.cmake" >"$work/uninstall.log" 2>&1; }
+if uninstall; then
+    echo "uninstalled without DESTDIR"
+    exit 1
+fi
+DESTDIR=$work/staged uninstall
+[ -z "$(find "$work/staged" -not -type d)" ]
+
 # Moved, so that nothing in it may name the place it was installed to.
 mv "$work/prefix" "$work/moved"
 prefix=$work/moved
