@@ -277,6 +277,22 @@ TEST_CASE("a tagged transform whose matrix is no number stays where it is, and i
     CHECK(to(4) < 2);
 }
 
+TEST_CASE("a tag of a wrong name or type is told with what was expected, and right ones are not") {
+    osg::ref_ptr<osg::MatrixTransform> node = new osg::MatrixTransform;
+    node->addChild(box(osg::Vec3(), 0.5f));
+    node->setUserValue("osgTSS:dof", std::string("rotZ:0:90"));
+    node->setUserValue("osgTSS:static", 1);
+    node->setUserValue("osgTSS:pivot", osg::Vec3f(1, 0, 0));
+    node->setUserValue("ours:dof", 1);
+    const Heard heard;
+    ConstraintVisitor visitor;
+    node->accept(visitor);
+    CHECK(visitor.getModel().joints.empty());
+    CHECK(heard.times("\"osgTSS:dof\" is none that is known: expected one of osgTSS:dofs, ") == 1);
+    CHECK(heard.times("\"osgTSS:static\" is passed over: expected a bool") == 1);
+    CHECK(heard.times("user value") == 2);
+}
+
 TEST_CASE("a tag whose words have become nonsense lets its joint go, and the update goes on") {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(box(osg::Vec3(3, 0, 0), 0.5f));

@@ -3,6 +3,7 @@
 #include "SkeletonMeshes.h"
 #include "SoftParts.h"
 #include "SoftTags.h"
+#include "TagCheck.h"
 #include "osgTSS/src/EachNode.h"
 #include "osgTSS/src/joints/AnimationChannels.h"
 #include "osgTSS/src/joints/BoneBound.h"
@@ -105,6 +106,7 @@ void ConstraintVisitor::enter(osg::Node& node, const Place& place) {
     const osg::Material* material = materialOf(node);
     if (material && material->getColorMode() == osg::Material::OFF)
         _place.color = material->getDiffuse(osg::Material::FRONT);
+    for (const std::string& wrong : wrongTags(node)) warn(wrong);
     std::string group;
     if (node.getUserValue("osgTSS:collides", group)) _groups[_place.body].insert(group);
     if (const auto skins = tagWords(node, boneTag))
