@@ -27,7 +27,8 @@ struct NearSurfaceInput {
     const MotionRates& rates;
     Bvh tree;
     std::vector<Ball> balls; ///< one per node; a leaf is one patch, or many where there was no time to divide
-    double resolution;       ///< the motion in a cell that is small enough to settle a patch
+    std::vector<MeshQuery> triangles; ///< the patches as they are; empty where balls about them tell enough
+    double resolution;                ///< the motion in a cell that is small enough to settle a patch
     double margin;
     std::unique_ptr<std::atomic<char>[]> reached; ///< one per node: all below it is
     std::vector<std::uint32_t> parents;
@@ -109,6 +110,8 @@ public:
             const double within = (ball.radius + at.move + p_.margin) * (1 + 1e-9) + p_.rounding;
             if (std::isfinite(within) && !p_.other.comesWithin(at.centre, within)) continue;
             const Bvh::Node& node = p_.tree.nodes[n];
+            if (node.count == 1 && std::isfinite(within) && triangleApart(node, motion, inverse, at))
+                continue;
             const bool settled = at.move <= p_.resolution;
             if (node.count == 0 && (settled || ball.radius >= at.move)) {
                 stack.push_back(node.first + 1);
@@ -135,6 +138,14 @@ public:
     }
 
 private:
+    bool triangleApart(const Bvh::Node& leaf, const CellMotion& motion, const Pose& inverse,
+                       const Probe& at) {
+        if (p_.triangles.empty()) return false;
+        const MeshQuery& triangle = p_.triangles[p_.tree.items[leaf.first]];
+        const double within = (at.move + p_.margin) * (1 + 1e-9) + p_.rounding;
+        return p_.other.apart(triangle, p_.side == Side::A ? inverse : motion.centrePose(), within);
+    }
+
     void mark(std::uint32_t n) {
         p_.reached[n].store(1, std::memory_order_relaxed);
         while (n != 0) {
@@ -188,26 +199,23 @@ struct Kept {
     std::uint64_t tests = 0;
 };
 
+/// What a patch is judged by.
+enum class Judged { Ball, Triangle };
+
 /// The patches that come near, judged as they are.
 Kept reached(std::span<const Patch> patches, Side side, const MeshQuery& other, const MotionRates& rates,
-             const CellTree& cells, double resolution, double margin, Poll& poll) {
+             const CellTree& cells, double resolution, double margin, Judged by, Poll& poll) {
     if (patches.empty()) return {};
     double own = 0;
     for (const Patch& patch : patches)
         for (const Vec3& c : patch.corners) own = std::max(own, c.norm());
     const double inA = side == Side::A ? own : other.extent(), inB = side == Side::A ? other.extent() : own;
-    NearSurfaceInput p{side,
-                       other,
-                       rates,
-                       {},
-                       {},
-                       resolution,
-                       margin,
-                       {},
-                       {},
-                       poll,
-                       coordinateRounding(rates.motion(), inA, inB)};
+    NearSurfaceInput p{side,       other,  rates, {}, {},   {},
+                       resolution, margin, {},    {}, poll, coordinateRounding(rates.motion(), inA, inB)};
     buildTree(p, patches);
+    if (by == Judged::Triangle)
+        for (const Patch& patch : patches)
+            p.triangles.emplace_back(TriangleMesh{{patch.corners.begin(), patch.corners.end()}, {{0, 1, 2}}});
     const std::vector<std::uint32_t> nodes = topNodes(p.tree, 64);
     parallelFor(nodes.size(), [&](std::size_t i) { Marker(p).run(cells, {nodes[i]}); });
     std::vector<char> keep(patches.size(), 0);
@@ -225,18 +233,34 @@ Kept reached(std::span<const Patch> patches, Side side, const MeshQuery& other, 
 /// many DOFs the number of cells explodes; then larger ones decide, which keeps more surface than need be.
 std::vector<Patch> reachedInBudget(std::vector<Patch> patches, Side side, const MeshQuery& other,
                                    const MotionRates& rates, const CellTree& cells, double size,
-                                   double margin, Poll& poll) {
-    constexpr double budget = 4e6; // tests, about a microsecond each
+                                   double margin, Judged by, Poll& poll) {
+    const double budget = by == Judged::Ball ? 4e6 : 4e5; // tests, about a microsecond each, or ten
     const double growth = std::pow(2.0, static_cast<double>(rates.motion().dofCount()));
     double resolution = 8 * size;
     while (resolution < other.extent() / 16) resolution *= 2;
     for (; !patches.empty(); resolution /= 2) {
-        Kept kept = reached(patches, side, other, rates, cells, resolution, margin, poll);
+        Kept kept = reached(patches, side, other, rates, cells, resolution, margin, by, poll);
         patches = std::move(kept.patches);
         if (resolution <= size / 2 || static_cast<double>(kept.tests) * growth > budget) break;
         if (poll.stopped()) break;
     }
     return patches;
+}
+
+/// Lets go of large triangles that pass by closely, as walls of fitted parts do: about such a one the ball
+/// says nothing, and patches small enough for theirs to say it are a thousand times as many.
+std::vector<Patch> largeReached(std::vector<Patch> patches, Side side, const MeshQuery& other,
+                                const MotionRates& rates, const CellTree& cells, double size, double margin,
+                                Poll& poll) {
+    constexpr double large = 8;             // sizes
+    constexpr std::ptrdiff_t most = 20'000; // some kilobytes each
+    const auto rest = std::stable_partition(
+        patches.begin(), patches.end(), [&](const Patch& patch) { return patch.radius() > large * size; });
+    if (rest == patches.begin() || rest - patches.begin() > most) return patches;
+    std::vector<Patch> near = reachedInBudget({patches.begin(), rest}, side, other, rates, cells, size,
+                                              margin, Judged::Triangle, poll);
+    near.insert(near.end(), rest, patches.end());
+    return near;
 }
 
 /// False: that makes too many.
@@ -271,7 +295,8 @@ std::vector<Patch> findNearSurface(std::span<const Patch> patches, Side side, co
         const bool whole = std::all_of(now.begin(), now.end(),
                                        [&](const Patch& patch) { return halveTo(patch, step, fine); });
         if (!whole) break; // larger patches than asked for keep more of the surface than need be
-        now = reachedInBudget(std::move(fine), side, other, rates, cells, step, margin, poll);
+        now = reachedInBudget(std::move(fine), side, other, rates, cells, step, margin, Judged::Ball, poll);
+        now = largeReached(std::move(now), side, other, rates, cells, size, margin, poll);
         if (!report(progress, "reach", size / step) || now.empty()) break;
         if (step <= size) break;
     }

@@ -53,6 +53,14 @@ Scene slidingOver(TriangleMesh box) {
     return scene;
 }
 
+/// 0.0035 apart, which large triangles would tell at once: spheres of 0.004 touch, and patches of the next
+/// level are known to be out of reach.
+Scene passingClosely() {
+    Scene scene = slidingOver(quartered(boxMesh({0.8, 0.48, 1.0035}, {1.8, 0.52, 2}), 5));
+    scene.a = quartered(scene.a, 5);
+    return scene;
+}
+
 void checkApart(const ContactZoneFit& fit, const Motion& motion) {
     const SphereTree a(fit.a.fit.spheres), b(fit.b.fit.spheres);
     for (double q = 0; q <= 1; q += 0.01) CHECK(smallestGap(a, b, pose(motion, std::vector{q}), 1) > 0);
@@ -111,8 +119,7 @@ TEST_CASE("bodies that pass closely without touching get spheres that show it") 
 }
 
 TEST_CASE("bodies that pass more closely than coarse spheres stick out get finer ones that show it") {
-    // 0.0035 apart: spheres of 0.004 touch, patches of the next level are known to be out of reach.
-    const Scene scene = slidingOver(boxMesh({0.8, 0.48, 1.0035}, {2.6, 0.52, 2}));
+    const Scene scene = passingClosely();
     const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.0005));
     CHECK(fit.neverMeet);
     REQUIRE(!fit.levels.empty());
@@ -123,7 +130,7 @@ TEST_CASE("bodies that pass more closely than coarse spheres stick out get finer
 }
 
 TEST_CASE("where a limit on spheres keeps bodies that never meet from being told apart, that is said") {
-    const Scene scene = slidingOver(boxMesh({0.8, 0.48, 1.0035}, {2.6, 0.52, 2}));
+    const Scene scene = passingClosely();
     ContactZoneOptions options = tolerance(0.0005);
     const ContactZoneLevel first = fitContactZone(scene.a, scene.b, scene.motion, options).levels.front();
     options.maxSpheres = static_cast<int>(std::max(first.spheresA, first.spheresB));
@@ -213,6 +220,23 @@ TEST_CASE("a limit on spheres that what overlaps at rest takes alone leaves the 
     CHECK(fit.a.fit.spheres.size() > region);
     CHECK(fit.a.fit.spheres.size() <= 2 * region);
     CHECK(fit.a.fit.protrusion < 0.5);
+}
+
+TEST_CASE("walls of fitted parts that pass each other closely are no zone of contact") {
+    // A block in a slot whose walls are 0.005 away, driven against the end of the slot.
+    Scene scene = slidingOver(boxMesh({0.1, 0.305, 0.3}, {0.4, 0.695, 0.9}));
+    scene.a = boxMesh({-1, 0, 0}, {3, 0.3, 1});
+    for (const TriangleMesh& part :
+         {boxMesh({-1, 0.7, 0}, {3, 1, 1}), boxMesh({1.2, 0.3, 0}, {1.5, 0.7, 1})}) {
+        const int first = static_cast<int>(scene.a.vertices.size());
+        scene.a.vertices.insert(scene.a.vertices.end(), part.vertices.begin(), part.vertices.end());
+        for (const Tri& t : part.triangles)
+            scene.a.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.005));
+    REQUIRE_FALSE(fit.levels.empty());
+    CHECK(fit.levels.front().areaA < 0.5); // of 2.4 that the walls have along the block's way
+    checkVerdicts(scene.a, scene.b, scene.motion, fit, 0.005, 200);
 }
 
 TEST_CASE("bodies near each other at rest that take more spheres than a limit are told of soon, or refused") {

@@ -1,7 +1,9 @@
 #pragma once
 #include "tests/Shapes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 
@@ -43,6 +45,26 @@ inline void append(TriangleMesh& mesh, const TriangleMesh& other) {
 
 inline TriangleMesh transformed(TriangleMesh mesh, const Eigen::Affine3d& transform) {
     for (Vec3& v : mesh.vertices) v = transform * v;
+    return mesh;
+}
+
+/// Each triangle as four, `rounds` times.
+inline TriangleMesh quartered(TriangleMesh mesh, int rounds) {
+    for (; rounds > 0; --rounds) {
+        std::map<std::pair<int, int>, int> middles;
+        const auto middle = [&](int a, int b) {
+            const auto [at, made] =
+                middles.try_emplace(std::minmax(a, b), static_cast<int>(mesh.vertices.size()));
+            if (made) mesh.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]) / 2);
+            return at->second;
+        };
+        std::vector<Tri> finer;
+        for (const Tri& t : mesh.triangles) {
+            const int a = middle(t[0], t[1]), b = middle(t[1], t[2]), c = middle(t[2], t[0]);
+            finer.insert(finer.end(), {{t[0], a, c}, {a, t[1], b}, {c, b, t[2]}, {a, b, c}});
+        }
+        mesh.triangles = std::move(finer);
+    }
     return mesh;
 }
 
