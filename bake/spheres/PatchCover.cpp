@@ -24,7 +24,9 @@ CoverSets coverSets(std::span<const Sphere> candidates, std::span<const Patch> p
     CoverSets sets;
     sets.first.push_back(0);
     std::vector<int> counts(patches.size(), 0);
-    constexpr std::size_t block = 512; // of fixed size, so that the outcome does not depend on threads
+    // Looked at together, though those before may leave the later ones nothing: the outcome does not depend
+    // on it.
+    constexpr std::size_t block = 64;
     std::vector<std::vector<std::uint32_t>> found(block);
     std::vector<std::uint32_t> batch;
     for (std::size_t at = 0; at < order.size();) {
@@ -38,10 +40,10 @@ CoverSets coverSets(std::span<const Sphere> candidates, std::span<const Patch> p
             visitBall(tree, sphere.centre, sphere.radius, [&](std::uint32_t patch) {
                 if (covers(sphere, patches[patch])) found[i].push_back(patch);
             });
-            std::sort(found[i].begin(), found[i].end());
         });
         for (std::size_t i = 0; i < batch.size(); ++i) {
             if (counts[batch[i]] >= enough) continue;
+            std::sort(found[i].begin(), found[i].end());
             for (const std::uint32_t patch : found[i]) ++counts[patch];
             sets.spheres.push_back(batch[i]);
             sets.patches.insert(sets.patches.end(), found[i].begin(), found[i].end());
