@@ -89,8 +89,8 @@ void OffscreenViewer::look(unsigned int frame) {
             ((at - eye) ^ osg::Z_AXIS).length() > 1e-6 * (at - eye).length() ? osg::Z_AXIS : osg::Y_AXIS;
         return camera.setViewMatrixAsLookAt(eye, at, up);
     }
-    // From the front, as osgviewer's manipulators stand at first, so far that the sphere is in sight on all
-    // sides.
+    // From the front, as osgviewer's manipulators stand at first, and of what lies flat there from above too:
+    // so far that the sphere is in sight on all sides.
     ShownBounds shown;
     _viewer->getSceneData()->accept(shown);
     osg::BoundingSphere bound = _viewer->getSceneData()->getBound();
@@ -98,7 +98,10 @@ void OffscreenViewer::look(unsigned int frame) {
     bound.expandBy(_shot.reach);
     const double narrow = std::max(1.0, static_cast<double>(_shot.height) / _shot.width);
     const double away = bound.radius() / std::sin(osg::DegreesToRadians(fieldOfView / 2)) * narrow;
-    camera.setViewMatrixAsLookAt(bound.center() + osg::Vec3d(0, -away, 0), bound.center(), osg::Z_AXIS);
+    const osg::Vec3d size = shown.getBoundingBox()._max - shown.getBoundingBox()._min;
+    const double raised = 3 * size.z() < std::min(size.x(), size.y()) ? osg::DegreesToRadians(50.0) : 0;
+    const osg::Vec3d from(0, -std::cos(raised), std::sin(raised));
+    camera.setViewMatrixAsLookAt(bound.center() + from * away, bound.center(), osg::Z_AXIS);
 }
 
 } // namespace osgTSS

@@ -239,7 +239,8 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     options.add_option("--view", arguments.view,
                        "a camera path, as osgviewer -p reads it, or EYE:AT in scene units, such as "
-                       "0,-3,1:0,0,1 (default: from the front, all of the motion in sight)");
+                       "0,-3,1:0,0,1 (default: from the front, of what lies flat from above too, all of the "
+                       "motion in sight)");
     options.add_flag("--rest", arguments.rest, "animations that nothing plays are not played either");
     options.add_flag("--overlay", arguments.overlay, "show spheres, tested pairs and contacts");
     options.add_option("--options", arguments.options,

@@ -40,6 +40,16 @@ printf 'v 0 99 0\nv 2 99 0\nv 0 101 0\nv 0 99 2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 
 ends 0 "$render" "$out/high.tss" -o "$out/high.png" --frames 1 --size 160x120 --view 0,100,30:0,100,0
 ends 0 "$render" "$out/high.tss" -o "$out/away.png" --frames 1 --size 160x120 --view 0,100,30:0,100,60
 ! cmp -s "$out/high.png" "$out/away.png" || fail "--view sees nothing of a scene with Y up"
+# What lies flat is seen from above: two prisms that are the same from the front are not.
+prism() { # NAME X: a triangle with its third corner at X, 1 high
+    printf 'v 0 0 0\nv 9 0 0\nv %s 9 0\nv 0 0 1\nv 9 0 1\nv %s 9 1\n' "$2" "$2" >"$out/$1.obj"
+    printf 'f 1 3 2\nf 4 5 6\nf 1 2 5\nf 1 5 4\nf 2 3 6\nf 2 6 5\nf 3 1 4\nf 3 4 6\n' >>"$out/$1.obj"
+    "$build/bin/tss" make -o "$out/$1.tss" --quiet --a "$out/$1.obj" --b "$out/$1.obj" --dof rot:0,0,0:0,0,1:0:0
+    ends 0 "$render" "$out/$1.tss" -o "$out/$1.png" --frames 1 --size 160x120
+}
+prism left 0
+prism right 9
+! cmp -s "$out/left.png" "$out/right.png" || fail "flat scenes are seen on edge"
 ends 0 "$render" --help
 ends 1 "$render" "$scenes/none.tss" -o "$out/n_%d.png"
 ends 1 "$render" "$jaw" -o "$out/n_%d.png" --frames 1 --view "$out/none.path"
