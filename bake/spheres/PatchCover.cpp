@@ -40,10 +40,10 @@ CoverSets coverSets(std::span<const Sphere> candidates, std::span<const Patch> p
             visitBall(tree, sphere.centre, sphere.radius, [&](std::uint32_t patch) {
                 if (covers(sphere, patches[patch])) found[i].push_back(patch);
             });
+            std::sort(found[i].begin(), found[i].end());
         });
         for (std::size_t i = 0; i < batch.size(); ++i) {
             if (counts[batch[i]] >= enough) continue;
-            std::sort(found[i].begin(), found[i].end());
             for (const std::uint32_t patch : found[i]) ++counts[patch];
             sets.spheres.push_back(batch[i]);
             sets.patches.insert(sets.patches.end(), found[i].begin(), found[i].end());
