@@ -248,12 +248,14 @@ std::vector<Patch> reachedInBudget(std::vector<Patch> patches, Side side, const 
 }
 
 /// Lets go of large triangles that pass by closely, as walls of fitted parts do: about such a one the ball
-/// says nothing, and patches small enough for theirs to say it are a thousand times as many.
+/// says nothing, and patches small enough for theirs to say it are a thousand times as many. Over more than
+/// two DOFs cells as small as a clearance are too many.
 std::vector<Patch> largeReached(std::vector<Patch> patches, Side side, const MeshQuery& other,
                                 const MotionRates& rates, const CellTree& cells, double size, double margin,
                                 Poll& poll) {
     constexpr double large = 8;             // sizes
     constexpr std::ptrdiff_t most = 20'000; // some kilobytes each
+    if (rates.motion().dofCount() > 2) return patches;
     const auto rest = std::stable_partition(
         patches.begin(), patches.end(), [&](const Patch& patch) { return patch.radius() > large * size; });
     if (rest == patches.begin() || rest - patches.begin() > most) return patches;
