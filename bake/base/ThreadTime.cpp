@@ -1,5 +1,7 @@
 #include "bake/base/ThreadTime.h"
 
+#include <ctime>
+
 namespace tss {
 
 double threadSeconds() {

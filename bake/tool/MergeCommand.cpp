@@ -1,4 +1,5 @@
 #include "bake/base/Error.h"
+#include "bake/model/SourceHash.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/BakeTimes.h"
 #include "bake/tool/Command.h"
