@@ -148,15 +148,16 @@ MechanismQuery::Prepared::Part MechanismQuery::Prepared::partOf(const SceneModel
 void MechanismQuery::Prepared::addTable(const SceneModel& scene, std::uint32_t part) {
     const Pair& pair = scene.pairs[parts_[part].pair];
     const bool linked = pair.table->motion.dofCount() > FeatureForm::maxDofs && chain_.links(pair);
-    const std::vector<TablePair> tests = tablePairs(*pair.table);
+    const Table& table = *pair.table;
     double farthest = 0;
-    for (const TablePair& test : tests) farthest = std::max({farthest, test.a.norm(), test.b.norm()});
+    for (const SphereSet* spheres : {&table.a, &table.b})
+        for (const Sphere& sphere : *spheres) farthest = std::max(farthest, sphere.centre.norm());
     PrepareOptions options;
     if (linked) options.poseError = chain_.error(pair, farthest);
-    Asked asked{part, PreparedTable(*pair.table, options), linked, pair.bodyA, pair.bodyB, {}, {}, 0};
+    Asked asked{part, PreparedTable(table, options), linked, pair.bodyA, pair.bodyB, {}, {}, 0};
     asked.placed = linked && asked.table.form() == KernelForm::Direct;
-    if (asked.placed && !tests.empty()) {
-        const TablePair bound = boundOf(tests);
+    if (asked.placed && table.testCount() > 0) {
+        const TablePair bound = boundOf(tablePairs(table));
         asked.a = bound.a;
         asked.b = bound.b;
         // What the table itself would count as touching by its rounding stays with the table.

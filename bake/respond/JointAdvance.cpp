@@ -36,7 +36,9 @@ void observe(const JointModel& model, const DofValues& q, const DofValues& step,
         near.gap = pairGap(pair, frame.pose, centre, normal);
         near.rate = normal.dot(whole.velocity(centre));
         if (frame.rowAhead) near.rate = slowestRate(model.groups[at], frame, step, normal, centre);
-        if (!ws.common) near.threshold = std::max(near.threshold, std::min(pair.contactOffset, near.gap));
+        if (!ws.common)
+            near.threshold =
+                std::max(near.threshold, std::min(model.groups[pair.group].contactOffset, near.gap));
     }
 }
 
@@ -77,7 +79,7 @@ double freeTime(const JointModel& model, const DofValues& q, const DofValues& st
         if (time > 0 && near.speed * time < room) continue;
         const JointModel::Pair& pair = model.pairs[near.pair];
         const bool closes = near.rate < 0 || (near.rate == 0 && near.acceleration > 0 && room <= 0);
-        if (closes && room < 0.05 * pair.contactOffset) {
+        if (closes && room < 0.05 * model.groups[pair.group].contactOffset) {
             ws.held[pair.group] |= stoppedStep;
             time = 0; // the others are looked at too: several may hold
         }

@@ -28,21 +28,18 @@ void checkFit(const TableOnJoint& entry, int dofCount) {
 
 void addPairs(const Table& table, std::uint32_t group, JointModel& model) {
     const std::vector<int>& dofs = model.groups[group].dofs;
-    const std::vector<SpherePair> list = tests(table);
+    const TableTests& list = *model.groups[group].tests;
     constexpr std::uint32_t none = ~0u;
     std::vector<std::uint32_t> movers(table.b.size(), none);
-    for (std::uint32_t k = 0; k < list.size(); ++k) {
-        const Sphere &a = table.a[list[k].a], &b = table.b[list[k].b];
-        const double rest = table.restGaps.empty() ? 0 : table.restGaps[k];
-        const double contactDistance = a.radius + b.radius + rest;
-        std::uint32_t& mover = movers[list[k].b];
+    for (std::size_t k = 0; k < list.size(); ++k) {
+        const TablePair test = list[k];
+        std::uint32_t& mover = movers[list.spheres(k).b];
         const bool first = mover == none;
-        if (first) mover = static_cast<std::uint32_t>(model.speeds.size() / std::max(1, model.dofCount));
-        model.pairs.push_back(
-            {a.centre, b.centre, a.radius, b.radius, rest, contactDistance, group, k, mover, 0, 0});
+        if (first) mover = model.moverCount++;
+        model.pairs.push_back({test.a, test.b, test.contactDistance, group, mover});
         if (!first) continue;
         DofValues own;
-        speedBounds(table.motion, b.centre, own.data());
+        speedBounds(table.motion, test.b, own.data());
         const std::size_t row = model.speeds.size();
         model.speeds.resize(row + model.dofCount, 0.0);
         for (std::size_t l = 0; l < dofs.size(); ++l) {
@@ -60,7 +57,8 @@ double keptGap(const JointModel& model, const JointModel::Group& group, double e
     double size = 0, coordinate = group.motion.base.translation().norm();
     for (std::uint32_t i = group.firstPair; i < group.lastPair; ++i) {
         const JointModel::Pair& p = model.pairs[i];
-        size = std::max(size, p.radiusA + p.radiusB);
+        const TablePair test = (*group.tests)[i - group.firstPair];
+        size = std::max(size, test.radiusA + test.radiusB);
         coordinate = std::max({coordinate, p.a.norm(), p.b.norm()});
     }
     for (const Dof& dof : group.motion.dofs) coordinate = std::max(coordinate, dof.origin.norm());
@@ -73,6 +71,7 @@ void addTable(const TableOnJoint& entry, int index, JointModel& model) {
     group.motion = motion;
     group.dofs = entry.dofs;
     group.table = index;
+    group.tests = std::make_shared<TableTests>(*entry.table);
     for (std::size_t k = 0; k < motion.dofs.size(); ++k) {
         const Dof& dof = motion.dofs[k];
         group.turnRates.push_back(turnBound(dof));
@@ -92,8 +91,6 @@ void addTable(const TableOnJoint& entry, int index, JointModel& model) {
     JointModel::Group& added = model.groups.back();
     added.lastPair = static_cast<std::uint32_t>(model.pairs.size());
     added.contactOffset = keptGap(model, added, entry.table->epsilon);
-    for (std::uint32_t p = added.firstPair; p < added.lastPair; ++p)
-        model.pairs[p].contactOffset = added.contactOffset;
 }
 
 /// Makes the vector kernels of the last group's table, and what is asked of one in clusters.
@@ -172,6 +169,9 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
     model.lower.fill(-std::numeric_limits<double>::infinity());
     model.upper.fill(std::numeric_limits<double>::infinity());
     model.leastContactOffset = std::numeric_limits<double>::infinity();
+    std::size_t tests = 0;
+    for (const TableOnJoint& entry : tables) tests += entry.table->testCount();
+    model.pairs.reserve(tests);
     for (std::size_t i = 0; i < tables.size(); ++i) {
         checkFit(tables[i], dofCount);
         addTable(tables[i], static_cast<int>(i), model);
@@ -193,13 +193,13 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
     for (int l = 0; l < dofCount; ++l)
         model.weights[l] = std::max(model.weights[l], largest > 0 ? 1e-6 * largest : 1.0);
     for (int l = 0; l < dofCount; ++l) model.perWeight[l] = 1 / model.weights[l];
-    for (std::uint32_t p = 0; p < model.pairs.size(); ++p) {
+    for (std::size_t mover = 0; mover < model.moverCount; ++mover) {
         double squared = 0;
         for (int l = 0; l < dofCount; ++l) {
-            const double share = model.speed(p)[l] / model.weights[l];
+            const double share = model.speeds[mover * dofCount + l] / model.weights[l];
             squared += share * share;
         }
-        model.pairs[p].lever = std::sqrt(squared);
+        model.levers.push_back(std::sqrt(squared));
     }
     model.scale = weightedDistance(model, model.range, DofValues{});
     static std::atomic<std::uint64_t> made{0};
@@ -214,14 +214,15 @@ void takeIfNear(const JointModel& model, std::uint32_t p, const Pose& pose, cons
                 ResponseRoom& ws) {
     const JointModel::Pair& pair = model.pairs[p];
     const double* speed = model.speed(p);
-    double far = pair.contactDistance + 2 * pair.contactOffset;
+    const double contactOffset = model.groups[pair.group].contactOffset;
+    double far = pair.contactDistance + 2 * contactOffset;
     for (int l = 0; l < model.dofCount; ++l) far += speed[l] * travel[l];
     const double squared = (pose * pair.b - pair.a).squaredNorm();
     if (far < 0 || squared > far * far) return;
     NearPair& near = ws.near[ws.nearCount++];
     near.pair = p;
     near.gap = std::sqrt(squared) - pair.contactDistance;
-    near.threshold = std::min(pair.contactOffset, near.gap);
+    near.threshold = std::min(contactOffset, near.gap);
 }
 
 /// The tests of a group that a vector query finds under the margin that its fastest pair needs.
@@ -269,7 +270,7 @@ void narrow(const JointModel& model, double distance, ResponseRoom& ws) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < ws.nearCount; ++i) {
         const NearPair& near = ws.near[i];
-        if (near.gap - near.threshold > model.pairs[near.pair].lever * distance) continue;
+        if (near.gap - near.threshold > model.lever(near.pair) * distance) continue;
         if (kept != i) ws.near[kept] = near;
         ++kept;
     }

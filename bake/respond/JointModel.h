@@ -5,6 +5,7 @@
 #include "bake/respond/KnownNear.h"
 #include "bake/respond/PairTree.h"
 #include "bake/table/PreparedTable.h"
+#include "bake/table/TablePairs.h"
 
 #include <algorithm>
 #include <memory>
@@ -23,8 +24,9 @@ struct JointModel {
         bool paths = false;            ///< some DOF is a path, whose rate jumps at its rows
         double contactOffset =
             0; ///< gap that its pairs are kept at: above its own epsilon, so that the models are free
-        std::uint32_t firstPair = 0, lastPair = 0;
+        std::uint32_t firstPair = 0, lastPair = 0; ///< of each test, in their order
         int table = 0;
+        std::shared_ptr<const TableTests> tests;
         std::shared_ptr<const PreparedTable> prepared; ///< to cull with, none where that would not pay
         int chain = -1;         ///< of the model, which begins as its motion does; -1: none
         bool clustered = false; ///< its table is in clusters: its pairs are listed for one way at a time ...
@@ -34,14 +36,10 @@ struct JointModel {
         double spread = 0;                    ///< ... which are no farther from it than this
     };
     struct Pair {
-        Vec3 a, b; ///< centres, each in its own body's frame
-        double radiusA = 0, radiusB = 0, rest = 0;
-        double contactDistance = 0; ///< radiusA + radiusB + rest: the distance of the centres at contact
+        Vec3 a, b;                  ///< centres, each in its own body's frame
+        double contactDistance = 0; ///< of the centres: the radii and the gap at rest
         std::uint32_t group = 0;
-        std::uint32_t test = 0;   ///< index in its table
-        std::uint32_t mover = 0;  ///< its row of speeds, that of its sphere of B
-        double lever = 0;         ///< its gap changes by at most lever * |w (q - q')|
-        double contactOffset = 0; ///< its group's
+        std::uint32_t mover = 0; ///< its row of speeds, that of its sphere of B
     };
 
     /// DOFs that several groups have in common, the longest of their motions: placed once for all of them.
@@ -60,7 +58,9 @@ struct JointModel {
     std::vector<Group> groups;
     std::vector<Chain> chains;     ///< where some group is in clusters: many groups, and none with paths
     std::vector<Pair> pairs;       ///< by group
+    std::uint32_t moverCount = 0;  ///< spheres of B that have a row
     std::vector<double> speeds;    ///< rows of dofCount: speed bound per unit of each value of the joint
+    std::vector<double> levers;    ///< of each row: gaps change by at most lever * |w (q - q')|
     double scale = 0;              ///< length of the limits' diagonal in the weighted metric, scene units
     double leastContactOffset = 0; ///< of the groups
     bool clustered = false;        ///< some group is
@@ -70,6 +70,8 @@ struct JointModel {
     const double* speed(std::uint32_t pair) const {
         return speeds.data() + std::size_t(pairs[pair].mover) * std::size_t(dofCount);
     }
+    double lever(std::uint32_t pair) const { return levers[pairs[pair].mover]; }
+    double contactOffset(std::uint32_t pair) const { return groups[pairs[pair].group].contactOffset; }
 };
 
 /// Throws InputError where the tables do not fit one joint: an index that is none, limits without overlap,

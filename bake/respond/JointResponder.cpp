@@ -106,9 +106,10 @@ bool walk(const JointModel& model, const DofValues& goal, Legs legs, DofValues& 
 }
 
 /// The gap exactly as the plain query computes it.
-double queryGap(const JointModel::Pair& pair, const Pose& inverse) {
+double queryGap(const TableTests& tests, std::uint32_t test, const Pose& inverse) {
+    const TablePair pair = tests[test];
     const Vec3 centre = inverse * pair.a;
-    return (pair.b - centre).norm() - pair.radiusA - pair.radiusB - pair.rest;
+    return (pair.b - centre).norm() - pair.radiusA - pair.radiusB - tests.restGap(test);
 }
 
 } // namespace
@@ -186,11 +187,13 @@ JointAnswer JointResponder::Prepared::judged(const DofValues& q, JointStatus sta
             placeGroup(model_, at, q, q, ws);
             inverse = ws.groups[at].frame.pose.inverse(Eigen::Isometry);
         }
-        const double gap = queryGap(pair, inverse);
+        const JointModel::Group& group = model_.groups[at];
+        const std::uint32_t test = ws.near[i].pair - group.firstPair;
+        const double gap = queryGap(*group.tests, test, inverse);
         if (gap < answer.gap) {
             answer.gap = gap;
-            answer.table = model_.groups[at].table;
-            answer.test = static_cast<int>(pair.test);
+            answer.table = group.table;
+            answer.test = static_cast<int>(test);
         }
     }
     return answer;

@@ -116,7 +116,7 @@ double weightedLength(const JointModel& model, const DofValues& step) {
 }
 
 double leastLift(const JointModel& model, const NearPair& near) {
-    return endRoom * model.pairs[near.pair].contactOffset;
+    return endRoom * model.contactOffset(near.pair);
 }
 
 enum class Ahead { Nothing, Listed, Crowded };
@@ -158,8 +158,9 @@ bool findLifts(const JointModel& model, const DofValues& q, const DofValues& ste
         for (int l = 0; l < model.dofCount; ++l) guess += near.gradient[l] * step[l];
         const double real = pairGap(pair, ws.ends[pair.group], centre, normal);
         bounds.bound(model, step, near);
-        near.lift = endRoom * pair.contactOffset + near.acceleration / 8 + std::max(0.0, guess - real);
-        short_ = short_ || guess < near.threshold + near.lift - liftSlack * pair.contactOffset;
+        const double contactOffset = model.groups[pair.group].contactOffset;
+        near.lift = endRoom * contactOffset + near.acceleration / 8 + std::max(0.0, guess - real);
+        short_ = short_ || guess < near.threshold + near.lift - liftSlack * contactOffset;
     }
     return short_;
 }
@@ -286,7 +287,7 @@ double pushOut(const JointModel& model, DofValues& q, ResponseRoom& ws) {
     for (int l = 0; l < model.dofCount; ++l) travel[l] = trust * model.range[l];
     double depth = smallestLevel(model, q, ws);
     const auto gapAt = [&](const NearPair& near, double level) {
-        return gapOf(model, model.pairs[near.pair].contactOffset, level);
+        return gapOf(model, model.contactOffset(near.pair), level);
     };
     ws.common = true;
     for (int round = 0; round < 40 && depth < 0.5 * model.leastContactOffset; ++round) {

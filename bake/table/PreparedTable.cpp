@@ -13,8 +13,8 @@ const char* name(KernelPrecision precision) {
 
 PreparedTable::PreparedTable(const Table& table, const PrepareOptions& options)
     : kernels_(std::make_unique<const TableKernels>(table, options)) {
-    if (options.cells != CellUse::Never)
-        verdicts_ = VerdictGrid(kernels_->motion(), kernels_->pairs(), kernels_->signBand());
+    if (options.cells != CellUse::Never && table.motion.dofCount() <= VerdictGrid::mostDofs)
+        verdicts_ = VerdictGrid(kernels_->motion(), tablePairs(table), kernels_->signBand());
 }
 
 PreparedTable::PreparedTable(PreparedTable&&) noexcept = default;
@@ -99,8 +99,8 @@ std::size_t PreparedTable::dofCount() const {
     return kernels_->dofCount();
 }
 
-const TablePair& PreparedTable::pair(std::size_t test) const {
-    return kernels_->pairs()[test];
+TablePair PreparedTable::pair(std::size_t test) const {
+    return kernels_->test(test);
 }
 
 KernelForm PreparedTable::form() const {

@@ -111,7 +111,7 @@ public:
     std::size_t testCount() const;
     std::size_t testRoom() const;
     std::size_t dofCount() const;
-    const TablePair& pair(std::size_t test) const;
+    TablePair pair(std::size_t test) const;
     const VerdictGrid& verdicts() const { return verdicts_; } ///< empty for more than three DOFs
 
     KernelForm form() const;

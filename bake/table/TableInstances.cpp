@@ -14,6 +14,18 @@ const T* from(const std::vector<T>& values, std::uint32_t first) {
     return values.data() + first;
 }
 
+/// The pose of one of many instances.
+TableFeatures featuresOf(const InstanceFeatures& f, std::uint32_t instance, bool single) {
+    TableFeatures one;
+    const std::size_t values = (single ? f.floats.size() : f.doubles.size()) / f.stride;
+    for (std::size_t k = 0; k < values; ++k)
+        if (single)
+            one.floats[k] = f.floats[k * f.stride + instance];
+        else
+            one.doubles[k] = f.doubles[k * f.stride + instance];
+    return one;
+}
+
 } // namespace
 
 void TableKernels::instanceFeatures(const double* q, std::uint32_t count, InstanceFeatures& out) const {
@@ -42,6 +54,10 @@ void TableKernels::instanceFeatures(const double* q, std::uint32_t count, Instan
 }
 
 void TableKernels::hits(const InstanceFeatures& f, std::uint8_t* hit) const {
+    if (!clusters_.empty()) {
+        for (std::uint32_t i = 0; i < f.count; ++i) hit[i] = hitInClusters(featuresOf(f, i, float_));
+        return;
+    }
     const std::uint32_t whole = f.count / vectorRoom * vectorRoom, rest = f.count - whole;
     const auto run = [&](std::uint32_t first, std::uint32_t count, std::uint8_t* out) {
         if (count == 0) return;
@@ -55,6 +71,14 @@ void TableKernels::hits(const InstanceFeatures& f, std::uint8_t* hit) const {
 }
 
 void TableKernels::gaps(const InstanceFeatures& f, float* gap, std::int32_t* test) const {
+    if (!clusters_.empty()) {
+        for (std::uint32_t i = 0; i < f.count; ++i) {
+            const KernelGap nearest = nearestInClusters(featuresOf(f, i, float_));
+            gap[i] = static_cast<float>(nearest.gap);
+            test[i] = nearest.test;
+        }
+        return;
+    }
     const std::uint32_t whole = f.count / vectorRoom * vectorRoom, rest = f.count - whole;
     const auto run = [&](std::uint32_t first, std::uint32_t count, float* outGap, std::int32_t* outTest) {
         if (count == 0) return;

@@ -62,7 +62,7 @@ T* column(T* block, std::uint32_t lanes, std::uint32_t k) {
 } // namespace
 
 TableKernels::TableKernels(const Table& table, const PrepareOptions& options)
-    : motion_(table.motion), pairs_(tablePairs(table)), epsilon_(table.epsilon), depth_(table.gapDepth),
+    : motion_(table.motion), tests_(table), epsilon_(table.epsilon), depth_(table.gapDepth),
       margin_(table.gapMargin), early_(earlyOfTable(table).value_or(0)) {
     if (!available(options.target))
         throw InputError("kernel '" + std::string(name(options.target)) +
@@ -71,9 +71,10 @@ TableKernels::TableKernels(const Table& table, const PrepareOptions& options)
     if (motion_.dofCount() > maxDofs)
         throw InputError("table: expected at most " + std::to_string(maxDofs) + " DOFs");
 
-    const std::vector<std::vector<double>> contacts = nearContact(motion_, pairs_);
+    const std::vector<TablePair> pairs = tablePairs(table);
+    const std::vector<std::vector<double>> contacts = nearContact(motion_, pairs);
     // Both origins where the touching is, so that t and the centres are small there.
-    for (const TablePair& p : pairs_) originB_ += p.b / double(pairs_.size());
+    for (const TablePair& p : pairs) originB_ += p.b / double(pairs.size());
     for (const std::vector<double>& q : contacts)
         originA_ += pose(motion_, q) * originB_ / double(contacts.size());
     MotionFrame middle;
@@ -87,32 +88,33 @@ TableKernels::TableKernels(const Table& table, const PrepareOptions& options)
         farthestT_ += 0.5 * speeds[k] * (motion_.dofs[k].upper - motion_.dofs[k].lower);
     recipe_ = PoseRecipe(motion_, originA_, originB_);
     double farthest = std::max(originA_.norm(), originB_.norm());
-    for (const TablePair& p : pairs_) farthest = std::max({farthest, p.a.norm(), p.b.norm()});
+    for (const TablePair& p : pairs) farthest = std::max({farthest, p.a.norm(), p.b.norm()});
     poseError_ = std::max(poseError(motion_, doubleRoundoff, farthest), options.poseError);
 
     if (options.form != KernelForm::Direct) {
-        fold_ = makeFeatureForm(motion_, pairs_, contacts);
-        if (fold_ && !pairs_.empty()) {
+        fold_ = makeFeatureForm(motion_, pairs, contacts);
+        if (fold_ && !pairs.empty()) {
             // Features centred near contact round better, unless that leaves their far end too far away.
-            const double centred = foldBands(floatRoundoff).sign;
-            std::optional<FeatureForm> plain = makeFeatureForm(motion_, pairs_, {});
+            const double centred = foldBands(floatRoundoff, pairs).sign;
+            std::optional<FeatureForm> plain = makeFeatureForm(motion_, pairs, {});
             std::swap(fold_, plain);
-            if (foldBands(floatRoundoff).sign >= centred) std::swap(fold_, plain);
+            if (foldBands(floatRoundoff, pairs).sign >= centred) std::swap(fold_, plain);
             double largest = 0;
             const std::vector<std::vector<double>> poses = latticePoses(motion_, 50);
             for (const std::vector<double>& at : poses) {
                 const Pose p = pose(motion_, at);
-                for (const TablePair& pair : pairs_)
+                for (const TablePair& pair : pairs)
                     largest = std::max(largest, (p * pair.b - pair.a).squaredNorm());
             }
-            if (!(featureFormMismatch(*fold_, motion_, pairs_, poses) <= 1e-11 * largest)) fold_.reset();
+            if (!(featureFormMismatch(*fold_, motion_, pairs, poses) <= 1e-11 * largest)) fold_.reset();
         }
     }
-    choose(options);
+    const std::vector<double> widening = choose(options, pairs);
+    const Widened tests{pairs, widening};
     if (float_)
-        prepareKernels<float>(options.cells);
+        prepareKernels<float>(options.cells, tests);
     else
-        prepareKernels<double>(options.cells);
+        prepareKernels<double>(options.cells, tests);
 }
 
 void TableKernels::Bands::widen(double u, double error, double contactDistance) {
@@ -122,10 +124,10 @@ void TableKernels::Bands::widen(double u, double error, double contactDistance) 
     condition = std::max(condition, conditionOf(u, error, contactDistance));
 }
 
-TableKernels::Bands TableKernels::foldBands(double u) const {
+TableKernels::Bands TableKernels::foldBands(double u, std::span<const TablePair> pairs) const {
     Bands bands;
-    for (std::size_t p = 0; p < pairs_.size(); ++p) {
-        const double contactDistance = pairs_[p].contactDistance;
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+        const double contactDistance = pairs[p].contactDistance;
         bands.widen(u, fold_->signError(u, Eigen::Index(p), contactDistance), contactDistance);
         for (double gap : {-depth_, 0.0, margin_}) {
             const double error = fold_->squareError(u, Eigen::Index(p), std::max(0.0, contactDistance + gap));
@@ -156,7 +158,7 @@ TableKernels::Bands TableKernels::directBands(double u, std::span<const TablePai
     return bands;
 }
 
-void TableKernels::choose(const PrepareOptions& options) {
+std::vector<double> TableKernels::choose(const PrepareOptions& options, std::span<const TablePair> pairs) {
     if (options.form == KernelForm::Fold && !fold_)
         throw InputError("kernel: expected a motion that folds: no path, at most 3 DOFs, few features");
     // A lossless table has no epsilon to hide rounding in. Rounding misses nothing (Bands::widen), and
@@ -164,7 +166,7 @@ void TableKernels::choose(const PrepareOptions& options) {
     double allowed = 0.1 * epsilon_;
     if (epsilon_ == 0) {
         allowed = std::numeric_limits<double>::infinity();
-        for (const TablePair& p : pairs_) allowed = std::min(allowed, 1e-4 * (p.radiusA + p.radiusB));
+        for (const TablePair& p : pairs) allowed = std::min(allowed, 1e-4 * (p.radiusA + p.radiusB));
         allowed = std::max(allowed, 0.01 * early_);
     }
     struct Choice {
@@ -183,7 +185,7 @@ void TableKernels::choose(const PrepareOptions& options) {
         if (options.precision && (*options.precision == KernelPrecision::Float) != choice.single) continue;
         // Features are made in double: rounded to float once, but some times over in double itself.
         const double u = choice.single ? floatRoundoff : 8 * doubleRoundoff;
-        Bands here = choice.form == KernelForm::Fold ? foldBands(u) : directBands(u, pairs_);
+        Bands here = choice.form == KernelForm::Fold ? foldBands(u, pairs) : directBands(u, pairs);
         if (any && !(here.sign < bands.sign)) continue;
         any = true;
         bands = std::move(here);
@@ -194,8 +196,8 @@ void TableKernels::choose(const PrepareOptions& options) {
     signBand_ = bands.sign;
     gapBand_ = bands.gap;
     condition_ = bands.condition;
-    widening_ = std::move(bands.widening);
     if (form_ == KernelForm::Direct) fold_.reset();
+    return std::move(bands.widening);
 }
 
 template <class T>
@@ -236,20 +238,20 @@ void TableKernels::fill(const Widened& rows, std::uint32_t lanes, std::span<cons
     }
 }
 
-void TableKernels::makeCells(CellUse use) {
-    if (use == CellUse::Never || pairs_.empty()) return;
-    const std::size_t blocks = (pairs_.size() + kernels_.lanes - 1) / kernels_.lanes;
+void TableKernels::makeCells(CellUse use, std::span<const TablePair> pairs) {
+    if (use == CellUse::Never || pairs.empty()) return;
+    const std::size_t blocks = (pairs.size() + kernels_.lanes - 1) / kernels_.lanes;
     const auto inClusters = [&] {
         if (use == CellUse::Auto && !fold_ && blocks > fewClustered)
-            clusters_ = TableClusters(pairs_, kernels_.lanes);
+            clusters_ = TableClusters(pairs, kernels_.lanes);
         return !clusters_.empty();
     };
-    const bool many = motion_.dofCount() > mostDofsOfCells || pairs_.size() > mostTests;
+    const bool many = motion_.dofCount() > mostDofsOfCells || pairs.size() > mostTests;
     if (many && inClusters()) return;
     // To look up a cell costs as much as a few blocks.
     const std::size_t least = std::size_t(fewBlocks) * kernels_.lanes;
-    if (use == CellUse::Auto && (pairs_.size() <= least || pairs_.size() > mostTests)) return;
-    TableCells cells(motion_, pairs_, kernels_.lanes);
+    if (use == CellUse::Auto && (pairs.size() <= least || pairs.size() > mostTests)) return;
+    TableCells cells(motion_, pairs, kernels_.lanes);
     if (use == CellUse::Always || cells.looked() <= mostLooked)
         cells_ = std::move(cells);
     else
@@ -269,7 +271,7 @@ void TableKernels::fillClusters() {
 }
 
 template <class T>
-void TableKernels::fillLikely() {
+void TableKernels::fillLikely(const Widened& tests) {
     std::vector<TouchingPose> touching;
     TableFeatures f;
     for (const std::vector<double>& q : latticePoses(motion_, likelyPoses)) {
@@ -277,15 +279,14 @@ void TableKernels::fillLikely() {
         if (!hitBeyondLikely(f)) continue;
         touching.push_back({pose(motion_, q), static_cast<std::uint32_t>(nearestInClusters(f).test)});
     }
-    likely_ = tss::likelyTests(pairs_, touching, mostLikely);
+    likely_ = tss::likelyTests(tests.pairs, touching, mostLikely);
     if (likely_.empty()) likely_ = {0}; // any
-    const Widened tests{pairs_, widening_};
     fill<T>(tests, kernels_.lanes, likely_, likelyStore_, likelyData_);
     fill<T>(tests, 1, likely_, likelyRowStore_, likelyRows_);
 }
 
 template <class T>
-void TableKernels::prepareKernels(CellUse use) {
+void TableKernels::prepareKernels(CellUse use, const Widened& tests) {
     KernelShape shape;
     if (fold_) shape = {true, std::uint32_t(fold_->features.size()), motion_.dofCount()};
     kernels_ = makeKernels<T>(target_, shape);
@@ -295,17 +296,17 @@ void TableKernels::prepareKernels(CellUse use) {
         plan_ = PosePlan(recipe_);
     else
         kernels_.pose = nullptr, kernels_.poses = nullptr;
-    makeCells(use);
-    const Widened tests{pairs_, widening_};
+    makeCells(use, tests.pairs);
     fill<T>(tests, kernels_.lanes, clusters_.empty() ? cells_.order() : clusters_.order(), blocks_, data_);
-    fill<T>(tests, 1, {}, rowStore_, rows_);
     laneKernels_ = tss::laneKernels(target_);
-    if (!clusters_.empty()) {
+    if (clusters_.empty()) {
+        fill<T>(tests, 1, {}, rowStore_, rows_);
+        std::ranges::transform(tests.pairs, std::back_inserter(contactTests_), contactTest);
+    } else {
         fillClusters<T>();
-        fillLikely<T>();
+        fillLikely<T>(tests);
     }
-    if (clusters_.empty()) std::ranges::transform(pairs_, std::back_inserter(contactTests_), contactTest);
-    room_ = std::max<std::size_t>(1, (pairs_.size() + kernels_.lanes - 1) / kernels_.lanes) * kernels_.lanes;
+    room_ = std::max<std::size_t>(1, (tests_.size() + kernels_.lanes - 1) / kernels_.lanes) * kernels_.lanes;
 }
 
 std::size_t TableKernels::bytes() const {

@@ -58,11 +58,11 @@ public:
     /// What tests are compared with where gaps up to the margin are asked for.
     double reachOf(double margin) const;
 
-    std::size_t testCount() const { return pairs_.size(); }
+    std::size_t testCount() const { return tests_.size(); }
     std::size_t testRoom() const { return room_; }
     std::size_t dofCount() const { return motion_.dofCount(); }
     const Motion& motion() const { return motion_; }
-    std::span<const TablePair> pairs() const { return pairs_; }
+    TablePair test(std::size_t number) const { return tests_[number]; }
     const TableCells& cells() const { return cells_; } ///< empty where they do not pay
     const TableClusters& clusters() const {
         return clusters_;
@@ -86,8 +86,8 @@ public:
     double depth() const { return depth_; }
     double margin() const { return margin_; }
     const std::optional<FeatureForm>& fold() const { return fold_; } ///< nothing for the direct form
-    const KernelData& rows() const { return rows_; }                 ///< one pair after the other
-    const KernelData& blocks() const { return data_; }               ///< the same in blocks of lanes()
+    const KernelData& blocks() const { return data_; }               ///< all tests in blocks of lanes()
+    const KernelData& rows() const { return rows_; } ///< one after the other; none where there are clusters
     /// Some rows, one after the other and in blocks of lanes().
     struct BoundRows {
         const KernelData &rows, &blocks;
@@ -144,9 +144,10 @@ private:
     double clusterReachOf(double margin) const;
     void poseFeatures(const double* q, TableFeatures& out) const;
     void storePose(const PoseRecipe::Matrix& pose, TableFeatures& out) const;
-    Bands foldBands(double u) const;
+    Bands foldBands(double u, std::span<const TablePair> pairs) const;
     Bands directBands(double u, std::span<const TablePair> pairs) const;
-    void choose(const PrepareOptions& options);
+    /// Form and precision. Returns by how much each test's squared contact distance is widened.
+    std::vector<double> choose(const PrepareOptions& options, std::span<const TablePair> pairs);
     /// Pairs and by how much their squared reaches are widened.
     struct Widened {
         std::span<const TablePair> pairs;
@@ -156,20 +157,19 @@ private:
     void fill(const Widened& rows, std::uint32_t lanes, std::span<const std::uint32_t> order,
               std::vector<Chunk>& store, KernelData& data) const;
     template <class T>
-    void prepareKernels(CellUse use);
-    void makeCells(CellUse use);
+    void prepareKernels(CellUse use, const Widened& tests);
+    void makeCells(CellUse use, std::span<const TablePair> pairs);
     template <class T>
     void fillClusters();
     template <class T>
-    void fillLikely();
+    void fillLikely(const Widened& tests);
 
     Motion motion_;
-    std::vector<TablePair> pairs_;
+    TableTests tests_;
     std::vector<ContactTest>
-        contactTests_; ///< none where there are clusters: they would take a third of the memory
+        contactTests_; ///< none where there are clusters: they would take most of the memory
     double epsilon_ = 0, depth_ = 0, margin_ = 0, early_ = 0;
     Vec3 originA_ = Vec3::Zero(), originB_ = Vec3::Zero();
-    std::vector<double> widening_;
     double farthestT_ = 0; ///< bound of |T(q) originB - originA|
     double poseError_ =
         0; ///< what rounding, or whoever gives the pose, may do to T(q) y on its way to the direct kernel

@@ -4,14 +4,19 @@
 
 namespace tss {
 
+TableTests::TableTests(const Table& table)
+    : a_(table.a), b_(table.b), spheres_(tests(table)), restGaps_(table.restGaps) {}
+
+TablePair TableTests::operator[](std::size_t test) const {
+    const Sphere &a = a_[spheres_[test].a], &b = b_[spheres_[test].b];
+    return {a.centre, b.centre, a.radius, b.radius, a.radius + b.radius + restGap(test)};
+}
+
 std::vector<TablePair> tablePairs(const Table& table) {
+    const TableTests tests(table);
     std::vector<TablePair> pairs;
-    const std::vector<SpherePair> list = tests(table);
-    for (std::size_t k = 0; k < list.size(); ++k) {
-        const Sphere &a = table.a[list[k].a], &b = table.b[list[k].b];
-        const double rest = table.restGaps.empty() ? 0 : table.restGaps[k];
-        pairs.push_back({a.centre, b.centre, a.radius, b.radius, a.radius + b.radius + rest});
-    }
+    pairs.reserve(tests.size());
+    for (std::size_t k = 0; k < tests.size(); ++k) pairs.push_back(tests[k]);
     return pairs;
 }
 

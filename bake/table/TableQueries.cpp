@@ -131,7 +131,7 @@ void TableKernels::contact(const TableFeatures& f, const MotionFrame& frame, Tab
         return;
     }
     const auto test = static_cast<std::size_t>(out.test);
-    kernels_.contact(contactTests_.empty() ? contactTest(pairs_[test]) : contactTests_[test], frame,
+    kernels_.contact(contactTests_.empty() ? contactTest(tests_[test]) : contactTests_[test], frame,
                      motion_.dofCount(), out);
 }
 

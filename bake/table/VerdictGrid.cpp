@@ -248,7 +248,7 @@ private:
 };
 
 VerdictGrid::VerdictGrid(const Motion& motion, std::span<const TablePair> pairs, double band) {
-    if (motion.dofCount() < 1 || motion.dofCount() > 3 || pairs.empty()) return;
+    if (motion.dofCount() < 1 || motion.dofCount() > mostDofs || pairs.empty()) return;
     Maker maker(*this, motion, pairs, band);
     if (maker.moves()) maker.make();
 }

@@ -19,7 +19,9 @@ enum class Verdict : std::uint8_t { Ask, Touch, Free };
 /// none are asked.
 class VerdictGrid {
 public:
-    /// Empty for no DOF and for more than three, and where nothing moves. `band`: a test counts as touching
+    static constexpr std::size_t mostDofs = 3;
+
+    /// Empty for no DOF and for more than those, and where nothing moves. `band`: a test counts as touching
     /// up to this gap.
     VerdictGrid() = default;
     VerdictGrid(const Motion& motion, std::span<const TablePair> pairs, double band);

@@ -18,7 +18,7 @@ std::string refuteBounds(const PreparedTable& prepared, const std::vector<Exact>
     if (each == 0 || each % prepared.kernels().lanes() != 0 ||
         bounds.size() != (pairs.size() + each - 1) / each)
         return "its clusters do not hold every test once";
-    if (!blocksAreRows(prepared, stored.blocks, stored.rows, bounds.size(), {}))
+    if (!blocksAreRows(prepared, stored.blocks, stored.rows, bounds.size()))
         return "its blocks do not hold every bound of a cluster once";
     for (std::size_t place = 0; place < pairs.size(); ++place) {
         const TablePair& bound = bounds[place / each];
@@ -63,7 +63,7 @@ std::string refuteClusters(const PreparedTable& prepared, const std::vector<Exac
     // What is asked first, which alone may say that a pose touches, is tests of the table.
     const std::vector<std::uint32_t>& likely = prepared.kernels().likely();
     const TableKernels::BoundRows stored = prepared.kernels().likelyTests();
-    if (!blocksAreRows(prepared, stored.blocks, stored.rows, likely.size(), {}) ||
+    if (!blocksAreRows(prepared, stored.blocks, stored.rows, likely.size()) ||
         !rowsAreTests(prepared, stored.rows, likely))
         return "what it asks first is no test of it";
     return {};

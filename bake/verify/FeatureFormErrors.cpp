@@ -100,7 +100,7 @@ FeatureFormErrors::FeatureFormErrors(const Table& table, const PreparedTable& pr
 }
 
 PairErrors FeatureFormErrors::of(std::size_t pair, const Exact& test) const {
-    const StoredRow row(prepared_, pair);
+    const StoredRow row(prepared_, prepared_.kernels().rows(), pair);
     std::vector<Real> left = exact_[pair]; // the exact weights less what is stored
     Real constant = left[0];               // the exact constant where features count from their centres
     std::vector<double> products;          // |w_k| max |feature_k|

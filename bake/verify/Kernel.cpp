@@ -82,10 +82,12 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
         direct.emplace(table, prepared, tests);
     if (direct && !direct->agrees())
         verdict.reason = "the kernel's rotation or translation is another than the motion's";
+    const StoredTests stored(prepared);
+    if (!stored.eachOnce()) verdict.reason = "its blocks do not hold every test once";
     for (std::size_t p = 0; p < tests.size() && verdict.reason.empty(); ++p) {
         const Exact& test = tests[p];
         const PairErrors errors = fold ? foldErrors->of(p, test)
-                                       : directErrors(prepared, StoredRow(prepared, p), test,
+                                       : directErrors(prepared, stored[p], test,
                                                       prepared.kernels().farthestT(), direct->rounding());
         if (errors.sign.high > 0 && test.contactDistance >= 0)
             verdict.reason = fmt::format(

@@ -2,10 +2,11 @@
 
 #include "bake/table/TableKernels.h"
 #include "bake/verify/GapBox.h"
+#include "bake/verify/KernelErrors.h"
 
 #include <algorithm>
-#include <cstring>
 #include <fmt/format.h>
+#include <limits>
 #include <numeric>
 
 namespace tss::verify {
@@ -81,47 +82,56 @@ private:
 
 } // namespace
 
-bool blocksAreRows(const PreparedTable& prepared, const KernelData& blockData, const KernelData& rowData,
-                   std::size_t count, std::span<const std::uint32_t> order) {
-    const std::size_t bytes = prepared.precision() == KernelPrecision::Float ? 4 : 8;
-    const std::size_t lanes = prepared.kernels().lanes();
-    const std::size_t columns =
-        prepared.form() == KernelForm::Fold ? foldColumns(rowData.columns) : directColumns;
-    const auto* blocks = static_cast<const std::byte*>(blockData.blocks);
-    const auto* rows = static_cast<const std::byte*>(rowData.blocks);
-    std::vector<bool> seen(count);
-    if (!order.empty() && order.size() != count) return false;
-    for (std::size_t place = 0; place < count; ++place) {
-        const std::size_t test = order.empty() ? place : order[place];
-        if (test >= count || seen[test]) return false;
-        seen[test] = true;
-        for (std::size_t c = 0; c < columns; ++c) {
-            const std::size_t in = (place / lanes * columns + c) * lanes + place % lanes;
-            if (std::memcmp(blocks + in * bytes, rows + (test * columns + c) * bytes, bytes) != 0)
-                return false;
-        }
+StoredTests::StoredTests(const PreparedTable& prepared) : prepared_(prepared) {
+    const TableKernels& kernels = prepared.kernels();
+    const bool clusters = !kernels.clusters().empty();
+    const auto& order = clusters ? kernels.clusters().order() : kernels.cells().order();
+    const std::size_t count = prepared.testCount();
+    constexpr auto none = std::numeric_limits<std::uint32_t>::max();
+    place_.assign(count, none);
+    if (!order.empty() && order.size() != count) return;
+    for (std::uint32_t place = 0; place < count; ++place) {
+        const std::uint32_t test = order.empty() ? place : order[place];
+        if (test >= count || place_[test] != none) return;
+        place_[test] = place;
     }
+    for (std::uint32_t test = 0; test < count; ++test) {
+        const StoredRow inBlocks(prepared, kernels.blocks(), place_[test], kernels.lanes());
+        if (inBlocks.number() != test) return;
+        if (!clusters && !inBlocks.sameAs((*this)[test])) return;
+    }
+    eachOnce_ = true;
+}
+
+StoredRow StoredTests::operator[](std::size_t test) const {
+    const TableKernels& kernels = prepared_.kernels();
+    if (kernels.clusters().empty()) return {prepared_, kernels.rows(), test};
+    return {prepared_, kernels.blocks(), place_[test], kernels.lanes()};
+}
+
+bool blocksAreRows(const PreparedTable& prepared, const KernelData& blocks, const KernelData& rows,
+                   std::size_t count) {
+    for (std::size_t row = 0; row < count; ++row)
+        if (!StoredRow(prepared, blocks, row, prepared.kernels().lanes())
+                 .sameAs(StoredRow(prepared, rows, row)))
+            return false;
     return true;
 }
 
-bool rowsAreTests(const PreparedTable& prepared, const KernelData& rowData,
+bool rowsAreTests(const PreparedTable& prepared, const KernelData& rows,
                   std::span<const std::uint32_t> tests) {
-    const std::size_t row = directColumns * (prepared.precision() == KernelPrecision::Float ? 4 : 8);
-    const auto* rows = static_cast<const std::byte*>(rowData.blocks);
-    const auto* all = static_cast<const std::byte*>(prepared.kernels().rows().blocks);
-    if (rows + tests.size() * row != rowData.end) return false;
+    const std::size_t number = prepared.precision() == KernelPrecision::Float ? 4 : 8;
+    const auto* begin = static_cast<const std::byte*>(rows.blocks);
+    if (begin + tests.size() * directColumns * number != rows.end) return false;
+    const StoredTests all(prepared);
+    if (!all.eachOnce()) return false;
     for (std::size_t i = 0; i < tests.size(); ++i)
-        if (tests[i] >= prepared.testCount() || std::memcmp(rows + i * row, all + tests[i] * row, row) != 0)
+        if (tests[i] >= prepared.testCount() || !StoredRow(prepared, rows, i).sameAs(all[tests[i]]))
             return false;
     return true;
 }
 
 std::string refuteCells(const Table& table, const PreparedTable& prepared) {
-    const auto& order = prepared.kernels().clusters().empty() ? prepared.kernels().cells().order()
-                                                              : prepared.kernels().clusters().order();
-    if (!blocksAreRows(prepared, prepared.kernels().blocks(), prepared.kernels().rows(), prepared.testCount(),
-                       order))
-        return "its blocks do not hold every test once";
     if (prepared.kernels().cells().empty()) return {};
     return CellChecker(table, prepared).refute();
 }

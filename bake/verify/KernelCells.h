@@ -6,9 +6,9 @@
 
 namespace tss::verify {
 
-/// Whether blocks of lanes hold `count` rows once each, to the bit, in that order (empty: their own).
+/// Whether blocks of lanes hold `count` rows, to the bit, in that order.
 bool blocksAreRows(const PreparedTable& prepared, const KernelData& blocks, const KernelData& rows,
-                   std::size_t count, std::span<const std::uint32_t> order);
+                   std::size_t count);
 
 /// Whether rows of the direct form are those of these tests, to the bit, one after the other.
 bool rowsAreTests(const PreparedTable& prepared, const KernelData& rows,
@@ -17,8 +17,7 @@ bool rowsAreTests(const PreparedTable& prepared, const KernelData& rows,
 /// Proves, with the verifier's own bounds of motion, that the cells of a prepared table leave out no test
 /// that matters: in every cell, tests of a block left out of a yes-or-no query stay apart, those left out
 /// under a margin stay above it, those left out of the smallest gap never have it; and where a cell answers
-/// by itself, some test touches all over it. Also that the blocks hold each test once, as its row has it.
-/// Returns what does not hold; empty: proven.
+/// by itself, some test touches all over it. Returns what does not hold; empty: proven.
 std::string refuteCells(const Table& table, const PreparedTable& prepared);
 
 } // namespace tss::verify

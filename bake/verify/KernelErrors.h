@@ -2,29 +2,66 @@
 #include "bake/table/TableKernels.h"
 #include "bake/verify/ExactPose.h"
 
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
 namespace tss::verify {
 
 /// A row of numbers as a kernel reads it, float or double.
 class StoredRow {
 public:
-    StoredRow(const PreparedTable& prepared, std::size_t row)
-        : StoredRow(prepared, prepared.kernels().rows(), row) {}
-    StoredRow(const PreparedTable& prepared, const KernelData& rows, std::size_t row)
-        : single_(prepared.precision() == KernelPrecision::Float), data_(rows.blocks) {
+    /// rows: one after the other, or in blocks of some lanes.
+    StoredRow(const PreparedTable& prepared, const KernelData& rows, std::size_t row, std::size_t lanes = 1)
+        : single_(prepared.precision() == KernelPrecision::Float), lanes_(lanes) {
         const bool fold = prepared.form() == KernelForm::Fold;
         width_ = fold ? foldColumns(rows.columns) : directColumns;
-        first_ = row * width_;
+        first_ = static_cast<const std::byte*>(rows.blocks) +
+                 (row / lanes * width_ * lanes + row % lanes) * numberSize();
     }
     double operator[](std::size_t column) const {
-        return single_ ? double(static_cast<const float*>(data_)[first_ + column])
-                       : static_cast<const double*>(data_)[first_ + column];
+        return single_ ? read<float>(column) : read<double>(column);
     }
     double fromEnd(std::size_t column) const { return (*this)[width_ - column]; }
+    /// Of the test.
+    std::int64_t number() const {
+        return single_ ? read<std::int32_t>(width_ - 1) : read<std::int64_t>(width_ - 1);
+    }
+    /// To the bit.
+    bool sameAs(const StoredRow& other) const {
+        for (std::size_t c = 0; c < width_; ++c)
+            if (std::memcmp(at(c), other.at(c), numberSize()) != 0) return false;
+        return true;
+    }
 
 private:
+    std::size_t numberSize() const { return single_ ? sizeof(float) : sizeof(double); }
+    const std::byte* at(std::size_t column) const { return first_ + column * lanes_ * numberSize(); }
+    template <class T>
+    T read(std::size_t column) const {
+        T value;
+        std::memcpy(&value, at(column), sizeof(T));
+        return value;
+    }
+
     bool single_;
-    const void* data_;
-    std::size_t width_ = 0, first_ = 0;
+    std::size_t lanes_, width_ = 0;
+    const std::byte* first_ = nullptr;
+};
+
+/// The rows of a table's tests, wherever its kernels have them: in the blocks of its clusters, or one after
+/// the other.
+class StoredTests {
+public:
+    explicit StoredTests(const PreparedTable& prepared);
+    /// The blocks hold each test once, and as its row has it where there are rows.
+    bool eachOnce() const { return eachOnce_; }
+    StoredRow operator[](std::size_t test) const;
+
+private:
+    const PreparedTable& prepared_;
+    std::vector<std::uint32_t> place_; ///< of each test in the blocks
+    bool eachOnce_ = false;
 };
 
 /// What of the error of a squared distance does not depend on the pair's own numbers.

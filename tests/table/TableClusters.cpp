@@ -59,13 +59,30 @@ TEST_CASE("a table in clusters answers as without them, to the bit, and misses n
             const PreparedTable with(table, apart), without(table, whole);
             REQUIRE_FALSE(with.kernels().clusters().empty());
             REQUIRE(without.kernels().clusters().empty());
-            for (int i = 0; i < 150; ++i) {
-                const std::vector<double> q = random_table::values(random, table.motion);
+            constexpr std::uint32_t count = 150;
+            std::vector<double> all;
+            for (std::uint32_t i = 0; i < count; ++i)
+                for (const double v : random_table::values(random, table.motion)) all.push_back(v);
+            InstanceFeatures instances;
+            instances.floats = {1}; // of a question before
+            with.instanceFeatures(all.data(), count, instances);
+            std::vector<std::uint8_t> instanceHits(count);
+            std::vector<float> instanceGaps(count);
+            std::vector<std::int32_t> instanceTests(count);
+            with.hits(instances, instanceHits.data());
+            with.gaps(instances, instanceGaps.data(), instanceTests.data());
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const std::size_t dofs = table.motion.dofCount();
+                const std::vector<double> q(all.begin() + i * dofs, all.begin() + (i + 1) * dofs);
                 const auto [f, g] = answersAlike(with, without, q);
                 const double margin = random_table::between(random, 0, 0.3);
                 const std::vector<std::uint32_t> near = testsWithin(with, f, margin);
                 REQUIRE(near == testsWithin(without, g, margin));
                 listed += long(near.size());
+                const TableGap least = with.gap(f);
+                REQUIRE(bool(instanceHits[i]) == with.hit(f));
+                REQUIRE(instanceGaps[i] == float(least.gap));
+                REQUIRE(instanceTests[i] == least.test);
                 if (exact::gap(table.motion, pairs, q) <= 0) REQUIRE(with.hit(f));
                 (with.hit(f) ? hits : free) += 1;
             }

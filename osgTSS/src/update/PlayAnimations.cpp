@@ -7,6 +7,7 @@
 #include <osg/AnimationPath>
 #include <osg/NodeCallback>
 #include <osg/NodeVisitor>
+#include <osg/observer_ptr>
 #include <osgAnimation/BasicAnimationManager>
 #include <osgTSS/PlayAnimations>
 #include <vector>
