@@ -3,8 +3,10 @@
 #include "Nodes.h"
 
 #include <osg/AnimationPath>
+#include <osg/PositionAttitudeTransform>
 #include <osg/ValueObject>
 #include <osgTSS/Bake>
+#include <osgTSS/SceneFile>
 
 using namespace osgTSS;
 using namespace files;
