@@ -262,5 +262,5 @@ TEST_CASE("what touches at a limit by less than rounding makes of it is found, a
         const auto certified = searchCertified(a, b, motion, colliding());
         CHECK(certified.pairs.size() == 1);
     }
-    CHECK(shown > 20); // calculated in double, these do not touch
+    CHECK(shown > 10); // calculated in double, these do not touch
 }
