@@ -153,6 +153,14 @@ std::vector<int> heldOf(const JointAnswer& answer, const JointWorkspace& workspa
 
 } // namespace
 
+QueryResult nearest(const JointPlan& plan, std::size_t group, std::size_t table, const std::vector<double>& q,
+                    std::vector<JointWorkspace>& workspaces) {
+    const JointPlan::Group& of = plan.groups[group];
+    DofValues values;
+    for (std::size_t k = 0; k < of.slots.size(); ++k) values[k] = q[of.slots[k]];
+    return of.responder.nearest(table, values.data(), workspaces[group]);
+}
+
 std::vector<GroupAnswer> resolve(const JointPlan& plan, const std::vector<double>& last,
                                  std::vector<double>& q, std::vector<JointWorkspace>& workspaces) {
     constexpr int mostRounds = 16;

@@ -40,6 +40,10 @@ std::shared_ptr<const JointPlan> makeJointPlan(const SceneModel& scene,
 /// What one instance needs beside its values.
 std::vector<JointWorkspace> workspaces(const JointPlan& plan);
 
+/// The nearest test of one of a group's tables at q, all values (JointResponder::nearest).
+QueryResult nearest(const JointPlan& plan, std::size_t group, std::size_t table, const std::vector<double>& q,
+                    std::vector<JointWorkspace>& workspaces);
+
 /// Takes all values from `last` towards `q` so that no pair collides, and leaves in q what was reached.
 /// Several groups are asked in turn until none changes anything any more; where they do not agree after some
 /// rounds everything stays at `last`, and the answers tell what stopped them. A value of q that is no finite

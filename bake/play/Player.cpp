@@ -50,6 +50,8 @@ private:
     const SceneModel& scene_;
     std::shared_ptr<const JointPlan> plan_;
     std::vector<JointWorkspace> workspaces_;
+    std::vector<std::size_t> first_;  ///< value of each joint, among all joints' values
+    std::vector<int> unserved_;       ///< pairs with a table that the plan leaves out
     std::vector<std::size_t> places_; ///< of each value of the plan, among all joints' values
     std::vector<double> values_;
     std::vector<Skin> skins_;
@@ -62,9 +64,15 @@ Player::State::State(const SceneModel& scene, std::vector<std::string>& warnings
     for (const Pair& pair : scene.pairs) paths.push_back(pair.path);
     plan_ = makeJointPlan(scene, paths, &warnings);
     workspaces_ = workspaces(*plan_);
-    const std::vector<std::size_t> first = firstValues(scene);
+    first_ = firstValues(scene);
     for (int joint : plan_->joints)
-        for (std::size_t k = 0; k < scene.joints[joint].dofs.size(); ++k) places_.push_back(first[joint] + k);
+        for (std::size_t k = 0; k < scene.joints[joint].dofs.size(); ++k)
+            places_.push_back(first_[joint] + k);
+    std::vector<char> served(scene.pairs.size(), 0);
+    for (const JointPlan::Group& group : plan_->groups)
+        for (const int pair : group.pairs) served[pair] = 1;
+    for (int k = 0; k < static_cast<int>(scene.pairs.size()); ++k)
+        if (scene.pairs[k].table && !served[k]) unserved_.push_back(k);
     for (const Joint& joint : scene.joints)
         for (const Dof& dof : joint.dofs) values_.push_back(dof.rest);
 
@@ -140,11 +148,13 @@ Player::Step Player::State::step(const std::vector<double>& asked, double timeCo
 
     result.values = values_;
     result.gap = std::numeric_limits<double>::infinity();
-    const std::vector<std::size_t> first = firstValues(scene_);
-    for (const Pair& pair : scene_.pairs) {
-        if (!pair.table) continue;
+    for (std::size_t g = 0; g < plan_->groups.size(); ++g)
+        for (std::size_t k = 0; k < plan_->groups[g].pairs.size(); ++k)
+            result.gap = std::min(result.gap, nearest(*plan_, g, k, wanted, workspaces_).gap);
+    for (const int unserved : unserved_) {
+        const Pair& pair = scene_.pairs[unserved];
         std::vector<double> q;
-        for (const JointDof& dof : pairDofs(scene_, pair)) q.push_back(values_[first[dof.joint] + dof.dof]);
+        for (const JointDof& dof : pairDofs(scene_, pair)) q.push_back(values_[first_[dof.joint] + dof.dof]);
         result.gap = std::min(result.gap, query(*pair.table, pose(pair.table->motion, q)).gap);
     }
 

@@ -225,17 +225,23 @@ void takeIfNear(const JointModel& model, std::uint32_t p, const Pose& pose, cons
     near.threshold = std::min(contactOffset, near.gap);
 }
 
+/// What a group's table is asked at: its cells end at its limits.
+DofValues valuesOf(const JointModel& model, const JointModel::Group& group, const DofValues& q) {
+    DofValues own;
+    for (std::size_t k = 0; k < group.dofs.size(); ++k) {
+        own[k] = q[group.dofs[k]];
+        if (model.round[group.dofs[k]])
+            own[k] = nearestTurn(own[k], group.motion.dofs[k].lower + std::numbers::pi);
+    }
+    return own;
+}
+
 /// The tests of a group that a vector query finds under the margin that its fastest pair needs.
 std::uint32_t findWithin(const JointModel& model, const JointModel::Group& group, const DofValues& q,
                          const DofValues& travel, ResponseRoom& ws) {
-    DofValues own;
+    const DofValues own = valuesOf(model, group, q);
     double margin = 2 * group.contactOffset;
-    for (std::size_t k = 0; k < group.dofs.size(); ++k) {
-        own[k] = q[group.dofs[k]];
-        if (model.round[group.dofs[k]]) // the table's cells end at its limits
-            own[k] = nearestTurn(own[k], group.motion.dofs[k].lower + std::numbers::pi);
-        margin += model.weights[group.dofs[k]] * travel[group.dofs[k]];
-    }
+    for (const int dof : group.dofs) margin += model.weights[dof] * travel[dof];
     return group.prepared->testsWithin(own.data(), margin, ws.found.data());
 }
 
@@ -264,6 +270,23 @@ void cullMore(const JointModel& model, const DofValues& q, const DofValues& trav
                 takeIfNear(model, p, ws.groups[g].frame.pose, travel, ws);
         }
     }
+}
+
+QueryResult nearestTest(const JointModel& model, std::size_t g, const DofValues& q, ResponseRoom& ws) {
+    const JointModel::Group& group = model.groups[g];
+    DofValues at;
+    for (std::size_t k = 0; k < group.dofs.size(); ++k) at[k] = q[group.dofs[k]];
+    const Pose place = pose(group.motion, {at.data(), group.dofs.size()});
+    const DofValues own = valuesOf(model, group, q);
+    bool asked = group.prepared != nullptr;
+    for (std::size_t k = 0; k < group.dofs.size(); ++k)
+        asked = asked && own[k] >= group.motion.dofs[k].lower && own[k] <= group.motion.dofs[k].upper;
+    if (!asked) return query(*group.tests, place);
+    // Of the tests that may be the nearest within what the kernels round, the exact one.
+    const double nearest = std::max(0.0, group.prepared->gap(own.data()).gap);
+    const std::uint32_t count =
+        group.prepared->testsWithin(own.data(), group.prepared->kernels().reachOf(nearest), ws.found.data());
+    return query(*group.tests, place, {ws.found.data(), count});
 }
 
 void narrow(const JointModel& model, double distance, ResponseRoom& ws) {

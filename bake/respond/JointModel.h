@@ -5,6 +5,7 @@
 #include "bake/respond/KnownNear.h"
 #include "bake/respond/PairTree.h"
 #include "bake/table/PreparedTable.h"
+#include "bake/table/Query.h"
 #include "bake/table/TablePairs.h"
 
 #include <algorithm>
@@ -192,6 +193,10 @@ double shareOfRange(const JointModel& model, const DofValues& step);
 
 /// Smallest level of all pairs of the model at q; infinity where there are none.
 double smallestLevel(const JointModel& model, const DofValues& q, ResponseRoom& ws);
+
+/// The nearest test of one table at q, as its plain query finds it: of few tests where the table is prepared
+/// and q within its limits.
+QueryResult nearestTest(const JointModel& model, std::size_t group, const DofValues& q, ResponseRoom& ws);
 
 /// Adds limits and planes as rows about the goal, y = w (q + way - goal), each DOF staying within `trust` of
 /// its range from q.

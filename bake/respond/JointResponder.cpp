@@ -105,13 +105,6 @@ bool walk(const JointModel& model, const DofValues& goal, Legs legs, DofValues& 
     return true;
 }
 
-/// The gap exactly as the plain query computes it.
-double queryGap(const TableTests& tests, std::uint32_t test, const Pose& inverse) {
-    const TablePair pair = tests[test];
-    const Vec3 centre = inverse * pair.a;
-    return (pair.b - centre).norm() - pair.radiusA - pair.radiusB - tests.restGap(test);
-}
-
 } // namespace
 
 /// What a responder is made of: the tables as the response wants them.
@@ -325,6 +318,12 @@ JointWorkspace JointResponder::workspace() const {
 JointAnswer JointResponder::respond(const double* last, const double* asked,
                                     JointWorkspace& workspace) const {
     return prepared_->respond(last, asked, *workspace.room_);
+}
+
+QueryResult JointResponder::nearest(std::size_t table, const double* q, JointWorkspace& workspace) const {
+    DofValues values{};
+    std::copy_n(q, dofCount(), values.begin());
+    return nearestTest(prepared_->model(), table, values, *workspace.room_);
 }
 
 int JointResponder::dofCount() const {

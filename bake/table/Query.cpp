@@ -18,7 +18,42 @@ void contact(const Sphere& a, const Vec3& centreB, double radiusB, QueryResult& 
     result.point = a.centre + result.normal * (0.5 * (a.radius + distance - radiusB));
 }
 
+/// The nearest of `count` tests, the first of equally near ones. numberOf: of each.
+template <class NumberOf>
+QueryResult nearestOf(const TableTests& tests, const Pose& pose, std::size_t count,
+                      const NumberOf& numberOf) {
+    QueryResult result;
+    result.gap = std::numeric_limits<double>::infinity();
+    const Pose inverse = pose.inverse(Eigen::Isometry);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto test = static_cast<std::uint32_t>(numberOf(i));
+        const double gap = queryGap(tests, test, inverse);
+        if (gap > result.gap || (gap == result.gap && static_cast<int>(test) > result.test)) continue;
+        result.gap = gap;
+        result.test = static_cast<int>(test);
+    }
+    if (result.test >= 0) {
+        const TablePair pair = tests[static_cast<std::size_t>(result.test)];
+        contact({pair.a, pair.radiusA}, pose * pair.b, pair.radiusB, result);
+    }
+    return result;
+}
+
 } // namespace
+
+double queryGap(const TableTests& tests, std::uint32_t test, const Pose& inverse) {
+    const TablePair pair = tests[test];
+    const Vec3 centre = inverse * pair.a;
+    return (pair.b - centre).norm() - pair.radiusA - pair.radiusB - tests.restGap(test);
+}
+
+QueryResult query(const TableTests& tests, const Pose& pose) {
+    return nearestOf(tests, pose, tests.size(), [](std::size_t i) { return i; });
+}
+
+QueryResult query(const TableTests& tests, const Pose& pose, std::span<const std::uint32_t> some) {
+    return nearestOf(tests, pose, some.size(), [&](std::size_t i) { return some[i]; });
+}
 
 QueryResult query(const Table& table, const Pose& pose) {
     QueryResult result;

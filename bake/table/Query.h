@@ -1,5 +1,6 @@
 #pragma once
 #include "bake/table/Table.h"
+#include "bake/table/TablePairs.h"
 
 namespace tss {
 
@@ -15,6 +16,13 @@ struct QueryResult {
 /// InputError for values that are not finite or not one a DOF.
 QueryResult query(const Table& table, const Pose& pose);
 QueryResult query(const Table& table, std::span<const double> q);
+
+/// The gap of one test, to the bit as the plain query has it. inverse: of the pose.
+double queryGap(const TableTests& tests, std::uint32_t test, const Pose& inverse);
+
+/// The plain query of tests, of all or of some alone.
+QueryResult query(const TableTests& tests, const Pose& pose);
+QueryResult query(const TableTests& tests, const Pose& pose, std::span<const std::uint32_t> some);
 
 /// The same over every pair of two whole sphere sets, the reference that tables are judged against.
 QueryResult queryAllPairs(const SphereSet& a, const SphereSet& b, const Pose& pose);

@@ -6,7 +6,8 @@
 
 namespace osgTSS {
 
-std::vector<tss::GroupAnswer> SharedPlan::resolve(const std::vector<double>& last, std::vector<double>& q) {
+template <class Use>
+auto SharedPlan::inRoom(const Use& use) {
     std::vector<tss::JointWorkspace> room;
     {
         const std::lock_guard lock(_mutex);
@@ -16,10 +17,18 @@ std::vector<tss::GroupAnswer> SharedPlan::resolve(const std::vector<double>& las
         }
     }
     if (room.empty()) room = tss::workspaces(*_plan);
-    std::vector<tss::GroupAnswer> answers = tss::resolve(*_plan, last, q, room);
+    auto result = use(room);
     const std::lock_guard lock(_mutex);
     _rooms.push_back(std::move(room));
-    return answers;
+    return result;
+}
+
+std::vector<tss::GroupAnswer> SharedPlan::resolve(const std::vector<double>& last, std::vector<double>& q) {
+    return inRoom([&](auto& room) { return tss::resolve(*_plan, last, q, room); });
+}
+
+tss::QueryResult SharedPlan::nearest(std::size_t group, std::size_t table, const std::vector<double>& q) {
+    return inRoom([&](auto& room) { return tss::nearest(*_plan, group, table, q, room); });
 }
 
 std::shared_ptr<SharedPlan> Scene::Cache::plan(const std::vector<std::string>& pairPaths) {

@@ -25,7 +25,14 @@ public:
     /// tss::resolve(). Safe from any thread.
     std::vector<tss::GroupAnswer> resolve(const std::vector<double>& last, std::vector<double>& q);
 
+    /// tss::nearest(). Safe from any thread.
+    tss::QueryResult nearest(std::size_t group, std::size_t table, const std::vector<double>& q);
+
 private:
+    /// Calls use(room), which nobody else is in.
+    template <class Use>
+    auto inRoom(const Use& use);
+
     std::shared_ptr<const tss::JointPlan> _plan;
     std::mutex _mutex;
     std::vector<std::vector<tss::JointWorkspace>> _rooms; ///< that nobody is in

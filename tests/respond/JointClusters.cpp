@@ -288,3 +288,42 @@ TEST_CASE("a slide over a wide range lists no more of a table in clusters than i
     CHECK(query(table, std::vector<double>{q[0], q[1], q[2], q[3]}).gap > 0);
     CHECK(ws.near.size() < 4000); // it grows, and keeps what it needed at most
 }
+
+TEST_CASE("the nearest test of a table is the plain query's, to the bit") {
+    int touching = 0, free = 0, clustered = 0;
+    const auto check = [&](const Table& table, const std::vector<double>& q, const JointResponder& responder,
+                           JointWorkspace& room) {
+        const QueryResult plain = query(table, q), found = responder.nearest(0, q.data(), room);
+        CAPTURE(q, plain.gap, found.gap);
+        REQUIRE(found.test == plain.test);
+        REQUIRE(found.gap == plain.gap);
+        REQUIRE(found.point == plain.point);
+        REQUIRE(found.normal == plain.normal);
+        (plain.hit() ? touching : free) += 1;
+    };
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        CAPTURE(seed);
+        Random random(seed);
+        Table table = random_table::anyTable(random, 3);
+        if (seed % 3 == 0) {
+            const Motion motion = random_table::motion(random, 4 + int(seed % 4), 1, false);
+            table = random_table::table(random, motion, 60, 60, 1);
+            ++clustered;
+        }
+        if (seed % 2)
+            for (SphereSet* set : {&table.a, &table.b})
+                for (Sphere& s : *set) s.radius *= 0.2;
+        const JointResponder once(table, JointResponder::Preparation::Once), fully(table);
+        JointWorkspace room = fully.workspace(), onceRoom = once.workspace();
+        for (int i = 0; i < 40; ++i) {
+            std::vector<double> q = random_table::values(random, table.motion);
+            if (i % 8 == 0) q[0] = table.motion.dofs[0].upper;
+            if (i % 8 == 1) q[0] = table.motion.dofs[0].upper + 0.3; // beyond
+            check(table, q, fully, room);
+            check(table, q, once, onceRoom);
+        }
+    }
+    CHECK(clustered > 10);
+    CHECK(touching > 500);
+    CHECK(free > 500);
+}

@@ -1,28 +1,11 @@
 #include "ContactReport.h"
 
-#include "bake/model/Kinematics.h"
-#include "bake/table/Query.h"
-
 #include <osgTSS/Convert>
 
 #include <algorithm>
 #include <map>
 
 namespace osgTSS {
-
-namespace {
-
-/// The values of a pair's own joints among all of a plan's, in the order of its table.
-std::vector<double> valuesOf(const tss::SceneModel& model, const tss::JointPlan& plan,
-                             const std::vector<double>& q, const tss::Pair& pair) {
-    std::vector<double> values;
-    for (const tss::JointDof& dof : tss::pairDofs(model, pair))
-        for (std::size_t j = 0; j < plan.joints.size(); ++j)
-            if (plan.joints[j] == dof.joint) values.push_back(q[plan.firstValue[j] + dof.dof]);
-    return values;
-}
-
-} // namespace
 
 bool ContactReport::watches(const std::vector<Watched>& watched, const tss::JointPlan::Group& group) {
     return std::ranges::equal(watched, group.pairs, {}, &Watched::pair);
@@ -73,10 +56,8 @@ void ContactReport::watch(const Scene& scene, const tss::JointPlan& plan, osg::N
     }
 }
 
-void ContactReport::locate(const tss::SceneModel& model, const tss::JointPlan& plan,
-                           const std::vector<double>& q, Watched& watched) {
+void ContactReport::locate(const tss::SceneModel& model, const tss::QueryResult& found, Watched& watched) {
     const tss::Pair& pair = model.pairs[watched.pair];
-    const tss::QueryResult found = tss::query(*pair.table, valuesOf(model, plan, q, pair));
     Contact& contact = watched.last;
     contact.pairPath = pair.path;
     contact.bodyA = model.bodies[pair.bodyA].path;
@@ -96,12 +77,11 @@ void ContactReport::locate(const tss::SceneModel& model, const tss::JointPlan& p
     contact.normal.normalize();
 }
 
-ToldContacts ContactReport::report(const Scene& scene, const tss::JointPlan& plan,
-                                   const std::vector<double>& q, const std::vector<tss::GroupAnswer>& answers,
-                                   osg::NodeVisitor& visitor) {
+ToldContacts ContactReport::report(const Scene& scene, SharedPlan& plan, const std::vector<double>& q,
+                                   const std::vector<tss::GroupAnswer>& answers, osg::NodeVisitor& visitor) {
     ToldContacts told;
     const tss::SceneModel& model = scene.getModel();
-    if (_unknown || !std::ranges::equal(_groups, plan.groups, watches)) watch(scene, plan, visitor, told);
+    if (_unknown || !std::ranges::equal(_groups, plan->groups, watches)) watch(scene, *plan, visitor, told);
     for (std::size_t g = 0; g < answers.size(); ++g) {
         const std::vector<int>& held = answers[g].held;
         for (std::size_t k = 0; k < _groups[g].size(); ++k) {
@@ -109,7 +89,7 @@ ToldContacts ContactReport::report(const Scene& scene, const tss::JointPlan& pla
             const bool before = watched.touching;
             watched.touching = std::ranges::find(held, static_cast<int>(k)) != held.end();
             if (!watched.touching && !before) continue;
-            if (watched.touching) locate(model, plan, q, watched);
+            if (watched.touching) locate(model, plan.nearest(g, k, q), watched);
             watched.last.event = !watched.touching ? Contact::END : before ? Contact::STAY : Contact::BEGIN;
             watched.last.status = answers[g].status;
             told.add(watched.last);

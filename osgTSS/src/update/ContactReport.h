@@ -1,7 +1,6 @@
 #pragma once
+#include "osgTSS/src/SceneCache.h"
 #include "osgTSS/src/draw/BodyNodes.h"
-
-#include "bake/play/JointPlan.h"
 
 #include <osg/observer_ptr>
 #include <osgTSS/ContactCallback>
@@ -32,7 +31,7 @@ class ContactReport {
 public:
     /// After joints were resolved to q, with these answers, one per group of the plan. What held a joint
     /// touches.
-    ToldContacts report(const Scene& scene, const tss::JointPlan& plan, const std::vector<double>& q,
+    ToldContacts report(const Scene& scene, SharedPlan& plan, const std::vector<double>& q,
                         const std::vector<tss::GroupAnswer>& answers, osg::NodeVisitor& visitor);
 
     /// The graph has changed: the bodies' nodes are looked for again.
@@ -54,8 +53,7 @@ private:
     static bool watches(const std::vector<Watched>& watched, const tss::JointPlan::Group& group);
     /// Goes on with the pairs of a plan; what touched and is no pair of it any more has ended.
     void watch(const Scene& scene, const tss::JointPlan& plan, osg::NodeVisitor& visitor, ToldContacts& told);
-    static void locate(const tss::SceneModel& model, const tss::JointPlan& plan, const std::vector<double>& q,
-                       Watched& watched);
+    static void locate(const tss::SceneModel& model, const tss::QueryResult& found, Watched& watched);
 
     std::vector<std::vector<Watched>> _groups; ///< as the plan's
     bool _unknown = false;                     ///< where the bodies' nodes are by now

@@ -326,7 +326,7 @@ void JointCallback::resolve(Binding& binding, Scene& scene, osg::NodeVisitor& vi
         binding.resolve();
         binding.show();
         if (callback)
-            told = binding.contacts.report(scene, **binding.plan, binding.q, binding.found, visitor);
+            told = binding.contacts.report(scene, *binding.plan, binding.q, binding.found, visitor);
     }
     if (callback) told.tell(*callback, visitor);
 }
