@@ -84,4 +84,14 @@ std::vector<std::size_t> conflictingPlanes(const Motion& motion) {
     return planes;
 }
 
+LimitPlane inReach(LimitPlane plane) {
+    double largest = 0;
+    for (const double c : plane.coefficients) largest = std::max(largest, std::abs(c));
+    if (!(largest > 0)) return plane;
+    const int power = -std::ilogb(largest);
+    for (double& c : plane.coefficients) c = std::ldexp(c, power);
+    plane.bound = std::ldexp(plane.bound, power);
+    return plane;
+}
+
 } // namespace tss

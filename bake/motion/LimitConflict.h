@@ -9,4 +9,7 @@ namespace tss {
 /// at most maxDofs DOFs that are finite.
 std::vector<std::size_t> conflictingPlanes(const Motion& motion);
 
+/// The same plane with a largest coefficient of 1 to 2, whose squares are numbers: a power of two times it.
+LimitPlane inReach(LimitPlane plane);
+
 } // namespace tss

@@ -14,6 +14,17 @@ double excess(const LimitPlane& plane, std::span<const double> q) {
     return std::inner_product(q.begin(), q.end(), plane.coefficients.begin(), -plane.bound);
 }
 
+/// Straight towards a pose within all limits and planes, as far as the planes ask.
+void pullTowards(const Motion& motion, const std::vector<double>& inside, std::vector<double>& q) {
+    double share = 0;
+    for (const LimitPlane& plane : motion.planes) {
+        const double over = excess(plane, q), within = std::min(0.0, excess(plane, inside));
+        if (over > 0) share = std::max(share, over / (over - within));
+    }
+    if (!(share <= 1)) share = 1;
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] += share * (inside[k] - q[k]);
+}
+
 /// Radians, some 15,900 turns: as far as the sines of tables are right (bake/table/SinVersin.h).
 constexpr double farthestTurn = 1e5;
 
@@ -103,8 +114,11 @@ void checkNotEmpty(const Motion& motion) {
 bool withinLimits(const Motion& motion, std::span<const double> q, double slack) {
     for (std::size_t k = 0; k < motion.dofs.size(); ++k)
         if (!(q[k] >= motion.dofs[k].lower - slack && q[k] <= motion.dofs[k].upper + slack)) return false;
-    return std::all_of(motion.planes.begin(), motion.planes.end(),
-                       [&](const LimitPlane& plane) { return excess(plane, q) <= slack; });
+    return std::all_of(motion.planes.begin(), motion.planes.end(), [&](const LimitPlane& plane) {
+        double most = 0;
+        for (const double c : plane.coefficients) most = std::max(most, std::abs(c));
+        return excess(plane, q) <= slack * most;
+    });
 }
 
 bool beyondLimits(const Motion& motion, std::span<const double> q) {
@@ -140,9 +154,12 @@ std::vector<double> clampToLimits(const Motion& motion, std::span<const double> 
     clampBox();
     double range = 0;
     for (const Dof& dof : motion.dofs) range = std::max(range, dof.upper - dof.lower);
+    std::vector<LimitPlane> planes;
+    for (const LimitPlane& plane : motion.planes) planes.push_back(inReach(plane));
     // Planes at a sharp angle draw the projections out; a round costs some nanoseconds.
-    for (int round = 0; round < 10000 && !withinLimits(motion, q, 1e-13 * range); ++round) {
-        for (const LimitPlane& plane : motion.planes) {
+    for (int round = 0; round < 10000; ++round) {
+        if (withinLimits(motion, q, 1e-13 * range)) return q;
+        for (const LimitPlane& plane : planes) {
             const double over = excess(plane, q);
             if (over <= 0) continue;
             double squared = 0;
@@ -151,6 +168,10 @@ std::vector<double> clampToLimits(const Motion& motion, std::span<const double> 
         }
         clampBox();
     }
+    std::vector<double> rest = restValues(motion);
+    for (std::size_t k = 0; k < q.size(); ++k)
+        rest[k] = std::clamp(rest[k], motion.dofs[k].lower, motion.dofs[k].upper);
+    pullTowards(motion, rest, q);
     return q;
 }
 

@@ -42,22 +42,39 @@ void addLimits(const JointModel& model, const DofValues& q, double trust, const 
     }
 }
 
+namespace {
+
+/// By how much q is beyond a plane, in the plane's own unit.
+double excess(const JointModel& model, const LimitPlane& plane, const DofValues& q) {
+    double sum = -plane.bound;
+    for (int l = 0; l < model.dofCount; ++l) sum += plane.coefficients[l] * q[l];
+    return sum;
+}
+
+} // namespace
+
 DofValues clampToLimits(const JointModel& model, const double* asked, ResponseRoom& ws) {
     const int n = model.dofCount;
     DofValues q{};
     for (int l = 0; l < n; ++l) q[l] = std::clamp(asked[l], model.lower[l], model.upper[l]);
-    const auto within = [&](const LimitPlane& plane) {
-        double sum = -plane.bound;
-        for (int l = 0; l < n; ++l) sum += plane.coefficients[l] * q[l];
-        return sum <= 0;
-    };
+    const auto within = [&](const LimitPlane& plane) { return excess(model, plane, q) <= 0; };
     if (std::all_of(model.planes.begin(), model.planes.end(), within)) return q;
     ws.rows.clear(n);
     addLimits(model, q, 1, q, ws.rows);
     DofValues y;
-    if (!nearestToOrigin(ws.rows, 1e-12 * model.scale, y)) return q;
-    for (int l = 0; l < n; ++l)
-        q[l] = std::clamp(q[l] + y[l] / model.weights[l], model.lower[l], model.upper[l]);
+    if (nearestToOrigin(ws.rows, 1e-12 * model.scale, y))
+        for (int l = 0; l < n; ++l)
+            q[l] = std::clamp(q[l] + y[l] / model.weights[l], model.lower[l], model.upper[l]);
+    // Ranges may differ by so much that this finds nothing, or what is a hair for one of them only: straight
+    // towards the rest then.
+    double share = 0;
+    for (const LimitPlane& plane : model.planes) {
+        double size = 0;
+        for (int l = 0; l < n; ++l) size += std::abs(plane.coefficients[l]) * model.range[l];
+        if (const double over = excess(model, plane, q); over > 1e-9 * size)
+            share = std::max(share, over / (over - std::min(0.0, excess(model, plane, model.rest))));
+    }
+    for (int l = 0; l < n; ++l) q[l] += std::min(share, 1.0) * (model.rest[l] - q[l]);
     return q;
 }
 

@@ -1,6 +1,7 @@
 #include "bake/respond/JointModel.h"
 
 #include "bake/base/Error.h"
+#include "bake/motion/LimitConflict.h"
 #include "bake/motion/WholeTurn.h"
 #include "bake/respond/JointClusters.h"
 #include "bake/table/TableKernels.h"
@@ -78,12 +79,13 @@ void addTable(const TableOnJoint& entry, int index, JointModel& model) {
         group.paths = group.paths || dof.kind == DofKind::Path;
         model.lower[entry.dofs[k]] = std::max(model.lower[entry.dofs[k]], dof.lower);
         model.upper[entry.dofs[k]] = std::min(model.upper[entry.dofs[k]], dof.upper);
+        model.rest[entry.dofs[k]] = dof.rest;
     }
     for (const LimitPlane& plane : motion.planes) {
         LimitPlane whole{std::vector<double>(model.dofCount, 0.0), plane.bound};
         for (std::size_t k = 0; k < motion.dofs.size(); ++k)
             whole.coefficients[entry.dofs[k]] = plane.coefficients[k];
-        model.planes.push_back(whole);
+        model.planes.push_back(inReach(whole));
     }
     group.firstPair = static_cast<std::uint32_t>(model.pairs.size());
     model.groups.push_back(group);
@@ -186,6 +188,8 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
             throw InputError("joint: expected each of its values to be a DOF of some table");
         else if (!(model.lower[l] <= model.upper[l]))
             throw InputError("joint: expected limits of its tables that overlap");
+    for (int l = 0; l < dofCount; ++l)
+        model.rest[l] = std::clamp(model.rest[l], model.lower[l], model.upper[l]);
     findTurns(model);
     if (model.clustered) findChains(model);
     // A DOF that moves no sphere still needs a weight: the metric must be one.

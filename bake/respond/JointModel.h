@@ -52,6 +52,7 @@ struct JointModel {
     int dofCount = 0;
     DofValues lower{}, upper{};        ///< of a DOF of a whole turn a turn beyond the tables' on both sides
     DofValues first{}, range{};        ///< lower limit and extent of the tables'
+    DofValues rest{};                  ///< within the limits, and within all planes where the tables' rest is
     std::array<bool, maxDofs> round{}; ///< a whole turn, which goes on where its limits meet
     DofValues weights{};   ///< largest lever of each DOF, scene units a unit of the DOF: z = w q (METHOD 5.4)
     DofValues perWeight{}; ///< 1 / weights

@@ -116,7 +116,7 @@ public:
     const DofValues* freePose() const { return hasFreePose_ ? &freePose_ : nullptr; }
 
 private:
-    void findFreePose(const DofValues& rest);
+    void findFreePose();
     JointAnswer within(const DofValues& start, const DofValues& goal, ResponseRoom& ws) const;
     JointAnswer fromFree(const DofValues& start, const DofValues& goal, Legs legs, ResponseRoom& ws) const;
     JointAnswer fromCollision(const DofValues& start, const DofValues& goal, double depth,
@@ -133,18 +133,13 @@ JointResponder::Prepared::Prepared(std::span<const TableOnJoint> tables, int dof
                                    Preparation preparation)
     : model_(makeJointModel(tables, dofCount, preparation == Preparation::Fully)) {
     knownDepth_ = std::numeric_limits<double>::infinity();
-    DofValues rest{};
-    for (const TableOnJoint& entry : tables) {
-        knownDepth_ = std::min(knownDepth_, entry.table->gapDepth);
-        for (std::size_t k = 0; k < entry.dofs.size(); ++k)
-            rest[entry.dofs[k]] = entry.table->motion.dofs[k].rest;
-    }
-    if (preparation == Preparation::Fully) findFreePose(rest);
+    for (const TableOnJoint& entry : tables) knownDepth_ = std::min(knownDepth_, entry.table->gapDepth);
+    if (preparation == Preparation::Fully) findFreePose();
 }
 
-void JointResponder::Prepared::findFreePose(const DofValues& rest) {
+void JointResponder::Prepared::findFreePose() {
     ResponseRoom ws = roomFor(model_);
-    freePose_ = clampToLimits(model_, rest.data(), ws);
+    freePose_ = clampToLimits(model_, model_.rest.data(), ws);
     double best = smallestLevel(model_, freePose_, ws);
     // A grid of some thousand poses at most, inner points and borders alike.
     const int n = model_.dofCount;

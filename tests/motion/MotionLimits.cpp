@@ -180,3 +180,26 @@ TEST_CASE("turns of more than once round go once round about where they rest, an
     motion.planes = {{{1, 1, 0, 0, 0}, 3}}; // may tell a turn from the next
     CHECK(onceRound(motion).dofs[0].upper == motion.dofs[0].upper);
 }
+
+TEST_CASE("planes of any size pull a value back inside") {
+    for (const double size : {1e-300, 1e-200, 1e-20, 1., 1e20, 1e200}) {
+        CAPTURE(size);
+        Motion m = twoSlides();
+        m.planes = {{{size, size}, size}, {{0, size}, 0.5 * size}};
+        const std::vector<double> q = clampToLimits(m, std::vector<double>{2, 2});
+        CHECK(std::isfinite(q[0]));
+        CHECK(q[0] + q[1] <= 1 + 1e-12);
+        CHECK(q[0] + q[1] > 0.999);
+        CHECK(q[1] <= 0.5 + 1e-12);
+    }
+}
+
+TEST_CASE("planes at a very sharp angle pull a value back inside") {
+    Motion m = twoSlides();
+    for (const double slope : {1e-3, 1e-6, 1e-9}) {
+        CAPTURE(slope);
+        m.planes = {{{slope, 1}, 0}, {{slope, -1}, 0}}; // a wedge that ends at the rest
+        const std::vector<double> q = clampToLimits(m, std::vector<double>{2, 0.5});
+        CHECK(withinLimits(m, q, 1e-12));
+    }
+}
