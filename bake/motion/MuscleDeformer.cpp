@@ -16,6 +16,8 @@ namespace {
 
 /// Shortest local length, as a share of that at rest, that a muscle may be given.
 constexpr double leastStretch = 0.05;
+/// How far from its surface a muscle's line may lead, in sizes of that: beyond, it is a mistake.
+constexpr double farthestFibre = 100;
 
 /// The muscle again when its surface is one that a volume and queries can be had of.
 Muscle checked(Muscle muscle) {
@@ -40,6 +42,11 @@ Muscle checked(Muscle muscle) {
             throw InputError("the surface of a muscle must be closed: its volume is to be kept");
     for (const Vec3& v : mesh.vertices)
         if (!v.allFinite()) throw InputError("the surface of a muscle has a vertex that is not finite");
+    const Eigen::AlignedBox3d box = bounds(mesh);
+    for (const Vec3& p : muscle.fibre)
+        if (!rigid && p.allFinite() && box.exteriorDistance(p) > farthestFibre * box.diagonal().norm())
+            throw InputError("the fibre of a muscle has a point farther from its surface than " +
+                             std::to_string(int(farthestFibre)) + " times the size of that");
     if (rigid && enclosedVolume(mesh.vertices, mesh.triangles) < 0)
         for (Tri& t : muscle.surface.triangles) std::swap(t[1], t[2]); // inside out
     return muscle;

@@ -176,6 +176,12 @@ TEST_CASE("muscles that cannot be served are refused") {
     SECTION("a fibre of no length") {
         muscle.fibre = {Vec3::Zero(), Vec3::Ones(), Vec3::Zero()};
     }
+    SECTION("a fibre with a point far away") {
+        muscle.fibre[muscle.fibre.size() / 2].y() = 1e9;
+    }
+    SECTION("an insertion far away") {
+        muscle.fibre.back().x() = -3e38;
+    }
     SECTION("shortened to nothing") {
         muscle.maxContraction = 0.9;
     }
