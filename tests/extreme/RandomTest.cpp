@@ -6,26 +6,34 @@ using namespace extreme;
 
 namespace {
 
-void checkSeeds(std::uint64_t first, std::uint64_t count) {
-    std::uint64_t accepted = 0;
+void checkSeeds(std::uint64_t first, std::uint64_t count, Bodies bodies) {
+    std::uint64_t accepted = 0, tables = 0;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
-        const RandomRun run = runRandom(seed, 5);
-        INFO("tss-extreme random 1 " << seed << " took " << run.seconds << " s");
+        const RandomRun run = runRandom(seed, 5, bodies);
+        INFO("tss-extreme random 1 " << seed << (bodies == Bodies::Meet ? " 5 meet" : "") << " took "
+                                     << run.seconds << " s");
         for (const std::string& trouble : run.troubles) FAIL_CHECK("seed " << seed << ": " << trouble);
         accepted += run.refusal.empty(); // on a slow machine the budget ends some of them
+        tables += run.table;
     }
     CHECK(accepted >= count / 2);
+    if (bodies == Bodies::Meet) CHECK(tables >= count / 4);
 }
 
 } // namespace
 
 TEST_CASE("random scenes with extreme parameters are served with proven bounds or refused") {
-    checkSeeds(1, 15);
+    checkSeeds(1, 8, Bodies::Anywhere);
+}
+
+TEST_CASE("random scenes whose bodies meet get tables with proven bounds or are refused") {
+    checkSeeds(1, 12, Bodies::Meet);
 }
 
 TEST_CASE("a thousand random scenes with extreme parameters are served with proven bounds or refused",
           "[.long]") {
-    checkSeeds(1000, 1000);
+    checkSeeds(1000, 500, Bodies::Anywhere);
+    checkSeeds(1000, 500, Bodies::Meet);
 }
 
 TEST_CASE("random scenes that once failed do not fail again, and end when they are asked to") {

@@ -113,7 +113,20 @@ tss::BakeSettings randomSettings(Random& random, double size) {
     return settings;
 }
 
-SceneModel randomPair(Random& random) {
+/// Moves B so that at some pose within the limits a vertex of it lies on one of A.
+void bringToMeet(Random& random, const TriangleMesh& a, TriangleMesh& b, const Motion& motion) {
+    std::vector<double> q;
+    for (const Dof& dof : motion.dofs) q.push_back(dof.lower + random.in(0, 1) * (dof.upper - dof.lower));
+    const auto any = [&](const TriangleMesh& mesh) {
+        const Tri& t = mesh.triangles[std::size_t(random.below(int(mesh.triangles.size())))];
+        return mesh.vertices[std::size_t(t[random.below(3)])];
+    };
+    const Vec3 onA = any(a), onB = any(b), way = pose(motion, q).inverse(Eigen::Isometry) * onA - onB;
+    for (Vec3& v : b.vertices) v += way;
+}
+
+/// meeting: draws where they meet, after all else; none: as it comes, which is mostly nowhere.
+SceneModel randomPair(Random& random, Random* meeting) {
     const double size = logUniform(random, 1e-6, 1e6);
     const double sizeB = size * (random.below(3) == 0 ? logUniform(random, 1e-3, 1) : random.in(0.3, 1));
     const bool far = random.below(4) == 0;
@@ -131,6 +144,7 @@ SceneModel randomPair(Random& random) {
         Dof& dof = motion.dofs.back();
         dof.rest = random.below(2) ? dof.lower : dof.lower + random.in(0, 1) * (dof.upper - dof.lower);
     }
+    if (meeting) bringToMeet(*meeting, a, b, motion);
     SceneModel scene = pairScene(a, b, motion, 0);
     const double units[] = {1e-6, 1e-3, 1, 1, 1e3, 1e6};
     scene.metersPerUnit = units[random.below(6)];
@@ -192,12 +206,13 @@ SceneModel randomSkin(Random& random) {
 
 } // namespace
 
-std::string randomScene(std::uint64_t seed) {
-    Random random(seed * 0x9E3779B97F4A7C15u + 1);
-    return textOf(random.below(8) == 0 ? randomSkin(random) : randomPair(random));
+std::string randomScene(std::uint64_t seed, Bodies bodies) {
+    Random random(seed * 0x9E3779B97F4A7C15u + 1), meeting(seed);
+    if (random.below(8) == 0) return textOf(randomSkin(random));
+    return textOf(randomPair(random, bodies == Bodies::Meet ? &meeting : nullptr));
 }
 
-RandomRun runRandom(std::uint64_t seed, double budget) {
+RandomRun runRandom(std::uint64_t seed, double budget, Bodies bodies) {
     // Of the processor, so that a busy machine finds what an idle one does.
     const std::clock_t start = std::clock();
     const auto seconds = [&] { return double(std::clock() - start) / CLOCKS_PER_SEC; };
@@ -212,7 +227,7 @@ RandomRun runRandom(std::uint64_t seed, double budget) {
         return !run.stopped;
     };
     try {
-        const Outcome outcome = serve(randomScene(seed), fmt::format("seed{}", seed), options);
+        const Outcome outcome = serve(randomScene(seed, bodies), fmt::format("seed{}", seed), options);
         run.refusal = outcome.refusal;
         run.troubles = outcome.troubles;
         for (const tss::Pair& pair : outcome.scene.pairs) run.table = run.table || pair.table;

@@ -7,10 +7,13 @@
 
 namespace extreme {
 
+/// Anywhere: they mostly never meet, and a proof says so. Meet: somewhere within the limits they touch.
+enum class Bodies { Anywhere, Meet };
+
 /// The text of a random scene with extreme parameters: a pair on 0 to 3 random DOFs, or a skin over a muscle;
 /// units from 1e-6 to 1e6, up to 1e7 sizes from the origin, damaged meshes, any bake settings. The same seed
 /// gives the same text on every machine.
-std::string randomScene(std::uint64_t seed);
+std::string randomScene(std::uint64_t seed, Bodies bodies = Bodies::Anywhere);
 
 struct RandomRun {
     std::uint64_t seed = 0;
@@ -23,6 +26,6 @@ struct RandomRun {
 
 /// One random scene through bake, verify and play. budget: seconds of processor time after which it is asked
 /// to stop; what was not finished then is not judged. A refusal without a place counts as trouble.
-RandomRun runRandom(std::uint64_t seed, double budget);
+RandomRun runRandom(std::uint64_t seed, double budget, Bodies bodies = Bodies::Anywhere);
 
 } // namespace extreme

@@ -26,10 +26,11 @@ using namespace extreme;
 constexpr const char* usage =
     "usage: tss-extreme scenes DIR          writes the stiff and extreme scenes into DIR\n"
     "       tss-extreme check [NAME...]     takes them through bake, verify and play\n"
-    "       tss-extreme random N [FIRST [SECONDS]]\n"
+    "       tss-extreme random N [FIRST [SECONDS [meet]]]\n"
     "                                       the same with N random scenes, seeds from FIRST on (1), each "
     "asked\n"
-    "                                       to stop after SECONDS of processor time (5)\n"
+    "                                       to stop after SECONDS of processor time (5); meet: their bodies "
+    "do\n"
     "       tss-extreme page FILE STEPS FRAMES SCENES   measures all of it anew and writes the page about "
     "it\n";
 
@@ -95,7 +96,7 @@ void allow(long seconds) {
     setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
-int searchForTrouble(std::uint64_t count, std::uint64_t first, double budget) {
+int searchForTrouble(std::uint64_t count, std::uint64_t first, double budget, Bodies bodies) {
     std::uint64_t refused = 0, stopped = 0, bad = 0, tables = 0;
     double longest = 0;
     std::map<std::string, int> refusals;
@@ -103,7 +104,7 @@ int searchForTrouble(std::uint64_t count, std::uint64_t first, double budget) {
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
         seedNow = seed;
         allow(hang);
-        const RandomRun run = runRandom(seed, budget);
+        const RandomRun run = runRandom(seed, budget, bodies);
         allow(0);
         stopped += run.stopped;
         refused += !run.stopped && !run.refusal.empty();
@@ -137,9 +138,11 @@ int main(int count, char** arguments) {
             return 0;
         }
         if (command == "check") return check(count - 2, arguments + 2);
-        if (command == "random" && count >= 3 && count <= 5)
+        const bool meet = count == 6 && std::string(arguments[5]) == "meet";
+        if (command == "random" && count >= 3 && (count <= 5 || meet))
             return searchForTrouble(std::stoull(arguments[2]), count > 3 ? std::stoull(arguments[3]) : 1,
-                                    count > 4 ? std::stod(arguments[4]) : usualBudget);
+                                    count > 4 ? std::stod(arguments[4]) : usualBudget,
+                                    meet ? Bodies::Meet : Bodies::Anywhere);
         if (command == "page" && count == 6) {
             const PageOptions options{std::stol(arguments[3]), std::stol(arguments[4]),
                                       std::stoull(arguments[5])};
