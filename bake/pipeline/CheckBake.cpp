@@ -7,6 +7,7 @@
 #include "bake/play/FreeMuscles.h"
 #include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinRig.h"
+#include "bake/table/RoundingBand.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -14,6 +15,16 @@
 namespace tss {
 
 namespace {
+
+/// Throws for lengths whose squares the kernels could not tell from 0 or from infinity.
+void checkLength(const std::string& path, const char* what, double least, double most) {
+    if (least >= shortestLength && most <= longestLength) return;
+    throw InputError(Where{"", "", path},
+                     fmt::format("expected {} between {:g} and {:g} scene units, found {:g}; other units "
+                                 "(metersPerUnit) have other numbers",
+                                 what, shortestLength, longestLength,
+                                 least >= shortestLength ? most : least));
+}
 
 /// Throws for a mesh that no spheres can be made for.
 void checkBody(const Body& body) {
@@ -23,6 +34,9 @@ void checkBody(const Body& body) {
     } catch (const InputError& error) {
         throw InputError(Where{"", "", body.path}, error.message);
     }
+    double farthest = 0;
+    for (const Vec3& v : body.mesh.vertices) farthest = std::max(farthest, v.norm());
+    checkLength(body.path, "the size and the coordinates of a mesh", diagonal(body.mesh), farthest);
 }
 
 /// A table reports contact from epsilon on: at rest there would be some.
@@ -46,6 +60,7 @@ void checkPair(const SceneModel& scene, const Pair& pair, const BakeOptions& opt
     wholeBox(motion); // which tells too many DOFs
     checkBody(a);
     checkBody(b);
+    checkLength(pair.path, "the axes and ways of a motion", shortestLength, motionSize(motion));
     const double smaller = std::min(diagonal(a.mesh), diagonal(b.mesh));
     checkOptions(sphereOptions(options, options.tolerance.value_or(smaller / 500)));
     checkEpsilon(a.mesh, b.mesh, motion, options, scene.metersPerUnit);

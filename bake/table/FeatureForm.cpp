@@ -250,15 +250,22 @@ void FeatureForm::evaluate(const double* q, T* out) const {
 template void FeatureForm::evaluate(const double*, float*) const;
 template void FeatureForm::evaluate(const double*, double*) const;
 
+double FeatureForm::rangeError(double u, Eigen::Index pair) const {
+    double factors = weights.row(pair).cwiseAbs().sum();
+    for (const Feature& feature : features) factors += feature.range;
+    return tss::rangeError(u, double(features.size() + 2), factors);
+}
+
 double FeatureForm::signError(double u, Eigen::Index pair, double contactDistance) const {
     const double constant = constants(pair) - contactDistance * std::abs(contactDistance);
     const std::vector<double> c = products(*this, pair);
     const double error = sumError(u, constant, c, 0);
-    return sumError(u, constant, c, 4 * error) + dropped(pair);
+    return sumError(u, constant, c, 4 * error) + dropped(pair) + rangeError(u, pair);
 }
 
 double FeatureForm::squareError(double u, Eigen::Index pair, double distance) const {
-    return sumError(u, constants(pair), products(*this, pair), distance * distance) + dropped(pair);
+    return sumError(u, constants(pair), products(*this, pair), distance * distance) + dropped(pair) +
+           rangeError(u, pair);
 }
 
 std::optional<FeatureForm> makeFeatureForm(const Motion& motion, std::span<const TablePair> pairs,

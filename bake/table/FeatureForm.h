@@ -41,6 +41,9 @@ struct FeatureForm {
     /// distances about `distance`), of one pair.
     double signError(double u, Eigen::Index pair, double contactDistance) const;
     double squareError(double u, Eigen::Index pair, double distance) const;
+
+private:
+    double rangeError(double u, Eigen::Index pair) const;
 };
 
 /// The fold of pairs over a motion, or nothing where there is none that pays: paths, too many DOFs, more

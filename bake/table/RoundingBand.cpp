@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tss {
 
@@ -26,6 +27,13 @@ double sumError(double u, double constant, std::span<const double> products, dou
     return room * u * error;
 }
 
+double rangeError(double u, double products, double factors) {
+    constexpr double large = 1e30; // as a float, with room for sums
+    if (u < floatRoundoff) return std::numeric_limits<double>::min() * (products + factors);
+    if (!(factors < large)) return std::numeric_limits<double>::infinity();
+    return double(std::numeric_limits<float>::min()) * (products + factors);
+}
+
 double directError(double u, double a, double b, double t, double distance, double contactDistance) {
     // Where the pair is at this distance, t is no longer than a, b and it together.
     t = std::min(t, a + b + distance);
@@ -35,7 +43,8 @@ double directError(double u, double a, double b, double t, double distance, doub
     const double vector = std::sqrt(3.0) * axis;
     const double squares =
         u * (4 * (distance + vector) * (distance + vector) + 2 * contactDistance * contactDistance);
-    return room * (2 * distance * vector + vector * vector + squares);
+    return room * (2 * distance * vector + vector * vector + squares) +
+           rangeError(u, 15, 8 * (a + b + t + distance));
 }
 
 double motionSize(const Motion& motion) {

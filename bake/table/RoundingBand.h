@@ -8,14 +8,22 @@ namespace tss {
 /// Unit roundoffs.
 inline constexpr double floatRoundoff = 0x1p-24, doubleRoundoff = 0x1p-53;
 
+/// Lengths that are served, scene units: kernels in float square them, and add up some.
+inline constexpr double shortestLength = 1e-12, longestLength = 1e15;
+
 /// Bound of the rounding error of constant + sum_k w_k f_k summed in that order with weights, features and
 /// constant each rounded once, with or without fused products (METHOD 4, Float). products: |w_k| max |f_k|
 /// for each k in the order of summation; result: the largest |sum| of interest, which bounds the late partial
 /// sums. The error of values whose exact |sum| is larger is not bounded by this.
 double sumError(double u, double constant, std::span<const double> products, double result);
 
-/// The same for a sum of 12 + 3 products as the direct kernel takes it: |R b + t - a|^2 - contactDistance^2,
-/// with lengths of a, b and t as given, for squared distances up to distance^2.
+/// What the range of numbers of roundoff u adds to the error of a sum of so many products: those below the
+/// least normal number may become 0. factors: the sum of the magnitudes of all factors; infinite where one
+/// may be so large that floats do not hold it.
+double rangeError(double u, double products, double factors);
+
+/// sumError() for a sum of 12 + 3 products as the direct kernel takes it: |R b + t - a|^2 -
+/// contactDistance^2, with lengths of a, b and t as given, for squared distances up to distance^2.
 double directError(double u, double a, double b, double t, double distance, double contactDistance);
 
 /// T(q) takes no point, anywhere in the limits, farther from A's origin than this and its distance from B's.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 
 namespace tss {
@@ -86,6 +87,7 @@ TableKernels::TableKernels(const Table& table, const PrepareOptions& options)
     farthestT_ = (middle.pose * originB_ - originA_).norm();
     for (std::size_t k = 0; k < motion_.dofCount(); ++k)
         farthestT_ += 0.5 * speeds[k] * (motion_.dofs[k].upper - motion_.dofs[k].lower);
+    checkReach(pairs);
     recipe_ = PoseRecipe(motion_, originA_, originB_);
     double farthest = std::max(originA_.norm(), originB_.norm());
     for (const TablePair& p : pairs) farthest = std::max({farthest, p.a.norm(), p.b.norm()});
@@ -115,6 +117,18 @@ TableKernels::TableKernels(const Table& table, const PrepareOptions& options)
         prepareKernels<float>(options.cells, tests);
     else
         prepareKernels<double>(options.cells, tests);
+}
+
+void TableKernels::checkReach(std::span<const TablePair> pairs) const {
+    double reach = farthestT_;
+    for (const TablePair& p : pairs)
+        reach =
+            std::max({reach, (p.a - originA_).norm(), (p.b - originB_).norm(), std::abs(p.contactDistance)});
+    if (!(reach <= longestLength))
+        throw InputError(
+            fmt::format("table: expected spheres that stay within {:g} scene units of each other, "
+                        "found {:g}; with larger units (metersPerUnit) numbers are smaller",
+                        longestLength, reach));
 }
 
 void TableKernels::Bands::widen(double u, double error, double contactDistance) {

@@ -144,6 +144,8 @@ private:
     double clusterReachOf(double margin) const;
     void poseFeatures(const double* q, TableFeatures& out) const;
     void storePose(const PoseRecipe::Matrix& pose, TableFeatures& out) const;
+    /// Throws InputError where squares of lengths would not be numbers.
+    void checkReach(std::span<const TablePair> pairs) const;
     Bands foldBands(double u, std::span<const TablePair> pairs) const;
     Bands directBands(double u, std::span<const TablePair> pairs) const;
     /// Form and precision. Returns by how much each test's squared contact distance is widened.

@@ -35,16 +35,17 @@ std::string sixOrders() {
     return textOf(pairScene(still, moving, motion, 0.0005));
 }
 
-/// A slide ten million times as long as the spheres are wide: no float tells where on it they are.
-std::string longSlide() {
+/// A slide ten million times as long as the spheres are wide and more: no float tells where on it they are.
+std::string longSlide(double way = 1e7) {
     Motion motion;
-    motion.dofs = {slide({1, 0, 0}, -1e7, 1e7)};
+    motion.dofs = {slide({1, 0, 0}, -way, way)};
     return textOf(pairScene(roughBall({40000, 0, 0}, 0.5, 1), roughBall({0, 0.3, 0}, 0.5, 1), motion, 0.02));
 }
 
 } // namespace
 
 std::vector<ExtremeScene> unitScenes() {
+    const std::string lengths = "lengths whose squares are no floats";
     return {
         {"unit_micrometre", "units from 1e-6 to 1e6", "the table of the same pair in metres", Fate::Table, "",
          inUnits(1e-6)},
@@ -52,6 +53,12 @@ std::vector<ExtremeScene> unitScenes() {
          Fate::Table, "", inUnits(1)},
         {"unit_megametre", "units from 1e-6 to 1e6", "the table of the same pair in metres", Fate::Table, "",
          inUnits(1e6)},
+        {"unit_too_small", lengths, "refused", Fate::NotBakeable, "of a mesh between 1e-12 and",
+         inUnits(1e17)},
+        {"unit_too_large", lengths, "refused", Fate::NotBakeable, "of a mesh between 1e-12 and",
+         inUnits(1e-22)},
+        {"slide_too_long", lengths, "refused", Fate::NotBakeable, "of a motion between 1e-12 and",
+         longSlide(1e20)},
         {"far_placed", "the pair 1e7 units from the origin", "the very table of the pair at the origin",
          Fate::Table, "", placedFar()},
         {"far_modelled", "the pair 1e7 units from the origin",
