@@ -196,6 +196,12 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
     const double largest = *std::max_element(model.weights.begin(), model.weights.end());
     for (int l = 0; l < dofCount; ++l)
         model.weights[l] = std::max(model.weights[l], largest > 0 ? 1e-6 * largest : 1.0);
+    // Nor may what its whole range moves be lost beside the others': planes ask for each value.
+    double farthest = 0;
+    for (int l = 0; l < dofCount; ++l) farthest = std::max(farthest, model.weights[l] * model.range[l]);
+    for (int l = 0; l < dofCount; ++l)
+        if (!model.planes.empty() && model.range[l] > 0)
+            model.weights[l] = std::max(model.weights[l], std::min(1e-4 * farthest / model.range[l], 1e100));
     for (int l = 0; l < dofCount; ++l) model.perWeight[l] = 1 / model.weights[l];
     for (std::size_t mover = 0; mover < model.moverCount; ++mover) {
         double squared = 0;

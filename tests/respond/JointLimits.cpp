@@ -1,6 +1,7 @@
 #include "bake/motion/Motion.h"
 #include "bake/respond/JointResponder.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -26,15 +27,18 @@ Table farBalls(const std::vector<double>& ways) {
     return table;
 }
 
-/// Where the joint goes that is asked for the corner of its limits.
-std::vector<double> atCorner(const Table& table, const std::vector<double>& signs) {
+/// Where the joint goes that is asked for the corner of its limits, so many times.
+std::vector<double> atCorner(const Table& table, const std::vector<double>& signs, int times = 1) {
     const JointResponder responder(table);
     JointWorkspace workspace = responder.workspace();
-    const std::vector<double> last = restValues(table.motion);
+    std::vector<double> q = restValues(table.motion);
     std::vector<double> asked;
     for (std::size_t k = 0; k < signs.size(); ++k) asked.push_back(signs[k] * table.motion.dofs[k].upper);
-    const JointAnswer answer = responder.respond(last.data(), asked.data(), workspace);
-    return {answer.q.begin(), answer.q.begin() + std::ptrdiff_t(signs.size())};
+    for (int k = 0; k < times; ++k) {
+        const JointAnswer answer = responder.respond(q.data(), asked.data(), workspace);
+        std::copy_n(answer.q.begin(), q.size(), q.begin());
+    }
+    return q;
 }
 
 /// The sum of the values in units of their ranges.
@@ -61,6 +65,20 @@ TEST_CASE("a coupling of values whose ranges differ by many orders of magnitude 
                     for (const double z : {-1., 1.})
                         CHECK(std::abs(shares(table, atCorner(table, {x, y, z}))) < 0.1 + 1e-6);
         }
+}
+
+TEST_CASE("what slides along contact keeps a coupling with a value of hardly any range") {
+    for (const double narrow : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {
+        Table table = farBalls({20, narrow, 0.5});
+        const LimitPlane sum{{1. / 20, 1 / narrow, 0}, 0.05}, other{{-1. / 20, -1 / narrow, 0}, 0.05};
+        table.motion.planes = {sum, other};
+        // The first two at their ends add up to 0, but the balls meet a tenth before, and slide on along Z.
+        const std::vector<double> q = atCorner(table, {-1, 1, 1}, 5);
+        CAPTURE(narrow, q[0], q[1] / narrow, q[2]);
+        CHECK(q[0] == Approx(-18).epsilon(1e-2));
+        CHECK(q[2] == Approx(0.5));
+        CHECK(std::abs(q[0] / 20 + q[1] / narrow) < 0.05 + 1e-3);
+    }
 }
 
 TEST_CASE("a plane of very large or very small coefficients is kept") {
