@@ -1,5 +1,7 @@
 #include "bake/table/RoundingBand.h"
 
+#include "bake/motion/MotionFrame.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -77,6 +79,17 @@ double poseError(const Motion& motion, double u, double farthest) {
     // size.
     const double size = 2 * farthest + motionSize(motion);
     return (128 * double(motion.dofCount() + 2) * u + 8 * off) * size * room;
+}
+
+double turnError(const Motion& motion, const Vec3& point) {
+    constexpr double counted = 8;
+    DofValues speeds{};
+    speedBounds(motion, point, speeds.data());
+    double error = 0;
+    for (std::size_t k = 0; k < motion.dofCount(); ++k)
+        if (motion.dofs[k].kind == DofKind::Rotation)
+            error += speeds[k] * std::max(0.0, 0.5 * (motion.dofs[k].upper - motion.dofs[k].lower) - counted);
+    return doubleRoundoff * room * error;
 }
 
 double gapBand(double u, double error, double contactDistance, double gap) {

@@ -34,6 +34,11 @@ double motionSize(const Motion& motion);
 /// farther from B's origin, and no origin that coordinates are taken from is farther from its body's.
 double poseError(const Motion& motion, double u, double farthest);
 
+/// How far turns of many radians may take a point of B off, as angles from the middle of the limits round by
+/// more the larger they are. The other bounds here have room for 8 radians either way; 0 where none go
+/// farther.
+double turnError(const Motion& motion, const Vec3& point);
+
 /// By how much a gap found from a squared distance d^2 with error E is off: sqrt(d^2) - contact distance,
 /// with gaps up to |gap|.
 double gapBand(double u, double error, double contactDistance, double gap);

@@ -91,7 +91,8 @@ TableKernels::TableKernels(const Table& table, const PrepareOptions& options)
     recipe_ = PoseRecipe(motion_, originA_, originB_);
     double farthest = std::max(originA_.norm(), originB_.norm());
     for (const TablePair& p : pairs) farthest = std::max({farthest, p.a.norm(), p.b.norm()});
-    poseError_ = std::max(poseError(motion_, doubleRoundoff, farthest), options.poseError);
+    for (const Sphere& b : table.b) turnError_ = std::max(turnError_, turnError(motion_, b.centre));
+    poseError_ = std::max(poseError(motion_, doubleRoundoff, farthest) + turnError_, options.poseError);
 
     if (options.form != KernelForm::Direct) {
         fold_ = makeFeatureForm(motion_, pairs, contacts);
@@ -142,9 +143,12 @@ TableKernels::Bands TableKernels::foldBands(double u, std::span<const TablePair>
     Bands bands;
     for (std::size_t p = 0; p < pairs.size(); ++p) {
         const double contactDistance = pairs[p].contactDistance;
-        bands.widen(u, fold_->signError(u, Eigen::Index(p), contactDistance), contactDistance);
+        const auto turned = [&](double distance) { return (2 * distance + turnError_) * turnError_; };
+        const double sign = fold_->signError(u, Eigen::Index(p), contactDistance);
+        bands.widen(u, sign + turned(std::abs(contactDistance)), contactDistance);
         for (double gap : {-depth_, 0.0, margin_}) {
-            const double error = fold_->squareError(u, Eigen::Index(p), std::max(0.0, contactDistance + gap));
+            const double distance = std::max(0.0, contactDistance + gap);
+            const double error = fold_->squareError(u, Eigen::Index(p), distance) + turned(distance);
             bands.gap = std::max(bands.gap, tss::gapBand(u, error, contactDistance, gap));
         }
     }

@@ -173,6 +173,7 @@ private:
     double epsilon_ = 0, depth_ = 0, margin_ = 0, early_ = 0;
     Vec3 originA_ = Vec3::Zero(), originB_ = Vec3::Zero();
     double farthestT_ = 0; ///< bound of |T(q) originB - originA|
+    double turnError_ = 0; ///< of turns of many radians
     double poseError_ =
         0; ///< what rounding, or whoever gives the pose, may do to T(q) y on its way to the direct kernel
     std::optional<FeatureForm> fold_;

@@ -71,3 +71,39 @@ TEST_CASE("a table of lengths that kernels cannot square is refused, not asked")
     for (const double unit : {1e16, 1e19, 1e20, 1e30, 1e37})
         CHECK_THROWS_WITH(PreparedTable(ballsOnSlide(unit)), Catch::Contains("metersPerUnit"));
 }
+
+TEST_CASE("a hinge of a thousand turns misses no touch, however its kernel rounds the angle") {
+    Table table = ballsOnSlide(1);
+    Dof hinge;
+    hinge.axis = {0, 0, 1};
+    hinge.origin = {4000, 0, 0};
+    hinge.lower = -9000;
+    hinge.upper = 3000;
+    table.a = {{Vec3::Zero(), 1}};
+    table.b = {{{0, 10, 0}, 1}};
+    table.motion.dofs = {hinge};
+    const auto pairs = tablePairs(table);
+    const auto gapAt = [&](double q) { return exact::gap(table.motion, pairs, std::vector<double>{q}); };
+    for (const KernelForm form : {KernelForm::Fold, KernelForm::Direct}) {
+        PrepareOptions how;
+        how.form = form;
+        how.precision = KernelPrecision::Double;
+        const PreparedTable prepared(table, how);
+        CAPTURE(name(form), prepared.signBand());
+        for (int turn = -1400; turn <= 450; ++turn) {
+            // It touches where it comes to A's height, 0.0025 on.
+            double apart = turn * 2 * 3.14159265358979, touching = apart;
+            for (const double way : {0.0025, -0.0025})
+                if (gapAt(apart + way) < 0) touching = apart + way;
+            REQUIRE(gapAt(apart) > 0);
+            REQUIRE(gapAt(touching) < 0);
+            for (double middle; middle = 0.5 * (apart + touching), middle != apart && middle != touching;)
+                (gapAt(middle) > 0 ? apart : touching) = middle;
+            TableFeatures features;
+            prepared.features(&touching, features);
+            REQUIRE(prepared.hit(features));
+            REQUIRE(prepared.hit(&touching));
+        }
+        CHECK(prepared.signBand() < 1e-6);
+    }
+}
