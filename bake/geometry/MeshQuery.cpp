@@ -123,8 +123,9 @@ double MeshQuery::searchOther(const MeshQuery& other, const Eigen::Isometry3d& o
             looks += std::uint64_t(a.count) * b.count;
             for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
                 const Corners& k = corners_[bvh_.items[i]];
+                const TriangleCorners s{k.a, k.b, k.c};
                 for (const TriangleCorners& t : moved)
-                    best2 = std::min(best2, squaredDistanceOfTriangles({k.a, k.b, k.c}, t));
+                    if (!surelyBeyond(s, t, best2)) best2 = std::min(best2, squaredDistanceOfTriangles(s, t));
             }
             if (best2 == 0 || (anyWill && best2 < asked2)) return best2;
             continue;

@@ -17,6 +17,22 @@ bool pierces(const Vec3& p, const Vec3& q, const TriangleCorners& t, const Vec3&
     return true;
 }
 
+/// Apart by more than the distance along a direction of any length, whatever rounding does.
+bool beyondAlong(const Vec3& n, const TriangleCorners& s, const TriangleCorners& t, double distance2) {
+    const double s0 = n.dot(s[0]), s1 = n.dot(s[1]), s2 = n.dot(s[2]);
+    const double t0 = n.dot(t[0]), t1 = n.dot(t[1]), t2 = n.dot(t[2]);
+    const double sLow = std::min({s0, s1, s2}), sHigh = std::max({s0, s1, s2});
+    const double tLow = std::min({t0, t1, t2}), tHigh = std::max({t0, t1, t2});
+    const double gap = std::max(tLow - sHigh, sLow - tHigh);
+    if (!(gap > 0)) return false;
+    const auto reach = [&](const TriangleCorners& c) {
+        return std::max({c[0].squaredNorm(), c[1].squaredNorm(), c[2].squaredNorm()});
+    };
+    const double length2 = n.squaredNorm();
+    const double sure = gap - 1e-15 * std::sqrt(length2 * std::max(reach(s), reach(t)));
+    return sure > 0 && sure * sure > distance2 * length2 * (1 + 1e-12);
+}
+
 } // namespace
 
 double squaredDistanceOfSegments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -51,6 +67,18 @@ double squaredDistanceOfTriangles(const TriangleCorners& s, const TriangleCorner
             best = std::min(best, squaredDistanceOfSegments(s[k], s[(k + 1) % 3], t[j], t[(j + 1) % 3]));
     }
     return best;
+}
+
+bool surelyBeyond(const TriangleCorners& s, const TriangleCorners& t, double distance2) {
+    const Vec3 edgesS[] = {s[1] - s[0], s[2] - s[1], s[0] - s[2]};
+    const Vec3 edgesT[] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
+    const Vec3 normalS = edgesS[0].cross(edgesS[1]), normalT = edgesT[0].cross(edgesT[1]);
+    if (beyondAlong(normalS, s, t, distance2) || beyondAlong(normalT, s, t, distance2)) return true;
+    for (int k = 0; k < 3; ++k)
+        if (beyondAlong(normalS.cross(edgesS[k]), s, t, distance2) ||
+            beyondAlong(normalT.cross(edgesT[k]), s, t, distance2))
+            return true;
+    return false;
 }
 
 } // namespace tss

@@ -14,4 +14,8 @@ using TriangleCorners = std::array<Vec3, 3>;
 /// triangles that are a segment or a point.
 double squaredDistanceOfTriangles(const TriangleCorners& s, const TriangleCorners& t);
 
+/// Soon tells most triangles that are apart by more than a distance, given squared: by their planes, or by
+/// those through an edge of one across it. False: it is not known.
+bool surelyBeyond(const TriangleCorners& s, const TriangleCorners& t, double distance2);
+
 } // namespace tss

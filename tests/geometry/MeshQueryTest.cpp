@@ -212,6 +212,33 @@ TEST_CASE("the distance of two triangles is that of their nearest points, 0 wher
     CHECK(crossing > 10);
 }
 
+TEST_CASE(
+    "triangles are surely beyond a distance only where they are, and mostly where they are well beyond it") {
+    std::mt19937_64 random(8);
+    int beyond = 0, told = 0;
+    for (int i = 0; i < 4000; ++i) {
+        // Flat ones side by side in one plane, as of two plates, and any; some of them slivers, or far away.
+        const double height = i % 2 == 0 ? 0 : 1;
+        const Vec3 place = i % 5 == 0 ? Vec3(1e4, -1e4, 1e4) : Vec3::Zero();
+        TriangleCorners s, t;
+        for (int k = 0; k < 3; ++k) {
+            s[k] = uniformPoint(random, 1).cwiseProduct(Vec3(1, 1, height)) + place;
+            t[k] = (uniformPoint(random, 1) + Vec3(2, 0, 0)).cwiseProduct(Vec3(1, 1, height)) + place;
+        }
+        if (i % 7 == 0) s[2] = s[0] + uniform(random, 0, 1) * (s[1] - s[0]);
+        if (i % 31 == 0) s[2] = s[1] = s[0];
+        const double squared = squaredDistanceOfTriangles(s, t);
+        CAPTURE(i, squared);
+        CHECK_FALSE(surelyBeyond(s, t, squared));
+        CHECK_FALSE(surelyBeyond(t, s, squared));
+        if (!(squared > 0)) continue;
+        ++beyond;
+        told += surelyBeyond(s, t, squared / 4);
+    }
+    CHECK(beyond > 1000);
+    CHECK(told > 0.8 * beyond);
+}
+
 TEST_CASE("edges that cross nearly parallel are as far apart as where they cross") {
     for (double angle = 1e-10; angle < 1e-3; angle *= 3)
         for (const double apart : {0.0, 1e-9, 0.3}) {
