@@ -135,6 +135,7 @@ FreeingMoves freeingMoves(const TriangleMesh& a, const TriangleMesh& b, const Mo
         found.elsewhere = trial.touchingElsewhere();
         return found;
     }
+    found.apart = trial.apartElsewhere();
     std::vector<char> wanted;
     for (const char stop : trial.stops()) wanted.push_back(!stop);
     JointMove move = smallMove(trial, wanted, JointMove::Zero(), false);

@@ -43,11 +43,20 @@ struct TouchingElsewhere {
     std::vector<double> values;          ///< of the joint, in the middle of those that touch
 };
 
+/// Where surfaces that overlap at rest are apart all the same: of the poses tried the one where they are
+/// farthest apart.
+struct ApartElsewhere {
+    std::size_t apart = 0, poses = 0; ///< of the poses tried
+    double distance = 0;              ///< of the surfaces there, scene units
+    std::vector<double> values;       ///< of the joint there
+};
+
 /// Moves, and whether there was time to look for all.
 struct FreeingMoves {
     std::vector<FreeingMove> moves;
     bool complete = true;
-    std::optional<TouchingElsewhere> elsewhere;
+    std::optional<TouchingElsewhere> elsewhere; ///< where they do not overlap at rest
+    std::optional<ApartElsewhere> apart;        ///< where they do
 };
 
 /// Small moves for surfaces that overlap where the joint rests: first the one that frees most, of such the

@@ -84,6 +84,18 @@ std::optional<TouchingElsewhere> FreeingTrial::touchingElsewhere() const {
     return TouchingElsewhere{count, lookedAt_, values_[best]};
 }
 
+std::optional<ApartElsewhere> FreeingTrial::apartElsewhere() const {
+    std::vector<double> distances(lookedAt_, 0.0);
+    parallelFor(lookedAt_, [&](std::size_t k) {
+        if (!late()) distances[k] = a_.distanceTo(b_, unmoved_[k]);
+    });
+    const auto farthest = std::ranges::max_element(distances);
+    if (!(*farthest > margin_)) return std::nullopt;
+    const auto apart = std::ranges::count_if(distances, [&](double d) { return d > margin_; });
+    return ApartElsewhere{static_cast<std::size_t>(apart), lookedAt_, *farthest,
+                          values_[std::size_t(farthest - distances.begin())]};
+}
+
 double FreeingTrial::apartInLimits(const std::vector<double>& p, const std::vector<double>& q) const {
     double away = 0;
     for (std::size_t d = 0; d < q.size(); ++d)

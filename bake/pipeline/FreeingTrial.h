@@ -24,6 +24,7 @@ public:
     std::size_t poseCount() const { return values_.size(); }
     bool overlapsAtRest() const;
     std::optional<TouchingElsewhere> touchingElsewhere() const;
+    std::optional<ApartElsewhere> apartElsewhere() const;
 
     /// For each pose whether the bodies meet there elsewhere than where they overlap at rest.
     const std::vector<char>& stops() const { return stops_; }

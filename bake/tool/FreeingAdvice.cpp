@@ -37,6 +37,12 @@ std::string dofText(const Dof& dof, double size) {
     return fmt::format("rot:{}:{}:{}", vectorText(dof.origin, size), vectorText(dof.axis, 1), limits);
 }
 
+/// " of" and its name, over a chain that of its joint as well; nothing where it has none.
+std::string ofDof(const Dof& dof) {
+    const std::string name = dof.name.ends_with(':') ? dof.name.substr(0, dof.name.size() - 1) : dof.name;
+    return name.empty() ? "" : " of " + name;
+}
+
 /// How the scene was made, as far as it shows: which options of `tss make` move B.
 enum class Form { TwoMeshes, Joint, None };
 
@@ -70,8 +76,9 @@ public:
     Json say(const TriangleMesh& a, const TriangleMesh& b) {
         Json advice = Json::array();
         constexpr double seconds = 20;
-        const auto [moves, complete, elsewhere] = freeingMoves(a, b, motion_, {dofs_, seconds});
+        const auto [moves, complete, elsewhere, apart] = freeingMoves(a, b, motion_, {dofs_, seconds});
         if (elsewhere) sayElsewhere(*elsewhere);
+        if (apart) sayApart(*apart);
         if (!complete)
             console_.say(fmt::format("{}: the meshes overlap where the joint rests; the search for moves "
                                      "that free it ended after {} s{}",
@@ -108,17 +115,33 @@ private:
 
     /// Apart at rest: what overlaps on purpose is not known.
     void sayElsewhere(const TouchingElsewhere& elsewhere) const {
-        std::vector<std::string> values;
-        for (std::size_t k = 0; k < motion_.dofCount(); ++k)
-            values.push_back(fmt::format("{:.4g}", toUser(motion_.dofs[k], elsewhere.values[k])));
-        const std::string rest = fmt::format("{}", fmt::join(values, ","));
         console_.say(fmt::format(
             "{}: the meshes are apart at rest and touch at {} of {} poses. Where they should not, look at "
             "origin, axis\n  and limits. Where it is the joint's own surfaces that overlap, let it rest "
             "there "
             "({}): they are free\n  then, and moves of {} that give them room are looked for",
-            pair_.path, elsewhere.touching, elsewhere.poses,
-            form_ == Form::TwoMeshes ? "--rest=" + rest : "tss:rest " + rest, b_));
+            pair_.path, elsewhere.touching, elsewhere.poses, restAt(elsewhere.values), b_));
+    }
+
+    /// Overlapping at rest: whether on purpose is not known.
+    void sayApart(const ApartElsewhere& found) const {
+        console_.say(fmt::format(
+            "{}: the meshes overlap where the joint rests, and what overlaps there is excepted; at {} of {} "
+            "poses they\n  are apart. Where they should not overlap, let it rest where they are {} apart "
+            "({})",
+            pair_.path, found.apart, found.poses, length(found.distance), restAt(found.values)));
+    }
+
+    /// The option or the attribute by which a joint rests at these values.
+    std::string restAt(const std::vector<double>& q) const {
+        std::vector<std::string> values;
+        const bool named = form_ != Form::TwoMeshes && pair_.joints.size() > 1;
+        for (std::size_t k = 0; k < motion_.dofCount(); ++k) {
+            values.push_back(fmt::format("{:.4g}", toUser(motion_.dofs[k], q[k])));
+            if (named) values.back() += ofDof(motion_.dofs[k]);
+        }
+        return fmt::format("{}{}", form_ == Form::TwoMeshes ? "--rest=" : "tss:rest ",
+                           fmt::join(values, named ? ", " : ","));
     }
 
     Json sayMove(const FreeingMove& move) const {
@@ -160,8 +183,7 @@ private:
         for (const StopBeyond& stop : move.beyond) {
             const Dof& dof = motion_.dofs[stop.dof];
             where += fmt::format("{}by {:.4g}{}{}", where.empty() ? "" : " and ", toUser(dof, stop.value),
-                                 dof.kind == DofKind::Rotation ? " degrees" : "",
-                                 dof.name.empty() ? "" : " of " + dof.name);
+                                 dof.kind == DofKind::Rotation ? " degrees" : "", ofDof(dof));
             // A little farther, so that it is contact that stops it.
             const double more = 0.05 * (dof.upper - dof.lower);
             Dof& widened = wider.dofs[stop.dof];

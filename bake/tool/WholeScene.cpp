@@ -297,6 +297,16 @@ private:
     const Console& console_;
 };
 
+/// One --joint ties the two, of several DOFs too: what its chain goes over has no mesh.
+bool tiesDirectly(const SceneModel& scene, const Pair& pair) {
+    const auto between = [&](int body) {
+        return body < 0 || body == pair.bodyA || body == pair.bodyB || scene.bodies[body].mesh.empty();
+    };
+    return std::ranges::all_of(pair.joints, [&](int joint) {
+        return between(scene.joints[joint].body0) && between(scene.joints[joint].body1);
+    });
+}
+
 } // namespace
 
 std::string unlikeUnits(const SceneModel& scene) {
@@ -330,7 +340,7 @@ void makeWholeScene(const WholeSceneArguments& arguments, const Console& console
     saveScene(made.scene, arguments.output);
     Json result = sayScene(made, arguments.output, console);
     for (const Pair& pair : made.scene.pairs)
-        if (pair.joints.size() == 1)
+        if (tiesDirectly(made.scene, pair))
             for (Json& move : adviseMoves(made.scene, pair, console)) {
                 move["pair"] = pair.path;
                 result["freeingMoves"].push_back(std::move(move));

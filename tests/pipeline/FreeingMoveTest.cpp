@@ -69,6 +69,24 @@ TEST_CASE("where bodies that are apart at rest touch at most poses, values among
     CHECK_FALSE(freeingMoves(plate, bar, there).moves.empty());
 }
 
+TEST_CASE("where bodies that overlap at rest are apart at other poses, the one with most room is told") {
+    // A lever that rests within a post, as where limits were turned about: turned up it is well above.
+    const TriangleMesh post = boxMesh({4, -1, -3}, {5, 1, 0.2}),
+                       lever = boxMesh({0, -0.5, -0.2}, {6, 0.5, 0.2});
+    const FreeingMoves found = freeingMoves(post, lever, hinge(-0.8, 0.1));
+    REQUIRE(found.apart);
+    CHECK_FALSE(found.elsewhere);
+    CHECK(found.apart->values.at(0) == Approx(-0.8));
+    CHECK(found.apart->distance > 1);
+    CHECK(found.apart->apart > found.apart->poses / 2);
+    CHECK(found.apart->apart < found.apart->poses);
+    Motion there = hinge(-0.8, 0.1);
+    there.dofs[0].rest = found.apart->values[0];
+    CHECK_FALSE(freeingMoves(post, lever, there).apart);
+    // One that overlaps wherever it is has no such place.
+    CHECK_FALSE(freeingMoves(post, boxMesh({-6, -0.5, -0.2}, {6, 0.5, 0.1}), hinge(-0.01, 0.01)).apart);
+}
+
 TEST_CASE("a joint that overlaps at rest is freed as far as what stops it elsewhere") {
     // A lever on a block that it is sunk into at one end, with a post near its other end: turning down it
     // meets the post.

@@ -174,6 +174,25 @@ TEST_CASE("bodies that overlap at rest get a joint to paste, and what hangs on t
 }
 
 TEST_CASE(
+    "bodies that a joint of two DOFs ties get moves too, where they overlap at rest, and where they do not") {
+    const Folder folder;
+    writeObj(boxMesh({-1, -1, -2}, {1, 1, 0}), folder / "block.obj");
+    writeObj(boxMesh({-0.5, -0.5, -0.1}, {0.5, 0.5, 2}), folder / "arm.obj");
+    const std::string make = "make -o out.tss --body block.obj --body arm.obj --joint "
+                             "'lift=block,arm:rot:-1,0,0:0,1,0:-90:1;rot:0,0,2:1,0,0:-1:1' --json ";
+    const Ran first = runTss(make, folder.path());
+    INFO(first.err);
+    const Json overlaps = Json::parse(first.out);
+    REQUIRE(overlaps.contains("freeingMoves"));
+    CHECK(first.err.find("(tss:rest -90 of lift1, 0 of lift2)") != std::string::npos);
+    const std::string option = overlaps["freeingMoves"][0]["option"];
+    const Ran followed = runTss(make + option, folder.path());
+    INFO(option << followed.err);
+    REQUIRE(followed.exit == 0);
+    CHECK_FALSE(Json::parse(followed.out).contains("freeingMoves"));
+}
+
+TEST_CASE(
     "a jaw that rests where it is free, and overlaps elsewhere, gets there by what make prints, twice") {
     const Folder folder;
     // A lever whose foot is sunk into a block once it turns a little.
