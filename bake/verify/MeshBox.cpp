@@ -283,6 +283,16 @@ bool MeshBox::unanswered(const std::vector<double>& q, const std::vector<PiecePa
     for (const MeshTest& t : claim_.tests)
         least = std::min(least, (at * t.centreB - t.centreA).norm() - t.contactDistance);
     if (least <= claim_.miss + claim_.band) return false;
+    const auto beyond = [&](const Piece& a, const Piece& b) {
+        Corners moved = cornersOf(b_, b);
+        for (Vec3& corner : moved) corner = at * corner;
+        const Corners fixed = cornersOf(a_, a);
+        return surelyBeyond(fixed, moved, near * near) ||
+               squaredDistanceOfTriangles(fixed, moved) > near * near;
+    };
+    // Pieces of the same two triangles mostly follow each other: the whole ones tell of them all.
+    Piece wholeA{-1, 1}, wholeB{-1, 1};
+    bool wholeBeyond = false;
     std::vector<PiecePair> stack(pairs);
     while (!stack.empty()) {
         const PiecePair pair = stack.back();
@@ -291,22 +301,30 @@ bool MeshBox::unanswered(const std::vector<double>& q, const std::vector<PiecePa
         const SurfaceTree::Node &nodeA = a_.nodes[static_cast<std::size_t>(pair.a.node)],
                                 &nodeB = b_.nodes[static_cast<std::size_t>(pair.b.node)];
         if (nodeA.exempt && nodeB.exempt) continue;
-        const Slab a = slabOfPiece(a_, pair.a), b = slabOfPiece(b_, pair.b);
-        if ((at * b.centre - a.centre).norm() > a.reach + b.reach + near) continue;
         const bool leafA = nodeA.first < 0, leafB = nodeB.first < 0;
-        if (!leafA || !leafB) {
-            const bool cutA = !leafA && (leafB || a.reach >= b.reach);
-            for (std::uint32_t side = 0; side < 2; ++side)
-                stack.push_back(cutA ? PiecePair{half(a_, pair.a, side), pair.b}
-                                     : PiecePair{pair.a, half(b_, pair.b, side)});
-            continue;
+        if (leafA && leafB) {
+            if (pair.a.node != wholeA.node || pair.b.node != wholeB.node) {
+                wholeA.node = pair.a.node;
+                wholeB.node = pair.b.node;
+                wholeBeyond = beyond(wholeA, wholeB);
+            }
+            if (wholeBeyond || (pair.a.cuts + pair.b.cuts > 2 && beyond(pair.a, pair.b))) continue;
+            broken.pose = q;
+            broken.lag = least;
+            return true;
         }
-        Corners moved = cornersOf(b_, pair.b);
-        for (Vec3& corner : moved) corner = at * corner;
-        if (squaredDistanceOfTriangles(cornersOf(a_, pair.a), moved) > near * near) continue;
-        broken.pose = q;
-        broken.lag = least;
-        return true;
+        const Slab a = slabOfPiece(a_, pair.a), b = slabOfPiece(b_, pair.b);
+        const Vec3 between = at * b.centre - a.centre;
+        if (between.norm() > a.reach + b.reach + near) continue;
+        const auto separates = [&](const Vec3& normal) {
+            const Vec3 inB = at.linear().transpose() * normal;
+            return std::abs(normal.dot(between)) > a.support(normal) + b.support(inB) + near;
+        };
+        if (separates(a.axis) || separates(at.linear() * b.axis)) continue;
+        const bool cutA = !leafA && (leafB || a.reach >= b.reach);
+        for (std::uint32_t side = 0; side < 2; ++side)
+            stack.push_back(cutA ? PiecePair{half(a_, pair.a, side), pair.b}
+                                 : PiecePair{pair.a, half(b_, pair.b, side)});
     }
     return false;
 }
@@ -334,9 +352,9 @@ MeshBox::Outcome MeshBox::judge(const Box& dofs, const OpenPairs& open, OpenPair
         if (verdict == Verdict::SplitPair) halve(pair, stack_);
     }
     if (left.pairs.empty()) return Outcome::Shown;
-    if (breaksAt(box.middle(), left.pairs, broken)) return Outcome::Broken;
     // What rounding hides at the middle no smaller box would show.
-    if (unanswered(box.middle(), left.pairs, claim_.near + claim_.band, broken)) return Outcome::Undecided;
+    if (unanswered(box.middle(), left.pairs, claim_.near + claim_.band, broken))
+        return breaksAt(box.middle(), left.pairs, broken) ? Outcome::Broken : Outcome::Undecided;
     double widest = 0;
     for (const PiecePair& pair : left.pairs) widest = std::max(widest, moved(pair.b.node).move);
     if (widest <= box.error() + smallest_) {
