@@ -44,11 +44,12 @@ MotionRates::MotionRates(const Motion& motion) : motion_(&motion), segments_(mot
         if (motion.dofs[k].kind != DofKind::Path) continue;
         for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
             const double width = rows[i + 1].value - rows[i].value;
-            const Eigen::AngleAxisd turn(rows[i + 1].rotation * rows[i].rotation.conjugate());
-            // The shorter way round, as slerp goes.
-            const double angle =
-                turn.angle() > std::numbers::pi ? turn.angle() - 2 * std::numbers::pi : turn.angle();
-            segments_[k].push_back({rows[i].value, rows[i + 1].value, turn.axis() * (angle / width),
+            Eigen::Quaterniond turn = rows[i + 1].rotation * rows[i].rotation.conjugate();
+            // The shorter way round, at half a turn the one that slerp takes by this product.
+            if (rows[i].rotation.dot(rows[i + 1].rotation) < 0) turn.coeffs() = -turn.coeffs();
+            const double sine = turn.vec().norm(), angle = 2 * std::atan2(sine, turn.w());
+            const Vec3 axis = sine > 0 ? Vec3(turn.vec() / sine) : Vec3::Zero();
+            segments_[k].push_back({rows[i].value, rows[i + 1].value, axis * (angle / width),
                                     (rows[i + 1].translation - rows[i].translation) / width});
         }
     }

@@ -24,10 +24,10 @@ const PathRow* segment(const std::vector<PathRow>& rows, double value, double wa
 }
 
 /// The turn from one row to the next as a rotation vector in the first row's own frame (the short way round,
-/// as slerp takes it).
+/// at half a turn the one that slerp takes by the product of the two).
 Vec3 turnOfRows(const PathRow& r0, const PathRow& r1) {
     Eigen::Quaterniond turn = r0.rotation.conjugate() * r1.rotation;
-    if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
+    if (r0.rotation.dot(r1.rotation) < 0) turn.coeffs() = -turn.coeffs();
     const double sine = turn.vec().norm();
     return sine > 0 ? Vec3(turn.vec() * (2 * std::atan2(sine, turn.w()) / sine)) : Vec3::Zero();
 }

@@ -119,9 +119,9 @@ void PoseBox::addPath(Link& link, const Dof& dof, double lower, double upper, do
         if (lower < upper ? to.value <= lower || from.value >= upper : to.value < lower || from.value > upper)
             continue;
         const double width = to.value - from.value;
-        // Twice the half angle between the two quaternions, the short way, as slerp turns.
+        // Twice the half angle between the two quaternions, the short way, at half a turn as slerp turns.
         Eigen::Quaterniond step = to.rotation * from.rotation.conjugate();
-        if (step.w() < 0) step.coeffs() = -step.coeffs();
+        if (from.rotation.dot(to.rotation) < 0) step.coeffs() = -step.coeffs();
         const double sine = step.vec().norm();
         const double angle = 2 * std::atan2(sine, step.w());
         const Vec3 axis = sine > 0 ? Vec3(step.vec() / sine) : Vec3::Zero();

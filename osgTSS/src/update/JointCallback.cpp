@@ -325,8 +325,7 @@ void JointCallback::resolve(Binding& binding, Scene& scene, osg::NodeVisitor& vi
         binding.watch(scene, _pairPaths);
         binding.resolve();
         binding.show();
-        if (callback)
-            told = binding.contacts.report(scene, *binding.plan, binding.q, binding.found, visitor);
+        if (callback) told = binding.contacts.report(scene, *binding.plan, binding.q, binding.found, visitor);
     }
     if (callback) told.tell(*callback, visitor);
 }
