@@ -95,9 +95,10 @@ public:
     /// T(q) and how each DOF moves B from there, for `contact`.
     void frame(const double* q, MotionFrame& out) const;
 
-    /// Numbers of all tests whose gap may be at most margin (>= 0; none is missed within the band, but of those
-    /// whose contact distance is below 0, which never touch), always in the same order. out: room for testRoom() numbers. Returns how many. From the values no features are
-    /// made where the cell of q has no test to be asked.
+    /// Numbers of all tests whose gap may be at most margin (>= 0; none is missed within the band, but of
+    /// those whose contact distance is below 0, which never touch), always in the same order. out: room for
+    /// testRoom() numbers. Returns how many. From the values no features are made where the cell of q has no
+    /// test to be asked.
     std::uint32_t testsWithin(const TableFeatures& f, double margin, std::uint32_t* out) const;
     std::uint32_t testsWithin(const double* q, double margin, std::uint32_t* out) const;
 
