@@ -292,10 +292,13 @@ QueryResult nearestTest(const JointModel& model, std::size_t g, const DofValues&
     for (std::size_t k = 0; k < group.dofs.size(); ++k)
         asked = asked && own[k] >= group.motion.dofs[k].lower && own[k] <= group.motion.dofs[k].upper;
     if (!asked) return query(*group.tests, place);
+    const TableGap guess = group.prepared->gap(own.data());
+    // One that never touches, as its contact distance is below 0, is in no list of tests.
+    if (guess.test < 0 || (*group.tests)[std::size_t(guess.test)].contactDistance < 0)
+        return query(*group.tests, place);
     // Of the tests that may be the nearest within what the kernels round, the exact one.
-    const double nearest = std::max(0.0, group.prepared->gap(own.data()).gap);
-    const std::uint32_t count =
-        group.prepared->testsWithin(own.data(), group.prepared->kernels().reachOf(nearest), ws.found.data());
+    const double reach = group.prepared->kernels().reachOf(std::max(0.0, guess.gap));
+    const std::uint32_t count = group.prepared->testsWithin(own.data(), reach, ws.found.data());
     return query(*group.tests, place, {ws.found.data(), count});
 }
 

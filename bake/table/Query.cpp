@@ -28,9 +28,10 @@ QueryResult nearestOf(const TableTests& tests, const Pose& pose, std::size_t cou
     for (std::size_t i = 0; i < count; ++i) {
         const auto test = static_cast<std::uint32_t>(numberOf(i));
         const double gap = queryGap(tests, test, inverse);
-        if (gap > result.gap || (gap == result.gap && static_cast<int>(test) > result.test)) continue;
+        const int number = static_cast<int>(test);
+        if (!(gap < result.gap || (gap == result.gap && number < result.test))) continue;
         result.gap = gap;
-        result.test = static_cast<int>(test);
+        result.test = number;
     }
     if (result.test >= 0) {
         const TablePair pair = tests[static_cast<std::size_t>(result.test)];
