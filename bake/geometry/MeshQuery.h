@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/geometry/Bvh.h"
 
+#include <array>
 #include <limits>
 
 namespace tss {
@@ -64,6 +65,12 @@ public:
                std::uint64_t* looks = nullptr) const;
 
     const Bvh& bvh() const { return bvh_; }
+
+    /// The corners of the triangle at this place among the tree's items, about centre() as its nodes are.
+    std::array<Vec3, 3> localTriangle(std::uint32_t item) const {
+        const Corners& k = corners_[bvh_.items[item]];
+        return {k.a, k.b, k.c};
+    }
 
 private:
     struct Corners {

@@ -3,6 +3,7 @@
 #include "bake/base/Parallel.h"
 #include "bake/base/Poll.h"
 #include "bake/motion/CellTools.h"
+#include "bake/search/TrianglesApart.h"
 
 #include <algorithm>
 #include <atomic>
@@ -138,12 +139,20 @@ public:
     }
 
 private:
+    /// By how far its points move, else by which way: what slides past a surface may be as near as it likes.
     bool triangleApart(const Bvh::Node& leaf, const CellMotion& motion, const Pose& inverse,
                        const Probe& at) {
+        constexpr std::uint64_t mostLooks = 20'000, looksPerTest = 32;
         if (p_.triangles.empty()) return false;
         const MeshQuery& triangle = p_.triangles[p_.tree.items[leaf.first]];
+        const bool inA = p_.side == Side::A;
         const double within = (at.move + p_.margin) * (1 + 1e-9) + p_.rounding;
-        return p_.other.apart(triangle, p_.side == Side::A ? inverse : motion.centrePose(), within);
+        if (p_.other.apart(triangle, inA ? inverse : motion.centrePose(), within)) return true;
+        std::uint64_t looked = 0;
+        const bool apart = trianglesApart(inA ? triangle : p_.other, inA ? p_.other : triangle, motion,
+                                          p_.margin * (1 + 1e-9), p_.rounding, mostLooks, looked);
+        tests_ += looked / looksPerTest;
+        return apart;
     }
 
     void mark(std::uint32_t n) {

@@ -35,10 +35,10 @@ public:
     Search(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion, double touching,
            const Progress& progress)
         : a_(a), b_(b), motion_(motion), rates_(motion), touching_(touching), progress_(progress),
-          rounding_(coordinateRounding(motion, a_.query().extent(), b_.query().extent())) {}
+          rounding_(coordinateRounding(motion, a_.extent(), b_.extent())) {}
 
     std::optional<SurfacesApart> run() {
-        if (a_.empty() || b_.empty() || !apartAtSamples()) return std::nullopt;
+        if (a_.bvh().empty() || b_.bvh().empty() || !apartAtSamples()) return std::nullopt;
         for (const auto& [share, most] : {std::pair(0.875, fewExpected), std::pair(0.5, mostExpected)})
             if (expectedCells(share * least_) < most) return shownFor(share);
         byDirection_ = true;
@@ -47,7 +47,7 @@ public:
 
 private:
     double distanceAt(std::span<const double> q, double within) const {
-        return a_.query().distanceTo(b_.query(), pose(motion_, q), within);
+        return a_.distanceTo(b_, pose(motion_, q), within);
     }
 
     /// Looks at poses all over Q for the least distance.
@@ -69,12 +69,12 @@ private:
     /// Were all of Q like the sampled poses, and cells judged by how far points move.
     double expectedCells(double clearance) const {
         const CellMotion whole(rates_, wholeBox(motion_));
-        const auto shares = whole.shares(whole.centrePose() * b_.query().centre());
+        const auto shares = whole.shares(whole.centrePose() * b_.centre());
         double expected = 0;
         for (const double distance : distances_) {
             double cells = 1;
             for (std::size_t k = 0; k < whole.dofs(); ++k) {
-                const double move = shares[k] + whole.relativeShare(k) * b_.query().radius();
+                const double move = shares[k] + whole.relativeShare(k) * b_.radius();
                 cells *= std::max(1.0, double(whole.dofs()) * move / (distance - clearance));
             }
             expected += cells / double(distances_.size());
@@ -111,10 +111,9 @@ private:
     }
 
     bool isApart(const CellMotion& motion, std::uint64_t& looked) const {
-        const MeshQuery &a = a_.query(), &b = b_.query();
-        const double move = motion.pointMotion(motion.centrePose() * b.centre()).move +
-                            motion.relativeMove() * b.radius() + rounding_;
-        return a.apart(b, motion.centrePose(), clearance_ + move) ||
+        const double move = motion.pointMotion(motion.centrePose() * b_.centre()).move +
+                            motion.relativeMove() * b_.radius() + rounding_;
+        return a_.apart(b_, motion.centrePose(), clearance_ + move) ||
                (byDirection_ && trianglesApart(a_, b_, motion, clearance_, rounding_, looksPerCell, looked));
     }
 
@@ -129,13 +128,12 @@ private:
             result.halves = {cell}; // the one pose there is, to be asked again with less clearance
             return result;
         }
-        const auto [lower, upper] =
-            splitCell(rates_, cell, widestDof(motion, b_.query().centre(), b_.query().radius()));
+        const auto [lower, upper] = splitCell(rates_, cell, widestDof(motion, b_.centre(), b_.radius()));
         result.halves = {upper, lower};
         return result;
     }
 
-    const TriangleTree a_, b_;
+    const MeshQuery a_, b_;
     const Motion& motion_;
     const MotionRates rates_;
     const double touching_;

@@ -1,5 +1,7 @@
 #include "bake/search/TrianglesApart.h"
 
+#include "bake/geometry/SurfacePart.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,10 +22,10 @@ struct Placed {
 
 class Separation {
 public:
-    Separation(const TriangleTree& a, const TriangleTree& b, const CellMotion& motion, double distance)
+    Separation(const MeshQuery& a, const MeshQuery& b, const CellMotion& motion, double distance)
         : a_(a), b_(b), motion_(motion), distance_(distance) {
-        const Vec3 toA = -a.query().centre();
-        place_ = Eigen::Translation3d(toA) * motion.centrePose() * Eigen::Translation3d(b.query().centre());
+        const Vec3 toA = -a.centre();
+        place_ = Eigen::Translation3d(toA) * motion.centrePose() * Eigen::Translation3d(b.centre());
     }
 
     /// The nodes cannot come within the distance: by a ball about B's.
@@ -34,11 +36,12 @@ public:
     }
 
     bool trianglesApart(std::uint32_t itemA, std::uint32_t itemB) const {
-        const Corners& x = a_.triangle(itemA);
+        const Corners x = a_.localTriangle(itemA);
+        const Corners corners = b_.localTriangle(itemB);
         Placed y;
         for (std::size_t k = 0; k < 3; ++k) {
-            y.corners[k] = place_ * b_.triangle(itemB)[k];
-            y.remainder[k] = motion_.pointMotion(y.corners[k] + a_.query().centre()).remainder;
+            y.corners[k] = place_ * corners[k];
+            y.remainder[k] = motion_.pointMotion(y.corners[k] + a_.centre()).remainder;
         }
         const Vec3 normalA = normalOf(x), normalB = normalOf(y.corners);
         if (apartAlong(normalA, x, y) || apartAlong(normalB, x, y)) return true;
@@ -60,7 +63,7 @@ public:
 private:
     /// How far points of a ball of B may move, its centre given at the centre of the cell.
     double ballMove(const Vec3& at, double radius) const {
-        return motion_.pointMotion(at + a_.query().centre()).move + motion_.relativeMove() * radius + radius;
+        return motion_.pointMotion(at + a_.centre()).move + motion_.relativeMove() * radius + radius;
     }
 
     /// Points of a triangle move along a direction by no more than its corners do, for they are affine in
@@ -77,7 +80,7 @@ private:
             if (n.dot(y.corners[k]) - y.remainder[k] <= upTo) return false;
         std::array<double, maxDofs> slope;
         for (std::size_t k = 0; k < 3; ++k) {
-            motion_.slope(y.corners[k] + a_.query().centre(), n, slope.data());
+            motion_.slope(y.corners[k] + a_.centre(), n, slope.data());
             double from = n.dot(y.corners[k]) - y.remainder[k];
             for (std::size_t d = 0; d < motion_.dofs(); ++d) from -= motion_.half(d) * std::abs(slope[d]);
             if (!(from > upTo)) return false;
@@ -85,7 +88,7 @@ private:
         return true;
     }
 
-    const TriangleTree &a_, &b_;
+    const MeshQuery &a_, &b_;
     const CellMotion& motion_;
     const double distance_;
     Pose place_;
@@ -93,21 +96,14 @@ private:
 
 } // namespace
 
-TriangleTree::TriangleTree(const TriangleMesh& mesh) : query_(mesh) {
-    for (const std::uint32_t item : query_.bvh().items) {
-        Corners& corners = triangles_.emplace_back();
-        for (int k = 0; k < 3; ++k) corners[std::size_t(k)] = mesh.corner(item, k) - query_.centre();
-    }
-}
-
-bool trianglesApart(const TriangleTree& a, const TriangleTree& b, const CellMotion& motion, double distance,
+bool trianglesApart(const MeshQuery& a, const MeshQuery& b, const CellMotion& motion, double distance,
                     double rounding, std::uint64_t most, std::uint64_t& looked) {
     const Separation separation(a, b, motion, distance + rounding);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{0, 0}};
     while (!open.empty()) {
         const auto [i, j] = open.back();
         open.pop_back();
-        const Bvh::Node &nodeA = a.nodes()[i], &nodeB = b.nodes()[j];
+        const Bvh::Node &nodeA = a.bvh().nodes[i], &nodeB = b.bvh().nodes[j];
         if (++looked > most) return false;
         if (separation.nodesApart(nodeA, nodeB)) continue;
         const bool divideA =

@@ -6,6 +6,7 @@
 #include "tests/Joints.h"
 
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <numbers>
 
 /// Sphere sets against the meshes themselves.
@@ -41,6 +42,26 @@ inline Verdicts verdicts(const GroundTruth& truth, const tss::ContactZoneFit& fi
         }
     }
     return v;
+}
+
+inline tss::ContactZoneOptions tolerance(double value) {
+    tss::ContactZoneOptions options;
+    options.tolerance = value;
+    options.atRest = tss::AtRest::Collide;
+    return options;
+}
+
+/// True contact is never missed, none is claimed farther off than twice the tolerance.
+inline void checkVerdicts(const tss::TriangleMesh& a, const tss::TriangleMesh& b, const tss::Motion& motion,
+                          const tss::ContactZoneFit& fit, double tolerance, std::size_t count) {
+    const GroundTruth truth(a, b);
+    const Verdicts random = verdicts(truth, fit, motion, tss::compare::randomPoses(motion, count, 1));
+    CHECK(random.missed == 0);
+    CHECK(random.worst <= 2 * tolerance);
+    const Verdicts near = verdicts(truth, fit, motion, nearContactPoses(truth, motion, count / 4, 1e-3, 2));
+    CHECK(near.touching > 0);
+    CHECK(near.missed == 0);
+    CHECK(near.worst <= 2 * tolerance);
 }
 
 } // namespace zone

@@ -17,12 +17,12 @@ Motion randomMotion(std::mt19937& random) {
         Dof dof;
         dof.kind = random() % 2 ? DofKind::Rotation : DofKind::Translation;
         dof.origin = {any(random), any(random), any(random)};
-        dof.axis = Vec3(any(random), any(random), 1.5).normalized();
+        dof.axis = Vec3{any(random), any(random), 1.5}.normalized();
         dof.lower = 0.8 * any(random);
         dof.upper = dof.lower + 1 + 0.5 * any(random);
         motion.dofs.push_back(dof);
     }
-    motion.base.translation() = Vec3(any(random), any(random), any(random));
+    motion.base.translation() = Vec3{any(random), any(random), any(random)};
     return motion;
 }
 
@@ -38,7 +38,7 @@ TEST_CASE("two bodies that may not meet do so at none of many poses, and those t
         const Motion motion = randomMotion(random);
         TriangleMesh moved = box;
         std::uniform_real_distribution<double> any(-1.3, 1.3);
-        const Vec3 offset(any(random), any(random), any(random));
+        const Vec3 offset{any(random), any(random), any(random)};
         for (Vec3& vertex : moved.vertices) vertex += offset;
         const MeshQuery a(moved);
         const double margin = round % 2 ? 0 : 0.1;

@@ -47,7 +47,7 @@ TEST_CASE("a muscle between two bones keeps its volume, at every activation and 
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> unit(0, 1);
     for (int k = 0; k < 60; ++k) {
-        const Pose far = Eigen::Translation3d(Vec3(unit(random), unit(random), unit(random)) * 0.5) *
+        const Pose far = Eigen::Translation3d(Vec3{unit(random), unit(random), unit(random)} * 0.5) *
                          hinge(-60 + 120 * unit(random)) *
                          Eigen::AngleAxisd(unit(random) - 0.5, Vec3::UnitX());
         std::vector<Vec3> places = muscle.vertices(unit(random));

@@ -16,17 +16,17 @@ SphereSet scattered(Random& random, std::size_t count) {
     SphereSet spheres;
     for (std::size_t i = 0; i < count; ++i)
         spheres.push_back(
-            {Vec3(between(random, 2, 4), between(random, -0.2, 0.2), between(random, -0.3, 0.1)),
+            {Vec3{between(random, 2, 4), between(random, -0.2, 0.2), between(random, -0.3, 0.1)},
              between(random, 0.001, 0.08)});
     return spheres;
 }
 
 Pose posed(Random& random) {
     Pose pose = Pose::Identity();
-    const Vec3 axis(between(random, -1, 1), between(random, -1, 1), between(random, -1, 1));
+    const Vec3 axis{between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)};
     pose.linear() = Eigen::AngleAxisd(between(random, -3, 3), axis.normalized()).toRotationMatrix();
     const Vec3 middle(3, 0, -0.1);
-    const Vec3 off(between(random, -0.5, 0.5), between(random, -0.5, 0.5), between(random, -0.5, 0.5));
+    const Vec3 off{between(random, -0.5, 0.5), between(random, -0.5, 0.5), between(random, -0.5, 0.5)};
     pose.translation() = middle + off - pose.linear() * middle;
     return pose;
 }

@@ -225,7 +225,7 @@ TEST_CASE("lips that touch vertex on vertex at rest are two, rims at one place a
     TriangleMesh rounded = splitAt(lips);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> off(-2e-7, 2e-7);
-    for (Vec3& v : rounded.vertices) v += Vec3(off(random), off(random), off(random));
+    for (Vec3& v : rounded.vertices) v += Vec3{off(random), off(random), off(random)};
     CHECK(SkinGround(rounded, {}, {}).first == seamed.first);
 }
 

@@ -36,7 +36,7 @@ TEST_CASE("a walk ends where no triangle around is nearer") {
         const auto count = static_cast<int>(mesh.triangles.size());
         const auto place = [&](int v) -> Eigen::Vector3f { return mesh.vertices[v].cast<float>(); };
         for (int i = 0; i < 500; ++i) {
-            const Vec3 x(along(random), along(random), along(random));
+            const Vec3 x{along(random), along(random), along(random)};
             const int start = static_cast<int>(random() % static_cast<unsigned>(count));
             const SurfacePoint hit =
                 walkDownhill(x.cast<float>(), start, mesh.triangles, across, place, count);

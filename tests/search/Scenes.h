@@ -6,7 +6,9 @@
 #include <numbers>
 #include <random>
 
-/// Scenes made by code for the tests of search, reduction and verification, and for their benchmarks.
+/// Scenes made by code for the tests of search, reduction and verification, and for their benchmarks. One
+/// draw follows the other, in braces or in statements of its own: operands and arguments are evaluated in an
+/// order that differs from machine to machine, and a seed is to give the same scene on all.
 namespace scenes {
 
 struct Scene {
@@ -23,7 +25,7 @@ public:
     int below(int count) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(count)); }
     tss::Vec3 direction() {
         for (;;) {
-            const tss::Vec3 v(in(-1, 1), in(-1, 1), in(-1, 1));
+            const tss::Vec3 v{in(-1, 1), in(-1, 1), in(-1, 1)};
             if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
         }
     }
@@ -44,8 +46,8 @@ inline tss::Dof path(Random& random, int rows, double step, double turn) {
         row.value = k;
         dof.path.push_back(row);
         row.translation += step * random.direction();
-        row.rotation =
-            Eigen::Quaterniond(Eigen::AngleAxisd(random.in(0, turn), random.direction())) * row.rotation;
+        const Eigen::AngleAxisd more{random.in(0, turn), random.direction()};
+        row.rotation = Eigen::Quaterniond(more) * row.rotation;
     }
     dof.frame.translation() = random.inBox(1);
     dof.lower = 0;
@@ -64,14 +66,17 @@ inline Scene randomScene(std::uint64_t seed, int dofs, int spheres, bool paths =
     scene.motion.base.translation() = 1.05 * away;
     for (int k = 0; k < dofs; ++k) {
         const int kind = random.below(paths ? 3 : 2);
-        if (kind == 0)
-            scene.motion.dofs.push_back(joints::turn(random.inBox(1), random.direction(),
-                                                     random.in(-0.8, -0.1), random.in(0.1, 0.8)));
-        else if (kind == 1)
-            scene.motion.dofs.push_back(
-                joints::slide(random.in(0.5, 2) * random.direction(), random.in(-0.5, 0), random.in(0, 0.5)));
-        else
-            scene.motion.dofs.push_back(path(random, 3 + random.below(4), 0.2, 0.2));
+        if (kind == 2) {
+            const int rows = 3 + random.below(4);
+            scene.motion.dofs.push_back(path(random, rows, 0.2, 0.2));
+            continue;
+        }
+        const double size = kind == 0 ? 1 : random.in(0.5, 2);
+        const tss::Vec3 axis = size * random.direction();
+        const double lower = kind == 0 ? random.in(-0.8, -0.1) : random.in(-0.5, 0);
+        const double upper = kind == 0 ? random.in(0.1, 0.8) : random.in(0, 0.5);
+        scene.motion.dofs.push_back(kind == 0 ? joints::turn(random.inBox(1), axis, lower, upper)
+                                              : joints::slide(axis, lower, upper));
     }
     return scene;
 }

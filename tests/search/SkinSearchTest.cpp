@@ -26,7 +26,7 @@ Scene randomScene(std::uint64_t seed) {
     std::uniform_real_distribution<double> unit(-1, 1);
     Scene scene;
     for (int i = 0; i < 600; ++i)
-        scene.skin.vertices.emplace_back(1.5 * unit(random), 0.6 * unit(random), 0.6 * unit(random));
+        scene.skin.vertices.push_back(Vec3{1.5 * unit(random), 0.6 * unit(random), 0.6 * unit(random)});
     for (int i = 0; i + 2 < 600; i += 3) scene.skin.triangles.emplace_back(i, i + 1, i + 2);
     test::BentEllipsoid shape;
     shape.bend = 0.2;
@@ -98,7 +98,7 @@ TEST_CASE("every skin sphere that a swinging bone reaches, or is swung to, is in
         std::vector<double> share;
         for (std::size_t v = 0; v < scene.skin.vertices.size(); ++v)
             share.push_back(std::max(0.0, unit(random)));
-        const Vec3 axis = Vec3(unit(random), unit(random), unit(random)).normalized(), origin(0.8, 0, 0);
+        const Vec3 axis = Vec3{unit(random), unit(random), unit(random)}.normalized(), origin(0.8, 0, 0);
         const auto swung = [&](double angle) {
             return Pose(Eigen::Translation3d(origin) * Eigen::AngleAxisd(angle, axis) *
                         Eigen::Translation3d(-origin));

@@ -63,7 +63,7 @@ TEST_CASE("a body inside another, surfaces apart, is apart; a joint without free
 TEST_CASE("surfaces proven apart are apart by the clearance at random poses of random joints") {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> unit(-1, 1);
-    const auto vec = [&] { return Vec3(unit(random), unit(random), unit(random)); };
+    const auto vec = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
     int proven = 0, tight = 0;
     for (int round = 0; round < 60; ++round) {
         const TriangleMesh a = soupMesh(random, 12, 1, 0.5);

@@ -12,7 +12,7 @@ using namespace tss::test;
 TEST_CASE("triangles told apart by the way they move stay apart at every pose of the cell") {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> unit(-1, 1);
-    const auto vec = [&] { return Vec3(unit(random), unit(random), unit(random)); };
+    const auto vec = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
     int shown = 0, tight = 0, beyondMoves = 0;
     for (int round = 0; round < 6000; ++round) {
         const TriangleMesh a = soupMesh(random, 1, 0.3, 0.8), b = soupMesh(random, 1, 0.3, 0.8);
@@ -21,7 +21,7 @@ TEST_CASE("triangles told apart by the way they move stay apart at every pose of
         for (int k = 0; k < 1 + round % 3; ++k)
             motion.dofs.push_back((k + round) % 3 ? joints::turn(2 * vec(), vec(), -0.5, 0.5)
                                                   : joints::slide(vec(), -0.3, 0.3));
-        const TriangleTree treeA(a), treeB(b);
+        const MeshQuery treeA(a), treeB(b);
         const MotionRates rates(motion);
         const CellMotion cell(rates, wholeBox(motion));
         const double distance = 0.05;
@@ -34,14 +34,13 @@ TEST_CASE("triangles told apart by the way they move stay apart at every pose of
             for (const Dof& dof : motion.dofs)
                 q.push_back(i < 8 ? ((i >> q.size()) & 1 ? dof.upper : dof.lower)
                                   : dof.lower + (dof.upper - dof.lower) * (unit(random) + 1) / 2);
-            least = std::min(least, treeA.query().distanceTo(treeB.query(), pose(motion, q), least));
+            least = std::min(least, treeA.distanceTo(treeB, pose(motion, q), least));
         }
         if (least <= distance) FAIL("round " << round << ": " << least);
         tight += least < 1.5 * distance;
-        const MeshQuery& mesh = treeB.query();
         const double move =
-            cell.pointMotion(cell.centrePose() * mesh.centre()).move + cell.relativeMove() * mesh.radius();
-        beyondMoves += !treeA.query().apart(mesh, cell.centrePose(), distance + move);
+            cell.pointMotion(cell.centrePose() * treeB.centre()).move + cell.relativeMove() * treeB.radius();
+        beyondMoves += !treeA.apart(treeB, cell.centrePose(), distance + move);
     }
     CHECK(shown > 300);
     CHECK(tight > 10);
@@ -49,7 +48,7 @@ TEST_CASE("triangles told apart by the way they move stay apart at every pose of
 }
 
 TEST_CASE("telling triangles apart ends where it was told to") {
-    const TriangleTree ball(ballMesh(Vec3::Zero(), 1, 3)), other(ballMesh({2.001, 0, 0}, 1, 3));
+    const MeshQuery ball(ballMesh(Vec3::Zero(), 1, 3)), other(ballMesh({2.001, 0, 0}, 1, 3));
     const Motion motion;
     const MotionRates rates(motion);
     const CellMotion cell(rates, wholeBox(motion));

@@ -4,7 +4,8 @@
 #include <random>
 
 /// Random motions and tables for property tests: every draw comes from the generator given, so that a printed
-/// seed repeats a case.
+/// seed repeats a case, and one draw follows the other (operands and arguments are evaluated in an order that
+/// differs from machine to machine), so that it is the same case everywhere.
 namespace random_table {
 
 using Random = std::mt19937_64;
@@ -14,7 +15,7 @@ inline double between(Random& random, double low, double high) {
 }
 inline tss::Vec3 inBall(Random& random, double radius) {
     for (;;) {
-        const tss::Vec3 v(between(random, -1, 1), between(random, -1, 1), between(random, -1, 1));
+        const tss::Vec3 v{between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)};
         if (v.squaredNorm() <= 1) return radius * v;
     }
 }
@@ -25,20 +26,24 @@ inline tss::Vec3 direction(Random& random) {
     }
 }
 
+inline Eigen::AngleAxisd turn(Random& random, double most) {
+    const double angle = between(random, 0, most);
+    return {angle, direction(random)};
+}
+
 inline tss::Dof path(Random& random, double size) {
     tss::Dof dof;
     dof.kind = tss::DofKind::Path;
     dof.lower = 0;
     dof.upper = 1;
     dof.frame.translation() = inBall(random, size);
-    dof.frame.linear() = Eigen::AngleAxisd(between(random, 0, 3), direction(random)).toRotationMatrix();
+    dof.frame.linear() = turn(random, 3).toRotationMatrix();
     tss::PathRow row;
     for (int i = 0; i <= 4; ++i) {
         row.value = i == 4 ? 1.0 : 0.25 * i + (i > 0 ? between(random, -0.05, 0.05) : 0);
         dof.path.push_back(row);
         row.translation += inBall(random, 0.1 * size);
-        row.rotation =
-            row.rotation * Eigen::Quaterniond(Eigen::AngleAxisd(between(random, 0, 0.15), direction(random)));
+        row.rotation = row.rotation * Eigen::Quaterniond(turn(random, 0.15));
     }
     return dof;
 }
@@ -67,7 +72,7 @@ inline tss::Motion motion(Random& random, int dofCount, double size, bool paths 
         m.dofs.push_back(dof(random, kind, size));
     }
     m.base.translation() = inBall(random, 0.2 * size);
-    m.base.linear() = Eigen::AngleAxisd(between(random, 0, 3), direction(random)).toRotationMatrix();
+    m.base.linear() = turn(random, 3).toRotationMatrix();
     return m;
 }
 
@@ -88,8 +93,8 @@ inline tss::Table table(Random& random, const tss::Motion& m, int na, int nb, do
         const tss::Sphere& s = b[random() % b.size()];
         const double radius = size * between(random, 0.01, 0.06);
         const tss::Vec3 x = tss::pose(m, values(random, m)) * s.centre;
-        a.push_back(
-            {x + (radius + s.radius + size * between(random, -0.01, 0.03)) * direction(random), radius});
+        const double apart = radius + s.radius + size * between(random, -0.01, 0.03);
+        a.push_back({x + apart * direction(random), radius});
     }
     std::vector<tss::SpherePair> pairs;
     for (std::uint32_t i = 0; i < a.size(); ++i)
@@ -102,7 +107,8 @@ inline tss::Table anyTable(Random& random, int maxDofs = 3) {
     const double size = std::pow(10.0, between(random, -3, 3));
     const int d = 1 + static_cast<int>(random() % maxDofs);
     const tss::Motion m = motion(random, d, size);
-    return table(random, m, 2 + int(random() % 9), 2 + int(random() % 9), size);
+    const int na = 2 + int(random() % 9), nb = 2 + int(random() % 9);
+    return table(random, m, na, nb, size);
 }
 
 } // namespace random_table
