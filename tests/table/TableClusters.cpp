@@ -102,7 +102,7 @@ TEST_CASE("a table of very many tests over few DOFs is in clusters, and answers 
     Table table = random_table::table(random, motion, 280, 280, 1);
     REQUIRE(tablePairs(table).size() > 1 << 16);
     for (SphereSet* set : {&table.a, &table.b})
-        for (Sphere& s : *set) s.radius *= 0.1;
+        for (Sphere& s : *set) s.radius *= 0.13;
     PrepareOptions whole;
     whole.cells = CellUse::Never;
     const PreparedTable with(table), without(table, whole);
