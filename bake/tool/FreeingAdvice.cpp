@@ -182,7 +182,7 @@ private:
         Motion wider = move.motion;
         for (const StopBeyond& stop : move.beyond) {
             const Dof& dof = motion_.dofs[stop.dof];
-            where += fmt::format("{}by {:.4g}{}{}", where.empty() ? "" : " and ", toUser(dof, stop.value),
+            where += fmt::format("{}at {:.4g}{}{}", where.empty() ? "" : " and ", toUser(dof, stop.value),
                                  dof.kind == DofKind::Rotation ? " degrees" : "", ofDof(dof));
             // A little farther, so that it is contact that stops it.
             const double more = 0.05 * (dof.upper - dof.lower);
@@ -201,8 +201,9 @@ private:
             if (up) dof.upper -= excess / (down ? 2 : 1);
         }
         const std::string words = dofs_ ? option(move.shift, wider, true) : "";
-        console_.say(fmt::format("    {} meets nothing within these limits then; it would {}{}{}", b_, where,
-                                 dofs_ ? ". For limits that go on past contact:\n    " : "", words));
+        console_.say(fmt::format(
+            "    {} meets nothing within these limits then; beyond them it does, {} at the latest{}{}", b_,
+            where, dofs_ ? ". For limits that go on past contact:\n    " : "", words));
         return {{"where", where}, {"option", words}};
     }
 

@@ -211,7 +211,7 @@ std::string kernelText(const Json& kernel, double metersPerUnit) {
                             kernel["clusters"]["groups"].dump());
     if (kernel.contains("verdicts"))
         text +=
-            fmt::format("  verdicts     tests are asked in {:.2g} % of the limits; {} bytes\n",
+            fmt::format("  verdicts     tests are asked in {:.3g} % of the limits; {} bytes\n",
                         100 * kernel["verdicts"]["asked"].get<double>(), kernel["verdicts"]["bytes"].dump());
     return text;
 }

@@ -8,6 +8,7 @@
 #include "bake/tool/DofSpec.h"
 #include "bake/verify/Kernel.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -176,6 +177,16 @@ void verify(const std::string& file, double budget, Console& console) {
         if (skin.table) bad += !verifyOne(file, scene, skin, result, console, Budget(budget));
     if (result["pairs"].empty() && result["skins"].empty())
         throw InputError(Where{file}, "nothing to verify; expected a scene with a baked pair or skin");
+    if (result["pairs"].size() > 1) {
+        const auto count = [&](bool decided, bool holds) {
+            return std::ranges::count_if(result["pairs"], [&](const Json& pair) {
+                return pair["decided"] == decided && pair["holds"] == holds;
+            });
+        };
+        console.say(fmt::format("{}: {} hold, {} do not, {} not decided",
+                                counted(result["pairs"].size(), "pair"), count(true, true),
+                                count(true, false), count(false, false)));
+    }
     if (result["pairs"].empty())
         console.say(fmt::format("nothing is proven: {} looked at, and no pair of rigid bodies has a table",
                                 counted(result["skins"].size(), "skin")));

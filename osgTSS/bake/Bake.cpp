@@ -242,14 +242,14 @@ void setFirstLook(tss::SceneModel& model, const std::map<std::string, std::strin
     const bool asked = settings.contains("tolerance");
     std::size_t coarse = 0;
     for (tss::Pair& pair : model.pairs) {
-        if (!tss::isLongChain(model, pair)) continue;
+        if (!tss::isLongChain(model, pair, 2)) continue;
         if (!asked) pair.settings["tolerance"] = tolerance.str();
         if (!settings.contains("budget")) pair.settings["budget"] = budget.str();
         ++coarse;
     }
     if (coarse > 0 && !asked)
         OSG_NOTICE << "osgTSS: " << coarse
-                   << " pairs have more than three joint values: tolerance=" << tolerance.str()
+                   << " pairs have more than two joint values: tolerance=" << tolerance.str()
                    << " for a first look at them; a finer one in -O takes longer" << std::endl;
 }
 

@@ -55,7 +55,8 @@ public:
         supportsOption("static=<NAME,...>", "Transforms that are taken to stand still");
         supportsOption("ignore=<NAME,...>", "Nodes that are drawn, but part of no body");
         supportsOption("still=<DEGREES>", "Turns of bones of less than this are no degree of freedom");
-        supportsOption("play", "Play the animations that nothing plays, one after the other");
+        supportsOption(
+            "play", "Play the animations that nothing plays, one after the other, and swing DOFTransforms");
         supportsOption("cache=<FILE|off>",
                        "Where tables are kept (default FILE.EXT.cache.tss beside the file)");
         supportsOption("<setting>=<value>", "Settings of 'tss bake' without dashes, such as tolerance=0.1");

@@ -6,7 +6,7 @@
 // osgTSS.
 #include "bake/base/Error.h"
 #include "bake/compare/MeshTruth.h"
-#include "bake/motion/WholeTurn.h"
+#include "osgTSS/src/joints/SwingDofs.h"
 
 #include <osgAnimation/BasicAnimationManager>
 #include <osgDB/ReadFile>
@@ -91,24 +91,8 @@ private:
         for (std::size_t j = 0; j < model.joints.size(); ++j) {
             auto* node = dynamic_cast<osgSim::DOFTransform*>(visitor.getJointNodes()[j]);
             if (!node) continue;
-            node->setAnimationOn(false);
-            osg::Vec3 turn = node->getCurrentHPR(), slide = node->getCurrentTranslate();
-            for (const tss::Dof& dof : model.joints[j].dofs) {
-                const int axis = dof.name.back() - 'X', ofTurn[3] = {1, 2, 0};
-                if (axis < 0 || axis > 2 || dof.kind == tss::DofKind::Path) continue;
-                const bool whole = tss::wholeTurn(dof);
-                const double lower = whole ? dof.rest - osg::PI : dof.lower;
-                const double upper = whole ? dof.rest + osg::PI : dof.upper;
-                const double half = (upper - lower) / 2, middle = (upper + lower) / 2;
-                const double from =
-                    half > 0 ? std::asin(std::clamp((dof.rest - middle) / half, -1.0, 1.0)) : 0;
-                const double rounds = 1 + std::fmod(0.618 * which++, 1.0) * 3;
-                const double value = middle + half * std::sin(from + 2 * osg::PI * rounds * share);
-                (dof.kind == tss::DofKind::Rotation ? turn[ofTurn[axis]] : slide[axis]) =
-                    static_cast<float>(value);
-            }
-            node->setCurrentHPR(turn);
-            node->setCurrentTranslate(slide);
+            const auto rounds = [&] { return 1 + std::fmod(0.618 * which++, 1.0) * 3; };
+            osgTSS::swingDofs(*node, model.joints[j].dofs, rounds, share);
         }
     }
 

@@ -81,6 +81,23 @@ TEST_CASE("limits that the application gives hold where the node has none") {
     CHECK(written.joints[0].dofs[1].upper == 0.2f);
 }
 
+TEST_CASE("DOFTransforms that turn all the way round about several axes are named") {
+    const Heard heard;
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    for (const auto& [name, limits] : {std::pair("Free", ""),
+                                       {"Wheel", "rotX:0:0 rotY:0:0"},
+                                       {"Written", "written"},
+                                       {"Given", "rotX:0:1 rotY:0:1"}}) {
+        const auto node = dof(name, 0);
+        node->setUserValue("osgTSS:limits", std::string(limits));
+        root->addChild(node);
+    }
+    extract(*root);
+    CHECK(heard.times("turn all the way round about several axes") == 1);
+    CHECK(heard.times("Free (rot") == 1);
+    for (const char* name : {"Wheel (rot", "Written (rot", "Given (rot"}) CHECK(heard.times(name) == 0);
+}
+
 TEST_CASE("a DOFTransform without limits turns on and on, and is stopped at contact on both sides") {
     Turret it(0);
     REQUIRE(it.model.joints.at(0).dofs.size() == 1);

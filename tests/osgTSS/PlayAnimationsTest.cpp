@@ -1,12 +1,16 @@
 // Animations of a file that nothing plays.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <osg/AnimationPath>
 #include <osg/Group>
 #include <osg/MatrixTransform>
+#include <osg/ValueObject>
 #include <osgAnimation/BasicAnimationManager>
 #include <osgAnimation/Channel>
+#include <osgSim/DOFTransform>
 #include <osgTSS/PlayAnimations>
 #include <osgUtil/UpdateVisitor>
+#include <vector>
 
 namespace {
 
@@ -83,4 +87,40 @@ TEST_CASE("what the application plays is left to it") {
     CHECK(osgTSS::playAnimations(*empty) == Approx(1.5));
     path->setLoopMode(osg::AnimationPath::SWING);
     CHECK(osgTSS::playAnimations(*empty) == Approx(3));
+}
+
+TEST_CASE("DOFTransforms that nothing moves go up and down between their limits, others stay") {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    std::vector<osg::ref_ptr<osgSim::DOFTransform>> nodes;
+    for (int k = 0; k < 4; ++k) {
+        osg::ref_ptr<osgSim::DOFTransform> node = new osgSim::DOFTransform;
+        node->setCurrentScale(osg::Vec3(1, 1, 1));
+        node->setLimitationFlags(0xff800000u);
+        node->setMinHPR(osg::Vec3(-0.5f, 0, 0));
+        node->setMaxHPR(osg::Vec3(1, 0, 0));
+        node->setAnimationOn(false);
+        root->addChild(node);
+        nodes.push_back(node);
+    }
+    nodes[1]->setUserValue("osgTSS:static", true);
+    nodes[2]->setUpdateCallback(new osg::NodeCallback);
+    nodes[3]->setCurrentScale(osg::Vec3(1, 2, 3)); // no joint
+    CHECK(osgTSS::playAnimations(*root) == Approx(8));
+    osgUtil::UpdateVisitor update;
+    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+    update.setFrameStamp(stamp);
+    float least = 1e9f, most = -1e9f;
+    for (unsigned int frame = 0; frame <= 192; ++frame) {
+        stamp->setSimulationTime(7 + frame / 24.0);
+        stamp->setFrameNumber(frame);
+        update.setTraversalNumber(frame);
+        root->accept(update);
+        const float heading = nodes[0]->getCurrentHPR()[0];
+        if (frame % 192 == 0) CHECK(heading == Approx(0).margin(1e-5));
+        least = std::min(least, heading);
+        most = std::max(most, heading);
+        for (int k = 1; k < 4; ++k) REQUIRE(nodes[k]->getCurrentHPR() == osg::Vec3());
+    }
+    CHECK(least == Approx(-0.5).margin(0.01));
+    CHECK(most == Approx(1).margin(0.01));
 }

@@ -176,8 +176,9 @@ TEST_CASE("for a first look pairs over many joint values, and they alone, get co
     using Tolerances = std::set<std::string>;
     auto found = settings("pairs=all", true);
     CHECK(found[1] == Tolerances{""});
-    CHECK(found[3] == Tolerances{""});
-    CHECK(found[4] == Tolerances{"0.02"}); // of boxes of 0.69
+    CHECK(found[2] == Tolerances{""});
+    CHECK(found[3] == Tolerances{"0.02"}); // of boxes of 0.69
+    CHECK(found[4] == Tolerances{"0.02"});
     CHECK(settings("pairs=all", false)[4] == Tolerances{""});
     CHECK(settings("pairs=all tolerance=0.1", true)[4] == Tolerances{"0.1"});
 }

@@ -21,7 +21,7 @@ TEST_CASE("every command of docs/ROBOTS.md does what it says, one after the othe
                       .find("next: tss bake arm.tss -o BAKED.tss --tolerance 9mm --budget 5\n") !=
                   std::string::npos);
     }
-    CHECK(commands == 10);
+    CHECK(commands == 11);
     const std::string srdf = readText(folder.path() / "arm.srdf");
     CHECK(srdf.find("reason=\"Never\"") != std::string::npos);
     CHECK(srdf.find("the meshes meet, as at ") != std::string::npos);

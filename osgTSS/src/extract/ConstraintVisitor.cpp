@@ -283,8 +283,11 @@ void ConstraintVisitor::enterJoint(osg::Transform& node, FoundJoints found) {
         text << "its matrices are rotations and equal scales to " << off << " only; the nearest are taken";
         warn(text.str());
     }
-    if (!found.unlimited.empty())
-        _unlimited += (_unlimited.empty() ? "" : ", ") + pathText() + " (" + found.unlimited + ")";
+    const auto list = [&](std::string& all, const std::string& axes) {
+        if (!axes.empty()) all += (all.empty() ? "" : ", ") + pathText() + " (" + axes + ")";
+    };
+    list(_unlimited, found.unlimited);
+    list(_turning, found.turning);
 
     const double scale = _place.scale * parent->scale;
     tss::Pose toBody0 = parent->pose;

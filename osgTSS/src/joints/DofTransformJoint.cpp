@@ -235,14 +235,18 @@ FoundJoints dofTransformJoint(const osgSim::DOFTransform& node, double timeCodes
     const bool written = words.rfind(writtenWord, 0) == 0;
     if (written) words.erase(0, std::string(writtenWord).size());
     const std::vector<tss::Dof> limits = parseDofWords(words, limitsTag);
+    int free = 0;
     for (Axis axis : axesInOrder(node)) {
         axis.limited = axis.limited || written;
         const tss::Dof dof = dofOf(axis, limits, found.unlimited);
+        if (!axis.limited && !given(axis, limits) && tss::wholeTurn(dof))
+            found.turning += (free++ > 0 ? " " : "") + dof.name;
         if (dof.lower == 0 && dof.upper == 0) continue; // locked where it does nothing
         joint.drives.push_back(node.getAnimationOn() ? drive(dof, axis, timeCodesPerSecond)
                                                      : tss::TimeSamples{});
         joint.dofs.push_back(dof);
     }
+    if (free < 2) found.turning.clear();
     found.joints = {joint};
     return found;
 }

@@ -15,6 +15,7 @@ struct FoundJoints {
     std::vector<tss::Joint> joints; ///< without bodies and paths
     double scale = 1;               ///< of what hangs below, the same at all times; negative: mirrored too
     std::string unlimited{}; ///< axes that slide without limits, taken to stay where they are; empty: none
+    std::string turning{};   ///< axes that turn all the way round as none is limited, where two and more do
     double off = 0;          ///< how far a matrix in it is from the rotation that is taken for it
 };
 

@@ -1,5 +1,8 @@
+#include "bake/base/Error.h"
 #include "osgTSS/src/CallbackOf.h"
 #include "osgTSS/src/joints/AnimationChannels.h"
+#include "osgTSS/src/joints/DofTransformJoint.h"
+#include "osgTSS/src/joints/SwingDofs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +10,7 @@
 #include <osg/AnimationPath>
 #include <osg/NodeCallback>
 #include <osg/NodeVisitor>
+#include <osg/ValueObject>
 #include <osg/observer_ptr>
 #include <osgAnimation/BasicAnimationManager>
 #include <osgTSS/PlayAnimations>
@@ -38,20 +42,36 @@ struct Turns {
     }
 };
 
+/// A DOFTransform that nothing moves.
+struct Swing {
+    osg::observer_ptr<osgSim::DOFTransform> node;
+    std::vector<tss::Dof> dofs;
+};
+
+constexpr double swingSeconds = 8;
+
 class PlayInTurn : public osg::NodeCallback {
 public:
-    explicit PlayInTurn(std::vector<Turns> turns) : _turns(std::move(turns)) {}
+    PlayInTurn(std::vector<Turns> turns, std::vector<Swing> swings)
+        : _turns(std::move(turns)), _swings(std::move(swings)) {}
 
     void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
         if (const osg::FrameStamp* stamp = visitor->getFrameStamp()) {
             if (_start < 0) _start = stamp->getSimulationTime();
-            for (Turns& turns : _turns) turns.play(std::max(0.0, stamp->getSimulationTime() - _start));
+            const double seconds = std::max(0.0, stamp->getSimulationTime() - _start);
+            for (Turns& turns : _turns) turns.play(seconds);
+            int which = 0;
+            for (const Swing& swing : _swings)
+                if (osg::ref_ptr<osgSim::DOFTransform> moved; swing.node.lock(moved))
+                    swingDofs(
+                        *moved, swing.dofs, [&] { return 1 + which++ % 3; }, seconds / swingSeconds);
         }
         traverse(node, visitor);
     }
 
 private:
     std::vector<Turns> _turns;
+    std::vector<Swing> _swings;
     double _start = -1;
 };
 
@@ -77,6 +97,34 @@ std::optional<Turns> turnsOf(osgAnimation::BasicAnimationManager& manager) {
     if (!(end > 0 && std::isfinite(end))) return std::nullopt;
     return turns;
 }
+
+/// The DOFTransforms that nothing moves and that could.
+class StandingDofs : public osg::NodeVisitor {
+public:
+    StandingDofs() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Transform& node) override {
+        if (auto* found = dynamic_cast<osgSim::DOFTransform*>(&node)) add(*found);
+        traverse(node);
+    }
+
+    std::vector<Swing> swings;
+
+private:
+    void add(osgSim::DOFTransform& node) {
+        bool still = false;
+        node.getUserValue("osgTSS:static", still);
+        if (still || node.getAnimationOn() || node.getUpdateCallback()) return;
+        if (std::ranges::any_of(swings, [&](const Swing& swing) { return swing.node == &node; })) return;
+        try {
+            const FoundJoints found = dofTransformJoint(node, 1);
+            for (const tss::Joint& joint : found.joints)
+                if (std::ranges::any_of(joint.dofs,
+                                        [](const tss::Dof& dof) { return dof.lower < dof.upper; }))
+                    swings.push_back({&node, joint.dofs});
+        } catch (const tss::InputError&) { // it is no joint, as was said on loading
+        }
+    }
+};
 
 /// The longest round of the paths that nodes move along, seconds.
 class PathRounds : public osg::NodeVisitor {
@@ -116,7 +164,11 @@ double playAnimations(osg::Node& root) {
         longest = std::max(longest, turns->round());
         found.push_back(std::move(*turns));
     }
-    if (!found.empty()) root.addUpdateCallback(new PlayInTurn(std::move(found)));
+    StandingDofs standing;
+    root.accept(standing);
+    if (!standing.swings.empty()) longest = std::max(longest, swingSeconds);
+    if (!found.empty() || !standing.swings.empty())
+        root.addUpdateCallback(new PlayInTurn(std::move(found), std::move(standing.swings)));
     return longest;
 }
 

@@ -1,0 +1,17 @@
+#pragma once
+#include "bake/motion/Motion.h"
+
+#include <osgSim/DOFTransform>
+
+#include <functional>
+#include <span>
+
+namespace osgTSS {
+
+/// Puts the axes of a DOFTransform where they are on their way up and down between the limits of its DOFs,
+/// from rest at share 0 on; one that turns all the way round goes half a turn to either side of rest. rounds:
+/// asked once per DOF, how often it goes until share 1. Ends the node's own animation.
+void swingDofs(osgSim::DOFTransform& node, std::span<const tss::Dof> dofs,
+               const std::function<double()>& rounds, double share);
+
+} // namespace osgTSS
