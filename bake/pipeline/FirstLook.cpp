@@ -16,8 +16,8 @@ double oneDigit(double value) {
 
 } // namespace
 
-bool isLongChain(const SceneModel& scene, const Pair& pair, std::size_t most) {
-    return pairDofs(scene, pair).size() > most;
+bool isLongChain(const SceneModel& scene, const Pair& pair) {
+    return pairDofs(scene, pair).size() > 3;
 }
 
 double firstTolerance(const SceneModel& scene) {

@@ -3,9 +3,9 @@
 
 namespace tss {
 
-/// Whether a pair has more joint values than this. Of those of a whole arm, more than three, the default's
-/// spheres are more than a first look is worth; where somebody waits for a picture, of three.
-bool isLongChain(const SceneModel& scene, const Pair& pair, std::size_t most);
+/// Whether a pair has more than three joint values, as those of a whole arm have: the default's spheres are
+/// then more than a first look is worth.
+bool isLongChain(const SceneModel& scene, const Pair& pair);
 
 /// The tolerance for a first look at such pairs: a thirtieth of the usual body, of one digit in millimetres.
 /// Scene units.

@@ -54,7 +54,7 @@ void remarkBodySizes(const SceneModel& scene, const Console& console) {
 std::string nextCommand(const SceneModel& scene, const std::string& output) {
     const std::string command = "tss bake " + shellWord(output) + " -o BAKED.tss",
                       budget = fmt::format(" --budget {:g}", firstBudget(scene));
-    if (std::ranges::any_of(scene.pairs, [&](const Pair& pair) { return isLongChain(scene, pair, 3); }))
+    if (std::ranges::any_of(scene.pairs, [&](const Pair& pair) { return isLongChain(scene, pair); }))
         return command +
                fmt::format(" --tolerance {:g}mm", 1000 * scene.metersPerUnit * firstTolerance(scene)) +
                budget;

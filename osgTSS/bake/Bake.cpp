@@ -2,7 +2,9 @@
 
 #include "bake/base/Error.h"
 #include "bake/check/EarlyContact.h"
+#include "bake/model/Kinematics.h"
 #include "bake/model/SourceHash.h"
+#include "bake/motion/WholeTurn.h"
 #include "bake/pipeline/FirstLook.h"
 #include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
@@ -234,6 +236,13 @@ std::string inWords(const std::string& text) {
 /// coarser, or the pair is not kept apart, and it is said.
 constexpr double effort = 0.1;
 
+/// Over how many joint values a pair turns all the way round.
+std::ptrdiff_t wholeTurns(const tss::SceneModel& model, const tss::Pair& pair) {
+    return std::ranges::count_if(pairDofs(model, pair), [&](const tss::JointDof& dof) {
+        return tss::wholeTurn(model.joints[dof.joint].dofs[dof.dof]);
+    });
+}
+
 /// settings: those asked for.
 void setFirstLook(tss::SceneModel& model, const std::map<std::string, std::string>& settings) {
     std::ostringstream tolerance, budget;
@@ -242,15 +251,17 @@ void setFirstLook(tss::SceneModel& model, const std::map<std::string, std::strin
     const bool asked = settings.contains("tolerance");
     std::size_t coarse = 0;
     for (tss::Pair& pair : model.pairs) {
-        if (!tss::isLongChain(model, pair, 2)) continue;
+        if (!tss::isLongChain(model, pair) && wholeTurns(model, pair) < 2) continue;
         if (!asked) pair.settings["tolerance"] = tolerance.str();
         if (!settings.contains("budget")) pair.settings["budget"] = budget.str();
         ++coarse;
     }
     if (coarse > 0 && !asked)
         OSG_NOTICE << "osgTSS: " << coarse
-                   << " pairs have more than two joint values: tolerance=" << tolerance.str()
-                   << " for a first look at them; a finer one in -O takes longer" << std::endl;
+                   << " pairs have more than three joint values, or turn all the way round about several "
+                      "axes: tolerance="
+                   << tolerance.str() << " for a first look at them; a finer one in -O takes longer"
+                   << std::endl;
 }
 
 /// A pair or skin that cannot be baked is shown as it moves, and the others are kept apart all the same.

@@ -176,11 +176,21 @@ TEST_CASE("for a first look pairs over many joint values, and they alone, get co
     using Tolerances = std::set<std::string>;
     auto found = settings("pairs=all", true);
     CHECK(found[1] == Tolerances{""});
-    CHECK(found[2] == Tolerances{""});
-    CHECK(found[3] == Tolerances{"0.02"}); // of boxes of 0.69
-    CHECK(found[4] == Tolerances{"0.02"});
+    CHECK(found[3] == Tolerances{""});
+    CHECK(found[4] == Tolerances{"0.02"}); // of boxes of 0.69
     CHECK(settings("pairs=all", false)[4] == Tolerances{""});
     CHECK(settings("pairs=all tolerance=0.1", true)[4] == Tolerances{"0.1"});
+    // And where two of the values go all the way round.
+    for (const auto& [words, tolerance] :
+         {std::pair("rotZ:-180:180 rotX:-5:5", ""), {"rotZ:-180:180 rotX:-180:180", "0.02"}}) {
+        root = new osg::Group;
+        root->addChild(nodes::box(osg::Vec3()));
+        osg::ref_ptr<osg::MatrixTransform> wrist = new osg::MatrixTransform(osg::Matrix::translate(1, 0, 0));
+        wrist->setUserValue("osgTSS:dofs", std::string(words));
+        wrist->addChild(nodes::box(osg::Vec3()));
+        root->addChild(wrist);
+        CHECK(settings("", true)[2] == Tolerances{tolerance});
+    }
 }
 
 TEST_CASE("a pseudo-loader's file that is not there is refused") {
