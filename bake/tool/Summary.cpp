@@ -352,9 +352,9 @@ std::string describeItem(const Json& item, double metersPerUnit) {
     if (item["spheresA"] != 0 || item["spheresB"] != 0)
         text += fmt::format("  spheres      {} + {}\n", item["spheresA"].dump(), item["spheresB"].dump());
     if (item.value("neverCollides", false)) {
-        text += fmt::format(
-            "  never collide: the surfaces stay {} apart over the whole motion{}; no table, no callback\n",
-            length(item["clearance"], metersPerUnit), butForRegion(item, metersPerUnit));
+        text += fmt::format("  never collide: the surfaces stay more than {} apart over the whole motion{}; "
+                            "no table, no callback\n",
+                            length(item["clearance"], metersPerUnit), butForRegion(item, metersPerUnit));
     } else {
         text += describeTable(item, metersPerUnit);
     }

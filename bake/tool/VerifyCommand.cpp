@@ -97,7 +97,7 @@ private:
 /// What is claimed of a pair, in a few words.
 std::string claims(const Pair& pair, double metersPerUnit) {
     if (pair.proof)
-        return fmt::format("the meshes stay {} apart", lengthText(pair.proof->clearance, metersPerUnit));
+        return fmt::format("the meshes stay more than {} apart", lengthText(pair.proof->clearance, metersPerUnit));
     std::string text;
     const Table& table = *pair.table;
     if (table.boundMiss)
