@@ -111,11 +111,9 @@ const tss::SceneModel& ConstraintVisitor::getModel() {
                  << "limits=NAME:transX:0:5 on loading" << std::endl;
     if (!_turning.empty() && !_quiet)
         OSG_NOTICE << "osgTSS: these turn all the way round about several axes, as no flag limits them, and "
-                      "take long "
-                      "to bake: "
-                   << _turning
-                   << "; limits=written takes the limits written in them, limits=NAME:rotZ:-24:18 gives "
-                   << "others" << std::endl;
+                   << "take long to bake: " << _turning
+                   << "; limits=written takes the limits written in them, "
+                   << "limits=NAME:rotZ:-24:18 gives others" << std::endl;
     _soft->finish(_model, [&](const std::string& what) {
         if (!_quiet) OSG_WARN << "osgTSS: " << what << std::endl;
     });
