@@ -4,31 +4,32 @@
 #include <osg/Geometry>
 #include <osgAnimation/RigGeometry>
 
-#include <algorithm>
-#include <cmath>
-
 namespace osgTSS {
 
 namespace {
 
-constexpr double fieldOfView = 30; ///< from bottom to top, degrees
-
 /// What is shown, by its vertices: bounds of nodes are spheres about spheres, and OSG doubles those of rigged
 /// meshes.
-class ShownBounds : public osg::ComputeBoundsVisitor {
+class ShownVertices : public osg::ComputeBoundsVisitor {
 public:
-    ShownBounds() : osg::ComputeBoundsVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
+    explicit ShownVertices(Framing& framing)
+        : osg::ComputeBoundsVisitor(TRAVERSE_ACTIVE_CHILDREN), _framing(framing) {}
 
     void apply(osg::Drawable& drawable) override {
+        const osg::Matrixd toWorld =
+            _matrixStack.empty() ? osg::Matrixd() : osg::Matrixd(_matrixStack.back());
         osg::Geometry* geometry = drawable.asGeometry();
         if (auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable); rig && rig->getSourceGeometry())
             geometry = rig->getSourceGeometry();
         const auto* vertices = geometry ? dynamic_cast<osg::Vec3Array*>(geometry->getVertexArray()) : nullptr;
-        if (!vertices) return applyBoundingBox(drawable.getBoundingBox());
-        osg::BoundingBox box;
-        for (const osg::Vec3& v : *vertices) box.expandBy(v);
-        applyBoundingBox(box);
+        if (vertices)
+            for (const osg::Vec3& v : *vertices) _framing.add(osg::Vec3d(v) * toWorld);
+        else if (const osg::BoundingBox box = drawable.getBoundingBox(); box.valid())
+            for (unsigned int k = 0; k < 8; ++k) _framing.add(osg::Vec3d(box.corner(k)) * toWorld);
     }
+
+private:
+    Framing& _framing;
 };
 
 } // namespace
@@ -89,19 +90,9 @@ void OffscreenViewer::look(unsigned int frame) {
             ((at - eye) ^ osg::Z_AXIS).length() > 1e-6 * (at - eye).length() ? osg::Z_AXIS : osg::Y_AXIS;
         return camera.setViewMatrixAsLookAt(eye, at, up);
     }
-    // From the front, as osgviewer's manipulators stand at first, and of what lies flat there from above too:
-    // so far that the sphere is in sight on all sides.
-    ShownBounds shown;
+    ShownVertices shown(_shot.framing);
     _viewer->getSceneData()->accept(shown);
-    osg::BoundingSphere bound = _viewer->getSceneData()->getBound();
-    if (shown.getBoundingBox().valid()) bound = osg::BoundingSphere(shown.getBoundingBox());
-    bound.expandBy(_shot.reach);
-    const double narrow = std::max(1.0, static_cast<double>(_shot.height) / _shot.width);
-    const double away = bound.radius() / std::sin(osg::DegreesToRadians(fieldOfView / 2)) * narrow;
-    const osg::Vec3d size = shown.getBoundingBox()._max - shown.getBoundingBox()._min;
-    const double raised = 3 * size.z() < std::min(size.x(), size.y()) ? osg::DegreesToRadians(50.0) : 0;
-    const osg::Vec3d from(0, -std::cos(raised), std::sin(raised));
-    camera.setViewMatrixAsLookAt(bound.center() + from * away, bound.center(), osg::Z_AXIS);
+    camera.setViewMatrix(_shot.framing.view());
 }
 
 } // namespace osgTSS

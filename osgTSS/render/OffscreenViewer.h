@@ -1,4 +1,6 @@
 #pragma once
+#include "Framing.h"
+
 #include <osg/AnimationPath>
 #include <osg/Image>
 #include <osgViewer/Viewer>
@@ -18,8 +20,8 @@ struct Shot {
     osg::ref_ptr<osg::AnimationPath>
         view; ///< eye to world over seconds, 24 frames in each; null: from a place
     std::optional<std::array<osg::Vec3d, 2>>
-        place;                 ///< eye and what it looks at; none: from the front, all in sight
-    osg::BoundingSphere reach; ///< what the motion reaches beyond the beginning; not valid: nothing
+        place;                ///< eye and what it looks at; none: aslant from the front, all in sight
+    Framing framing{4.0 / 3}; ///< of the default view: what the motion reaches beyond the beginning
 };
 
 /// A viewer without a window, in the OpenGL context that is current in this thread: one time code a frame,

@@ -6,6 +6,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/FramePattern.h"
 #include "bake/model/Kinematics.h"
+#include "bake/motion/WholeTurn.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -80,6 +81,7 @@ osgTSS::Shot shotOf(const Arguments& arguments) {
         throw CLI::ValidationError(
             "--size", fmt::format("expected WxH in pixels, each 1 to {}, found {}", most, arguments.size));
     shot.finer = arguments.finer;
+    shot.framing = osgTSS::Framing(static_cast<double>(shot.width) / shot.height);
     if (arguments.view.empty()) return shot;
     if (const auto place = placeOf(arguments.view)) {
         shot.place = place;
@@ -133,32 +135,42 @@ osg::Vec3d shown(const Point& x, bool turned) {
     return turned ? osg::Vec3d(x.x(), -x.z(), x.y()) : osg::Vec3d(x.x(), x.y(), x.z());
 }
 
-/// What the bodies of a scene reach when their joints do all that is asked of them.
-osg::BoundingSphere reachOf(const Arguments& arguments, const osg::Node& graph) {
+/// Where a DOF is at a share, 0 to 1, of the motion: as it is driven at `time`; else at rest, or, where the
+/// graph's own animations play, up and down its range, `rounds` times.
+double valueAt(const tss::Joint& joint, std::size_t dof, double time, bool animated, double share,
+               int rounds) {
+    if (dof < joint.drives.size() && !joint.drives[dof].empty()) return joint.drives[dof].at(time);
+    const tss::Dof& range = joint.dofs[dof];
+    if (!animated) return range.rest;
+    const bool whole = tss::wholeTurn(range);
+    const double lower = whole ? range.rest - osg::PI : range.lower;
+    const double upper = whole ? range.rest + osg::PI : range.upper;
+    return (lower + upper) / 2 + (upper - lower) / 2 * std::sin(2 * osg::PI * rounds * share);
+}
+
+/// Adds what the bodies of a scene reach when their joints do all that is asked of them.
+void addReach(osgTSS::Framing& framing, const Arguments& arguments, const osg::Node& graph, bool animated) {
     const osgTSS::Scene* scene = osgTSS::Scene::on(graph);
-    osg::BoundingBox box;
-    if (!scene) return {};
+    if (!scene) return;
     const tss::SceneModel& model = scene->getModel();
     const bool turned = isTurned(arguments, graph);
     constexpr int most = 200; // looked at, of long motions
     const double codes = std::floor(model.endTimeCode - model.startTimeCode);
-    const int count = static_cast<int>(std::clamp(codes, 0.0, double(most)));
+    const int count = animated ? most : static_cast<int>(std::clamp(codes, 0.0, double(most)));
     for (int k = 0; k <= count; ++k) {
-        const double time = model.startTimeCode + (count ? codes * k / count : 0);
+        const double share = count ? static_cast<double>(k) / count : 0;
         std::vector<double> values;
         for (const tss::Joint& joint : model.joints)
             for (std::size_t dof = 0; dof < joint.dofs.size(); ++dof)
-                values.push_back(dof < joint.drives.size() && !joint.drives[dof].empty()
-                                     ? joint.drives[dof].at(time)
-                                     : joint.dofs[dof].rest);
+                values.push_back(valueAt(joint, dof, model.startTimeCode + codes * share, animated, share,
+                                         1 + static_cast<int>(values.size() % 3)));
         const std::vector<tss::Pose> poses = tss::posedBodies(model, values);
         for (std::size_t body = 0; body < poses.size(); ++body) {
             if (!model.bodies[body].visible) continue;
             for (const tss::Vec3& v : model.bodies[body].mesh.vertices)
-                box.expandBy(shown(tss::Vec3(poses[body] * v), turned));
+                framing.add(shown(tss::Vec3(poses[body] * v), turned));
         }
     }
-    return box.valid() ? osg::BoundingSphere(box) : osg::BoundingSphere();
 }
 
 /// `seconds`: of its animations.
@@ -187,9 +199,9 @@ void render(const Arguments& arguments) {
         throw CLI::ValidationError(
             "--output", "expected one %d for the frame number, as in f_%04d.png, found " + arguments.output);
     const osg::ref_ptr<osg::Node> scene = load(arguments);
-    const unsigned int frames =
-        framesOf(arguments, *scene, arguments.rest ? 0 : osgTSS::playAnimations(*scene));
-    if (frames > 1) shot.reach = reachOf(arguments, *scene);
+    const double seconds = arguments.rest ? 0 : osgTSS::playAnimations(*scene);
+    const unsigned int frames = framesOf(arguments, *scene, seconds);
+    if (frames > 1) addReach(shot.framing, arguments, *scene, seconds > 0);
     if (shot.place)
         for (osg::Vec3d& point : *shot.place) point = shown(point, isTurned(arguments, *scene));
 
@@ -239,8 +251,7 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     options.add_option("--view", arguments.view,
                        "a camera path, as osgviewer -p reads it, or EYE:AT in scene units, such as "
-                       "0,-3,1:0,0,1 (default: from the front, of what lies flat from above too, all of the "
-                       "motion in sight)");
+                       "0,-3,1:0,0,1 (default: from the front, right and above, all of the motion in sight)");
     options.add_flag("--rest", arguments.rest, "animations that nothing plays are not played either");
     options.add_flag("--overlay", arguments.overlay, "show spheres, tested pairs and contacts");
     options.add_option("--options", arguments.options,

@@ -40,16 +40,45 @@ printf 'v 0 99 0\nv 2 99 0\nv 0 101 0\nv 0 99 2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 
 ends 0 "$render" "$out/high.tss" -o "$out/high.png" --frames 1 --size 160x120 --view 0,100,30:0,100,0
 ends 0 "$render" "$out/high.tss" -o "$out/away.png" --frames 1 --size 160x120 --view 0,100,30:0,100,60
 ! cmp -s "$out/high.png" "$out/away.png" || fail "--view sees nothing of a scene with Y up"
-# What lies flat is seen from above: two prisms that are the same from the front are not.
-prism() { # NAME X: a triangle with its third corner at X, 1 high
-    printf 'v 0 0 0\nv 9 0 0\nv %s 9 0\nv 0 0 1\nv 9 0 1\nv %s 9 1\n' "$2" "$2" >"$out/$1.obj"
+# Nothing is seen on edge: prisms along each axis whose third corners differ are different pictures.
+prism() { # NAME X AXIS: a triangle with its third corner at X, 9 high, along the axis
+    local corner i order=(1 2 3)
+    [ "$3" != X ] || order=(3 1 2)
+    [ "$3" != Y ] || order=(2 3 1)
+    for corner in "0 0 0" "9 0 0" "$2 9 0" "0 0 9" "9 0 9" "$2 9 9"; do
+        echo "v $(for i in "${order[@]}"; do echo "$corner" | cut -d' ' -f"$i"; done | paste -sd' ')"
+    done >"$out/$1.obj"
     printf 'f 1 3 2\nf 4 5 6\nf 1 2 5\nf 1 5 4\nf 2 3 6\nf 2 6 5\nf 3 1 4\nf 3 4 6\n' >>"$out/$1.obj"
     "$build/bin/tss" make -o "$out/$1.tss" --quiet --a "$out/$1.obj" --b "$out/$1.obj" --dof rot:0,0,0:0,0,1:0:0
     ends 0 "$render" "$out/$1.tss" -o "$out/$1.png" --frames 1 --size 160x120
 }
-prism left 0
-prism right 9
-! cmp -s "$out/left.png" "$out/right.png" || fail "flat scenes are seen on edge"
+for axis in X Y Z; do
+    prism left 0 $axis
+    prism right 9 $axis
+    ! cmp -s "$out/left.png" "$out/right.png" || fail "what lies along $axis is seen on edge"
+done
+# All of the motion is in sight, and fills the picture one way or the other.
+for size in 160x120 90x180; do
+    ends 0 "$render" "$jaw" -o "$out/all_%03d.ppm" --every 4 --size $size
+    tail -q -c $((3 * ${size%x*} * ${size#*x})) "$out"/all_*.ppm | od -An -v -tu1 -w$((3 * ${size%x*})) |
+        awk -v size=$size '
+            BEGIN { split(size, of, "x"); left = of[1]; top = of[2] }
+            {
+                row = (NR - 1) % of[2]
+                for (x = 0; x < of[1]; ++x)
+                    if ($(3 * x + 1) != $1 || $(3 * x + 2) != $2 || $(3 * x + 3) != $3) {
+                        if (x < left) left = x
+                        if (x > right) right = x
+                        if (row < top) top = row
+                        if (row > bottom) bottom = row
+                    }
+            }
+            END {
+                cut = left < 1 || top < 1 || right > of[1] - 2 || bottom > of[2] - 2
+                exit cut || ((right - left) / of[1] < 0.85 && (bottom - top) / of[2] < 0.85)
+            }' || fail "a picture of $size does not hold the motion, or is mostly empty"
+    rm "$out"/all_*.ppm
+done
 ends 0 "$render" --help
 ends 1 "$render" "$scenes/none.tss" -o "$out/n_%d.png"
 ends 1 "$render" "$jaw" -o "$out/n_%d.png" --frames 1 --view "$out/none.path"
