@@ -202,11 +202,13 @@ struct Level {
 };
 
 /// The finest spheres, no finer than `least`, of which all pairs can be asked, from `first` on: of what is
-/// asked for there may be a thousand times as many. Else the coarsest tried.
+/// asked for there may be a thousand times as many. Else the coarsest tried: where coarser ones are hardly
+/// fewer, for what overlaps at rest or is near there takes most of them, no more are.
 Level finestToAskAll(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
                      double least, double first, const Nesting& known, const Progress& progress) {
     constexpr int mostFills = 8;
     constexpr double enough = 0.85, aim = 0.95; // shares of the pairs that can be asked
+    const double coarsest = std::sqrt(diagonal(a.mesh) * diagonal(b.mesh)) / 4; // of any use
     const auto filled = [&](double tolerance) {
         return Level{tolerance, fill(a, b, motion, options, tolerance, &known, progress)};
     };
@@ -225,10 +227,13 @@ Level finestToAskAll(const Body& a, const Body& b, const Motion& motion, const B
         double next = tolerance * std::pow(share / aim, 1 / power);
         if (!good) next = std::max(next, 1.05 * tooFine);
         if (good && next <= tooFine) next = std::sqrt(good->tolerance * tooFine);
+        if (tolerance >= coarsest && next > tolerance) break;
+        if (tolerance < coarsest) next = std::min(next, coarsest);
         last = filled(std::max(next, least));
-        if (last.tolerance != tolerance)
-            power =
-                std::clamp(std::log(pairs / last.pairs()) / std::log(last.tolerance / tolerance), 2.0, 4.0);
+        if (last.tolerance == tolerance) continue;
+        const double fewer = std::log(pairs / last.pairs()) / std::log(last.tolerance / tolerance);
+        if (!good && last.tolerance > tolerance && fewer < 1 && !canAskAll(last.spheres, options)) break;
+        power = std::clamp(fewer, 2.0, 4.0);
     }
     return good ? std::move(*good) : std::move(last);
 }

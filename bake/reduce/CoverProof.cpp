@@ -18,12 +18,14 @@ struct PartResult {
     std::uint64_t cells = 0, looks = 0;
 };
 
-/// Depth first from one cell, for at most `steps` cells, about `looks` looks, or until something is lacking.
-PartResult runPart(CellExaminer& examiner, const OpenCell& cell, std::uint64_t steps, std::uint64_t looks) {
+/// Depth first from one cell, for at most `steps` cells, about `looks` looks, while there is time, or until
+/// something is lacking.
+PartResult runPart(CellExaminer& examiner, const OpenCell& cell, std::uint64_t steps, std::uint64_t looks,
+                   const CoverBudget& budget) {
     PartResult result;
     result.left.push_back(cell);
     const std::uint64_t before = examiner.looks();
-    while (!result.left.empty() && result.cells < steps && result.looks < looks) {
+    while (!result.left.empty() && result.cells < steps && result.looks < looks && !budget.late()) {
         CellVerdict verdict = examiner.examine(result.left.back());
         ++result.cells;
         result.looks = examiner.looks() - before;
@@ -118,11 +120,15 @@ double shareDone(const CoverProblem& problem, const std::vector<OpenCell>& left)
 
 } // namespace
 
+bool CoverBudget::late() const {
+    return seconds > 0 && watch.seconds() >= seconds;
+}
+
 bool CoverBudget::spent(std::uint64_t looksUsed, double share) const {
     if (looks > 0 && looksUsed >= looks) return true;
     // From a tenth on: at this rate it would not end.
     if (looks > 0 && looksUsed >= looks / 10 && share < double(looksUsed) / double(looks)) return true;
-    if (seconds > 0 && watch.seconds() >= seconds) return true;
+    if (late()) return true;
     return !report(progress, "certified cover", share);
 }
 
@@ -149,7 +155,7 @@ CoverProof proveCover(const CoverProblem& problem, const ErrorContract& owed, Gr
         std::vector<PartResult> parts(count);
         parallelFor(count, [&](std::size_t k) {
             auto loan = examiners.borrow();
-            parts[k] = runPart(*loan, proof.left[proof.left.size() - 1 - k], steps, looks);
+            parts[k] = runPart(*loan, proof.left[proof.left.size() - 1 - k], steps, looks, budget);
         });
         proof.left.resize(proof.left.size() - count);
         Additions additions(problem, owed, cover, proof);

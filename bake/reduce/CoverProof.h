@@ -13,6 +13,7 @@ struct CoverBudget {
     Progress progress;
     Stopwatch watch;
 
+    bool late() const;
     bool spent(std::uint64_t looksUsed, double share) const;
 };
 

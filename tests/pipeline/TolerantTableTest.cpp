@@ -7,6 +7,7 @@
 #include "bake/verify/MeshVerify.h"
 #include "bake/verify/Verify.h"
 #include "tests/GroundTruth.h"
+#include "tests/Shapes.h"
 #include "tests/pipeline/LumpyPair.h"
 #include "tests/table/RandomTable.h"
 
@@ -353,4 +354,26 @@ TEST_CASE("a path whose values are as far from 0 as doubles tell them apart come
     }
     CHECK(touching > 10);
     CHECK(missed == 0);
+}
+
+TEST_CASE("spheres that bodies near each other at rest take are not made coarser for nothing") {
+    SceneModel scene;
+    scene.metersPerUnit = 1;
+    scene.defaultPrim = "Scene";
+    for (const double x : {0.0, 1.01}) {
+        Body body;
+        body.path = x > 0 ? "/Scene/B" : "/Scene/A";
+        body.mesh = boxMesh(Vec3(x, 0, 0), Vec3(x + 1, 1, 1));
+        scene.bodies.push_back(body);
+    }
+    Motion motion;
+    motion.dofs = {joints::turn({1, 0, 0}, {0, 0, 1}, -0.5, 0.5)};
+    addPair(scene, 0, 1, motion, "Hinge");
+    BakeOptions options;
+    options.tolerance = 0.1;
+    options.mostTests = 100;
+    const PairSpheres spheres = fillToAskAll(scene, scene.pairs[0], motion, options);
+    CHECK_FALSE(spheres.askAll);
+    CHECK(spheres.a.spheres.size() > 100); // which their distance takes, whatever the tolerance
+    CHECK(spheres.stickOut < 1);
 }
