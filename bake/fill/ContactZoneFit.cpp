@@ -158,9 +158,9 @@ private:
     bool narrow(double tolerance) {
         if (whole_) return true;
         std::vector<Patch> zoneA = findNearSurface(a_.zone, Side::A, b_.surface, motion_, cells_, tolerance,
-                                                   options_.margin, progress_);
+                                                   options_.margin, options_.effort, progress_);
         std::vector<Patch> zoneB = findNearSurface(b_.zone, Side::B, a_.surface, motion_, cells_, tolerance,
-                                                   options_.margin, progress_);
+                                                   options_.margin, options_.effort, progress_);
         const bool region = !result_.rest.region.empty(); // of which either zone may meet the other's
         if (region ? zoneA.empty() && zoneB.empty() : zoneA.empty() || zoneB.empty()) {
             // The poses left are free; what was decided before stays with the inscribed spheres.

@@ -25,6 +25,7 @@ struct ContactZoneOptions {
         false; ///< all of both surfaces is filled, at once to the tolerance: nothing is looked for in Q
     /// Of findNested() for the tolerance or a finer one, where that is known: it holds for coarser ones too.
     std::optional<Nesting> nesting = {};
+    double effort = 1; ///< share of the work that looking for what comes near takes at most, in (0, 1]
     MedialOptions medial;
 };
 

@@ -81,6 +81,7 @@ public:
             if (toBake(scene_, skin, request_)) addSettings(skin, request_);
         each(scene_.pairs, [&](Pair& pair, PairReport& report) {
             BakeOptions options = optionsFor(pair.settings, {}, scene_.metersPerUnit);
+            options.effort = request_.effort;
             options.mostLooks = static_cast<std::uint64_t>(request_.effort * double(options.mostLooks));
             options.mostPatches = static_cast<std::size_t>(request_.effort * double(options.mostPatches));
             bakePair(scene_, pair, options, report, progress_);

@@ -34,6 +34,7 @@ struct BakeOptions {
     /// about a minute of one core. Gap-true tables, which cannot do that, have no limit.
     std::uint64_t mostLooks = 2'000'000'000;
     std::size_t mostPatches = MedialOptions().mostPatches; ///< of surface that a body is cut into
+    double effort = 1; ///< share of the work that looking for the contact zone takes at most, in (0, 1]
     /// As many pairs of spheres a table asks at most where no cover of them is found: few of them in a query,
     /// in clusters, but each takes some 150 bytes in memory.
     std::size_t mostTests = 1'000'000;

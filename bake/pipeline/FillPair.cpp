@@ -104,6 +104,7 @@ PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const B
     zone.maxSpheres = options.maxSpheres;
     zone.conservative = options.conservative;
     zone.medial.mostPatches = options.mostPatches;
+    zone.effort = options.effort;
     zone.margin = margin;
     zone.whole = known != nullptr;
     if (known) zone.nesting = *known;

@@ -34,6 +34,7 @@ struct NearSurfaceInput {
     std::unique_ptr<std::atomic<char>[]> reached; ///< one per node: all below it is
     std::vector<std::uint32_t> parents;
     Poll& poll;
+    std::uint64_t most;                  ///< balls that one part of the tree looks at; then it counts as near
     double rounding;                     ///< of distances between the two bodies
     std::atomic<std::uint64_t> tests{0}; ///< balls looked at
 };
@@ -94,7 +95,7 @@ public:
     void run(const CellTree& tree, const std::vector<std::uint32_t>& inherited) {
         Cell cell = tree.cell;
         if (!shrinkToPlanes(p_.rates.motion(), cell)) return;
-        if (p_.poll.stopped()) { // what has not been looked at may be near
+        if (p_.poll.stopped() || tests_ > p_.most) { // what has not been looked at may be near
             for (const std::uint32_t n : inherited) mark(n);
             return;
         }
@@ -213,14 +214,26 @@ enum class Judged { Ball, Triangle };
 
 /// The patches that come near, judged as they are.
 Kept reached(std::span<const Patch> patches, Side side, const MeshQuery& other, const MotionRates& rates,
-             const CellTree& cells, double resolution, double margin, Judged by, Poll& poll) {
+             const CellTree& cells, double resolution, double margin, Judged by, std::uint64_t most,
+             Poll& poll) {
     if (patches.empty()) return {};
     double own = 0;
     for (const Patch& patch : patches)
         for (const Vec3& c : patch.corners) own = std::max(own, c.norm());
     const double inA = side == Side::A ? own : other.extent(), inB = side == Side::A ? other.extent() : own;
-    NearSurfaceInput p{side,       other,  rates, {}, {},   {},
-                       resolution, margin, {},    {}, poll, coordinateRounding(rates.motion(), inA, inB)};
+    NearSurfaceInput p{side,
+                       other,
+                       rates,
+                       {},
+                       {},
+                       {},
+                       resolution,
+                       margin,
+                       {},
+                       {},
+                       poll,
+                       most,
+                       coordinateRounding(rates.motion(), inA, inB)};
     buildTree(p, patches);
     if (by == Judged::Triangle)
         for (const Patch& patch : patches)
@@ -238,20 +251,30 @@ Kept reached(std::span<const Patch> patches, Side side, const MeshQuery& other, 
     return kept;
 }
 
+/// How much is looked at, and how small the cells of Q may be for that.
+struct Effort {
+    double tests;      ///< that one pass over the cells takes at most, about
+    double finest = 0; ///< cells as small as this were too many already
+    std::uint64_t mostOfPart() const { return static_cast<std::uint64_t>(tests / 4); }
+};
+
 /// The same with cells of Q as small as pays: from large ones on, each time on what the last time left. With
 /// many DOFs the number of cells explodes; then larger ones decide, which keeps more surface than need be.
 std::vector<Patch> reachedInBudget(std::vector<Patch> patches, Side side, const MeshQuery& other,
                                    const MotionRates& rates, const CellTree& cells, double size,
-                                   double margin, Judged by, Poll& poll) {
-    const double budget = by == Judged::Ball ? 4e6 : 4e5; // tests, about a microsecond each, or ten
+                                   double margin, Judged by, Effort& effort, Poll& poll) {
     const double growth = std::pow(2.0, static_cast<double>(rates.motion().dofCount()));
     double resolution = 8 * size;
-    while (resolution < other.extent() / 16) resolution *= 2;
+    while (resolution < std::max(other.extent() / 16, effort.finest)) resolution *= 2;
     for (; !patches.empty(); resolution /= 2) {
-        Kept kept = reached(patches, side, other, rates, cells, resolution, margin, by, poll);
+        Kept kept =
+            reached(patches, side, other, rates, cells, resolution, margin, by, effort.mostOfPart(), poll);
         patches = std::move(kept.patches);
-        if (resolution <= size / 2 || static_cast<double>(kept.tests) * growth > budget) break;
-        if (poll.stopped()) break;
+        if (resolution <= size / 2 || poll.stopped()) break;
+        if (static_cast<double>(kept.tests) * growth > effort.tests) {
+            effort.finest = resolution;
+            break;
+        }
     }
     return patches;
 }
@@ -261,15 +284,16 @@ std::vector<Patch> reachedInBudget(std::vector<Patch> patches, Side side, const 
 /// two DOFs cells as small as a clearance are too many.
 std::vector<Patch> largeReached(std::vector<Patch> patches, Side side, const MeshQuery& other,
                                 const MotionRates& rates, const CellTree& cells, double size, double margin,
-                                Poll& poll) {
+                                double share, Poll& poll) {
     constexpr double large = 8;             // sizes
     constexpr std::ptrdiff_t most = 20'000; // some kilobytes each
     if (rates.motion().dofCount() > 2) return patches;
     const auto rest = std::stable_partition(
         patches.begin(), patches.end(), [&](const Patch& patch) { return patch.radius() > large * size; });
     if (rest == patches.begin() || rest - patches.begin() > most) return patches;
+    Effort effort{share * 4e5}; // tests of about ten microseconds each
     std::vector<Patch> near = reachedInBudget({patches.begin(), rest}, side, other, rates, cells, size,
-                                              margin, Judged::Triangle, poll);
+                                              margin, Judged::Triangle, effort, poll);
     near.insert(near.end(), rest, patches.end());
     return near;
 }
@@ -296,18 +320,20 @@ double largestRadius(std::span<const Patch> patches) {
 
 std::vector<Patch> findNearSurface(std::span<const Patch> patches, Side side, const MeshQuery& other,
                                    const Motion& motion, const CellTree& cells, double size, double margin,
-                                   const Progress& progress) {
+                                   double share, const Progress& progress) {
     const MotionRates rates(motion);
     std::vector<Patch> now(patches.begin(), patches.end());
     Poll poll(progress, "reach");
+    Effort effort{share * 4e6}; // tests of about a microsecond each
     // From the coarse to the fine, so that most of a mesh is let go in large pieces.
     for (double step = std::max(size, largestRadius(now));; step = std::max(size, step / 4)) {
         std::vector<Patch> fine;
         const bool whole = std::all_of(now.begin(), now.end(),
                                        [&](const Patch& patch) { return halveTo(patch, step, fine); });
         if (!whole) break; // larger patches than asked for keep more of the surface than need be
-        now = reachedInBudget(std::move(fine), side, other, rates, cells, step, margin, Judged::Ball, poll);
-        now = largeReached(std::move(now), side, other, rates, cells, size, margin, poll);
+        now = reachedInBudget(std::move(fine), side, other, rates, cells, step, margin, Judged::Ball, effort,
+                              poll);
+        now = largeReached(std::move(now), side, other, rates, cells, size, margin, share, poll);
         if (!report(progress, "reach", size / step) || now.empty()) break;
         if (step <= size) break;
     }
