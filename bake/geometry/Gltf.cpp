@@ -5,6 +5,7 @@
 #include "bake/base/Error.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -68,6 +69,47 @@ void expectShallow(const Json& gltf, const std::string& file) {
     }
 }
 
+/// Whatever else a file needs may change its surfaces: where its coordinates are packed, or stand elsewhere.
+void expectKnown(const Json& gltf, const std::string& file) {
+    constexpr std::array harmless = {"KHR_materials_",
+                                     "KHR_texture_",
+                                     "EXT_texture_",
+                                     "MSFT_texture_",
+                                     "KHR_lights_",
+                                     "KHR_animation",
+                                     "KHR_xmp",
+                                     "EXT_lights_",
+                                     "KHR_draco_",
+                                     "AGI_",
+                                     "KHR_technique",
+                                     "KHR_mesh_quantization",
+                                     "EXT_mesh_gpu_instancing"};
+    for (const Json& name : gltf.value("extensionsRequired", Json::array())) {
+        const std::string needed = name.get<std::string>();
+        if (std::ranges::none_of(harmless, [&](const char* known) { return needed.starts_with(known); }))
+            throw InputError(Where{file, "/extensionsRequired"},
+                             "needs " + needed + ", which is not read; write it without");
+    }
+}
+
+/// assimp takes the bytes of others for floats.
+void expectFloats(const Json& gltf, const std::string& file) {
+    constexpr int floats = 5126; // glTF's code
+    const Json accessors = gltf.value("accessors", Json::array());
+    for (const Json& mesh : gltf.value("meshes", Json::array()))
+        for (const Json& primitive : mesh.at("primitives")) {
+            const auto position = primitive.at("attributes").find("POSITION");
+            if (position == primitive.at("attributes").end()) continue;
+            const std::size_t k = position->get<std::size_t>();
+            if (k >= accessors.size()) continue; // which the importer says
+            if (const int type = accessors[k].at("componentType").get<int>(); type != floats)
+                throw InputError(Where{file, fmt::format("/accessors/{}/componentType", k)},
+                                 fmt::format("expected positions in floats ({}), found {}; write it without "
+                                             "quantization (KHR_mesh_quantization)",
+                                             floats, type));
+        }
+}
+
 std::vector<std::string> takeSkins(Json& gltf) {
     std::set<std::int64_t> joints;
     const Json skins = gltf.value("skins", Json::array());
@@ -104,6 +146,8 @@ std::optional<PlainGltf> plainGltf(const std::string& file) {
         if (!gltf.is_object() || !gltf.at("asset").at("version").get<std::string>().starts_with("2"))
             return std::nullopt;
         expectShallow(gltf, file);
+        expectKnown(gltf, file);
+        expectFloats(gltf, file);
         PlainGltf plain;
         plain.leftOut = takeSkins(gltf);
         const std::string json = gltf.dump(-1, ' ', false, Json::error_handler_t::replace);
