@@ -68,11 +68,12 @@ private:
         if (file.empty()) throw InputError("file \"" + shape.file + "\": its package is left out");
         auto at = meshes_.find(shape.file);
         if (at == meshes_.end()) {
-            std::vector<std::string> leftOut;
-            TriangleMesh read =
-                isMsh(file) ? readMsh(readWholeFile(file), file) : importMesh(file, request_.axes, &leftOut);
-            for (const std::string& what : leftOut)
-                result_.notes.push_back("left out of " + shape.file + ": " + what);
+            MeshFileNotes said;
+            TriangleMesh read = isMsh(file) ? readMsh(readWholeFile(file), file) : importMesh(file, &said);
+            // A scale is the robot's own word on the unit.
+            if (shape.size != Vec3::Ones()) said.metersPerUnit = 0;
+            for (std::string& remark : remarks(shape.file, said, robot_.metersPerUnit))
+                result_.notes.push_back(std::move(remark));
             at = meshes_.emplace(shape.file, std::move(read)).first;
         }
         TriangleMesh mesh = at->second;

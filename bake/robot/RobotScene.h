@@ -16,7 +16,6 @@ enum class RobotPairs { Neighbours, All };
 struct RobotSceneRequest {
     bool visual = false; ///< take the visual shapes of a link, not those of its collision
     RobotPairs pairs = RobotPairs::All;
-    MeshAxes axes = MeshAxes::AsWritten; ///< of files that say which way is up
 };
 
 /// What became of a link, for people and scripts.

@@ -42,7 +42,6 @@ std::string extension(const std::string& file) {
 Layer meshLayer(const ConvertArguments& arguments, std::vector<std::string>& notes) {
     SceneModel scene;
     scene.metersPerUnit = parseUnit(arguments.unit, "--meters-per-unit");
-    if (isGltf(arguments.input)) scene.upAxis = 'Y';
     const std::string stem = std::filesystem::path(arguments.input).stem().string();
     scene.defaultPrim = freePrimName(scene, stem);
     const auto add = [&](const std::string& name) -> Body& {
@@ -50,9 +49,9 @@ Layer meshLayer(const ConvertArguments& arguments, std::vector<std::string>& not
         body.path = "/" + scene.defaultPrim + "/" + freePrimName(scene, name);
         return body;
     };
-    std::vector<std::string> leftOut;
+    MeshFileNotes said;
     if (isGltf(arguments.input)) {
-        for (ImportedNode& node : importNodes(arguments.input, &leftOut)) {
+        for (ImportedNode& node : importNodes(arguments.input, &said)) {
             Body& body = add(node.name.empty() ? stem : node.name);
             const SplitXform place = tss::split({node.place, false});
             body.placement = place.placement;
@@ -63,10 +62,12 @@ Layer meshLayer(const ConvertArguments& arguments, std::vector<std::string>& not
             body.mesh = std::move(node.mesh);
         }
     } else {
-        TriangleMesh mesh = importMesh(arguments.input, MeshAxes::Turned, &leftOut);
+        TriangleMesh mesh = importMesh(arguments.input, &said);
         add(stem).mesh = std::move(mesh);
     }
-    for (const std::string& what : leftOut) notes.push_back("left out of " + arguments.input + ": " + what);
+    if (said.upAxis != '\0') scene.upAxis = said.upAxis;
+    for (std::string& remark : remarks(arguments.input, said, scene.metersPerUnit))
+        notes.push_back(std::move(remark));
     return layerOf(scene);
 }
 

@@ -29,12 +29,12 @@ struct MakeArguments : WholeSceneArguments {
     bool isWhole() const { return !bodies.empty() || !skins.empty(); }
 };
 
-int addBody(SceneModel& scene, const std::string& file, const Vec3& color, Json& audits,
+/// said: receives what the file says of itself.
+int addBody(SceneModel& scene, const std::string& file, const Vec3& color, Json& audits, MeshFileNotes& said,
             const Console& console) {
     Body body;
-    std::vector<std::string> leftOut;
-    body.mesh = importMesh(file, MeshAxes::Turned, &leftOut);
-    for (const std::string& what : leftOut) console.say("note: left out of " + file + ": " + what);
+    body.mesh = importMesh(file, &said);
+    for (const std::string& remark : remarks(file, said, scene.metersPerUnit)) console.say("note: " + remark);
     const MeshAudit audit = auditMesh(body.mesh);
     const Vec3 units = bounds(body.mesh).isEmpty() ? Vec3::Zero() : Vec3(bounds(body.mesh).sizes());
     const Vec3 size = 1000 * scene.metersPerUnit * units;
@@ -148,11 +148,12 @@ void make(MakeArguments& arguments, const CLI::App& command, const Console& cons
     scene.defaultPrim = freePrimName(scene, std::filesystem::path(arguments.output).stem().string());
     Json audits = Json::array();
     const Motion motion = parseMotion(arguments);
-    const int a = addBody(scene, arguments.a, {0.82, 0.77, 0.66}, audits, console);
-    const int b = addBody(scene, arguments.b, {0.74, 0.64, 0.48}, audits, console);
+    MeshFileNotes saidOfA, saidOfB;
+    const int a = addBody(scene, arguments.a, {0.82, 0.77, 0.66}, audits, saidOfA, console);
+    const int b = addBody(scene, arguments.b, {0.74, 0.64, 0.48}, audits, saidOfB, console);
     const int pair = addPair(scene, a, b, motion, "Joint");
-    const bool gltf = isGltf(arguments.a) && isGltf(arguments.b);
-    scene.upAxis = !arguments.upAxis.empty() ? arguments.upAxis[0] : gltf ? 'Y' : 'Z';
+    const bool bothY = saidOfA.upAxis == 'Y' && saidOfB.upAxis == 'Y';
+    scene.upAxis = !arguments.upAxis.empty() ? arguments.upAxis[0] : bothY ? 'Y' : 'Z';
     if (arguments.motion.empty())
         addShowMotion(scene);
     else
@@ -160,6 +161,11 @@ void make(MakeArguments& arguments, const CLI::App& command, const Console& cons
     saveScene(scene, arguments.output);
     console.say("joint  " + describeDofs(motion, scene.metersPerUnit));
     remarkSizes(scene, console);
+    if (saidOfA.upAxis != '\0' && saidOfB.upAxis != '\0' && saidOfA.upAxis != saidOfB.upAxis)
+        console.say(
+            fmt::format("note: {} says that {} is up, and {} that {} is; nothing is turned: write one "
+                        "of them as the other",
+                        arguments.a, saidOfA.upAxis, arguments.b, saidOfB.upAxis));
     remarkLimits(motion, console);
     remarkFarAxes(motion, scene, console);
     console.say("wrote " + arguments.output + "; next: tss bake " + shellWord(arguments.output) +
@@ -244,7 +250,9 @@ void addMake(CLI::App& app, Console& console) {
     command->add_option("--motion", arguments->motion,
                         "a CSV file, the motion that the scene plays: a line of names (time or step, joints, "
                         "muscles), then degrees, units of a value, or activations. Else each moves in turn");
-    command->add_option("--up-axis", arguments->upAxis, "Y or Z (default Z; Y where all meshes are glTF)")
+    command
+        ->add_option("--up-axis", arguments->upAxis,
+                     "Y or Z (default Z; Y where the files of --a and --b say so, or all are glTF)")
         ->check(CLI::IsMember({"Y", "Z"}));
     addRobotOptions(*command, arguments);
     addWholeSceneOptions(*command, arguments);

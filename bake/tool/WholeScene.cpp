@@ -186,9 +186,9 @@ private:
 
     int addBody(const Named& named, const std::string& name, const Pose& placement, const Vec3& color) {
         Body body;
-        std::vector<std::string> leftOut;
-        body.mesh = importMesh(named.file, MeshAxes::Turned, &leftOut);
-        for (const std::string& what : leftOut) note("left out of " + named.file + ": " + what);
+        MeshFileNotes said;
+        body.mesh = importMesh(named.file, &said);
+        for (const std::string& remark : remarks(named.file, said, scene_.metersPerUnit)) note(remark);
         body.path = pathOf(name);
         body.placement = placement;
         body.displayColor = color;
@@ -327,7 +327,6 @@ void makeWholeScene(const WholeSceneArguments& arguments, const Console& console
     const Robot robot = robotOf(arguments);
     RobotSceneRequest request;
     request.pairs = arguments.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
-    request.axes = MeshAxes::Turned;
     RobotScene made = sceneOf(robot, request, [](const std::string& name) { return name; });
     SoftParts soft(made, robot, console);
     for (const std::string& muscle : arguments.muscles) soft.addMuscle(muscle);

@@ -2,9 +2,11 @@
 
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
+#include "tests/MeshFileTexts.h"
 #include "tests/SharedMeshes.h"
 #include "tests/geometry/TestMeshes.h"
 
+#include <fmt/format.h>
 #include <fstream>
 #include <sys/stat.h>
 
@@ -126,6 +128,129 @@ TEST_CASE("a file that is no mesh is refused by its name and the reason") {
     CHECK(refusal(nodes.name).find("holds no triangle") != std::string::npos); // and gets no made-up skeleton
 }
 
+TEST_CASE("a face that is not convex is covered, none of it left open, and nothing beyond it") {
+    // A prism over a comb that lies askew, its ends one face each, of 82 corners.
+    const int teeth = 20;
+    std::vector<Vec3> comb{{0, 0, 0}, {2.0 * teeth, 0, 0}};
+    for (int k = teeth; k > 0; --k)
+        for (const auto& [x, y] : {std::pair(2 * k, 1.0), {2 * k - 1, 1.0}, {2 * k - 1, .1}, {2 * k - 2, .1}})
+            comb.emplace_back(x, y, 0);
+    const Eigen::Quaterniond turn = Eigen::Quaterniond(0.8, 0.3, -0.4, 0.2).normalized();
+    const auto count = static_cast<int>(comb.size());
+    std::string vertices, bottom = "f", top = "f", sides;
+    for (const double z : {0.0, 1.0})
+        for (const Vec3& corner : comb) {
+            const Vec3 v = turn * (corner + z * Vec3::UnitZ());
+            vertices += fmt::format("v {:.7f} {:.7f} {:.7f}\n", v.x(), v.y(), v.z());
+        }
+    for (int k = 1; k <= count; ++k) {
+        bottom += fmt::format(" {}", count + 1 - k);
+        top += fmt::format(" {}", count + k);
+        const int next = k % count + 1;
+        sides += fmt::format("f {} {} {} {}\n", k, next, count + next, count + k);
+    }
+    const TemporaryFile file("comb.obj", vertices + bottom + "\n" + top + "\n" + sides);
+    const TriangleMesh mesh = importMesh(file.name);
+    const MeshAudit audit = auditMesh(mesh);
+    CHECK(audit.triangles == 2 * (count - 2) + 2 * count);
+    CHECK(audit.watertight);
+    CHECK(audit.signedVolume == Approx(22));
+    double area = 0, rim = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        area +=
+            (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0)).norm() / 2;
+    for (int k = 0; k < count; ++k) rim += (comb[k] - comb[(k + 1) % count]).norm();
+    CHECK(area == Approx(2 * 22 + rim));
+}
+
+TEST_CASE("nothing is turned, whatever way is up, and a file's own unit and axes are handed over") {
+    const auto said = [](const TemporaryFile& file) {
+        MeshFileNotes notes;
+        CHECK(bounds(importMesh(file.name, &notes)).sizes().isApprox(Vec3(1, 2, 3), 1e-6));
+        return notes;
+    };
+    for (const char up : {'Y', 'Z'}) {
+        const MeshFileNotes notes = said({"up.dae", tetrahedronCollada(up)});
+        CHECK(notes.upAxis == up);
+        CHECK(notes.metersPerUnit == 1);
+        CHECK(said({"up.fbx", tetrahedronFbx(up)}).upAxis == up);
+    }
+    CHECK(said({"inch.fbx", tetrahedronFbx('Y')}).metersPerUnit == Approx(0.0254));
+    CHECK(said({"plain.amf", tetrahedronAmf("")}).metersPerUnit == 0.001);
+    CHECK(said({"inch.amf", tetrahedronAmf(" unit=\"inch\"")}).metersPerUnit == 0.0254);
+    const MeshFileNotes model = said({"inch.3mf", tetrahedron3mf(" unit=\"inch\"")});
+    CHECK(model.metersPerUnit == 0.0254);
+    CHECK(model.leftOut.empty());
+    CHECK(said({"plain.3mf", tetrahedron3mf("")}).metersPerUnit == 0.001);
+    // assimp's reader turns it.
+    CHECK(said({"faces.dxf", "0\nSECTION\n2\nENTITIES\n" + dxfFace({0, 0, 0}, {1, 0, 0}, {0, 2, 0}) +
+                                 dxfFace({0, 0, 0}, {1, 0, 0}, {0, 0, 3}) + "0\nENDSEC\n0\nEOF\n"})
+              .metersPerUnit == 0);
+}
+
+TEST_CASE("the parts of a 3MF that stand elsewhere in its archive are said to be left out") {
+    MeshFileNotes notes;
+    const TemporaryFile file("parts.3mf",
+                             tetrahedron3mf("", "<item objectid=\"1\" p:path=\"/3D/b.model\"/>"));
+    importMesh(file.name, &notes);
+    REQUIRE(notes.leftOut.size() == 1);
+    CHECK(notes.leftOut[0].find("p:path") != std::string::npos);
+}
+
+TEST_CASE("remarks say what is left out, which unit a file has, and where floats are coarse") {
+    MeshFileNotes notes;
+    CHECK(remarks("a.obj", notes, 0.001).empty());
+    notes.metersPerUnit = 0.0254;
+    CHECK(remarks("a.fbx", notes, 0.0254).empty());
+    REQUIRE(remarks("a.fbx", notes, 1).size() == 1);
+    CHECK(remarks("a.fbx", notes, 1)[0].find("0.0254 m, and 1 m is taken") != std::string::npos);
+    notes.leftOut = {"1 camera"};
+    CHECK(remarks("a.fbx", notes, 1).size() == 2);
+    const TemporaryFile far("far.obj", "v 1000000 0 0\nv 1000001 0 0\nv 1000000 1 0\nf 1 2 3\n"),
+        near("near.obj", "v 100 0 0\nv 101 0 0\nv 100 1 0\nf 1 2 3\n");
+    importMesh(near.name, &notes);
+    CHECK(remarks("near.obj", notes, 1).empty());
+    importMesh(far.name, &notes);
+    REQUIRE(remarks("far.obj", notes, 1).size() == 1);
+    CHECK(remarks("far.obj", notes, 1)[0].find("steps of 0.119 units") != std::string::npos);
+}
+
+TEST_CASE("a glTF of which a part would be misread or lost is refused") {
+    const auto gltf = [](const std::string& more, int type, int last) {
+        return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)" +
+               more +
+               R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[)" +
+               fmt::format(R"({{"bufferView":0,"componentType":{},"count":3,"type":"VEC3"}},)", type) +
+               R"({"bufferView":1,"componentType":5121,"count":6,"type":"SCALAR"}],"bufferViews":[)"
+               R"({"buffer":0,"byteLength":36},{"buffer":1,"byteLength":6}],"buffers":[{"byteLength":36,)"
+               R"("uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"},)"
+               R"({"byteLength":6,"uri":"data:application/octet-stream;base64,AAECAAE)" +
+               (last == 2 ? "C" : "D") + "\"}]}";
+    };
+    constexpr int floats = 5126, shorts = 5122;
+    CHECK(importMesh(TemporaryFile("whole.gltf", gltf("", floats, 2)).name).triangles.size() == 2);
+    CHECK(
+        refusal(TemporaryFile("lost.gltf", gltf("", floats, 3)).name).find("vertices which are not there") !=
+        std::string::npos);
+    CHECK(refusal(TemporaryFile("short.gltf", gltf("", shorts, 2)).name)
+              .find("/accessors/0/componentType: expected positions in floats") != std::string::npos);
+    const auto needs = [&](const std::string& extension) {
+        return refusal(
+            TemporaryFile("needs.gltf", gltf("\"extensionsRequired\":[\"" + extension + "\"],", floats, 2))
+                .name);
+    };
+    CHECK(needs("EXT_meshopt_compression").find("needs EXT_meshopt_compression") != std::string::npos);
+    CHECK(needs("KHR_materials_unlit").empty());
+}
+
+TEST_CASE("a file that crashes its reader is refused or read, and ends nothing else") {
+    // assimp 5.2's reader of it writes beyond its memory.
+    const TemporaryFile file("coloured.raw",
+                             "Name\n0.5 0.5 0.5 0 0 0 0 1 0 1 0 0\n0.1 0 0 0 0 3 0 1 3 1 0 3\n");
+    const std::string why = refusal(file.name);
+    CHECK((why.empty() || why.find(file.name + ": cannot be read as a mesh: ") == 0));
+}
+
 TEST_CASE("a bone that carries several meshes is left out as one") {
     const std::string triangle =
         R"({"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}]})";
@@ -143,9 +268,9 @@ TEST_CASE("a bone that carries several meshes is left out as one") {
                                  "AAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/"
                                  "AAAAAAAAAAAAAAAA"
                                  R"("}]})");
-    std::vector<std::string> leftOut;
-    CHECK(importMesh(file.name, MeshAxes::Turned, &leftOut).triangles.size() == 2);
-    CHECK(leftOut == std::vector<std::string>{"1 bone"});
+    MeshFileNotes notes;
+    CHECK(importMesh(file.name, &notes).triangles.size() == 2);
+    CHECK(notes.leftOut == std::vector<std::string>{"1 bone"});
 }
 
 TEST_CASE("the real meshes come in as their list says") {

@@ -214,7 +214,7 @@ private:
             solid.kind = RobotShape::Kind::Cylinder;
             solid.size = {cylinder->radius, cylinder->length / 2, 0};
         } else if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(&geometry)) {
-            solid.corners = importMesh(meshesOf(file_, {})(mesh->filename), MeshAxes::AsWritten).vertices;
+            solid.corners = importMesh(meshesOf(file_, {})(mesh->filename)).vertices;
             for (Vec3& p : solid.corners) p = p.cwiseProduct(vectorOf(mesh->scale));
         }
         return solid;

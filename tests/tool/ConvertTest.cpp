@@ -1,5 +1,7 @@
-// What goes in and out beside scenes: glTF, spheres for cuRobo, motions, and options that do nothing.
+// What goes in and out beside scenes: glTF and other meshes, spheres for cuRobo, motions, and options that do
+// nothing.
 #include "bake/scene/SceneFile.h"
+#include "tests/MeshFileTexts.h"
 #include "tests/tool/Swing.h"
 
 #include <nlohmann/json.hpp>
@@ -22,6 +24,13 @@ std::string twoBoxes(const Folder& folder) {
     return "make -o s.tss --a a.obj --b b.obj --dof rot:1.5,0,0:0,0,1:0:90 --meters-per-unit 0.1";
 }
 
+/// B beside A, and sliding.
+const std::string aside = " --b-offset 5,0,0 --dof trans:1,0,0:0:1";
+
+bool says(const Ran& ran, const std::string& words) {
+    return ran.out.find(words) != std::string::npos;
+}
+
 } // namespace
 
 TEST_CASE("nodes of a glTF are bodies where they stand, Y is up, and what is left out is said") {
@@ -42,6 +51,47 @@ TEST_CASE("nodes of a glTF are bodies where they stand, Y is up, and what is lef
     CHECK(tss::loadScene(folder / "made.tss").upAxis == 'Y');
     REQUIRE(runTss("make -o made.tss --body two.gltf --up-axis Z", folder.path()).exit == 0);
     CHECK(tss::loadScene(folder / "made.tss").upAxis == 'Z');
+}
+
+TEST_CASE("a file's own unit is remarked upon where another is given") {
+    const Folder folder;
+    writeText(folder.path() / "a.amf", tss::test::tetrahedronAmf(" unit=\"inch\""));
+    const std::string make = "make -o s.tss --a a.amf --b a.amf" + aside;
+    const Ran other = runTss(make, folder.path());
+    INFO(other.out << other.err);
+    CHECK(other.exit == 0);
+    CHECK(
+        says(other, "note: a.amf says that one of its units, as it is read, is 0.0254 m, and 1 m is taken"));
+    CHECK_FALSE(says(runTss(make + " --meters-per-unit 0.0254", folder.path()), "a.amf says"));
+    CHECK(says(runTss("make -o s.tss --body a.amf", folder.path()), "a.amf says that one of its units"));
+    CHECK(says(runTss("convert a.amf c.tss", folder.path()), "a.amf says that one of its units"));
+    // A robot's own scale is its word on the unit.
+    const auto urdf = [&](const std::string& scale) {
+        writeText(folder.path() / "r.urdf",
+                  "<robot name=\"r\"><link name=\"a\"><collision><geometry><mesh filename=\"a.amf\"" + scale +
+                      "/></geometry></collision></link></robot>");
+        return runTss("make r.urdf -o r.tss", folder.path());
+    };
+    CHECK(says(urdf(""), "a.amf says that one of its units"));
+    CHECK_FALSE(says(urdf(" scale=\"0.0254 0.0254 0.0254\""), "a.amf says that one of its units"));
+}
+
+TEST_CASE("which way is up is what two files say together, and nothing is turned") {
+    const Folder folder;
+    for (const char up : {'Y', 'Z'})
+        writeText(folder.path() / (std::string(1, up) + ".dae"), tss::test::tetrahedronCollada(up));
+    const auto make = [&](const std::string& a, const std::string& b) {
+        return runTss("make -o s.tss --a " + a + ".dae --b " + b + ".dae" + aside, folder.path());
+    };
+    REQUIRE(make("Y", "Y").exit == 0);
+    CHECK(tss::loadScene(folder / "s.tss").upAxis == 'Y');
+    REQUIRE(make("Z", "Z").exit == 0);
+    CHECK(tss::loadScene(folder / "s.tss").upAxis == 'Z');
+    CHECK(says(make("Y", "Z"), "note: Y.dae says that Y is up, and Z.dae that Z is; nothing is turned"));
+    for (const tss::Body& body : tss::loadScene(folder / "s.tss").bodies)
+        CHECK(tss::bounds(body.mesh).sizes().isApprox(tss::Vec3(1, 2, 3)));
+    REQUIRE(runTss("convert Y.dae c.tss", folder.path()).exit == 0);
+    CHECK(tss::loadScene(folder / "c.tss").upAxis == 'Y');
 }
 
 TEST_CASE("an option that does nothing for the files at hand is refused") {

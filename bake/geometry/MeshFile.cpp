@@ -1,0 +1,277 @@
+#include "bake/geometry/MeshFile.h"
+
+#ifdef OSGTSS_IMPORT
+
+#include "bake/base/Apart.h"
+#include "bake/base/AtomicFile.h"
+#include "bake/base/Error.h"
+#include "bake/geometry/Gltf.h"
+#include "bake/geometry/MeshFacts.h"
+#include "bake/geometry/MeshFileBytes.h"
+#include "bake/geometry/Polygon.h"
+
+#include <algorithm>
+#include <array>
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/DefaultLogger.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
+#include <assimp/MemoryIOWrapper.h>
+#include <assimp/config.h>
+#include <assimp/scene.h>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <new>
+#include <optional>
+#include <set>
+
+namespace tss {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path realPath(const fs::path& path) {
+    std::error_code error;
+    const fs::path whole = fs::absolute(path, error), real = fs::weakly_canonical(whole, error);
+    return error ? whole.lexically_normal() : real;
+}
+
+/// The files that an importer may open: regular ones, in the folder of the mesh file or below it, also
+/// through links. A pipe is not waited for, and no path leads out.
+class NearbyFiles : public Assimp::DefaultIOSystem {
+public:
+    /// file: the mesh file, as the user gave it.
+    explicit NearbyFiles(const std::string& file)
+        : file_(file), folder_(realPath(fs::absolute(file).parent_path())),
+          realFolder_(realPath(file).parent_path()) {}
+
+    bool Exists(const char* file) const override {
+        std::error_code none;
+        return whyNot(file).empty() && fs::is_regular_file(file, none);
+    }
+    /// Null for a file that may not be opened.
+    Assimp::IOStream* Open(const char* file, const char* mode) override {
+        const std::string why = whyNot(file);
+        if (instead_ && fs::path(file) == file_)
+            return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(instead_->data()),
+                                              instead_->size());
+        if (why.empty()) return DefaultIOSystem::Open(file, mode);
+        if (fs::path(file).extension() != ".mtl") refused_ = why;
+        return nullptr;
+    }
+
+    /// What is read in place of the mesh file; kept by the caller.
+    void readInstead(const std::string& bytes) { instead_ = &bytes; }
+
+    /// The last file that was asked for and may not be opened, and why; empty where there was none. Not of
+    /// materials, which change no surface.
+    const std::string& refused() const { return refused_; }
+
+private:
+    /// Empty for a file that may be opened; else why not.
+    std::string whyNot(const std::string& file) const {
+        if (fs::path(file) == file_) return "";
+        const fs::path real = realPath(file);
+        if (!isWithin(real, folder_) && !isWithin(real, realFolder_))
+            return file + " lies outside of " + folder_.string() + ", the folder of the mesh";
+        std::error_code none;
+        return fs::exists(real, none) && !fs::is_regular_file(real, none) ? file + " is not a regular file"
+                                                                          : "";
+    }
+
+    fs::path file_, folder_, realFolder_;
+    std::string refused_;
+    const std::string* instead_ = nullptr;
+};
+
+/// Little-endian, as glTF has it.
+std::uint32_t readNumber(std::istream& stream) {
+    unsigned char bytes[4] = {};
+    stream.read(reinterpret_cast<char*>(bytes), 4);
+    return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
+}
+
+/// A PLY whose header has no end, for which an importer would look for ever. Throws InputError.
+void expectEndedPly(const std::string& file) {
+    constexpr std::size_t most = 1 << 16; // of a header
+    std::ifstream stream(file, std::ios::binary);
+    std::string begin(most, '\0');
+    stream.read(begin.data(), most);
+    begin.resize(static_cast<std::size_t>(stream.gcount()));
+    if ((begin.starts_with("ply") || begin.starts_with("PLY")) && begin.find("end_header") == begin.npos)
+        throw InputError(Where{file}, "cannot be read as a mesh: its header has no line end_header");
+}
+
+/// A binary glTF whose chunks say that they are longer than the file is, which an importer would make room
+/// for. Throws InputError.
+void expectWholeGlb(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    char magic[4] = {};
+    stream.read(magic, 4);
+    if (!stream || std::string(magic, 4) != "glTF") return; // what it is the importer says
+    std::error_code error;
+    const std::uint64_t size = fs::file_size(file, error);
+    constexpr std::uint64_t header = 12, ofChunk = 8; // version and length; a chunk's length and type
+    for (std::uint64_t at = header; !error && at + ofChunk <= size;) {
+        stream.seekg(static_cast<std::streamoff>(at));
+        const std::uint64_t length = readNumber(stream), left = size - at - ofChunk;
+        if (length > left)
+            throw InputError(Where{file}, "is cut short: a chunk has " + std::to_string(length) +
+                                              " bytes, and " + std::to_string(left) + " are left");
+        at += ofChunk + length;
+    }
+}
+
+/// What assimp says only there, and goes on: a glTF's faces that name vertices which are not there.
+class LostFaces : public Assimp::LogStream {
+public:
+    void write(const char* text) override {
+        if (std::strstr(text, "faces were dropped")) any_ = true;
+    }
+    static bool any() { return any_; }
+
+private:
+    static inline bool any_ = false; // assimp's log is one for the process
+};
+
+Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
+    return Eigen::Matrix<ai_real, 4, 4, Eigen::RowMajor>::Map(m[0]).cast<double>();
+}
+
+/// Throws InputError for a face that names a vertex which is not there.
+void append(const aiMesh& source, TriangleMesh& mesh) {
+    const auto offset = static_cast<int>(mesh.vertices.size());
+    for (unsigned v = 0; v < source.mNumVertices; ++v) {
+        const aiVector3D& p = source.mVertices[v];
+        mesh.vertices.emplace_back(p.x, p.y, p.z);
+    }
+    std::vector<Vec3> corners;
+    for (unsigned f = 0; f < source.mNumFaces; ++f) {
+        const aiFace& face = source.mFaces[f];
+        corners.clear();
+        for (unsigned k = 0; k < face.mNumIndices; ++k) {
+            if (face.mIndices[k] >= source.mNumVertices)
+                throw InputError(fmt::format("face {} names vertex {}; expected one of 0 to {}", f,
+                                             face.mIndices[k],
+                                             static_cast<std::int64_t>(source.mNumVertices) - 1));
+            corners.push_back(mesh.vertices[offset + face.mIndices[k]]);
+        }
+        const auto index = [&](int k) { return offset + static_cast<int>(face.mIndices[k]); };
+        for (const Tri& t : triangulated(corners))
+            mesh.triangles.emplace_back(index(t[0]), index(t[1]), index(t[2]));
+    }
+}
+
+void collect(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& place,
+             std::vector<ImportedNode>& nodes) {
+    ImportedNode part{node.mName.C_Str(), Eigen::Affine3d(place), {}};
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) append(*scene.mMeshes[node.mMeshes[i]], part.mesh);
+    if (!part.mesh.empty()) nodes.push_back(std::move(part));
+    for (unsigned i = 0; i < node.mNumChildren; ++i)
+        collect(scene, *node.mChildren[i], place * matrix(node.mChildren[i]->mTransformation), nodes);
+}
+
+/// That of the root as its file has it: some of assimp's readers turn what has Z up so that Y is.
+Eigen::Matrix4d placeOfRoot(const aiScene& scene, const std::string& file) {
+    Eigen::Matrix4d upright = Eigen::Matrix4d::Identity();
+    upright.block<2, 2>(1, 1) << 0, 1, -1, 0;
+    const Eigen::Matrix4d place = matrix(scene.mRootNode->mTransformation);
+    constexpr std::array turning = {".3ds", ".ase", ".ask", ".dxf", ".md2", ".md3", ".md5mesh"};
+    const bool turned = place == upright && std::ranges::find(turning, extensionOf(file)) != turning.end();
+    return turned ? Eigen::Matrix4d::Identity() : place;
+}
+
+std::vector<std::string> leftOutOf(const aiScene& scene) {
+    std::size_t shapes = 0, lines = 0;
+    std::set<std::string> bones; // one may carry several meshes
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        const aiMesh& mesh = *scene.mMeshes[m];
+        for (unsigned b = 0; b < mesh.mNumBones; ++b) bones.insert(mesh.mBones[b]->mName.C_Str());
+        shapes += mesh.mNumAnimMeshes;
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f) lines += mesh.mFaces[f].mNumIndices < 3;
+    }
+    std::vector<std::string> names;
+    const auto add = [&](std::size_t count, const char* what) {
+        if (count > 0) names.push_back(std::to_string(count) + " " + what + (count > 1 ? "s" : ""));
+    };
+    add(scene.mNumAnimations, "animation");
+    add(bones.size(), "bone");
+    add(shapes, "blend shape");
+    add(scene.mNumCameras, "camera");
+    add(scene.mNumLights, "light");
+    add(lines, "point or line");
+    return names;
+}
+
+/// Cutting a face into triangles takes the square of its corners.
+void expectSmallFaces(const aiScene& scene, const std::string& file) {
+    constexpr unsigned most = 10'000;
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+        for (unsigned f = 0; f < scene.mMeshes[m]->mNumFaces; ++f)
+            if (const unsigned corners = scene.mMeshes[m]->mFaces[f].mNumIndices; corners > most)
+                throw InputError(Where{file}, "has a face of " + std::to_string(corners) +
+                                                  " corners; expected at most " + std::to_string(most));
+}
+
+const aiScene& importScene(Assimp::Importer& importer, NearbyFiles& files, const std::string& file) {
+    Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+    Assimp::DefaultLogger::get()->attachStream(new LostFaces, Assimp::Logger::Warn | Assimp::Logger::Err);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true); // else nodes alone get a made-up one
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true); // nothing is turned
+    // STL and the like repeat a vertex for every face: welded() joins them, exactly equal ones only.
+    const aiScene* scene = importer.ReadFile(file, 0);
+    const std::string why = files.refused().empty() ? importer.GetErrorString() : files.refused();
+    if (why == std::bad_alloc().what()) throw std::bad_alloc();
+    if (!scene || !scene->mRootNode)
+        throw InputError(Where{file},
+                         "cannot be read as a mesh: " + (why.empty() ? "its reader does not say why" : why));
+    if (LostFaces::any()) throw InputError(Where{file}, "has faces that name vertices which are not there");
+    expectSmallFaces(*scene, file);
+    return *scene;
+}
+
+MeshFile readHere(const std::string& file) {
+    Assimp::Importer importer;
+    auto* files = new NearbyFiles(file);
+    importer.SetIOHandler(files); // which owns it
+    const std::optional<PlainGltf> gltf = isGltf(file) ? plainGltf(file) : std::nullopt;
+    if (gltf) files->readInstead(gltf->bytes);
+    const aiScene& scene = importScene(importer, *files, file);
+    MeshFile read;
+    collect(scene, *scene.mRootNode, placeOfRoot(scene, file), read.nodes);
+    read.notes = statedNotes(file, scene);
+    const std::vector<std::string> leftOut = leftOutOf(scene);
+    read.notes.leftOut.insert(read.notes.leftOut.begin(), leftOut.begin(), leftOut.end());
+    if (gltf) read.notes.leftOut.insert(read.notes.leftOut.end(), gltf->leftOut.begin(), gltf->leftOut.end());
+    if (!files->refused().empty()) read.notes.leftOut.push_back(files->refused());
+    return read;
+}
+
+} // namespace
+
+MeshFile readMeshFile(const std::string& file) {
+    std::error_code error;
+    if (!fs::exists(file, error)) throw InputError(Where{file}, "no such file");
+    if (!fs::is_regular_file(file, error))
+        throw InputError(Where{file}, "not a file, a mesh file was expected");
+    expectWholeGlb(file);
+    expectEndedPly(file);
+    // 4 GB, and what a large file takes that is packed.
+    const std::size_t memory = (std::size_t(4) << 30) + 64 * fs::file_size(file);
+    try {
+        return inFile(file,
+                      [&] { return meshFileOf(doneApart([&] { return bytesOf(readHere(file)); }, memory)); });
+    } catch (const EndedApart& end) {
+        throw InputError(Where{file}, fmt::format("cannot be read as a mesh: assimp's reader of it {}; write "
+                                                  "it in another format, as STL, OBJ, PLY or glTF",
+                                                  end.what()));
+    }
+}
+
+} // namespace tss
+
+#endif
