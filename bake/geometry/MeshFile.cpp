@@ -20,13 +20,13 @@
 #include <assimp/config.h>
 #include <assimp/scene.h>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <new>
 #include <optional>
 #include <set>
+#include <string_view>
 
 namespace tss {
 
@@ -126,16 +126,41 @@ void expectWholeGlb(const std::string& file) {
     }
 }
 
-/// What assimp says only there, and goes on: a glTF's faces that name vertices which are not there.
-class LostFaces : public Assimp::LogStream {
+/// What assimp says of lost surface in its log alone, and goes on. It has one log for a process.
+class Losses : public Assimp::LogStream {
 public:
-    void write(const char* text) override {
-        if (std::strstr(text, "faces were dropped")) any_ = true;
+    /// Throws InputError for single faces that are lost, or have got other corners.
+    static void expectNoFaces() {
+        if (faces_.empty()) return;
+        throw InputError("cannot be read whole: assimp says \"" + faces_ +
+                         "\"; write it again, or in another format, as STL, OBJ, PLY or glTF");
     }
-    static bool any() { return any_; }
+    /// Whole parts, in assimp's words.
+    static const std::set<std::string>& parts() { return parts_; }
+
+    void write(const char* line) override {
+        constexpr std::array ofFaces = {
+            "faces were dropped",    "Not supported token in face", "OFF: Vertex index is out of range",
+            "Vertex index overflow", "A new facet begins",          "facet with more than 3 vertices"};
+        constexpr std::array ofParts = {"Unable to find geometry", "Unable to resolve reference to instanced",
+                                        "resolve block reference", "Skipping this element instance",
+                                        "vertices for polymesh",   "more than 4 indices per face",
+                                        "unexpected vertex setup", "source object for incoming Model link"};
+        const std::string_view text = line;
+        const auto isAbout = [&](const char* words) { return text.find(words) != text.npos; };
+        if (std::ranges::any_of(ofFaces, isAbout)) faces_ = said(text);
+        if (std::ranges::any_of(ofParts, isAbout)) parts_.insert(said(text));
+    }
 
 private:
-    static inline bool any_ = false; // assimp's log is one for the process
+    /// Without "Error, T0: " and the end of the line.
+    static std::string said(std::string_view line) {
+        const std::size_t thread = line.find(": "), begin = thread == line.npos ? 0 : thread + 2;
+        return std::string(line.substr(begin, line.find('\n', begin) - begin));
+    }
+
+    static inline std::string faces_;
+    static inline std::set<std::string> parts_;
 };
 
 Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
@@ -219,7 +244,7 @@ void expectSmallFaces(const aiScene& scene, const std::string& file) {
 
 const aiScene& importScene(Assimp::Importer& importer, NearbyFiles& files, const std::string& file) {
     Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
-    Assimp::DefaultLogger::get()->attachStream(new LostFaces, Assimp::Logger::Warn | Assimp::Logger::Err);
+    Assimp::DefaultLogger::get()->attachStream(new Losses, Assimp::Logger::Warn | Assimp::Logger::Err);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true); // else nodes alone get a made-up one
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true); // nothing is turned
     // STL and the like repeat a vertex for every face: welded() joins them, exactly equal ones only.
@@ -229,7 +254,7 @@ const aiScene& importScene(Assimp::Importer& importer, NearbyFiles& files, const
     if (!scene || !scene->mRootNode)
         throw InputError(Where{file},
                          "cannot be read as a mesh: " + (why.empty() ? "its reader does not say why" : why));
-    if (LostFaces::any()) throw InputError(Where{file}, "has faces that name vertices which are not there");
+    Losses::expectNoFaces();
     expectSmallFaces(*scene, file);
     return *scene;
 }
@@ -247,6 +272,8 @@ MeshFile readHere(const std::string& file) {
     const std::vector<std::string> leftOut = leftOutOf(scene);
     read.notes.leftOut.insert(read.notes.leftOut.begin(), leftOut.begin(), leftOut.end());
     if (gltf) read.notes.leftOut.insert(read.notes.leftOut.end(), gltf->leftOut.begin(), gltf->leftOut.end());
+    for (const std::string& part : Losses::parts())
+        read.notes.leftOut.push_back("what assimp says \"" + part + "\" of");
     if (!files->refused().empty()) read.notes.leftOut.push_back(files->refused());
     return read;
 }

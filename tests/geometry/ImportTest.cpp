@@ -229,9 +229,8 @@ TEST_CASE("a glTF of which a part would be misread or lost is refused") {
     };
     constexpr int floats = 5126, shorts = 5122;
     CHECK(importMesh(TemporaryFile("whole.gltf", gltf("", floats, 2)).name).triangles.size() == 2);
-    CHECK(
-        refusal(TemporaryFile("lost.gltf", gltf("", floats, 3)).name).find("vertices which are not there") !=
-        std::string::npos);
+    CHECK(refusal(TemporaryFile("lost.gltf", gltf("", floats, 3)).name).find("Those faces were dropped") !=
+          std::string::npos);
     CHECK(refusal(TemporaryFile("short.gltf", gltf("", shorts, 2)).name)
               .find("/accessors/0/componentType: expected positions in floats") != std::string::npos);
     const auto needs = [&](const std::string& extension) {
@@ -241,6 +240,25 @@ TEST_CASE("a glTF of which a part would be misread or lost is refused") {
     };
     CHECK(needs("EXT_meshopt_compression").find("needs EXT_meshopt_compression") != std::string::npos);
     CHECK(needs("KHR_materials_unlit").empty());
+}
+
+TEST_CASE("a file of which faces would be lost is refused, and of lost parts it is said so") {
+    // With normals and no texture coordinates, faces that name some.
+    const TemporaryFile tokens("tokens.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n"
+                                             "f 1/1/1 3/1/1 2/1/1\n");
+    CHECK(refusal(tokens.name).find("cannot be read whole: assimp says \"OBJ: Not supported token in face") !=
+          std::string::npos);
+    // A face whose last corner is not there gets another one.
+    const TemporaryFile other("other.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 9\n");
+    CHECK(refusal(other.name).find("Vertex index is out of range") != std::string::npos);
+    std::string collada = tetrahedronCollada('Y');
+    const std::string whole = "<instance_geometry url=\"#g\"/>";
+    collada.insert(collada.find(whole), "<instance_geometry url=\"#gone\"/>");
+    const TemporaryFile part("part.dae", collada);
+    MeshFileNotes notes;
+    CHECK(importMesh(part.name, &notes).triangles.size() == 4);
+    REQUIRE(notes.leftOut.size() == 1);
+    CHECK(notes.leftOut[0].find("Unable to find geometry for ID \"gone\"") != std::string::npos);
 }
 
 TEST_CASE("a file that crashes its reader is refused or read, and ends nothing else") {
