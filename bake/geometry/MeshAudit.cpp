@@ -40,6 +40,21 @@ std::vector<char> duplicates(const TriangleMesh& mesh) {
     return repeated;
 }
 
+/// Pairs of triangles that have the same corners in opposite senses, each counted once however
+/// often it is given.
+int countTurnedOver(const TriangleMesh& mesh) {
+    std::vector<std::array<int, 3>> keys;
+    for (const Tri& t : mesh.triangles)
+        if (inRange(mesh, t) && t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) keys.push_back(turned(t));
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    const auto isThere = [&](const std::array<int, 3>& key) {
+        return key[1] < key[2] &&
+               std::binary_search(keys.begin(), keys.end(), std::array{key[0], key[2], key[1]});
+    };
+    return static_cast<int>(std::count_if(keys.begin(), keys.end(), isThere));
+}
+
 struct HalfEdge {
     int from, to; // from < to
     bool forward; // the triangle runs from `from` to `to`
@@ -113,6 +128,7 @@ MeshAudit auditMesh(const TriangleMesh& mesh) {
     countEdges(mesh, audit);
     countVertices(mesh, audit);
     audit.components = countComponents(mesh);
+    audit.turnedOverTriangles = countTurnedOver(mesh);
     const std::vector<char> repeated = duplicates(mesh);
     const Vec3 origin = mesh.vertices.empty() ? Vec3(Vec3::Zero()) : mesh.vertices[0];
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -144,6 +160,7 @@ std::string text(const MeshAudit& audit) {
     say(audit.misorientedEdges, "edges whose two triangles turn against each other");
     say(audit.zeroAreaTriangles, "triangles of no area");
     say(audit.duplicateTriangles, "triangles given more than once");
+    say(audit.turnedOverTriangles, "triangles given a second time turned over: such a pair bounds no inside");
     say(audit.unusedVertices, "vertices in no triangle");
     say(audit.duplicateVertices, "vertices at the place of another");
     if (audit.insideOut()) s += "\ninside out: its volume is negative";

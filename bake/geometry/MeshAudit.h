@@ -11,11 +11,12 @@ namespace tss {
 struct MeshAudit {
     int vertices = 0;
     int triangles = 0;
-    int openEdges = 0;          ///< edges of one triangle only
-    int nonManifoldEdges = 0;   ///< edges of more than two triangles
-    int misorientedEdges = 0;   ///< edges of two triangles that run through them in the same direction
-    int zeroAreaTriangles = 0;  ///< a corner twice, or corners in a line up to rounding
-    int duplicateTriangles = 0; ///< same corners in the same turning sense as an earlier one
+    int openEdges = 0;           ///< edges of one triangle only
+    int nonManifoldEdges = 0;    ///< edges of more than two triangles
+    int misorientedEdges = 0;    ///< edges of two triangles that run through them in the same direction
+    int zeroAreaTriangles = 0;   ///< a corner twice, or corners in a line up to rounding
+    int duplicateTriangles = 0;  ///< same corners in the same turning sense as an earlier one
+    int turnedOverTriangles = 0; ///< pairs of the same corners in opposite senses, which bound nothing
     int unusedVertices = 0;
     int duplicateVertices = 0; ///< at exactly the place of an earlier vertex
     int notFinite = 0;         ///< vertices with a NaN or infinite coordinate

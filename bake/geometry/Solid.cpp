@@ -194,6 +194,10 @@ std::string describe(const TriangleMesh& mesh, const Openings& openings, bool ho
         s = fmt::format("cracks, up to {:.3g} scene units wide, count as closed", openings.widest);
     else if (audit.insideOut())
         s = "inside out: the inside is where the winding number is not 0, whatever its sign";
+    else if (audit.turnedOverTriangles > 0)
+        s = fmt::format("{} triangles are given a second time turned over and bound nothing: the inside is "
+                        "where the winding number is not 0",
+                        audit.turnedOverTriangles);
     else if (audit.nonManifoldEdges > 0)
         s = fmt::format("{} non-manifold edges: the inside is where the winding number is not 0",
                         audit.nonManifoldEdges);

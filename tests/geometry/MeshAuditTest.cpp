@@ -31,6 +31,15 @@ TEST_CASE("a box turned inside out is watertight with a negative volume") {
     CHECK(text(audit).find("inside out") != std::string::npos);
 }
 
+TEST_CASE("a box given for both of its sides is no thicker than its surface, and it is said so") {
+    TriangleMesh mesh = boxMesh({0, 0, 0}, {1, 1, 1});
+    CHECK(auditMesh(mesh).turnedOverTriangles == 0);
+    const TriangleMesh other = turnedInsideOut(mesh);
+    mesh.triangles.insert(mesh.triangles.end(), other.triangles.begin(), other.triangles.end());
+    CHECK(auditMesh(mesh).turnedOverTriangles == 12);
+    CHECK(text(auditMesh(mesh)).find("12 triangles given a second time turned over") != std::string::npos);
+}
+
 TEST_CASE("each fault of a mesh is counted") {
     TriangleMesh mesh = boxMesh({0, 0, 0}, {1, 1, 1});
     SECTION("a triangle missing leaves three open edges") {
@@ -54,6 +63,9 @@ TEST_CASE("each fault of a mesh is counted") {
         CHECK(auditMesh(mesh).duplicateTriangles == 1);
         mesh.triangles.back() = {mesh.triangles[3][1], mesh.triangles[3][0], mesh.triangles[3][2]};
         CHECK(auditMesh(mesh).duplicateTriangles == 0);
+        CHECK(auditMesh(mesh).turnedOverTriangles == 1);
+        mesh.triangles.push_back(mesh.triangles.back());
+        CHECK(auditMesh(mesh).turnedOverTriangles == 1);
     }
     SECTION("triangles of no area are found whether corners repeat or lie in line") {
         mesh.triangles.emplace_back(0, 1, 1);

@@ -204,3 +204,13 @@ TEST_CASE("a wire on a box is surface: near, and neither an opening nor an insid
         CHECK(std::abs(solid.boundary().windingNumber(near)) < 0.01);
     }
 }
+
+TEST_CASE("in a mesh given for both of its sides nothing is inside, and it is said so") {
+    TriangleMesh mesh = boxMesh({0, 0, 0}, {1, 1, 1});
+    const TriangleMesh other = turnedInsideOut(mesh);
+    mesh.triangles.insert(mesh.triangles.end(), other.triangles.begin(), other.triangles.end());
+    const Solid solid(mesh);
+    CHECK_FALSE(solid.open());
+    CHECK_FALSE(solid.inside(Vec3::Constant(0.5)));
+    CHECK(solid.assumptions().starts_with("12 triangles are given a second time turned over"));
+}
