@@ -2,6 +2,8 @@
 
 #include "tests/geometry/TestMeshes.h"
 
+#include <catch2/catch.hpp>
+
 using namespace tss;
 using namespace tss::test;
 
