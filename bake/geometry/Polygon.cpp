@@ -101,6 +101,7 @@ private:
 
 std::vector<Tri> triangulated(std::span<const Vec3> corners) {
     if (corners.size() < 3) return {};
+    if (corners.size() == 3) return {Tri(0, 1, 2)};
     return Ears(corners).cut();
 }
 

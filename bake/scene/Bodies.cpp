@@ -1,3 +1,4 @@
+#include "bake/geometry/Polygon.h"
 #include "bake/scene/SceneParts.h"
 
 #include <algorithm>
@@ -50,8 +51,8 @@ std::set<std::string> namedBodies(const SceneReading& reading) {
     return named;
 }
 
-/// Faces cut into triangles from their first corner.
-std::vector<Tri> readTriangles(const PrimReader& prim, std::size_t vertices) {
+/// Faces cut into triangles.
+std::vector<Tri> readTriangles(const PrimReader& prim, const std::vector<Vec3>& points) {
     std::vector<Tri> triangles;
     const auto counts = prim.reals(schema::faceVertexCounts);
     const auto indices = prim.indices(schema::faceVertexIndices);
@@ -63,17 +64,21 @@ std::vector<Tri> readTriangles(const PrimReader& prim, std::size_t vertices) {
         return triangles;
     }
     for (std::size_t i = 0; i < indices.size(); ++i)
-        if (indices[i] >= vertices) {
-            prim.problem(schema::faceVertexIndices, "expected indices below ", vertices,
+        if (indices[i] >= points.size()) {
+            prim.problem(schema::faceVertexIndices, "expected indices below ", points.size(),
                          ", the number of points, found ", indices[i], " at index ", i);
             return triangles;
         }
     triangles.reserve(corners - 2 * counts.size());
+    std::vector<Vec3> face;
     std::size_t first = 0;
     for (double count : counts) {
-        for (std::size_t k = 2; k < static_cast<std::size_t>(count); ++k)
-            triangles.emplace_back(indices[first], indices[first + k - 1], indices[first + k]);
-        first += static_cast<std::size_t>(count);
+        face.clear();
+        for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+            face.push_back(points[indices[first + k]]);
+        for (const Tri& t : triangulated(face))
+            triangles.emplace_back(indices[first + t[0]], indices[first + t[1]], indices[first + t[2]]);
+        first += face.size();
     }
     return triangles;
 }
@@ -179,7 +184,7 @@ std::vector<Xform> worldXforms(const SceneReading& reading) {
 TriangleMesh readMesh(const PrimReader& prim, const SplitXform& xform) {
     TriangleMesh mesh;
     mesh.vertices = prim.vectors(schema::points);
-    mesh.triangles = readTriangles(prim, mesh.vertices.size());
+    mesh.triangles = readTriangles(prim, mesh.vertices);
     if (xform.stretched)
         for (Vec3& vertex : mesh.vertices) vertex = xform.stretch * vertex;
     const bool leftHanded = prim.choice(orientation) == "leftHanded";

@@ -59,7 +59,7 @@ namespace schema {
 
 // Of more than one type, or read outside of the file that has the type
 inline constexpr Attribute points = declared("point3f[] points");
-inline constexpr Attribute faceVertexCounts = declared("int[] faceVertexCounts", "", between(3, 1e6));
+inline constexpr Attribute faceVertexCounts = declared("int[] faceVertexCounts", "", between(3, 1e4));
 inline constexpr Attribute faceVertexIndices = declared("int[] faceVertexIndices");
 inline constexpr Attribute subdivisionScheme = declared("uniform token subdivisionScheme");
 inline constexpr Attribute displayColor = declared("color3f[] primvars:displayColor");

@@ -127,3 +127,13 @@ TEST_CASE("faces of many corners become triangles, left-handed ones are turned o
     const Body body = readScene(parseLayer(text, ""), "").bodies.at(0);
     CHECK(body.mesh.triangles == std::vector<Tri>{{0, 2, 1}, {0, 3, 2}, {0, 4, 1}});
 }
+
+TEST_CASE("triangles of a face that is not convex lie on it, whichever its first corner is") {
+    const std::string text = R"({"format": "osgtss", "formatVersion": "1.0", "primChildren": [
+        {"name": "A", "typeName": "Mesh", "properties": {
+            "points": {"typeName": "point3f[]", "default": [[2,0,0],[0.5,0.5,0],[0,2,0],[0,0,0]]},
+            "faceVertexCounts": {"typeName": "int[]", "default": [4]},
+            "faceVertexIndices": {"typeName": "int[]", "default": [0,1,2,3]}}}]})";
+    const Body body = readScene(parseLayer(text, ""), "").bodies.at(0);
+    CHECK(body.mesh.triangles == std::vector<Tri>{{1, 2, 3}, {0, 1, 3}});
+}
