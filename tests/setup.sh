@@ -9,7 +9,7 @@
 packages_build=(
     build-essential cmake ninja-build pkg-config file
     libopenscenegraph-dev libegl-dev
-    libeigen3-dev libassimp-dev nlohmann-json3-dev
+    libeigen3-dev libassimp-dev libminizip-dev nlohmann-json3-dev
     libtbb-dev libhwy-dev libcli11-dev libfmt-dev zlib1g-dev
     liburdfdom-dev liburdfdom-headers-dev libtinyxml2-dev
 )

@@ -3,13 +3,14 @@
 #ifdef OSGTSS_IMPORT
 
 #include "bake/base/AtomicFile.h"
-#include "bake/geometry/Zip.h"
 
 #include <algorithm>
 #include <array>
 #include <assimp/scene.h>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <minizip/unzip.h>
 #include <string_view>
 
 namespace tss {
@@ -41,14 +42,36 @@ double lengthOf(std::string_view unit) {
     return found == units.end() ? 0 : found->metres;
 }
 
+/// Of the file that the archive stands at; empty where it cannot be read.
+std::string content(unzFile archive) {
+    std::string text;
+    if (unzOpenCurrentFile(archive) != UNZ_OK) return text;
+    std::array<char, 1 << 16> some;
+    int count = 0;
+    while ((count = unzReadCurrentFile(archive, some.data(), some.size())) > 0)
+        text.append(some.data(), static_cast<std::size_t>(count));
+    return unzCloseCurrentFile(archive) == UNZ_OK && count == 0 ? text : "";
+}
+
 /// The models that a 3MF holds, as one text: the first is the one that the others are part of.
-std::string modelsOf(const std::string& archive) {
-    auto models = unzipped(archive, ".model");
+std::string modelsOf(const std::string& file) {
+    const std::unique_ptr<void, int (*)(unzFile)> archive(unzOpen(file.c_str()), unzClose);
+    std::vector<std::pair<std::string, std::string>> models;
+    std::array<char, 1024> name{};
+    for (int at = archive ? unzGoToFirstFile(archive.get()) : UNZ_BADZIPFILE; at == UNZ_OK;
+         at = unzGoToNextFile(archive.get())) {
+        unz_file_info info;
+        if (unzGetCurrentFileInfo(archive.get(), &info, name.data(), name.size() - 1, nullptr, 0, nullptr,
+                                  0) != UNZ_OK)
+            break;
+        if (std::string_view(name.data()).ends_with(".model"))
+            models.emplace_back(name.data(), content(archive.get()));
+    }
     // By their length: 3D/3dmodel.model before 3D/Objects/part.model.
     std::ranges::sort(models, {},
                       [](const auto& model) { return std::pair(model.first.size(), model.first); });
     std::string text;
-    for (const auto& [name, xml] : models) text += xml;
+    for (const auto& [path, xml] : models) text += xml;
     return text;
 }
 
@@ -106,7 +129,7 @@ MeshFileNotes statedNotes(const std::string& file, const aiScene& scene) {
     } else if (extension == ".fbx") {
         addOfFbx(scene, notes);
     } else if (extension == ".3mf") {
-        addOf3mf(modelsOf(readWholeFile(file)), notes);
+        addOf3mf(modelsOf(file), notes);
     } else if (extension == ".amf") {
         const std::string xml = readWholeFile(file);
         if (!xml.starts_with("PK")) notes.metersPerUnit = lengthOf(attribute(xml, "amf", "unit"));

@@ -2,9 +2,9 @@
 
 #ifdef OSGTSS_IMPORT
 
-#include "bake/base/Apart.h"
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/base/Subprocess.h"
 #include "bake/geometry/Gltf.h"
 #include "bake/geometry/MeshFacts.h"
 #include "bake/geometry/MeshFileBytes.h"
@@ -290,9 +290,10 @@ MeshFile readMeshFile(const std::string& file) {
     // 4 GB, and what a large file takes that is packed.
     const std::size_t memory = (std::size_t(4) << 30) + 64 * fs::file_size(file);
     try {
-        return inFile(file,
-                      [&] { return meshFileOf(doneApart([&] { return bytesOf(readHere(file)); }, memory)); });
-    } catch (const EndedApart& end) {
+        return inFile(file, [&] {
+            return meshFileOf(runInSubprocess([&] { return bytesOf(readHere(file)); }, memory));
+        });
+    } catch (const SubprocessFailed& end) {
         throw InputError(Where{file}, fmt::format("cannot be read as a mesh: assimp's reader of it {}; write "
                                                   "it in another format, as STL, OBJ, PLY or glTF",
                                                   end.what()));

@@ -1,6 +1,6 @@
 #include "bake/geometry/MeshFileBytes.h"
 
-#include "bake/base/Apart.h"
+#include "bake/base/Subprocess.h"
 
 #include <cstring>
 
@@ -62,7 +62,7 @@ public:
 
 private:
     void expect(std::size_t count) const {
-        if (count > left_.size()) throw EndedApart("cut short");
+        if (count > left_.size()) throw SubprocessFailed("cut short");
     }
     void raw(void* to, std::size_t count) {
         expect(count);

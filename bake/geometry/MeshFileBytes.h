@@ -9,7 +9,7 @@ namespace tss {
 /// A mesh file on its way from one process of this program to another.
 std::string bytesOf(const MeshFile& file);
 
-/// It again. Throws EndedApart for bytes that are cut short.
+/// It again. Throws SubprocessFailed for bytes that are cut short.
 MeshFile meshFileOf(std::string_view bytes);
 
 } // namespace tss

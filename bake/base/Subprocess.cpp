@@ -1,4 +1,4 @@
-#include "bake/base/Apart.h"
+#include "bake/base/Subprocess.h"
 
 #include "bake/base/Error.h"
 
@@ -102,9 +102,9 @@ std::string readAll(int from) {
 
 } // namespace
 
-std::string doneApart(const std::function<std::string()>& work, std::size_t memory) {
+std::string runInSubprocess(const std::function<std::string()>& work, std::size_t memory) {
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) throw EndedApart("no pipe to another process can be had");
+    if (pipe2(ends, O_CLOEXEC) != 0) throw SubprocessFailed("no pipe to another process can be had");
     const pid_t child = fork();
     if (child == 0) {
         close(ends[0]);
@@ -114,17 +114,18 @@ std::string doneApart(const std::function<std::string()>& work, std::size_t memo
     close(ends[1]);
     std::string bytes = child < 0 ? "" : readAll(ends[0]);
     close(ends[0]);
-    if (child < 0) throw EndedApart("no other process can be had");
+    if (child < 0) throw SubprocessFailed("no other process can be had");
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     if (bytes.size() < 2 || bytes.back() != whole)
-        throw EndedApart(WIFSIGNALED(status) ? fmt::format("crashes (signal {})", WTERMSIG(status))
-                                             : "ends without a result");
+        throw SubprocessFailed(WIFSIGNALED(status) ? fmt::format("crashes (signal {})", WTERMSIG(status))
+                                                   : "ends without a result");
     bytes.pop_back();
     const char kind = bytes[0];
     bytes.erase(0, 1);
-    if (kind == tooLarge) throw EndedApart(fmt::format("takes more than {} MB of memory", memory >> 20));
+    if (kind == tooLarge)
+        throw SubprocessFailed(fmt::format("takes more than {} MB of memory", memory >> 20));
     if (kind == refusal) refuse(bytes);
     return bytes;
 }

@@ -1,4 +1,4 @@
-#include "bake/base/Apart.h"
+#include "bake/base/Subprocess.h"
 
 #include "bake/base/Error.h"
 
@@ -19,8 +19,8 @@ constexpr std::size_t plenty = std::size_t(1) << 30; // bytes
 
 std::string endOf(const std::function<std::string()>& work, std::size_t memory = plenty) {
     try {
-        doneApart(work, memory);
-    } catch (const EndedApart& end) {
+        runInSubprocess(work, memory);
+    } catch (const SubprocessFailed& end) {
         return end.what();
     }
     return "";
@@ -30,7 +30,7 @@ std::string endOf(const std::function<std::string()>& work, std::size_t memory =
 
 TEST_CASE("what is done apart comes back whole, however long, and changes nothing here") {
     int here = 1;
-    const std::string bytes = doneApart(
+    const std::string bytes = runInSubprocess(
         [&] {
             here = 2;
             return std::string(10'000'000, '.') + '\0' + "end";
@@ -38,12 +38,16 @@ TEST_CASE("what is done apart comes back whole, however long, and changes nothin
         plenty);
     CHECK(here == 1);
     CHECK(bytes == std::string(10'000'000, '.') + '\0' + "end");
-    CHECK(doneApart([] { return std::string(); }, plenty).empty());
+    CHECK(runInSubprocess([] { return std::string(); }, plenty).empty());
 }
 
 TEST_CASE("a refusal comes back with its place") {
     try {
-        doneApart([]() -> std::string { throw InputError(Where{"a.obj", "/1", "/b"}, "is odd"); }, plenty);
+        runInSubprocess(
+            []() -> std::string {
+                throw InputError(Where{"a.obj", "/1", "/b"}, "is odd");
+            },
+            plenty);
         FAIL("expected a refusal");
     } catch (const InputError& error) {
         CHECK(error.where.file == "a.obj");
