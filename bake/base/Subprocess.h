@@ -6,7 +6,7 @@
 
 namespace tss {
 
-/// Work that was done apart ended without a result; what() goes on from what it is: "crashes (signal 11)".
+/// Work in another process ended without a result; what() goes on from what it is: "crashes (signal 11)".
 class SubprocessFailed : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

@@ -28,7 +28,7 @@ std::string endOf(const std::function<std::string()>& work, std::size_t memory =
 
 } // namespace
 
-TEST_CASE("what is done apart comes back whole, however long, and changes nothing here") {
+TEST_CASE("what another process makes comes back whole, however long, and changes nothing here") {
     int here = 1;
     const std::string bytes = runInSubprocess(
         [&] {
@@ -57,7 +57,7 @@ TEST_CASE("a refusal comes back with its place") {
     }
 }
 
-TEST_CASE("a crash, an exit and other errors of what is done apart are told, and it prints nothing") {
+TEST_CASE("a crash, an exit and other errors of what is done in another process are told, and it prints nothing") {
     CHECK(endOf([]() -> std::string { std::abort(); }) == "crashes (signal 6)");
     CHECK(endOf([]() -> std::string {
               std::raise(SIGSEGV);
@@ -70,7 +70,7 @@ TEST_CASE("a crash, an exit and other errors of what is done apart are told, and
 
 // The sanitizers end a program that gets no more.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-TEST_CASE("what is done apart has no more memory than it is given") {
+TEST_CASE("what is done in another process has no more memory than it is given") {
     const auto greedy = [] {
         const std::vector<char> much(std::size_t(400) << 20);
         return std::string(1, much.back());
