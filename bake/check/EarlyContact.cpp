@@ -2,6 +2,7 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/geometry/MeshQuery.h"
+#include "bake/motion/RandomPoses.h"
 #include "bake/pipeline/FillPair.h"
 #include "bake/search/ExploredPoses.h"
 #include "bake/table/EarlyBound.h"
@@ -80,6 +81,13 @@ bool heldAtRest(const Table& table, const Motion& motion, const std::vector<doub
     return any;
 }
 
+/// About a hundred, evenly over Q. Of three DOFs and more a grid would be little but corners: of joints that
+/// turn all the way round all the same pose.
+std::vector<std::vector<double>> spreadPoses(const Motion& motion) {
+    constexpr std::size_t count = 100;
+    return motion.dofCount() < 3 ? exploredPoses(motion, count, 1) : randomPoses(motion, count, 1);
+}
+
 } // namespace
 
 std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const Pair& pair) {
@@ -99,7 +107,7 @@ std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const P
     result.restReported = !result.close && contact;
     result.held = !contact && heldAtRest(table, motion, rest);
 
-    const std::vector<std::vector<double>> poses = exploredPoses(motion, 100, 1);
+    const std::vector<std::vector<double>> poses = spreadPoses(motion);
     std::vector<double> distances(poses.size(), early);
     std::vector<char> reported(poses.size());
     parallelFor(poses.size(), [&](std::size_t i) {

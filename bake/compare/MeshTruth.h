@@ -25,9 +25,6 @@ private:
     std::unique_ptr<Models> models_;
 };
 
-/// Poses uniformly over the limits, from a seed; those outside the limit planes are drawn again.
-std::vector<std::vector<double>> randomPoses(const Motion& motion, std::size_t count, std::uint64_t seed);
-
 /// Poses close to where contact begins: both ends of bisected segments between a free and a touching pose,
 /// touching first, not farther apart than `width` times the limits. May give fewer than asked for when one
 /// of the two kinds is rare.

@@ -4,6 +4,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/Stopwatch.h"
 #include "bake/geometry/MeshAudit.h"
+#include "bake/motion/RandomPoses.h"
 #include "bake/report/PairNotes.h"
 #include "bake/report/Text.h"
 

@@ -2,6 +2,7 @@
 
 #include "bake/base/Degrees.h"
 #include "bake/base/Parallel.h"
+#include "bake/motion/RandomPoses.h"
 
 #include <cmath>
 #include <random>

@@ -2,10 +2,12 @@
 
 #include "bake/model/AddPair.h"
 #include "bake/pipeline/Bake.h"
+#include "tests/Joints.h"
 #include "tests/geometry/TestMeshes.h"
 
 #include <catch2/catch.hpp>
 #include <iomanip>
+#include <numbers>
 #include <sstream>
 
 using namespace tss;
@@ -108,4 +110,27 @@ TEST_CASE("a clearance of less than a thousandth of the bodies is told as it is,
     CHECK(close.atRest == Approx(5e-4));
     CHECK(close.close);
     CHECK_FALSE(close.restReported);
+}
+
+TEST_CASE("joints that turn all the way round are not looked at where their limits are one pose") {
+    SceneModel scene;
+    scene.metersPerUnit = 1;
+    scene.defaultPrim = "Scene";
+    for (const auto& [name, mesh] : {std::pair("Wall", boxMesh({-1, -1, 1.05}, {1, 1, 1.2})),
+                                     std::pair("Rod", boxMesh({-0.05, -0.05, -1}, {0.05, 0.05, 1}))}) {
+        Body body;
+        body.path = std::string("/Scene/") + name;
+        body.mesh = mesh;
+        scene.bodies.push_back(body);
+    }
+    constexpr double pi = std::numbers::pi;
+    Motion motion; // about its middle: it is near the wall only where an end points there
+    motion.dofs = {joints::turn({0, 0, 0}, {1, 0, 0}, -pi, pi), joints::turn({0, 0, 0}, {0, 1, 0}, -pi, pi),
+                   joints::turn({0, 0, 0}, {0, 0, 1}, -pi, pi)};
+    addPair(scene, 0, 1, motion, "Turns");
+    scene.pairs[0].settings = {{"tolerance", "0.03"}, {"budget", "0.01"}};
+    const EarlyContact early = baked(scene);
+    CHECK(early.freePoses == 100);
+    CHECK(early.share > 0);
+    CHECK(early.share < 0.25);
 }

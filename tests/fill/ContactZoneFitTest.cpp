@@ -253,7 +253,7 @@ TEST_CASE("inscribed spheres claim no contact that is none") {
     const GroundTruth truth(scene.a, scene.b);
     const SphereTree a(fit.a.fit.spheres), b(fit.b.fit.spheres);
     int hits = 0;
-    for (const auto& q : tss::compare::randomPoses(scene.motion, 1000, 3))
+    for (const auto& q : tss::randomPoses(scene.motion, 1000, 3))
         if (smallestGap(a, b, pose(scene.motion, q), 1) <= 0) {
             ++hits;
             CHECK(truth.touches(pose(scene.motion, q)));
@@ -269,7 +269,7 @@ TEST_CASE("open meshes are refined like closed ones") {
     const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.01));
     CHECK(fit.a.fit.note.find("open") != std::string::npos);
     const GroundTruth truth(scene.a, scene.b);
-    CHECK(verdicts(truth, fit, scene.motion, tss::compare::randomPoses(scene.motion, 1000, 4)).missed == 0);
+    CHECK(verdicts(truth, fit, scene.motion, tss::randomPoses(scene.motion, 1000, 4)).missed == 0);
 }
 
 namespace {

@@ -34,7 +34,7 @@ void check(const Case& c) {
     }
     const GroundTruth truth(scene.a, scene.b);
     const Verdicts random =
-        verdicts(truth, fit, scene.motion, tss::compare::randomPoses(scene.motion, c.random, 1));
+        verdicts(truth, fit, scene.motion, tss::randomPoses(scene.motion, c.random, 1));
     const auto poses = nearContactPoses(truth, scene.motion, c.near, 1e-4, 2);
     const Verdicts near = verdicts(truth, fit, scene.motion, poses);
     WARN(c.set << " at " << c.tolerance << ": " << fit.a.fit.spheres.size() << " + "

@@ -55,7 +55,7 @@ inline tss::ContactZoneOptions tolerance(double value) {
 inline void checkVerdicts(const tss::TriangleMesh& a, const tss::TriangleMesh& b, const tss::Motion& motion,
                           const tss::ContactZoneFit& fit, double tolerance, std::size_t count) {
     const GroundTruth truth(a, b);
-    const Verdicts random = verdicts(truth, fit, motion, tss::compare::randomPoses(motion, count, 1));
+    const Verdicts random = verdicts(truth, fit, motion, tss::randomPoses(motion, count, 1));
     CHECK(random.missed == 0);
     CHECK(random.worst <= 2 * tolerance);
     const Verdicts near = verdicts(truth, fit, motion, nearContactPoses(truth, motion, count / 4, 1e-3, 2));
