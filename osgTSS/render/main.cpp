@@ -2,11 +2,10 @@
 // 3 internal.
 #include "EglContext.h"
 #include "OffscreenViewer.h"
+#include "Reach.h"
 
 #include "bake/base/Error.h"
 #include "bake/base/FramePattern.h"
-#include "bake/model/Kinematics.h"
-#include "bake/motion/WholeTurn.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -130,49 +129,6 @@ bool isTurned(const Arguments& arguments, const osg::Node& graph) {
     return scene && scene->getModel().upAxis == 'Y' && osgTSS::LoadOptions(arguments.options).graph.rotateUp;
 }
 
-template <class Point>
-osg::Vec3d shown(const Point& x, bool turned) {
-    return turned ? osg::Vec3d(x.x(), -x.z(), x.y()) : osg::Vec3d(x.x(), x.y(), x.z());
-}
-
-/// Where a DOF is at a share, 0 to 1, of the motion: as it is driven at `time`; else at rest, or, where the
-/// graph's own animations play, up and down its range, `rounds` times.
-double valueAt(const tss::Joint& joint, std::size_t dof, double time, bool animated, double share,
-               int rounds) {
-    if (dof < joint.drives.size() && !joint.drives[dof].empty()) return joint.drives[dof].at(time);
-    const tss::Dof& range = joint.dofs[dof];
-    if (!animated) return range.rest;
-    const bool whole = tss::wholeTurn(range);
-    const double lower = whole ? range.rest - osg::PI : range.lower;
-    const double upper = whole ? range.rest + osg::PI : range.upper;
-    return (lower + upper) / 2 + (upper - lower) / 2 * std::sin(2 * osg::PI * rounds * share);
-}
-
-/// Adds what the bodies of a scene reach when their joints do all that is asked of them.
-void addReach(osgTSS::Framing& framing, const Arguments& arguments, const osg::Node& graph, bool animated) {
-    const osgTSS::Scene* scene = osgTSS::Scene::on(graph);
-    if (!scene) return;
-    const tss::SceneModel& model = scene->getModel();
-    const bool turned = isTurned(arguments, graph);
-    constexpr int most = 200; // looked at, of long motions
-    const double codes = std::floor(model.endTimeCode - model.startTimeCode);
-    const int count = animated ? most : static_cast<int>(std::clamp(codes, 0.0, double(most)));
-    for (int k = 0; k <= count; ++k) {
-        const double share = count ? static_cast<double>(k) / count : 0;
-        std::vector<double> values;
-        for (const tss::Joint& joint : model.joints)
-            for (std::size_t dof = 0; dof < joint.dofs.size(); ++dof)
-                values.push_back(valueAt(joint, dof, model.startTimeCode + codes * share, animated, share,
-                                         1 + static_cast<int>(values.size() % 3)));
-        const std::vector<tss::Pose> poses = tss::posedBodies(model, values);
-        for (std::size_t body = 0; body < poses.size(); ++body) {
-            if (!model.bodies[body].visible) continue;
-            for (const tss::Vec3& v : model.bodies[body].mesh.vertices)
-                framing.add(shown(tss::Vec3(poses[body] * v), turned));
-        }
-    }
-}
-
 /// `seconds`: of its animations.
 unsigned int framesOf(const Arguments& arguments, const osg::Node& scene, double seconds) {
     if (arguments.frames > 0) return static_cast<unsigned int>(arguments.frames);
@@ -180,6 +136,25 @@ unsigned int framesOf(const Arguments& arguments, const osg::Node& scene, double
     const double codes = std::max(found ? found->getClock().end - found->getClock().start : 0,
                                   std::ceil(seconds * osgTSS::framesPerSecond));
     return static_cast<unsigned int>(std::max(0.0, std::floor(codes))) + 1;
+}
+
+/// Lets the last time code be shown before the motion begins again, where it does not end as it began.
+void showEnd(osgTSS::Scene& scene) {
+    osgTSS::Clock clock = scene.getClock();
+    const auto differs = [&](const tss::TimeSamples& samples) {
+        return samples.at(clock.start) != samples.at(clock.end);
+    };
+    const tss::SceneModel& model = scene.getModel();
+    const bool open = std::ranges::any_of(model.joints,
+                                          [&](const tss::Joint& joint) {
+                                              return std::ranges::any_of(joint.drives, differs);
+                                          }) ||
+                      std::ranges::any_of(model.muscles, [&](const tss::MuscleModel& muscle) {
+                          return differs(muscle.activation);
+                      });
+    if (!open) return;
+    clock.end += 1;
+    scene.setClock(clock);
 }
 
 void write(const osg::Image& image, const std::string& name) {
@@ -201,9 +176,12 @@ void render(const Arguments& arguments) {
     const osg::ref_ptr<osg::Node> scene = load(arguments);
     const double seconds = arguments.rest ? 0 : osgTSS::playAnimations(*scene);
     const unsigned int frames = framesOf(arguments, *scene, seconds);
-    if (frames > 1) addReach(shot.framing, arguments, *scene, seconds > 0);
+    if (osgTSS::Scene* found = osgTSS::Scene::on(*scene); found && frames > 1) {
+        osgTSS::addReach(shot.framing, *found, isTurned(arguments, *scene), seconds > 0);
+        showEnd(*found);
+    }
     if (shot.place)
-        for (osg::Vec3d& point : *shot.place) point = shown(point, isTurned(arguments, *scene));
+        for (osg::Vec3d& point : *shot.place) point = osgTSS::shown(point, isTurned(arguments, *scene));
 
     const osgTSS::EglContext context;
     std::vector<std::string> files;

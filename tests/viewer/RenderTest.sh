@@ -58,10 +58,11 @@ for axis in X Y Z; do
     ! cmp -s "$out/left.png" "$out/right.png" || fail "what lies along $axis is seen on edge"
 done
 # All of the motion is in sight, and fills the picture one way or the other.
-for size in 160x120 90x180; do
-    ends 0 "$render" "$jaw" -o "$out/all_%03d.ppm" --every 4 --size $size
+fits() { # SIZE SCENE EVERY
+    local size=$1
+    ends 0 "$render" "$2" -o "$out/all_%04d.ppm" --every "$3" --size "$size"
     tail -q -c $((3 * ${size%x*} * ${size#*x})) "$out"/all_*.ppm | od -An -v -tu1 -w$((3 * ${size%x*})) |
-        awk -v size=$size '
+        awk -v size="$size" '
             BEGIN { split(size, of, "x"); left = of[1]; top = of[2] }
             {
                 row = (NR - 1) % of[2]
@@ -76,9 +77,39 @@ for size in 160x120 90x180; do
             END {
                 cut = left < 1 || top < 1 || right > of[1] - 2 || bottom > of[2] - 2
                 exit cut || ((right - left) / of[1] < 0.85 && (bottom - top) / of[2] < 0.85)
-            }' || fail "a picture of $size does not hold the motion, or is mostly empty"
+            }' || fail "a picture of $2, $size, does not hold the motion, or is mostly empty"
     rm "$out"/all_*.ppm
-done
+}
+fits 160x120 "$jaw" 4
+fits 90x180 "$jaw" 4
+# So is a skin far wider than its bones, and a moment of a long motion.
+tube() { # NAME FROM TO RADIUS: along X
+    awk -v from="$2" -v to="$3" -v r="$4" 'BEGIN {
+        for (k = 0; k <= 16; ++k)
+            for (i = 0; i < 12; ++i)
+                print "v", from + (to - from) * k / 16, r * cos(i * atan2(0, -1) / 6), r * sin(i * atan2(0, -1) / 6)
+        for (k = 0; k < 16; ++k)
+            for (i = 1; i <= 12; ++i)
+                print "f", 12 * k + i, 12 * k + i % 12 + 1, 12 * k + i % 12 + 13, 12 * k + i + 12
+        printf "f"; for (i = 12; i >= 1; --i) printf " %d", i; print ""
+        printf "f"; for (i = 1; i <= 12; ++i) printf " %d", 192 + i; print ""
+    }' >"$out/$1.obj"
+}
+tube upper 0 17 1 && tube lower 23 40 1 && tube hide -9 49 7
+"$build/bin/tss" make -o "$out/limb.tss" --quiet --body "$out/upper.obj" --body "$out/lower.obj" \
+    --skin "$out/hide.obj" --joint 'elbow=upper,lower:rot:20,0,0:0,1,0:-80:80'
+fits 160x120 "$out/limb.tss" 12
+printf 'step,rot\n0,0\n1001,0\n1002,90\n1003,0\n2015,0\n' >"$out/moment.csv"
+"$build/bin/tss" make -o "$out/moment.tss" --quiet --a "$out/upper.obj" --b "$out/lower.obj" \
+    --dof rot:20,0,0:0,1,0:0:90 --motion "$out/moment.csv"
+fits 160x120 "$out/moment.tss" 1002
+# The end of a motion is shown where it is another place than the beginning.
+printf 'step,rot\n0,0\n4,90\n' >"$out/open.csv"
+"$build/bin/tss" make -o "$out/open.tss" --quiet --a "$out/upper.obj" --b "$out/lower.obj" \
+    --dof rot:20,0,0:0,1,0:0:90 --motion "$out/open.csv"
+ends 0 "$render" "$out/open.tss" -o "$out/open_%d.png" --size 160x120
+[ "$(ls "$out"/open_*.png | wc -l)" = 5 ] || fail "expected 5 pictures"
+! cmp -s "$out/open_0.png" "$out/open_4.png" || fail "the end of the motion is not shown"
 ends 0 "$render" --help
 ends 1 "$render" "$scenes/none.tss" -o "$out/n_%d.png"
 ends 1 "$render" "$jaw" -o "$out/n_%d.png" --frames 1 --view "$out/none.path"

@@ -1,0 +1,96 @@
+#include "Reach.h"
+
+#include "bake/model/Kinematics.h"
+#include "bake/motion/WholeTurn.h"
+#include "bake/play/SkinSetup.h"
+#include "bake/respond/SkinResponse.h"
+#include "osgTSS/src/SceneCache.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+namespace osgTSS {
+
+namespace {
+
+/// Where a DOF is at a share, 0 to 1, of the motion: as it is driven at `time`; else at rest, or, where the
+/// graph's own animations play, up and down its range, `rounds` times.
+double valueAt(const tss::Joint& joint, std::size_t dof, double time, bool animated, double share,
+               int rounds) {
+    if (dof < joint.drives.size() && !joint.drives[dof].empty()) return joint.drives[dof].at(time);
+    const tss::Dof& range = joint.dofs[dof];
+    if (!animated) return range.rest;
+    const bool whole = tss::wholeTurn(range);
+    const double lower = whole ? range.rest - osg::PI : range.lower;
+    const double upper = whole ? range.rest + osg::PI : range.upper;
+    return (lower + upper) / 2 + (upper - lower) / 2 * std::sin(2 * osg::PI * rounds * share);
+}
+
+/// How many intervals of the motion are looked at: of one that is driven each time code, as long as that is
+/// quick.
+int intervals(const tss::SceneModel& model, bool animated) {
+    constexpr double least = 200, points = 2e7; // looked at, some tenths of a second
+    if (animated) return static_cast<int>(least);
+    std::size_t vertices = 1;
+    for (const tss::Body& body : model.bodies) vertices += body.mesh.vertices.size();
+    const double codes = std::floor(model.endTimeCode - model.startTimeCode);
+    return static_cast<int>(std::clamp(codes, 0.0, std::max(least, points / static_cast<double>(vertices))));
+}
+
+/// A skin as it is drawn, once for each pose of its bones.
+class MovingSkin {
+public:
+    MovingSkin(const Scene& scene, int index)
+        : _model(scene.getModel()), _skin(_model.skins[index]), _response(scene.getCache().rig(index)) {}
+
+    void add(Framing& framing, const std::vector<tss::Pose>& placements, double time, bool turned) {
+        _response.update(tss::skinActivations(_model, _skin, time),
+                         tss::skinPoses(_model, _skin, placements));
+        for (const tss::Vec3& v : _response.positions())
+            framing.add(shown(tss::Vec3(placements[_skin.body] * v), turned));
+    }
+
+private:
+    const tss::SceneModel& _model;
+    const tss::SkinModel& _skin;
+    tss::SkinResponse _response;
+};
+
+std::map<std::size_t, MovingSkin> movingSkins(const Scene& scene) {
+    std::map<std::size_t, MovingSkin> skins;
+    const tss::SceneModel& model = scene.getModel();
+    for (std::size_t k = 0; k < model.skins.size(); ++k)
+        skins.emplace(static_cast<std::size_t>(model.skins[k].body), MovingSkin(scene, static_cast<int>(k)));
+    return skins;
+}
+
+} // namespace
+
+void addReach(Framing& framing, const Scene& scene, bool turned, bool animated) {
+    const tss::SceneModel& model = scene.getModel();
+    std::map<std::size_t, MovingSkin> skins = movingSkins(scene);
+    const int count = intervals(model, animated);
+    const double codes = std::floor(model.endTimeCode - model.startTimeCode);
+    for (int k = 0; k <= count; ++k) {
+        const double share = count ? static_cast<double>(k) / count : 0;
+        const double time = model.startTimeCode + codes * share;
+        std::vector<double> values;
+        for (const tss::Joint& joint : model.joints)
+            for (std::size_t dof = 0; dof < joint.dofs.size(); ++dof)
+                values.push_back(
+                    valueAt(joint, dof, time, animated, share, 1 + static_cast<int>(values.size() % 3)));
+        const std::vector<tss::Pose> poses = tss::posedBodies(model, values);
+        for (std::size_t body = 0; body < poses.size(); ++body) {
+            if (!model.bodies[body].visible) continue;
+            if (const auto skin = skins.find(body); skin != skins.end())
+                skin->second.add(framing, poses, time, turned);
+            else
+                for (const tss::Vec3& v : model.bodies[body].mesh.vertices)
+                    framing.add(shown(tss::Vec3(poses[body] * v), turned));
+        }
+    }
+}
+
+} // namespace osgTSS

@@ -1,0 +1,18 @@
+#pragma once
+#include "Framing.h"
+
+namespace osgTSS {
+
+class Scene;
+
+/// Where a point of the scene is drawn, in world coordinates. turned: the loader stands its Y axis up.
+template <class Point>
+osg::Vec3d shown(const Point& x, bool turned) {
+    return turned ? osg::Vec3d(x.x(), -x.z(), x.y()) : osg::Vec3d(x.x(), x.y(), x.z());
+}
+
+/// Adds what bodies and skins reach when the joints and muscles of the scene do all that is asked of them.
+/// animated: the graph's own animations play. Throws InputError where a skin's table does not fit.
+void addReach(Framing& framing, const Scene& scene, bool turned, bool animated);
+
+} // namespace osgTSS
