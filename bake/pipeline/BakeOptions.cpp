@@ -109,6 +109,7 @@ double parseNumber(const std::string& text, const std::string& what) {
 }
 
 double parseLength(const std::string& text, double metersPerUnit) {
+    constexpr const char* form = "a number, or a number with um, mm, cm, m, km, in or ft";
     static constexpr std::pair<const char*, double> units[] = {
         {"um", 1e-6}, {"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"in", 0.0254}, {"ft", 0.3048}, {"m", 1}};
     for (const auto& [unit, meters] : units) {
@@ -116,10 +117,11 @@ double parseLength(const std::string& text, double metersPerUnit) {
         if (text.size() <= suffix.size() ||
             text.compare(text.size() - suffix.size(), suffix.size(), suffix) != 0)
             continue;
-        return parseNumber(text.substr(0, text.size() - suffix.size()), "length \"" + text + "\"") * meters /
-               metersPerUnit;
+        return parseNumber(text.substr(0, text.size() - suffix.size()),
+                           "length \"" + text + "\" (" + form + ")") *
+               meters / metersPerUnit;
     }
-    return parseNumber(text, "length (a number, or a number with um, mm, cm, m, km, in or ft)");
+    return parseNumber(text, std::string("length (") + form + ")");
 }
 
 std::string lengthText(double length, double metersPerUnit) {

@@ -143,10 +143,10 @@ void checkForest(const Robot& robot) {
         const RobotJoint& joint = robot.joints[j];
         int& holder = above[joint.child];
         if (holder >= 0)
-            throw InputError(placeOfJoint(robot, joint),
-                             "link " + robot.links[joint.child].name + " hangs on joint " +
-                                 robot.joints[holder].name +
-                                 " too; expected each link to be the child of one joint");
+            throw InputError(
+                placeOfJoint(robot, joint),
+                "link " + robot.links[joint.child].name + " hangs on joint " + robot.joints[holder].name +
+                    " too; expected each link to be the child of one joint: of a closed loop leave one out");
         holder = static_cast<int>(j);
     }
     for (std::size_t link = 0; link < robot.links.size(); ++link) {
@@ -154,7 +154,8 @@ void checkForest(const Robot& robot) {
         for (int at = static_cast<int>(link); at >= 0 && above[at] >= 0; at = robot.joints[above[at]].parent)
             if (++steps > robot.links.size())
                 throw InputError(placeOfJoint(robot, robot.joints[above[at]]),
-                                 "the joints close a loop; expected links that hang on each other as a tree");
+                                 "the joints close a loop; expected links that hang on each other as a tree: "
+                                 "leave one joint out");
     }
 }
 

@@ -33,11 +33,24 @@ std::vector<std::string> cellsOf(const std::string& line) {
     return cells;
 }
 
-/// What reads as no number though it stands for one: in a first line, that is a bad value and no header.
-bool isNotFinite(std::string cell) {
-    std::ranges::transform(cell, cell.begin(),
+std::string lower(std::string word) {
+    std::ranges::transform(word, word.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return cell == "nan" || cell == "inf" || cell == "infinity";
+    return word;
+}
+
+/// What reads as no number though it stands for one: in a first line, that is a bad value and no header.
+bool isNotFinite(const std::string& cell) {
+    const std::string word = lower(cell);
+    return word == "nan" || word == "inf" || word == "infinity";
+}
+
+/// Of a cell without blanks around it. Throws InputError that begins with `where`.
+double cellValue(const std::string& cell, const std::string& where) {
+    if (cell.find_first_of("; \t") != cell.npos)
+        throw InputError(where + ": expected one finite number, and commas between columns, found \"" + cell +
+                         "\"");
+    return parseNumber(cell, where);
 }
 
 bool isName(const std::string& cell) {
@@ -75,14 +88,12 @@ std::vector<std::size_t> orderOf(const std::vector<std::string>& header, const D
     std::size_t unknown = header.size();
     bool any = false;
     for (std::size_t k = 0; k < header.size(); ++k) {
-        const auto dof = std::ranges::find_if(columns.names, [&](const std::vector<std::string>& names) {
-            return std::ranges::find(names, header[k]) != names.end();
-        });
-        if (dof == columns.names.end()) {
+        const std::size_t dof = columnNamed(columns.names, header[k]);
+        if (dof == columns.names.size()) {
             unknown = std::min(unknown, k);
             continue;
         }
-        std::size_t& column = order[static_cast<std::size_t>(dof - columns.names.begin())];
+        std::size_t& column = order[dof];
         if (column < header.size()) throw InputError(Where{file}, "expected one column of " + header[k]);
         column = k;
         any = true;
@@ -115,7 +126,8 @@ CsvTable readCsv(const std::string& file) {
     std::string line;
     for (int number = 1; std::getline(stream, line); ++number) {
         if (!line.empty() && line.back() == '\r') line.pop_back();
-        if (line.find_first_not_of(" \t") == std::string::npos || line[0] == '#') continue;
+        const std::size_t first = line.find_first_not_of(" \t");
+        if (first == line.npos || line[first] == '#') continue;
         const std::vector<std::string> cells = cellsOf(line);
         if (csv.rows.empty() && csv.header.empty() && std::ranges::all_of(cells, isName)) {
             csv.header = cells;
@@ -129,11 +141,31 @@ CsvTable readCsv(const std::string& file) {
                 fmt::format("{}:{}: expected {} columns, found {}", file, number, expected, cells.size()));
         std::vector<double> row;
         for (std::size_t k = 0; k < cells.size(); ++k)
-            row.push_back(parseNumber(cells[k], fmt::format("{}:{}: column {}", file, number, k + 1)));
+            row.push_back(cellValue(cells[k], fmt::format("{}:{}: column {}", file, number, k + 1)));
         csv.rows.push_back(std::move(row));
     }
     if (csv.rows.empty()) throw InputError(Where{file}, "expected at least one row of numbers");
     return csv;
+}
+
+std::size_t columnNamed(const std::vector<std::vector<std::string>>& names, const std::string& word) {
+    for (std::size_t k = 0; k < names.size(); ++k)
+        if (std::ranges::find(names[k], word) != names[k].end()) return k;
+    std::size_t found = names.size();
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        if (std::ranges::none_of(names[k], [&](const auto& name) { return lower(name) == lower(word); }))
+            continue;
+        if (found < names.size()) return names.size();
+        found = k;
+    }
+    return found;
+}
+
+bool isStep(const std::string& word) {
+    return lower(word) == "step";
+}
+bool isTime(const std::string& word) {
+    return lower(word) == "time";
 }
 
 DofColumns dofColumns(const SceneModel& scene) {
@@ -153,8 +185,7 @@ DofColumns dofColumns(const SceneModel& scene, const Pair& pair) {
 
 DofRows readDofRows(const std::string& file, const DofColumns& columns, bool stepped) {
     CsvTable csv = readCsv(file);
-    const bool passed =
-        stepped && !csv.header.empty() && (csv.header[0] == "step" || csv.header[0] == "time");
+    const bool passed = stepped && !csv.header.empty() && (isStep(csv.header[0]) || isTime(csv.header[0]));
     std::vector<std::string> expected;
     for (const std::vector<std::string>& names : columns.names) expected.push_back(names.back());
     const std::string words = fmt::format("{}", fmt::join(expected, ", "));

@@ -16,6 +16,14 @@ struct CsvTable {
 /// skipped. Throws InputError with file, line and column.
 CsvTable readCsv(const std::string& file);
 
+/// Which of several things, each with its names, a word names: as it is written, or else regardless of case
+/// where that is one thing alone. names.size(): none.
+std::size_t columnNamed(const std::vector<std::vector<std::string>>& names, const std::string& word);
+
+/// Whether a column counts steps or time codes, or says seconds.
+bool isStep(const std::string& word);
+bool isTime(const std::string& word);
+
 /// What the columns of a file of DOF values may be called: of each DOF `/PATH/JOINT:DOF`, and `JOINT:DOF`,
 /// `JOINT` or `DOF` where that is no other's name.
 struct DofColumns {

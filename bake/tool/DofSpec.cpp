@@ -32,8 +32,33 @@ double limitOf(const std::string& text, const std::string& what, double metersPe
     }
 }
 
+/// Throws InputError where a header has names of path columns in another order than they are read in.
+void checkPathHeader(const std::vector<std::string>& header, const std::string& file) {
+    const std::vector<std::vector<std::string>> names = {{""},   {"tx"}, {"ty"}, {"tz"},
+                                                         {"rx"}, {"ry"}, {"rz"}};
+    for (std::size_t k = 0; k < header.size(); ++k)
+        if (const std::size_t place = columnNamed(names, header[k]);
+            place > 0 && place < names.size() && place != k)
+            throw InputError(Where{file}, fmt::format("column {} is called {}; expected the order "
+                                                      "value,tx,ty,tz, and for rotation rx,ry,rz",
+                                                      k + 1, header[k]));
+}
+
+/// Throws InputError where the rows give no pose at some value from lower to upper.
+void checkCover(const std::vector<PathRow>& rows, double lower, double upper, const std::string& file) {
+    for (std::size_t k = 1; k < rows.size(); ++k)
+        if (!(rows[k - 1].value < rows[k].value))
+            throw InputError(Where{file}, fmt::format("expected values that rise, found {:.9g} after {:.9g}",
+                                                      rows[k].value, rows[k - 1].value));
+    if (lower < rows.front().value || upper > rows.back().value)
+        throw InputError(Where{file}, fmt::format("its values go from {:.9g} to {:.9g}; expected rows that "
+                                                  "cover the limits {:.9g} to {:.9g}",
+                                                  rows.front().value, rows.back().value, lower, upper));
+}
+
 std::vector<PathRow> readPath(const std::string& file) {
     const CsvTable csv = readCsv(file);
+    checkPathHeader(csv.header, file);
     std::vector<PathRow> rows;
     for (const auto& row : csv.rows) {
         if (row.size() != 4 && row.size() != 7)
@@ -52,9 +77,13 @@ std::vector<PathRow> readPath(const std::string& file) {
 }
 
 std::string describePath(const Dof& dof) {
+    double most = 0; // between two rows, radians
+    for (std::size_t k = 1; k < dof.path.size(); ++k)
+        most = std::max(most, dof.path[k - 1].rotation.angularDistance(dof.path[k].rotation));
     const auto turns = [](const PathRow& row) { return row.rotation.vec().norm() > 0; };
-    const bool any = std::ranges::any_of(dof.path, turns);
-    return fmt::format(" ({} rows, {})", dof.path.size(), any ? "with rotation" : "no rotation");
+    if (!std::ranges::any_of(dof.path, turns)) return fmt::format(" ({} rows, no rotation)", dof.path.size());
+    return fmt::format(" ({} rows, with rotation, by at most {:.3g} degrees from row to row)",
+                       dof.path.size(), most / degree);
 }
 
 } // namespace
@@ -104,6 +133,7 @@ Dof parseDof(const std::string& text, double metersPerUnit) {
         dof.path = readPath(parts[1]);
         dof.lower = parseNumber(parts[2], what);
         dof.upper = parseNumber(parts[3], what);
+        checkCover(dof.path, dof.lower, dof.upper, parts[1]);
     } else {
         throw InputError(what + ": expected rot:ORIGIN:AXIS:LO:HI, trans:AXIS:LO:HI or path:FILE.csv:LO:HI");
     }

@@ -41,19 +41,19 @@ std::vector<Track> clearedTracks(SceneModel& scene) {
 std::vector<const Track*> columnsOf(const std::vector<Track>& tracks, const std::vector<std::string>& header,
                                     std::size_t first, const std::string& file) {
     std::vector<const Track*> columns;
+    std::vector<std::vector<std::string>> words;
+    for (const Track& track : tracks) words.push_back(track.names);
     for (std::size_t k = first; k < header.size(); ++k) {
-        const auto found = std::ranges::find_if(tracks, [&](const Track& track) {
-            return std::ranges::find(track.names, header[k]) != track.names.end();
-        });
-        if (found == tracks.end()) {
+        const std::size_t found = columnNamed(words, header[k]);
+        if (found == tracks.size()) {
             std::string names;
             for (const Track& track : tracks) names += (names.empty() ? "" : ", ") + track.names.back();
             throw InputError(Where{file},
                              "no joint or muscle is called \"" + header[k] + "\"; expected some of " + names);
         }
-        if (std::ranges::find(columns, &*found) != columns.end())
+        if (std::ranges::find(columns, &tracks[found]) != columns.end())
             throw InputError(Where{file}, "expected one column of " + header[k]);
-        columns.push_back(&*found);
+        columns.push_back(&tracks[found]);
     }
     return columns;
 }
@@ -63,8 +63,8 @@ std::vector<const Track*> columnsOf(const std::vector<Track>& tracks, const std:
 void applyMotion(SceneModel& scene, const std::string& file) {
     const CsvTable csv = readCsv(file);
     const std::vector<Track> tracks = clearedTracks(scene);
-    const bool seconds = !csv.header.empty() && csv.header[0] == "time",
-               timed = seconds || (!csv.header.empty() && csv.header[0] == "step");
+    const bool seconds = !csv.header.empty() && isTime(csv.header[0]),
+               timed = seconds || (!csv.header.empty() && isStep(csv.header[0]));
     std::vector<const Track*> columns;
     if (csv.header.empty())
         for (const Track& track : tracks) columns.push_back(&track);

@@ -262,11 +262,23 @@ TEST_CASE("a degree of freedom along a measured path stops where the meshes meet
     while (std::getline(rows, row)) verdicts += row[row.find(',') + 1];
     CHECK(verdicts == "001110");
 
-    writeText(folder.path() / "short.csv", "0,0,0\n1,-20,0\n");
-    const Ran short_ = runTss(make + "-o short.tss --dof path:short.csv:0:1", folder.path());
-    CHECK(short_.exit == 1);
-    CHECK(short_.err.find("short.csv") != std::string::npos);
-    CHECK(short_.err.find("4 or 7 columns") != std::string::npos);
+    // Rows are joined the short way round: three quarters of a turn forwards are one quarter back.
+    writeText(folder.path() / "way.csv", "0,0,0,0,0,0,0\n1,0,0,0,0,270,0\n2,0,0,0,0,280,0\n");
+    CHECK(runTss(make + "-o turned.tss --dof path:way.csv:0:2", folder.path())
+              .out.find("with rotation, by at most 90 degrees from row to row") != std::string::npos);
+
+    const auto refused = [&](const char* rows, const std::string& words) {
+        writeText(folder.path() / "bad.csv", rows);
+        const Ran ran = runTss(make + "-o bad.tss --dof path:bad.csv:0:1", folder.path());
+        INFO(ran.err);
+        CHECK(ran.exit == 1);
+        CHECK(ran.err.find("bad.csv: " + words) != std::string::npos);
+    };
+    refused("0,0,0\n1,-20,0\n", "expected 4 or 7 columns");
+    refused("0,0,0,0\n0.5,-20,0,0\n",
+            "its values go from 0 to 0.5; expected rows that cover the limits 0 to 1");
+    refused("0,0,0,0\n0,-20,0,0\n1,0,0,0\n", "expected values that rise, found 0 after 0");
+    refused("tx,ty,tz,t\n0,0,0,0\n1,0,0,1\n", "column 1 is called tx; expected the order value,tx,ty,tz");
 }
 
 TEST_CASE("--pair may be repeated, and takes nothing after its path") {

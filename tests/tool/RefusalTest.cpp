@@ -123,6 +123,7 @@ TEST_CASE("bad input is exit 1 with a message that says where, and leaves no fil
     refused("bake ok.tss -o out.tss --tolerance -1mm", "--tolerance");
     refused("bake ok.tss -o out.tss --tolerance 1furlong",
             "tss: --tolerance: length"); // no fault of the file
+    refused("bake ok.tss -o out.tss --tolerance 300nm", "a number with um, mm, cm, m, km, in or ft");
     refused("bake ok.tss -o out.tss --spheres cubes", "medial");
     refused("bake ok.tss -o out.tss --spheres growth --growth 0.1,0.1mm,1,1", "START,STEP,END,MAXRADIUS");
     refused("bake ok.tss -o out.tss --spheres growth --growth 0.1,0.1,1", "START,STEP,END,MAXRADIUS");
@@ -275,6 +276,9 @@ TEST_CASE("columns are read as the first line names them, in any order") {
     CHECK(answer("\xEF\xBB\xBFtrans,rot\r\n0.25,1\r\n", "query") == pose); // as spreadsheets write it
     CHECK(answer("time,trans,rot\n0,0.25,1\n", "play") == step);
     CHECK(answer("trans,rot\n0.25,1\n", "play") == step);
+    CHECK(answer("Trans,ROT\n0.25,1\n", "query") == pose);
+    CHECK(answer("Time,Trans,Rot\n0,0.25,1\n", "play") == step);
+    CHECK(answer("  # one pose\n1,0.25\n", "query") == pose);
     CHECK(answer("0.25,1\n", "query") != pose);
 
     const Ran own = run("pitch,reach\n1,0.25\n", "query");
@@ -284,7 +288,9 @@ TEST_CASE("columns are read as the first line names them, in any order") {
     CHECK(readText(folder.path() / "r.csv") == pose);
     for (const auto& [header, words] :
          {std::pair{"trans,rots", "\"rots\" is no degree of freedom: expected rot, trans, in any order"},
-          {"trans,trans", "expected one column of trans"}}) {
+          {"trans,trans", "expected one column of trans"},
+          {"rot;trans\n1;2", "q.csv:2: column 1: expected one finite number, and commas between columns"},
+          {"rot\ttrans\n1\t2", "expected one finite number, and commas between columns"}}) {
         const Ran ran = run(std::string(header) + "\n0.25,1\n", "query");
         INFO(ran.err);
         CHECK(ran.exit == 1);
