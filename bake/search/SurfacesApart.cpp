@@ -2,6 +2,7 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/motion/CellTools.h"
+#include "bake/search/ApartAlongAxis.h"
 #include "bake/search/ExploredPoses.h"
 #include "bake/search/TrianglesApart.h"
 
@@ -35,14 +36,18 @@ public:
     Search(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion, double touching,
            const Progress& progress)
         : a_(a), b_(b), motion_(motion), rates_(motion), touching_(touching), progress_(progress),
-          rounding_(coordinateRounding(motion, a_.extent(), b_.extent())) {}
+          rounding_(coordinateRounding(motion, a_.extent(), b_.extent())),
+          alongAxis_(0.875 * apartAlongAxis(a, b, motion)) {}
 
     std::optional<SurfacesApart> run() {
         if (a_.bvh().empty() || b_.bvh().empty() || !apartAtSamples()) return std::nullopt;
         for (const auto& [share, most] : {std::pair(0.875, fewExpected), std::pair(0.5, mostExpected)})
             if (expectedCells(share * least_) < most) return shownFor(share);
         byDirection_ = true;
-        return motion_.dofCount() <= fewDofs ? shownFor(0.5) : std::nullopt;
+        if (motion_.dofCount() <= fewDofs && alongAxis_ < 0.5 * least_)
+            if (const auto shown = shownFor(0.5)) return shown;
+        if (alongAxis_ > touching_) return SurfacesApart{alongAxis_, std::max<std::uint64_t>(cells_, 1)};
+        return std::nullopt;
     }
 
 private:
@@ -139,6 +144,7 @@ private:
     const double touching_;
     const Progress& progress_;
     const double rounding_;
+    const double alongAxis_;                                 ///< clearance that holds along one axis
     std::vector<double> distances_;                          ///< at the sampled poses
     double least_ = std::numeric_limits<double>::infinity(); ///< distance that was found
     double clearance_ = 0;                                   ///< to be shown

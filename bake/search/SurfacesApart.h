@@ -15,7 +15,8 @@ struct SurfacesApart {
 };
 
 /// Branch and bound over Q: a cell is settled where any two triangles stay farther apart than the clearance
-/// in it (METHOD 2.3). That is half of the least distance, or 7/8 of it where this is soon shown. Nothing
+/// in it (METHOD 2.3). That is half of the least distance, or 7/8 of it where this is soon shown; where it is
+/// not, 7/8 of how far they stay apart along the axis of a turn, if they do (apartAlongAxis()). Nothing
 /// where they come nearer than `touching` to each other, and where it would take so long that other ways are
 /// quicker: this is for joints whose parts stand close all the way round, which would take very fine spheres.
 /// touching: see touchingDistance(). The same for any number of threads.

@@ -1,6 +1,7 @@
 #include "bake/verify/MeshVerify.h"
 
 #include "bake/base/Error.h"
+#include "bake/verify/AxisProof.h"
 #include "bake/verify/EarlyProof.h"
 #include "bake/verify/Models.h"
 
@@ -161,6 +162,11 @@ MeshVerdict verifyOnMeshes(const TriangleMesh& meshA, const TriangleMesh& meshB,
     claim.near = proof.clearance * (1 - 1e-9) - frame.band;
     claim.band = frame.band;
     claim.work = work;
+    if (apartAcrossAxis(meshA, meshB, motion, proof.clearance)) {
+        verdict.cells = 1;
+        verdict.miss = true;
+        return verdict;
+    }
     proveMiss(verdict, frame, proof.restRegion, claim, progress);
     return verdict;
 }
