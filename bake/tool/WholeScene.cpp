@@ -94,8 +94,12 @@ Robot robotOf(const WholeSceneArguments& arguments) {
         link.collision.emplace_back().file = named.file;
         robot.links.push_back(link);
     }
-    for (const std::string& text : arguments.joints)
-        robot.joints.push_back(parseJoint(robot, text, arguments.metersPerUnit));
+    for (const std::string& text : arguments.joints) {
+        RobotJoint joint = parseJoint(robot, text, arguments.metersPerUnit);
+        if (std::ranges::any_of(robot.joints, [&](const auto& other) { return other.name == joint.name; }))
+            throw InputError("--joint " + text + ": another joint is called " + joint.name);
+        robot.joints.push_back(std::move(joint));
+    }
     moveLinks(robot, arguments.offsets);
     settleRobot(robot);
     return robot;

@@ -273,6 +273,7 @@ TEST_CASE("what cannot be is remarked upon, and what is wrong is refused with th
     refused(limb + "--joint 'again=upper,foot:trans:1,0,0:0:1'", 1,
             "hangs on joint ankle too; expected each link to be the child of one joint: of a closed loop "
             "leave one");
+    refused(limb + "--joint 'ankle=upper,foot:trans:1,0,0:0:1'", 1, "another joint is called ankle");
     refused(limb + "--joint 'loop=foot,upper:trans:1,0,0:0:1'", 1, "loop");
     refused(limb + "--muscle calf.obj,from=nobody", 1, "no body is called \"nobody\"");
     refused(limb + "--muscle calf.obj,contract=2", 1, "between 0 and 1");
