@@ -78,7 +78,7 @@ inline std::string tetrahedronAmf(const std::string& attribute) {
 inline std::string zipped(const std::vector<std::pair<std::string, std::string>>& files) {
     const auto bytes = [](std::uint64_t number, int count) {
         std::string text;
-        for (int k = 0; k < count; ++k) text += static_cast<char>(number >> 8 * k & 0xff);
+        for (int k = 0; k < count; ++k, number >>= 8) text += static_cast<char>(number & 0xff);
         return text;
     };
     const auto checksum = [](const std::string& text) {
