@@ -1,5 +1,6 @@
 #include "Reach.h"
 
+#include "bake/base/Error.h"
 #include "bake/model/Kinematics.h"
 #include "bake/motion/WholeTurn.h"
 #include "bake/play/SkinSetup.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace osgTSS {
@@ -42,8 +44,9 @@ int intervals(const tss::SceneModel& model, bool animated) {
 /// A skin as it is drawn, once for each pose of its bones.
 class MovingSkin {
 public:
-    MovingSkin(const Scene& scene, int index)
-        : _model(scene.getModel()), _skin(_model.skins[index]), _response(scene.getCache().rig(index)) {}
+    MovingSkin(const tss::SceneModel& model, const tss::SkinModel& skin,
+               const std::shared_ptr<const tss::SkinRig>& rig)
+        : _model(model), _skin(skin), _response(rig) {}
 
     void add(Framing& framing, const std::vector<tss::Pose>& placements, double time, bool turned) {
         _response.update(tss::skinActivations(_model, _skin, time),
@@ -58,11 +61,20 @@ private:
     tss::SkinResponse _response;
 };
 
+/// By their bodies. One without a table, or whose table does not fit, is drawn as it lies there, as the
+/// loader has said.
 std::map<std::size_t, MovingSkin> movingSkins(const Scene& scene) {
     std::map<std::size_t, MovingSkin> skins;
     const tss::SceneModel& model = scene.getModel();
-    for (std::size_t k = 0; k < model.skins.size(); ++k)
-        skins.emplace(static_cast<std::size_t>(model.skins[k].body), MovingSkin(scene, static_cast<int>(k)));
+    for (std::size_t k = 0; k < model.skins.size(); ++k) {
+        const tss::SkinModel& skin = model.skins[k];
+        try {
+            if (const auto rig = scene.getCache().rig(static_cast<int>(k)))
+                skins.emplace(static_cast<std::size_t>(skin.body), MovingSkin(model, skin, rig));
+        } catch (const tss::InputError&) {
+            continue;
+        }
+    }
     return skins;
 }
 

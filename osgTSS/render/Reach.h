@@ -12,7 +12,7 @@ osg::Vec3d shown(const Point& x, bool turned) {
 }
 
 /// Adds what bodies and skins reach when the joints and muscles of the scene do all that is asked of them.
-/// animated: the graph's own animations play. Throws InputError where a skin's table does not fit.
+/// animated: the graph's own animations play.
 void addReach(Framing& framing, const Scene& scene, bool turned, bool animated);
 
 } // namespace osgTSS

@@ -177,7 +177,8 @@ void render(const Arguments& arguments) {
     const double seconds = arguments.rest ? 0 : osgTSS::playAnimations(*scene);
     const unsigned int frames = framesOf(arguments, *scene, seconds);
     if (osgTSS::Scene* found = osgTSS::Scene::on(*scene); found && frames > 1) {
-        osgTSS::addReach(shot.framing, *found, isTurned(arguments, *scene), seconds > 0);
+        if (!shot.place && !shot.view)
+            osgTSS::addReach(shot.framing, *found, isTurned(arguments, *scene), seconds > 0);
         showEnd(*found);
     }
     if (shot.place)

@@ -28,6 +28,7 @@ ends 0 "$render" "$skin" -o "$out/spheres_%03d.png" --frames 9 --every 8 --size 
 for frame in 000 008; do
     ! cmp -s "$out/skin_$frame.png" "$out/spheres_$frame.png" || fail "no overlay over a skin"
 done
+ends 0 "$render" "$scenes/dog_frontalis.tss" -o "$out/bare_%03d.png" --frames 2 --size 160x120 # has no table yet
 ends 0 "$render" "$jaw" -o "$out/one.png" --frames 1
 ends 0 "$render" "$jaw" -o "$out/from.png" --frames 1 --view=0.5,-2,0.5:0.3,0,0.3
 ends 0 "$render" "$jaw" -o "$out/behind.png" --frames 1 --view 0.3,2,0.5:0.3,0,0.3
