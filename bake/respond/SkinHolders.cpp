@@ -216,7 +216,8 @@ FreeParts freeParts(const SkinGround& ground, std::vector<FrameHolder>& holders,
             counts |= part.area >= leastPart * made.held[h];
         }
         part.small = !counts;
-        if (part.small && !part.nearStill) continue;
+        const bool byChance = part.vertices.size() == 1; // its straight ways graze the skin beside it
+        if (part.small && (byChance || !part.nearStill)) continue;
         part.ring /= static_cast<double>(std::max<std::size_t>(around, 1));
         made.parts.push_back(std::move(part));
     }
