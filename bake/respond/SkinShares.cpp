@@ -16,6 +16,9 @@ namespace {
 /// A seed lies near its holder and far from all others, in sizes of the holder, and this many times nearer: a
 /// closed upper lip lies on the lower teeth, but so far from the upper jaw it never is.
 constexpr double seedNear = 0.08, seedFar = 0.12, seedNearer = 2.5;
+/// Unless less than this share of what is so much nearer lies near: a bone that is thin in its flesh would
+/// hold skin at its ends alone.
+constexpr double seedNearShare = 0.5;
 /// Where there is none, as on thin limbs and between teeth, what is nearer to its holder than to all others
 /// by this share of the most that any vertex is. Less, and skin that only passes another bone counts as its
 /// own; more, and a bone with little skin has none.
@@ -57,14 +60,17 @@ std::vector<double> contrastOf(const std::vector<SkinHolder>& holders, std::size
     return contrast;
 }
 
+/// Empty where too few of those that lie far from all others lie near to it.
 std::vector<std::uint32_t> undisputed(const SkinHolder& holder, const std::vector<double>& contrast) {
     std::vector<std::uint32_t> seeds;
+    std::size_t apart = 0;
     for (std::uint32_t v = 0; v < contrast.size(); ++v) {
         const double own = holder.distance[v];
-        if (own < seedNear * holder.size &&
-            contrast[v] + own > std::max(seedFar * holder.size, seedNearer * own))
-            seeds.push_back(v);
+        if (contrast[v] + own <= std::max(seedFar * holder.size, seedNearer * own)) continue;
+        ++apart;
+        if (own < seedNear * holder.size) seeds.push_back(v);
     }
+    if (static_cast<double>(seeds.size()) < seedNearShare * static_cast<double>(apart)) seeds.clear();
     return seeds;
 }
 

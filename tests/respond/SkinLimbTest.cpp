@@ -89,6 +89,30 @@ TEST_CASE("a limb's skin follows the bone that it lies on and does not collapse 
     CHECK(rest.longest == 1);
 }
 
+TEST_CASE("skin goes with its bone however thin that is in its flesh") {
+    const TriangleMesh skin = round(0.12, -1.1, 1.1, 90);
+    const Pose bend(Eigen::AngleAxisd(120 * degree, Vec3::UnitY()));
+    for (const double radius : {0.05, 0.04, 0.03, 0.01}) {
+        INFO("bones of radius " << radius);
+        SkinParameters parameters;
+        parameters.swings = {{{Pose::Identity(), bend}}};
+        SkinTable nothingMet;
+        nothingMet.table.rowOffsets = {0};
+        SkinResponse response(
+            makeSkinRig(skin, {boneOf(round(radius, -1.05, -0.1, 30)), boneOf(round(radius, 0.1, 1.05, 30))},
+                        nothingMet, parameters));
+        response.update(std::vector<double>{0, 0}, std::vector<Pose>{Pose::Identity(), bend});
+        double off = 0; // beyond twice the limb's width from the joint
+        for (std::size_t k = 0; k < response.positions().size(); ++k) {
+            const Vec3& rest = response.rig().rest[k];
+            if (std::abs(rest.x()) < 0.48) continue;
+            const Vec3 along = rest.x() < 0 ? rest : Vec3(bend * rest);
+            off = std::max(off, (response.positions()[k] - along).norm());
+        }
+        CHECK(off < 0.005);
+    }
+}
+
 TEST_CASE("a measure of skin tells what is wrong with it") {
     const TriangleMesh skin = round(0.12, -1.1, 1.1, 60);
     const std::vector<std::shared_ptr<const MuscleDeformer>> bones{boneOf(round(0.05, -1.05, -0.03, 30)),
