@@ -21,6 +21,8 @@ constexpr double stillDistance = 0.5;
 constexpr double aheadCosine = 0.7;
 /// In sizes of a bone: nearer to its joint its middle says nothing about where the bone goes.
 constexpr double leastArm = 0.25;
+/// A bone is one of a row, as vertebrae are, where the one before it is no larger than by this.
+constexpr double likeSize = 2;
 
 /// Of the least that a bone beside it holds: what is smaller than this is a patch, no part of the body. It
 /// stays where a bone that holds still is near, else goes with what is around it.
@@ -62,14 +64,14 @@ FrameHolder holderOf(const SkinGround& ground, const std::vector<int>& frames, i
     return made;
 }
 
-/// The middle of the nearest bone that moves in fewer swings than this one.
-std::optional<Vec3> placeBefore(const std::vector<FrameHolder>& holders, std::size_t bone) {
+/// The nearest bone that moves in fewer swings than this one.
+const FrameHolder* boneBefore(const std::vector<FrameHolder>& holders, std::size_t bone) {
     const Vec3 middle = holders[bone].box.center();
-    std::optional<Vec3> before;
+    const FrameHolder* before = nullptr;
     for (const FrameHolder& other : holders) {
         if (other.moves >= holders[bone].moves || other.box.isEmpty()) continue;
-        const Vec3 place = other.box.center();
-        if (!before || (place - middle).norm() < (*before - middle).norm()) before = place;
+        if (!before || (other.box.center() - middle).norm() < (before->box.center() - middle).norm())
+            before = &other;
     }
     return before;
 }
@@ -107,7 +109,8 @@ void setMotions(const SkinParameters& p, const std::vector<int>& frames, std::ve
         if (!(some > 0)) continue;
         const auto places = (least[h].matrix + some * Eigen::Matrix3d::Identity()).eval().ldlt();
         holders[h].joint += places.solve(least[h].right); // along an axis the place beside the middle
-        const Vec3 from = middle - placeBefore(holders, h).value_or(middle);
+        const FrameHolder* before = boneBefore(holders, h);
+        const Vec3 from = before ? Vec3(middle - before->box.center()) : Vec3::Zero();
         holders[h].twists = some * places.solve(from).norm() > aheadCosine * from.norm();
     }
 }
@@ -242,21 +245,34 @@ SkinHolder stillOf(const std::vector<FrameHolder>& holders, const FreeParts& fre
     return still;
 }
 
-/// Whether a place lies beyond a bone that moves, seen from its joint. Where the joint is in the middle of
-/// the bone, as of a vertebra, or the bone twists, whether it is nearer to it than to the nearest bone that
-/// moves in fewer swings.
-bool isBeyond(const Vec3& place, std::size_t bone, const std::vector<FrameHolder>& holders) {
+/// Whether a bone's joint is in its middle.
+bool isAmidst(const FrameHolder& holder) {
+    return (holder.box.center() - holder.joint).norm() < leastArm * holder.extent;
+}
+
+/// How far a place lies beyond a bone that moves, seen from its joint, 1: straight, -1: straight back. Where
+/// the joint is in the middle of the bone, or the bone twists, how much nearer it is to it than to the
+/// nearest bone that moves in fewer swings.
+double beyond(const Vec3& place, std::size_t bone, const std::vector<FrameHolder>& holders) {
     const FrameHolder& holder = holders[bone];
     const Vec3 middle = holder.box.center(), arm = middle - holder.joint, way = place - holder.joint;
-    if (!holder.twists && arm.norm() >= leastArm * holder.extent)
-        return way.dot(arm) >= aheadCosine * way.norm() * arm.norm();
-    const std::optional<Vec3> before = placeBefore(holders, bone);
-    return !before || (place - middle).norm() <= (place - *before).norm();
+    if (!holder.twists && !isAmidst(holder)) return way.dot(arm) / std::max(way.norm() * arm.norm(), 1e-300);
+    const FrameHolder* before = boneBefore(holders, bone);
+    const Vec3 other = before ? before->box.center() : middle;
+    return other == middle ? 1 : ((place - other).norm() - (place - middle).norm()) / (middle - other).norm();
+}
+
+/// Whether it is one of a row of such bones.
+bool isVertebra(const std::vector<FrameHolder>& holders, std::size_t bone) {
+    const FrameHolder *own = &holders[bone], *before = boneBefore(holders, bone);
+    return before && isAmidst(*own) && !own->twists && before->extent < likeSize * own->extent;
 }
 
 /// The bone that a part goes on from, as a hand does from a forearm: most of what is around it belongs to
-/// bones that move, and it lies beyond that one of those that move in the fewest swings.
+/// bones that move, and it lies beyond that one of those that move in the fewest swings. Or a vertebra, of
+/// which a trunk may lie on both sides: for that a third is enough.
 std::optional<std::size_t> goesOnFrom(const FreePart& part, const std::vector<FrameHolder>& holders) {
+    if (part.small) return std::nullopt;
     std::size_t still = 0, all = 0, moves = ~std::size_t{0};
     for (const auto& [h, times] : part.beside) {
         all += times;
@@ -266,11 +282,28 @@ std::optional<std::size_t> goesOnFrom(const FreePart& part, const std::vector<Fr
             moves = std::min(moves, holders[h].moves);
     }
     std::optional<std::size_t> from;
-    for (const auto& [h, times] : part.beside)
-        if (holders[h].moves == moves && (!from || times > part.beside.at(*from)) &&
-            isBeyond(part.ring, h, holders))
+    for (const auto& [h, times] : part.beside) {
+        if (holders[h].moves != moves || (from && times <= part.beside.at(*from))) continue;
+        const bool nearer = holders[h].twists || isAmidst(holders[h]);
+        const bool vertebra = isVertebra(holders, h) && still > 0 && 3 * still < 2 * all;
+        if (vertebra || (2 * still < all && beyond(part.ring, h, holders) >= (nearer ? 0 : aheadCosine)))
             from = h;
-    return 2 * still < all ? from : std::nullopt;
+    }
+    return from;
+}
+
+/// Gives a part to the bone that it goes on from, or else to what holds still. One beside other bones too is
+/// claimed like all other skin, but for what lies clearly on one side of a vertebra.
+void holdPart(const FreePart& part, const std::vector<Vec3>& places, std::size_t still,
+              std::vector<FrameHolder>& holders) {
+    const std::optional<std::size_t> from = goesOnFrom(part, holders);
+    const bool aside = from && part.beside.size() > 1;
+    if (aside && !isVertebra(holders, *from)) return;
+    for (const std::uint32_t v : part.vertices) {
+        const double along = aside ? beyond(places[v], *from, holders) : from ? 1 : -1;
+        if (along >= aheadCosine) holders[from.value_or(still)].holder.sure.push_back(v);
+        if (along <= -aheadCosine) holders[still].holder.sure.push_back(v);
+    }
 }
 
 } // namespace
@@ -293,12 +326,8 @@ std::vector<SkinHolder> skinHolders(const SkinGround& ground, const SkinParamete
     while (firstStill < holders.size() && !still(firstStill)) ++firstStill;
     const bool anyStill = firstStill < holders.size();
     const FreeParts free = freeParts(ground, holders, anyStill);
-    for (const FreePart& part : free.parts) {
-        const std::optional<std::size_t> from = part.small ? std::nullopt : goesOnFrom(part, holders);
-        if (!anyStill || part.beside.empty() || (from && part.beside.size() > 1)) continue;
-        std::vector<std::uint32_t>& sure = holders[from.value_or(firstStill)].holder.sure;
-        sure.insert(sure.end(), part.vertices.begin(), part.vertices.end());
-    }
+    for (const FreePart& part : free.parts)
+        if (anyStill && !part.beside.empty()) holdPart(part, ground.skin.vertices, firstStill, holders);
     std::vector<SkinHolder> made;
     for (const FrameHolder& h : holders) made.push_back(h.holder);
     if (!anyStill) made.push_back(stillOf(holders, free));

@@ -261,6 +261,18 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("a trunk that goes on on both sides of two vertebrae near its back is parted between them") {
+    for (const double end : {28.0, 29.4}) { // deep and just below the back
+        const auto still = boneIn(Vec3(9.2, -0.6, end - 1.2), Vec3(10.4, 0.6, end)),
+                   turning = boneIn(Vec3(7.8, -0.6, end - 1.2), Vec3(9, 0.6, end));
+        Setting between;
+        between.joint = Vec3(8.6, 0, end - 0.6);
+        const Bent bent({still, turning}, 1, between);
+        CHECK(bent.farthest(Pose::Identity(), [](const Vec3& x) { return x.x() > 26; }) < 0.5);
+        CHECK(bent.farthest(bent.bend, [](const Vec3& x) { return x.x() < -5; }) < 0.5);
+    }
+}
+
 TEST_CASE(
     "beyond a bone that twists is what it has on the far side of what it hangs on, also beside a limb that "
     "moves") {
