@@ -34,7 +34,8 @@ bool divisible(const SurfaceTree& tree, Piece piece) {
 
 MeshBox::MeshBox(const SurfaceTree& a, const SurfaceTree& b, const Motion& motion, double size,
                  const MeshClaim& claim)
-    : a_(a), b_(b), motion_(motion), claim_(claim), size_(size), moved_(b.nodes.size()) {
+    : a_(a), b_(b), motion_(motion), claim_(claim), size_(size), shapesA_(a), shapesB_(b),
+      moved_(b.nodes.size()) {
     // Smaller boxes than this cannot be told from rounding.
     smallest_ = 1e-3 * claim.band;
     for (const MeshTest& test : claim.tests)
@@ -49,17 +50,6 @@ const MeshBox::Moved& MeshBox::moved(std::int32_t node) {
         at.stamp = stamp_;
     }
     return at;
-}
-
-Corners MeshBox::cornersOf(const SurfaceTree& tree, Piece piece) const {
-    Corners now = tree.patches[tree.nodes[static_cast<std::size_t>(piece.node)].patch].corners;
-    for (int bit = std::bit_width(piece.cuts) - 2; bit >= 0; --bit) now = halves(now)[piece.cuts >> bit & 1];
-    return now;
-}
-
-Slab MeshBox::slabOfPiece(const SurfaceTree& tree, Piece piece) const {
-    if (piece.cuts == 1) return tree.nodes[static_cast<std::size_t>(piece.node)].slab;
-    return slabOf(cornersOf(tree, piece));
 }
 
 // What of the tests can fire in the box. True: one of them does, all over it.
@@ -95,15 +85,6 @@ bool MeshBox::weighTests(const OpenPairs& open) {
         near_.push_back(near);
     }
     return false;
-}
-
-Shape MeshBox::shapeOf(const SurfaceTree& tree, Piece piece) const {
-    const SurfaceTree::Node& node = tree.nodes[static_cast<std::size_t>(piece.node)];
-    if (node.first >= 0) return {node.slab, {}};
-    Shape shape;
-    shape.corners = cornersOf(tree, piece);
-    shape.slab = piece.cuts == 1 ? node.slab : slabOf(*shape.corners);
-    return shape;
 }
 
 bool MeshBox::apart(const Shape& shapeA, const Shape& shapeB, const MovingPoint& at) const {
@@ -227,7 +208,7 @@ MeshBox::Verdict MeshBox::weigh(const PiecePair& pair) {
     const SurfaceTree::Node &nodeA = a_.nodes[static_cast<std::size_t>(pair.a.node)],
                             &nodeB = b_.nodes[static_cast<std::size_t>(pair.b.node)];
     if (nodeA.exempt && nodeB.exempt) return Verdict::Done;
-    const Shape a = shapeOf(a_, pair.a), b = shapeOf(b_, pair.b);
+    const Shape a = shapesA_.of(pair.a), b = shapesB_.of(pair.b);
     MovingPoint at = moved(pair.b.node);
     if (pair.b.cuts != 1) {
         const Vec3 arm = box_->pose().linear() * (b.slab.centre - nodeB.slab.centre);
@@ -250,8 +231,8 @@ MeshBox::Verdict MeshBox::weigh(const PiecePair& pair) {
     return blur;
 }
 
-void MeshBox::halve(const PiecePair& pair, std::vector<PiecePair>& stack) const {
-    const double sizeA = slabOfPiece(a_, pair.a).reach, sizeB = slabOfPiece(b_, pair.b).reach;
+void MeshBox::halve(const PiecePair& pair, std::vector<PiecePair>& stack) {
+    const double sizeA = shapesA_.of(pair.a).slab.reach, sizeB = shapesB_.of(pair.b).slab.reach;
     const bool cutA = divisible(a_, pair.a) && (sizeA >= sizeB || !divisible(b_, pair.b));
     for (std::uint32_t side = 0; side < 2; ++side)
         stack.push_back(cutA ? PiecePair{half(a_, pair.a, side), pair.b}
@@ -260,11 +241,11 @@ void MeshBox::halve(const PiecePair& pair, std::vector<PiecePair>& stack) const 
 
 // The DOF that may move the pieces left the most: by its bound, for across a knot of a path the rate at the
 // middle says little about the steepest part.
-void MeshBox::chooseCut(const OpenPairs& left, std::size_t& cut) const {
+void MeshBox::chooseCut(const OpenPairs& left, std::size_t& cut) {
     std::array<double, maxDofs> moves{};
     const std::size_t step = 1 + left.pairs.size() / 16;
     for (std::size_t k = 0; k < left.pairs.size(); k += step) {
-        const MovingPoint at = box_->carry(slabOfPiece(b_, left.pairs[k].b).centre, false);
+        const MovingPoint at = box_->carry(shapesB_.of(left.pairs[k].b).slab.centre, false);
         for (std::size_t l = 0; l < box_->dofs(); ++l) moves[l] += at.sweep[l];
     }
     cut = 0;
@@ -284,9 +265,9 @@ bool MeshBox::unanswered(const std::vector<double>& q, const std::vector<PiecePa
         least = std::min(least, (at * t.centreB - t.centreA).norm() - t.contactDistance);
     if (least <= claim_.miss + claim_.band) return false;
     const auto beyond = [&](const Piece& a, const Piece& b) {
-        Corners moved = cornersOf(b_, b);
+        Corners moved = *shapesB_.of(b).corners;
         for (Vec3& corner : moved) corner = at * corner;
-        const Corners fixed = cornersOf(a_, a);
+        const Corners fixed = *shapesA_.of(a).corners;
         return surelyBeyond(fixed, moved, near * near) ||
                squaredDistanceOfTriangles(fixed, moved) > near * near;
     };
@@ -313,7 +294,7 @@ bool MeshBox::unanswered(const std::vector<double>& q, const std::vector<PiecePa
             broken.lag = least;
             return true;
         }
-        const Slab a = slabOfPiece(a_, pair.a), b = slabOfPiece(b_, pair.b);
+        const Slab a = shapesA_.of(pair.a).slab, b = shapesB_.of(pair.b).slab;
         const Vec3 between = at * b.centre - a.centre;
         if (between.norm() > a.reach + b.reach + near) continue;
         const auto separates = [&](const Vec3& normal) {

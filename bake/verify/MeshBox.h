@@ -1,16 +1,11 @@
 #pragma once
 #include "bake/verify/MeshProof.h"
+#include "bake/verify/PieceShapes.h"
 
 #include <algorithm>
 
 namespace tss::verify {
 
-/// A node of a tree, or a part of the triangle of one without children: its longest edge halved again and
-/// again (SurfacePart::cuts).
-struct Piece {
-    std::int32_t node = 0;
-    std::uint32_t cuts = 1;
-};
 struct PiecePair {
     Piece a, b;
 };
@@ -62,17 +57,14 @@ private:
     enum class Verdict { Done, SplitPair, SplitBox };
 
     const Moved& moved(std::int32_t node);
-    Slab slabOfPiece(const SurfaceTree& tree, Piece piece) const;
-    Shape shapeOf(const SurfaceTree& tree, Piece piece) const;
-    Corners cornersOf(const SurfaceTree& tree, Piece piece) const;
     bool weighTests(const OpenPairs& open);
     Verdict weigh(const PiecePair& pair);
     bool apart(const Shape& a, const Shape& b, const MovingPoint& at) const;
     bool answered(const Shape& a, const Shape& b, const MovingPoint& at, Verdict& blur);
     double bound(const Near& test, const Vec3& lambda, const Shape& a, const Shape& b, const MovingPoint& at,
                  double& patches) const;
-    void halve(const PiecePair& pair, std::vector<PiecePair>& stack) const;
-    void chooseCut(const OpenPairs& left, std::size_t& cut) const;
+    void halve(const PiecePair& pair, std::vector<PiecePair>& stack);
+    void chooseCut(const OpenPairs& left, std::size_t& cut);
 
     const SurfaceTree &a_, &b_;
     const Motion& motion_;
@@ -81,6 +73,7 @@ private:
 
     const PoseBox* box_ = nullptr;
     std::uint64_t stamp_ = 0, work_ = 0;
+    PieceShapes shapesA_, shapesB_;
     std::vector<Moved> moved_; ///< one per node of B
     std::vector<Near> near_;
     double scale_ = 0; ///< reach of the pair that was weighed last

@@ -85,7 +85,7 @@ double Slab::farthest(const Vec3& p) const {
     const Vec3 arm = centre - p;
     const double along = std::abs(axis.dot(arm));
     const double across = (arm - axis.dot(arm) * axis).norm();
-    return std::min(std::hypot(along + half, across + radius), arm.norm() + reach) * outwardHere +
+    return std::min(Eigen::Vector2d(along + half, across + radius).norm(), arm.norm() + reach) * outwardHere +
            hair * (centre.norm() + p.norm());
 }
 
