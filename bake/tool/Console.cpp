@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
@@ -15,11 +16,13 @@
 namespace tss::tool {
 
 void Console::say(const std::string& text) const {
-    if (!quiet) fmt::print(json ? stderr : stdout, "{}\n", text);
+    if (!quiet) answer(text);
 }
 
 void Console::answer(const std::string& text) const {
-    fmt::print(json ? stderr : stdout, "{}\n", text);
+    std::FILE* out = json ? stderr : stdout;
+    fmt::print(out, "{}\n", text);
+    std::fflush(out); // to a file too, in order with what goes to stderr: the next line may take an hour
 }
 
 void Console::print(const Json& result) const {

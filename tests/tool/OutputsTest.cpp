@@ -2,6 +2,7 @@
 #include "bake/scene/SceneFile.h"
 #include "tests/tool/Swing.h"
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
@@ -150,4 +151,33 @@ TEST_CASE("idle options are refused") {
     refused(folder, "convert still.obj x.tss --meters-per-unit 0", "expected a number > 0");
     CHECK(runTss("convert still.obj x.tss --meters-per-unit 1mm", folder.path()).exit == 0);
     CHECK(tss::loadScene(folder / "x.tss").metersPerUnit == 0.001);
+}
+
+TEST_CASE("what is said of each pair stands in a file as soon as it is known, in order with what is wrong") {
+    const Folder folder;
+    writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
+    writeObj(boxMesh({1.1, -1, -1}, {2, 1, 1}), folder / "b.obj");
+    writeObj(boxMesh({-2, -1, -1}, {-1.1, 1, 1}), folder / "c.obj");
+    REQUIRE(runTss("make -o in.tss --pairs neighbours --body a.obj --body b.obj --body c.obj --joint "
+                   "X=a,b:trans:1,0,0:0:3 --joint Y=a,c:trans:1,0,0:-3:0",
+                   folder.path())
+                .exit == 0);
+    REQUIRE(runTss("bake in.tss -o baked.tss", folder.path()).exit == 0);
+    tss::SceneModel scene = tss::loadScene(folder / "baked.tss");
+    REQUIRE(scene.pairs.size() == 2);
+    REQUIRE(scene.pairs[1].proof);
+    tss::NeverCollides wrong = *scene.pairs[1].proof;
+    wrong.clearance = 1;
+    scene.pairs[1].proof = std::make_shared<tss::NeverCollides>(wrong);
+    tss::saveScene(scene, folder / "wrong.tss");
+    const std::string command =
+        "cd '" + folder.path().string() + "' && '" TSS_PROGRAM "' verify wrong.tss >both 2>&1";
+    CHECK(std::system(command.c_str()) != 0);
+    const std::string both = readText(folder / "both");
+    INFO(both);
+    const std::size_t holds = both.find("holds at every pose"),
+                      fails = both.find("nearer than the clearance"), sum = both.find("2 pairs: 1 hold");
+    REQUIRE(sum != std::string::npos);
+    CHECK(holds < fails);
+    CHECK(fails < sum);
 }
