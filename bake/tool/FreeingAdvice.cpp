@@ -117,10 +117,14 @@ private:
     void sayElsewhere(const TouchingElsewhere& elsewhere) const {
         console_.say(fmt::format(
             "{}: the meshes are apart at rest and touch at {} of {} poses. Where they should not, look at "
-            "origin, axis\n  and limits. Where it is the joint's own surfaces that overlap, let it rest "
+            "origin, axis\n  and limits.{} Where it is the joint's own surfaces that overlap, let it rest "
             "there "
             "({}): they are free\n  then, and moves of {} that give them room are looked for",
-            pair_.path, elsewhere.touching, elsewhere.poses, restAt(elsewhere.values), b_));
+            pair_.path, elsewhere.touching, elsewhere.poses,
+            motion_.dofCount() > 1 ? " Where one value drives the others, as of gears, let a path say so "
+                                     "(--dof path).\n "
+                                   : "",
+            restAt(elsewhere.values), b_));
     }
 
     /// Overlapping at rest: whether on purpose is not known.

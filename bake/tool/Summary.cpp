@@ -139,10 +139,14 @@ std::string describeEarlyContact(const Json& pair, double metersPerUnit) {
                             early["poses"].get<int>() - early["freePoses"].get<int>(),
                             early["poses"].get<int>(), excepted);
     else if (early["held"].get<bool>())
-        text +=
-            fmt::format("  held         at rest: every small step from there is contact, whichever way. Let "
-                        "it rest where nothing\n               touches (tss make --rest, --b-offset){}\n",
-                        excepted);
+        text += fmt::format(
+            "  held         at rest: every small step from there is contact, whichever way. {}Let "
+            "it rest where nothing\n               touches (tss make --rest, --b-offset){}\n",
+            pair["dofs"].get<int>() > 1
+                ? "Where one value drives the\n               others, as of gears, let "
+                  "a path say so (tss make --dof path). "
+                : "",
+            excepted);
     if (const int poses = early["poses"].get<int>(), free = early["freePoses"].get<int>();
         early["touching"].get<bool>())
         text += fmt::format("  touching     the meshes touch at {} of {} poses: where they should not, look "

@@ -1,6 +1,7 @@
 // The response on baked joints, judged by their full sphere models and by fine search.
 #include "bake/scene/SceneFile.h"
 #include "bake/search/NodePairs.h"
+#include "tests/Shapes.h"
 #include "tests/SharedMeshes.h"
 #include "tests/respond/Walk.h"
 #include "tests/tool/Shell.h"
@@ -215,4 +216,26 @@ TEST_CASE("a million random steps keep human teeth out of collision", "[.long]")
                      " --meters-per-unit 0.01 --dof rot:0,-0.547,1.819:1,0,0:0:25.3 --dof "
                      "rot:0,0,-10.3:0,1,0:-1.89:1.89 --dof trans:0,-0.17,0.888:0:1",
                  "--tolerance 0.2mm --depth 0.5mm", 1000000);
+}
+
+TEST_CASE("bodies that are free only where two values go together are told of a path") {
+    const Folder folder;
+    TriangleMesh rack = boxMesh({-1.5, -0.1, -0.1}, {-0.515, 0.1, 0.1});
+    const TriangleMesh other = boxMesh({0.515, -0.1, -0.1}, {1.5, 0.1, 0.1});
+    for (const Tri& t : other.triangles) rack.triangles.push_back(t + Tri::Constant(8));
+    rack.vertices.insert(rack.vertices.end(), other.vertices.begin(), other.vertices.end());
+    writeObj(rack, folder / "rack.obj");
+    writeObj(boxMesh({-0.5, -0.12, -0.12}, {0.5, 0.12, 0.12}), folder / "tooth.obj");
+    // The sum of both moves the tooth: the one goes back as far as the other goes on.
+    REQUIRE(runTss("make -o in.tss --a rack.obj --b tooth.obj --dof trans:1,0,0:-0.5:0.5 "
+                   "--dof trans:1,0,0:-1.5:1.5",
+                   folder.path())
+                .exit == 0);
+    const Ran ran = runTss("bake in.tss -o baked.tss --tolerance 0.006", folder.path());
+    INFO(ran.err);
+    REQUIRE(ran.exit == 0);
+    INFO(ran.out);
+    CHECK(ran.out.find("  held  ") != std::string::npos);
+    CHECK(ran.out.find("let a path say so (tss make --dof path)") != std::string::npos);
+    CHECK(ran.out.find("let a path say so (--dof path)") != std::string::npos); // beside where it may rest
 }
