@@ -1,6 +1,7 @@
 #include "bake/base/Stopwatch.h"
 #include "bake/compare/Methods.h"
 
+#include "bake/base/Lists.h"
 #include "bake/base/Parallel.h"
 
 #include <algorithm>
@@ -29,11 +30,7 @@ public:
         }
         std::vector<std::vector<Stretch>> found(count);
         parallelFor(count, [&](std::size_t i) { found[i] = trace(problem, oracle, i, steps); });
-        first_.push_back(0);
-        for (const auto& path : found) {
-            stretches_.insert(stretches_.end(), path.begin(), path.end());
-            first_.push_back(static_cast<std::uint32_t>(stretches_.size()));
-        }
+        stretches_ = Lists<Stretch>(found);
         const double seconds = watch.seconds();
         description() = {"allowed-paths-" + std::to_string(count),
                          "allowed paths",
@@ -42,7 +39,7 @@ public:
                              std::to_string(steps) +
                              " samples a path and bisected ends; a query takes the nearest path",
                          {},
-                         first_.size() * sizeof(first_[0]) + stretches_.size() * sizeof(Stretch),
+                         stretches_.bytes(),
                          seconds};
     }
 
@@ -54,9 +51,8 @@ public:
                    static_cast<std::size_t>(std::clamp(x, 0.0, static_cast<double>(axes_[k].count - 1)));
         }
         const double q = query.q[leading_];
-        for (std::uint32_t s = first_[path]; s < first_[path + 1]; ++s)
-            if (q >= stretches_[s].lower && q <= stretches_[s].upper) return false;
-        return true;
+        return std::ranges::none_of(stretches_[path],
+                                    [q](const Stretch& free) { return q >= free.lower && q <= free.upper; });
     }
     std::optional<Work> work(const PoseQuery&) const override { return Work{}; }
 
@@ -105,9 +101,8 @@ private:
     }
 
     std::size_t leading_;
-    std::vector<Axis> axes_; ///< one per DOF; the leading one has one entry
-    std::vector<std::uint32_t> first_;
-    std::vector<Stretch> stretches_;
+    std::vector<Axis> axes_;   ///< one per DOF; the leading one has one entry
+    Lists<Stretch> stretches_; ///< of each path
 };
 
 } // namespace

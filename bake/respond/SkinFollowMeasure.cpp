@@ -28,8 +28,8 @@ std::vector<Eigen::Matrix3d> turnsOf(const SkinRig& rig, std::span<const Pose> p
     std::vector<Eigen::Matrix3d> turns;
     for (std::size_t v = 0; v < rig.places.size(); ++v) {
         PoseBlend blend;
-        for (std::uint32_t k = rig.frameStart[v]; k < rig.frameStart[v + 1]; ++k)
-            blend.add(static_cast<double>(rig.frameShares[k].share), frames[rig.frameShares[k].frame]);
+        for (const auto& [frame, share] : rig.frameShares[v])
+            blend.add(static_cast<double>(share), frames[frame]);
         turns.push_back(blend.pose().linear());
     }
     return turns;

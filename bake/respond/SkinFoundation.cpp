@@ -146,8 +146,7 @@ Columns solveColumns(const SparseMatrix& sheet, const std::vector<Vec3>& places,
 } // namespace
 
 std::size_t SkinFoundation::bytes() const {
-    return 4 * (start.size() + 2 * node.size() + columnStart.size() + 2 * columnNode.size() +
-                nodeStart.size() + 2 * nodeVertex.size());
+    return weights.bytes() + columns.bytes() + vertices.bytes();
 }
 
 SkinFoundation skinFoundation(const TriangleMesh& skin, const SkinGraph& graph,
@@ -177,32 +176,18 @@ SkinFoundation skinFoundation(const TriangleMesh& skin, const SkinGraph& graph,
     float peak = 0;
     for (const auto& column : columns)
         for (const auto& entry : column) peak = std::max(peak, entry.second);
-    foundation.start.push_back(0);
-    for (const auto& list : weights) {
-        for (const auto& [node, weight] : list) {
-            foundation.node.push_back(node);
-            foundation.weight.push_back(static_cast<float>(weight));
+    std::vector<std::vector<SkinEntry>> verticesOf(at.size());
+    for (std::uint32_t v = 0; v < weights.size(); ++v) {
+        for (const auto& [node, weight] : weights[v]) {
+            foundation.weights.push_back({node, static_cast<float>(weight)});
+            verticesOf[node].push_back({v, static_cast<float>(weight)});
         }
-        foundation.start.push_back(static_cast<std::uint32_t>(foundation.node.size()));
+        foundation.weights.endList();
     }
-    foundation.columnStart.push_back(0);
+    foundation.vertices = Lists<SkinEntry>(verticesOf);
     for (const auto& column : columns) {
-        for (const auto& [node, value] : column) {
-            foundation.columnNode.push_back(node);
-            foundation.column.push_back(value / peak);
-        }
-        foundation.columnStart.push_back(static_cast<std::uint32_t>(foundation.columnNode.size()));
-    }
-    std::vector<std::vector<std::pair<std::uint32_t, double>>> back(at.size());
-    for (std::uint32_t v = 0; v < weights.size(); ++v)
-        for (const auto& [node, weight] : weights[v]) back[node].emplace_back(v, weight);
-    foundation.nodeStart.push_back(0);
-    for (const auto& list : back) {
-        for (const auto& [vertex, weight] : list) {
-            foundation.nodeVertex.push_back(vertex);
-            foundation.nodeWeight.push_back(static_cast<float>(weight));
-        }
-        foundation.nodeStart.push_back(static_cast<std::uint32_t>(foundation.nodeVertex.size()));
+        for (const auto& [node, value] : column) foundation.columns.push_back({node, value / peak});
+        foundation.columns.endList();
     }
     return foundation;
 }

@@ -1,7 +1,14 @@
 #pragma once
+#include "bake/base/Lists.h"
 #include "bake/respond/SkinGraph.h"
 
 namespace tss {
+
+/// Some of a node or a vertex.
+struct SkinEntry {
+    std::uint32_t index = 0;
+    float value = 0;
+};
 
 /// The answer of a skin to a push, tabulated (METHOD 6.5). The skin is an elastic sheet with stretch and
 /// bending on an elastic foundation, B = b l^2 L M^-1 L + s L + M / l^2, which never changes; what one push
@@ -12,12 +19,9 @@ namespace tss {
 struct SkinFoundation {
     double length = 0; ///< l
     std::size_t nodes = 0;
-    std::vector<std::uint32_t> start, node; ///< of vertex v: node[start[v]] to node[start[v + 1]]
-    std::vector<float> weight;              ///< #node, of a vertex 1 together; vertices never moved have none
-    std::vector<std::uint32_t> columnStart, columnNode; ///< of node n, empty where nothing pushes
-    std::vector<float> column;                          ///< #columnNode; the largest of all is 1
-    std::vector<std::uint32_t> nodeStart, nodeVertex;   ///< the vertices of node n
-    std::vector<float> nodeWeight;                      ///< #nodeVertex
+    Lists<SkinEntry> weights;  ///< of each vertex on nodes, 1 together; of those never moved none
+    Lists<SkinEntry> columns;  ///< of each node, empty where nothing pushes; the largest of all is 1
+    Lists<SkinEntry> vertices; ///< of each node, with their weights
 
     std::size_t bytes() const;
 };

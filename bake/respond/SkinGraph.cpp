@@ -47,14 +47,15 @@ SkinGraph skinGraph(const TriangleMesh& skin) {
     for (double& a : graph.area) a = std::max(a, least);
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    graph.start.assign(count + 1, 0);
-    for (const auto& [a, b] : edges) {
-        ++graph.start[a + 1];
-        graph.neighbour.push_back(b);
-        graph.length.push_back((skin.vertices[a] - skin.vertices[b]).norm());
-        graph.meanEdge += graph.length.back() / static_cast<double>(edges.size());
+    auto edge = edges.begin();
+    for (std::uint32_t v = 0; v < count; ++v) {
+        for (; edge != edges.end() && edge->first == v; ++edge) {
+            const double length = (skin.vertices[v] - skin.vertices[edge->second]).norm();
+            graph.edges.push_back({edge->second, length});
+            graph.meanEdge += length / static_cast<double>(edges.size());
+        }
+        graph.edges.endList();
     }
-    std::partial_sum(graph.start.begin(), graph.start.end(), graph.start.begin());
     return graph;
 }
 
@@ -70,9 +71,8 @@ std::vector<std::uint32_t> lowerDistances(const SkinGraph& graph, std::span<cons
         queue.pop();
         if (d > distance[v]) continue;
         lowered.push_back(v);
-        for (std::uint32_t e = graph.start[v]; e < graph.start[v + 1]; ++e) {
-            const double through = d + graph.length[e];
-            const std::uint32_t w = graph.neighbour[e];
+        for (const auto& [w, length] : graph.edges[v]) {
+            const double through = d + length;
             if (through > limit || through >= distance[w]) continue;
             queue.push({distance[w] = through, w});
         }

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/base/Lists.h"
 #include "bake/geometry/TriangleMesh.h"
 
 #include <Eigen/SparseCore>
@@ -13,8 +14,11 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// The vertices of a skin as neighbours along its edges.
 struct SkinGraph {
-    std::vector<std::uint32_t> start, neighbour; ///< of v: neighbour[start[v]] to neighbour[start[v + 1]]
-    std::vector<double> length;                  ///< #neighbour, scene units
+    struct Edge {
+        std::uint32_t to = 0;
+        double length = 0; ///< scene units
+    };
+    Lists<Edge> edges;        ///< of each vertex
     std::vector<double> area; ///< #V: a third of that of the triangles around, > 0; scene units squared
     double meanEdge = 0;      ///< scene units
 

@@ -191,8 +191,8 @@ FreeParts freeParts(const SkinGround& ground, std::vector<FrameHolder>& holders,
     UnionFind sets(count);
     const auto edges = [&](const auto& visit) {
         for (std::size_t v = 0; v < count; ++v)
-            for (auto e = ground.graph.start[v]; e < ground.graph.start[v + 1]; ++e)
-                if (isFree[v]) visit(v, ground.graph.neighbour[e]);
+            for (const SkinGraph::Edge& edge : ground.graph.edges[v])
+                if (isFree[v]) visit(v, edge.to);
     };
     edges([&](std::size_t v, std::size_t next) {
         if (isFree[next]) sets.join(v, next);

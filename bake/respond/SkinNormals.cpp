@@ -9,7 +9,7 @@ namespace {
 using Side = std::pair<std::uint32_t, std::uint32_t>;
 
 /// Takes one triangle after the other, each time with the next one around where there is one.
-void pairUp(std::vector<Side>& sides, std::uint32_t vertex, std::vector<SkinFan>& fans) {
+void pairUp(std::vector<Side>& sides, std::uint32_t vertex, Lists<SkinFan>& fans) {
     const auto follower = [&](std::uint32_t corner) {
         std::size_t k = 0;
         while (k < sides.size() && sides[k].first != corner) ++k;
@@ -34,6 +34,7 @@ void pairUp(std::vector<Side>& sides, std::uint32_t vertex, std::vector<SkinFan>
         fans.push_back({side.second, sides[next].second, side.first});
         sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(next));
     }
+    fans.endList();
 }
 
 } // namespace
@@ -50,19 +51,15 @@ std::vector<Vec3> skinNormals(const TriangleMesh& skin) {
     return normals;
 }
 
-SkinFans skinFans(const std::vector<Tri>& triangles, std::size_t count) {
+Lists<SkinFan> skinFans(const std::vector<Tri>& triangles, std::size_t count) {
     std::vector<std::vector<Side>> sides(count);
     for (const Tri& t : triangles)
         for (int k = 0; k < 3; ++k)
             if (static_cast<std::size_t>(t[k]) < count)
                 sides[t[k]].emplace_back(t[(k + 1) % 3], t[(k + 2) % 3]);
-    SkinFans result;
-    result.start.push_back(0);
-    for (std::uint32_t v = 0; v < count; ++v) {
-        pairUp(sides[v], v, result.fans);
-        result.start.push_back(static_cast<std::uint32_t>(result.fans.size()));
-    }
-    return result;
+    Lists<SkinFan> fans;
+    for (std::uint32_t v = 0; v < count; ++v) pairUp(sides[v], v, fans);
+    return fans;
 }
 
 } // namespace tss

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/base/Lists.h"
 #include "bake/geometry/TriangleMesh.h"
 
 #include <cstdint>
@@ -15,13 +16,8 @@ struct SkinFan {
     std::uint32_t middle = 0, last = 0, first = 0;
 };
 
-/// The triangles around each vertex, two at a time where they share an edge.
-struct SkinFans {
-    std::vector<std::uint32_t> start; ///< of vertex v: fans[start[v]] to fans[start[v + 1]]
-    std::vector<SkinFan> fans;
-};
-
-/// Of the first `count` vertices that triangles name.
-SkinFans skinFans(const std::vector<Tri>& triangles, std::size_t count);
+/// The triangles around each of the first `count` vertices that they name, two at a time where they share an
+/// edge.
+Lists<SkinFan> skinFans(const std::vector<Tri>& triangles, std::size_t count);
 
 } // namespace tss

@@ -28,11 +28,12 @@ SkinPushes::SkinPushes(const SkinFoundation& foundation)
 /// What each new plane has of the nodes, and how nodes move by a push of 1 along it.
 void SkinPushes::gather(std::span<const SkinPlane> planes) {
     const SkinFoundation& f = foundation_;
-    const auto collect = [&](std::vector<Entry>& out) {
+    const auto collect = [&](Lists<SkinEntry>& out) {
         for (const std::uint32_t n : seen_) {
             out.push_back({n, dense_[n]});
             dense_[n] = 0;
         }
+        out.endList();
         seen_.clear();
         ++round_;
     };
@@ -46,41 +47,36 @@ void SkinPushes::gather(std::span<const SkinPlane> planes) {
     ++round_;
     for (const SkinPlane& plane : planes.subspan(self_.size())) {
         for (int k = 0; k < plane.vertices; ++k)
-            for (std::uint32_t e = f.start[plane.vertex[k]]; e < f.start[plane.vertex[k] + 1]; ++e)
+            for (const auto& [node, weight] : f.weights[plane.vertex[k]])
                 // What has no column cannot be pushed; seen without it the problem stays symmetric.
-                if (f.columnStart[f.node[e]] != f.columnStart[f.node[e] + 1])
-                    add(f.node[e], plane.weight[k] * f.weight[e]);
-        const std::size_t first = own_.size();
+                if (!f.columns[node].empty()) add(node, plane.weight[k] * weight);
         collect(own_);
-        for (std::size_t i = first; i < own_.size(); ++i)
-            for (std::uint32_t e = f.columnStart[own_[i].index]; e < f.columnStart[own_[i].index + 1]; ++e)
-                add(f.columnNode[e], own_[i].value * f.column[e]);
+        for (const SkinEntry& own : own_[own_.size() - 1])
+            for (const auto& [node, move] : f.columns[own.index]) add(node, own.value * move);
         collect(column_);
-        ownStart_.push_back(static_cast<std::uint32_t>(own_.size()));
-        columnStart_.push_back(static_cast<std::uint32_t>(column_.size()));
     }
 }
 
 /// How much a push of 1 along each new plane's normal moves those before it, and they it, were their normals
 /// alike. Only planes that have some of the nodes that it moves.
 void SkinPushes::couple() {
-    const std::size_t count = ownStart_.size() - 1;
+    const std::size_t count = own_.size();
     sums_.resize(count, 0);
     summed_.resize(count, 0);
     std::vector<std::uint32_t> met;
     for (std::uint32_t r = static_cast<std::uint32_t>(self_.size()); r < count; ++r) {
-        for (std::uint32_t e = ownStart_[r]; e < ownStart_[r + 1]; ++e) {
-            owners_.push_back({r, own_[e].value, lastOwner_[own_[e].index]});
-            lastOwner_[own_[e].index] = static_cast<std::uint32_t>(owners_.size()) - 1;
+        for (const auto& [node, value] : own_[r]) {
+            owners_.push_back({r, value, lastOwner_[node]});
+            lastOwner_[node] = static_cast<std::uint32_t>(owners_.size()) - 1;
         }
         float peak = 0;
-        for (std::uint32_t e = columnStart_[r]; e < columnStart_[r + 1]; ++e) {
-            peak = std::max(peak, std::abs(column_[e].value));
-            for (std::uint32_t o = lastOwner_[column_[e].index]; o != none; o = owners_[o].before) {
+        for (const auto& [node, move] : column_[r]) {
+            peak = std::max(peak, std::abs(move));
+            for (std::uint32_t o = lastOwner_[node]; o != none; o = owners_[o].before) {
                 const Owner& owner = owners_[o];
                 if (!summed_[owner.plane]) met.push_back(owner.plane);
                 summed_[owner.plane] = 1;
-                sums_[owner.plane] += column_[e].value * owner.value;
+                sums_[owner.plane] += move * owner.value;
             }
         }
         peak_.push_back(peak);
@@ -92,22 +88,21 @@ void SkinPushes::couple() {
         }
         met.clear();
         self_.push_back(std::exchange(sums_[r], 0));
-        beforeStart_.push_back(static_cast<std::uint32_t>(before_.size()));
+        before_.endList();
     }
     // Those behind each plane.
     std::vector<std::uint32_t> start(count + 1, 0);
-    for (const Entry& entry : before_) ++start[entry.index + 1];
+    for (const SkinEntry& entry : before_.items()) ++start[entry.index + 1];
     for (std::size_t r = 0; r < count; ++r) start[r + 1] += start[r];
-    std::vector<Entry> behind(before_.size());
+    std::vector<SkinEntry> behind(before_.items().size());
     std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
     for (std::uint32_t r = 0; r < count; ++r)
-        for (std::uint32_t e = beforeStart_[r]; e < beforeStart_[r + 1]; ++e)
-            behind[next[before_[e].index]++] = {r, before_[e].value};
+        for (const auto& [plane, value] : before_[r]) behind[next[plane]++] = {r, value};
     coupleStart_.assign(1, 0);
     coupling_.clear();
     fours_.clear();
     for (std::uint32_t r = 0; r < count; ++r) {
-        const auto take = [&](const Entry& entry) {
+        const auto take = [&](const SkinEntry& entry) {
             const std::uint32_t first = entry.index / 4 * 4;
             if (fours_.size() == coupleStart_.back() || fours_.back() != first) {
                 fours_.push_back(first);
@@ -115,18 +110,15 @@ void SkinPushes::couple() {
             }
             coupling_.back()[entry.index - first] = entry.value;
         };
-        std::for_each(before_.begin() + beforeStart_[r], before_.begin() + beforeStart_[r + 1], take);
+        std::ranges::for_each(before_[r], take);
         std::for_each(behind.begin() + start[r], behind.begin() + start[r + 1], take);
         coupleStart_.push_back(static_cast<std::uint32_t>(coupling_.size()));
     }
 }
 
 void SkinPushes::clear() {
-    for (const Entry& entry : own_) lastOwner_[entry.index] = none;
+    for (const SkinEntry& entry : own_.items()) lastOwner_[entry.index] = none;
     owners_.clear();
-    beforeStart_.assign(1, 0);
-    ownStart_.assign(1, 0);
-    columnStart_.assign(1, 0);
     own_.clear();
     column_.clear();
     self_.clear();
@@ -301,24 +293,21 @@ std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, std::span<Move>
         ++pushing;
         Move along = Move::Zero();
         along.head<3>() = planes[r].push * planes[r].normal;
-        for (std::uint32_t e = columnStart_[r], end = columnStart_[r + 1]; e < end; ++e) {
-            const std::uint32_t n = column_[e].index;
+        for (const auto& [n, value] : column_[r]) {
             if (stamp_[n] != round_) {
                 stamp_[n] = round_;
                 seen_.push_back(n);
                 nodes_[n].setZero();
             }
-            nodes_[n] += column_[e].value * along;
+            nodes_[n] += value * along;
         }
     }
     std::sort(seen_.begin(), seen_.end());
-    const std::uint32_t* vertices = foundation_.nodeVertex.data();
-    const float* weights = foundation_.nodeWeight.data();
     for (const std::uint32_t n : seen_) {
         const Move move = nodes_[n];
-        for (std::uint32_t e = foundation_.nodeStart[n], end = foundation_.nodeStart[n + 1]; e < end; ++e) {
-            places[vertices[e]] += weights[e] * move;
-            blocks[vertices[e] / SkinRig::block] = 1;
+        for (const auto& [vertex, weight] : foundation_.vertices[n]) {
+            places[vertex] += weight * move;
+            blocks[vertex / SkinRig::block] = 1;
         }
     }
     seen_.clear();

@@ -27,10 +27,6 @@ public:
 
 private:
     using Four = Eigen::Array4f;
-    struct Entry {
-        std::uint32_t index;
-        float value;
-    };
     static constexpr std::uint32_t none = ~0u;
     /// A plane that has some of a node, and which has before it.
     struct Owner {
@@ -58,14 +54,13 @@ private:
     void goStep(std::span<SkinPlane> planes);
 
     const SkinFoundation& foundation_;
-    std::vector<std::uint32_t> ownStart_, columnStart_, coupleStart_; ///< one per plane and an end
-    std::vector<Entry> own_;                                          ///< what each plane has of the nodes
-    std::vector<Entry> column_;                                       ///< how the nodes move when it pushes
-    std::vector<Four> coupling_, matrix_; ///< how much nearer to their goal four other planes come by it
-    std::vector<std::uint32_t> fours_;    ///< of coupling_: the first of the four
-    std::vector<Entry>
+    Lists<SkinEntry> own_;    ///< what each plane has of the nodes
+    Lists<SkinEntry> column_; ///< how the nodes move when it pushes
+    Lists<SkinEntry>
         before_; ///< of each plane those before it that it moves, and how much; the same both ways
-    std::vector<std::uint32_t> beforeStart_; ///< one per plane and an end
+    std::vector<std::uint32_t> coupleStart_; ///< one per plane and an end
+    std::vector<Four> coupling_, matrix_;    ///< how much nearer to their goal four other planes come by it
+    std::vector<std::uint32_t> fours_;       ///< of coupling_: the first of the four
     std::vector<Owner> owners_;
     std::vector<float> sums_;
     std::vector<char> summed_;

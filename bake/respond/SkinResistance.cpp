@@ -37,24 +37,13 @@ SkinResistance::SkinResistance(const SkinRig& rig, SkinClock& clock)
     : rig_(rig), clock_(clock), pushes_(rig.foundation), planeOf_(rig.rows.size(), 0),
       seenOf_(rig.rows.size(), 0), pushed_(rig.blocks(), 0), stirred_(rig.places.size(), 0),
       asked_(rig.rows.size(), 0) {
-    listRows();
-}
-
-/// Fills blockStart_ and blockRows_.
-void SkinResistance::listRows() {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> entries;
-    for (std::uint32_t r = 0; r < rig_.rows.size(); ++r)
-        eachVertex(rig_.rows[r], [&](std::uint32_t v) {
-            entries.emplace_back(static_cast<std::uint32_t>(v / SkinRig::block), r);
+    std::vector<std::vector<std::uint32_t>> rows(rig.blocks());
+    for (std::uint32_t r = 0; r < rig.rows.size(); ++r)
+        eachVertex(rig.rows[r], [&](std::uint32_t v) {
+            std::vector<std::uint32_t>& ofBlock = rows[v / SkinRig::block];
+            if (ofBlock.empty() || ofBlock.back() != r) ofBlock.push_back(r);
         });
-    std::sort(entries.begin(), entries.end());
-    entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
-    blockStart_.assign(rig_.blocks() + 1, 0);
-    for (const auto& [block, row] : entries) {
-        ++blockStart_[block + 1];
-        blockRows_.push_back(row);
-    }
-    for (std::size_t b = 0; b < rig_.blocks(); ++b) blockStart_[b + 1] += blockStart_[b];
+    blockRows_ = Lists<std::uint32_t>(rows);
 }
 
 /// What a row that lacks nothing keeps until contacts have moved the skin there.
@@ -127,9 +116,9 @@ bool SkinResistance::stirred(const SkinRow& row) const {
 /// Where a plane is found for the choice of the deepest: the node that bears most on it, and what meets.
 std::uint64_t SkinResistance::placeOfChoice(const SkinRow& row, const SkinPlane& plane) const {
     const SkinFoundation& f = rig_.foundation;
-    const std::uint32_t first = f.start[plane.vertex[0]], last = f.start[plane.vertex[0] + 1];
-    const auto most = std::max_element(f.weight.begin() + first, f.weight.begin() + last);
-    const std::uint64_t node = first == last ? f.nodes : f.node[most - f.weight.begin()];
+    const std::span<const SkinEntry> weights = f.weights[plane.vertex[0]];
+    const auto most = std::ranges::max_element(weights, {}, &SkinEntry::value);
+    const std::uint64_t node = weights.empty() ? f.nodes : most->index;
     return (node * 3 + static_cast<std::uint64_t>(row.meeting)) * rig_.bodies.size() + row.body;
 }
 
@@ -213,8 +202,7 @@ float SkinResistance::lookUpAgain(const SkinScene& scene) {
     ++looks_;
     for (std::size_t b = 0; b < pushed_.size(); ++b) {
         if (pushed_[b] == 0) continue;
-        for (std::uint32_t k = blockStart_[b]; k < blockStart_[b + 1]; ++k) {
-            const std::uint32_t r = blockRows_[k];
+        for (const std::uint32_t r : blockRows_[b]) {
             if (asked_[r] == looks_) continue; // a row is about more than one block
             asked_[r] = looks_;
             if (planeOf_[r] == 0 && seenOf_[r] == 0 && isLeft_[r] == 0 && stirred(rig_.rows[r]) &&

@@ -37,7 +37,6 @@ private:
         std::uint32_t row = 0;
         SkinPlane plane;
     };
-    void listRows();
     void clear();
     void lookUpFirst(const SkinScene& scene);
     float lookUpAgain(const SkinScene& scene);
@@ -71,9 +70,8 @@ private:
     std::vector<char> isLeft_;         ///< #rows
     std::vector<std::uint32_t> asked_; ///< #rows: at which look by its block it was last asked
     std::uint32_t looks_ = 0;
-    float farthest_ = 0; ///< of what contacts have moved, from where it is carried
-    /// By block, the rows about its vertices: blockRows_[blockStart_[b]] to blockRows_[blockStart_[b + 1]].
-    std::vector<std::uint32_t> blockStart_, blockRows_;
+    float farthest_ = 0;             ///< of what contacts have moved, from where it is carried
+    Lists<std::uint32_t> blockRows_; ///< of each block those about its vertices
 };
 
 } // namespace tss

@@ -146,15 +146,13 @@ void SkinResponse::State::showPlaces(std::size_t block) {
 void SkinResponse::State::showNormals(std::size_t block) {
     const std::size_t last = std::min((block + 1) * SkinRig::block, rig_->places.size());
     const Move* skin = scene_.skin.data();
-    const SkinFan *fans = rig_->fans.fans.data(), *fan = fans + rig_->fans.start[block * SkinRig::block];
-    const std::uint32_t* ends = rig_->fans.start.data() + 1;
     Vec3* normals = normals_.data();
     const float outward = rig_->inverted ? -1 : 1;
     for (std::size_t v = block * SkinRig::block; v < last; ++v) {
         Move sum = Move::Zero(); // z, x, y
-        const SkinFan* end = fans + ends[v];
-        for (const Move own = skin[v]; fan != end; ++fan) {
-            const Move spoke = skin[fan->middle] - own, rim = skin[fan->last] - skin[fan->first];
+        const Move own = skin[v];
+        for (const SkinFan& fan : rig_->fans[v]) {
+            const Move spoke = skin[fan.middle] - own, rim = skin[fan.last] - skin[fan.first];
             sum += spoke.cwiseProduct(turned(rim)) - turned(spoke).cwiseProduct(rim);
         }
         const float squared = sum.squaredNorm();
@@ -175,8 +173,7 @@ void SkinResponse::State::show() {
     shown_.assign(rig_->blocks(), 0);
     for (std::size_t b = 0; b < shown_.size(); ++b)
         if (scene_.live[b] != 0 || resistance_.pushed(b))
-            for (std::uint32_t k = rig_->aroundStart[b]; k < rig_->aroundStart[b + 1]; ++k)
-                shown_[rig_->around[k]] = 1;
+            for (const std::uint32_t around : rig_->around[b]) shown_[around] = 1;
     for (std::size_t b = 0; b < shown_.size(); ++b)
         if (shown_[b] != 0 || shownBefore_[b] != 0) showPlaces(b);
     for (std::size_t b = 0; b < shown_.size(); ++b) {

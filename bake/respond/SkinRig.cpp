@@ -46,8 +46,7 @@ std::vector<std::uint32_t> touch(SkinRig& rig, const SkinGround& ground, const S
     for (std::uint32_t v = 0; v < count; ++v) {
         if (!std::isfinite(distance[v])) continue;
         keep[v] = true;
-        for (std::uint32_t e = ground.graph.start[v]; e < ground.graph.start[v + 1]; ++e)
-            keep[ground.graph.neighbour[e]] = true;
+        for (const SkinGraph::Edge& edge : ground.graph.edges[v]) keep[edge.to] = true;
     }
     std::vector<std::uint32_t> indexOf(count, untouched);
     for (const std::uint32_t v : alongCurve(ground.skin.vertices)) {
@@ -124,21 +123,14 @@ void addBlocks(SkinRig& rig) {
     std::vector<std::set<std::uint32_t>> around(rig.blocks());
     for (std::uint32_t v = 0; v < rig.vertices.size(); ++v) {
         const auto own = static_cast<std::uint32_t>(v / SkinRig::block);
-        for (std::uint32_t k = rig.pullStart[v]; k < rig.pullStart[v + 1]; ++k)
-            mark(rig.bodies[bodyOf[rig.pulls[k].from]].blocks, own);
-        for (std::uint32_t k = rig.frameStart[v]; k < rig.frameStart[v + 1]; ++k)
-            mark(rig.frameBlocks[rig.frameShares[k].frame], own);
+        for (const SkinPull& pull : rig.pulls[v]) mark(rig.bodies[bodyOf[pull.from]].blocks, own);
+        for (const SkinFrameShare& share : rig.frameShares[v]) mark(rig.frameBlocks[share.frame], own);
         around[own].insert(own);
-        for (std::uint32_t k = rig.fans.start[v]; k < rig.fans.start[v + 1]; ++k)
-            for (const std::uint32_t corner :
-                 {rig.fans.fans[k].first, rig.fans.fans[k].middle, rig.fans.fans[k].last})
+        for (const SkinFan& fan : rig.fans[v])
+            for (const std::uint32_t corner : {fan.first, fan.middle, fan.last})
                 if (corner < rig.vertices.size()) around[corner / SkinRig::block].insert(own);
     }
-    rig.aroundStart.push_back(0);
-    for (const auto& blocks : around) {
-        rig.around.insert(rig.around.end(), blocks.begin(), blocks.end());
-        rig.aroundStart.push_back(static_cast<std::uint32_t>(rig.around.size()));
-    }
+    rig.around = Lists<std::uint32_t>(around);
 }
 
 SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, int insertion,
@@ -186,8 +178,6 @@ void addBodies(SkinRig& rig, const SkinGround& ground, const std::vector<int>& f
 
 void addShares(SkinRig& rig, const SkinCarriage& carriage) {
     rig.frames = carriage.frames.size();
-    rig.pullStart.push_back(0);
-    rig.frameStart.push_back(0);
     for (const std::uint32_t v : rig.vertices) {
         for (std::size_t m = 0; m < carriage.muscles.size(); ++m) {
             if (carriage.muscles[m].empty() || !(carriage.muscles[m][v] > 0)) continue;
@@ -201,8 +191,8 @@ void addShares(SkinRig& rig, const SkinCarriage& carriage) {
         for (std::uint32_t f = 0; f < rig.frames; ++f)
             if (carriage.frames[f][v] > 0)
                 rig.frameShares.push_back({f, static_cast<float>(carriage.frames[f][v])});
-        rig.pullStart.push_back(static_cast<std::uint32_t>(rig.pulls.size()));
-        rig.frameStart.push_back(static_cast<std::uint32_t>(rig.frameShares.size()));
+        rig.pulls.endList();
+        rig.frameShares.endList();
     }
 }
 
@@ -233,11 +223,9 @@ Pose SkinRig::local(const Pose& pose) const {
 
 std::size_t SkinRig::bytes() const {
     std::size_t sum = foundation.bytes() + rows.size() * sizeof(SkinRow) + apart.size() * sizeof(SkinApart) +
-                      pulls.size() * sizeof(SkinPull) + frameShares.size() * sizeof(SkinFrameShare) +
-                      4 * (pullStart.size() + frameStart.size()) +
+                      pulls.bytes() + frameShares.bytes() + fans.bytes() + around.bytes() +
                       vertices.size() * (2 * sizeof(Vec3) + 2 * sizeof(Move)) +
-                      2 * triangles.size() * sizeof(Tri) + fans.fans.size() * sizeof(SkinFan) +
-                      4 * (fans.start.size() + around.size());
+                      2 * triangles.size() * sizeof(Tri);
     for (const SkinBody& body : bodies)
         sum += (body.rest.size() + body.places.size() + body.normals.size()) * sizeof(Move) +
                2 * body.triangles.size() * sizeof(Tri);

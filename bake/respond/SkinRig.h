@@ -124,21 +124,18 @@ struct SkinRig {
     std::vector<std::uint32_t> twins; ///< of each vertex at the place of another one that other, touched one
     std::vector<Tri> triangles;       ///< of touched vertices only
     std::vector<Tri> across;          ///< beyond each of their edges, -1: none
-    SkinFans fans;                    ///< all at a touched vertex, into vertices then borderPlaces
+    Lists<SkinFan> fans;              ///< all at a touched vertex, into vertices then borderPlaces
 
     std::vector<Move> places, placeNormals; ///< rest and normals outward as the run time has them
     std::vector<Move> borderPlaces;         ///< of the untouched corners of fans
-    /// Touched vertices move in blocks of this many. Around block b, with it, are those with a normal that
-    /// hangs on it: around[aroundStart[b]] to around[aroundStart[b + 1]].
+    /// Touched vertices move in blocks of this many.
     static constexpr std::size_t block = 16;
-    std::vector<std::uint32_t> aroundStart, around;
+    Lists<std::uint32_t> around; ///< of each block it and those with a normal that hangs on it
     std::vector<SkinBody> bodies;
     std::size_t bodyVertices = 0;
-    std::vector<std::uint32_t> pullStart; ///< of vertex v: pulls[pullStart[v]] to pulls[pullStart[v + 1]]
-    std::vector<SkinPull> pulls;
+    Lists<SkinPull> pulls; ///< of each vertex
     std::size_t frames = 0;
-    std::vector<std::uint32_t> frameStart;
-    std::vector<SkinFrameShare> frameShares;
+    Lists<SkinFrameShare> frameShares;                   ///< of each vertex
     std::vector<std::vector<std::uint32_t>> frameBlocks; ///< #frames, that it moves
     std::vector<SkinRow> rows;
     std::vector<SkinApart> apart;

@@ -52,13 +52,11 @@ void placeSurface(const SkinBody& body, double activation, const Pose& far, Skin
 
 /// What the bones' shares of a vertex make of its place, which muscles have displaced by `sum`.
 Move turned(const SkinRig& rig, SkinScene& scene, std::size_t v, const Move& sum) {
-    const SkinFrameShare* share = rig.frameShares.data() + rig.frameStart[v];
-    const SkinFrameShare* end = rig.frameShares.data() + rig.frameStart[v + 1];
     PoseBlend blend;
     bool moves = false;
-    for (; share != end; ++share)
-        if (!scene.still[share->frame]) {
-            blend.add(static_cast<double>(share->share), scene.frames[share->frame]);
+    for (const auto& [frame, share] : rig.frameShares[v])
+        if (!scene.still[frame]) {
+            blend.add(static_cast<double>(share), scene.frames[frame]);
             moves = true;
         }
     if (!moves) return rig.places[v] + sum;
@@ -77,12 +75,9 @@ void placeBlock(const SkinRig& rig, std::size_t block, bool turns, std::span<con
     // By pointers, that what is written is known not to change them.
     const Move *rest = rig.places.data(), *restNormals = rig.placeNormals.data(), *moves = scene.moves.data();
     Move *carried = scene.carried.data(), *skin = scene.skin.data(), *normals = scene.skinNormals.data();
-    const std::uint32_t* pullEnd = rig.pullStart.data() + 1;
-    const SkinPull* pull = rig.pulls.data() + rig.pullStart[block * SkinRig::block];
     for (std::size_t v = block * SkinRig::block; v < last; ++v) {
         Move sum = Move::Zero();
-        for (const SkinPull* end = rig.pulls.data() + pullEnd[v]; pull != end; ++pull)
-            sum += pull->share * moves[pull->from];
+        for (const SkinPull& pull : rig.pulls[v]) sum += pull.share * moves[pull.from];
         if (!shift.empty()) sum.head<3>() += (shift[v] / rig.size).cast<float>();
         normals[v] = restNormals[v];
         carried[v] = skin[v] = turns ? turned(rig, scene, v, sum) : Move(rest[v] + sum);

@@ -63,7 +63,7 @@ void measure(const tss::SceneModel& scene, int frames) {
         worst = std::max(worst, frame);
     }
     std::size_t carried = 0;
-    for (std::size_t v = 0; v < rig.vertices.size(); ++v) carried += rig.pullStart[v + 1] > rig.pullStart[v];
+    for (std::size_t v = 0; v < rig.vertices.size(); ++v) carried += !rig.pulls[v].empty();
     std::printf("%6zu vertices   %6zu move   %6zu rows   %5zu contacts   %5.1f MB   "
                 "%7.3f ms an update (%.0f a second), worst %.3f   loaded in %.2f s\n",
                 scene.bodies[skin.body].mesh.vertices.size(), carried, rig.rows.size(),

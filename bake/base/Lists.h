@@ -1,0 +1,45 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tss {
+
+/// Lists of different lengths, one after the other in one block of memory.
+template <class T>
+class Lists {
+public:
+    Lists() = default;
+    template <class List>
+    explicit Lists(const std::vector<List>& lists) {
+        for (const List& list : lists) {
+            items_.insert(items_.end(), list.begin(), list.end());
+            endList();
+        }
+    }
+
+    /// How many lists there are.
+    std::size_t size() const { return start_.size() - 1; }
+    std::span<const T> operator[](std::size_t list) const {
+        return {items_.data() + start_[list], items_.data() + start_[list + 1]};
+    }
+    /// Of all lists.
+    const std::vector<T>& items() const { return items_; }
+    std::size_t bytes() const { return start_.size() * sizeof(start_[0]) + items_.size() * sizeof(T); }
+
+    /// The items of a new list, one by one, until it ends.
+    void push_back(const T& item) { items_.push_back(item); }
+    void endList() { start_.push_back(static_cast<std::uint32_t>(items_.size())); }
+
+    void clear() {
+        start_.assign(1, 0);
+        items_.clear();
+    }
+
+private:
+    std::vector<std::uint32_t> start_{0}; ///< #lists, and an end
+    std::vector<T> items_;
+};
+
+} // namespace tss
