@@ -15,7 +15,13 @@ struct PoseQuery {
     Pose pose;
 };
 
-std::vector<PoseQuery> poseQueries(const Motion& motion, const std::vector<std::vector<double>>& values);
+inline std::vector<PoseQuery> poseQueries(const Motion& motion,
+                                          const std::vector<std::vector<double>>& values) {
+    std::vector<PoseQuery> queries;
+    queries.reserve(values.size());
+    for (const auto& q : values) queries.push_back({q, pose(motion, q)});
+    return queries;
+}
 
 /// Work as the paper counts it: a test of two spheres is 3 products for the squared distance of the centres
 /// and 1 for the squared sum of the radii. What it takes to place the spheres is not counted.

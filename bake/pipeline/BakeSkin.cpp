@@ -3,8 +3,10 @@
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/model/SourceHash.h"
+#include "bake/motion/MuscleSpan.h"
+#include "bake/motion/MuscleVolume.h"
 #include "bake/pipeline/FillPair.h"
-#include "bake/pipeline/MuscleNotes.h"
+#include "bake/play/MuscleWays.h"
 #include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinMoves.h"
 #include "bake/spheres/GenerateSpheres.h"
@@ -12,14 +14,16 @@
 #include "bake/spheres/RoundToFloat.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace tss {
+namespace {
 
 /// The spheres of what lies under a skin. They only tell what the skin may meet: where the tolerance, which
 /// may be meant for pairs, is too fine for them, the usual one serves.
-static SphereFit fitUnder(const TriangleMesh& surface, const BakeOptions& options, double metersPerUnit,
-                          std::vector<std::string>& notes, const Progress& progress) {
+SphereFit fitUnder(const TriangleMesh& surface, const BakeOptions& options, double metersPerUnit,
+                   std::vector<std::string>& notes, const Progress& progress) {
     const double usual = diagonal(surface) / 100, asked = options.tolerance.value_or(usual);
     const auto fit = [&](double tolerance) {
         SphereFit made = fitSpheres(cleaned(surface), sphereOptions(options, tolerance), progress);
@@ -36,6 +40,54 @@ static SphereFit fitUnder(const TriangleMesh& surface, const BakeOptions& option
                                 lengthText(usual, metersPerUnit), lengthText(asked, metersPerUnit)));
     return fit(usual);
 }
+
+constexpr double worthSaying = 0.01; ///< of the volume
+
+/// By how much of its volume a muscle is off at worst where its bones come to, at rest and fully active.
+double worstVolume(const MuscleDeformer& muscle, const std::vector<DualPose>& far, const Pose& toSkin) {
+    const MuscleSpan span(muscle);
+    const std::vector<Tri>& triangles = muscle.muscle().surface.triangles;
+    double worst = 0;
+    for (const double activation : {muscle.muscle().activationLower, muscle.muscle().activationUpper}) {
+        const std::vector<Vec3> rest = muscle.vertices(activation);
+        for (const DualPose& motion : far) {
+            PoseBlend blend(true);
+            blend.add(1, motion);
+            std::vector<Vec3> places = rest;
+            span.carry(toSkin * blend.pose() * toSkin.inverse(Eigen::Isometry), places);
+            const double off = enclosedVolume(places, triangles) / muscle.restVolume() - 1;
+            if (std::abs(off) > std::abs(worst)) worst = off;
+        }
+    }
+    return worst;
+}
+
+/// What is to be said of the muscles between two bones that lie under a skin: those that cannot keep their
+/// volume everywhere within the joints' limits, and those that joints turn so far that two ways round are
+/// meant.
+std::vector<std::string> muscleNotes(const SceneModel& scene, const SkinModel& skin,
+                                     const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles) {
+    std::vector<std::string> notes;
+    const std::vector<UnderSkin> under = underSkin(scene, skin);
+    for (std::size_t m = 0; m < under.size(); ++m) {
+        if (under[m].muscle < 0 || under[m].insertion < 0 || under[m].bone < 0) continue;
+        const MuscleModel& model = scene.muscles[under[m].muscle];
+        const MuscleWays ways = muscleWays(scene, model);
+        if (ways.unclear)
+            notes.push_back(model.path + " is turned by more than half a turn either way, or nearly all the "
+                                         "way round, by the joints between its bones: there it jumps from "
+                                         "one way round to the other");
+        const Pose toSkin =
+            scene.bodies[skin.body].placement.inverse(Eigen::Isometry) * scene.bodies[model.body].placement;
+        if (const double worst = worstVolume(*muscles[m], ways.far, toSkin); std::abs(worst) > worthSaying)
+            notes.push_back(fmt::format("{} cannot keep its volume within the limits of the joints between "
+                                        "its bones: {:+.0f} % where they draw it together or apart the most",
+                                        model.path, 100 * worst));
+    }
+    return notes;
+}
+
+} // namespace
 
 FilledMuscles fillMuscles(const SceneModel& scene, const SkinModel& skin, const BakeOptions& options,
                           PairReport& report, const Progress& progress) {

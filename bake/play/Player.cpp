@@ -1,7 +1,7 @@
 #include "bake/play/Player.h"
 #include "bake/base/Error.h"
 
-#include "bake/base/ThreadTime.h"
+#include "bake/base/Stopwatch.h"
 #include "bake/geometry/Solid.h"
 #include "bake/model/CheckIndices.h"
 #include "bake/model/Kinematics.h"

@@ -1,6 +1,6 @@
 #include "bake/report/SkinMethods.h"
 
-#include "bake/base/ThreadTime.h"
+#include "bake/base/Stopwatch.h"
 #include "bake/compare/EnclosingTree.h"
 
 #include <algorithm>

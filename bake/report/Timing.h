@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/base/ThreadTime.h"
+#include "bake/base/Stopwatch.h"
 #include "bake/compare/CollisionMethod.h"
 
 namespace tss::reporting {

@@ -3,7 +3,6 @@
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/spheres/Growth.h"
-#include "bake/spheres/MaxSpheres.h"
 #include "bake/spheres/MedialSpheres.h"
 #include "bake/spheres/Patches.h"
 #include "bake/spheres/SurfaceSpheres.h"
@@ -12,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace tss {
 
@@ -73,6 +73,42 @@ SphereFit fitOnce(const Solid& solid, const SphereOptions& options, double toler
 
 double asked(const Solid& solid, const SphereOptions& options) {
     return options.tolerance > 0 ? options.tolerance : solid.diagonal() / 400;
+}
+
+/// Searches the finest tolerance that needs at most `limit` spheres. count(tolerance): how many it takes,
+/// about falling in the tolerance. Looks at most a dozen times, coarse ones first, and never finer than
+/// `finest`; ends with a count within 3 % of the limit or a tolerance within 2 % of one that takes too many.
+/// coarsest: a tolerance that one sphere reaches. Returns the finest tolerance that was seen to do.
+double toleranceFor(std::size_t limit, double finest, double coarsest,
+                    const std::function<std::size_t(double)>& count, const Progress& progress) {
+    constexpr int looks = 12;
+    const double n = static_cast<double>(limit);
+    double good = coarsest, goodCount = 1; // takes few enough
+    double bad = 0, badCount = 0;          // takes too many; 0: none seen
+    double next = std::max(finest, coarsest / 64);
+    for (int look = 0; look < looks; ++look) {
+        const double taken = static_cast<double>(count(next));
+        if (taken <= n) {
+            good = next;
+            goodCount = taken;
+        } else {
+            bad = next;
+            badCount = taken;
+        }
+        if (!report(progress, "max-spheres", (look + 1.0) / looks)) break;
+        if (good <= finest || (taken <= n && taken >= 0.97 * n) || (bad > 0 && good < 1.02 * bad)) break;
+        // The count goes about as a power of the tolerance; aimed a little low.
+        if (bad > 0) {
+            const double slope = std::log(badCount / goodCount) / std::log(good / bad);
+            const double guess = good * std::pow(goodCount / (0.985 * n), 1 / std::max(slope, 0.1));
+            const double width = good / bad;
+            next = std::clamp(guess, bad * std::pow(width, 0.1), good * std::pow(width, -0.1));
+        } else {
+            next = good * std::clamp(std::pow(goodCount / (0.985 * n), 1 / 1.3), 0.2, 0.9);
+        }
+        next = std::max(next, finest);
+    }
+    return good;
 }
 
 SphereFit limitedFit(const Solid& solid, const SphereOptions& options, const Progress& progress) {

@@ -1,8 +1,25 @@
 #pragma once
-#include "bake/verify/BallTree.h"
 #include "bake/verify/Verify.h"
 
 namespace tss::verify {
+
+/// Balls about balls, down to the spheres of a set.
+struct BallTree {
+    struct Ball {
+        Vec3 centre = Vec3::Zero();
+        double radius = 0;
+        std::int32_t first = -1, second = -1; ///< children; -1 for a sphere
+        std::uint32_t sphere = 0;
+    };
+    std::vector<Ball> balls; ///< the root is the last; empty for an empty set
+
+    explicit BallTree(const SphereSet& spheres);
+    std::int32_t root() const { return static_cast<std::int32_t>(balls.size()) - 1; }
+
+private:
+    std::int32_t join(const SphereSet& spheres, std::vector<std::uint32_t>& order, std::size_t from,
+                      std::size_t to);
+};
 
 /// The two whole sphere sets and when a pair of theirs is in contact.
 struct Models {

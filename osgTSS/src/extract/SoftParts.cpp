@@ -4,7 +4,8 @@
 #include "osgTSS/src/draw/DrawnVertices.h"
 
 #include "bake/base/Error.h"
-#include "bake/play/FindFibre.h"
+#include "bake/geometry/FibreLine.h"
+#include "bake/geometry/MeshQuery.h"
 
 #include <algorithm>
 #include <map>
@@ -48,6 +49,23 @@ bool differ(const Held& a, const Held& b) {
         });
     };
     return more(a, b) || more(b, a);
+}
+
+/// The line that a muscle shortens along, found from the mesh of its surface: of a ring its closed line, else
+/// from the end that is nearer to the bone that it rides on, which stays, to the other. Throws InputError for
+/// a mesh without area.
+std::vector<tss::Vec3> findFibre(const tss::SceneModel& scene, const tss::MuscleModel& muscle) {
+    const tss::Body& body = scene.bodies.at(static_cast<std::size_t>(muscle.body));
+    if (muscle.muscle.form == tss::MuscleForm::Ring) return tss::ringLine(body.mesh);
+    std::vector<tss::Vec3> fibre = tss::fibreLine(body.mesh);
+    if (muscle.bone < 0) return fibre;
+    const tss::Body& bone = scene.bodies.at(static_cast<std::size_t>(muscle.bone));
+    if (bone.mesh.empty()) return fibre;
+    const tss::MeshQuery query(bone.mesh);
+    const tss::Pose toBone = bone.placement.inverse(Eigen::Isometry) * body.placement;
+    if (query.distance(toBone * fibre.back()) < query.distance(toBone * fibre.front()))
+        std::ranges::reverse(fibre);
+    return fibre;
 }
 
 } // namespace
@@ -99,7 +117,7 @@ void SoftParts::addMuscle(tss::MuscleModel muscle, std::vector<std::string> skin
 tss::MuscleModel SoftParts::finished(const tss::SceneModel& scene, const Muscle& muscle) const {
     tss::MuscleModel model = muscle.model;
     model.muscle.surface = scene.bodies[model.body].mesh;
-    model.muscle.fibre = tss::findFibre(scene, model);
+    model.muscle.fibre = findFibre(scene, model);
     if (muscle.to.empty()) return model;
     const auto bone = std::ranges::find_if(_bones, [&](const Bone& b) { return b.name == muscle.to; });
     if (bone == _bones.end())
