@@ -1,5 +1,5 @@
 // glTF 2.0 (Khronos, ISO/IEC 12113): skins are 3.7.3.1, the binary container is 4.
-#include "bake/geometry/Gltf.h"
+#include "bake/geometry/MeshFileParts.h"
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"

@@ -1,4 +1,4 @@
-#include "bake/geometry/MeshFacts.h"
+#include "bake/geometry/MeshFileParts.h"
 
 #ifdef OSGTSS_IMPORT
 

@@ -5,9 +5,7 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/base/Subprocess.h"
-#include "bake/geometry/Gltf.h"
-#include "bake/geometry/MeshFacts.h"
-#include "bake/geometry/MeshFileBytes.h"
+#include "bake/geometry/MeshFileParts.h"
 #include "bake/geometry/Polygon.h"
 
 #include <algorithm>

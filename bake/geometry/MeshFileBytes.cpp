@@ -1,4 +1,4 @@
-#include "bake/geometry/MeshFileBytes.h"
+#include "bake/geometry/MeshFileParts.h"
 
 #include "bake/base/Subprocess.h"
 

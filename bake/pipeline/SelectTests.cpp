@@ -2,8 +2,7 @@
 
 #include "bake/base/Error.h"
 #include "bake/reduce/CertifiedCover.h"
-#include "bake/reduce/Cooccurrence.h"
-#include "bake/reduce/Minimal.h"
+#include "bake/reduce/Reductions.h"
 #include "bake/search/CertifiedSearch.h"
 #include "bake/search/SampledSearch.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "bake/base/Error.h"
 #include "bake/pipeline/RestRule.h"
-#include "bake/reduce/Reduced.h"
+#include "bake/reduce/Reductions.h"
 #include "bake/search/CandidatePairs.h"
 
 namespace tss {

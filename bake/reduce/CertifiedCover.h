@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/base/Progress.h"
-#include "bake/reduce/Reduced.h"
+#include "bake/reduce/Reductions.h"
 #include "bake/search/CandidatePairs.h"
 
 namespace tss {

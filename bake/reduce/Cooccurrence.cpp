@@ -1,5 +1,5 @@
 // The co-occurrence table Ta and the merging of rows in "Object Interaction Using Tabulated Spheres Subsets".
-#include "bake/reduce/Cooccurrence.h"
+#include "bake/reduce/Reductions.h"
 
 #include <algorithm>
 #include <map>

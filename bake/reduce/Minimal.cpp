@@ -1,5 +1,5 @@
 // The minimal sphere set Mss of "Object Interaction Using Tabulated Spheres Subsets".
-#include "bake/reduce/Minimal.h"
+#include "bake/reduce/Reductions.h"
 
 #include "bake/base/Parallel.h"
 #include "bake/reduce/LowerBound.h"

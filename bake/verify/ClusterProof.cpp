@@ -1,7 +1,6 @@
-#include "bake/verify/ClusterProof.h"
+#include "bake/verify/KernelProofs.h"
 
 #include "bake/table/TableKernels.h"
-#include "bake/verify/KernelCells.h"
 
 #include <fmt/format.h>
 

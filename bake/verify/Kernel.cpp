@@ -1,10 +1,8 @@
 #include "bake/verify/Kernel.h"
 
 #include "bake/table/TableKernels.h"
-#include "bake/verify/ClusterProof.h"
-#include "bake/verify/KernelCells.h"
 #include "bake/verify/KernelErrors.h"
-#include "bake/verify/VerdictProof.h"
+#include "bake/verify/KernelProofs.h"
 
 #include <algorithm>
 #include <cmath>

@@ -20,7 +20,7 @@ struct KernelVerdict {
 /// nor true beyond signBand(), and `gap` is off by no more than gapBand(). The fold: what it stores, and T(q)
 /// itself in extended precision, are polynomials of the same few products of factors; the difference of their
 /// coefficients bounds their difference everywhere, to which the rounding of the kernel's sums is added. Then
-/// some poses are tried as they are, and what cells leave out is proven not to matter (KernelCells.h).
+/// some poses are tried as they are, and what cells leave out is proven not to matter (KernelProofs.h).
 KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared);
 
 } // namespace tss

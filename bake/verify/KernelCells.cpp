@@ -1,4 +1,4 @@
-#include "bake/verify/KernelCells.h"
+#include "bake/verify/KernelProofs.h"
 
 #include "bake/table/TableKernels.h"
 #include "bake/verify/GapBox.h"

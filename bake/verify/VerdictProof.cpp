@@ -1,4 +1,4 @@
-#include "bake/verify/VerdictProof.h"
+#include "bake/verify/KernelProofs.h"
 
 #include "bake/verify/GapBox.h"
 

@@ -1,9 +1,6 @@
 #include "examples/doghead/DogMeshes.h"
 
-#include "examples/doghead/anatomy/Frontalis.h"
-#include "examples/doghead/anatomy/Head.h"
-#include "examples/doghead/anatomy/Mandible.h"
-#include "examples/doghead/anatomy/Skull.h"
+#include "examples/doghead/anatomy/Anatomy.h"
 #include "examples/doghead/mesh/Polygonize.h"
 #include "examples/doghead/mesh/Remesh.h"
 #include "examples/doghead/mesh/Trim.h"

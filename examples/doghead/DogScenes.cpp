@@ -2,9 +2,7 @@
 
 #include "bake/model/AddPair.h"
 #include "examples/doghead/DogMeshes.h"
-#include "examples/doghead/anatomy/FaceMuscles.h"
-#include "examples/doghead/anatomy/Frontalis.h"
-#include "examples/doghead/anatomy/Head.h"
+#include "examples/doghead/anatomy/Anatomy.h"
 #include "examples/doghead/implicit/Curve.h"
 
 #include <algorithm>

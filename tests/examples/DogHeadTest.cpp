@@ -2,10 +2,7 @@
 #include "bake/scene/SceneFile.h"
 #include "examples/doghead/DogMeshes.h"
 #include "examples/doghead/DogScenes.h"
-#include "examples/doghead/anatomy/Frontalis.h"
-#include "examples/doghead/anatomy/Head.h"
-#include "examples/doghead/anatomy/Mandible.h"
-#include "examples/doghead/anatomy/Skull.h"
+#include "examples/doghead/anatomy/Anatomy.h"
 #include "examples/doghead/mesh/EditableMesh.h"
 
 #include <catch2/catch.hpp>

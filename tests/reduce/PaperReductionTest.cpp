@@ -1,5 +1,4 @@
-#include "bake/reduce/Cooccurrence.h"
-#include "bake/reduce/Minimal.h"
+#include "bake/reduce/Reductions.h"
 #include "bake/reduce/SetCover.h"
 #include "bake/search/ExploredPoses.h"
 #include "bake/table/Query.h"

@@ -1,9 +1,7 @@
 #include "bake/verify/Kernel.h"
 #include "bake/base/Error.h"
 #include "bake/table/TableKernels.h"
-#include "bake/verify/ClusterProof.h"
-#include "bake/verify/KernelCells.h"
-#include "bake/verify/VerdictProof.h"
+#include "bake/verify/KernelProofs.h"
 #include "tests/table/RandomTable.h"
 #include "tests/verify/Baked.h"
 

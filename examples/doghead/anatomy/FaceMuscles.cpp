@@ -1,6 +1,5 @@
-#include "examples/doghead/anatomy/FaceMuscles.h"
+#include "examples/doghead/anatomy/Anatomy.h"
 
-#include "examples/doghead/anatomy/Head.h"
 #include "examples/doghead/implicit/Curve.h"
 
 namespace doghead {

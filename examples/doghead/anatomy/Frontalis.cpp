@@ -1,6 +1,5 @@
-#include "examples/doghead/anatomy/Frontalis.h"
+#include "examples/doghead/anatomy/Anatomy.h"
 
-#include "examples/doghead/anatomy/Skull.h"
 #include "examples/doghead/implicit/Curve.h"
 
 #include <cmath>

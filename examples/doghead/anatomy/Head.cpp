@@ -1,7 +1,5 @@
-#include "examples/doghead/anatomy/Head.h"
+#include "examples/doghead/anatomy/Anatomy.h"
 
-#include "examples/doghead/anatomy/Frontalis.h"
-#include "examples/doghead/anatomy/Skull.h"
 #include "examples/doghead/implicit/Loft.h"
 
 #include <cmath>

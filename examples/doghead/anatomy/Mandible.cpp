@@ -1,7 +1,5 @@
-#include "examples/doghead/anatomy/Mandible.h"
+#include "examples/doghead/anatomy/Anatomy.h"
 
-#include "examples/doghead/anatomy/Skull.h"
-#include "examples/doghead/anatomy/Teeth.h"
 #include "examples/doghead/implicit/Curve.h"
 
 namespace doghead {

@@ -1,6 +1,5 @@
-#include "examples/doghead/anatomy/Skull.h"
+#include "examples/doghead/anatomy/Anatomy.h"
 
-#include "examples/doghead/anatomy/Teeth.h"
 #include "examples/doghead/implicit/Loft.h"
 
 namespace doghead {

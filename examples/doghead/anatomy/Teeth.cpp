@@ -1,4 +1,4 @@
-#include "examples/doghead/anatomy/Teeth.h"
+#include "examples/doghead/anatomy/Anatomy.h"
 
 #include "examples/doghead/implicit/Curve.h"
 

@@ -7,9 +7,8 @@
 #include "osgTSS/src/EachNode.h"
 #include "osgTSS/src/joints/AnimationChannels.h"
 #include "osgTSS/src/joints/BoneBound.h"
-#include "osgTSS/src/joints/BoneJoint.h"
+#include "osgTSS/src/joints/JointKinds.h"
 #include "osgTSS/src/joints/JointNodes.h"
-#include "osgTSS/src/joints/TaggedJoint.h"
 
 #include "bake/base/Error.h"
 #include "bake/model/AddPair.h"

@@ -1,4 +1,4 @@
-#include "AnimationPathJoint.h"
+#include "JointKinds.h"
 
 #include "osgTSS/src/CallbackOf.h"
 

@@ -1,4 +1,4 @@
-#include "BoneJoint.h"
+#include "JointKinds.h"
 
 #include "BoneMotion.h"
 #include "Turns.h"

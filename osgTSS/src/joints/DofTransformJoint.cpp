@@ -1,4 +1,4 @@
-#include "DofTransformJoint.h"
+#include "JointKinds.h"
 
 #include "DofWords.h"
 

@@ -1,11 +1,7 @@
 #include "JointNodes.h"
 
 #include "AnimationChannels.h"
-#include "AnimationPathJoint.h"
-#include "BoneJoint.h"
-#include "DofTransformJoint.h"
-#include "StackedJoint.h"
-#include "TaggedJoint.h"
+#include "JointKinds.h"
 #include "osgTSS/src/EachNode.h"
 
 #include "bake/base/Error.h"

@@ -1,4 +1,4 @@
-#include "StackedJoint.h"
+#include "JointKinds.h"
 
 #include "StackedDof.h"
 #include "osgTSS/src/CallbackOf.h"

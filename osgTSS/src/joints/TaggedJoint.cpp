@@ -1,4 +1,4 @@
-#include "TaggedJoint.h"
+#include "JointKinds.h"
 
 #include "DofWords.h"
 #include "Turns.h"

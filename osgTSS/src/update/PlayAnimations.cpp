@@ -1,7 +1,7 @@
 #include "bake/base/Error.h"
 #include "osgTSS/src/CallbackOf.h"
 #include "osgTSS/src/joints/AnimationChannels.h"
-#include "osgTSS/src/joints/DofTransformJoint.h"
+#include "osgTSS/src/joints/JointKinds.h"
 #include "osgTSS/src/joints/SwingDofs.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 
 #include "PairBodies.h"
 #include "osgTSS/src/extract/MovedNodes.h"
+#include "osgTSS/src/joints/JointKinds.h"
 #include "osgTSS/src/joints/JointNodes.h"
-#include "osgTSS/src/joints/TaggedJoint.h"
 
 #include <osg/AutoTransform>
 #include <osg/Camera>
