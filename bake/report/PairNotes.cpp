@@ -1,4 +1,4 @@
-#include "bake/report/PairNotes.h"
+#include "bake/report/PairStudy.h"
 
 #include "bake/report/Columns.h"
 

@@ -5,7 +5,6 @@
 #include "bake/base/Stopwatch.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/motion/RandomPoses.h"
-#include "bake/report/PairNotes.h"
 #include "bake/report/Text.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "bake/report/SkinMethods.h"
+#include "bake/report/SkinStudy.h"
 
 #include "bake/base/Stopwatch.h"
 #include "bake/compare/EnclosingTree.h"

@@ -3,7 +3,6 @@
 #include "bake/base/Parallel.h"
 #include "bake/base/Stopwatch.h"
 #include "bake/pipeline/BakeSkin.h"
-#include "bake/report/SkinMethods.h"
 #include "bake/report/Text.h"
 #include "bake/search/SkinSearch.h"
 

@@ -1,4 +1,4 @@
-#include "bake/search/ApartAlongAxis.h"
+#include "bake/search/SurfacesApart.h"
 
 #include "bake/motion/MotionBound.h"
 

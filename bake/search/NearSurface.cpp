@@ -3,7 +3,7 @@
 #include "bake/base/Parallel.h"
 #include "bake/base/Poll.h"
 #include "bake/motion/CellTools.h"
-#include "bake/search/TrianglesApart.h"
+#include "bake/search/SurfacesApart.h"
 
 #include <algorithm>
 #include <atomic>

@@ -2,9 +2,7 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/motion/CellTools.h"
-#include "bake/search/ApartAlongAxis.h"
 #include "bake/search/ExploredPoses.h"
-#include "bake/search/TrianglesApart.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,4 +1,4 @@
-#include "bake/search/TrianglesApart.h"
+#include "bake/search/SurfacesApart.h"
 
 #include "bake/geometry/SurfacePart.h"
 

@@ -1,4 +1,4 @@
-#include "bake/usd/AdaptTypes.h"
+#include "bake/usd/UsdParts.h"
 
 #include "bake/scene/Schema.h"
 #include "bake/scene/ValueType.h"

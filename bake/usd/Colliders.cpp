@@ -1,6 +1,4 @@
-#include "bake/usd/Colliders.h"
-
-#include "bake/usd/Gprims.h"
+#include "bake/usd/UsdParts.h"
 
 #include <algorithm>
 #include <array>

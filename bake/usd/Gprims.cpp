@@ -1,4 +1,4 @@
-#include "bake/usd/Gprims.h"
+#include "bake/usd/UsdParts.h"
 
 #include "bake/robot/Shapes.h"
 

@@ -1,4 +1,4 @@
-#include "bake/usd/UsdJoints.h"
+#include "bake/usd/UsdParts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,6 @@
 #include "bake/usd/UsdRobot.h"
 
-#include "bake/usd/AdaptTypes.h"
-#include "bake/usd/Colliders.h"
-#include "bake/usd/Gprims.h"
-#include "bake/usd/UsdJoints.h"
+#include "bake/usd/UsdParts.h"
 
 #include <algorithm>
 #include <set>

@@ -1,7 +1,6 @@
-#include "bake/search/ApartAlongAxis.h"
+#include "bake/search/SurfacesApart.h"
 
 #include "bake/geometry/MeshQuery.h"
-#include "bake/search/SurfacesApart.h"
 #include "bake/verify/MeshVerify.h"
 #include "tests/Joints.h"
 #include "tests/Shapes.h"

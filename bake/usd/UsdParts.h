@@ -1,0 +1,97 @@
+#pragma once
+#include "bake/robot/Robot.h"
+#include "bake/scene/Layer.h"
+#include "bake/scene/SceneParts.h"
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tss {
+
+// What robotOf() is made of.
+
+/// Names by what became of them, as notes: at most some a kind, and how many there are. What is added of one
+/// name several times in a row is said once.
+class LeftOut {
+public:
+    void add(const std::string& kind, const std::string& name) {
+        std::vector<std::string>& names = names_[kind];
+        if (names.empty() || names.back() != name) names.push_back(name);
+    }
+
+    std::vector<std::string> notes() const {
+        constexpr std::size_t most = 4;
+        std::vector<std::string> notes;
+        for (const auto& [kind, names] : names_) {
+            std::string text = kind + ": ";
+            for (std::size_t k = 0; k < names.size() && k < most; ++k) text += (k > 0 ? ", " : "") + names[k];
+            if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
+            notes.push_back(std::move(text));
+        }
+        return notes;
+    }
+
+private:
+    std::map<std::string, std::vector<std::string>> names_;
+};
+
+/// What others write of UsdPhysics' and UsdGeom's attributes in another type of as many numbers, as in
+/// `float3 physics:localPos0`, `point3f xformOp:translate` or `double physics:lowerLimit`, in the type of the
+/// schema; quaternions of any length but 0 as ones of length 1, noted; operations in xformOpOrder that have
+/// no property left out, noted. Throws InputError with the path where a number does not fit.
+void adaptTypes(Layer& layer, const std::string& file, LeftOut& leftOut);
+
+/// Where the end of a joint is: a link (-1: the world), and the prim's frame in the link's. Points of the
+/// prim may be stretched on their way.
+struct JointEnd {
+    int link = -1;
+    Eigen::Affine3d points = Eigen::Affine3d::Identity();
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    bool simulated = false; ///< joints move it: a rigid body that is not kinematic
+    bool kinematic = false; ///< it is moved from outside
+};
+
+/// The end that a path names; the world for an empty one.
+using FindJointEnd = std::function<JointEnd(const PrimReader& joint, const std::string& path)>;
+
+/// Reads all joints of a stage into the robot, as a forest of `links` links from the world down. What cannot
+/// be one is left out by name.
+void readUsdJoints(const SceneReading& reading, const FindJointEnd& findEnd, Robot& robot, LeftOut& leftOut);
+
+/// The prim is of no type, or an Xform or Scope.
+bool isGroup(const Prim& prim);
+
+/// What of a stage collides. Entries as in the reading's index, which must outlive this.
+class Colliders {
+public:
+    explicit Colliders(const SceneReading& reading);
+
+    /// It has PhysicsCollisionAPI, switched on or not.
+    bool is(std::size_t entry) const { return holds_[entry] == Own; }
+    /// It collides itself, or is part of what does: of a prim above it that is no shape.
+    bool collides(std::size_t entry) const;
+    /// A PointInstancer has copies of what is below it, and not that itself.
+    bool isPrototype(std::size_t entry) const;
+    /// Of an instancer: below it, or where its prototypes are, some prim has PhysicsCollisionAPI.
+    bool hasCollidingPrototypes(std::size_t instancer) const;
+
+private:
+    enum Holds : char { None, Below, Own };
+    const SceneReading& reading_;
+    std::vector<Holds> holds_; ///< one per entry: PhysicsCollisionAPI itself, or somewhere below it
+};
+
+/// The prim is of a type that meshOfGprim() reads.
+bool isGprim(const Prim& prim);
+
+/// The prim is a surface of a type that is not read.
+bool isUnreadSurface(const Prim& prim);
+
+/// A Mesh (its cage, polygons cut into triangles), or the closed mesh of a Cube, Sphere, Cylinder, Capsule
+/// (of one radius, as Capsule_1 and Cylinder_1) or Cone, which encloses it; in the frame that `place` leads
+/// to. Throws InputError, or adds to the reader's problems.
+TriangleMesh meshOfGprim(const PrimReader& prim, const Eigen::Affine3d& place);
+
+} // namespace tss
