@@ -4,7 +4,7 @@
 #include "bake/geometry/MeshQuery.h"
 #include "bake/motion/RandomPoses.h"
 #include "bake/pipeline/FillPair.h"
-#include "bake/search/ExploredPoses.h"
+#include "bake/search/SampledSearch.h"
 #include "bake/table/EarlyBound.h"
 #include "bake/table/Query.h"
 

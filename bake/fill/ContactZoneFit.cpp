@@ -5,7 +5,7 @@
 #include "bake/fill/NestedBodies.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/search/NearSurface.h"
-#include "bake/spheres/MedialSpheres.h"
+#include "bake/spheres/SphereMethods.h"
 
 #include <algorithm>
 #include <array>

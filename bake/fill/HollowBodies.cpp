@@ -2,8 +2,8 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/base/Poll.h"
-#include "bake/search/ExploredPoses.h"
 #include "bake/search/NodePairs.h"
+#include "bake/search/SampledSearch.h"
 #include "bake/table/Table.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "bake/fill/HollowBodies.h"
 #include "bake/search/AtRest.h"
 #include "bake/search/RestContact.h"
-#include "bake/spheres/MedialSpheres.h"
+#include "bake/spheres/SphereMethods.h"
 
 namespace tss {
 

@@ -3,7 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/UnionFind.h"
 #include "bake/geometry/Bvh.h"
-#include "bake/geometry/TrianglePoint.h"
+#include "bake/geometry/TriangleDistance.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "bake/base/UnionFind.h"
 #include "bake/geometry/MeshAudit.h"
-#include "bake/geometry/TrianglePoint.h"
+#include "bake/geometry/TriangleDistance.h"
 
 #include <fmt/format.h>
 

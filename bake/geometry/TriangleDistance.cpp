@@ -1,7 +1,5 @@
 #include "bake/geometry/TriangleDistance.h"
 
-#include "bake/geometry/TrianglePoint.h"
-
 #include <algorithm>
 
 namespace tss {

@@ -3,8 +3,8 @@
 #include "bake/base/Parallel.h"
 #include "bake/geometry/PartSet.h"
 #include "bake/geometry/Solid.h"
-#include "bake/search/ExploredPoses.h"
 #include "bake/search/RestContact.h"
+#include "bake/search/SampledSearch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/reduce/LowerBound.h"
-#include "bake/search/ExploredPoses.h"
 #include "bake/search/NodePairs.h"
+#include "bake/search/SampledSearch.h"
 
 #include <algorithm>
 #include <numeric>

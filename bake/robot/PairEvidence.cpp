@@ -5,7 +5,7 @@
 #include "bake/geometry/MeshQuery.h"
 #include "bake/model/Kinematics.h"
 #include "bake/model/SourceHash.h"
-#include "bake/search/ExploredPoses.h"
+#include "bake/search/SampledSearch.h"
 #include "bake/table/Query.h"
 
 #include <algorithm>

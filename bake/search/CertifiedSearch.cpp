@@ -4,7 +4,6 @@
 #include "bake/base/Poll.h"
 #include "bake/motion/CellTools.h"
 #include "bake/search/ConcurrentPairs.h"
-#include "bake/search/ExploredPoses.h"
 #include "bake/search/NodePairs.h"
 #include "bake/search/PairDistanceBounds.h"
 #include "bake/search/SampledSearch.h"

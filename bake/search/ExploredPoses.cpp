@@ -1,4 +1,4 @@
-#include "bake/search/ExploredPoses.h"
+#include "bake/search/SampledSearch.h"
 
 #include <cmath>
 #include <limits>

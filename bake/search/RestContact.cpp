@@ -2,8 +2,8 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/motion/MotionBound.h"
-#include "bake/search/ExploredPoses.h"
 #include "bake/search/PoseGrid.h"
+#include "bake/search/SampledSearch.h"
 
 #include <algorithm>
 #include <limits>

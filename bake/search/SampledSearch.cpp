@@ -4,7 +4,6 @@
 #include "bake/base/Parallel.h"
 #include "bake/base/Poll.h"
 #include "bake/search/ConcurrentPairs.h"
-#include "bake/search/ExploredPoses.h"
 #include "bake/search/NodePairs.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
 #include "bake/geometry/TriangleDistance.h"
-#include "bake/geometry/TrianglePoint.h"
 #include "bake/motion/PoseBlend.h"
 
 #include <algorithm>

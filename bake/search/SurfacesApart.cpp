@@ -2,7 +2,7 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/motion/CellTools.h"
-#include "bake/search/ExploredPoses.h"
+#include "bake/search/SampledSearch.h"
 
 #include <algorithm>
 #include <iterator>

@@ -2,10 +2,8 @@
 
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
-#include "bake/spheres/Growth.h"
-#include "bake/spheres/MedialSpheres.h"
 #include "bake/spheres/Patches.h"
-#include "bake/spheres/SurfaceSpheres.h"
+#include "bake/spheres/SphereMethods.h"
 
 #include <fmt/format.h>
 

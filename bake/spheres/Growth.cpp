@@ -1,5 +1,5 @@
 // The growth of spheres in "Object Interaction Using Tabulated Spheres Subsets", Figure 1f-i.
-#include "bake/spheres/Growth.h"
+#include "bake/spheres/SphereMethods.h"
 
 #include "bake/geometry/Bvh.h"
 #include "bake/geometry/MeshAudit.h"

@@ -1,6 +1,6 @@
 // The lazy greedy choice is that of Minoux, "Accelerated greedy algorithms for maximizing submodular set
 // functions", 1978.
-#include "bake/spheres/MedialSpheres.h"
+#include "bake/spheres/SphereMethods.h"
 
 #include "bake/base/Parallel.h"
 

@@ -1,5 +1,5 @@
 // The surface spheres of "Object Interaction Using Tabulated Spheres Subsets".
-#include "bake/spheres/SurfaceSpheres.h"
+#include "bake/spheres/SphereMethods.h"
 
 #include <algorithm>
 #include <cmath>

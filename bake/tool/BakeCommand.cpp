@@ -5,11 +5,10 @@
 #include "bake/pipeline/CheckBake.h"
 #include "bake/scene/AllPairs.h"
 #include "bake/scene/SceneFile.h"
-#include "bake/tool/BakeTimes.h"
 #include "bake/tool/Command.h"
-#include "bake/tool/DrivenSteps.h"
 #include "bake/tool/FreeingAdvice.h"
 #include "bake/tool/KeptParts.h"
+#include "bake/tool/SceneMotion.h"
 #include "bake/tool/Summary.h"
 
 #include <algorithm>

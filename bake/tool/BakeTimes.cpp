@@ -1,4 +1,4 @@
-#include "bake/tool/BakeTimes.h"
+#include "bake/tool/Summary.h"
 
 #include <sys/xattr.h>
 

@@ -1,4 +1,4 @@
-#include "bake/tool/DrivenSteps.h"
+#include "bake/tool/SceneMotion.h"
 
 #include "bake/base/Error.h"
 #include "bake/base/Stopwatch.h"

@@ -8,8 +8,8 @@
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
 #include "bake/tool/FreeingAdvice.h"
-#include "bake/tool/OwnMotion.h"
 #include "bake/tool/RobotCommand.h"
+#include "bake/tool/SceneMotion.h"
 #include "bake/tool/WholeScene.h"
 
 #include <cctype>

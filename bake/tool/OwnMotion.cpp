@@ -1,4 +1,4 @@
-#include "bake/tool/OwnMotion.h"
+#include "bake/tool/SceneMotion.h"
 
 #include "bake/base/Error.h"
 #include "bake/tool/CsvTable.h"

@@ -11,7 +11,7 @@
 #include "bake/tool/Command.h"
 #include "bake/tool/CsvTable.h"
 #include "bake/tool/DofSpec.h"
-#include "bake/tool/DrivenSteps.h"
+#include "bake/tool/SceneMotion.h"
 
 #include <algorithm>
 #include <array>

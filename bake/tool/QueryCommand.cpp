@@ -8,7 +8,7 @@
 #include "bake/tool/ChoosePair.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/CsvTable.h"
-#include "bake/tool/DrivenSteps.h"
+#include "bake/tool/SceneMotion.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include "bake/robot/RobotScene.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/DofSpec.h"
-#include "bake/tool/OwnMotion.h"
+#include "bake/tool/SceneMotion.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -15,8 +15,8 @@
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/DofSpec.h"
 #include "bake/tool/FreeingAdvice.h"
-#include "bake/tool/OwnMotion.h"
 #include "bake/tool/RobotCommand.h"
+#include "bake/tool/SceneMotion.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "bake/verify/AxisProof.h"
+#include "bake/verify/MeshProof.h"
 
 #include "bake/verify/ExactPose.h"
 #include "bake/verify/PoseBox.h"

@@ -1,4 +1,4 @@
-#include "bake/verify/EarlyProof.h"
+#include "bake/verify/MeshProof.h"
 
 #include "bake/base/Parallel.h"
 #include "bake/verify/Nesting.h"

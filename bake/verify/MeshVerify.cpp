@@ -1,8 +1,7 @@
 #include "bake/verify/MeshVerify.h"
 
 #include "bake/base/Error.h"
-#include "bake/verify/AxisProof.h"
-#include "bake/verify/EarlyProof.h"
+#include "bake/verify/MeshProof.h"
 #include "bake/verify/Models.h"
 
 #include <algorithm>

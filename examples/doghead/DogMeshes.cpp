@@ -1,9 +1,7 @@
 #include "examples/doghead/DogMeshes.h"
 
 #include "examples/doghead/anatomy/Anatomy.h"
-#include "examples/doghead/mesh/Polygonize.h"
-#include "examples/doghead/mesh/Remesh.h"
-#include "examples/doghead/mesh/Trim.h"
+#include "examples/doghead/mesh/Meshing.h"
 
 #include <cmath>
 

@@ -1,9 +1,7 @@
+#include "examples/doghead/mesh/Meshing.h"
 #include "bake/geometry/MeshAudit.h"
 #include "examples/doghead/implicit/Curve.h"
 #include "examples/doghead/mesh/EditableMesh.h"
-#include "examples/doghead/mesh/Polygonize.h"
-#include "examples/doghead/mesh/Remesh.h"
-#include "examples/doghead/mesh/Trim.h"
 
 #include <catch2/catch.hpp>
 

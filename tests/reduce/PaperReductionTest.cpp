@@ -1,6 +1,6 @@
 #include "bake/reduce/Reductions.h"
 #include "bake/reduce/SetCover.h"
-#include "bake/search/ExploredPoses.h"
+#include "bake/search/SampledSearch.h"
 #include "bake/table/Query.h"
 #include "tests/search/Scenes.h"
 

@@ -1,6 +1,5 @@
 #include "bake/search/SampledSearch.h"
 #include "bake/base/Parallel.h"
-#include "bake/search/ExploredPoses.h"
 #include "bake/table/Query.h"
 #include "tests/search/Scenes.h"
 

@@ -1,4 +1,4 @@
-#include "bake/spheres/Growth.h"
+#include "bake/spheres/SphereMethods.h"
 
 #include "bake/spheres/GenerateSpheres.h"
 #include "tests/geometry/TestMeshes.h"

@@ -1,6 +1,6 @@
 // Marching tetrahedra: Doi and Koide, "An efficient method of triangulating equi-valued surfaces by using
 // tetrahedral cells", 1991.
-#include "examples/doghead/mesh/Polygonize.h"
+#include "examples/doghead/mesh/Meshing.h"
 
 #include "bake/base/Parallel.h"
 

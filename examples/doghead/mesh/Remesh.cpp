@@ -1,5 +1,5 @@
 // After Botsch and Kobbelt, "A remeshing approach to multiresolution modeling", 2004.
-#include "examples/doghead/mesh/Remesh.h"
+#include "examples/doghead/mesh/Meshing.h"
 
 #include "bake/base/Parallel.h"
 #include "examples/doghead/mesh/EditableMesh.h"

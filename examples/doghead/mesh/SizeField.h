@@ -1,5 +1,5 @@
 #pragma once
-#include "examples/doghead/mesh/Remesh.h"
+#include "examples/doghead/mesh/Meshing.h"
 
 namespace doghead {
 

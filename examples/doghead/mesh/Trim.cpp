@@ -1,4 +1,4 @@
-#include "examples/doghead/mesh/Trim.h"
+#include "examples/doghead/mesh/Meshing.h"
 
 #include <algorithm>
 #include <map>

@@ -6,7 +6,7 @@
 #include "TagCheck.h"
 #include "osgTSS/src/EachNode.h"
 #include "osgTSS/src/joints/AnimationChannels.h"
-#include "osgTSS/src/joints/BoneBound.h"
+#include "osgTSS/src/joints/BoneMotion.h"
 #include "osgTSS/src/joints/JointKinds.h"
 #include "osgTSS/src/joints/JointNodes.h"
 

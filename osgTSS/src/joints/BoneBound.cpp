@@ -1,6 +1,5 @@
-#include "BoneBound.h"
+#include "BoneMotion.h"
 
-#include "BoneKeys.h"
 #include "osgTSS/src/EachNode.h"
 #include "osgTSS/src/draw/BodyNodes.h"
 

@@ -1,7 +1,6 @@
 #include "JointKinds.h"
 
 #include "BoneMotion.h"
-#include "Turns.h"
 
 #include <osg/ValueObject>
 #include <osg/observer_ptr>

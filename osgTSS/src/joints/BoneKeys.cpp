@@ -1,4 +1,4 @@
-#include "BoneKeys.h"
+#include "BoneMotion.h"
 
 #include "osgTSS/src/CallbackOf.h"
 

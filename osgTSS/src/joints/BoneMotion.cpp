@@ -1,9 +1,6 @@
 #include "BoneMotion.h"
 
-#include "BoneBound.h"
-#include "BoneKeys.h"
 #include "JointNode.h"
-#include "Turns.h"
 
 #include "bake/base/Error.h"
 #include "bake/model/Kinematics.h"

@@ -2,7 +2,10 @@
 #include "AnimationChannels.h"
 #include "FoundJoint.h"
 
+#include <osg/Matrixd>
 #include <osgAnimation/Bone>
+
+#include <optional>
 
 namespace osgTSS {
 
@@ -21,5 +24,18 @@ double boneStill(const osg::Node& bone);
 /// without any key, it is a joint from the one pose to the other. Throws tss::InputError with the reason for
 /// keys that are no rigid motion, or turn too far about several axes.
 FoundJoints boneMotion(osgAnimation::Bone& bone, const AnimationChannels& channels);
+
+/// The matrices that the keys of each animation take a bone through, also between keys: what its stack of
+/// elements says at those times. Empty where no channel moves an element of it.
+std::vector<std::vector<osg::Matrixd>> boneRuns(osgAnimation::Bone& bone, const AnimationChannels& channels);
+
+/// What the stack of the bone says now; the bone's own matrix where it has none.
+osg::Matrixd boneNow(osgAnimation::Bone& bone);
+
+/// Where a bone stands in its parent when the mesh is bound to it; nothing for one that says nothing of that.
+std::optional<osg::Matrixd> boneBound(osgAnimation::Bone& bone);
+
+/// Whether a mesh of the bone's skeleton is tagged as a skin.
+bool wearsSkin(osgAnimation::Bone& bone);
 
 } // namespace osgTSS

@@ -1,7 +1,7 @@
 #include "StackedDof.h"
 
+#include "FoundJoint.h"
 #include "JointNode.h"
-#include "Turns.h"
 
 #include "bake/base/Error.h"
 #include "bake/motion/TurnBetween.h"

@@ -1,7 +1,6 @@
 #include "JointKinds.h"
 
 #include "DofWords.h"
-#include "Turns.h"
 
 #include "bake/base/Error.h"
 

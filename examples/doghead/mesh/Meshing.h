@@ -1,7 +1,14 @@
 #pragma once
+#include "bake/geometry/TriangleMesh.h"
 #include "examples/doghead/implicit/Field.h"
 
 namespace doghead {
+
+/// The surface of a field as a closed, outward oriented mesh, by marching tetrahedra (each cell of a cubic
+/// grid in six around its diagonal: closed and manifold whatever the field does). Blocks of cells far from
+/// the surface are skipped, trusting the field to be right within a factor of two. The triangles are raw: see
+/// remesh().
+tss::TriangleMesh polygonize(const Field& field, double cell);
 
 /// How fine a mesh follows its field.
 struct RemeshOptions {
@@ -20,5 +27,9 @@ struct RemeshOptions {
 /// round. Closed in, closed out; no triangle turns over. (After Botsch and Kobbelt, "A remeshing approach to
 /// multiresolution modeling", 2004.)
 tss::TriangleMesh remesh(const tss::TriangleMesh& raw, const Field& field, const RemeshOptions& options);
+
+/// The part of a mesh behind a plane (where outward . (x - point) <= 0), open along the cut. Vertices near
+/// the plane are drawn onto it first, so that the cut leaves no slivers.
+tss::TriangleMesh trim(const tss::TriangleMesh& mesh, const tss::Vec3& point, const tss::Vec3& outward);
 
 } // namespace doghead

@@ -1,8 +1,15 @@
 #pragma once
+#include "bake/base/Progress.h"
+#include "bake/geometry/TriangleMesh.h"
 #include "bake/spheres/Patches.h"
 #include "bake/spheres/SphereOptions.h"
+#include "bake/spheres/SphereSet.h"
+
+#include <vector>
 
 namespace tss {
+
+// Each way to make spheres of a mesh (METHOD 1).
 
 /// Spheres, each with the radius of the ball about its centre that is inside the solid.
 struct MedialSet {
@@ -24,5 +31,22 @@ MedialSet shrinkingSpheres(const Solid& solid, std::span<const Patch> patches, d
 /// The balls inside (METHOD 1.4). Those with nothing left (features thinner than the slack) are points, so
 /// that the union still comes as near to every point that was covered as the spheres stick out.
 SphereSet inscribed(const MedialSet& set);
+
+/// A sphere of the growth.
+struct GrownSphere {
+    Sphere sphere;        ///< the last one before a fourth point, T_max or the threshold radius
+    std::vector<int> met; ///< the triangle whose centroid is m1 and those met, in this order: 2 to 4
+};
+
+/// [paper] Grows the spheres of all triangles in their order (METHOD 1.1), without those that an earlier
+/// sphere has met and those that met no second one.
+std::vector<GrownSphere> growSpheres(const TriangleMesh& mesh, const GrowthOptions& options,
+                                     const Progress& progress = {});
+
+/// [paper] One sphere per vertex, in the order of the vertices (METHOD 1.2). Its radius is that of the rule;
+/// conservative: at least 1/sqrt(3) of the longest edge of every triangle at the vertex, with which the union
+/// contains the surface (every point of a triangle is that near to a corner). Vertices in no triangle have
+/// none.
+SphereSet surfaceSpheres(const TriangleMesh& mesh, const SurfaceOptions& options, bool conservative);
 
 } // namespace tss
