@@ -194,6 +194,12 @@ int findBody(const SceneModel& scene, const std::string& path) {
 int findPair(const SceneModel& scene, const std::string& path) {
     return indexOf(scene.pairs, path);
 }
+int findMuscle(const SceneModel& scene, const std::string& path) {
+    return indexOf(scene.muscles, path);
+}
+int findSkin(const SceneModel& scene, const std::string& path) {
+    return indexOf(scene.skins, path);
+}
 
 bool hasPath(const SceneModel& scene, const std::string& path) {
     return indexOf(scene.bodies, path) >= 0 || indexOf(scene.joints, path) >= 0 ||

@@ -142,6 +142,8 @@ Motion pairMotion(const SceneModel& scene, const Pair& pair);
 /// Index of the body, joint, ... with this prim path, -1 when there is none.
 int findBody(const SceneModel& scene, const std::string& path);
 int findPair(const SceneModel& scene, const std::string& path);
+int findMuscle(const SceneModel& scene, const std::string& path);
+int findSkin(const SceneModel& scene, const std::string& path);
 
 /// Whether a body, joint, muscle or pair has this prim path.
 bool hasPath(const SceneModel& scene, const std::string& path);

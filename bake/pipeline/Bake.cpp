@@ -17,8 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 void checkPaths(const SceneModel& scene, const BakeRequest& request) {
     for (const std::string& path : request.pairs) {
-        const auto same = [&](const auto& item) { return item.path == path; };
-        if (std::ranges::none_of(scene.pairs, same) && std::ranges::none_of(scene.skins, same))
+        if (findPair(scene, path) < 0 && findSkin(scene, path) < 0)
             throw InputError(Where{"", "", path}, "no pair and no skin of this path in the scene");
     }
 }

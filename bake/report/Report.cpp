@@ -25,8 +25,7 @@ void checkPaths(const SceneModel& scene, const ReportOptions& options, const std
     if (scene.pairs.empty() && scene.skins.empty())
         throw InputError(Where{file}, "expected a scene with a pair or a skin to report on");
     for (const std::string& path : options.pairs) {
-        const auto same = [&](const auto& item) { return item.path == path; };
-        if (std::ranges::none_of(scene.pairs, same) && std::ranges::none_of(scene.skins, same))
+        if (findPair(scene, path) < 0 && findSkin(scene, path) < 0)
             throw InputError(Where{file, "", path}, "no pair and no skin of this path in the scene");
     }
 }

@@ -16,9 +16,8 @@ const Pair& chooseFreshPair(const SceneModel& scene, const std::string& path, co
     }
     if (known.empty())
         throw InputError(Where{file, "", path}, "expected a pair of rigid bodies, the scene has none");
-    for (const SkinModel& skin : scene.skins)
-        if (skin.path == path)
-            throw InputError(Where{file, "", path}, "is a skin; expected a pair, one of: " + known);
+    if (findSkin(scene, path) >= 0)
+        throw InputError(Where{file, "", path}, "is a skin; expected a pair, one of: " + known);
     throw InputError(Where{file, "", path}, "no such pair; expected --pair with one of: " + known);
 }
 

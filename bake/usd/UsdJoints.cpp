@@ -1,5 +1,7 @@
 #include "bake/usd/UsdParts.h"
 
+#include "bake/base/UnionFind.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -133,26 +135,20 @@ private:
         return true;
     }
 
-    int rootOf(int link) const {
-        while (component_[link + 1] != link) link = component_[link + 1];
-        return link;
-    }
-
     /// Edges that close no loop, each turned so that its parent is nearer to the world, or to the first link.
     void chooseForest() {
         const int count = static_cast<int>(robot_.links.size());
-        for (int link = -1; link < count; ++link) component_.push_back(link);
+        UnionFind together(count + 1); // and below by link + 1: the world is first
         std::vector<std::vector<std::size_t>> at(count + 1);
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             const RobotJoint& joint = edges_[e].joint;
-            const int a = rootOf(joint.parent), b = rootOf(joint.child);
-            if (a == b) {
+            if (together.root(joint.parent + 1) == together.root(joint.child + 1)) {
                 leftOut_.add(
                     "left out: joints that close a loop (what is proven without them holds with them)",
                     joint.where);
                 continue;
             }
-            component_[std::max(a, b) + 1] = std::min(a, b);
+            together.join(joint.parent + 1, joint.child + 1);
             at[joint.parent + 1].push_back(e);
             at[joint.child + 1].push_back(e);
         }
@@ -178,7 +174,6 @@ private:
     Robot& robot_;
     LeftOut& leftOut_;
     std::vector<Edge> edges_;
-    std::vector<int> component_; ///< by link + 1: another link of the same component, or itself
 };
 
 } // namespace

@@ -50,8 +50,7 @@ private:
     const std::string& pathOf(std::size_t entry) const { return entries_[entry].place.path; }
 
     double number(const char* key, double fallback) const {
-        const auto found = reading_.layer.metadata.find(key);
-        const double* value = found == reading_.layer.metadata.end() ? nullptr : found->second.as<double>();
+        const double* value = member<double>(reading_.layer.metadata, key);
         return value ? *value : fallback;
     }
 
@@ -64,9 +63,7 @@ private:
             robot_.notes.push_back("the file has no metersPerUnit: one unit is a centimetre, as in USD");
         const auto up = metadata.find("upAxis");
         robot_.upAxis = up != metadata.end() && up->second == Value("Z") ? 'Z' : 'Y';
-        const auto name = metadata.find("defaultPrim");
-        if (const auto* text = name == metadata.end() ? nullptr : name->second.as<std::string>())
-            robot_.name = *text;
+        if (const auto* name = member<std::string>(metadata, "defaultPrim")) robot_.name = *name;
         if (robot_.name.empty() && !reading_.layer.children.empty())
             robot_.name = reading_.layer.children.front().name;
         robot_.timeCodesPerSecond = number("timeCodesPerSecond", 24);

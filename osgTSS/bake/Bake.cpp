@@ -279,8 +279,8 @@ void bakeOne(tss::SceneModel& model, const std::string& path, const BakeOptions&
             std::string made = "never collides";
             if (pair >= 0 && model.pairs[pair].table)
                 made = std::to_string(model.pairs[pair].table->testCount()) + " tests";
-            for (const tss::SkinModel& skin : model.skins)
-                if (skin.path == path) made = std::to_string(skin.table->table.testCount()) + " tests";
+            if (const int skin = tss::findSkin(model, path); skin >= 0)
+                made = std::to_string(model.skins[skin].table->table.testCount()) + " tests";
             OSG_NOTICE << "osgTSS: baked " << path << " in " << report.seconds << " s: " << made << std::endl;
             for (const std::string& note : report.notes)
                 if (told.insert(note).second) OSG_NOTICE << "osgTSS:   " << inWords(note) << std::endl;

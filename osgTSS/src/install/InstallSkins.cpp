@@ -26,12 +26,6 @@ namespace osgTSS {
 
 namespace {
 
-int find(const tss::SceneModel& scene, const std::string& skin) {
-    for (std::size_t s = 0; s < scene.skins.size(); ++s)
-        if (scene.skins[s].path == skin) return static_cast<int>(s);
-    return -1;
-}
-
 /// What a drawable is drawn with; of a mesh that hardware deforms without what deforms it.
 osg::ref_ptr<osg::StateSet> stateOf(osg::Drawable& drawable, osg::Geometry& source) {
     const osg::ref_ptr<osg::StateSet> state =
@@ -122,7 +116,7 @@ public:
     /// Why the graph does not hold what the skin was made from; empty: it does, and shows it from now on.
     std::string show(int index) {
         const tss::SkinModel& skin = _model.skins[index];
-        const int other = find(_found, skin.path);
+        const int other = tss::findSkin(_found, skin.path);
         if (other < 0) return "nothing in the graph is tagged as this skin";
         tss::SkinModel now = _found.skins[other];
         now.settings = skin.settings;

@@ -54,7 +54,7 @@ struct Shown {
     tss::Pose restInverse = tss::Pose::Identity(); ///< surface to that bone, at rest
     std::optional<tss::MuscleSpan> span;
     std::shared_ptr<const tss::SceneModel> model;
-    int muscle = -1;
+    int muscle;
     std::shared_ptr<const tss::MuscleDeformer> deformer; ///< null: not to be played
     tss::TriangleMesh mesh;
     std::optional<DrawnVertices> drawn; ///< of a geometry that the muscle was made from; else one per vertex
@@ -65,9 +65,8 @@ struct Shown {
     double scale = 1;                      ///< from the frame's lengths to the surface's
 
     Shown(osg::Node& node, const Scene& scene, const std::string& path)
-        : geometry(dynamic_cast<SkinGeometry*>(&node)), model(scene.shareModel()) {
-        for (std::size_t m = 0; m < model->muscles.size(); ++m)
-            if (model->muscles[m].path == path) muscle = static_cast<int>(m);
+        : geometry(dynamic_cast<SkinGeometry*>(&node)), model(scene.shareModel()),
+          muscle(tss::findMuscle(*model, path)) {
         if (muscle < 0) return;
         try {
             deformer = scene.getCache().muscle(muscle);

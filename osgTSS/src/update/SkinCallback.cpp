@@ -50,9 +50,7 @@ struct Played {
 };
 
 Played::Played(osg::Node& owner, const Scene& scene, const std::string& path) : model(scene.shareModel()) {
-    int index = -1;
-    for (std::size_t s = 0; s < model->skins.size(); ++s)
-        if (model->skins[s].path == path) index = static_cast<int>(s);
+    const int index = tss::findSkin(*model, path);
     if (index < 0) return;
     skin = &model->skins[index];
     const BodyNodes nodes = findBodyNodes(owner);
