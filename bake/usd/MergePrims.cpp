@@ -12,8 +12,7 @@ constexpr std::array listKeys = {"apiSchemas",   "references",  "payload",
                                  "inheritPaths", "specializes", "variantSets"};
 
 Value::Array itemsOf(const Value::Object& ops, const char* op) {
-    const auto found = ops.find(op);
-    const auto* items = found == ops.end() ? nullptr : found->second.as<Value::Array>();
+    const auto* items = member<Value::Array>(ops, op);
     return items ? *items : Value::Array();
 }
 

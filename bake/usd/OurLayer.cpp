@@ -90,9 +90,7 @@ private:
             !text->starts_with("{") || text->find("\"typeName\": \"") == text->npos)
             return;
         const Value kept(object(*text, path));
-        const auto& keys = *kept.as<Value::Object>();
-        const auto type = keys.find("typeName");
-        const auto* name = type == keys.end() ? nullptr : type->second.as<std::string>();
+        const auto* name = member<std::string>(*kept.as<Value::Object>(), "typeName");
         if (!name || valueType(*name)) return; // a text that only looks like it
         Problems problems(file_);
         property = readProperty(kept, {"", path}, problems);

@@ -66,11 +66,8 @@ std::vector<std::pair<std::string, UsdArc>> classesOf(const PrimSite& site) {
 /// The selection of a set that the strongest place has.
 const std::string* selected(const PrimSite& site, const std::string& set) {
     if (site.spec) {
-        const auto all = site.spec->prim.metadata.find("variantSelection");
-        const auto* object =
-            all == site.spec->prim.metadata.end() ? nullptr : all->second.as<Value::Object>();
-        if (object)
-            if (const auto found = object->find(set); found != object->end())
+        if (const auto* all = member<Value::Object>(site.spec->prim.metadata, "variantSelection"))
+            if (const auto found = all->find(set); found != all->end())
                 return found->second.as<std::string>();
     }
     for (const auto& below : site.below)
@@ -196,9 +193,8 @@ void PrimSites::addArc(PrimSite& site, UsdArc arc, const std::string& text) {
         target = end + 1 < text.size() ? text.substr(end + 2, text.size() - end - 3) : "";
     }
     if (target.empty()) {
-        const auto found = layer->metadata.find("defaultPrim");
-        const auto* name = found == layer->metadata.end() ? nullptr : found->second.as<std::string>();
-        if (name) target = name->starts_with('/') ? *name : "/" + *name;
+        if (const auto* name = member<std::string>(layer->metadata, "defaultPrim"))
+            target = name->starts_with('/') ? *name : "/" + *name;
     }
     if (target.empty())
         return stacks_.leaveOut(from, site.spec, site.path,
