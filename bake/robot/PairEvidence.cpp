@@ -9,6 +9,7 @@
 #include "bake/table/Query.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <map>
 #include <numbers>
 #include <set>
@@ -26,10 +27,9 @@ std::string poseText(const SceneModel& scene, const Pair& pair, const Motion& mo
         const Joint& joint = scene.joints[index];
         for (std::size_t i = 0; i < joint.dofs.size(); ++i, ++k) {
             const bool turns = motion.dofs[k].kind == DofKind::Rotation;
-            char value[40];
-            std::snprintf(value, sizeof value, "%.6g", turns ? q[k] * 180 / std::numbers::pi : q[k]);
             text += (text.empty() ? "" : ", ") + primName(joint.path) +
-                    (joint.dofs.size() > 1 ? ":" + motion.dofs[k].name : "") + " " + value;
+                    (joint.dofs.size() > 1 ? ":" + motion.dofs[k].name : "") +
+                    fmt::format(" {:.6g}", turns ? q[k] * 180 / std::numbers::pi : q[k]);
         }
     }
     return text;

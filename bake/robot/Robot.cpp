@@ -4,6 +4,7 @@
 #include "bake/base/Error.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <numbers>
 
 namespace tss {
@@ -15,13 +16,9 @@ Where placeOfJoint(const Robot& robot, const RobotJoint& joint) {
 }
 
 std::string rangeText(const Robot& robot, const Dof& dof) {
-    const auto text = [&](double value) {
-        char digits[40];
-        std::snprintf(digits, sizeof digits, "%.6g",
-                      dof.kind == DofKind::Rotation ? toDegrees(value) : robot.metersPerUnit * value);
-        return std::string(digits);
-    };
-    return text(dof.lower) + " to " + text(dof.upper) + (dof.kind == DofKind::Rotation ? " degrees" : " m");
+    const bool turns = dof.kind == DofKind::Rotation;
+    const auto shown = [&](double value) { return turns ? toDegrees(value) : robot.metersPerUnit * value; };
+    return fmt::format("{:.6g} to {:.6g} {}", shown(dof.lower), shown(dof.upper), turns ? "degrees" : "m");
 }
 
 std::vector<RobotJoint>::const_iterator named(const Robot& robot, const std::string& name) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <map>
 #include <set>
 
@@ -56,11 +57,8 @@ void expectAttributes(const std::string& file, const XMLElement& element,
 void spellNumbers(const std::string& file, XMLElement& element, const Kept& kept) {
     for (const auto& [attribute, count] : kept.numbers) {
         std::string text;
-        for (double number : numbersOf(file, element, attribute, count, count)) {
-            char digits[40];
-            std::snprintf(digits, sizeof digits, "%s%.17g", text.empty() ? "" : " ", number);
-            text += digits;
-        }
+        for (double number : numbersOf(file, element, attribute, count, count))
+            text += fmt::format("{}{:.17g}", text.empty() ? "" : " ", number);
         if (!text.empty()) element.SetAttribute(attribute, text.c_str());
     }
 }
@@ -77,11 +75,10 @@ void spellTurn(const std::string& file, XMLElement& origin) {
     const Eigen::Matrix3d turn = quaternion.normalized().toRotationMatrix();
     const double across = std::hypot(turn(2, 1), turn(2, 2));
     const bool upright = across < 1e-9; // turned about z and about x is the same then
-    const double rpy[] = {upright ? 0 : std::atan2(turn(2, 1), turn(2, 2)), std::atan2(-turn(2, 0), across),
-                          upright ? std::atan2(-turn(0, 1), turn(1, 1)) : std::atan2(turn(1, 0), turn(0, 0))};
-    char digits[100];
-    std::snprintf(digits, sizeof digits, "%.17g %.17g %.17g", rpy[0], rpy[1], rpy[2]);
-    origin.SetAttribute("rpy", digits);
+    const double roll = upright ? 0 : std::atan2(turn(2, 1), turn(2, 2)),
+                 pitch = std::atan2(-turn(2, 0), across),
+                 yaw = upright ? std::atan2(-turn(0, 1), turn(1, 1)) : std::atan2(turn(1, 0), turn(0, 0));
+    origin.SetAttribute("rpy", fmt::format("{:.17g} {:.17g} {:.17g}", roll, pitch, yaw).c_str());
     origin.DeleteAttribute("quat_xyzw");
 }
 

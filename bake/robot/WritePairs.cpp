@@ -4,6 +4,7 @@
 #include "bake/scene/SceneFile.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 
 namespace tss {
@@ -31,9 +32,7 @@ std::string comment(std::string text) {
 std::string millimetres(double length, double metersPerUnit) {
     const double mm = 1000 * length * metersPerUnit;
     const double unit = mm > 0 ? std::pow(10.0, std::floor(std::log10(mm)) - 3) : 1;
-    char text[40];
-    std::snprintf(text, sizeof text, "%.4g mm", std::floor(mm / unit) * unit);
-    return text;
+    return fmt::format("{:.4g} mm", std::floor(mm / unit) * unit);
 }
 
 /// What the evidence is, in words.

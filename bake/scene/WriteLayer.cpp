@@ -6,12 +6,13 @@
 #include "bake/scene/LayerMembers.h"
 #include "bake/scene/Utf8.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
+#include <iterator>
 
 namespace tss {
 
@@ -29,9 +30,7 @@ void appendQuoted(std::string& out, std::string_view text) {
         } else if (c == '\t') {
             out += "\\t";
         } else if (byte < 0x20) {
-            char escape[8];
-            std::snprintf(escape, sizeof escape, "\\u%04x", byte);
-            out += escape;
+            fmt::format_to(std::back_inserter(out), "\\u{:04x}", byte);
         } else {
             if (c == '"' || c == '\\') out += '\\';
             out += c;
