@@ -112,34 +112,24 @@ Field upperTeeth() {
                   .field());
     const Place first = arch.at(56);
     const Place outer{first(0, 2, 0), first.forward, first.outward, first.bite};
+    const Outline cusps{{-5.6, -4}, {-6, 1},  {-5, 4.2}, {-2.8, 5.8}, {-0.2, 4.2},
+                        {2.8, 6.6}, {5.2, 4}, {6.2, 1},  {5.6, -4}};
     teeth.add(Sculpture()
-                  .add(blade(outer,
-                             {{-5.6, -4},
-                              {-6, 1},
-                              {-5, 4.2},
-                              {-2.8, 5.8},
-                              {-0.2, 4.2},
-                              {2.8, 6.6},
-                              {5.2, 4},
-                              {6.2, 1},
-                              {5.6, -4}},
-                             3.2))
+                  .add(blade(outer, cusps, 3.2))
                   .add(turned(ellipsoid(first(-0.4, -2.6, 0.2), {5, 4.4, 2.9}), first.gum, Vec3::UnitZ(),
                               first.heading()),
                        2)
                   .add(cusp(first, 0.2, -3.8, 3.4, 1.8), 1.5)
                   .field());
     const Place second = arch.at(46.6);
-    teeth.add(
-        Sculpture()
-            .add(blade(
-                second,
-                {{-3, -3}, {-3.5, 0.6}, {-2.6, 3.2}, {-0.2, 2.6}, {1.8, 3.9}, {3.2, 2}, {3.6, 0.2}, {3, -3}},
-                2.8))
-            .add(turned(ellipsoid(second(0, -2.2, 0), {3, 2.9, 2.5}), second.gum, Vec3::UnitZ(),
-                        second.heading()),
-                 1.5)
-            .field());
+    const Outline small{{-3, -3},   {-3.5, 0.6}, {-2.6, 3.2}, {-0.2, 2.6},
+                        {1.8, 3.9}, {3.2, 2},    {3.6, 0.2},  {3, -3}};
+    teeth.add(Sculpture()
+                  .add(blade(second, small, 2.8))
+                  .add(turned(ellipsoid(second(0, -2.2, 0), {3, 2.9, 2.5}), second.gum, Vec3::UnitZ(),
+                              second.heading()),
+                       1.5)
+                  .field());
     return mirrored(teeth.field());
 }
 
@@ -167,20 +157,9 @@ Field lowerTeeth() {
                   .add(cone(carnassial(-2.4, -1, 2), carnassial(-2.6, -2.2, 6.4), 2, 0.9), 1.2)
                   .field());
     const Place second = arch.at(46.4);
-    teeth.add(Sculpture()
-                  .add(blade(second,
-                             {{-4.6, -4},
-                              {-5, 1},
-                              {-4.2, 3},
-                              {-2.4, 3.8},
-                              {-0.4, 3},
-                              {1.8, 4.6},
-                              {4.2, 3.4},
-                              {5, 1},
-                              {4.4, -4}},
-                             3.1))
-                  .add(cusp(second, 1.8, -1.6, 3.8, 1.6), 1)
-                  .field());
+    const Outline cusps{{-4.6, -4}, {-5, 1},    {-4.2, 3}, {-2.4, 3.8}, {-0.4, 3},
+                        {1.8, 4.6}, {4.2, 3.4}, {5, 1},    {4.4, -4}};
+    teeth.add(Sculpture().add(blade(second, cusps, 3.1)).add(cusp(second, 1.8, -1.6, 3.8, 1.6), 1).field());
     const Place third = arch.at(39.4);
     teeth.add(blade(
         third, {{-2.4, -3}, {-2.6, 0.6}, {-1.6, 2.6}, {0.2, 3.2}, {1.8, 2.4}, {2.7, 0.6}, {2.4, -3}}, 2.5));
