@@ -34,8 +34,10 @@ int addBody(tss::SceneModel& scene, const std::string& name, TriangleMesh mesh, 
     return static_cast<int>(scene.bodies.size()) - 1;
 }
 
+using Knots = std::vector<Profile::Knot>;
+
 /// Samples of a smooth curve through the knots, every `step` time codes, times `unit`.
-tss::TimeSamples sampled(const std::vector<Profile::Knot>& knots, int step, double unit) {
+tss::TimeSamples sampled(const Knots& knots, int step, double unit) {
     const Profile profile(knots);
     tss::TimeSamples samples;
     for (int t = int(knots.front().at); t <= int(knots.back().at); t += step) {
@@ -57,12 +59,18 @@ void addNoseAndEyes(tss::SceneModel& scene) {
     addBody(scene, "Irises", irisesMesh(), amber);
 }
 
-/// A muscle prim over a body of its own; returns its index.
-int addMuscle(tss::SceneModel& scene, const std::string& name, TriangleMesh surface, std::vector<Vec3> fibre,
-              int bone) {
+/// A joint that both bodies hang on, with its pair.
+void addJoint(tss::SceneModel& scene, int a, int b, const tss::Motion& motion, const std::string& name,
+              const std::string& tolerance) {
+    scene.bodies[a].rigid = scene.bodies[b].rigid = true;
+    scene.pairs[addPair(scene, a, b, motion, name)].settings["tolerance"] = tolerance;
+}
+
+/// A muscle prim over a body; returns its index.
+int addMuscle(tss::SceneModel& scene, const std::string& name, int body, std::vector<Vec3> fibre, int bone) {
     tss::MuscleModel model;
     model.path = "/" + scene.defaultPrim + "/" + name;
-    model.body = addBody(scene, name + "Surface", std::move(surface), flesh);
+    model.body = body;
     model.bone = bone;
     model.muscle.surface = scene.bodies[model.body].mesh;
     model.muscle.fibre = std::move(fibre);
@@ -71,30 +79,25 @@ int addMuscle(tss::SceneModel& scene, const std::string& name, TriangleMesh surf
 }
 
 int addStrap(tss::SceneModel& scene, const Strap& strap, const std::string& side, int bone) {
-    const int index = addMuscle(scene, strap.name + side, bodyMesh(strap.field), strap.fibre, bone);
+    const int body = addBody(scene, strap.name + side + "Surface", bodyMesh(strap.field), flesh);
+    const int index = addMuscle(scene, strap.name + side, body, strap.fibre, bone);
     scene.muscles[index].muscle.maxContraction = strap.contraction;
     return index;
 }
 
 int addFrontalis(tss::SceneModel& scene, int bone) {
-    const int index = addMuscle(scene, "Frontalis", frontalisMesh({0.8, 0.12}), frontalisFibre(), bone);
+    const int body = addBody(scene, "FrontalisSurface", frontalisMesh({0.8, 0.12}), flesh);
+    const int index = addMuscle(scene, "Frontalis", body, frontalisFibre(), bone);
     scene.muscles[index].muscle.form = tss::MuscleForm::Sheet;
     scene.muscles[index].muscle.maxContraction = 0.25;
     return index;
 }
 
 /// A bone under the skin: a muscle that does not contract and carries the skin firmly.
-int addUnder(tss::SceneModel& scene, const std::string& name, int body, int bone) {
-    tss::MuscleModel model;
-    model.path = "/" + scene.defaultPrim + "/" + name;
-    model.body = body;
-    model.bone = bone;
-    model.muscle.surface = scene.bodies[body].mesh;
-    const Eigen::AlignedBox3d box = bounds(model.muscle.surface);
-    model.muscle.fibre = {box.min(), box.max()};
-    model.muscle.activationUpper = 0;
-    scene.muscles.push_back(std::move(model));
-    return static_cast<int>(scene.muscles.size()) - 1;
+void addUnder(tss::SceneModel& scene, const std::string& name, int body, int bone) {
+    const Eigen::AlignedBox3d box = bounds(scene.bodies[body].mesh);
+    const int index = addMuscle(scene, name, body, {box.min(), box.max()}, bone);
+    scene.muscles[index].muscle.activationUpper = 0;
 }
 
 struct SkullAndJaw {
@@ -107,7 +110,6 @@ SkullAndJaw addSkullAndJaw(tss::SceneModel& scene) {
     TriangleMesh apart = mandibleMesh();
     for (Vec3& v : apart.vertices) v = Eigen::AngleAxisd(1.5 * degree, Vec3::UnitY()) * v;
     const int mandible = addBody(scene, "Mandible", std::move(apart), paleBone);
-    scene.bodies[skull].rigid = scene.bodies[mandible].rigid = true;
     tss::Dof open;
     open.name = "open";
     open.axis = Vec3::UnitY();
@@ -115,8 +117,7 @@ SkullAndJaw addSkullAndJaw(tss::SceneModel& scene) {
     open.upper = 20 * degree;
     tss::Motion motion;
     motion.dofs = {open};
-    const int pair = addPair(scene, skull, mandible, motion, "Jaw");
-    scene.pairs[pair].settings["tolerance"] = "0.1mm";
+    addJoint(scene, skull, mandible, motion, "Jaw", "0.1mm");
     return {skull, mandible};
 }
 
@@ -131,9 +132,7 @@ int addEar(tss::SceneModel& scene, int skull, int side) {
     }
     const std::string name = side > 0 ? "EarL" : "EarR";
     const int ear = addBody(scene, name + "Cartilage", std::move(shell), paleBone);
-    scene.bodies[ear].rigid = true;
-    const int pair = addPair(scene, skull, ear, motion, name);
-    scene.pairs[pair].settings["tolerance"] = "0.4mm";
+    addJoint(scene, skull, ear, motion, name, "0.4mm");
     return ear;
 }
 
@@ -160,7 +159,7 @@ double upperLip(const Vec3& v) {
 /// Tightens from `from` to a full activation in the middle, and lets go until `to`.
 tss::TimeSamples twitch(double from, double to, double last, double most = 1) {
     const double part = (to - from) / 3;
-    std::vector<Profile::Knot> knots{{from, 0}, {from + part, most}, {to - part, most}, {to, 0}};
+    Knots knots{{from, 0}, {from + part, most}, {to - part, most}, {to, 0}};
     if (from > 0) knots.insert(knots.begin(), {0, 0});
     if (to < last) knots.push_back({last, 0});
     return sampled(knots, 2, 1);
@@ -172,27 +171,14 @@ tss::SceneModel jawScene() {
     tss::SceneModel scene = emptyScene("DogJaw", 96);
     const int skull = addBody(scene, "Skull", skullMesh(), ivory);
     const int mandible = addBody(scene, "Mandible", mandibleMesh(), paleBone);
-    scene.bodies[skull].rigid = scene.bodies[mandible].rigid = true;
-    const int jaw = addPair(scene, skull, mandible, jawMotion(), "Jaw");
-    scene.pairs[jaw].settings["tolerance"] = "0.1mm"; // leaves the condyles most of their clearance
+    // The tolerance leaves the condyles most of their clearance.
+    addJoint(scene, skull, mandible, jawMotion(), "Jaw", "0.1mm");
 
     // Degrees. The bites ask for 3 degrees beyond closed and grind to one side and then to the other.
-    const tss::TimeSamples lateral = sampled({{0, 0},
-                                              {20, 0},
-                                              {26, 0},
-                                              {32, 3.6},
-                                              {38, 2.4},
-                                              {46, 0},
-                                              {56, -1.5},
-                                              {62, -2},
-                                              {68, -3.8},
-                                              {76, -1.5},
-                                              {84, 0},
-                                              {96, 0}},
-                                             2, degree);
-    const tss::TimeSamples open = sampled(
-        {{0, 16}, {12, 30}, {24, -3}, {34, -3}, {46, 26}, {60, -3}, {70, -3}, {82, 22}, {96, 16}}, 2, degree);
-    scene.joints.front().drives = {lateral, open};
+    const Knots lateral{{0, 0},     {20, 0},  {26, 0},    {32, 3.6},  {38, 2.4}, {46, 0},
+                        {56, -1.5}, {62, -2}, {68, -3.8}, {76, -1.5}, {84, 0},   {96, 0}};
+    const Knots open{{0, 16}, {12, 30}, {24, -3}, {34, -3}, {46, 26}, {60, -3}, {70, -3}, {82, 22}, {96, 16}};
+    scene.joints.front().drives = {sampled(lateral, 2, degree), sampled(open, 2, degree)};
     return scene;
 }
 
@@ -230,9 +216,7 @@ tss::SceneModel earsScene() {
     tss::SceneModel scene = emptyScene("DogEars", 72);
     const int skull = addBody(scene, "Skull", skullMesh({1, 0.3}), ivory);
     const int ear = addBody(scene, "EarCartilage", earCartilageMesh(), paleBone);
-    scene.bodies[skull].rigid = scene.bodies[ear].rigid = true;
-    const int pair = addPair(scene, skull, ear, earMotion(), "Ear");
-    scene.pairs[pair].settings["tolerance"] = "0.4mm";
+    addJoint(scene, skull, ear, earMotion(), "Ear", "0.4mm");
     scene.joints.front().drives = {sampled(
         {{0, 0}, {10, 0}, {28, 80}, {36, 80}, {52, 0}, {56, 0}, {60, 18}, {64, 0}, {72, 0}}, 2, degree)};
     addUnder(scene, "EarShell", ear, ear);
@@ -264,7 +248,6 @@ tss::SceneModel lipsScene() {
 tss::SceneModel headScene() {
     // Calm, alert from 12, a growl from 36, a bite from 72, the ears laid back from 108, calm again.
     constexpr double last = 144;
-    using Knots = std::vector<Profile::Knot>;
     tss::SceneModel scene = emptyScene("DogHead", last);
     const SkullAndJaw bones = addSkullAndJaw(scene);
     const int left = addEar(scene, bones.skull, 1), right = addEar(scene, bones.skull, -1);
