@@ -13,8 +13,7 @@ public:
                          "all pairs",
                          "every sphere of A against every sphere of B, scalar doubles, first hit out",
                          {missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)},
-                         (problem.a.size() + problem.b.size()) * sizeof(Sphere),
-                         0};
+                         (problem.a.size() + problem.b.size()) * sizeof(Sphere)};
         description().slow = true;
     }
 

@@ -65,12 +65,10 @@ public:
         // squares no more than that again.
         const double band = 16 * 6e-8 * 2 * size;
         const StatedError spheres{missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)};
-        description() = {"all-pairs-simd",
-                         "all pairs",
+        description() = {"all-pairs-simd", "all pairs",
                          "every sphere of A against every sphere of B, float vectors, first hit out",
                          spheres.widened(band, band),
-                         problem.a.size() * sizeof(Sphere) + count * 4 * sizeof(float),
-                         0};
+                         problem.a.size() * sizeof(Sphere) + count * 4 * sizeof(float)};
         description().slow = true;
     }
 

@@ -18,12 +18,9 @@ class PairList final : public CollisionMethodLoop<PairList> {
 public:
     explicit PairList(const ComparedPair& problem) : table_(problem.table) {
         description() = {
-            "tss-scalar",
-            "TSS",
+            "tss-scalar", "TSS",
             "the table's tests through indices, scalar doubles, first hit out (the paper's loop)",
-            statedOf(table_),
-            tableBytes(table_),
-            0};
+            statedOf(table_), tableBytes(table_)};
     }
     bool hit(const PoseQuery& query) const override {
         const Pose inverse = query.pose.inverse(Eigen::Isometry);
@@ -50,12 +47,9 @@ private:
 class PlainTable final : public CollisionMethodLoop<PlainTable> {
 public:
     explicit PlainTable(const ComparedPair& problem) : table_(problem.table) {
-        description() = {"tss-plain",
-                         "TSS",
+        description() = {"tss-plain", "TSS",
                          "the table's plain query: every test, with gap, contact point and normal",
-                         statedOf(table_),
-                         tableBytes(table_),
-                         0};
+                         statedOf(table_), tableBytes(table_)};
     }
     bool hit(const PoseQuery& query) const override { return tss::query(table_, query.pose).hit(); }
     std::optional<double> gap(const PoseQuery& query) const override {
@@ -75,16 +69,14 @@ public:
     KernelTable(const Table& table, const std::string& name, const PrepareOptions& options)
         : prepared_(table, options) {
         const double band = prepared_.signBand();
-        description() = {name,
-                         "TSS",
+        description() = {name, "TSS",
                          std::string("the prepared table, ") + tss::name(prepared_.form()) + " kernel in " +
                              tss::name(prepared_.precision()) +
                              (prepared_.kernels().cells().empty()
                                   ? ", features made from q each time"
                                   : ", asked from q: cell, features where it leaves tests, tests"),
                          statedOf(table).widened(0, band), // rounding misses nothing
-                         prepared_.bytes(),
-                         0};
+                         prepared_.bytes()};
     }
     bool hit(const PoseQuery& query) const override { return prepared_.hit(query.q.data()); }
     std::optional<double> gap(const PoseQuery& query) const override {
