@@ -3,7 +3,6 @@
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 #include "bake/geometry/MeshQuery.h"
-#include "bake/respond/SkinHolders.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "bake/respond/SkinHolders.h"
+#include "bake/respond/SkinCarry.h"
 
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"

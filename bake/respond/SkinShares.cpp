@@ -2,7 +2,6 @@
 
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
-#include "bake/respond/SkinShells.h"
 
 #include <Eigen/SparseCholesky>
 

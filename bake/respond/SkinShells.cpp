@@ -1,4 +1,4 @@
-#include "bake/respond/SkinShells.h"
+#include "bake/respond/SkinShares.h"
 
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"

@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/motion/Motion.h"
-#include "bake/robot/ReadMjcf.h"
+#include "bake/robot/ReadRobot.h"
 
 #include <tinyxml2.h>
 

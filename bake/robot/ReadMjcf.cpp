@@ -1,4 +1,4 @@
-#include "bake/robot/ReadMjcf.h"
+#include "bake/robot/ReadRobot.h"
 
 #include "bake/robot/MjcfTree.h"
 #include "bake/robot/Xml.h"

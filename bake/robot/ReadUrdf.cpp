@@ -1,4 +1,4 @@
-#include "bake/robot/ReadUrdf.h"
+#include "bake/robot/ReadRobot.h"
 
 #include "bake/robot/UrdfText.h"
 #include "bake/robot/Xml.h"

@@ -1,6 +1,5 @@
-#include "bake/scene/ReadScene.h"
+#include "bake/scene/SceneLayer.h"
 #include "bake/scene/SceneParts.h"
-#include "bake/scene/ToLayer.h"
 
 namespace tss {
 

@@ -2,9 +2,8 @@
 
 #include "bake/model/CheckIndices.h"
 #include "bake/scene/ReadLayer.h"
-#include "bake/scene/ReadScene.h"
+#include "bake/scene/SceneLayer.h"
 #include "bake/scene/SceneParts.h"
-#include "bake/scene/ToLayer.h"
 #include "bake/scene/WriteLayer.h"
 
 namespace tss {

@@ -4,7 +4,7 @@
 #include "bake/model/SourceHash.h"
 #include "bake/scene/PrimIndex.h"
 #include "bake/scene/ReadLayer.h"
-#include "bake/scene/ReadScene.h"
+#include "bake/scene/SceneLayer.h"
 #include "bake/scene/Schema.h"
 
 namespace tss {

@@ -3,14 +3,13 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/robot/MeshFiles.h"
-#include "bake/scene/ReadScene.h"
+#include "bake/scene/SceneLayer.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
 #ifdef OSGTSS_HAVE_URDF
-#include "bake/robot/ReadUrdf.h"
+#include "bake/robot/ReadRobot.h"
 #endif
 #ifdef OSGTSS_HAVE_MJCF
-#include "bake/robot/ReadMjcf.h"
 #endif
 #ifdef OSGTSS_HAVE_USDA
 #include "bake/usd/Stage.h"

@@ -5,8 +5,8 @@
 #include "bake/spheres/SphereSet.h"
 #include "bake/table/Table.h"
 #include "bake/verify/PoseBox.h"
+#include "bake/verify/RegionProof.h"
 #include "bake/verify/SurfaceTree.h"
-#include "bake/verify/VerifiedBody.h"
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 #include "bake/base/Progress.h"
 #include "bake/verify/MeshProof.h"
-#include "bake/verify/VerifiedBody.h"
+#include "bake/verify/RegionProof.h"
 
 namespace tss::verify {
 

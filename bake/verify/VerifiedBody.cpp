@@ -1,4 +1,4 @@
-#include "bake/verify/VerifiedBody.h"
+#include "bake/verify/RegionProof.h"
 
 #include "bake/geometry/MeshAudit.h"
 

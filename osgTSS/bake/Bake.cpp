@@ -6,9 +6,8 @@
 #include "bake/model/SourceHash.h"
 #include "bake/motion/WholeTurn.h"
 #include "bake/pipeline/FirstLook.h"
-#include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
-#include "bake/scene/ToLayer.h"
+#include "bake/scene/SceneLayer.h"
 #include "bake/table/Query.h"
 
 #include <osg/NodeVisitor>

@@ -1,8 +1,8 @@
 #include "SceneCache.h"
 
 #include "bake/scene/ReadLayer.h"
-#include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
+#include "bake/scene/SceneLayer.h"
 #include "bake/scene/WriteLayer.h"
 
 #include <osg/UserDataContainer>

@@ -2,7 +2,7 @@
 // 100]. Prints the user CPU time of loadScene() and the peak memory of a process that does nothing else.
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/SceneFile.h"
-#include "bake/scene/ToLayer.h"
+#include "bake/scene/SceneLayer.h"
 #include "bake/scene/WriteLayer.h"
 
 #include <cstdio>

@@ -5,9 +5,8 @@
 #include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinResponse.h"
 #include "bake/respond/SkinRig.h"
-#include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
-#include "bake/scene/ToLayer.h"
+#include "bake/scene/SceneLayer.h"
 #include "examples/doghead/DogScenes.h"
 
 #include <algorithm>

@@ -2,13 +2,12 @@
 #include "bake/base/Error.h"
 #include "bake/robot/RobotScene.h"
 #ifdef OSGTSS_FUZZ_MJCF
-#include "bake/robot/ReadMjcf.h"
+#include "bake/robot/ReadRobot.h"
 #else
-#include "bake/robot/ReadUrdf.h"
 #endif
 #include "bake/scene/Layer.h"
-#include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
+#include "bake/scene/SceneLayer.h"
 
 #include <cstdlib>
 #include <iostream>

@@ -1,8 +1,8 @@
 // The reader of USD: any bytes are a stage whose scene can be saved and read, or an InputError.
 #include "bake/base/Error.h"
 #include "bake/robot/RobotScene.h"
-#include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
+#include "bake/scene/SceneLayer.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteUsda.h"
 #include "bake/usd/Stage.h"
@@ -29,8 +29,9 @@ OpenUsd filesOf(const std::string& text) {
         if (name == "outside.usda") throw InputError("lies outside");
         if (name != "b.usda") return UsdFile{"", "", "no such file"};
         return UsdFile{
-            name, "#usda 1.0\n( subLayers = [@a.usda@] )\nclass \"B\" ( references = @b.usda@</B/C> ) { def "
-                  "Cube \"C\" ( prepend apiSchemas = [\"PhysicsRigidBodyAPI\"] ) {} }",
+            name,
+            "#usda 1.0\n( subLayers = [@a.usda@] )\nclass \"B\" ( references = @b.usda@</B/C> ) { def "
+            "Cube \"C\" ( prepend apiSchemas = [\"PhysicsRigidBodyAPI\"] ) {} }",
             ""};
     };
 }

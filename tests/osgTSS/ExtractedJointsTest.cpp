@@ -3,8 +3,7 @@
 
 #include "bake/model/Kinematics.h"
 #include "bake/model/SourceHash.h"
-#include "bake/scene/ReadScene.h"
-#include "bake/scene/ToLayer.h"
+#include "bake/scene/SceneLayer.h"
 
 #include <catch2/catch.hpp>
 #include <osg/AnimationPath>

@@ -1,7 +1,6 @@
 #pragma once
 #include "bake/model/SourceHash.h"
-#include "bake/scene/ReadScene.h"
-#include "bake/scene/ToLayer.h"
+#include "bake/scene/SceneLayer.h"
 
 #include <cmath>
 #include <memory>

@@ -1,11 +1,11 @@
 #ifdef OSGTSS_HAVE_MJCF
 #include "bake/geometry/MeshAudit.h"
 #include "bake/robot/PairEvidence.h"
-#include "bake/robot/ReadMjcf.h"
+#include "bake/robot/ReadRobot.h"
 #include "bake/robot/WritePairs.h"
 #include "bake/scene/Layer.h"
-#include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
+#include "bake/scene/SceneLayer.h"
 #include "tests/robot/Robots.h"
 
 #include <numbers>

@@ -1,6 +1,6 @@
 #pragma once
 // URDF texts for tests: links, joints and robots of few words.
-#include "bake/robot/ReadUrdf.h"
+#include "bake/robot/ReadRobot.h"
 #include "tests/robot/Robots.h"
 
 namespace urdf {

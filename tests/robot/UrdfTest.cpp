@@ -3,8 +3,8 @@
 #include "bake/geometry/MeshAudit.h"
 #include "bake/robot/WritePairs.h"
 #include "bake/scene/Layer.h"
-#include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
+#include "bake/scene/SceneLayer.h"
 
 #include <numbers>
 

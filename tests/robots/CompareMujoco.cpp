@@ -1,9 +1,8 @@
 // Reads MJCF files with MuJoCo and with readMjcf(), and says where a body, a joint, a shape or a pair is
 // another: compare_mujoco FILE.xml... Exit status 1 where one of them differs. What docs/ROBOTS.md says is
 // left out or taken otherwise is no difference where it is said of that body.
-#include "bake/robot/ReadMjcf.h"
+#include "bake/robot/ReadRobot.h"
 #ifdef OSGTSS_HAVE_URDF
-#include "bake/robot/ReadUrdf.h"
 #endif
 #include "tests/robots/MujocoModel.h"
 

@@ -3,7 +3,7 @@
 // too, of a text that it has tidied first: this one reads the file as it is. What docs/ROBOTS.md says is left
 // out or taken otherwise is no difference where it is said of that link or joint.
 #include "bake/geometry/Import.h"
-#include "bake/robot/ReadUrdf.h"
+#include "bake/robot/ReadRobot.h"
 #include "tests/robots/Compared.h"
 
 #include <console_bridge/console.h>

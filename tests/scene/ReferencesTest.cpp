@@ -1,7 +1,7 @@
 #include "bake/base/Error.h"
 #include "bake/scene/ReadLayer.h"
-#include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
+#include "bake/scene/SceneLayer.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteUsda.h"
 

@@ -1,8 +1,7 @@
 #pragma once
 #include "bake/model/AddPair.h"
 #include "bake/model/SceneModel.h"
-#include "bake/scene/ReadScene.h"
-#include "bake/scene/ToLayer.h"
+#include "bake/scene/SceneLayer.h"
 
 /// Small scenes that several tests of the scene folder start from.
 namespace samples {

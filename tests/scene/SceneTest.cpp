@@ -1,9 +1,8 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/scene/ReadLayer.h"
-#include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
-#include "bake/scene/ToLayer.h"
+#include "bake/scene/SceneLayer.h"
 #include "bake/scene/WriteLayer.h"
 
 #include "tests/scene/Samples.h"

@@ -1,6 +1,6 @@
 #include "bake/base/Error.h"
 #include "bake/scene/ReadLayer.h"
-#include "bake/scene/ReadScene.h"
+#include "bake/scene/SceneLayer.h"
 
 #include <catch2/catch.hpp>
 

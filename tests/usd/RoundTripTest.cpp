@@ -1,6 +1,6 @@
 // What writeUsda() writes is read as the same scene again.
 #include "bake/scene/ReadLayer.h"
-#include "bake/scene/ToLayer.h"
+#include "bake/scene/SceneLayer.h"
 #include "bake/scene/WriteLayer.h"
 #include "bake/scene/WriteUsda.h"
 #include "tests/scene/RandomLayer.h"

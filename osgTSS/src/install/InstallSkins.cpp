@@ -8,8 +8,7 @@
 
 #include "bake/base/Error.h"
 #include "bake/model/SourceHash.h"
-#include "bake/scene/ReadScene.h"
-#include "bake/scene/ToLayer.h"
+#include "bake/scene/SceneLayer.h"
 
 #include <osg/Notify>
 #include <osg/ValueObject>

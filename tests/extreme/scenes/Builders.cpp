@@ -3,8 +3,8 @@
 #include "bake/base/NearestFloat.h"
 #include "bake/model/AddPair.h"
 #include "bake/scene/ReadLayer.h"
-#include "bake/scene/ReadScene.h"
 #include "bake/scene/SceneFile.h"
+#include "bake/scene/SceneLayer.h"
 #include "bake/scene/WriteLayer.h"
 #include "tests/Shapes.h"
 
