@@ -35,7 +35,7 @@ SphereFit medialFit(const Solid& solid, const SphereOptions& options, double tol
 
 SphereFit surfaceFit(const Solid& solid, const SphereOptions& options, double tolerance) {
     SphereFit fit;
-    fit.spheres = surfaceSpheres(solid.mesh(), options.surface, options.conservative);
+    fit.spheres = surfaceSpheres(solid.mesh(), options.conservative);
     for (const Sphere& s : fit.spheres) fit.protrusion = std::max(fit.protrusion, s.radius);
     fit.coverage = options.conservative ? 0 : unbounded;
     if (options.tolerance > 0 && fit.protrusion > tolerance)
@@ -147,14 +147,9 @@ void checkOptions(const SphereOptions& o) {
     };
     need(std::isfinite(o.tolerance) && o.tolerance >= 0, "the tolerance must be a number >= 0");
     need(o.maxSpheres >= 0, "the largest number of spheres must be >= 0");
-    need(o.medial.slackFactor > 0 && o.medial.slackFactor <= 0.5, "slackFactor must be in (0, 0.5]");
-    need(o.medial.sizeFactor > 0 && o.medial.sizeFactor <= 1, "sizeFactor must be in (0, 1]");
     need(o.growth.start > 0 && o.growth.step > 0 && o.growth.end >= o.growth.start &&
              o.growth.maxRadius > 0 && std::isfinite(o.growth.end / o.growth.step),
          "growth needs start, step, maximum radius > 0 and end >= start");
-    need(std::isfinite(o.surface.radius) && o.surface.radius >= 0,
-         "the surface radius must be a number >= 0");
-    need(std::isfinite(o.surface.edgeFactor) && o.surface.edgeFactor > 0, "edgeFactor must be > 0");
 }
 
 double magnitude(const TriangleMesh& mesh) {

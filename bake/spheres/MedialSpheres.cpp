@@ -135,8 +135,7 @@ std::vector<std::uint32_t> greedyCover(const CoverSets& sets, std::size_t patchC
 
 MedialSet medialSpheres(const Solid& solid, std::span<const Patch> patches, double protrusion,
                         const MedialOptions& options, const Progress& progress) {
-    const PatchOptions patchOptions{protrusion, options.slackFactor, options.sizeFactor, options.mostPatches,
-                                    options.neighbour.get()};
+    const PatchOptions patchOptions{protrusion, options.mostPatches, options.neighbour.get()};
     FittedPatches fitted = fitPatches(solid, patches, patchOptions, progress);
     const CoverSets sets = coverSets(fitted.candidates, fitted.patches, progress);
     // Stopped there, all candidates are the cover that there is.
@@ -152,8 +151,7 @@ MedialSet medialSpheres(const Solid& solid, std::span<const Patch> patches, doub
 
 MedialSet shrinkingSpheres(const Solid& solid, std::span<const Patch> patches, double protrusion,
                            const MedialOptions& options, const Progress& progress) {
-    const PatchOptions patchOptions{protrusion, std::min(options.slackFactor, 1e-3), 1, options.mostPatches,
-                                    options.neighbour.get()};
+    const PatchOptions patchOptions{protrusion, options.mostPatches, options.neighbour.get(), 1e-3, 1};
     FittedPatches fitted = fitPatches(solid, patches, patchOptions, progress);
     return {std::move(fitted.candidates), std::move(fitted.inner)};
 }

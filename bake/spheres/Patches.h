@@ -34,11 +34,11 @@ bool covers(const Sphere& sphere, const Patch& patch);
 
 /// How candidate spheres are found for patches (METHOD 1.3).
 struct PatchOptions {
-    double protrusion = 0;                ///< P, scene units, > 0
-    double slackFactor = 0.02;            ///< tau / P, in (0, 0.5]
-    double sizeFactor = 0.4;              ///< k: a patch is split until its radius is at most k sqrt(2 R P)
-    std::size_t mostPatches = 10'000'000; ///< more are refused: they would take gigabytes
+    double protrusion = 0;                    ///< P, scene units, > 0
+    std::size_t mostPatches = 0;              ///< more are refused: they would take gigabytes
     const RestNeighbour* neighbour = nullptr; ///< what the spheres must stay clear of, or null
+    double slackFactor = 0.02;                ///< tau / P; above 0.1 it takes many more spheres
+    double sizeFactor = 0.4; ///< k: a patch is split until its radius is at most k sqrt(2 R P)
 };
 
 /// The protrusion asks for more patches than can be had, or is too small beside the coordinates for doubles.

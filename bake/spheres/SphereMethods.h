@@ -43,10 +43,10 @@ struct GrownSphere {
 std::vector<GrownSphere> growSpheres(const TriangleMesh& mesh, const GrowthOptions& options,
                                      const Progress& progress = {});
 
-/// [paper] One sphere per vertex, in the order of the vertices (METHOD 1.2). Its radius is that of the rule;
-/// conservative: at least 1/sqrt(3) of the longest edge of every triangle at the vertex, with which the union
-/// contains the surface (every point of a triangle is that near to a corner). Vertices in no triangle have
-/// none.
-SphereSet surfaceSpheres(const TriangleMesh& mesh, const SurfaceOptions& options, bool conservative);
+/// [paper] One sphere per vertex, in the order of the vertices (METHOD 1.2). Its radius is half the
+/// mean length of the edges there; conservative: at least 1/sqrt(3) of the longest edge of every triangle at
+/// the vertex, with which the union contains the surface (every point of a triangle is that near to a
+/// corner). Vertices in no triangle have none.
+SphereSet surfaceSpheres(const TriangleMesh& mesh, bool conservative);
 
 } // namespace tss

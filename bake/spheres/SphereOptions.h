@@ -17,9 +17,7 @@ enum class SphereMethod {
 
 /// How finely the medial and shrinking generators work (METHOD 1.3).
 struct MedialOptions {
-    double slackFactor = 0.02;            ///< tau / P, in (0, 0.5]; above 0.1 it takes many more spheres
-    double sizeFactor = 0.4;              ///< k: a patch has at most the radius k sqrt(2 R P); in (0, 1]
-    std::size_t mostPatches = 10'000'000; ///< a finer tolerance is refused: it would take gigabytes
+    std::size_t mostPatches = 10'000'000;           ///< a finer tolerance is refused: it would take gigabytes
     std::shared_ptr<const RestNeighbour> neighbour; ///< what the spheres must stay clear of at rest, or null
 };
 
@@ -28,12 +26,6 @@ inline MedialOptions forTrial(MedialOptions options, std::size_t limit) {
     options.mostPatches = std::min(options.mostPatches, 100'000 + 200 * limit);
     return options;
 }
-
-/// The rule for radii of the surface generator (METHOD 1.2).
-struct SurfaceOptions {
-    double radius = 0;       ///< scene units; > 0: the same for every sphere
-    double edgeFactor = 0.5; ///< else this times the mean length of the edges at the vertex
-};
 
 /// Every parameter of the paper's growth (METHOD 1.1), with the paper's values.
 struct GrowthOptions {
@@ -54,7 +46,6 @@ struct SphereOptions {
     bool conservative = true; ///< the union contains the surface; else the spheres are inside the body
                               ///< (medial and shrinking; METHOD 1.6)
     MedialOptions medial;
-    SurfaceOptions surface;
     GrowthOptions growth;
 };
 

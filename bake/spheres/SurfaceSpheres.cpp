@@ -18,7 +18,7 @@ struct Incident {
 
 } // namespace
 
-SphereSet surfaceSpheres(const TriangleMesh& mesh, const SurfaceOptions& options, bool conservative) {
+SphereSet surfaceSpheres(const TriangleMesh& mesh, bool conservative) {
     std::vector<Incident> incident(mesh.vertices.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         double length[3]; // of the edge that begins at the corner
@@ -33,8 +33,7 @@ SphereSet surfaceSpheres(const TriangleMesh& mesh, const SurfaceOptions& options
     SphereSet spheres;
     for (std::size_t v = 0; v < incident.size(); ++v) {
         if (incident[v].count == 0) continue;
-        double radius =
-            options.radius > 0 ? options.radius : options.edgeFactor * incident[v].sum / incident[v].count;
+        double radius = 0.5 * incident[v].sum / incident[v].count;
         if (conservative) radius = std::max(radius, (1 + 1e-9) * incident[v].longest / std::sqrt(3.0));
         spheres.push_back({mesh.vertices[v], radius});
     }
