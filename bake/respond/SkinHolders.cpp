@@ -21,7 +21,7 @@ constexpr double stillDistance = 0.5;
 constexpr double aheadCosine = 0.7;
 /// In sizes of a bone: nearer to its joint its middle says nothing about where the bone goes.
 constexpr double leastArm = 0.25;
-/// A bone is one of a row, as vertebrae are, where the one before it is no larger than by this.
+/// A bone is one of a row, as vertebrae are, where neither it nor the one before it is larger by this.
 constexpr double likeSize = 2;
 
 /// Of the least that a bone beside it holds: what is smaller than this is a patch, no part of the body. It
@@ -265,7 +265,8 @@ double beyond(const Vec3& place, std::size_t bone, const std::vector<FrameHolder
 /// Whether it is one of a row of such bones.
 bool isVertebra(const std::vector<FrameHolder>& holders, std::size_t bone) {
     const FrameHolder *own = &holders[bone], *before = boneBefore(holders, bone);
-    return before && isAmidst(*own) && !own->twists && before->extent < likeSize * own->extent;
+    return before && isAmidst(*own) && !own->twists && before->extent < likeSize * own->extent &&
+           own->extent < likeSize * before->extent;
 }
 
 /// The bone that a part goes on from, as a hand does from a forearm: most of what is around it belongs to
@@ -285,7 +286,7 @@ std::optional<std::size_t> goesOnFrom(const FreePart& part, const std::vector<Fr
     for (const auto& [h, times] : part.beside) {
         if (holders[h].moves != moves || (from && times <= part.beside.at(*from))) continue;
         const bool nearer = holders[h].twists || isAmidst(holders[h]);
-        const bool vertebra = isVertebra(holders, h) && still > 0 && 3 * still < 2 * all;
+        const bool vertebra = isVertebra(holders, h) && part.beside.size() == 2 && 3 * still < 2 * all;
         if (vertebra || (2 * still < all && beyond(part.ring, h, holders) >= (nearer ? 0 : aheadCosine)))
             from = h;
     }
@@ -293,12 +294,12 @@ std::optional<std::size_t> goesOnFrom(const FreePart& part, const std::vector<Fr
 }
 
 /// Gives a part to the bone that it goes on from, or else to what holds still. One beside other bones too is
-/// claimed like all other skin, but for what lies clearly on one side of a vertebra.
+/// claimed like all other skin, but for what lies clearly on one side of two vertebrae.
 void holdPart(const FreePart& part, const std::vector<Vec3>& places, std::size_t still,
               std::vector<FrameHolder>& holders) {
     const std::optional<std::size_t> from = goesOnFrom(part, holders);
     const bool aside = from && part.beside.size() > 1;
-    if (aside && !isVertebra(holders, *from)) return;
+    if (aside && (part.beside.size() > 2 || !isVertebra(holders, *from))) return;
     for (const std::uint32_t v : part.vertices) {
         const double along = aside ? beyond(places[v], *from, holders) : from ? 1 : -1;
         if (along >= aheadCosine) holders[from.value_or(still)].holder.sure.push_back(v);
