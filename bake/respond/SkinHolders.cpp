@@ -270,8 +270,7 @@ bool isVertebra(const std::vector<FrameHolder>& holders, std::size_t bone) {
 }
 
 /// The bone that a part goes on from, as a hand does from a forearm: most of what is around it belongs to
-/// bones that move, and it lies beyond that one of those that move in the fewest swings. Or a vertebra, of
-/// which a trunk may lie on both sides: for that a third is enough.
+/// bones that move, and it lies beyond that one of those that move in the fewest swings.
 std::optional<std::size_t> goesOnFrom(const FreePart& part, const std::vector<FrameHolder>& holders) {
     if (part.small) return std::nullopt;
     std::size_t still = 0, all = 0, moves = ~std::size_t{0};
@@ -286,25 +285,48 @@ std::optional<std::size_t> goesOnFrom(const FreePart& part, const std::vector<Fr
     for (const auto& [h, times] : part.beside) {
         if (holders[h].moves != moves || (from && times <= part.beside.at(*from))) continue;
         const bool nearer = holders[h].twists || isAmidst(holders[h]);
-        const bool vertebra = isVertebra(holders, h) && part.beside.size() == 2 && 3 * still < 2 * all;
-        if (vertebra || (2 * still < all && beyond(part.ring, h, holders) >= (nearer ? 0 : aheadCosine)))
-            from = h;
+        if (beyond(part.ring, h, holders) >= (nearer ? 0 : aheadCosine)) from = h;
     }
-    return from;
+    return 2 * still < all ? from : std::nullopt;
+}
+
+/// Whether a part is beside a row of vertebrae, as a trunk on both sides of it, and one that holds still.
+bool isBesideRow(const FreePart& part, const std::vector<FrameHolder>& holders) {
+    std::size_t still = 0, all = 0;
+    for (const auto& [h, times] : part.beside) {
+        all += times;
+        if (holders[h].moves == 0)
+            still += times;
+        else if (!isVertebra(holders, h))
+            return false;
+    }
+    return !part.small && still > 0 && 3 * still < 2 * all;
+}
+
+/// Gives what of such a part is clearly between two bones of the row, or beyond its ends, to the one before.
+void holdBesideRow(const FreePart& part, const std::vector<Vec3>& places, std::size_t still,
+                   std::vector<FrameHolder>& holders) {
+    std::vector<std::size_t> row{still};
+    for (const auto& [h, times] : part.beside)
+        if (holders[h].moves > 0) row.push_back(h);
+    std::sort(row.begin() + 1, row.end(),
+              [&](std::size_t a, std::size_t b) { return holders[a].moves < holders[b].moves; });
+    for (const std::uint32_t v : part.vertices)
+        for (std::size_t k = 0; k < row.size(); ++k)
+            if ((k == 0 || beyond(places[v], row[k], holders) >= aheadCosine) &&
+                (k + 1 == row.size() || beyond(places[v], row[k + 1], holders) <= -aheadCosine))
+                holders[row[k]].holder.sure.push_back(v);
 }
 
 /// Gives a part to the bone that it goes on from, or else to what holds still. One beside other bones too is
-/// claimed like all other skin, but for what lies clearly on one side of two vertebrae.
+/// claimed like all other skin, but for what is clearly on one side of a row of vertebrae.
 void holdPart(const FreePart& part, const std::vector<Vec3>& places, std::size_t still,
               std::vector<FrameHolder>& holders) {
+    if (isBesideRow(part, holders)) return holdBesideRow(part, places, still, holders);
     const std::optional<std::size_t> from = goesOnFrom(part, holders);
-    const bool aside = from && part.beside.size() > 1;
-    if (aside && (part.beside.size() > 2 || !isVertebra(holders, *from))) return;
-    for (const std::uint32_t v : part.vertices) {
-        const double along = aside ? beyond(places[v], *from, holders) : from ? 1 : -1;
-        if (along >= aheadCosine) holders[from.value_or(still)].holder.sure.push_back(v);
-        if (along <= -aheadCosine) holders[still].holder.sure.push_back(v);
-    }
+    if (from && part.beside.size() > 1) return;
+    std::vector<std::uint32_t>& sure = holders[from.value_or(still)].holder.sure;
+    sure.insert(sure.end(), part.vertices.begin(), part.vertices.end());
 }
 
 } // namespace

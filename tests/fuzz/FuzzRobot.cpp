@@ -1,10 +1,7 @@
 // The readers of robots: any bytes are a robot whose scene can be saved and read, or an InputError.
 #include "bake/base/Error.h"
-#include "bake/robot/RobotScene.h"
-#ifdef OSGTSS_FUZZ_MJCF
 #include "bake/robot/ReadRobot.h"
-#else
-#endif
+#include "bake/robot/RobotScene.h"
 #include "bake/scene/Layer.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/SceneLayer.h"

@@ -273,6 +273,32 @@ TEST_CASE("a trunk that goes on on both sides of two vertebrae near its back is 
     }
 }
 
+TEST_CASE("of a trunk on both sides of a row of vertebrae what is clearly beyond the last goes with it") {
+    // The first holds still, the second turns, the third turns about its own joint as well.
+    const auto vertebra = [](double x) { return boneIn(Vec3(x, -0.6, 28.2), Vec3(x + 1.2, 0.6, 29.4)); };
+    const std::vector bones{vertebra(9.2), vertebra(7.8), vertebra(6.4)};
+    const auto turn = [](double x) {
+        const Vec3 joint(x, 0, 28.8);
+        return Pose(Eigen::Translation3d(joint) * Eigen::AngleAxisd(M_PI / 9, Vec3::UnitY()) *
+                    Eigen::Translation3d(-joint));
+    };
+    const Pose one = turn(8.6), other = turn(7.2), stay = Pose::Identity();
+    SkinParameters parameters;
+    parameters.swings = {{{stay, one, one}}, {{stay, stay, other}}};
+    SkinTable nothingMet;
+    nothingMet.table.rowOffsets = {0};
+    SkinResponse response(makeSkinRig(surfaceOf(animal), bones, nothingMet, parameters));
+    response.update(std::vector<double>(3, 0), std::vector<Pose>{stay, one, one * other});
+    double front = 0, back = 0;
+    for (std::size_t k = 0; k < response.positions().size(); ++k) {
+        const Vec3 &rest = response.rig().rest[k], &now = response.positions()[k];
+        if (rest.x() > 26) front = std::max(front, (now - rest).norm());
+        if (rest.x() < -5) back = std::max(back, (now - one * other * rest).norm());
+    }
+    CHECK(front < 0.5);
+    CHECK(back < 0.5);
+}
+
 TEST_CASE(
     "beyond a bone that twists is what it has on the far side of what it hangs on, also beside a limb that "
     "moves") {
