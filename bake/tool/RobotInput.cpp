@@ -3,14 +3,10 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/robot/MeshFiles.h"
+#include "bake/robot/ReadRobot.h"
 #include "bake/scene/SceneLayer.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
-#ifdef OSGTSS_HAVE_URDF
-#include "bake/robot/ReadRobot.h"
-#endif
-#ifdef OSGTSS_HAVE_MJCF
-#endif
 #ifdef OSGTSS_HAVE_USDA
 #include "bake/usd/Stage.h"
 #include "bake/usd/UsdRobot.h"

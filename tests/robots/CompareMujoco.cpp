@@ -2,8 +2,6 @@
 // another: compare_mujoco FILE.xml... Exit status 1 where one of them differs. What docs/ROBOTS.md says is
 // left out or taken otherwise is no difference where it is said of that body.
 #include "bake/robot/ReadRobot.h"
-#ifdef OSGTSS_HAVE_URDF
-#endif
 #include "tests/robots/MujocoModel.h"
 
 #include <algorithm>
