@@ -21,8 +21,6 @@ constexpr double stillDistance = 0.5;
 constexpr double aheadCosine = 0.7;
 /// In sizes of a bone: nearer to its joint its middle says nothing about where the bone goes.
 constexpr double leastArm = 0.25;
-/// A bone is one of a row, as vertebrae are, where neither it nor the one before it is larger by this.
-constexpr double likeSize = 2;
 
 /// Of the least that a bone beside it holds: what is smaller than this is a patch, no part of the body. It
 /// stays where a bone that holds still is near, else goes with what is around it.
@@ -262,11 +260,9 @@ double beyond(const Vec3& place, std::size_t bone, const std::vector<FrameHolder
     return other == middle ? 1 : ((place - other).norm() - (place - middle).norm()) / (middle - other).norm();
 }
 
-/// Whether it is one of a row of such bones.
-bool isVertebra(const std::vector<FrameHolder>& holders, std::size_t bone) {
-    const FrameHolder *own = &holders[bone], *before = boneBefore(holders, bone);
-    return before && isAmidst(*own) && !own->twists && before->extent < likeSize * own->extent &&
-           own->extent < likeSize * before->extent;
+/// Whether it may be one of a row: its joint is in its middle, and it bends against the one before.
+bool isVertebra(const FrameHolder& holder) {
+    return isAmidst(holder) && !holder.twists;
 }
 
 /// The bone that a part goes on from, as a hand does from a forearm: most of what is around it belongs to
@@ -290,14 +286,15 @@ std::optional<std::size_t> goesOnFrom(const FreePart& part, const std::vector<Fr
     return 2 * still < all ? from : std::nullopt;
 }
 
-/// Whether a part is beside a row of vertebrae, as a trunk on both sides of it, and one that holds still.
+/// Whether a part is beside a row of vertebrae, as a trunk on both sides of it, and one that holds still; of
+/// two bones alike each has half of what is around it, so a third is those that move.
 bool isBesideRow(const FreePart& part, const std::vector<FrameHolder>& holders) {
     std::size_t still = 0, all = 0;
     for (const auto& [h, times] : part.beside) {
         all += times;
         if (holders[h].moves == 0)
             still += times;
-        else if (!isVertebra(holders, h))
+        else if (!isVertebra(holders[h]))
             return false;
     }
     return !part.small && still > 0 && 3 * still < 2 * all;
