@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace tss {
 namespace {
@@ -125,6 +126,27 @@ std::vector<std::uint32_t> endsOf(const std::vector<std::uint32_t>& holder,
     return ends;
 }
 
+/// How far the seed that claims each vertex is from the nearest seed of others. So a limb none of whose bones
+/// are named is claimed, up to its end, as firmly as the skin that it hangs on.
+std::vector<double> gapsOf(const SkinGraph& graph, const std::vector<std::uint32_t>& holder,
+                           const std::vector<double>& nearest, const std::vector<double>& second) {
+    std::vector<std::uint32_t> order(nearest.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return nearest[a] < nearest[b]; });
+    std::vector<double> gap = second;
+    for (const std::uint32_t v : order) {
+        double least = nearest[v] > 0 && std::isfinite(nearest[v]) ? infinity : 0;
+        for (const SkinGraph::Edge& edge : graph.edges[v]) {
+            const double by = nearest[edge.to] + edge.length;
+            if (holder[edge.to] != holder[v] || nearest[edge.to] >= nearest[v] || by >= least) continue;
+            least = by;
+            gap[v] = gap[edge.to];
+        }
+    }
+    return gap;
+}
+
 Claims claim(const TriangleMesh& skin, const SkinGraph& graph, const std::vector<SkinHolder>& holders) {
     const std::size_t count = graph.vertices();
     std::vector<double> nearest(count, infinity), second(count, infinity);
@@ -148,6 +170,7 @@ Claims claim(const TriangleMesh& skin, const SkinGraph& graph, const std::vector
             }
         }
     }
+    const std::vector<double> gap = gapsOf(graph, claims.holder, nearest, second);
     claims.ends = endsOf(claims.holder, nearest, second, holders.size());
     claims.shells = heldShells(skin, holders, nearest);
     std::vector<char> sure(count, 0);
@@ -161,9 +184,8 @@ Claims claim(const TriangleMesh& skin, const SkinGraph& graph, const std::vector
         double size = std::min(own.size, holders[rival[v]].size);
         if (!std::isfinite(size))
             for (const SkinHolder& h : holders) size = std::min(size, h.size);
-        const double certainty = std::isfinite(second[v]) && second[v] > 0
-                                     ? (second[v] - nearest[v]) / (second[v] + nearest[v])
-                                     : 1;
+        double certainty = std::isfinite(second[v]) && second[v] > 0 ? 0 : 1;
+        if (certainty == 0 && nearest[v] < second[v]) certainty = (second[v] - nearest[v]) / gap[v];
         const double close = closeShare * size;
         double distance =
             std::max(sure[v] ? std::min(own.distance[v], sureShare * size) : own.distance[v], close);

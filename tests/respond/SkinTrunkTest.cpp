@@ -88,6 +88,7 @@ struct Setting {
     std::optional<Vec3> joint{};          ///< else at the upper end of the first bone that moves
     Vec3 axis = Vec3::UnitY();
     std::vector<Box> body = animal;
+    double splay = 0; ///< of the legs: how much wider they stand per unit further down
 };
 
 /// All bones from the first that moves on are turned by 60 degrees.
@@ -99,6 +100,7 @@ public:
         if (setting.inverted)
             for (Tri& t : skin_.triangles) std::swap(t[1], t[2]);
         if (setting.split) skin_ = splitAt(skin_);
+        for (Vec3& v : skin_.vertices) v.y() *= 1 + setting.splay * std::max(0.0, 20 - v.z());
         const Eigen::AlignedBox3d box = bounds(bones[firstMoving]->muscle().surface);
         const Vec3 joint = setting.joint.value_or(Vec3(32, 6, box.max().z() + 0.5));
         bend = Eigen::Translation3d(joint) * Eigen::AngleAxisd(M_PI / 3, setting.axis) *
@@ -184,6 +186,42 @@ TEST_CASE("a part beside two bones that move is no end of either: it stays") {
     CHECK(bent.farthest(Pose::Identity(), isRightLeg) < 0.2);
     CHECK(bent.farthest(Pose::Identity(), isBreast) < 7);
     CHECK(bent.farthest(bent.bend, isLeftFoot) < 0.05);
+}
+
+TEST_CASE("a leg whose bones are not named is the trunk's, though the bone of the other leg is nearer") {
+    Setting splayed;
+    splayed.splay = 0.005;
+    const auto left = boneIn(Vec3(31, 5, 0.5), Vec3(33, 7, 20));
+    const Bent bent({boneIn(Vec3(10, -4.5, 23), Vec3(32.5, 4.5, 25)), left}, 1, splayed);
+    CHECK(bent.farthest(Pose::Identity(), isRightLeg) < 0.01);
+    CHECK(bent.farthest(Pose::Identity(), isHind) < 0.01);
+    CHECK(bent.farthest(bent.bend, isLeftFoot) < 0.01);
+}
+
+TEST_CASE("a face over a hollow goes with its head, though the bone that holds still is the one below") {
+    // A skull with a cavity behind a wall that has a mouth: all ways from the wall to the bone cross the
+    // cavity.
+    Setting man;
+    man.body = {{-6, -4, 0, 6, 4, 20},  {-3, -3, 20, 1, 3, 36}, {1, -3, 20, 6, -2, 36}, {1, 2, 20, 6, 3, 36},
+                {1, -3, 34, 6, 3, 36},  {1, -3, 20, 6, 3, 22},  {5, -3, 22, 6, 3, 27},  {5, -3, 28, 6, 3, 34},
+                {5, -3, 27, 6, -1, 28}, {5, 1, 27, 6, 3, 28}};
+    man.joint = Vec3(0, 0, 28);
+    const Bent bent(
+        {boneIn(Vec3(-2, -2, 2), Vec3(2, 2, 6)), boneIn(Vec3(-1.5, -0.9, 28), Vec3(-0.5, 0.9, 34))}, 1, man);
+    CHECK(bent.farthest(bent.bend, [](const Vec3& x) { return x.x() > 4 && x.z() > 24; }) < 2.5);
+    CHECK(bent.farthest(Pose::Identity(), [](const Vec3& x) { return x.z() < 2; }) < 0.05);
+}
+
+TEST_CASE(
+    "what is small against all bones beside it is no part of the body: it goes with what is around it") {
+    // A hook on a chest; the ways from its end to the bone leave it and go into the chest.
+    Setting man;
+    man.body = {{-6, -6, 0, 6, 6, 40}, {6, -1, 20, 12, 1, 22}, {11, -1, 12, 12, 1, 20}};
+    man.joint = Vec3(0, 0, 16);
+    const Bent bent({boneIn(Vec3(-2, -2, 2), Vec3(2, 2, 6)), boneIn(Vec3(-2, -2, 12), Vec3(2, 2, 36))}, 1,
+                    man);
+    CHECK(bent.farthest(bent.bend, [](const Vec3& x) { return x.x() > 10 && x.z() < 18; }) < 1);
+    CHECK(bent.farthest(Pose::Identity(), [](const Vec3& x) { return x.z() < 2; }) < 0.5);
 }
 
 TEST_CASE("where no bone holds still the trunk stays, and the smaller end of a limb goes along") {
