@@ -5,7 +5,6 @@
 #include "bake/verify/SeparatingAxis.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace tss::verify {
@@ -14,27 +13,16 @@ namespace {
 
 /// Pairs that a box keeps open at most before it is halved with the rest as it is.
 constexpr std::size_t mostOpen = 3000;
-/// Tests that are tried on a pair, the deepest in the middle of the box first and those that answered for
-/// others before it. In small boxes, where few are left, all of them.
-constexpr std::size_t mostTried = 8;
+/// Tests that are weighed over a box, the deepest at its middle, and that are tried on a pair, those that
+/// answered for others first. In small boxes, where few are left, all of them.
+constexpr std::size_t mostWeighed = 32, mostTried = 8;
 constexpr double smallBox = 1e-3; ///< of the largest reach
-
-Piece half(const SurfaceTree& tree, Piece piece, std::uint32_t side) {
-    const SurfaceTree::Node& node = tree.nodes[static_cast<std::size_t>(piece.node)];
-    if (node.first >= 0) return {side ? node.second : node.first, 1};
-    return {piece.node, piece.cuts << 1 | side};
-}
-
-bool divisible(const SurfaceTree& tree, Piece piece) {
-    return tree.nodes[static_cast<std::size_t>(piece.node)].first >= 0 ||
-           std::bit_width(piece.cuts) < mostCuts;
-}
 
 } // namespace
 
 MeshBox::MeshBox(const SurfaceTree& a, const SurfaceTree& b, const Motion& motion, double size,
-                 const MeshClaim& claim)
-    : a_(a), b_(b), motion_(motion), claim_(claim), size_(size), shapesA_(a), shapesB_(b),
+                 const MeshClaim& claim, const TestTree& tests)
+    : a_(a), b_(b), motion_(motion), claim_(claim), tests_(tests), size_(size), shapesA_(a), shapesB_(b),
       moved_(b.nodes.size()) {
     // Smaller boxes than this cannot be told from rounding.
     smallest_ = 1e-3 * claim.band;
@@ -52,39 +40,48 @@ const MeshBox::Moved& MeshBox::moved(std::int32_t node) {
     return at;
 }
 
-// What of the tests can fire in the box. True: one of them does, all over it.
-bool MeshBox::weighTests(const OpenPairs& open) {
-    near_.clear();
+/// Over the box: `near` of a test, if it may fire. True: it does, all over it.
+bool MeshBox::weighTest(std::uint32_t test) {
     const double limit = claim_.miss + 0.5 * claim_.band;
-    for (std::uint32_t k : open.tests) {
-        const MeshTest& t = claim_.tests[k];
-        const MovingPoint b = box_->carry(t.centreB, true);
-        const Vec3 arm = b.at - t.centreA;
-        const double distance = arm.norm();
-        Near near;
-        near.test = k;
-        near.gap = distance - t.contactDistance;
-        near.normal = distance > 0 ? Vec3(arm / distance) : Vec3::UnitX();
-        double tilt = 0, across = b.bend;
-        for (std::size_t l = 0; l < box_->dofs(); ++l) {
-            near.slope[l] = near.normal.dot(b.velocity[l]);
-            tilt += std::abs(near.slope[l]) * box_->half(l);
-            across += (b.velocity[l] - near.slope[l] * near.normal).norm() * box_->half(l);
-        }
-        tilt *= 1 + 1e-14;
-        across = std::min(across, b.move) + 1e-15 * b.move;
-        if (near.gap - std::min(b.move, tilt + b.bend) > limit) continue;
-        // |y + m| <= |y| + n . m + |m across n|^2 / 2 (|y| + n . m)
-        const double least = distance - std::min(tilt + b.bend, b.move);
-        near.rest = least > 0 ? b.bend + across * across / (2 * least) : infinity;
-        if (near.gap + std::min(b.move, tilt + near.rest) <= limit) return true;
-        if (!(near.rest <= 2 * b.move)) { // no better than the plain bound: without slopes
-            near.rest = b.move;
-            near.slope.fill(0);
-        }
-        near_.push_back(near);
+    const MeshTest& t = claim_.tests[test];
+    const MovingPoint b = box_->carry(t.centreB, true);
+    const Vec3 arm = b.at - t.centreA;
+    const double distance = arm.norm();
+    Near near;
+    near.test = test;
+    near.gap = distance - t.contactDistance;
+    near.normal = distance > 0 ? Vec3(arm / distance) : Vec3::UnitX();
+    double tilt = 0, across = b.bend;
+    for (std::size_t l = 0; l < box_->dofs(); ++l) {
+        near.slope[l] = near.normal.dot(b.velocity[l]);
+        tilt += std::abs(near.slope[l]) * box_->half(l);
+        across += (b.velocity[l] - near.slope[l] * near.normal).norm() * box_->half(l);
     }
+    tilt *= 1 + 1e-14;
+    across = std::min(across, b.move) + 1e-15 * b.move;
+    if (near.gap - std::min(b.move, tilt + b.bend) > limit) return false;
+    // |y + m| <= |y| + n . m + |m across n|^2 / 2 (|y| + n . m)
+    const double least = distance - std::min(tilt + b.bend, b.move);
+    near.rest = least > 0 ? b.bend + across * across / (2 * least) : infinity;
+    if (near.gap + std::min(b.move, tilt + near.rest) <= limit) return true;
+    if (!(near.rest <= 2 * b.move)) { // no better than the plain bound: without slopes
+        near.rest = b.move;
+        near.slope.fill(0);
+    }
+    near_.push_back(near);
     return false;
+}
+
+// What of the tests can fire in the box, the deepest at its middle first. True: one of them does, all over
+// it.
+bool MeshBox::weighTests() {
+    near_.clear();
+    const Slab& whole = b_.nodes[static_cast<std::size_t>(b_.root())].slab;
+    const bool small =
+        box_->carry(whole.centre, false).move + box_->turn() * whole.reach < smallBox * largestContact_;
+    const std::size_t most = small ? claim_.tests.size() : mostWeighed;
+    return std::ranges::any_of(tests_.deepest(*box_, claim_.miss + 0.5 * claim_.band, most, work_),
+                               [&](const TestTree::Found& found) { return weighTest(found.test); });
 }
 
 bool MeshBox::apart(const Shape& shapeA, const Shape& shapeB, const MovingPoint& at) const {
@@ -241,11 +238,11 @@ void MeshBox::halve(const PiecePair& pair, std::vector<PiecePair>& stack) {
 
 // The DOF that may move the pieces left the most: by its bound, for across a knot of a path the rate at the
 // middle says little about the steepest part.
-void MeshBox::chooseCut(const OpenPairs& left, std::size_t& cut) {
+void MeshBox::chooseCut(const std::vector<PiecePair>& left, std::size_t& cut) {
     std::array<double, maxDofs> moves{};
-    const std::size_t step = 1 + left.pairs.size() / 16;
-    for (std::size_t k = 0; k < left.pairs.size(); k += step) {
-        const MovingPoint at = box_->carry(shapesB_.of(left.pairs[k].b).slab.centre, false);
+    const std::size_t step = 1 + left.size() / 16;
+    for (std::size_t k = 0; k < left.size(); k += step) {
+        const MovingPoint at = box_->carry(shapesB_.of(left[k].b).slab.centre, false);
         for (std::size_t l = 0; l < box_->dofs(); ++l) moves[l] += at.sweep[l];
     }
     cut = 0;
@@ -260,9 +257,7 @@ bool MeshBox::unanswered(const std::vector<double>& q, const std::vector<PiecePa
                          MeshProofResult& broken) {
     if (!withinLimits(motion_, q)) return false;
     const Pose at = tss::pose(motion_, q);
-    double least = infinity;
-    for (const MeshTest& t : claim_.tests)
-        least = std::min(least, (at * t.centreB - t.centreA).norm() - t.contactDistance);
+    const double least = tests_.leastGap(at, claim_.miss + claim_.band, work_);
     if (least <= claim_.miss + claim_.band) return false;
     const auto beyond = [&](const Piece& a, const Piece& b) {
         Corners moved = *shapesB_.of(b).corners;
@@ -310,40 +305,38 @@ bool MeshBox::unanswered(const std::vector<double>& q, const std::vector<PiecePa
     return false;
 }
 
-MeshBox::Outcome MeshBox::judge(const Box& dofs, const OpenPairs& open, OpenPairs& left, std::size_t& cut,
-                                double& at, MeshProofResult& broken) {
+MeshBox::Outcome MeshBox::judge(const Box& dofs, const std::vector<PiecePair>& open,
+                                std::vector<PiecePair>& left, std::size_t& cut, double& at,
+                                MeshProofResult& broken) {
     if (!meetsPlanes(motion_, dofs)) return Outcome::Shown;
     const PoseBox box(motion_, dofs, size_);
     box_ = &box;
     ++stamp_;
-    work_ += 1 + open.tests.size() / 4;
-    if (weighTests(open)) return Outcome::Shown;
-    std::stable_sort(near_.begin(), near_.end(), [](const Near& x, const Near& y) { return x.gap < y.gap; });
-    left.pairs.clear();
-    stack_ = open.pairs;
+    ++work_;
+    if (weighTests()) return Outcome::Shown;
+    left.clear();
+    stack_ = open;
     while (!stack_.empty()) {
-        if (left.pairs.size() >= mostOpen) {
-            left.pairs.insert(left.pairs.end(), stack_.begin(), stack_.end());
+        if (left.size() >= mostOpen) {
+            left.insert(left.end(), stack_.begin(), stack_.end());
             break;
         }
         const PiecePair pair = stack_.back();
         stack_.pop_back();
         const Verdict verdict = weigh(pair);
-        if (verdict == Verdict::SplitBox) left.pairs.push_back(pair);
+        if (verdict == Verdict::SplitBox) left.push_back(pair);
         if (verdict == Verdict::SplitPair) halve(pair, stack_);
     }
-    if (left.pairs.empty()) return Outcome::Shown;
+    if (left.empty()) return Outcome::Shown;
     // What rounding hides at the middle no smaller box would show.
-    if (unanswered(box.middle(), left.pairs, claim_.near + claim_.band, broken))
-        return breaksAt(box.middle(), left.pairs, broken) ? Outcome::Broken : Outcome::Undecided;
+    if (unanswered(box.middle(), left, claim_.near + claim_.band, broken))
+        return breaksAt(box.middle(), left, broken) ? Outcome::Broken : Outcome::Undecided;
     double widest = 0;
-    for (const PiecePair& pair : left.pairs) widest = std::max(widest, moved(pair.b.node).move);
+    for (const PiecePair& pair : left) widest = std::max(widest, moved(pair.b.node).move);
     if (widest <= box.error() + smallest_) {
         broken.pose = box.middle();
         return Outcome::Undecided;
     }
-    left.tests.clear();
-    for (const Near& near : near_) left.tests.push_back(near.test);
     chooseCut(left, cut);
     at = box.cut(cut);
     return Outcome::Split;

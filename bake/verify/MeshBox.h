@@ -1,33 +1,24 @@
 #pragma once
+#include "bake/verify/HeldPairs.h"
 #include "bake/verify/MeshProof.h"
-#include "bake/verify/PieceShapes.h"
+#include "bake/verify/TestTree.h"
 
 #include <algorithm>
 
 namespace tss::verify {
-
-struct PiecePair {
-    Piece a, b;
-};
-
-/// What is still to be shown in a box, and the tests that can fire in it, the most useful first.
-struct OpenPairs {
-    std::vector<PiecePair> pairs;
-    std::vector<std::uint32_t> tests;
-};
 
 /// Weighs boxes of Q one at a time. Holds what can be used again between them, so one per thread; what it
 /// says of a box depends on that box alone.
 class MeshBox {
 public:
     MeshBox(const SurfaceTree& a, const SurfaceTree& b, const Motion& motion, double size,
-            const MeshClaim& claim);
+            const MeshClaim& claim, const TestTree& tests);
 
     enum class Outcome { Shown, Split, Broken, Undecided };
     /// Split: `left` is what is still open in the box and `cut` the DOF to halve it along, at `at`. Broken,
     /// Undecided: the pose goes into `broken`.
-    Outcome judge(const Box& box, const OpenPairs& open, OpenPairs& left, std::size_t& cut, double& at,
-                  MeshProofResult& broken);
+    Outcome judge(const Box& box, const std::vector<PiecePair>& open, std::vector<PiecePair>& left,
+                  std::size_t& cut, double& at, MeshProofResult& broken);
 
     std::uint64_t work() const { return work_; }
 
@@ -57,18 +48,20 @@ private:
     enum class Verdict { Done, SplitPair, SplitBox };
 
     const Moved& moved(std::int32_t node);
-    bool weighTests(const OpenPairs& open);
+    bool weighTest(std::uint32_t test);
+    bool weighTests();
     Verdict weigh(const PiecePair& pair);
     bool apart(const Shape& a, const Shape& b, const MovingPoint& at) const;
     bool answered(const Shape& a, const Shape& b, const MovingPoint& at, Verdict& blur);
     double bound(const Near& test, const Vec3& lambda, const Shape& a, const Shape& b, const MovingPoint& at,
                  double& patches) const;
     void halve(const PiecePair& pair, std::vector<PiecePair>& stack);
-    void chooseCut(const OpenPairs& left, std::size_t& cut);
+    void chooseCut(const std::vector<PiecePair>& left, std::size_t& cut);
 
     const SurfaceTree &a_, &b_;
     const Motion& motion_;
     const MeshClaim& claim_;
+    const TestTree& tests_; ///< of the claim
     double size_, smallest_, largestContact_ = 0;
 
     const PoseBox* box_ = nullptr;

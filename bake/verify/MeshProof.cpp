@@ -14,8 +14,8 @@ namespace {
 
 struct MeshJob {
     Box box;
-    std::shared_ptr<const OpenPairs> open;
-    double share = 1; ///< of Q
+    std::shared_ptr<const std::vector<PiecePair>> open; ///< pairs still to be shown
+    double share = 1;                                   ///< of Q
 };
 
 struct MeshPart {
@@ -56,7 +56,7 @@ MeshPart runMeshPart(MeshBox& prover, MeshJob job, std::uint64_t work) {
     while (!part.left.empty() && prover.work() - from < work) {
         const MeshJob next = std::move(part.left.back());
         part.left.pop_back();
-        auto left = std::make_shared<OpenPairs>();
+        auto left = std::make_shared<std::vector<PiecePair>>();
         std::size_t cut = 0;
         double at = 0;
         const MeshBox::Outcome outcome = prover.judge(next.box, *next.open, *left, cut, at, part.broken);
@@ -64,7 +64,7 @@ MeshPart runMeshPart(MeshBox& prover, MeshJob job, std::uint64_t work) {
         if (outcome == MeshBox::Outcome::Shown) {
             part.shown += next.share;
         } else if (outcome == MeshBox::Outcome::Split) {
-            left->pairs.shrink_to_fit();
+            left->shrink_to_fit();
             MeshJob lower{next.box, left, next.share / 2}, upper{next.box, left, next.share / 2};
             lower.box.upper[cut] = upper.box.lower[cut] = at;
             part.left.push_back(std::move(lower));
@@ -100,20 +100,17 @@ std::vector<std::vector<double>> firstPoses(const Motion& motion) {
 /// What the jobs hold, halves that share their pairs counted once.
 double bytesOf(const std::vector<MeshJob>& jobs) {
     double bytes = 0;
-    for (const MeshJob& job : jobs)
-        bytes += double(job.open->pairs.size() * sizeof(PiecePair) +
-                        job.open->tests.size() * sizeof(std::uint32_t)) /
-                 2;
+    for (const MeshJob& job : jobs) bytes += double(job.open->size() * sizeof(PiecePair)) / 2;
     return bytes;
 }
 
 /// Looks for a plain failure at some poses.
-bool brokenAtOnce(MeshBox& box, const Motion& motion, const OpenPairs& open, const Progress& progress,
-                  MeshProofResult& result) {
+bool brokenAtOnce(MeshBox& box, const Motion& motion, const std::vector<PiecePair>& open,
+                  const Progress& progress, MeshProofResult& result) {
     bool broken = false;
     for (const std::vector<double>& q : firstPoses(motion)) {
         if (!report(progress, "verify", 0)) break;
-        if ((broken = box.breaksAt(q, open.pairs, result))) break;
+        if ((broken = box.breaksAt(q, open, result))) break;
     }
     if (!broken) result.work = box.work();
     return broken;
@@ -128,7 +125,8 @@ std::vector<MeshTest> meshTests(const Table& table) {
             const std::uint32_t j = table.columns[k];
             const Sphere &a = table.a[i], &b = table.b[j];
             const double threshold = table.restGaps.empty() ? 0 : table.restGaps[k];
-            all.push_back({a.centre, b.centre, a.radius + b.radius + threshold, threshold, i, j});
+            all.push_back(
+                {a.centre, b.centre, a.radius + b.radius + threshold, threshold, i, j, a.radius, b.radius});
         }
     return all;
 }
@@ -140,21 +138,22 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
         result.proven = true;
         return result;
     }
-    BoxPool pool([&] { return std::make_unique<MeshBox>(a, b, motion, size, claim); });
-    auto open = std::make_shared<OpenPairs>();
-    open->pairs.push_back({{a.root(), 1}, {b.root(), 1}});
+    const TestTree tests(claim.tests);
+    BoxPool pool([&] { return std::make_unique<MeshBox>(a, b, motion, size, claim, tests); });
+    const std::vector<PiecePair> all{{{a.root(), 1}, {b.root(), 1}}};
     const std::string broken = claim.near > 0 ? "at a pose the meshes are nearer than the clearance"
                                               : "at a pose the meshes meet and the table does not answer";
     {
         std::unique_ptr<MeshBox> box = pool.take();
-        if (brokenAtOnce(*box, motion, *open, progress, result)) {
+        if (brokenAtOnce(*box, motion, all, progress, result)) {
             result.reason = broken;
             return result;
         }
         pool.give(std::move(box));
     }
-    for (std::uint32_t k = 0; k < claim.tests.size(); ++k) open->tests.push_back(k);
-    std::vector<MeshJob> jobs{{limitsOf(motion), std::move(open)}};
+    const auto open = std::make_shared<const std::vector<PiecePair>>(pairsNotHeld(a, b, claim).value_or(all));
+    std::vector<MeshJob> jobs;
+    if (!open->empty()) jobs.push_back({limitsOf(motion), open});
     double shown = 0, most = 0;
     constexpr std::size_t width = 64;
     while (!jobs.empty()) {

@@ -19,7 +19,8 @@ struct MeshTest {
     Vec3 centreA = Vec3::Zero(), centreB = Vec3::Zero();
     double contactDistance = 0;
     double threshold = 0; ///< what that is more than the sum of radii
-    std::uint32_t sphereA = 0, sphereB = 0;
+    std::uint32_t sphereA = 0, sphereB = 0; ///< in the table: the same number is the same sphere
+    double radiusA = 0, radiusB = 0;
 };
 std::vector<MeshTest> meshTests(const Table& table);
 

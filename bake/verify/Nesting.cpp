@@ -3,6 +3,7 @@
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 #include "bake/base/UnionFind.h"
+#include "bake/verify/TestTree.h"
 
 #include <algorithm>
 #include <array>
@@ -82,33 +83,25 @@ Place placeIn(const VerifiedBody& body, const Vec3& p) {
 class NestingBox {
 public:
     NestingBox(const VerifiedBody& a, const VerifiedBody& b, const Components& ofA, const Components& ofB,
-               const Motion& motion, const std::vector<MeshTest>& tests, double early)
-        : a_(a), b_(b), ofA_(ofA), ofB_(ofB), motion_(motion), tests_(tests), early_(early),
+               const Motion& motion, const std::vector<MeshTest>& tests, const TestTree& tree, double early)
+        : a_(a), b_(b), ofA_(ofA), ofB_(ofB), motion_(motion), tests_(tests), tree_(tree), early_(early),
           lastA_(ofA.extremes().size()), lastB_(ofB.extremes().size()) {}
 
     /// No test fires in the box, or nothing is nested.
     bool shown(const PoseBox& box) {
-        double least = infinity;
-        const MeshTest* deepest = nullptr;
-        for (const MeshTest& t : tests_) {
-            const MovingPoint at = box.carry(t.centreB, false);
-            const double gap = (at.at - t.centreA).norm() * (1 - 1e-15) - t.contactDistance;
-            if (gap - at.move > 0 || gap >= least) continue;
-            least = gap;
-            deepest = &t;
-        }
-        return !deepest || cross(box, *deepest) || allOutside(box) || near(box);
+        if (allOutside(box)) return true;
+        const std::vector<TestTree::Found> deepest = tree_.deepest(box, 0, 1, work_);
+        return deepest.empty() || cross(box, tests_[deepest.front().test]) || near(box);
     }
+
+    /// Tests, and groups of them, that were looked at.
+    std::uint64_t work() const { return work_; }
 
     /// At the pose a test fires, the surfaces are farther apart than they may be, and a component of one body
     /// is in the other as far as its extreme points tell.
     bool brokenAt(const std::vector<double>& q) const {
         if (!withinLimits(motion_, q)) return false;
         const Pose at = tss::pose(motion_, q);
-        const bool fires = std::any_of(tests_.begin(), tests_.end(), [&](const MeshTest& t) {
-            return (at * t.centreB - t.centreA).norm() <= t.contactDistance;
-        });
-        if (!fires || !a_.surface.apart(b_.surface, at, early_ * (1 + 1e-6))) return false;
         const Pose back = at.inverse(Eigen::Isometry);
         const auto nested = [&](const Components& inner, const VerifiedBody& outer, const Pose& toOuter) {
             return std::any_of(inner.extremes().begin(), inner.extremes().end(), [&](const Extremes& piece) {
@@ -117,7 +110,12 @@ public:
                 });
             });
         };
-        return nested(ofB_, a_, at) || nested(ofA_, b_, back);
+        const auto fires = [&](const MeshTest& t) {
+            return (at * t.centreB - t.centreA).norm() <= t.contactDistance;
+        };
+        return (nested(ofB_, a_, at) || nested(ofA_, b_, back)) &&
+               a_.surface.apart(b_.surface, at, early_ * (1 + 1e-6)) &&
+               std::any_of(tests_.begin(), tests_.end(), fires);
     }
 
 private:
@@ -192,7 +190,9 @@ private:
     const Components &ofA_, &ofB_;
     const Motion& motion_;
     const std::vector<MeshTest>& tests_;
+    const TestTree& tree_;
     double early_;
+    std::uint64_t work_ = 0;
     std::vector<std::size_t> lastA_, lastB_; ///< which extreme point answered last
 };
 
@@ -246,7 +246,8 @@ NestingResult proveNoNesting(const VerifiedBody& a, const VerifiedBody& b, const
     NestingResult result;
     if (std::max(deepestIn(a), deepestIn(b)) <= early) return result;
     const Components ofA(a.mesh), ofB(b.mesh);
-    std::vector<NestingBox> provers(width, NestingBox(a, b, ofA, ofB, motion, tests, early));
+    const TestTree tree(tests);
+    std::vector<NestingBox> provers(width, NestingBox(a, b, ofA, ofB, motion, tests, tree, early));
     std::vector<Box> boxes{limitsOf(motion)};
     while (!boxes.empty()) {
         if (!report(progress, "verify", 1) || result.cells > mostCells) {
@@ -260,6 +261,8 @@ NestingResult proveNoNesting(const VerifiedBody& a, const VerifiedBody& b, const
             parts[k] = lookAt(provers[k], motion, boxes[first + k], size, ofB.extremes().front());
         });
         std::vector<Box> halves;
+        result.work = 0;
+        for (const NestingBox& prover : provers) result.work += prover.work();
         for (std::size_t k = 0; k < count; ++k) {
             ++result.cells;
             const Looked& part = parts[k];

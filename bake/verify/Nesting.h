@@ -9,6 +9,7 @@ struct NestingResult {
     std::string reason;       ///< what was found, or could not be shown; empty: shown
     std::vector<double> pose; ///< where
     std::uint64_t cells = 0;
+    std::uint64_t work = 0; ///< tests, and groups of them, looked at
 };
 
 /// Shows that at no pose at which a test fires a body, or a component of one, is wholly inside the other with

@@ -1,6 +1,19 @@
 #include "bake/verify/PieceShapes.h"
 
+#include <bit>
+
 namespace tss::verify {
+
+Piece half(const SurfaceTree& tree, Piece piece, std::uint32_t side) {
+    const SurfaceTree::Node& node = tree.nodes[static_cast<std::size_t>(piece.node)];
+    if (node.first >= 0) return {side ? node.second : node.first, 1};
+    return {piece.node, piece.cuts << 1 | side};
+}
+
+bool divisible(const SurfaceTree& tree, Piece piece) {
+    return tree.nodes[static_cast<std::size_t>(piece.node)].first >= 0 ||
+           std::bit_width(piece.cuts) < mostCuts;
+}
 
 Shape PieceShapes::of(Piece piece) {
     const SurfaceTree::Node& node = tree_.nodes[static_cast<std::size_t>(piece.node)];

@@ -14,6 +14,10 @@ struct Piece {
     bool operator==(const Piece&) const = default;
 };
 
+/// One of the two halves of a piece that is divisible().
+Piece half(const SurfaceTree& tree, Piece piece, std::uint32_t side);
+bool divisible(const SurfaceTree& tree, Piece piece);
+
 /// The shapes of the pieces of a surface. Those of parts of triangles that were asked for last are kept: most
 /// are asked for many times, in boxes next to each other and for their own halves, and cutting a triangle
 /// down to one takes as long as all else that is done with it. For one thread; what it says depends on

@@ -74,9 +74,10 @@ PoseBox::PoseBox(const Motion& motion, const Box& box, double size) : base_(moti
     for (std::size_t k = 0; k < motion.dofCount(); ++k) {
         middle_.push_back(box.middle(k));
         links_.push_back(makeLink(motion.dofs[k], box.lower[k], box.upper[k], middle_[k]));
-        const Link& link = links_.back();
+        Link& link = links_.back();
         const double angle = link.spinRate * link.half;
-        turn_ += 2 * std::sin(std::min(angle, std::numbers::pi) / 2) * outward;
+        link.chord = 2 * std::sin(std::min(angle, std::numbers::pi) / 2);
+        turn_ += link.chord * outward;
         turnBend_ += 0.5 * angle * angle + angle * outer;
         if (link.bent) turnBend_ = std::numeric_limits<double>::infinity();
         outer += angle;
@@ -168,8 +169,7 @@ MovingPoint PoseBox::carry(const Vec3& y, bool velocities) const {
             bend = (bend * (1 + angle) + 0.5 * angle * angle * lever + angle * inner) * outward;
             if (link.bent) bend = std::numeric_limits<double>::infinity();
         }
-        const double chord =
-            2 * std::sin(std::min(angle, std::numbers::pi) / 2) * lever + link.slideRate * link.half;
+        const double chord = link.chord * lever + link.slideRate * link.half;
         point.sweep[k] = std::min(chord, speed * link.half);
         point.move = (point.move + point.sweep[k]) * outward;
     }

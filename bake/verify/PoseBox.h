@@ -61,6 +61,7 @@ private:
         Vec3 slide;        ///< linear rate
         double half = 0;
         double spinRate = 0, slideRate = 0; ///< largest in the box
+        double chord = 0;                   ///< at radius 1, of the largest turn from the middle
         bool bent = false;                  ///< a knot of a path lies inside
         double cut = 0;
     };
