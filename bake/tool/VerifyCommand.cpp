@@ -27,6 +27,7 @@ double peakMemory() {
 /// has.
 std::string kernelVerified(const Table& table, Json& json, const Progress& progress) {
     json["kernels"] = Json::array();
+    const TriedPoses poses = posesToTry(table);
     for (const KernelTarget target : {KernelTarget::Scalar, KernelTarget::Sse2, KernelTarget::Avx2,
                                       KernelTarget::Avx512, KernelTarget::Neon}) {
         if (!available(target)) continue;
@@ -34,7 +35,7 @@ std::string kernelVerified(const Table& table, Json& json, const Progress& progr
         PrepareOptions options;
         options.target = target;
         const PreparedTable prepared(table, options);
-        const KernelVerdict kernel = verifyKernel(table, prepared);
+        const KernelVerdict kernel = verifyKernel(table, prepared, poses);
         json["kernels"].push_back({{"target", name(target)},
                                    {"form", name(prepared.form())},
                                    {"precision", name(prepared.precision())},
@@ -97,7 +98,8 @@ private:
 /// What is claimed of a pair, in a few words.
 std::string claims(const Pair& pair, double metersPerUnit) {
     if (pair.proof)
-        return fmt::format("the meshes stay more than {} apart", lengthText(pair.proof->clearance, metersPerUnit));
+        return fmt::format("the meshes stay more than {} apart",
+                           lengthText(pair.proof->clearance, metersPerUnit));
     std::string text;
     const Table& table = *pair.table;
     if (table.boundMiss)

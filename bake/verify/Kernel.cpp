@@ -1,5 +1,6 @@
 #include "bake/verify/Kernel.h"
 
+#include "bake/base/Parallel.h"
 #include "bake/table/TableKernels.h"
 #include "bake/verify/KernelErrors.h"
 #include "bake/verify/KernelProofs.h"
@@ -26,28 +27,37 @@ double gapError(double u, double error, double contactDistance, double gap) {
            u * (2 * far + 2 * std::abs(contactDistance) + std::abs(gap) + distance);
 }
 
+/// The table's gap in extended precision. Which tests that depends on is seen in doubles.
+Real gapAt(const ExactPose& at, const std::vector<Exact>& tests, double rounding) {
+    const Eigen::Matrix3d turn = at.turn.cast<double>();
+    const Vec3 shift = at.shift.cast<double>();
+    double least = std::numeric_limits<double>::infinity();
+    std::vector<std::pair<double, std::size_t>> near;
+    for (std::size_t k = 0; k < tests.size(); ++k) {
+        const double gap = (turn * tests[k].b + shift - tests[k].a).norm() - tests[k].contactDistance;
+        if (gap > least + rounding) continue;
+        near.emplace_back(gap, k);
+        least = std::min(least, gap);
+    }
+    Real gap = std::numeric_limits<Real>::infinity();
+    for (const auto& [about, k] : near)
+        if (about <= least + rounding)
+            gap = std::min(gap, (at.at(tests[k].b) - tests[k].a.cast<Real>()).norm() -
+                                    Real(tests[k].contactDistance));
+    return gap;
+}
+
 /// How far the gap was off at the worst of some poses; the reason where an answer is wrong.
-double tried(const Table& table, const PreparedTable& prepared, const std::vector<Exact>& tests,
+double tried(const Table& table, const PreparedTable& prepared, const TriedPoses& poses,
              const std::optional<DirectPose>& direct, std::string& reason) {
-    constexpr int poses = 500;
     double worst = 0;
-    std::vector<double> share(table.motion.dofCount(), 0.5);
-    for (int n = 0; n < poses && reason.empty(); ++n) {
-        std::vector<double> q;
-        for (std::size_t k = 0; k < share.size(); ++k) {
-            share[k] = std::fmod(share[k] + 1 / std::sqrt(double(k) + 2.3), 1.0);
-            const Dof& dof = table.motion.dofs[k];
-            q.push_back(dof.lower + share[k] * (dof.upper - dof.lower));
-        }
-        const ExactPose at = exactPose(table.motion, {q.begin(), q.end()});
-        Real gap = std::numeric_limits<Real>::infinity();
-        for (const Exact& t : tests)
-            gap = std::min(gap, (at.at(t.b) - t.a.cast<Real>()).norm() - Real(t.contactDistance));
+    for (std::size_t n = 0; n < poses.values.size() && reason.empty(); ++n) {
+        const std::vector<double>& q = poses.values[n];
         TableFeatures f;
         prepared.features(q.data(), f);
-        if (direct && !direct->agreesAt(prepared, at, f))
+        if (direct && !direct->agreesAt(prepared, exactPose(table.motion, {q.begin(), q.end()}), f))
             reason = "at a pose the kernel's rotation or translation is another than the motion's";
-        const double own = double(gap), answer = prepared.gap(f).gap;
+        const double own = double(poses.gaps[n]), answer = prepared.gap(f).gap;
         if ((own <= 0 && !prepared.hit(f)) || (own > prepared.signBand() && prepared.hit(f)))
             reason =
                 fmt::format("at a pose the gap is {:.6g} scene units and the kernel's verdict is wrong", own);
@@ -59,7 +69,30 @@ double tried(const Table& table, const PreparedTable& prepared, const std::vecto
 
 } // namespace
 
-KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
+TriedPoses posesToTry(const Table& table) {
+    constexpr int count = 500;
+    const std::vector<Exact> tests = exactTests(table);
+    TriedPoses poses;
+    std::vector<double> share(table.motion.dofCount(), 0.5);
+    for (int n = 0; n < count; ++n) {
+        std::vector<double> q;
+        for (std::size_t k = 0; k < share.size(); ++k) {
+            share[k] = std::fmod(share[k] + 1 / std::sqrt(double(k) + 2.3), 1.0);
+            const Dof& dof = table.motion.dofs[k];
+            q.push_back(dof.lower + share[k] * (dof.upper - dof.lower));
+        }
+        poses.values.push_back(std::move(q));
+    }
+    poses.gaps.resize(count);
+    const double rounding = 1e-12 * pathSize(table.motion, tests);
+    parallelFor(poses.gaps.size(), [&](std::size_t n) {
+        const std::vector<double>& q = poses.values[n];
+        poses.gaps[n] = gapAt(exactPose(table.motion, {q.begin(), q.end()}), tests, rounding);
+    });
+    return poses;
+}
+
+KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared, const TriedPoses& poses) {
     KernelVerdict verdict;
     const std::vector<Exact> tests = exactTests(table);
     if (tests.size() != prepared.testCount()) {
@@ -102,7 +135,7 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared) {
         verdict.reason = fmt::format(
             "it may report contact {:.3g} scene units before the table does, more than its band of {:.3g}",
             verdict.early, prepared.signBand());
-    if (verdict.reason.empty()) verdict.seen = tried(table, prepared, tests, direct, verdict.reason);
+    if (verdict.reason.empty()) verdict.seen = tried(table, prepared, poses, direct, verdict.reason);
     if (verdict.reason.empty() && verdict.seen > verdict.gapOff)
         verdict.reason = fmt::format("its gap was off by {:.3g} scene units at a pose, more than {:.3g}",
                                      verdict.seen, verdict.gapOff);

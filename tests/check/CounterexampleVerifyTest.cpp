@@ -42,6 +42,7 @@ void holdsWithEveryKernel(const std::string& name) {
     const PairVerdict verdict = verifyPair(scene, scene.pairs[0]);
     INFO(verdict.reason);
     CHECK(verdict.holds());
+    const TriedPoses poses = posesToTry(*scene.pairs[0].table);
     int tried = 0;
     for (const KernelTarget target : {KernelTarget::Scalar, KernelTarget::Sse2, KernelTarget::Avx2,
                                       KernelTarget::Avx512, KernelTarget::Neon})
@@ -54,7 +55,7 @@ void holdsWithEveryKernel(const std::string& name) {
                 } catch (const InputError&) { // no fold for this motion
                     continue;
                 }
-                const KernelVerdict kernel = verifyKernel(*scene.pairs[0].table, *prepared);
+                const KernelVerdict kernel = verifyKernel(*scene.pairs[0].table, *prepared, poses);
                 INFO(tss::name(target)
                      << " " << tss::name(form) << " " << tss::name(precision) << ": " << kernel.reason);
                 CHECK(kernel.proven);

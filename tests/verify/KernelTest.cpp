@@ -34,8 +34,9 @@ TEST_CASE("the kernels of random tables keep what they promise about rounding, i
         CAPTURE(seed);
         random_table::Random random(seed);
         const Table table = random_table::anyTable(random);
+        const TriedPoses poses = posesToTry(table);
         for (const PreparedTable& prepared : allForms(table)) {
-            const KernelVerdict verdict = verifyKernel(table, prepared);
+            const KernelVerdict verdict = verifyKernel(table, prepared, poses);
             INFO(name(prepared.form()) << " " << name(prepared.precision()) << ": " << verdict.reason);
             CHECK(verdict.proven);
             CHECK(verdict.seen <= verdict.gapOff);
@@ -56,8 +57,9 @@ TEST_CASE("tests that no touch is deep enough for say no contact early") {
             for (std::uint32_t k = table.rowOffsets[i]; k < table.rowOffsets[i + 1]; k += 2)
                 table.restGaps[k] =
                     static_cast<float>(-1.5 * (table.a[i].radius + table.b[table.columns[k]].radius));
+        const TriedPoses poses = posesToTry(table);
         for (const PreparedTable& prepared : allForms(table)) {
-            const KernelVerdict verdict = verifyKernel(table, prepared);
+            const KernelVerdict verdict = verifyKernel(table, prepared, poses);
             INFO(name(prepared.form()) << " " << name(prepared.precision()) << ": " << verdict.reason);
             CHECK(verdict.proven);
         }
@@ -73,7 +75,7 @@ TEST_CASE("a kernel made from other spheres or another axis is refused") {
         if (table.testCount() < 2) continue;
         for (const PreparedTable& prepared : allForms(table)) {
             INFO(name(prepared.form()) << " " << name(prepared.precision()));
-            REQUIRE(verifyKernel(table, prepared).proven);
+            REQUIRE(verifyKernel(table, prepared, posesToTry(table)).proven);
             Table larger = table, smaller = table, moved = table, turned = table;
             const double little = 20 * prepared.signBand() + 1e-9;
             for (Sphere& s : larger.a) s.radius += little;
@@ -81,7 +83,7 @@ TEST_CASE("a kernel made from other spheres or another axis is refused") {
             for (Sphere& s : moved.b) s.centre.x() += 10 * little;
             turned.motion.base.translation().z() += 10 * little;
             for (const Table* other : {&larger, &smaller, &moved, &turned}) {
-                CHECK_FALSE(verifyKernel(*other, prepared).proven);
+                CHECK_FALSE(verifyKernel(*other, prepared, posesToTry(*other)).proven);
                 ++tried;
             }
         }
@@ -172,7 +174,7 @@ TEST_CASE("clusters made for other spheres are refused, and for the right ones p
         const Table table = random_table::table(random, motion, 50, 50, 1);
         const PreparedTable prepared(table);
         REQUIRE_FALSE(prepared.kernels().clusters().empty());
-        const KernelVerdict verdict = verifyKernel(table, prepared);
+        const KernelVerdict verdict = verifyKernel(table, prepared, posesToTry(table));
         CAPTURE(verdict.reason);
         REQUIRE(verdict.proven);
         std::vector<verify::Exact> tests = verify::exactTests(table);
