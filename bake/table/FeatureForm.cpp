@@ -269,10 +269,19 @@ double FeatureForm::squareError(double u, Eigen::Index pair, double distance) co
 }
 
 std::optional<FeatureForm> makeFeatureForm(const Motion& motion, std::span<const TablePair> pairs,
-                                           std::span<const std::vector<double>> contacts) {
+                                           std::span<const std::vector<double>> contacts,
+                                           std::uint64_t* multiplied) {
+    constexpr std::size_t few = 1000;
     if (motion.dofCount() > FeatureForm::maxDofs) return std::nullopt;
     for (const Dof& dof : motion.dofs)
         if (dof.kind == DofKind::Path) return std::nullopt;
+    // What has too many features for a few of the pairs has no fewer for all.
+    if (pairs.size() > 10 * few) {
+        std::vector<TablePair> some;
+        for (std::size_t k = 0; k < few; ++k) some.push_back(pairs[k * pairs.size() / few]);
+        if (!makeFeatureForm(motion, some, {}, multiplied)) return std::nullopt;
+    }
+    if (multiplied) *multiplied += pairs.size();
     FeatureForm form;
     for (const Dof& dof : motion.dofs) form.factors.push_back(dofFactor(dof));
     const Products all = allProducts(motion, pairs, form.factors);

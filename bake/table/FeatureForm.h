@@ -47,9 +47,11 @@ private:
 };
 
 /// The fold of pairs over a motion, or nothing where there is none that pays: paths, too many DOFs, more
-/// than maxFeatures features. `contacts`: poses near contact, to centre features at; may be empty.
+/// than maxFeatures features. `contacts`: poses near contact, to centre features at; may be empty. Adds to
+/// `*multiplied` how many pairs were multiplied out.
 std::optional<FeatureForm> makeFeatureForm(const Motion& motion, std::span<const TablePair> pairs,
-                                           std::span<const std::vector<double>> contacts);
+                                           std::span<const std::vector<double>> contacts,
+                                           std::uint64_t* multiplied = nullptr);
 
 /// The largest difference of the fold's squared distances from T(q)'s over some poses (METHOD 4: check
 /// against T(q)).
