@@ -290,4 +290,13 @@ std::vector<Pose> posedBodies(const SceneModel& scene, std::span<const double> v
     return placements;
 }
 
+bool tiesDirectly(const SceneModel& scene, const Pair& pair) {
+    const auto between = [&](int body) {
+        return body < 0 || body == pair.bodyA || body == pair.bodyB || scene.bodies[body].mesh.empty();
+    };
+    return std::ranges::all_of(pair.joints, [&](int joint) {
+        return between(scene.joints[joint].body0) && between(scene.joints[joint].body1);
+    });
+}
+
 } // namespace tss

@@ -50,4 +50,7 @@ std::vector<Pose> posedBodies(const SceneModel& scene, std::span<const double> v
 /// body1 to body0 of one joint: frame0 * D1...Dd * frame1^-1.
 Pose jointPose(const Joint& joint, std::span<const double> values);
 
+/// One joint ties the two bodies of a pair, of several DOFs too: what its chain goes over has no mesh.
+bool tiesDirectly(const SceneModel& scene, const Pair& pair);
+
 } // namespace tss

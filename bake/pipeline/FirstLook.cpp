@@ -1,9 +1,18 @@
 #include "bake/pipeline/FirstLook.h"
 
+#include "bake/base/Stopwatch.h"
+#include "bake/geometry/MeshAudit.h"
+#include "bake/geometry/MeshQuery.h"
 #include "bake/model/Kinematics.h"
+#include "bake/motion/WholeTurn.h"
+#include "bake/search/RestContact.h"
+#include "bake/search/SurfacesApart.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 
 namespace tss {
 
@@ -14,20 +23,66 @@ double oneDigit(double value) {
     return std::round(value / digit) * digit;
 }
 
+double oneDigitBelow(double value) {
+    const double digit = std::pow(10, std::floor(std::log10(value)));
+    return std::floor(value / digit * (1 + 1e-6)) * digit;
+}
+
+/// Whether that is seen from the meshes, while there is time.
+bool staysApart(const SceneModel& scene, const Pair& pair, const Stopwatch& watch) {
+    constexpr double seconds = 5;
+    const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;
+    const Motion motion = onceRound(pairMotion(scene, pair));
+    const auto inTime = [&](std::string_view, double) { return watch.seconds() < seconds; };
+    return inTime("", 0) &&
+           surfacesApart(cleaned(a), cleaned(b), motion, touchingDistance(a, b, motion), inTime).has_value();
+}
+
 } // namespace
 
 bool isLongChain(const SceneModel& scene, const Pair& pair) {
     return pairDofs(scene, pair).size() > 3;
 }
 
-double firstTolerance(const SceneModel& scene) {
-    std::vector<double> sizes; // millimetres
+std::vector<double> distancesAtRest(const SceneModel& scene) {
+    std::vector<std::optional<MeshQuery>> surfaces(scene.bodies.size());
+    const auto surfaceOf = [&](int body) -> const MeshQuery& {
+        if (!surfaces[body]) surfaces[body].emplace(scene.bodies[body].mesh);
+        return *surfaces[body];
+    };
+    std::vector<double> distances;
+    for (const Pair& pair : scene.pairs) {
+        const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;
+        double distance = std::numeric_limits<double>::infinity();
+        if (!a.empty() && !b.empty()) {
+            const Motion motion = pairMotion(scene, pair);
+            distance =
+                surfaceOf(pair.bodyA).distanceTo(surfaceOf(pair.bodyB), pose(motion, restValues(motion)));
+            if (distance <= touchingDistance(a, b, motion)) distance = 0;
+        }
+        distances.push_back(distance);
+    }
+    return distances;
+}
+
+double firstTolerance(const SceneModel& scene, const std::vector<double>& distancesAtRest) {
+    const double millimetres = 1000 * scene.metersPerUnit;
+    std::vector<double> sizes;
     for (const Body& body : scene.bodies)
-        if (!body.mesh.empty()) sizes.push_back(1000 * scene.metersPerUnit * diagonal(body.mesh));
+        if (!body.mesh.empty()) sizes.push_back(millimetres * diagonal(body.mesh));
     if (sizes.empty()) return 0;
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
-    return oneDigit(*middle / 30) / (1000 * scene.metersPerUnit);
+    const double usual = oneDigit(*middle / 30);
+    std::vector<std::pair<double, const Pair*>> rooms; // millimetres
+    for (std::size_t k = 0; k < scene.pairs.size(); ++k)
+        if (const double room = 0.3 * millimetres * distancesAtRest[k]; room > 0 && room < usual)
+            rooms.emplace_back(room, &scene.pairs[k]);
+    std::ranges::sort(rooms, {}, &std::pair<double, const Pair*>::first);
+    const Stopwatch watch;
+    for (const auto& [room, pair] : rooms)
+        if (!staysApart(scene, *pair, watch)) return oneDigitBelow(room) / millimetres;
+    return usual / millimetres;
 }
 
 double firstBudget(const SceneModel& scene) {

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace tss::tool {
 
@@ -51,14 +52,29 @@ void remarkBodySizes(const SceneModel& scene, const Console& console) {
 }
 
 /// The command to go on with: where there are many pairs, with some minutes of searching for all together.
-std::string nextCommand(const SceneModel& scene, const std::string& output) {
+std::string nextCommand(const SceneModel& scene, const std::vector<double>& distances,
+                        const std::string& output) {
     const std::string command = "tss bake " + shellWord(output) + " -o BAKED.tss",
                       budget = fmt::format(" --budget {:g}", firstBudget(scene));
     if (std::ranges::any_of(scene.pairs, [&](const Pair& pair) { return isLongChain(scene, pair); }))
         return command +
-               fmt::format(" --tolerance {:g}mm", 1000 * scene.metersPerUnit * firstTolerance(scene)) +
+               fmt::format(" --tolerance {:g}mm",
+                           1000 * scene.metersPerUnit * firstTolerance(scene, distances)) +
                budget;
     return command + (scene.pairs.size() > 40 ? budget : "");
+}
+
+/// Parts that no joint ties and that overlap all the same mostly lie where they should not. Nothing: none.
+std::string overlapsElsewhere(const SceneModel& scene, const std::vector<double>& distances) {
+    std::vector<std::string> both;
+    for (std::size_t k = 0; k < scene.pairs.size(); ++k)
+        if (const Pair& pair = scene.pairs[k]; distances[k] == 0 && !tiesDirectly(scene, pair))
+            both.push_back(fmt::format("{} and {}", primName(scene.bodies[pair.bodyA].path),
+                                       primName(scene.bodies[pair.bodyB].path)));
+    if (both.empty()) return "";
+    return fmt::format("{}: touch or overlap where the joints rest, though no joint ties them; what overlaps "
+                       "there is excepted. Where it should not, look at where they lie, and at tss:rest",
+                       fmt::join(both, ", "));
 }
 
 } // namespace
@@ -87,7 +103,11 @@ Json sayScene(const RobotScene& made, const std::string& output, const Console& 
         console.say(primName(joint.path) + ": " +
                     (joint.dofs.empty() ? "fixed" : describeDofs(motion, made.scene.metersPerUnit)));
     }
-    for (const std::string& note : made.notes) console.say("note: " + note);
+    const std::vector<double> distances = distancesAtRest(made.scene);
+    std::vector<std::string> notes = made.notes;
+    if (std::string note = overlapsElsewhere(made.scene, distances); !note.empty())
+        notes.push_back(std::move(note));
+    for (const std::string& note : notes) console.say("note: " + note);
     remarkBodySizes(made.scene, console);
     Json pairs = Json::array(), muscles = Json::array(), skins = Json::array();
     for (const Pair& pair : made.scene.pairs) pairs.push_back(pair.path);
@@ -97,11 +117,11 @@ Json sayScene(const RobotScene& made, const std::string& output, const Console& 
     console.say(fmt::format("wrote {}: {}, {}, {}; {}", output, counted(made.links.size(), "part"),
                             counted(made.scene.joints.size(), "joint"), counted(pairs.size(), "pair"),
                             nothing ? "nothing to bake: no two bodies with a surface move against each other"
-                                    : "next: " + nextCommand(made.scene, output)));
+                                    : "next: " + nextCommand(made.scene, distances, output)));
     return {{"output", output}, {"robot", made.scene.defaultPrim},
             {"links", links},   {"joints", joints},
             {"pairs", pairs},   {"muscles", muscles},
-            {"skins", skins},   {"notes", made.notes}};
+            {"skins", skins},   {"notes", notes}};
 }
 
 void makeRobot(const RobotFile& from, const std::string& motion, const std::string& output,

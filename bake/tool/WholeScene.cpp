@@ -301,16 +301,6 @@ private:
     const Console& console_;
 };
 
-/// One --joint ties the two, of several DOFs too: what its chain goes over has no mesh.
-bool tiesDirectly(const SceneModel& scene, const Pair& pair) {
-    const auto between = [&](int body) {
-        return body < 0 || body == pair.bodyA || body == pair.bodyB || scene.bodies[body].mesh.empty();
-    };
-    return std::ranges::all_of(pair.joints, [&](int joint) {
-        return between(scene.joints[joint].body0) && between(scene.joints[joint].body1);
-    });
-}
-
 } // namespace
 
 std::string unlikeUnits(const SceneModel& scene) {

@@ -16,9 +16,9 @@ TEST_CASE("every command of docs/ROBOTS.md does what it says, one after the othe
         const Ran ran = runTss(line.substr(8), folder.path());
         INFO(line << "\n" << ran.out << ran.err);
         REQUIRE(ran.exit == 0);
-        if (commands == 1) // what it says comes next is what the page goes on with, about as coarse
+        if (commands == 1) // what it says comes next is what the page goes on with, finer
             CHECK((ran.out + ran.err)
-                      .find("next: tss bake arm.tss -o BAKED.tss --tolerance 9mm --budget 5\n") !=
+                      .find("next: tss bake arm.tss -o BAKED.tss --tolerance 2mm --budget 5\n") !=
                   std::string::npos);
     }
     CHECK(commands == 11);

@@ -173,6 +173,37 @@ TEST_CASE("bodies that overlap at rest get a joint to paste, and what hangs on t
     CHECK((pose(wrist, std::vector{0.03}) * tss::Vec3(0, 0, 2.05) - tss::Vec3(0, 0, 2.05)).norm() < 1e-6);
 }
 
+TEST_CASE("make proposes a tolerance that leaves parts their room, and tells of parts that overlap untied") {
+    const Folder folder;
+    writeObj(boxMesh({-1, -1, -1}, {1, 1, 0}), folder / "block.obj");
+    writeObj(boxMesh({-1, -1, 0.01}, {1, 1, 0.5}), folder / "lid.obj"); // 10 mm above it
+    writeObj(boxMesh({0.8, -0.2, 0.6}, {1.4, 0.2, 0.8}), folder / "arm.obj");
+    writeObj(boxMesh({1.2, -0.2, 0.9}, {1.8, 0.2, 1.1}), folder / "hand.obj");
+    const std::string bodies =
+        "make -o out.tss --body block.obj --body lid.obj --body arm.obj --body hand.obj "
+        "--joint 'wrist=arm,hand:rot:1.3,0,0.85:0,0,1:-9:9;rot:1.3,0,0.85:1,0,0:-1:1' "
+        "--joint 'elbow=lid,arm:rot:0.9,0,0.55:0,0,1:-9:9' --json ";
+    const auto made = [&](const std::string& lift) {
+        return runTss(bodies + "--joint 'lift=block,lid:trans:0,0,1:" + lift + "'", folder.path());
+    };
+    const Ran meeting = made("-0.1:0.5");
+    INFO(meeting.err);
+    REQUIRE(meeting.exit == 0);
+    CHECK(meeting.err.find("-o BAKED.tss --tolerance 3mm --budget") != std::string::npos);
+    CHECK(Json::parse(meeting.out)["notes"].empty());
+    // The same room where the two never meet asks for nothing: no spheres show that.
+    const Ran apart = made("0:0.5");
+    INFO(apart.err);
+    CHECK(apart.err.find("-o BAKED.tss --tolerance 3mm --budget") == std::string::npos);
+    CHECK(apart.err.find("-o BAKED.tss --tolerance ") != std::string::npos);
+
+    writeObj(boxMesh({1.2, -0.2, -0.5}, {1.8, 0.2, 0.3}), folder / "arm.obj");
+    writeObj(boxMesh({0.9, -0.2, -0.6}, {1.1, 0.2, -0.2}), folder / "hand.obj"); // half in the block
+    const Json notes = Json::parse(made("0:0.5").out)["notes"];
+    REQUIRE(notes.size() == 1);
+    CHECK(notes[0].get<std::string>().starts_with("block and hand: touch or overlap where the joints rest"));
+}
+
 TEST_CASE(
     "bodies that a joint of two DOFs ties get moves too, where they overlap at rest, and where they do not") {
     const Folder folder;
