@@ -61,7 +61,7 @@ TEST_CASE("a table that asks all pairs of spheres over two surfaces is proven wh
     const MeshVerdict verdict = verifyOnMeshes(pair.a, pair.b, pair.table(), pair.motion);
     INFO(verdict.reason);
     CHECK(verdict.miss);
-    CHECK(verdict.cells == 0); // of the motion: hundreds of thousands where boxes of it are looked at
+    CHECK(verdict.cells == 0); // of the motion: thousands where boxes of it are looked at
     // A part that no sphere is over is looked at all over the limits, and found.
     for (int row = 3; row >= 1; --row) { // the middle of the face towards B
         const auto first = pair.ballsA.begin() + 25 + 5 * row + 1;
