@@ -1,11 +1,10 @@
 #include "bake/reduce/CoverProof.h"
 
-#include "bake/base/Parallel.h"
+#include "bake/base/Batches.h"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
-#include <mutex>
+#include <tbb/enumerable_thread_specific.h>
 
 namespace tss {
 
@@ -20,10 +19,10 @@ struct PartResult {
 
 /// Depth first from one cell, for at most `steps` cells, about `looks` looks, while there is time, or until
 /// something is lacking.
-PartResult runPart(CellExaminer& examiner, const OpenCell& cell, std::uint64_t steps, std::uint64_t looks,
+PartResult runPart(CellExaminer& examiner, OpenCell cell, std::uint64_t steps, std::uint64_t looks,
                    const CoverBudget& budget) {
     PartResult result;
-    result.left.push_back(cell);
+    result.left.push_back(std::move(cell));
     const std::uint64_t before = examiner.looks();
     while (!result.left.empty() && result.cells < steps && result.looks < looks && !budget.late()) {
         CellVerdict verdict = examiner.examine(result.left.back());
@@ -39,42 +38,6 @@ PartResult runPart(CellExaminer& examiner, const OpenCell& cell, std::uint64_t s
     }
     return result;
 }
-
-/// Examiners to be used again, as many as threads want at once. Which one is used makes no difference.
-class ExaminerPool {
-public:
-    ExaminerPool(const CoverProblem& problem, const ErrorContract& owed, const GrowingCover& cover)
-        : make_([&problem, owed, &cover] {
-              return std::make_unique<CellExaminer>(problem, owed, cover.members(), cover.set());
-          }) {}
-
-    class Loan {
-    public:
-        Loan(ExaminerPool& pool, std::unique_ptr<CellExaminer> one) : pool_(pool), one_(std::move(one)) {}
-        ~Loan() {
-            const std::lock_guard lock(pool_.mutex_);
-            pool_.free_.push_back(std::move(one_));
-        }
-        CellExaminer& operator*() { return *one_; }
-
-    private:
-        ExaminerPool& pool_;
-        std::unique_ptr<CellExaminer> one_;
-    };
-
-    Loan borrow() {
-        const std::lock_guard lock(mutex_);
-        if (free_.empty()) return {*this, make_()};
-        auto one = std::move(free_.back());
-        free_.pop_back();
-        return {*this, std::move(one)};
-    }
-
-private:
-    std::function<std::unique_ptr<CellExaminer>()> make_;
-    std::mutex mutex_;
-    std::vector<std::unique_ptr<CellExaminer>> free_;
-};
 
 /// Adds what a round found lacking, unless what was added before in the same round answers it.
 class Additions {
@@ -143,29 +106,23 @@ CoverProof proveCover(const CoverProblem& problem, const ErrorContract& owed, Gr
                       std::vector<OpenCell> cells, const CoverBudget& budget) {
     constexpr std::size_t width = 64;
     CoverProof proof;
-    ExaminerPool examiners(problem, owed, cover);
+    tbb::enumerable_thread_specific<CellExaminer> examiners(
+        [&] { return CellExaminer(problem, owed, cover.members(), cover.set()); });
     proof.left = std::move(cells);
     std::reverse(proof.left.begin(), proof.left.end());
     while (!proof.left.empty()) {
         if (budget.spent(proof.looks, shareDone(problem, proof.left))) return proof;
-        const std::size_t count = std::min(width, proof.left.size());
-        const std::uint64_t steps = count < width / 4 ? 16 : 256;
-        const std::uint64_t looks =
-            budget.looks > 0 ? (budget.looks - proof.looks) / count + 1 : std::uint64_t(-1);
-        std::vector<PartResult> parts(count);
-        parallelFor(count, [&](std::size_t k) {
-            auto loan = examiners.borrow();
-            parts[k] = runPart(*loan, proof.left[proof.left.size() - 1 - k], steps, looks, budget);
+        const auto parts = runLast(proof.left, width, [&](OpenCell cell, std::size_t count) {
+            const std::uint64_t looks =
+                budget.looks > 0 ? (budget.looks - proof.looks) / count + 1 : std::uint64_t(-1);
+            return runPart(examiners.local(), std::move(cell), count < width / 4 ? 16 : 256, looks, budget);
         });
-        proof.left.resize(proof.left.size() - count);
         Additions additions(problem, owed, cover, proof);
-        for (std::size_t k = count; k-- > 0;) {
-            proof.cells += parts[k].cells;
-            proof.looks += parts[k].looks;
-            for (OpenCell& cell : parts[k].left) proof.left.push_back(std::move(cell));
-        }
-        for (const PartResult& part : parts)
+        for (const PartResult& part : parts) {
+            proof.cells += part.cells;
+            proof.looks += part.looks;
             if (part.lacking) additions.add(*part.lacking);
+        }
     }
     proof.complete = true;
     return proof;

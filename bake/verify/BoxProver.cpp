@@ -46,7 +46,7 @@ BoxProver::BoxProver(const Models& models, const Claim& claim)
     smallest_ = std::max(1e-10 * models.extent, 1e-13 * models.size);
 }
 
-BoxProver::Outcome BoxProver::judge(const Job& job, std::vector<Job>& halves, VerifyResult& broken) {
+Outcome BoxProver::judge(const Job& job, std::vector<Job>& halves, VerifyResult& broken) {
     if (!meetsPlanes(m_.motion, job.box)) return Outcome::Shown;
     const PoseBox box(m_.motion, job.box, m_.size);
     ++stamp_;
@@ -261,10 +261,7 @@ void BoxProver::split(const Job& job, const PoseBox& box, std::vector<Job>& halv
     if (most <= 0)
         for (std::size_t k = 0; k < box.dofs(); ++k)
             if (box.half(k) > box.half(widest)) widest = k;
-    Job lower{job.box, open}, upper{job.box, open};
-    lower.box.upper[widest] = upper.box.lower[widest] = box.cut(widest);
-    halves.push_back(std::move(lower));
-    halves.push_back(std::move(upper));
+    for (Box& half : job.box.halves(widest, box.cut(widest))) halves.push_back({std::move(half), open});
 }
 
 } // namespace tss::verify

@@ -50,8 +50,6 @@ class BoxProver {
 public:
     BoxProver(const Models& models, const Claim& claim);
 
-    enum class Outcome { Shown, Split, Broken, Undecided };
-
     Outcome judge(const Job& job, std::vector<Job>& halves, VerifyResult& broken);
 
 private:

@@ -1,5 +1,6 @@
 #include "bake/verify/ExactPose.h"
 
+#include "bake/verify/MeshProof.h"
 #include "bake/verify/PoseBox.h"
 
 #include <algorithm>
@@ -50,12 +51,7 @@ double poseRounding(const Motion& motion, double size, double u) {
 
 std::vector<Exact> exactTests(const Table& table) {
     std::vector<Exact> all;
-    for (std::uint32_t i = 0; i + 1 < table.rowOffsets.size(); ++i)
-        for (std::uint32_t k = table.rowOffsets[i]; k < table.rowOffsets[i + 1]; ++k) {
-            const Sphere &a = table.a[i], &b = table.b[table.columns[k]];
-            const double rest = table.restGaps.empty() ? 0 : table.restGaps[k];
-            all.push_back({a.centre, b.centre, a.radius + b.radius + rest});
-        }
+    for (const MeshTest& t : meshTests(table)) all.push_back({t.centreA, t.centreB, t.contactDistance});
     return all;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
-#include "bake/table/Table.h"
-#include "bake/verify/PoseBox.h"
+#include "bake/verify/MeshProof.h"
 
 #include <span>
 
@@ -21,8 +20,8 @@ public:
     double low(std::size_t p) const { return low_[p]; }
 
 private:
-    const Table& table_;
-    std::vector<SpherePair> tests_;
+    const Motion& motion_;
+    std::vector<MeshTest> tests_;
     double size_ = 0;
     std::uint64_t stamp_ = 0;
     std::vector<MovingPoint> moving_;    ///< one per sphere of B

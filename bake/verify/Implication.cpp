@@ -1,16 +1,17 @@
 #include "bake/verify/Implication.h"
 
-#include "bake/base/Parallel.h"
+#include "bake/base/Batches.h"
 #include "bake/verify/BoxProver.h"
 
 #include <memory>
+#include <tbb/enumerable_thread_specific.h>
 
 namespace tss::verify {
 
 namespace {
 
 struct PartOutcome {
-    BoxProver::Outcome outcome = BoxProver::Outcome::Shown;
+    Outcome outcome = Outcome::Shown;
     VerifyResult broken;
     std::uint64_t cells = 0;
     std::vector<Job> left;
@@ -25,11 +26,11 @@ PartOutcome runPart(BoxProver& prover, Job job, std::uint64_t steps) {
         std::vector<Job> halves;
         const auto outcome = prover.judge(next, halves, part.broken);
         ++part.cells;
-        if (outcome == BoxProver::Outcome::Broken || outcome == BoxProver::Outcome::Undecided) {
+        if (outcome == Outcome::Broken || outcome == Outcome::Undecided) {
             part.outcome = outcome;
             break;
         }
-        for (Job& half : halves) part.left.push_back(std::move(half));
+        std::move(halves.begin(), halves.end(), std::back_inserter(part.left));
     }
     return part;
 }
@@ -49,29 +50,22 @@ VerifyResult proveClaim(const Models& models, const Claim& claim, std::uint64_t 
     std::vector<Job> jobs{{limitsOf(models.motion), std::move(open)}};
 
     constexpr std::size_t width = 64;
-    std::vector<std::unique_ptr<BoxProver>> provers(width);
+    tbb::enumerable_thread_specific<BoxProver> provers([&] { return BoxProver(models, claim); });
     while (!jobs.empty()) {
         if ((mostCells > 0 && result.cells >= mostCells) || !report(progress, "verify", 0)) {
             result.reason = "stopped before everything was shown";
             return result;
         }
-        const std::size_t count = std::min(width, jobs.size());
-        std::vector<PartOutcome> parts(count);
-        parallelFor(count, [&](std::size_t k) {
-            if (!provers[k]) provers[k] = std::make_unique<BoxProver>(models, claim);
-            parts[k] = runPart(*provers[k], std::move(jobs[jobs.size() - 1 - k]), count < width ? 16 : 512);
+        auto parts = runLast(jobs, width, [&](Job job, std::size_t count) {
+            return runPart(provers.local(), std::move(job), count < width ? 16 : 512);
         });
-        jobs.resize(jobs.size() - count);
-        for (std::size_t k = count; k-- > 0;) {
-            result.cells += parts[k].cells;
-            for (Job& job : parts[k].left) jobs.push_back(std::move(job));
-        }
+        for (const PartOutcome& part : parts) result.cells += part.cells;
         for (PartOutcome& part : parts) {
-            if (part.outcome == BoxProver::Outcome::Shown) continue;
+            if (part.outcome == Outcome::Shown) continue;
             const std::uint64_t cells = result.cells;
             result = std::move(part.broken);
             result.cells = cells;
-            result.reason = part.outcome == BoxProver::Outcome::Broken
+            result.reason = part.outcome == Outcome::Broken
                                 ? "at a pose the models touch and the table does not answer"
                                 : "near a pose it cannot be told from rounding whether the table answers";
             return result;

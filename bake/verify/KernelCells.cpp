@@ -67,8 +67,7 @@ private:
         if (reason.empty() || halvings == mostHalvings) return reason;
         // Across each DOF in turn: cells are about as wide in all of them.
         const std::size_t dofs = box.lower.size(), k = std::size_t(halvings) % dofs;
-        Box lower = box, upper = box;
-        lower.upper[k] = upper.lower[k] = box.middle(k);
+        const auto [lower, upper] = box.halves(k, box.middle(k));
         const std::string first = refute(row, lower, halvings + 1);
         return first.empty() ? refute(row, upper, halvings + 1) : first;
     }

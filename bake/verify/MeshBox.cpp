@@ -305,9 +305,8 @@ bool MeshBox::unanswered(const std::vector<double>& q, const std::vector<PiecePa
     return false;
 }
 
-MeshBox::Outcome MeshBox::judge(const Box& dofs, const std::vector<PiecePair>& open,
-                                std::vector<PiecePair>& left, std::size_t& cut, double& at,
-                                MeshProofResult& broken) {
+Outcome MeshBox::judge(const Box& dofs, const std::vector<PiecePair>& open, std::vector<PiecePair>& left,
+                       std::size_t& cut, double& at, MeshProofResult& broken) {
     if (!meetsPlanes(motion_, dofs)) return Outcome::Shown;
     const PoseBox box(motion_, dofs, size_);
     box_ = &box;

@@ -14,7 +14,6 @@ public:
     MeshBox(const SurfaceTree& a, const SurfaceTree& b, const Motion& motion, double size,
             const MeshClaim& claim, const TestTree& tests);
 
-    enum class Outcome { Shown, Split, Broken, Undecided };
     /// Split: `left` is what is still open in the box and `cut` the DOF to halve it along, at `at`. Broken,
     /// Undecided: the pose goes into `broken`.
     Outcome judge(const Box& box, const std::vector<PiecePair>& open, std::vector<PiecePair>& left,

@@ -1,12 +1,12 @@
 #include "bake/verify/MeshProof.h"
 
-#include "bake/base/Parallel.h"
+#include "bake/base/Batches.h"
 #include "bake/verify/MeshBox.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <mutex>
+#include <tbb/enumerable_thread_specific.h>
 
 namespace tss::verify {
 
@@ -19,34 +19,11 @@ struct MeshJob {
 };
 
 struct MeshPart {
-    MeshBox::Outcome outcome = MeshBox::Outcome::Shown;
+    Outcome outcome = Outcome::Shown;
     MeshProofResult broken;
     std::uint64_t cells = 0, work = 0;
     double shown = 0; ///< share of Q
     std::vector<MeshJob> left;
-};
-
-/// What threads use in turn: large, and good for any part.
-class BoxPool {
-public:
-    explicit BoxPool(std::function<std::unique_ptr<MeshBox>()> make) : make_(std::move(make)) {}
-
-    std::unique_ptr<MeshBox> take() {
-        const std::lock_guard lock(mutex_);
-        if (free_.empty()) return make_();
-        std::unique_ptr<MeshBox> box = std::move(free_.back());
-        free_.pop_back();
-        return box;
-    }
-    void give(std::unique_ptr<MeshBox> box) {
-        const std::lock_guard lock(mutex_);
-        free_.push_back(std::move(box));
-    }
-
-private:
-    std::function<std::unique_ptr<MeshBox>()> make_;
-    std::mutex mutex_;
-    std::vector<std::unique_ptr<MeshBox>> free_;
 };
 
 MeshPart runMeshPart(MeshBox& prover, MeshJob job, std::uint64_t work) {
@@ -59,16 +36,14 @@ MeshPart runMeshPart(MeshBox& prover, MeshJob job, std::uint64_t work) {
         auto left = std::make_shared<std::vector<PiecePair>>();
         std::size_t cut = 0;
         double at = 0;
-        const MeshBox::Outcome outcome = prover.judge(next.box, *next.open, *left, cut, at, part.broken);
+        const Outcome outcome = prover.judge(next.box, *next.open, *left, cut, at, part.broken);
         ++part.cells;
-        if (outcome == MeshBox::Outcome::Shown) {
+        if (outcome == Outcome::Shown) {
             part.shown += next.share;
-        } else if (outcome == MeshBox::Outcome::Split) {
+        } else if (outcome == Outcome::Split) {
             left->shrink_to_fit();
-            MeshJob lower{next.box, left, next.share / 2}, upper{next.box, left, next.share / 2};
-            lower.box.upper[cut] = upper.box.lower[cut] = at;
-            part.left.push_back(std::move(lower));
-            part.left.push_back(std::move(upper));
+            for (Box& half : next.box.halves(cut, at))
+                part.left.push_back({std::move(half), left, next.share / 2});
         } else {
             part.outcome = outcome;
             break;
@@ -139,17 +114,14 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
         return result;
     }
     const TestTree tests(claim.tests);
-    BoxPool pool([&] { return std::make_unique<MeshBox>(a, b, motion, size, claim, tests); });
+    tbb::enumerable_thread_specific<MeshBox> provers(
+        [&] { return MeshBox(a, b, motion, size, claim, tests); });
     const std::vector<PiecePair> all{{{a.root(), 1}, {b.root(), 1}}};
     const std::string broken = claim.near > 0 ? "at a pose the meshes are nearer than the clearance"
                                               : "at a pose the meshes meet and the table does not answer";
-    {
-        std::unique_ptr<MeshBox> box = pool.take();
-        if (brokenAtOnce(*box, motion, all, progress, result)) {
-            result.reason = broken;
-            return result;
-        }
-        pool.give(std::move(box));
+    if (brokenAtOnce(provers.local(), motion, all, progress, result)) {
+        result.reason = broken;
+        return result;
     }
     const auto open = std::make_shared<const std::vector<PiecePair>>(pairsNotHeld(a, b, claim).value_or(all));
     std::vector<MeshJob> jobs;
@@ -163,28 +135,21 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
                                 : "stopped before everything was shown";
             return result;
         }
-        const std::size_t count = std::min(width, jobs.size());
-        std::vector<MeshPart> parts(count);
-        parallelFor(count, [&](std::size_t k) {
-            std::unique_ptr<MeshBox> box = pool.take();
-            parts[k] =
-                runMeshPart(*box, std::move(jobs[jobs.size() - 1 - k]), count < width ? 20'000 : 50'000);
-            pool.give(std::move(box));
+        const auto parts = runLast(jobs, width, [&](MeshJob job, std::size_t count) {
+            return runMeshPart(provers.local(), std::move(job), count < width ? 20'000 : 50'000);
         });
-        jobs.resize(jobs.size() - count);
-        for (std::size_t k = count; k-- > 0;) {
-            result.cells += parts[k].cells;
-            result.work += parts[k].work;
-            shown += parts[k].shown;
-            for (MeshJob& job : parts[k].left) jobs.push_back(std::move(job));
+        for (const MeshPart& part : parts) {
+            result.cells += part.cells;
+            result.work += part.work;
+            shown += part.shown;
         }
         most = std::max(most, bytesOf(jobs));
         result.bytes = most;
         for (const MeshPart& part : parts) {
-            if (part.outcome == MeshBox::Outcome::Shown) continue;
+            if (part.outcome == Outcome::Shown) continue;
             result.pose = part.broken.pose;
             result.lag = part.broken.lag;
-            result.reason = part.outcome == MeshBox::Outcome::Broken
+            result.reason = part.outcome == Outcome::Broken
                                 ? broken
                                 : "near a pose it cannot be told from rounding whether the claim holds";
             return result;

@@ -62,10 +62,7 @@ bool somePose(const Motion& motion) {
         }
         if (withinLimits(motion, middle, 1e-12 * range)) return true;
         if (!(box.upper[widest] - box.lower[widest] > 1e-12 * range)) continue;
-        for (const bool upper : {false, true}) {
-            boxes.push_back(box);
-            (upper ? boxes.back().lower : boxes.back().upper)[widest] = middle[widest];
-        }
+        for (Box& half : box.halves(widest, middle[widest])) boxes.push_back(std::move(half));
     }
     return false;
 }

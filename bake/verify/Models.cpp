@@ -1,6 +1,6 @@
 #include "bake/verify/Models.h"
 
-#include "bake/verify/PoseBox.h"
+#include "bake/verify/MeshProof.h"
 
 #include <algorithm>
 #include <limits>
@@ -111,18 +111,15 @@ std::vector<Test> matchTests(const Models& models, const Table& table, double ba
     for (std::size_t j = 0; j < matchB.size() && reason.empty(); ++j)
         if (alien(matchB[j]))
             reason = "sphere " + std::to_string(j) + " of the table's B is none of the model's";
-    for (std::uint32_t i = 0; i + 1 < table.rowOffsets.size(); ++i)
-        for (std::uint32_t k = table.rowOffsets[i]; k < table.rowOffsets[i + 1]; ++k) {
-            const std::uint32_t j = table.columns[k];
-            const double rest = table.restGaps.empty() ? 0 : table.restGaps[k];
-            Test test{table.a[i].centre, table.b[j].centre, table.a[i].radius + table.b[j].radius + rest, {}};
-            const SpherePair pair{matchA[i].index, matchB[j].index};
-            if (matchA[i].same && matchB[j].same) test.same = pair;
-            if (reason.empty() &&
-                test.contactDistance > models.contactDistance(pair) + 2 * table.epsilon + band)
-                reason = "test " + std::to_string(k) + " of the table reports contact before its pair does";
-            tests.push_back(test);
-        }
+    for (const MeshTest& t : meshTests(table)) {
+        const Match &a = matchA[t.sphereA], &b = matchB[t.sphereB];
+        const SpherePair pair{a.index, b.index};
+        if (reason.empty() && t.contactDistance > models.contactDistance(pair) + 2 * table.epsilon + band)
+            reason =
+                "test " + std::to_string(tests.size()) + " of the table reports contact before its pair does";
+        tests.push_back({t.centreA, t.centreB, t.contactDistance, {}});
+        if (a.same && b.same) tests.back().same = pair;
+    }
     return tests;
 }
 

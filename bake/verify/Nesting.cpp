@@ -1,13 +1,14 @@
 #include "bake/verify/Nesting.h"
 
+#include "bake/base/Batches.h"
 #include "bake/base/Infinity.h"
-#include "bake/base/Parallel.h"
 #include "bake/base/UnionFind.h"
 #include "bake/verify/TestTree.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
+#include <tbb/enumerable_thread_specific.h>
 
 namespace tss::verify {
 
@@ -206,13 +207,10 @@ std::size_t widest(const PoseBox& box, const Extremes& points) {
     return std::size_t(std::max_element(moves.begin(), moves.begin() + box.dofs()) - moves.begin());
 }
 
-enum class Outcome { Shown, Split, Broken, Undecided };
-
 /// What looking at a box gave.
 struct Looked {
     Outcome outcome = Outcome::Shown;
-    std::size_t cut = 0; ///< Split: the DOF, and where
-    double at = 0;
+    std::vector<Box> left; ///< Split: its halves
     std::vector<double> pose;
 };
 
@@ -222,12 +220,13 @@ Looked lookAt(NestingBox& prover, const Motion& motion, const Box& here, double 
     const PoseBox box(motion, here, size);
     if (prover.shown(box)) return looked;
     looked.pose = box.middle();
-    looked.cut = widest(box, ofB);
-    looked.at = box.cut(looked.cut);
     const double move = box.carry(ofB.front(), false).move;
     looked.outcome = prover.brokenAt(box.middle())                ? Outcome::Broken
                      : move <= 2 * box.error() || box.dofs() == 0 ? Outcome::Undecided
                                                                   : Outcome::Split;
+    if (looked.outcome != Outcome::Split) return looked;
+    const std::size_t cut = widest(box, ofB);
+    for (Box& half : here.halves(cut, box.cut(cut))) looked.left.push_back(std::move(half));
     return looked;
 }
 
@@ -247,7 +246,8 @@ NestingResult proveNoNesting(const VerifiedBody& a, const VerifiedBody& b, const
     if (std::max(deepestIn(a), deepestIn(b)) <= early) return result;
     const Components ofA(a.mesh), ofB(b.mesh);
     const TestTree tree(tests);
-    std::vector<NestingBox> provers(width, NestingBox(a, b, ofA, ofB, motion, tests, tree, early));
+    tbb::enumerable_thread_specific<NestingBox> provers(
+        [&] { return NestingBox(a, b, ofA, ofB, motion, tests, tree, early); });
     std::vector<Box> boxes{limitsOf(motion)};
     while (!boxes.empty()) {
         if (!report(progress, "verify", 1) || result.cells > mostCells) {
@@ -255,33 +255,21 @@ NestingResult proveNoNesting(const VerifiedBody& a, const VerifiedBody& b, const
                                                      : "stopped before everything was shown";
             return result;
         }
-        const std::size_t count = std::min(width, boxes.size()), first = boxes.size() - count;
-        std::vector<Looked> parts(count);
-        parallelFor(count, [&](std::size_t k) {
-            parts[k] = lookAt(provers[k], motion, boxes[first + k], size, ofB.extremes().front());
+        const auto parts = runLast(boxes, width, [&](const Box& box, std::size_t) {
+            return lookAt(provers.local(), motion, box, size, ofB.extremes().front());
         });
-        std::vector<Box> halves;
         result.work = 0;
         for (const NestingBox& prover : provers) result.work += prover.work();
-        for (std::size_t k = 0; k < count; ++k) {
-            ++result.cells;
-            const Looked& part = parts[k];
-            if (part.outcome == Outcome::Shown) continue;
-            if (part.outcome != Outcome::Split) {
-                result.pose = part.pose;
-                result.reason = part.outcome == Outcome::Broken
-                                    ? "at a pose it reports contact though one body is inside the other and "
-                                      "the surfaces are farther apart than the stored bound"
-                                    : "near a pose it cannot be told whether one body is inside the other";
-                return result;
-            }
-            for (const bool upper : {false, true}) {
-                halves.push_back(boxes[first + k]);
-                (upper ? halves.back().lower : halves.back().upper)[part.cut] = part.at;
-            }
+        result.cells += parts.size();
+        for (const Looked& part : parts) {
+            if (part.outcome == Outcome::Shown || part.outcome == Outcome::Split) continue;
+            result.pose = part.pose;
+            result.reason = part.outcome == Outcome::Broken
+                                ? "at a pose it reports contact though one body is inside the other and "
+                                  "the surfaces are farther apart than the stored bound"
+                                : "near a pose it cannot be told whether one body is inside the other";
+            return result;
         }
-        boxes.resize(first);
-        boxes.insert(boxes.end(), halves.begin(), halves.end());
     }
     return result;
 }

@@ -15,6 +15,12 @@ constexpr double outward = 1 + 1e-12;
 
 } // namespace
 
+std::array<Box, 2> Box::halves(std::size_t k, double at) const {
+    std::array<Box, 2> both{*this, *this};
+    both[0].upper[k] = both[1].lower[k] = at;
+    return both;
+}
+
 Box limitsOf(const Motion& motion) {
     Box box;
     for (const Dof& dof : motion.dofs) {

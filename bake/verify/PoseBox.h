@@ -7,7 +7,13 @@ namespace tss::verify {
 struct Box {
     std::vector<double> lower, upper;
     double middle(std::size_t k) const { return lower[k] + 0.5 * (upper[k] - lower[k]); }
+    /// Cut across DOF k: the lower one, the upper one.
+    std::array<Box, 2> halves(std::size_t k, double at) const;
 };
+
+/// What looking at a box gave: all is shown; a cut is needed; a pose of it breaks what is claimed, or cannot
+/// be told from one that does.
+enum class Outcome { Shown, Split, Broken, Undecided };
 
 /// The box of the limits.
 Box limitsOf(const Motion& motion);

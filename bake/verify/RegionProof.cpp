@@ -1,6 +1,7 @@
 #include "bake/verify/RegionProof.h"
 
 #include "bake/base/UnionFind.h"
+#include "bake/geometry/PartSet.h"
 #include "bake/geometry/TriangleDistance.h"
 
 #include <fmt/format.h>
@@ -11,12 +12,9 @@ namespace tss::verify {
 
 namespace {
 
-double area(const Corners& c) {
-    return 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
-}
-
 /// The parts, in pieces that hang together.
-std::vector<std::vector<Corners>> pieces(const TriangleMesh& mesh, const std::vector<SurfacePart>& parts) {
+std::vector<std::vector<SurfacePart>> pieces(const TriangleMesh& mesh,
+                                             const std::vector<SurfacePart>& parts) {
     std::vector<Corners> all;
     std::vector<Eigen::AlignedBox3d> boxes;
     for (const SurfacePart& part : parts) {
@@ -36,31 +34,20 @@ std::vector<std::vector<Corners>> pieces(const TriangleMesh& mesh, const std::ve
             if (j >= i || together.root(i) == together.root(j)) return;
             if (squaredDistanceOfTriangles(all[i], all[j]) <= touching * touching) together.join(i, j);
         });
-    std::vector<std::vector<Corners>> found(parts.size());
-    for (std::size_t i = 0; i < all.size(); ++i) found[together.root(i)].push_back(all[i]);
+    std::vector<std::vector<SurfacePart>> found(parts.size());
+    for (std::size_t i = 0; i < all.size(); ++i) found[together.root(i)].push_back(parts[i]);
     std::erase_if(found, [](const auto& piece) { return piece.empty(); });
     return found;
-}
-
-TriangleMesh meshOf(const std::vector<Corners>& piece) {
-    TriangleMesh mesh;
-    for (const Corners& c : piece) {
-        const int first = int(mesh.vertices.size());
-        mesh.vertices.insert(mesh.vertices.end(), c.begin(), c.end());
-        mesh.triangles.emplace_back(first, first + 1, first + 2);
-    }
-    return mesh;
 }
 
 /// Of the smaller body's diagonal.
 constexpr double closeShare = 0.02;
 
 /// How far the piece, moved, is from the body, what closes its openings counted; 0: it is in it.
-double distanceTo(const VerifiedBody& body, const std::vector<Corners>& piece, const Pose& toBody) {
-    for (const Corners& c : piece)
-        for (const Vec3& corner : c)
-            if (body.solid && body.solid->inside(toBody * corner)) return 0;
-    const MeshQuery surface(meshOf(piece));
+double distanceTo(const VerifiedBody& body, const TriangleMesh& piece, const Pose& toBody) {
+    for (const Vec3& corner : piece.vertices)
+        if (body.solid && body.solid->inside(toBody * corner)) return 0;
+    const MeshQuery surface(piece);
     const double distance = body.surface.distanceTo(surface, toBody);
     return body.solid ? std::min(distance, body.solid->boundary().distanceTo(surface, toBody)) : distance;
 }
@@ -68,17 +55,12 @@ double distanceTo(const VerifiedBody& body, const std::vector<Corners>& piece, c
 } // namespace
 
 ExemptShare exemptShare(const TriangleMesh& a, const TriangleMesh& b, const RestRegion& region) {
-    const auto measure = [](const TriangleMesh& mesh, const std::vector<SurfacePart>& parts, double& exempt,
-                            double& share) {
-        double whole = 0;
-        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) whole += area(corners(mesh, {t, 1}));
-        for (const SurfacePart& part : parts) exempt += area(corners(mesh, part));
-        share = whole > 0 ? exempt / whole : 0;
+    const auto shareOf = [](const TriangleMesh& mesh, double exempt) {
+        const double whole = area(mesh);
+        return whole > 0 ? exempt / whole : 0;
     };
-    ExemptShare out;
-    measure(a, region.a, out.areaA, out.shareA);
-    measure(b, region.b, out.areaB, out.shareB);
-    return out;
+    const double areaA = area(a, region.a), areaB = area(b, region.b);
+    return {areaA, areaB, shareOf(a, areaA), shareOf(b, areaB)};
 }
 
 RegionVerdict judgeRegion(const VerifiedBody& a, const VerifiedBody& b, const Motion& motion,
@@ -100,7 +82,7 @@ RegionVerdict judgeRegion(const VerifiedBody& a, const VerifiedBody& b, const Mo
     const auto probe = [&](const VerifiedBody& body, const std::vector<SurfacePart>& parts,
                            const VerifiedBody& other, const Pose& toOther) {
         for (const auto& piece : pieces(body.mesh, parts)) {
-            const double distance = distanceTo(other, piece, toOther);
+            const double distance = distanceTo(other, meshOf(body.mesh, piece), toOther);
             if (distance > rounding) verdict.farthest = std::max(verdict.farthest, distance);
             strays += distance > closeShare * smaller + rounding;
         }

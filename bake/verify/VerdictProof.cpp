@@ -114,7 +114,7 @@ private:
         if (single)
             return fmt::format("the verdict of the cell from part {}, {}, {} is not what the tests say",
                                block.first[0], block.first[1], block.first[2]);
-        const List near = nearest(box, list);
+        const List near = nearest(list, gaps_.bound(box, list));
         // Down to whole cells first.
         const bool cell = withinCell(block);
         const auto along = [&](std::size_t k) { return cell ? block.size[k] : cellsAlong(block, k); };
@@ -129,9 +129,8 @@ private:
         return reason.empty() ? refuteBlock(upper, near) : reason;
     }
 
-    /// The tests that may have the smallest gap somewhere in the box.
-    List nearest(const Box& box, const List& list) {
-        const double high = gaps_.bound(box, list);
+    /// The tests that may have the smallest gap somewhere in the box that was bounded last: `high` at most.
+    List nearest(const List& list, double high) const {
         List near;
         for (const std::uint32_t p : list)
             if (gaps_.low(p) <= high) near.push_back(p);
@@ -145,13 +144,10 @@ private:
         for (const std::uint32_t p : list) low = std::min(low, gaps_.low(p));
         if (verdict == Verdict::Touch ? high <= band_ : low > 0 && low >= clearance) return true;
         if (halvings >= mostDepth || ++looks_ > mostLooks) return false;
-        List near;
-        for (const std::uint32_t p : list)
-            if (gaps_.low(p) <= high) near.push_back(p);
+        const List near = nearest(list, high);
         // Across each DOF in turn: cells are about as wide in all of them.
         const std::size_t k = std::size_t(halvings) % dofs_;
-        Box lower = box, upper = box;
-        lower.upper[k] = upper.lower[k] = box.middle(k);
+        const auto [lower, upper] = box.halves(k, box.middle(k));
         return holds(lower, verdict, clearance, near, halvings + 1) &&
                holds(upper, verdict, clearance, near, halvings + 1);
     }
