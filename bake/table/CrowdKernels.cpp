@@ -13,44 +13,46 @@ namespace tss {
 namespace HWY_NAMESPACE {
 namespace {
 
-#if HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
-
-template <class T, class Form>
+template <class Form>
 void hits(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count,
           std::uint8_t* hit) {
-    const Lanes<T> d;
+    using D = typename Form::D;
+    using T = hn::TFromD<D>;
+    const D d;
     const std::uint32_t n = static_cast<std::uint32_t>(hn::Lanes(d));
     const T* end = static_cast<const T*>(rows.end);
     for (std::uint32_t i = 0; i < count; i += n) {
-        V<T> p[Form::values + 1];
+        V<D> p[Form::values + 1];
         for (std::uint32_t k = 0; k <= Form::values; ++k)
             p[k] = hn::LoadU(d, static_cast<const T*>(poses) + std::size_t(k) * stride + i);
-        V<T> least = farthest<T>();
+        V<D> least = farthest<D>();
         for (const T* row = static_cast<const T*>(rows.blocks); row < end; row += Form::columns)
-            least = hn::Min(least, Form::offset(p + 1, BroadcastColumn<T>{row}));
+            least = hn::Min(least, Form::offset(p + 1, BroadcastColumn<D>{row}));
         std::uint8_t bytes[8] = {};
         hn::StoreMaskBits(d, hn::Le(least, p[0]), bytes);
         for (std::uint32_t k = 0; k < n; ++k) hit[i + k] = bytes[k / 8] >> (k % 8) & 1;
     }
 }
 
-template <class T, class Form>
+template <class Form>
 void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count, float* gap,
           std::int32_t* test) {
-    const Lanes<T> d;
-    const hn::RebindToSigned<Lanes<T>> di;
+    using D = typename Form::D;
+    using T = hn::TFromD<D>;
+    const D d;
+    const hn::RebindToSigned<D> di;
     const std::uint32_t n = static_cast<std::uint32_t>(hn::Lanes(d));
     const T* end = static_cast<const T*>(rows.end);
-    HWY_ALIGN hwy::MakeSigned<T> tests[hn::MaxLanes(Lanes<T>())];
-    HWY_ALIGN T least[hn::MaxLanes(Lanes<T>())];
+    HWY_ALIGN hwy::MakeSigned<T> tests[hn::MaxLanes(d)];
+    HWY_ALIGN T least[hn::MaxLanes(d)];
     for (std::uint32_t i = 0; i < count; i += n) {
-        V<T> p[Form::values + 1];
+        V<D> p[Form::values + 1];
         for (std::uint32_t k = 0; k <= Form::values; ++k)
             p[k] = hn::LoadU(d, static_cast<const T*>(poses) + std::size_t(k) * stride + i);
-        Nearest<T> nearest{farthest<T>(), hn::BitCast(d, hn::Set(di, -1))};
+        Nearest<D> nearest{farthest<D>(), hn::BitCast(d, hn::Set(di, -1))};
         for (const T* row = static_cast<const T*>(rows.blocks); row < end; row += Form::columns) {
-            const BroadcastColumn<T> column{row};
-            nearest.take(gapOf<T, Form>(p, column), column(Form::contactDistance + 1));
+            const BroadcastColumn<D> column{row};
+            nearest.take(gapOf<Form>(p, column), column(Form::contactDistance + 1));
         }
         hn::Store(nearest.gap, d, least);
         hn::Store(hn::BitCast(di, nearest.number), di, tests);
@@ -61,15 +63,21 @@ void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::
     }
 }
 
-template <class T>
-void crowd(const KernelShape& shape, KernelSet& set) {
-    withForm<T>(shape, [&](auto form) {
-        set.hits = hits<T, decltype(form)>;
-        set.gaps = gaps<T, decltype(form)>;
+template <class D>
+void crowdIn(const KernelShape& shape, KernelSet& set) {
+    withForm<D>(shape, [&](auto form) {
+        set.hits = hits<decltype(form)>;
+        set.gaps = gaps<decltype(form)>;
     });
 }
-
-#endif
+template <class T>
+void crowd(const KernelShape& shape, KernelSet& set) {
+    crowdIn<hn::ScalableTag<T>>(shape, set);
+}
+template <class T>
+void scalarCrowd(const KernelShape& shape, KernelSet& set) {
+    crowdIn<hn::CappedTag<T, 1>>(shape, set);
+}
 
 } // namespace
 } // namespace HWY_NAMESPACE
@@ -84,7 +92,8 @@ namespace tss {
 template <class T>
 void addCrowd(KernelTarget target, const KernelShape& shape, KernelSet& set) {
     TSS_TARGETS(crowd<T>(shape, set))
-    (void)target, (void)shape, (void)set;
+    (void)target;
+    HWY_STATIC_DISPATCH(scalarCrowd<T>)(shape, set);
 }
 template void addCrowd<float>(KernelTarget, const KernelShape&, KernelSet&);
 template void addCrowd<double>(KernelTarget, const KernelShape&, KernelSet&);

@@ -3,7 +3,7 @@
 
 namespace tss {
 
-// Each puts some kernels of a vector target into the set; what the target or the build has none of is left.
+// Each puts some kernels of a target into the set; what the target or the build has none of is left.
 
 /// lanes, and the queries of one pose.
 template <class T>

@@ -16,115 +16,117 @@ namespace tss {
 namespace HWY_NAMESPACE {
 namespace {
 
-#if HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
-
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <class T>
-using Lanes = hn::ScalableTag<T>;
-template <class T>
-using V = hn::Vec<Lanes<T>>;
+// D: the tag of the vectors, those of the target whole or of one lane.
+template <class D>
+using V = hn::Vec<D>;
 
 /// Far enough for a pair that is none, and its square and root still finite.
-template <class T>
-V<T> farthest() {
-    return hn::Set(Lanes<T>(), T(3e38));
+template <class D>
+V<D> farthest() {
+    return hn::Set(D(), hn::TFromD<D>(3e38));
 }
 
-/// A row of the fold with M features, for vectors of pairs (Load) or for one pair and vectors of poses
-/// (Broadcast); the pose's values are vectors either way.
-template <class T, std::uint32_t M>
+/// A row of the fold with M features, for vectors of pairs (LoadColumn) or for one pair and vectors of poses
+/// (BroadcastColumn); the pose's values are vectors either way.
+template <class Tag, std::uint32_t M>
 struct FoldForm {
+    using D = Tag;
     static constexpr std::uint32_t values = M, columns = foldColumns(M);
     template <class Column>
-    static HWY_INLINE V<T> offset(const V<T>* pose, Column column) {
-        V<T> sum = column(0);
+    static HWY_INLINE V<D> offset(const V<D>* pose, Column column) {
+        V<D> sum = column(0);
         for (std::uint32_t k = 0; k < M; ++k) sum = hn::MulAdd(column(k + 1), pose[k], sum);
         return sum;
     }
     template <class Column>
-    static HWY_INLINE V<T> square(const V<T>* pose, Column column) {
-        V<T> sum = column(M + 1);
+    static HWY_INLINE V<D> square(const V<D>* pose, Column column) {
+        V<D> sum = column(M + 1);
         for (std::uint32_t k = 0; k < M; ++k) sum = hn::MulAdd(column(k + 1), pose[k], sum);
         return sum;
     }
     static constexpr std::uint32_t contactDistance = M + 2;
 };
 
-template <class T>
+template <class Tag>
 struct DirectForm {
+    using D = Tag;
     static constexpr std::uint32_t values = 12, columns = directColumns;
     template <class Column>
-    static HWY_INLINE V<T> axis(const V<T>* p, V<T> x, V<T> y, V<T> z, V<T> a) {
+    static HWY_INLINE V<D> axis(const V<D>* p, V<D> x, V<D> y, V<D> z, V<D> a) {
         return hn::MulAdd(p[2], z, hn::MulAdd(p[1], y, hn::MulAdd(p[0], x, hn::Sub(p[3], a))));
     }
     template <class Column>
-    static HWY_INLINE V<T> offset(const V<T>* p, Column column) {
-        const V<T> bx = column(0), by = column(1), bz = column(2);
-        const V<T> x = axis<Column>(p, bx, by, bz, column(3));
-        const V<T> y = axis<Column>(p + 4, bx, by, bz, column(4));
-        const V<T> z = axis<Column>(p + 8, bx, by, bz, column(5));
+    static HWY_INLINE V<D> offset(const V<D>* p, Column column) {
+        const V<D> bx = column(0), by = column(1), bz = column(2);
+        const V<D> x = axis<Column>(p, bx, by, bz, column(3));
+        const V<D> y = axis<Column>(p + 4, bx, by, bz, column(4));
+        const V<D> z = axis<Column>(p + 8, bx, by, bz, column(5));
         return hn::MulAdd(x, x, hn::MulAdd(y, y, hn::MulSub(z, z, column(6))));
     }
     template <class Column>
-    static HWY_INLINE V<T> square(const V<T>* p, Column column) {
-        const V<T> bx = column(0), by = column(1), bz = column(2);
-        const V<T> x = axis<Column>(p, bx, by, bz, column(3));
-        const V<T> y = axis<Column>(p + 4, bx, by, bz, column(4));
-        const V<T> z = axis<Column>(p + 8, bx, by, bz, column(5));
+    static HWY_INLINE V<D> square(const V<D>* p, Column column) {
+        const V<D> bx = column(0), by = column(1), bz = column(2);
+        const V<D> x = axis<Column>(p, bx, by, bz, column(3));
+        const V<D> y = axis<Column>(p + 4, bx, by, bz, column(4));
+        const V<D> z = axis<Column>(p + 8, bx, by, bz, column(5));
         return hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
     }
     static constexpr std::uint32_t contactDistance = 7;
 };
 
-template <class T>
+template <class D>
 struct LoadColumn {
-    const T* block;
-    HWY_INLINE V<T> operator()(std::uint32_t k) const {
-        const Lanes<T> d;
-        return hn::Load(d, block + k * hn::Lanes(d));
-    }
+    const hn::TFromD<D>* block;
+    HWY_INLINE V<D> operator()(std::uint32_t k) const { return hn::Load(D(), block + k * hn::Lanes(D())); }
 };
 
-template <class T>
+template <class D>
 struct BroadcastColumn {
-    const T* row;
-    HWY_INLINE V<T> operator()(std::uint32_t k) const { return hn::Set(Lanes<T>(), row[k]); }
+    const hn::TFromD<D>* row;
+    HWY_INLINE V<D> operator()(std::uint32_t k) const { return hn::Set(D(), row[k]); }
 };
 
 /// The pose's values, each in all lanes; the first is less the shared term.
-template <class T, std::uint32_t count>
+template <class D, std::uint32_t count>
 struct Broadcast {
-    V<T> values[count + 1];
+    V<D> values[count + 1];
     explicit HWY_INLINE Broadcast(const void* pose) {
         for (std::uint32_t k = 0; k <= count; ++k)
-            values[k] = hn::Set(Lanes<T>(), static_cast<const T*>(pose)[k]);
+            values[k] = hn::Set(D(), static_cast<const hn::TFromD<D>*>(pose)[k]);
     }
 };
 
 /// Calls take(block) for every block.
-template <class T, class Form>
+template <class Form>
 struct AllBlocks {
+    using T = hn::TFromD<typename Form::D>;
     const KernelData& data;
     template <class Take>
     HWY_INLINE void each(Take take) const {
-        const std::size_t step = Form::columns * hn::Lanes(Lanes<T>());
+        const std::size_t step = Form::columns * hn::Lanes(typename Form::D());
         const T *block = static_cast<const T*>(data.blocks), *end = static_cast<const T*>(data.end);
         for (; block < end; block += step) take(block);
     }
 };
 
 /// The same for those that are near.
-template <class T, class Form>
+template <class Form>
 struct SomeBlocks {
+    using T = hn::TFromD<typename Form::D>;
     const KernelData& data;
     const NearBlocks& near;
     template <class Take>
     HWY_INLINE void each(Take take) const {
         constexpr std::uint32_t perGroup = NearBlocks::codesPerGroup, header = NearBlocks::headerCodes;
-        const hn::FixedTag<std::uint8_t, perGroup> bytes;
-        const std::size_t step = Form::columns * hn::Lanes(Lanes<T>());
+        const std::size_t step = Form::columns * hn::Lanes(typename Form::D());
         const T* blocks = static_cast<const T*>(data.blocks);
+#if HWY_TARGET == HWY_SCALAR
+        for (std::uint32_t i = header; i < perGroup * near.groups; ++i)
+            if (near.codes[i] <= near.limit) take(blocks + (i - header) * step);
+#else
+        const hn::FixedTag<std::uint8_t, perGroup> bytes;
         const auto limit = hn::Set(bytes, near.limit);
         unsigned mask = 0xffffu << header;
         for (std::uint32_t group = 0; group < near.groups; ++group) {
@@ -135,36 +137,35 @@ struct SomeBlocks {
                 take(blocks + (perGroup * group + hwy::Num0BitsBelowLS1Bit_Nonzero32(mask) - header) * step);
             mask = 0xffffu;
         }
+#endif
     }
 };
 
 /// Smallest gap so far and the number of its test, in every lane.
-template <class T>
+template <class D>
 struct Nearest {
-    V<T> gap, number;
-    HWY_INLINE void take(V<T> otherGap, V<T> otherNumber) {
+    V<D> gap, number;
+    HWY_INLINE void take(V<D> otherGap, V<D> otherNumber) {
         number = hn::IfThenElse(hn::Lt(otherGap, gap), otherNumber, number);
         gap = hn::Min(otherGap, gap);
     }
 };
 
-template <class T, class Form, class Column>
-HWY_INLINE V<T> gapOf(const V<T>* pose, Column column) {
-    const V<T> square = hn::Sub(Form::square(pose + 1, column), pose[0]);
-    return hn::Sub(hn::Sqrt(hn::Max(square, hn::Zero(Lanes<T>()))), column(Form::contactDistance));
+template <class Form, class Column>
+HWY_INLINE auto gapOf(const V<typename Form::D>* pose, Column column) {
+    const auto square = hn::Sub(Form::square(pose + 1, column), pose[0]);
+    return hn::Sub(hn::Sqrt(hn::Max(square, hn::Zero(typename Form::D()))), column(Form::contactDistance));
 }
 
 /// Calls use(DirectForm), or use(FoldForm) of the fold with so many features; not at all where there is none.
-template <class T, class Use>
+template <class D, class Use>
 void withForm(const KernelShape& shape, Use use) {
-    if (!shape.folds) return use(DirectForm<T>{});
+    if (!shape.folds) return use(DirectForm<D>{});
     [&]<std::uint32_t... M>(std::integer_sequence<std::uint32_t, M...>) {
-        ((shape.features == M ? use(FoldForm<T, M>{}) : void()), ...);
+        ((shape.features == M ? use(FoldForm<D, M>{}) : void()), ...);
     }
     (std::make_integer_sequence<std::uint32_t, maxFoldFeatures + 1>{});
 }
-
-#endif
 
 } // namespace
 } // namespace HWY_NAMESPACE

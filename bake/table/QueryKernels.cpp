@@ -13,87 +13,89 @@ namespace tss {
 namespace HWY_NAMESPACE {
 namespace {
 
-#if HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
-
-template <class T, class Form>
+template <class Form>
 bool hitNear(const KernelData& data, const void* pose, const NearBlocks& near) {
-    const Lanes<T> d;
-    const Broadcast<T, Form::values> p(pose);
-    V<T> least = farthest<T>();
-    SomeBlocks<T, Form>{data, near}.each(
-        [&](const T* block) { least = hn::Min(least, Form::offset(p.values + 1, LoadColumn<T>{block})); });
-    return !hn::AllFalse(d, hn::Le(least, p.values[0]));
+    using D = typename Form::D;
+    const Broadcast<D, Form::values> p(pose);
+    V<D> least = farthest<D>();
+    SomeBlocks<Form>{data, near}.each(
+        [&](const auto* block) { least = hn::Min(least, Form::offset(p.values + 1, LoadColumn<D>{block})); });
+    return !hn::AllFalse(D(), hn::Le(least, p.values[0]));
 }
 
-template <class T, class Form>
+template <class Form>
 bool hit(const KernelData& data, const void* pose) {
-    const Lanes<T> d;
-    const Broadcast<T, Form::values> p(pose);
-    const std::size_t step = Form::columns * hn::Lanes(d);
+    using D = typename Form::D;
+    using T = hn::TFromD<D>;
+    const Broadcast<D, Form::values> p(pose);
+    const std::size_t step = Form::columns * hn::Lanes(D());
     const T *block = static_cast<const T*>(data.blocks), *end = static_cast<const T*>(data.end);
     // The first block starts the minimum; then two sums at a time, so that one need not wait for the other.
-    V<T> least = Form::offset(p.values + 1, LoadColumn<T>{block});
+    V<D> least = Form::offset(p.values + 1, LoadColumn<D>{block});
     block += step;
     for (const T* last = end - step; block < last; block += 2 * step) {
-        const V<T> one = Form::offset(p.values + 1, LoadColumn<T>{block});
-        const V<T> two = Form::offset(p.values + 1, LoadColumn<T>{block + step});
+        const V<D> one = Form::offset(p.values + 1, LoadColumn<D>{block});
+        const V<D> two = Form::offset(p.values + 1, LoadColumn<D>{block + step});
         least = hn::Min(least, hn::Min(one, two));
     }
-    if (block != end) least = hn::Min(least, Form::offset(p.values + 1, LoadColumn<T>{block}));
-    return !hn::AllFalse(d, hn::Le(least, p.values[0]));
+    if (block != end) least = hn::Min(least, Form::offset(p.values + 1, LoadColumn<D>{block}));
+    return !hn::AllFalse(D(), hn::Le(least, p.values[0]));
 }
 
 /// The least lane, and the number of its test.
-template <class T>
-HWY_INLINE KernelGap leastOf(const Nearest<T>& nearest) {
-    using Number = hwy::MakeSigned<T>;
-    const Lanes<T> d;
-    const V<T> least = hn::MinOfLanes(d, nearest.gap);
+template <class D>
+HWY_INLINE KernelGap leastOf(const Nearest<D>& nearest) {
+    const D d;
+    const hn::RebindToSigned<D> di;
+    const V<D> least = hn::MinOfLanes(d, nearest.gap);
     // A pose that is not a number equals nothing: whatever lane that gives is as good as any.
     const auto equal = hn::Eq(nearest.gap, least);
     const std::size_t at = static_cast<std::size_t>(hn::FindFirstTrue(d, equal)) & (hn::Lanes(d) - 1);
-    Number numbers[hn::MaxLanes(Lanes<T>())];
-    hn::StoreU(hn::BitCast(hn::RebindToSigned<Lanes<T>>(), nearest.number), hn::RebindToSigned<Lanes<T>>(),
-               numbers);
+    hn::TFromD<decltype(di)> numbers[hn::MaxLanes(D())];
+    hn::StoreU(hn::BitCast(di, nearest.number), di, numbers);
     return {static_cast<double>(hn::GetLane(least)), static_cast<std::int32_t>(numbers[at])};
 }
 
-template <class T, class Form>
+template <class Form>
 KernelGap gap(const KernelData& data, const void* pose) {
-    const Broadcast<T, Form::values> p(pose);
-    const std::size_t step = Form::columns * hn::Lanes(Lanes<T>());
+    using D = typename Form::D;
+    using T = hn::TFromD<D>;
+    const Broadcast<D, Form::values> p(pose);
+    const std::size_t step = Form::columns * hn::Lanes(D());
     const T *block = static_cast<const T*>(data.blocks), *end = static_cast<const T*>(data.end);
-    const LoadColumn<T> first{block};
-    Nearest<T> nearest{gapOf<T, Form>(p.values, first), first(Form::contactDistance + 1)};
+    const LoadColumn<D> first{block};
+    Nearest<D> nearest{gapOf<Form>(p.values, first), first(Form::contactDistance + 1)};
     for (block += step; block < end; block += step) {
-        const LoadColumn<T> column{block};
-        nearest.take(gapOf<T, Form>(p.values, column), column(Form::contactDistance + 1));
+        const LoadColumn<D> column{block};
+        nearest.take(gapOf<Form>(p.values, column), column(Form::contactDistance + 1));
     }
     return leastOf(nearest);
 }
 
-template <class T, class Form>
+template <class Form>
 KernelGap gapNear(const KernelData& data, const void* pose, const NearBlocks& near) {
-    const Lanes<T> d;
-    const Broadcast<T, Form::values> p(pose);
-    Nearest<T> nearest{farthest<T>(), hn::BitCast(d, hn::Set(hn::RebindToSigned<Lanes<T>>(), -1))};
-    SomeBlocks<T, Form>{data, near}.each([&](const T* block) {
-        const LoadColumn<T> column{block};
-        nearest.take(gapOf<T, Form>(p.values, column), column(Form::contactDistance + 1));
+    using D = typename Form::D;
+    const Broadcast<D, Form::values> p(pose);
+    Nearest<D> nearest{farthest<D>(), hn::BitCast(D(), hn::Set(hn::RebindToSigned<D>(), -1))};
+    SomeBlocks<Form>{data, near}.each([&](const auto* block) {
+        const LoadColumn<D> column{block};
+        nearest.take(gapOf<Form>(p.values, column), column(Form::contactDistance + 1));
     });
     return leastOf(nearest);
 }
 
-template <class T, class Form, class Blocks>
+template <class Form, class Blocks>
 HWY_INLINE std::uint32_t allTestsWithin(const Blocks& blocks, const void* pose, double marginWide,
                                         std::uint32_t* out) {
-    const Lanes<T> d;
-    const Broadcast<T, Form::values> p(pose);
+    using D = typename Form::D;
+    using T = hn::TFromD<D>;
+    const D d;
+    const Broadcast<D, Form::values> p(pose);
     const T margin = static_cast<T>(marginWide);
-    const V<T> twice = hn::Set(d, 2 * margin), rest = hn::Add(hn::Set(d, margin * margin), p.values[0]);
+    const V<D> twice = hn::Set(d, 2 * margin), rest = hn::Add(hn::Set(d, margin * margin), p.values[0]);
     std::uint32_t count = 0;
     blocks.each([&](const T* block) {
-        const LoadColumn<T> column{block};
+        const LoadColumn<D> column{block};
         const auto in = hn::Le(Form::offset(p.values + 1, column),
                                hn::MulAdd(column(Form::contactDistance), twice, rest));
         if (hn::AllFalse(d, in)) return;
@@ -109,31 +111,38 @@ HWY_INLINE std::uint32_t allTestsWithin(const Blocks& blocks, const void* pose, 
     return count;
 }
 
-template <class T, class Form>
+template <class Form>
 std::uint32_t testsWithin(const KernelData& data, const void* pose, double margin, std::uint32_t* out) {
-    return allTestsWithin<T, Form>(AllBlocks<T, Form>{data}, pose, margin, out);
+    return allTestsWithin<Form>(AllBlocks<Form>{data}, pose, margin, out);
 }
-template <class T, class Form>
+template <class Form>
 std::uint32_t testsWithinNear(const KernelData& data, const void* pose, const NearBlocks& near, double margin,
                               std::uint32_t* out) {
-    return allTestsWithin<T, Form>(SomeBlocks<T, Form>{data, near}, pose, margin, out);
+    return allTestsWithin<Form>(SomeBlocks<Form>{data, near}, pose, margin, out);
 }
 
-template <class T>
-void queries(const KernelShape& shape, KernelSet& set) {
-    withForm<T>(shape, [&](auto form) {
+template <class D>
+void queriesIn(const KernelShape& shape, KernelSet& set) {
+    withForm<D>(shape, [&](auto form) {
         using Form = decltype(form);
-        set.lanes = static_cast<std::uint32_t>(hn::Lanes(Lanes<T>()));
-        set.hit = hit<T, Form>;
-        set.gap = gap<T, Form>;
-        set.testsWithin = testsWithin<T, Form>;
-        set.hitNear = hitNear<T, Form>;
-        set.gapNear = gapNear<T, Form>;
-        set.testsWithinNear = testsWithinNear<T, Form>;
+        set.lanes = static_cast<std::uint32_t>(hn::Lanes(D()));
+        set.hit = hit<Form>;
+        set.gap = gap<Form>;
+        set.testsWithin = testsWithin<Form>;
+        set.hitNear = hitNear<Form>;
+        set.gapNear = gapNear<Form>;
+        set.testsWithinNear = testsWithinNear<Form>;
     });
 }
-
-#endif
+template <class T>
+void queries(const KernelShape& shape, KernelSet& set) {
+    queriesIn<hn::ScalableTag<T>>(shape, set);
+}
+/// A pair at a time, with what this build may always use.
+template <class T>
+void scalarQueries(const KernelShape& shape, KernelSet& set) {
+    queriesIn<hn::CappedTag<T, 1>>(shape, set);
+}
 
 } // namespace
 } // namespace HWY_NAMESPACE
@@ -166,7 +175,8 @@ bool available(KernelTarget target) {
 template <class T>
 void addQueries(KernelTarget target, const KernelShape& shape, KernelSet& set) {
     TSS_TARGETS(queries<T>(shape, set))
-    (void)target, (void)shape, (void)set;
+    (void)target;
+    HWY_STATIC_DISPATCH(scalarQueries<T>)(shape, set);
 }
 template void addQueries<float>(KernelTarget, const KernelShape&, KernelSet&);
 template void addQueries<double>(KernelTarget, const KernelShape&, KernelSet&);
