@@ -21,4 +21,21 @@ inline fcl::Transform3d fclPlace(const Pose& pose) {
     return transform;
 }
 
+/// Whether some triangles of the two touch, b placed by the pose; the first contact ends it.
+template <class Volume>
+bool fclTouch(const fcl::BVHModel<Volume>& a, const fcl::BVHModel<Volume>& b, const Pose& pose) {
+    const fcl::CollisionRequestd request(1, false);
+    fcl::CollisionResultd result;
+    return fcl::collide(&a, fcl::Transform3d::Identity(), &b, fclPlace(pose), request, result) > 0;
+}
+
+/// 0 where they touch.
+template <class Volume>
+double fclDistance(const fcl::BVHModel<Volume>& a, const fcl::BVHModel<Volume>& b, const Pose& pose) {
+    if (fclTouch(a, b, pose)) return 0;
+    const fcl::DistanceRequestd request;
+    fcl::DistanceResultd result;
+    return fcl::distance(&a, fcl::Transform3d::Identity(), &b, fclPlace(pose), request, result);
+}
+
 } // namespace tss::compare

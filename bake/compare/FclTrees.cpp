@@ -24,16 +24,9 @@ public:
         this->description().slow = name == "aabb";
     }
 
-    bool hit(const PoseQuery& query) const override {
-        fcl::CollisionResultd result;
-        return fcl::collide(&a_, fcl::Transform3d::Identity(), &b_, fclPlace(query.pose), request_, result) >
-               0;
-    }
+    bool hit(const PoseQuery& query) const override { return fclTouch(a_, b_, query.pose); }
     std::optional<double> gap(const PoseQuery& query) const override {
-        if (hit(query)) return 0;
-        const fcl::DistanceRequestd request;
-        fcl::DistanceResultd result;
-        return fcl::distance(&a_, fcl::Transform3d::Identity(), &b_, fclPlace(query.pose), request, result);
+        return fclDistance(a_, b_, query.pose);
     }
 
 private:
@@ -43,7 +36,6 @@ private:
                static_cast<std::size_t>(model.num_vertices) * sizeof(fcl::Vector3d);
     }
     fcl::BVHModel<Volume> a_, b_;
-    fcl::CollisionRequestd request_{1, false};
 };
 
 } // namespace

@@ -5,20 +5,24 @@
 #include "bake/compare/InnerPoles.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace tss::compare {
 
 namespace {
 
-class MeshTreeMethod final : public CollisionMethodLoop<MeshTreeMethod> {
+class TreeMethod final : public CollisionMethodLoop<TreeMethod> {
 public:
-    MeshTreeMethod(MeshTrees trees, Description about) : trees_(std::move(trees)) {
+    TreeMethod(BodyTrees trees, Description about, bool nested) : trees_(std::move(trees)), nested_(nested) {
         description() = std::move(about);
     }
     bool hit(const PoseQuery& query) const override {
         IgnoreWork none;
         return treesTouch(trees_.a, trees_.b, query.pose, none);
+    }
+    std::optional<double> gap(const PoseQuery& query) const override {
+        return nested_ ? std::optional(treesGap(trees_.a, trees_.b, query.pose)) : std::nullopt;
     }
     std::optional<Work> work(const PoseQuery& query) const override {
         CountWork counter;
@@ -27,42 +31,29 @@ public:
     }
 
 private:
-    MeshTrees trees_;
+    BodyTrees trees_;
+    bool nested_;
 };
 
-using Element = std::array<Vec3, 3>;
-
 /// Halves the longest edge until none is longer than `longest`; triangles without an area stay as they are.
-void splitInto(const Element& element, double longest, std::vector<Element>& elements) {
-    int edge = 0;
-    double length = -1;
-    for (int k = 0; k < 3; ++k) {
-        const double l = (element[(k + 1) % 3] - element[k]).norm();
-        if (l > length) {
-            length = l;
-            edge = k;
-        }
-    }
-    if (length <= longest) {
+void splitInto(const Corners& element, double longest, std::vector<Corners>& elements) {
+    const auto edge = [&](int k) { return (element[(k + 1) % 3] - element[k]).norm(); };
+    if (std::max({edge(0), edge(1), edge(2)}) <= longest)
         elements.push_back(element);
-        return;
-    }
-    const Vec3 &p = element[edge], &q = element[(edge + 1) % 3], &r = element[(edge + 2) % 3];
-    const Vec3 middle = 0.5 * (p + q);
-    splitInto({p, middle, r}, longest, elements);
-    splitInto({middle, q, r}, longest, elements);
+    else
+        for (const Corners& half : halves(element)) splitInto(half, longest, elements);
 }
 
 /// The corners of all elements, each place once, with the area-weighted normal there.
-struct Corners {
+struct SharedCorners {
     std::vector<Vec3> points, normals;
     std::vector<std::array<std::uint32_t, 3>> of; ///< #elements
 };
 
-Corners cornersOf(const std::vector<Element>& elements) {
-    Corners corners;
+SharedCorners cornersOf(const std::vector<Corners>& elements) {
+    SharedCorners corners;
     std::map<std::array<double, 3>, std::uint32_t> known;
-    for (const Element& element : elements) {
+    for (const Corners& element : elements) {
         const Vec3 area = (element[1] - element[0]).cross(element[2] - element[0]);
         std::array<std::uint32_t, 3> ids{};
         for (int k = 0; k < 3; ++k) {
@@ -82,8 +73,8 @@ Corners cornersOf(const std::vector<Element>& elements) {
 
 } // namespace
 
-std::unique_ptr<CollisionMethod> makeMeshTreeMethod(MeshTrees trees, Description description) {
-    return std::make_unique<MeshTreeMethod>(std::move(trees), std::move(description));
+std::unique_ptr<CollisionMethod> makeTreeMethod(BodyTrees trees, Description description, bool nested) {
+    return std::make_unique<TreeMethod>(std::move(trees), std::move(description), nested);
 }
 
 std::unique_ptr<CollisionMethod>
@@ -92,7 +83,7 @@ makeMedialTrees(const ComparedPair& problem, int levels,
                 const std::string& how, const std::string& remark) {
     const Stopwatch watch;
     const Solid solidA(problem.meshA), solidB(problem.meshB);
-    MeshTrees trees{build(problem.meshA, solidA, levels), build(problem.meshB, solidB, levels)};
+    BodyTrees trees{build(problem.meshA, solidA, levels), build(problem.meshB, solidB, levels)};
     const double seconds = watch.seconds();
     Description description{name + std::to_string(levels),
                             "medial sphere tree",
@@ -102,10 +93,10 @@ makeMedialTrees(const ComparedPair& problem, int levels,
                             {0, leafProtrusion(trees.a, solidA) + leafProtrusion(trees.b, solidB)},
                             trees.a.bytes() + trees.b.bytes(),
                             seconds};
-    return makeMeshTreeMethod(std::move(trees), std::move(description));
+    return makeTreeMethod(std::move(trees), std::move(description));
 }
 
-double reach(const Vec3& centre, const std::array<Vec3, 3>& element) {
+double reach(const Vec3& centre, const Corners& element) {
     return std::sqrt(std::max({(element[0] - centre).squaredNorm(), (element[1] - centre).squaredNorm(),
                                (element[2] - centre).squaredNorm()}));
 }
@@ -124,7 +115,7 @@ MedialSurface medialSurface(const TriangleMesh& mesh, const Solid& solid) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         splitInto({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, solid.diagonal() / 40,
                   surface.elements);
-    const Corners corners = cornersOf(surface.elements);
+    const SharedCorners corners = cornersOf(surface.elements);
     surface.balls = innerPoles(corners.points, corners.normals);
     std::vector<std::uint32_t> last(corners.points.size(), UINT32_MAX);
     for (std::uint32_t e = 0; e < surface.elements.size(); ++e) {

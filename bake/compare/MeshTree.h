@@ -2,8 +2,8 @@
 #include "bake/compare/EnclosingTree.h"
 #include "bake/compare/Methods.h"
 #include "bake/geometry/Solid.h"
+#include "bake/geometry/SurfacePart.h"
 
-#include <array>
 #include <span>
 
 namespace tss::compare {
@@ -19,11 +19,14 @@ EnclosingTree buildAdaptiveMedial(const TriangleMesh& mesh, const Solid& solid, 
 /// none. (No ball inside can rest against a convex corner.)
 SphereSet restingSpheres(const TriangleMesh& mesh, const Solid& solid);
 
-struct MeshTrees {
+/// Of the two bodies of a pair.
+struct BodyTrees {
     EnclosingTree a, b;
 };
 
-std::unique_ptr<CollisionMethod> makeMeshTreeMethod(MeshTrees trees, Description description);
+/// A method that asks two trees. nested: each ball contains those below it, as gaps need.
+std::unique_ptr<CollisionMethod> makeTreeMethod(BodyTrees trees, Description description,
+                                                bool nested = false);
 
 /// A method of two medial sphere trees. how: they are made, in words; remark: what else is to be said.
 std::unique_ptr<CollisionMethod>
@@ -43,14 +46,14 @@ double leafProtrusion(const EnclosingTree& tree, const Solid& solid);
 /// Elements of the surface (triangles, split where they are large), each with the inner medial ball nearest
 /// to it: what Hubbard's and Bradshaw and O'Sullivan's trees are made from.
 struct MedialSurface {
-    std::vector<std::array<Vec3, 3>> elements;
+    std::vector<Corners> elements;
     std::vector<Sphere> balls; ///< inner medial balls, by the Voronoi vertices of the elements' corners
     std::vector<std::uint32_t> ballOf; ///< #elements
     std::vector<std::pair<std::uint32_t, std::uint32_t>>
         neighbours; ///< elements that share an edge or corner
 };
 /// From a centre to the farthest corner.
-double reach(const Vec3& centre, const std::array<Vec3, 3>& element);
+double reach(const Vec3& centre, const Corners& element);
 MedialSurface medialSurface(const TriangleMesh& mesh, const Solid& solid);
 
 /// The ball about a set of elements that sticks out of the solid least, among those about the medial centres

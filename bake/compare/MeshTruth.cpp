@@ -35,18 +35,11 @@ MeshTruth::MeshTruth(const TriangleMesh& a, const TriangleMesh& b) : models_(std
 MeshTruth::~MeshTruth() = default;
 
 bool MeshTruth::touches(const Pose& pose) const {
-    const fcl::CollisionRequestd request(1, false);
-    fcl::CollisionResultd result;
-    return fcl::collide(&models_->a, fcl::Transform3d::Identity(), &models_->b, fclPlace(pose), request,
-                        result) > 0;
+    return fclTouch(models_->a, models_->b, pose);
 }
 
 double MeshTruth::distance(const Pose& pose) const {
-    if (touches(pose)) return 0;
-    const fcl::DistanceRequestd request;
-    fcl::DistanceResultd result;
-    return fcl::distance(&models_->a, fcl::Transform3d::Identity(), &models_->b, fclPlace(pose), request,
-                         result);
+    return fclDistance(models_->a, models_->b, pose);
 }
 
 std::vector<std::vector<double>> nearContactPoses(const std::function<bool(const Pose&)>& touches,

@@ -80,6 +80,9 @@ std::unique_ptr<CollisionMethod> makeAllowedPaths(const ComparedPair& problem, c
 std::unique_ptr<CollisionMethod> makeGapGrid(const ComparedPair& problem, const GapOracle& oracle, int points,
                                              const StatedError& ofOracle);
 
+/// How far the farthest point of B's bounds moves from the one pose to the other, scene units.
+double farthestMove(const ComparedPair& problem, const std::vector<double>& p, const std::vector<double>& q);
+
 /// The DOF that moves the bodies most over its range.
 std::size_t leadingDof(const ComparedPair& problem);
 

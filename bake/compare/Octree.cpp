@@ -71,7 +71,7 @@ EnclosingTree buildOctree(const TriangleMesh& mesh, int levels) {
 
 std::unique_ptr<CollisionMethod> makeOctree(const ComparedPair& problem, int levels) {
     const Stopwatch watch;
-    MeshTrees trees{buildOctree(problem.meshA, levels), buildOctree(problem.meshB, levels)};
+    BodyTrees trees{buildOctree(problem.meshA, levels), buildOctree(problem.meshB, levels)};
     const double seconds = watch.seconds();
     // A leaf's cube holds a point of the surface, so no point of its ball is farther from that than 2 r.
     double early = 0;
@@ -89,7 +89,7 @@ std::unique_ptr<CollisionMethod> makeOctree(const ComparedPair& problem, int lev
                             {0, early},
                             trees.a.bytes() + trees.b.bytes(),
                             seconds};
-    return makeMeshTreeMethod(std::move(trees), std::move(description));
+    return makeTreeMethod(std::move(trees), std::move(description));
 }
 
 } // namespace tss::compare

@@ -55,13 +55,9 @@ SphereSet keepLargest(const TriangleMesh& mesh, const SphereSet& resting, double
     std::ranges::sort(order, [&](std::uint32_t i, std::uint32_t j) {
         return resting[i].radius != resting[j].radius ? resting[i].radius > resting[j].radius : i < j;
     });
-    std::vector<Eigen::AlignedBox3d> boxes;
     std::vector<Vec3> points;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        points.push_back(centroid(mesh, t));
-        boxes.emplace_back(points[t], points[t]);
-    }
-    const Bvh bvh = buildBvh(boxes);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) points.push_back(centroid(mesh, t));
+    const Bvh bvh = buildBvh(std::vector<Eigen::AlignedBox3d>(points.begin(), points.end()));
     std::vector<char> reached(resting.size(), 0);
     SphereSet kept;
     for (const std::uint32_t i : order) {
@@ -85,7 +81,7 @@ std::unique_ptr<CollisionMethod> makeOrourkeBadler(const ComparedPair& problem) 
         keepLargest(problem.meshA, restingSpheres(problem.meshA, solidA), 1e-3 * solidA.diagonal());
     const SphereSet b =
         keepLargest(problem.meshB, restingSpheres(problem.meshB, solidB), 1e-3 * solidB.diagonal());
-    MeshTrees trees{buildEnclosingTree(a, 8, Enclosure::Balls), buildEnclosingTree(b, 8, Enclosure::Balls)};
+    BodyTrees trees{buildEnclosingTree(a, 8, Enclosure::Balls), buildEnclosingTree(b, 8, Enclosure::Balls)};
     const double seconds = watch.seconds();
     const double miss =
         coverageBound(a, patchesOf(problem.meshA)) + coverageBound(b, patchesOf(problem.meshB));
@@ -99,7 +95,7 @@ std::unique_ptr<CollisionMethod> makeOrourkeBadler(const ComparedPair& problem) 
         {miss, leafProtrusion(trees.a, solidA) + leafProtrusion(trees.b, solidB)},
         trees.a.bytes() + trees.b.bytes(),
         seconds};
-    return makeMeshTreeMethod(std::move(trees), std::move(description));
+    return makeTreeMethod(std::move(trees), std::move(description));
 }
 
 } // namespace tss::compare

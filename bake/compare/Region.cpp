@@ -130,8 +130,18 @@ private:
 
 } // namespace
 
-std::size_t leadingDof(const ComparedPair& problem) {
+double farthestMove(const ComparedPair& problem, const std::vector<double>& p, const std::vector<double>& q) {
+    const Pose from = pose(problem.motion, p), to = pose(problem.motion, q);
     const Eigen::AlignedBox3d box = bounds(problem.meshB);
+    double most = 0;
+    for (int c = 0; c < 8; ++c) {
+        const Vec3 corner = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(c));
+        most = std::max(most, (from * corner - to * corner).norm());
+    }
+    return most;
+}
+
+std::size_t leadingDof(const ComparedPair& problem) {
     std::vector<double> q;
     for (const Dof& dof : problem.motion.dofs) q.push_back(0.5 * (dof.lower + dof.upper));
     std::size_t leading = 0;
@@ -140,13 +150,7 @@ std::size_t leadingDof(const ComparedPair& problem) {
         std::vector<double> low = q, high = q;
         low[k] = problem.motion.dofs[k].lower;
         high[k] = problem.motion.dofs[k].upper;
-        const Pose from = pose(problem.motion, low), to = pose(problem.motion, high);
-        double moved = 0;
-        for (int c = 0; c < 8; ++c) {
-            const Vec3 corner = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(c));
-            moved = std::max(moved, (from * corner - to * corner).norm());
-        }
-        if (moved > most) {
+        if (const double moved = farthestMove(problem, low, high); moved > most) {
             most = moved;
             leading = k;
         }

@@ -1,6 +1,5 @@
 #include "bake/base/Stopwatch.h"
-#include "bake/compare/EnclosingTree.h"
-#include "bake/compare/Methods.h"
+#include "bake/compare/MeshTree.h"
 
 namespace tss::compare {
 
@@ -20,52 +19,32 @@ std::string enclosureName(Enclosure enclosure) {
     return "coreset";
 }
 
-class SphereTreeMethod final : public CollisionMethodLoop<SphereTreeMethod> {
-public:
-    SphereTreeMethod(const ComparedPair& problem, TreeOf of, int arity, Enclosure enclosure) {
-        const Stopwatch watch;
-        const bool all = of == TreeOf::All;
-        a_ = buildEnclosingTree(all ? problem.a : problem.table.a, arity, enclosure);
-        b_ = buildEnclosingTree(all ? problem.b : problem.table.b, arity, enclosure);
-        const double seconds = watch.seconds();
-        const std::string how = enclosureName(enclosure);
-        const Table& table = problem.table;
-        // The spheres that a table uses all belong to the model: every one of their contacts is one of the
-        // model's, and they contain the table's own tests.
-        StatedError stated{missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)};
-        // Without the tolerance from which the tests report on.
-        if (!all) stated.miss.reset();
-        if (!all && table.certified && table.boundMiss) stated.miss = *table.boundMiss + table.epsilon;
-        description() = {std::string(all ? "tree-all-" : "tree-used-") + std::to_string(arity) + "-" + how,
-                         all ? "sphere tree, all spheres" : "sphere tree, used spheres",
-                         std::to_string(arity) + "-ary tree of " +
-                             (all ? "all spheres (case 1)" : "the table's spheres (case 2)") +
-                             ", median split, inner balls: " + how,
-                         stated,
-                         a_.bytes() + b_.bytes(),
-                         seconds};
-    }
-
-    bool hit(const PoseQuery& query) const override {
-        IgnoreWork none;
-        return treesTouch(a_, b_, query.pose, none);
-    }
-    std::optional<double> gap(const PoseQuery& query) const override { return treesGap(a_, b_, query.pose); }
-    std::optional<Work> work(const PoseQuery& query) const override {
-        CountWork counter;
-        treesTouch(a_, b_, query.pose, counter);
-        return counter.work;
-    }
-
-private:
-    EnclosingTree a_, b_;
-};
-
 } // namespace
 
 std::unique_ptr<CollisionMethod> makeSphereTree(const ComparedPair& problem, TreeOf of, int arity,
                                                 Enclosure enclosure) {
-    return std::make_unique<SphereTreeMethod>(problem, of, arity, enclosure);
+    const Stopwatch watch;
+    const bool all = of == TreeOf::All;
+    BodyTrees trees{buildEnclosingTree(all ? problem.a : problem.table.a, arity, enclosure),
+                    buildEnclosingTree(all ? problem.b : problem.table.b, arity, enclosure)};
+    const double seconds = watch.seconds();
+    const std::string how = enclosureName(enclosure);
+    const Table& table = problem.table;
+    // The spheres that a table uses all belong to the model: every one of their contacts is one of the
+    // model's, and they contain the table's own tests.
+    StatedError stated{missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)};
+    // Without the tolerance from which the tests report on.
+    if (!all) stated.miss.reset();
+    if (!all && table.certified && table.boundMiss) stated.miss = *table.boundMiss + table.epsilon;
+    Description description{std::string(all ? "tree-all-" : "tree-used-") + std::to_string(arity) + "-" + how,
+                            all ? "sphere tree, all spheres" : "sphere tree, used spheres",
+                            std::to_string(arity) + "-ary tree of " +
+                                (all ? "all spheres (case 1)" : "the table's spheres (case 2)") +
+                                ", median split, inner balls: " + how,
+                            stated,
+                            trees.a.bytes() + trees.b.bytes(),
+                            seconds};
+    return makeTreeMethod(std::move(trees), std::move(description), true);
 }
 
 } // namespace tss::compare

@@ -68,18 +68,6 @@ double firstTouch(int steps, const Touches& touches) {
     return 2;
 }
 
-double farthestMove(const compare::ComparedPair& problem, const std::vector<double>& p,
-                    const std::vector<double>& q) {
-    const Pose from = pose(problem.motion, p), to = pose(problem.motion, q);
-    double most = 0;
-    const Eigen::AlignedBox3d box = bounds(problem.meshB);
-    for (int c = 0; c < 8; ++c) {
-        const Vec3 corner = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(c));
-        most = std::max(most, (from * corner - to * corner).norm());
-    }
-    return most;
-}
-
 } // namespace
 
 JudgedPoses::JudgedPoses(const compare::ComparedPair& problem, const compare::MeshTruth& truth,
@@ -192,7 +180,8 @@ FirstContact measureFirstContact(const compare::ComparedPair& problem, const com
         }
         const double angle =
             std::abs((contact - motion.contact) * (motion.to[leading] - motion.from[leading]));
-        const double length = farthestMove(problem, along(motion, motion.contact), along(motion, contact));
+        const double length =
+            compare::farthestMove(problem, along(motion, motion.contact), along(motion, contact));
         result.worstAngle = std::max(result.worstAngle, angle);
         result.meanAngle += angle;
         result.worstLength = std::max(result.worstLength, length);

@@ -78,7 +78,7 @@ void addTrees(Entry& entry, const ComparedPair& problem) {
     }
 }
 
-void addMeshTrees(Entry& entry, const ComparedPair& problem, bool quick) {
+void addBodyTrees(Entry& entry, const ComparedPair& problem, bool quick) {
     for (int levels = 4; levels <= (quick ? 6 : 8); levels += quick ? 2 : 1)
         entry.add("octree", [&] { return makeOctree(problem, levels); });
     for (int levels = 3; levels <= (quick ? 3 : 5); ++levels) {
@@ -174,7 +174,7 @@ MethodSet makeMethods(const Model& model, Field field, bool quick, const std::ve
     entry.add("all-pairs", [&] { return makeAllPairs(problem); });
     entry.add("all-pairs-simd", [&] { return makeAllPairsSimd(problem); });
     addTrees(entry, problem);
-    addMeshTrees(entry, problem, quick);
+    addBodyTrees(entry, problem, quick);
     addMotionMethods(entry, problem, quick, seed);
     addMeshMethods(entry, problem);
     entry.skip("bent ellipsoid", "stands for a muscle under a skin; a rigid pair of meshes has none");

@@ -24,12 +24,9 @@ class Grower {
 public:
     Grower(const TriangleMesh& mesh, const GrowthOptions& options)
         : mesh_(mesh), lengths_(lengths(mesh, options)) {
-        std::vector<Eigen::AlignedBox3d> boxes;
-        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
             centroids_.push_back((mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3);
-            boxes.emplace_back(centroids_.back());
-        }
-        tree_ = buildBvh(boxes);
+        tree_ = buildBvh(std::vector<Eigen::AlignedBox3d>(centroids_.begin(), centroids_.end()));
     }
 
     GrownSphere grow(int triangle) const {
