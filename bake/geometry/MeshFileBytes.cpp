@@ -3,109 +3,66 @@
 #include "bake/base/Subprocess.h"
 
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 namespace tss {
 
 namespace {
 
+using Json = nlohmann::json;
+
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Tri) == 3 * sizeof(int));
 
-class Writer {
-public:
-    template <class T>
-    void number(const T& value) {
-        raw(&value, sizeof value);
-    }
-    void text(const std::string& value) {
-        number(value.size());
-        raw(value.data(), value.size());
-    }
-    template <class T>
-    void triples(const std::vector<T>& values) {
-        number(values.size());
-        raw(values.data(), values.size() * sizeof(T));
-    }
+template <class T>
+Json blockOf(const std::vector<T>& values) {
+    const auto* begin = reinterpret_cast<const std::uint8_t*>(values.data());
+    return Json::binary({begin, begin + values.size() * sizeof(T)});
+}
 
-    std::string bytes;
-
-private:
-    void raw(const void* from, std::size_t count) {
-        if (count > 0) bytes.append(static_cast<const char*>(from), count);
-    }
-};
-
-class Reader {
-public:
-    explicit Reader(std::string_view bytes) : left_(bytes) {}
-
-    template <class T>
-    T number() {
-        T value;
-        raw(&value, sizeof value);
-        return value;
-    }
-    std::string text() {
-        const auto size = number<std::size_t>();
-        expect(size);
-        std::string value(left_.substr(0, size));
-        left_.remove_prefix(size);
-        return value;
-    }
-    template <class T>
-    std::vector<T> triples() {
-        const auto count = number<std::size_t>();
-        expect(count);
-        std::vector<T> values(count);
-        if (count > 0) raw(values.data()->data(), count * sizeof(T));
-        return values;
-    }
-
-private:
-    void expect(std::size_t count) const {
-        if (count > left_.size()) throw SubprocessFailed("cut short");
-    }
-    void raw(void* to, std::size_t count) {
-        expect(count);
-        std::memcpy(to, left_.data(), count);
-        left_.remove_prefix(count);
-    }
-
-    std::string_view left_;
-};
+template <class T>
+std::vector<T> valuesOf(const Json& block) {
+    const Json::binary_t& bytes = block.get_binary();
+    std::vector<T> values(bytes.size() / sizeof(T));
+    if (!values.empty()) std::memcpy(values.data()->data(), bytes.data(), values.size() * sizeof(T));
+    return values;
+}
 
 } // namespace
 
 std::string bytesOf(const MeshFile& file) {
-    Writer to;
     const MeshFileNotes& notes = file.notes;
-    to.number(notes.leftOut.size());
-    for (const std::string& text : notes.leftOut) to.text(text);
-    to.number(notes.metersPerUnit);
-    to.number(notes.upAxis);
-    to.number(notes.step);
-    to.number(file.nodes.size());
+    Json json{{"leftOut", notes.leftOut},
+              {"metersPerUnit", notes.metersPerUnit},
+              {"upAxis", static_cast<int>(notes.upAxis)},
+              {"step", notes.step},
+              {"nodes", Json::array()}};
     for (const ImportedNode& node : file.nodes) {
-        to.text(node.name);
-        for (int k = 0; k < 16; ++k) to.number(node.place.matrix().data()[k]);
-        to.triples(node.mesh.vertices);
-        to.triples(node.mesh.triangles);
+        const double* place = node.place.matrix().data();
+        json["nodes"].push_back({{"name", node.name},
+                                 {"place", std::vector<double>(place, place + 16)},
+                                 {"vertices", blockOf(node.mesh.vertices)},
+                                 {"triangles", blockOf(node.mesh.triangles)}});
     }
-    return std::move(to.bytes);
+    std::string bytes;
+    Json::to_cbor(json, bytes);
+    return bytes;
 }
 
 MeshFile meshFileOf(std::string_view bytes) {
-    Reader from(bytes);
+    const Json json = Json::from_cbor(bytes, true, false);
+    if (!json.is_object()) throw SubprocessFailed("cut short");
     MeshFile file;
-    for (auto left = from.number<std::size_t>(); left > 0; --left) file.notes.leftOut.push_back(from.text());
-    file.notes.metersPerUnit = from.number<double>();
-    file.notes.upAxis = from.number<char>();
-    file.notes.step = from.number<double>();
-    for (auto left = from.number<std::size_t>(); left > 0; --left) {
+    file.notes.leftOut = json["leftOut"].get<std::vector<std::string>>();
+    file.notes.metersPerUnit = json["metersPerUnit"].get<double>();
+    file.notes.upAxis = static_cast<char>(json["upAxis"].get<int>());
+    file.notes.step = json["step"].get<double>();
+    for (const Json& from : json["nodes"]) {
         ImportedNode& node = file.nodes.emplace_back();
-        node.name = from.text();
-        for (int k = 0; k < 16; ++k) node.place.matrix().data()[k] = from.number<double>();
-        node.mesh.vertices = from.triples<Vec3>();
-        node.mesh.triangles = from.triples<Tri>();
+        node.name = from["name"].get<std::string>();
+        std::memcpy(node.place.matrix().data(), from["place"].get<std::vector<double>>().data(),
+                    16 * sizeof(double));
+        node.mesh.vertices = valuesOf<Vec3>(from["vertices"]);
+        node.mesh.triangles = valuesOf<Tri>(from["triangles"]);
     }
     return file;
 }
