@@ -15,13 +15,6 @@ struct ComparedPair {
     Table table;          ///< the reduced pairs, and which spheres of a and b they use
 };
 
-/// What the table's loop over indices reads.
-inline std::size_t tableBytes(const Table& table) {
-    return (table.a.size() + table.b.size()) * sizeof(Sphere) +
-           (table.rowOffsets.size() + table.columns.size()) * sizeof(std::uint32_t) +
-           table.restGaps.size() * sizeof(double);
-}
-
 /// What a yes/no over the whole sphere sets can promise against the meshes. A contact is a common point: with
 /// spheres that lack at most `coverage` of each surface the gap there is at most the sum of both, so only
 /// spheres that contain the surface miss nothing; with protrusion, spheres touch where the meshes are as near

@@ -2,10 +2,10 @@
 
 #include "bake/base/AtomicFile.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 namespace tss::reporting {
 
@@ -20,7 +20,7 @@ std::string header(const std::string& values, const std::string& file, int width
                        "set output {}\n"
                        "set border lw 1\nset grid lc rgb \"#dddddd\" lt 1\nset key outside right top Left "
                        "reverse samplen 2\n",
-                       quoted(values), width, height, quoted(file));
+                       inQuotes(values), width, height, inQuotes(file));
 }
 
 std::string oneLine(std::string text) {
@@ -30,52 +30,26 @@ std::string oneLine(std::string text) {
     return first == std::string::npos ? "it does not say why" : text.substr(first, last - first + 1);
 }
 
-/// Until the other end is closed; closes this one.
-std::string readAll(int from) {
-    std::string text;
-    char bytes[512];
-    for (ssize_t count; (count = read(from, bytes, sizeof bytes)) > 0;)
-        text.append(bytes, static_cast<std::size_t>(count));
-    close(from);
-    return text;
-}
-
 /// What gnuplot says is kept from the terminal: it warns of every axis with one value. Nothing where it has
 /// drawn, else why not.
 std::string runGnuplot(const std::string& folder, const std::string& script) {
     constexpr int notThere = 127; // as shells have it
     const std::string cannot = "gnuplot could not be run";
-    int ends[2];
-    if (pipe(ends) != 0) return cannot;
-    const pid_t child = fork();
-    if (child == 0) {
-        // In a bare locale it complains of every degree sign.
-        if (chdir(folder.c_str()) != 0 || setenv("LC_ALL", "C.UTF-8", 1) != 0) _exit(1);
-        for (const int to : {STDOUT_FILENO, STDERR_FILENO}) dup2(ends[1], to);
-        close(ends[0]);
-        close(ends[1]);
-        execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
-        _exit(notThere);
-    }
-    close(ends[1]);
-    const std::string said = readAll(ends[0]);
-    int status = 0;
-    if (child < 0 || waitpid(child, &status, 0) != child) return cannot;
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
+    // In a bare locale it complains of every degree sign.
+    const std::string command =
+        fmt::format("cd {} && LC_ALL=C.UTF-8 gnuplot {} 2>&1", shellWord(folder), shellWord(script));
+    std::FILE* const pipe = popen(command.c_str(), "r");
+    if (!pipe) return cannot;
+    std::string said;
+    char bytes[512];
+    while (const std::size_t count = std::fread(bytes, 1, sizeof bytes, pipe)) said.append(bytes, count);
+    const int status = pclose(pipe);
+    if (status == 0) return "";
     if (WIFEXITED(status) && WEXITSTATUS(status) == notThere) return cannot + " (Debian package gnuplot-nox)";
     return "gnuplot failed on plots/" + script + ": " + oneLine(said);
 }
 
 } // namespace
-
-std::string quoted(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') out += '\\';
-        out += c;
-    }
-    return out + '"';
-}
 
 const char* colour(std::size_t k) {
     return colours[k % std::size(colours)];

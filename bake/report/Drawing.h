@@ -1,10 +1,8 @@
 #pragma once
+#include "bake/base/Words.h"
 #include "bake/report/Plots.h"
 
 namespace tss::reporting {
-
-/// Text as gnuplot reads it between double quotes.
-std::string quoted(const std::string& text);
 
 /// The k-th of twelve colours that are told apart on white.
 const char* colour(std::size_t k);

@@ -52,7 +52,7 @@ void drawErrors(Drawing& drawing, const PairStudy& study, const std::string& nam
             series +=
                 fmt::format("{}FILE index {} using 1:2 with points pt {} ps 1.0 lw 1.5 lc rgb \"{}\" {}",
                             index ? ", " : "", index, missing ? 6 : 7, colour(family),
-                            titled ? "notitle" : fmt::format("title {}", quoted(named)));
+                            titled ? "notitle" : fmt::format("title {}", inQuotes(named)));
             titled = true;
             ++index;
         }
@@ -73,14 +73,14 @@ void drawErrors(Drawing& drawing, const PairStudy& study, const std::string& nam
         name, data,
         powersOfTen("xy") +
             fmt::format("set xlabel {}\nset ylabel {}\nset yrange [{}:*]\nset title {} noenhanced\nplot {}\n",
-                        quoted(x.label), quoted(y.label), bottom * 0.5, quoted(title), series),
+                        inQuotes(x.label), inQuotes(y.label), bottom * 0.5, inQuotes(title), series),
         caption, 1100, 620);
 }
 
 void drawSteps(Drawing& drawing, const PairStudy& study) {
     const StepStudy& steps = study.steps;
     std::string data = "# step leading touching inRegion";
-    for (const StepSeries& series : steps.series) data += fmt::format(" {}", quoted(series.name));
+    for (const StepSeries& series : steps.series) data += fmt::format(" {}", inQuotes(series.name));
     data += "\n";
     double most = 1;
     for (std::size_t s = 0; s < steps.leading.size(); ++s) {
@@ -98,11 +98,11 @@ void drawSteps(Drawing& drawing, const PairStudy& study) {
         "set ylabel \"sphere tests a step (bottom: none)\"\nset yrange [0.2:{}]\nset xrange [0:{}]\n"
         "set title {} noenhanced\nplot ",
         powersOfTen("y"), 3 * most, std::max<std::size_t>(1, steps.leading.size() - 1),
-        quoted(fmt::format("Tests a step along {}", steps.motion)));
+        inQuotes(fmt::format("Tests a step along {}", steps.motion)));
     for (std::size_t k = 0; k < steps.series.size(); ++k)
         script += fmt::format(
             "FILE using 1:(${0} > 0.5 ? ${0} : 0.5) with lines lw 2 dt {3} lc rgb \"{1}\" title {2}, ", k + 5,
-            colour(k), quoted(steps.series[k].name),
+            colour(k), inQuotes(steps.series[k].name),
             k + 1 < steps.series.size() ? "1" : "(8,8)"); // the last may lie on the one before
     script += "FILE using 1:($4 > 0 ? 0.35 : NaN) with points pt 5 ps 0.5 lc rgb \"#f0a0a0\" title \"in the "
               "angular region\", FILE using 1:($3 > 0 ? 0.25 : NaN) with points pt 5 ps 0.5 lc rgb "
@@ -131,7 +131,7 @@ void drawRegion(Drawing& drawing, const PairStudy& study) {
             "set title \"{}egion of collision\"\n{}plot FILE using 1:2 with lines lw 2 lc rgb "
             "\"#0060ad\" title \"spheres of {}\", FILE using 1:3 with lines lw 2 lc rgb \"#dd181f\" title "
             "\"meshes\", NaN with lines lw 10 lc rgb \"#fbe3e4\" title \"region of the meshes\"\n",
-            quoted(fmt::format("{}, {}", study.leadingDof, study.leadingUnit)),
+            inQuotes(fmt::format("{}, {}", study.leadingDof, study.leadingUnit)),
             study.leadingUnit == "degrees" ? "Angular r" : "R", shaded, study.base.name),
         "Share of poses that collide by the leading DOF, the other DOFs anywhere in their limits (the "
         "paper's Figure 2i).");

@@ -18,7 +18,7 @@ void drawMethods(Drawing& drawing, const SkinStudy& study) {
                         std::max(drawnAsNone, study.millimetres * std::max(m.deepestMiss, m.farthestEarly)));
         series +=
             fmt::format("{}FILE index {} using 1:2 with points pt {} ps 1.4 lw 2 lc rgb \"{}\" title {}",
-                        k ? ", " : "", k, m.missed ? 6 : 7, colour(k), quoted(m.name));
+                        k ? ", " : "", k, m.missed ? 6 : 7, colour(k), inQuotes(m.name));
     }
     drawing.draw(
         "pareto", data,
@@ -45,7 +45,7 @@ void drawSteps(Drawing& drawing, const SkinStudy& study) {
     }
     for (std::size_t k = 0; k < study.methods.size(); ++k)
         series += fmt::format("{}FILE using 1:{} with linespoints pt {} ps 0.6 lw 2 lc rgb \"{}\" title {}",
-                              k ? ", " : "", k + 2, k + 4, colour(k), quoted(study.methods[k].name));
+                              k ? ", " : "", k + 2, k + 4, colour(k), inQuotes(study.methods[k].name));
     drawing.draw("steps", data,
                  fmt::format("set logscale y\nset format y \"10^{{%L}}\"\nset termoption enhanced\nset "
                              "xlabel \"activation\"\nset ylabel \"tests a step\"\nset title \"Tests a step "
@@ -81,7 +81,7 @@ void drawAnswers(Drawing& drawing, const SkinStudy& study) {
             "lines dt 3 lw 2 lc rgb \"#444444\" title {}\n",
             labels, colour(0), colour(1), colour(2),
             std::max(drawnAsNone, study.millimetres * study.motion.untouched),
-            quoted(whereNothingPushes(study))),
+            inQuotes(whereNothingPushes(study))),
         "Residual depth of the skin in what is below it, and distance to the converged solve, against the "
         "time of an update, for several numbers of sweeps.",
         1000, 520);
@@ -102,7 +102,7 @@ void drawDepth(Drawing& drawing, const SkinStudy& study) {
         script += "set y2label \"activation\"\nset ytics nomirror\nset y2tics\nset y2range [0:*]\n";
     script += fmt::format("plot FILE using 1:3 with lines lw 2 lc rgb \"#dd181f\" title {}, FILE using 1:4 "
                           "with lines lw 2 lc rgb \"#0060ad\" title \"left by the response\"{}\n",
-                          quoted(whereNothingPushes(study)),
+                          inQuotes(whereNothingPushes(study)),
                           contracts ? ", FILE using 1:2 axes x1y2 with lines lw 1.5 dt 2 lc rgb \"#5b5b5b\" "
                                       "title \"activation (right)\""
                                     : "");

@@ -33,10 +33,6 @@ std::string shareText(std::size_t part, std::size_t whole) {
     return whole == 0 ? "–" : part == 0 ? "0" : fmt::format("{} of {}", part, whole);
 }
 
-std::string counted(std::size_t count, const std::string& thing) {
-    return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
-
 std::string notRunText(const std::vector<NotRun>& notRun) {
     std::string text;
     for (const NotRun& entry : notRun) text += fmt::format("- {}: {}.\n", entry.method, entry.reason);

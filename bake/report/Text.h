@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/base/Words.h"
 #include "bake/report/Report.h"
 
 namespace tss::reporting {
@@ -14,8 +15,6 @@ std::string timeText(const Times& times);
 std::string bytesText(std::size_t bytes);
 /// "3 of 40"; "0" for none, "–" of nothing.
 std::string shareText(std::size_t part, std::size_t whole);
-/// "1 test", "3 tests".
-std::string counted(std::size_t count, const std::string& thing);
 std::string notRunText(const std::vector<NotRun>& notRun);
 /// The plot whose file name has this part, with its caption; nothing where it was not drawn.
 std::string pictureText(const std::vector<Plot>& plots, const std::string& part);

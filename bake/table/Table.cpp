@@ -73,4 +73,10 @@ Table makeTable(const SphereSet& a, const SphereSet& b, const std::vector<Sphere
     return table;
 }
 
+std::size_t tableBytes(const Table& table) {
+    return (table.a.size() + table.b.size()) * sizeof(Sphere) +
+           (table.rowOffsets.size() + table.columns.size()) * sizeof(std::uint32_t) +
+           table.restGaps.size() * sizeof(double);
+}
+
 } // namespace tss

@@ -60,7 +60,7 @@ struct Table {
     double epsilon = 0;   ///< gap of the table <= gap of the sphere models + epsilon, at every pose (3.3)
     double gapDepth = 0;  ///< gap-true down to this depth ...
     double gapMargin = 0; ///< ... and up to this clearance (3.4); both 0: a yes/no table
-    std::optional<double> boundMiss;  ///< where the meshes touch the gap is no larger; 0: no contact is missed
+    std::optional<double> boundMiss; ///< where the meshes touch the gap is no larger; 0: no contact is missed
     std::optional<double> boundEarly; ///< contact is reported only when the meshes are this near
     bool certified = false;           ///< the bounds hold for every pose of the limits, not for samples
     std::string method;               ///< how it was made, e.g. "medial/certified/cover"
@@ -102,5 +102,8 @@ struct UsedSpheres {
     std::size_t a = 0, b = 0;
 };
 UsedSpheres usedSpheres(const Table& table);
+
+/// Bytes of its spheres, rows, columns and rest gaps.
+std::size_t tableBytes(const Table& table);
 
 } // namespace tss

@@ -1,5 +1,6 @@
 #pragma once
 #include "bake/base/Progress.h"
+#include "bake/base/Words.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -24,12 +25,6 @@ struct Console {
     /// A progress bar on stderr when that is a terminal; nothing otherwise.
     Progress progress() const;
 };
-
-/// "1 pair", "2 pairs".
-std::string counted(std::size_t count, const std::string& thing);
-
-/// A word as a shell reads it: in quotes where it needs them.
-std::string shellWord(const std::string& word);
 
 /// Whether a file has the name of a mesh's.
 bool isMeshName(const std::string& file);

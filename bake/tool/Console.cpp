@@ -2,12 +2,10 @@
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/geometry/Import.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -44,25 +42,9 @@ Progress Console::progress() const {
     };
 }
 
-std::string counted(std::size_t count, const std::string& thing) {
-    return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
-
-std::string shellWord(const std::string& word) {
-    const auto plain = [](unsigned char c) {
-        return std::isalnum(c) || c > 0x7f || std::strchr("_-./=+,:@%", c);
-    };
-    if (!word.empty() && std::ranges::all_of(word, plain)) return word;
-    std::string quoted = "'";
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
-}
-
 bool isMeshName(const std::string& file) {
-    std::string extension = std::filesystem::path(file).extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     const auto meshes = {".obj", ".stl", ".ply", ".off", ".dae", ".fbx", ".gltf", ".glb", ".3ds"};
-    return std::ranges::find(meshes, extension) != meshes.end();
+    return std::ranges::find(meshes, extensionOf(file)) != meshes.end();
 }
 
 void refuseOverwriting(const std::string& output, std::initializer_list<std::string> inputs) {

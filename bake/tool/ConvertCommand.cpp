@@ -77,16 +77,6 @@ struct SpheresWritten {
     std::vector<std::string> notes;
 };
 
-/// A name as a YAML key, whatever is in it.
-std::string quoted(const std::string& name) {
-    std::string text = "\"";
-    for (char c : name) {
-        if (c == '"' || c == '\\') text += '\\';
-        text += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-    return text + "\"";
-}
-
 /// collision_spheres as cuRobo's robot files have them: of each rigid body with a mesh, in its own frame, in
 /// metres. The union of a link's spheres holds its whole surface, and they stick out of it by what its
 /// comment says, both proven. Throws InputError for a mesh that cannot be filled so closely.
@@ -104,7 +94,7 @@ SpheresWritten curoboSpheresOf(const SceneModel& scene, const SphereOptions& opt
         if (!std::isfinite(fit.protrusion) || fit.coverage > 0)
             throw InputError(Where{"", "", body.path}, "its mesh cannot be covered by spheres with a bound");
         if (!fit.note.empty()) written.notes.push_back(name + ": " + fit.note);
-        written.text += fmt::format("  {}: # {}, out of the link by at most {:.4g} mm{}\n", quoted(name),
+        written.text += fmt::format("  {}: # {}, out of the link by at most {:.4g} mm{}\n", inQuotes(name),
                                     counted(fit.spheres.size(), "sphere"), 1000 * metre * fit.protrusion,
                                     fit.hollow ? "; taken for its surface alone" : "");
         for (const Sphere& sphere : fit.spheres) {

@@ -20,13 +20,6 @@ Json knownOrNull(const std::optional<double>& value) {
     return value ? Json(*value) : Json();
 }
 
-/// Bytes that a table's data takes: spheres, CSR and rest gaps.
-std::size_t bytes(const Table& table) {
-    return (table.a.size() + table.b.size()) * sizeof(Sphere) +
-           (table.rowOffsets.size() + table.columns.size()) * sizeof(std::uint32_t) +
-           table.restGaps.size() * sizeof(double);
-}
-
 /// Lengths in scene units; of the contact zone where the spheres stand there alone.
 Json fitOf(const FitRecord& fit) {
     return {{"coverage", knownOrNull(fit.coverage)},
@@ -61,7 +54,7 @@ void addTable(Json& json, const Table& table) {
     json["certified"] = table.certified;
     json["overlapAtRest"] = std::ranges::count_if(table.restGaps, [](double g) { return g < 0; });
     json["method"] = table.method;
-    json["bytes"] = bytes(table);
+    json["bytes"] = tableBytes(table);
 }
 
 /// Where the meshes overlap at rest, in scene units; shares are of the whole surface.
