@@ -49,7 +49,7 @@ EnclosingTree buildEnclosingTree(const SphereSet& spheres, int arity, Enclosure 
         below.clear();
         for (const std::uint32_t i : item.range) below.push_back(spheres[i]);
         const Sphere ball = enclosingBall(below, enclosure);
-        EnclosingTree::Node node{ball.centre, ball.radius, 0, 0};
+        EnclosingTree::Node node{ball.centre, ball.radius, item.range.front(), 0};
         if (item.range.size() > 1) {
             std::vector<std::span<std::uint32_t>> parts;
             split(spheres, item.range, levels, parts);

@@ -9,7 +9,7 @@ struct EnclosingTree {
     struct Node {
         Vec3 centre = Vec3::Zero();
         double radius = 0;
-        std::uint32_t first = 0; ///< first child
+        std::uint32_t first = 0; ///< first child; of a leaf of buildEnclosingTree() the sphere
         std::uint32_t count = 0; ///< number of children; 0: a leaf, one of the model's spheres
     };
     std::vector<Node> nodes; ///< the root first; empty for no spheres

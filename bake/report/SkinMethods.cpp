@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
-#include <tuple>
 
 namespace tss::reporting {
 
@@ -45,37 +44,14 @@ Work byTable(const SkinSetting& setting, const SkinStep& step, Found& found) {
 /// A tree over spheres that move: the shape of the tree stays, its balls follow each step.
 struct RefittedTree {
     EnclosingTree tree;
-    std::vector<std::uint32_t> leafOf; ///< sphere of each leaf node
 
-    RefittedTree(const SphereSet& spheres, int arity)
-        : tree(buildEnclosingTree(spheres, arity, Enclosure::Box)) {
-        // Leaves are copies of the spheres: found again by their place.
-        std::vector<std::uint32_t> order(spheres.size());
-        std::iota(order.begin(), order.end(), 0u);
-        const auto less = [](const Sphere& a, const Sphere& b) {
-            return std::tuple(a.centre.x(), a.centre.y(), a.centre.z(), a.radius) <
-                   std::tuple(b.centre.x(), b.centre.y(), b.centre.z(), b.radius);
-        };
-        std::ranges::sort(order,
-                          [&](std::uint32_t i, std::uint32_t j) { return less(spheres[i], spheres[j]); });
-        std::vector<char> taken(spheres.size(), 0);
-        leafOf.assign(tree.nodes.size(), 0);
-        for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
-            if (tree.nodes[n].count > 0) continue;
-            const Sphere leaf{tree.nodes[n].centre, tree.nodes[n].radius};
-            auto at = std::lower_bound(order.begin(), order.end(), leaf,
-                                       [&](std::uint32_t i, const Sphere& s) { return less(spheres[i], s); });
-            while (taken[*at]) ++at; // equal spheres: each leaf takes its own
-            taken[*at] = 1;
-            leafOf[n] = *at;
-        }
-    }
+    explicit RefittedTree(const SphereSet& spheres) : tree(buildEnclosingTree(spheres, 8, Enclosure::Box)) {}
     void refit(const SphereSet& spheres) {
         for (std::size_t n = tree.nodes.size(); n-- > 0;) {
             EnclosingTree::Node& node = tree.nodes[n];
             if (node.count == 0) {
-                node.centre = spheres[leafOf[n]].centre;
-                node.radius = spheres[leafOf[n]].radius;
+                node.centre = spheres[node.first].centre;
+                node.radius = spheres[node.first].radius;
                 continue;
             }
             node.centre = Vec3::Zero();
@@ -101,7 +77,7 @@ Work byTrees(const RefittedTree& skin, const std::vector<std::uint32_t>& vertexO
         const EnclosingTree::Node &na = skin.tree.nodes[a], &nb = muscle.tree.nodes[b];
         if (!overlap({na.centre, na.radius}, {nb.centre, nb.radius})) return false;
         if (na.count == 0 && nb.count == 0) {
-            found[vertexOf[skin.leafOf[a]]] = 1;
+            found[vertexOf[na.first]] = 1;
         } else {
             stack.emplace_back(a, b);
         }
@@ -198,8 +174,8 @@ void runSkinMethods(const SkinSetting& setting, SkinStudy& study) {
     std::iota(every.begin(), every.end(), 0u);
     SphereSet inRows;
     for (const std::uint32_t v : setting.rowVertex) inRows.push_back(setting.skin[v]);
-    const RefittedTree skinAll(setting.skin, 8), skinUsed(inRows, 8);
-    RefittedTree muscleAll(setting.steps[0].muscle, 8);
+    const RefittedTree skinAll(setting.skin), skinUsed(inRows);
+    RefittedTree muscleAll(setting.steps[0].muscle);
     addMethod(study, setting, "tss", "the table's tests, skin at its rest place (the paper's way)",
               [&](const SkinStep& step, Found& found) { return byTable(setting, step, found); });
     const std::string part = study.partName();
