@@ -223,6 +223,25 @@ std::vector<std::size_t> firstValues(const SceneModel& scene) {
     return first;
 }
 
+std::vector<double> restValues(const SceneModel& scene) {
+    std::vector<double> values;
+    for (const Joint& joint : scene.joints)
+        for (const Dof& dof : joint.dofs) values.push_back(dof.rest);
+    return values;
+}
+
+bool isDriven(const Joint& joint, std::size_t dof) {
+    return dof < joint.drives.size() && !joint.drives[dof].empty();
+}
+
+std::vector<double> drivenValues(const SceneModel& scene, double timeCode) {
+    std::vector<double> values;
+    for (const Joint& joint : scene.joints)
+        for (std::size_t k = 0; k < joint.dofs.size(); ++k)
+            values.push_back(isDriven(joint, k) ? joint.drives[k].at(timeCode) : joint.dofs[k].rest);
+    return values;
+}
+
 std::vector<JointDof> pairDofs(const SceneModel& scene, const Pair& pair) {
     std::vector<JointDof> dofs;
     int body = pair.bodyA;

@@ -38,12 +38,21 @@ struct JointDof {
 /// many there are.
 std::vector<std::size_t> firstValues(const SceneModel& scene);
 
+/// One value per DOF, joints in file order, DOFs in the joint's order: where they rest.
+std::vector<double> restValues(const SceneModel& scene);
+
+/// The same at a time code, as the joints are driven; what is not driven rests.
+std::vector<double> drivenValues(const SceneModel& scene, double timeCode);
+
+/// Whether the joint's motion says where a DOF of it is.
+bool isDriven(const Joint& joint, std::size_t dof);
+
 /// Which of the joints' DOFs each DOF of pairMotion() is: those of a joint that is crossed from body1 to
 /// body0 come in reverse order.
 std::vector<JointDof> pairDofs(const SceneModel& scene, const Pair& pair);
 
-/// Where each body stands (body to world) when the joints have these values: one value per DOF, joints in
-/// file order, DOFs in the joint's order. Bodies that no enabled joint moves stay as modelled; where joints
+/// Where each body stands (body to world) when the joints have these values, in the order of restValues().
+/// Bodies that no enabled joint moves stay as modelled; where joints
 /// close a loop, the first joint in file order that reaches a body places it.
 std::vector<Pose> posedBodies(const SceneModel& scene, std::span<const double> values);
 

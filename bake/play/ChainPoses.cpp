@@ -36,12 +36,7 @@ ChainPoses::ChainPoses(const SceneModel& scene, const std::vector<int>& pairs) {
             wanted[joint] =
                 std::ranges::none_of(dofs, [](const Dof& dof) { return dof.kind == DofKind::Path; });
         }
-    std::vector<std::size_t> firstValue;
-    std::size_t count = 0;
-    for (const Joint& joint : scene.joints) {
-        firstValue.push_back(count);
-        count += joint.dofs.size();
-    }
+    const std::vector<std::size_t> firstValue = firstValues(scene);
     served_.assign(scene.joints.size(), false);
     toOrigin_.resize(scene.bodies.size());
 

@@ -102,8 +102,7 @@ MechanismQuery::Prepared::Prepared(const SceneModel& scene, const std::vector<in
         }
     }
     chain_ = ChainPoses(scene, chained);
-    std::size_t count = 0;
-    for (const Joint& joint : scene.joints) count += joint.dofs.size();
+    const std::size_t count = firstValues(scene).back();
     lower_.assign(count, -std::numeric_limits<double>::infinity());
     upper_.assign(count, std::numeric_limits<double>::infinity());
 

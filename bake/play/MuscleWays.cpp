@@ -18,13 +18,6 @@ constexpr double wholeTurnNear = -0.9; ///< cosine of half the turn: 308 degrees
 /// Values of all DOFs of the scene at the end of a way.
 using Values = std::vector<double>;
 
-Values restValues(const SceneModel& scene) {
-    Values rest;
-    for (const Joint& joint : scene.joints)
-        for (const Dof& dof : joint.dofs) rest.push_back(dof.rest);
-    return rest;
-}
-
 /// The ends that one value at a time goes to, joint by joint of the chain.
 std::vector<std::vector<Values>> jointEnds(const SceneModel& scene, const std::vector<int>& chain,
                                            const Values& rest) {

@@ -73,8 +73,7 @@ Player::State::State(const SceneModel& scene, std::vector<std::string>& warnings
         for (const int pair : group.pairs) served[pair] = 1;
     for (int k = 0; k < static_cast<int>(scene.pairs.size()); ++k)
         if (scene.pairs[k].table && !served[k]) unserved_.push_back(k);
-    for (const Joint& joint : scene.joints)
-        for (const Dof& dof : joint.dofs) values_.push_back(dof.rest);
+    values_ = restValues(scene);
 
     for (std::size_t k = 0; k < scene.skins.size(); ++k) {
         const SkinModel& skin = scene.skins[k];

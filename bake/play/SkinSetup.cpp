@@ -36,10 +36,8 @@ std::array<double, 2> endsOf(const Dof& dof) {
 /// joints that turn by more than half a turn from rest.
 std::vector<BoneSwing> swingsOf(const SceneModel& scene, const SkinModel& skin,
                                 std::vector<std::string>* farTurns) {
-    std::vector<double> values;
-    for (const Joint& joint : scene.joints)
-        for (const Dof& dof : joint.dofs) values.push_back(dof.rest);
-    const std::vector<double> rest = values;
+    const std::vector<double> rest = restValues(scene);
+    std::vector<double> values = rest;
     std::vector<BoneSwing> swings;
     std::size_t next = 0;
     for (const Joint& joint : scene.joints)

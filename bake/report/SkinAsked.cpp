@@ -24,25 +24,12 @@ SkinAsked askedAt(const SceneModel& scene, const SkinModel& skin, std::vector<do
     return asked;
 }
 
-std::vector<double> restOfAll(const SceneModel& scene) {
-    std::vector<double> values;
-    for (const Joint& joint : scene.joints)
-        for (const Dof& dof : joint.dofs) values.push_back(dof.rest);
-    return values;
-}
-
 std::vector<SkinAsked> ownMotion(const SceneModel& scene, const SkinModel& skin, int steps) {
     std::vector<SkinAsked> asked;
     if (!(scene.endTimeCode > scene.startTimeCode)) return asked;
     for (int s = 0; s < steps; ++s) {
         const double time = scene.startTimeCode + (scene.endTimeCode - scene.startTimeCode) * s / (steps - 1);
-        std::vector<double> values = restOfAll(scene);
-        std::size_t next = 0;
-        for (const Joint& joint : scene.joints)
-            for (std::size_t k = 0; k < joint.dofs.size(); ++k, ++next)
-                if (k < joint.drives.size() && !joint.drives[k].empty())
-                    values[next] = joint.drives[k].at(time);
-        asked.push_back(askedAt(scene, skin, skinActivations(scene, skin, time), values));
+        asked.push_back(askedAt(scene, skin, skinActivations(scene, skin, time), drivenValues(scene, time)));
     }
     const bool still = std::ranges::all_of(
         asked, [&](const SkinAsked& a) { return a.activations == asked[0].activations && a.poses.empty(); });
@@ -71,7 +58,7 @@ double endOf(const Dof& dof, double limit, double side) {
 std::vector<SkinAsked> jointsInTurn(const SceneModel& scene, const SkinModel& skin, const Muscles& muscles,
                                     int steps) {
     std::vector<SkinAsked> asked;
-    const std::vector<double> rest = restOfAll(scene);
+    const std::vector<double> rest = restValues(scene);
     const int each = std::max(2, steps / std::max(1, static_cast<int>(rest.size())));
     std::size_t next = 0;
     for (const Joint& joint : scene.joints)

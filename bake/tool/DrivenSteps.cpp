@@ -2,6 +2,7 @@
 
 #include "bake/base/Error.h"
 #include "bake/base/Stopwatch.h"
+#include "bake/model/Kinematics.h"
 #include "bake/play/Player.h"
 
 #include <algorithm>
@@ -16,16 +17,8 @@ std::vector<std::vector<double>> drivenSteps(const SceneModel& scene) {
             fmt::format("the motion goes over {:.3g} time codes, a step each; expected at most {:g}",
                         scene.endTimeCode - scene.startTimeCode, most));
     std::vector<std::vector<double>> steps;
-    for (int k = 0; scene.startTimeCode + k <= scene.endTimeCode; ++k) {
-        const double time = scene.startTimeCode + k;
-        std::vector<double> row;
-        for (const Joint& joint : scene.joints)
-            for (std::size_t dof = 0; dof < joint.dofs.size(); ++dof) {
-                const bool driven = dof < joint.drives.size() && !joint.drives[dof].empty();
-                row.push_back(driven ? joint.drives[dof].at(time) : joint.dofs[dof].rest);
-            }
-        steps.push_back(row);
-    }
+    for (int k = 0; scene.startTimeCode + k <= scene.endTimeCode; ++k)
+        steps.push_back(drivenValues(scene, scene.startTimeCode + k));
     return steps;
 }
 

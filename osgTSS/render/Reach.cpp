@@ -21,7 +21,7 @@ namespace {
 /// graph's own animations play, up and down its range, `rounds` times.
 double valueAt(const tss::Joint& joint, std::size_t dof, double time, bool animated, double share,
                int rounds) {
-    if (dof < joint.drives.size() && !joint.drives[dof].empty()) return joint.drives[dof].at(time);
+    if (tss::isDriven(joint, dof)) return joint.drives[dof].at(time);
     const tss::Dof& range = joint.dofs[dof];
     if (!animated) return range.rest;
     const bool whole = tss::wholeTurn(range);

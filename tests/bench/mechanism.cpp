@@ -92,9 +92,7 @@ void countMissed(const SceneModel& scene, const Judge& judge, std::size_t config
 class ExactTables {
 public:
     explicit ExactTables(const SceneModel& scene) {
-        std::vector<std::size_t> first;
-        std::size_t count = 0;
-        for (const Joint& joint : scene.joints) first.push_back(count), count += joint.dofs.size();
+        const std::vector<std::size_t> first = firstValues(scene);
         for (const Pair& pair : scene.pairs) {
             if (!pair.table) continue;
             Asked asked{&*pair.table, std::make_unique<PreparedTable>(*pair.table), {}};

@@ -15,16 +15,6 @@ using namespace tss;
 
 namespace {
 
-std::vector<double> drivenTo(const SceneModel& scene, double time) {
-    std::vector<double> values;
-    for (const Joint& joint : scene.joints)
-        for (std::size_t dof = 0; dof < joint.dofs.size(); ++dof) {
-            const bool driven = dof < joint.drives.size() && !joint.drives[dof].empty();
-            values.push_back(driven ? joint.drives[dof].at(time) : joint.dofs[dof].rest);
-        }
-    return values;
-}
-
 /// An animated scene with one skin, and what the skin is asked at each time code.
 struct Played {
     explicit Played(const std::string& file)
@@ -35,7 +25,7 @@ struct Played {
         std::vector<std::string> warnings;
         Player player(joints, warnings);
         for (double time = scene.startTimeCode; time <= scene.endTimeCode; ++time) {
-            const std::vector<double> values = player.step(drivenTo(scene, time), time).values;
+            const std::vector<double> values = player.step(drivenValues(scene, time), time).values;
             poses.push_back(skinPoses(scene, scene.skins[0], posedBodies(scene, values)));
             poses.back().resize(response.rig().bodies.size(), Pose::Identity());
             activations.push_back(skinActivations(scene, scene.skins[0], time));

@@ -2,6 +2,7 @@
 
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"
+#include "bake/model/Kinematics.h"
 #include "bake/play/Player.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/WriteLayer.h"
@@ -142,8 +143,7 @@ private:
                     const double share = 1.2 * (double((*random)() >> 11) * 0x1p-53) - 0.1;
                     values.push_back(dof.lower + share * (dof.upper - dof.lower));
                 } else {
-                    const bool driven = k < joint.drives.size() && !joint.drives[k].empty();
-                    values.push_back(driven ? joint.drives[k].at(time) : dof.rest);
+                    values.push_back(isDriven(joint, k) ? joint.drives[k].at(time) : dof.rest);
                 }
             }
         return values;
