@@ -1,11 +1,11 @@
 #include "bake/geometry/Import.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/Words.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/MeshFile.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -130,9 +130,7 @@ std::vector<std::string> remarks(const std::string& file, const MeshFileNotes& n
 }
 
 std::string extensionOf(const std::string& file) {
-    std::string extension = std::filesystem::path(file).extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return extension;
+    return lowerCase(std::filesystem::path(file).extension().string());
 }
 
 bool isGltf(const std::string& file) {

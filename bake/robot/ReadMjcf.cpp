@@ -1,5 +1,6 @@
 #include "bake/robot/ReadRobot.h"
 
+#include "bake/base/Words.h"
 #include "bake/robot/MjcfTree.h"
 #include "bake/robot/Xml.h"
 
@@ -353,10 +354,7 @@ private:
         for (const auto& [kind, names] : leftOut_) {
             const bool counted = kind.starts_with("joints whose") || kind.starts_with("balls");
             constexpr std::size_t most = 20;
-            std::string note = (counted ? "" : "left out: ") + kind + ": ";
-            for (std::size_t k = 0; k < names.size() && k < most; ++k) note += (k > 0 ? ", " : "") + names[k];
-            if (names.size() > most) note += " and " + std::to_string(names.size() - most) + " more";
-            robot_.notes.push_back(std::move(note));
+            robot_.notes.push_back((counted ? "" : "left out: ") + kind + ": " + firstOf(names, most));
         }
     }
 

@@ -1,8 +1,7 @@
+#include "bake/base/Words.h"
 #include "bake/scene/SceneParts.h"
 
 #include <algorithm>
-#include <cctype>
-#include <numeric>
 #include <sstream>
 
 namespace tss {
@@ -30,30 +29,16 @@ const std::vector<std::string>& knownNames() {
     return names;
 }
 
-/// Letters to put in, take out or change to make one word of another; case does not count.
-std::size_t distance(const std::string& a, const std::string& b) {
-    const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t(0));
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t before = row[0]++;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t change = before + (lower(a[i - 1]) != lower(b[j - 1]));
-            before = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-        }
-    }
-    return row.back();
-}
-
 void remark(const std::string& name, const std::string& part, const std::vector<std::string>& known,
             const Place& place, Problems& problems) {
     constexpr std::size_t longest = 64;
     if (std::ranges::find(known, part) != known.end() || name.size() > longest) return;
+    const std::string wanted = lowerCase(part); // case does not count
     const std::string* nearest = nullptr;
     std::size_t least = std::max<std::size_t>(2, part.size() / 5) + 1;
     for (const std::string& candidate : known)
-        if (const std::size_t d = distance(part, candidate); d < least) least = d, nearest = &candidate;
+        if (const std::size_t d = editDistance(wanted, lowerCase(candidate)); d < least)
+            least = d, nearest = &candidate;
     if (nearest)
         problems.warn(place, "no property of this name is read; perhaps ",
                       name.substr(0, name.size() - part.size()), *nearest, " was meant");

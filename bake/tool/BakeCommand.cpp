@@ -1,5 +1,6 @@
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
+#include "bake/base/Words.h"
 #include "bake/check/EarlyContact.h"
 #include "bake/pipeline/Bake.h"
 #include "bake/pipeline/CheckBake.h"
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace tss::tool {
 
@@ -131,9 +131,7 @@ void endIncomplete(const BakeArguments& arguments, const KeptParts& parts, const
     if (parts.signal()) fmt::print(stderr, "tss: interrupted\n");
     const std::vector<std::string>& missing = parts.missing();
     constexpr std::size_t most = 8; // that are named; --json names all
-    const auto last = missing.begin() + std::min(most, missing.size());
-    fmt::print(stderr, "tss: not baked: {}{}\n", fmt::join(missing.begin(), last, ", "),
-               missing.size() > most ? fmt::format(" and {} more", missing.size() - most) : "");
+    fmt::print(stderr, "tss: not baked: {}\n", firstOf(missing, most));
     if (!written.empty())
         fmt::print(stderr, "tss: what is done is in {}; go on with\n  tss bake {} -o {}\n", written,
                    shellWord(written), shellWord(arguments.output));

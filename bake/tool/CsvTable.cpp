@@ -2,6 +2,7 @@
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/base/Words.h"
 #include "bake/model/Kinematics.h"
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/tool/Command.h"
@@ -33,15 +34,9 @@ std::vector<std::string> cellsOf(const std::string& line) {
     return cells;
 }
 
-std::string lower(std::string word) {
-    std::ranges::transform(word, word.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return word;
-}
-
 /// What reads as no number though it stands for one: in a first line, that is a bad value and no header.
 bool isNotFinite(const std::string& cell) {
-    const std::string word = lower(cell);
+    const std::string word = lowerCase(cell);
     return word == "nan" || word == "inf" || word == "infinity";
 }
 
@@ -153,7 +148,8 @@ std::size_t columnNamed(const std::vector<std::vector<std::string>>& names, cons
         if (std::ranges::find(names[k], word) != names[k].end()) return k;
     std::size_t found = names.size();
     for (std::size_t k = 0; k < names.size(); ++k) {
-        if (std::ranges::none_of(names[k], [&](const auto& name) { return lower(name) == lower(word); }))
+        if (std::ranges::none_of(names[k],
+                                 [&](const auto& name) { return lowerCase(name) == lowerCase(word); }))
             continue;
         if (found < names.size()) return names.size();
         found = k;
@@ -162,10 +158,10 @@ std::size_t columnNamed(const std::vector<std::vector<std::string>>& names, cons
 }
 
 bool isStep(const std::string& word) {
-    return lower(word) == "step";
+    return lowerCase(word) == "step";
 }
 bool isTime(const std::string& word) {
-    return lower(word) == "time";
+    return lowerCase(word) == "time";
 }
 
 DofColumns dofColumns(const SceneModel& scene) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/base/Words.h"
 #include "bake/robot/Robot.h"
 #include "bake/scene/Layer.h"
 #include "bake/scene/SceneParts.h"
@@ -24,12 +25,7 @@ public:
     std::vector<std::string> notes() const {
         constexpr std::size_t most = 4;
         std::vector<std::string> notes;
-        for (const auto& [kind, names] : names_) {
-            std::string text = kind + ": ";
-            for (std::size_t k = 0; k < names.size() && k < most; ++k) text += (k > 0 ? ", " : "") + names[k];
-            if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
-            notes.push_back(std::move(text));
-        }
+        for (const auto& [kind, names] : names_) notes.push_back(kind + ": " + firstOf(names, most));
         return notes;
     }
 

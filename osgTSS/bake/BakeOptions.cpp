@@ -1,6 +1,7 @@
 #include "bake/pipeline/BakeOptions.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/Words.h"
 
 #include <osgTSS/Bake>
 #include <osgTSS/LoadOptions>
@@ -49,22 +50,6 @@ void addSetting(std::map<std::string, std::string>& settings, const std::string&
     settings[key] = value;
 }
 
-/// Letters to put in, take out or change between two words (Levenshtein).
-std::size_t distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t above = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-            diagonal = above;
-        }
-    }
-    return row.back();
-}
-
 } // namespace
 
 BakeOptions::BakeOptions(const std::string& words) : BakeOptions(LoadOptions(words).others) {}
@@ -105,7 +90,7 @@ std::string nearestOption(const std::string& word) {
     std::string best;
     std::size_t least = 1 + word.size() / 3;
     for (const std::string& name : names)
-        if (const std::size_t d = distance(word, name); d <= least && d < name.size()) {
+        if (const std::size_t d = tss::editDistance(word, name); d <= least && d < name.size()) {
             if (d == least && !best.empty()) continue;
             least = d;
             best = name;
