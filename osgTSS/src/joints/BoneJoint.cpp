@@ -71,7 +71,6 @@ public:
     }
 
     std::vector<double> asked() const override { return look().values; }
-    std::vector<double> shown() const override { return asked(); }
 
     void show(const std::vector<double>& values) override {
         _stopped = values != look().values;

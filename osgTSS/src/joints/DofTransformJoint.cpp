@@ -160,7 +160,6 @@ public:
         }
         return values;
     }
-    std::vector<double> shown() const override { return asked(); }
 
     std::optional<Stray> stray() const override {
         const std::vector<double> values = asked();

@@ -43,8 +43,8 @@ public:
     virtual void restoreAsked() = 0;
     /// What is asked for.
     virtual std::vector<double> asked() const = 0;
-    /// What the node shows.
-    virtual std::vector<double> shown() const = 0;
+    /// What the node shows: what is asked for is written on it, unless it keeps both.
+    virtual std::vector<double> shown() const { return asked(); }
     /// Whether what is asked for is within what the joint was made for.
     virtual std::optional<Stray> stray() const { return std::nullopt; }
     /// Shows these values.

@@ -68,7 +68,6 @@ public:
         for (const StackedDof& dof : _dofs) values.push_back(dof.value());
         return values;
     }
-    std::vector<double> shown() const override { return asked(); }
 
     void show(const std::vector<double>& values) override {
         _asked = asked();

@@ -108,7 +108,6 @@ public:
         }
         return values;
     }
-    std::vector<double> shown() const override { return asked(); }
 
     void show(const std::vector<double>& values) override {
         if (values == asked()) {
