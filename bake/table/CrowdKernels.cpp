@@ -27,7 +27,7 @@ void hits(const KernelData& rows, const void* poses, std::uint32_t stride, std::
             p[k] = hn::LoadU(d, static_cast<const T*>(poses) + std::size_t(k) * stride + i);
         V<D> least = farthest<D>();
         for (const T* row = static_cast<const T*>(rows.blocks); row < end; row += Form::columns)
-            least = hn::Min(least, Form::offset(p + 1, BroadcastColumn<D>{row}));
+            least = smaller(least, Form::offset(p + 1, BroadcastColumn<D>{row}));
         std::uint8_t bytes[8] = {};
         hn::StoreMaskBits(d, hn::Le(least, p[0]), bytes);
         for (std::uint32_t k = 0; k < n; ++k) hit[i + k] = bytes[k / 8] >> (k % 8) & 1;

@@ -28,6 +28,15 @@ V<D> farthest() {
     return hn::Set(D(), hn::TFromD<D>(3e38));
 }
 
+/// The smaller of two that are numbers: Highway's vectors of one lane would look for others first.
+template <class Vector>
+HWY_INLINE Vector smaller(Vector a, Vector b) {
+    if constexpr (hn::MaxLanes(hn::DFromV<Vector>()) == 1)
+        return hn::IfThenElse(hn::Lt(a, b), a, b);
+    else
+        return hn::Min(a, b);
+}
+
 /// A row of the fold with M features, for vectors of pairs (LoadColumn) or for one pair and vectors of poses
 /// (BroadcastColumn); the pose's values are vectors either way.
 template <class Tag, std::uint32_t M>
@@ -147,7 +156,7 @@ struct Nearest {
     V<D> gap, number;
     HWY_INLINE void take(V<D> otherGap, V<D> otherNumber) {
         number = hn::IfThenElse(hn::Lt(otherGap, gap), otherNumber, number);
-        gap = hn::Min(otherGap, gap);
+        gap = smaller(otherGap, gap);
     }
 };
 

@@ -19,7 +19,7 @@ bool hitNear(const KernelData& data, const void* pose, const NearBlocks& near) {
     const Broadcast<D, Form::values> p(pose);
     V<D> least = farthest<D>();
     SomeBlocks<Form>{data, near}.each(
-        [&](const auto* block) { least = hn::Min(least, Form::offset(p.values + 1, LoadColumn<D>{block})); });
+        [&](const auto* block) { least = smaller(least, Form::offset(p.values + 1, LoadColumn<D>{block})); });
     return !hn::AllFalse(D(), hn::Le(least, p.values[0]));
 }
 
@@ -36,9 +36,9 @@ bool hit(const KernelData& data, const void* pose) {
     for (const T* last = end - step; block < last; block += 2 * step) {
         const V<D> one = Form::offset(p.values + 1, LoadColumn<D>{block});
         const V<D> two = Form::offset(p.values + 1, LoadColumn<D>{block + step});
-        least = hn::Min(least, hn::Min(one, two));
+        least = smaller(least, smaller(one, two));
     }
-    if (block != end) least = hn::Min(least, Form::offset(p.values + 1, LoadColumn<D>{block}));
+    if (block != end) least = smaller(least, Form::offset(p.values + 1, LoadColumn<D>{block}));
     return !hn::AllFalse(D(), hn::Le(least, p.values[0]));
 }
 
