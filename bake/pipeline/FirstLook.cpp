@@ -65,7 +65,7 @@ std::vector<double> distancesAtRest(const SceneModel& scene) {
     return distances;
 }
 
-double firstTolerance(const SceneModel& scene, const std::vector<double>& distancesAtRest) {
+double usualTolerance(const SceneModel& scene) {
     const double millimetres = 1000 * scene.metersPerUnit;
     std::vector<double> sizes;
     for (const Body& body : scene.bodies)
@@ -73,7 +73,11 @@ double firstTolerance(const SceneModel& scene, const std::vector<double>& distan
     if (sizes.empty()) return 0;
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
-    const double usual = oneDigit(*middle / 30);
+    return oneDigit(*middle / 30) / millimetres;
+}
+
+double firstTolerance(const SceneModel& scene, const std::vector<double>& distancesAtRest) {
+    const double millimetres = 1000 * scene.metersPerUnit, usual = millimetres * usualTolerance(scene);
     std::vector<std::pair<double, const Pair*>> rooms; // millimetres
     for (std::size_t k = 0; k < scene.pairs.size(); ++k)
         if (const double room = 0.3 * millimetres * distancesAtRest[k]; room > 0 && room < usual)

@@ -245,7 +245,7 @@ std::ptrdiff_t wholeTurns(const tss::SceneModel& model, const tss::Pair& pair) {
 /// settings: those asked for.
 void setFirstLook(tss::SceneModel& model, const std::map<std::string, std::string>& settings) {
     std::ostringstream tolerance, budget;
-    tolerance << tss::firstTolerance(model);
+    tolerance << tss::usualTolerance(model);
     budget << tss::firstBudget(model);
     const bool asked = settings.contains("tolerance");
     std::size_t coarse = 0;
