@@ -187,20 +187,30 @@ DofRows readDofRows(const std::string& file, const DofColumns& columns, bool ste
     const std::string words = fmt::format("{}", fmt::join(expected, ", "));
     if (passed) csv.header.erase(csv.header.begin());
     const std::vector<std::size_t> order = orderOf(csv.header, columns, file, words);
+    std::vector<std::string> missing;
+    for (std::size_t k = 0; k < order.size(); ++k)
+        if (order[k] == csv.header.size()) missing.push_back(expected[k]);
+    if (!missing.empty() && !stepped)
+        throw InputError(Where{file}, "expected a column of " + firstOf(missing, 6));
     DofRows read;
     for (std::vector<double>& row : csv.rows) {
         if (passed) row.erase(row.begin());
-        if (row.size() != columns.dofs.size())
+        if (missing.empty() && row.size() != columns.dofs.size())
             throw InputError(Where{file},
                              fmt::format("expected {}, one a degree of freedom ({}), found {}",
                                          counted(columns.dofs.size(), "column"), words, row.size()));
-        std::vector<double> values(row.size());
-        for (std::size_t k = 0; k < row.size(); ++k) values[k] = row[order.empty() ? k : order[k]];
-        values = fromUser(columns.dofs, values);
-        for (std::size_t k = 0; k < values.size(); ++k)
-            values[k] = withoutRounding(columns.dofs[k], values[k]);
+        std::vector<double> values;
+        for (std::size_t k = 0; k < columns.dofs.size(); ++k) {
+            const Dof& dof = columns.dofs[k];
+            const std::size_t column = order.empty() ? k : order[k];
+            values.push_back(column < row.size() ? withoutRounding(dof, fromUser(dof, row[column]))
+                                                 : dof.rest);
+        }
         read.rows.push_back(std::move(values));
     }
+    if (!missing.empty())
+        read.remark =
+            fmt::format("{}: no column of {}: what has none stays where it rests", file, firstOf(missing, 6));
     if (order.empty() && !csv.header.empty())
         read.remark =
             columns.dofs.size() > 1

@@ -37,7 +37,8 @@ DofColumns dofColumns(const SceneModel& scene, const Pair& pair); ///< as in pai
 /// said of it, or empty. The first line may name the columns in any order; where it has none of the names
 /// they are taken in the DOFs' order. Throws InputError where some of the names are those of DOFs and others
 /// are none, or one comes twice. A value beyond a limit by no more than 6 printed digits round is the limit.
-/// stepped: a first column `step` or `time` is passed over.
+/// stepped: a first column `step` or `time` is passed over, and a DOF whose column a first line leaves out
+/// stays where it rests; else all are asked for.
 struct DofRows {
     std::vector<std::vector<double>> rows;
     std::string remark;

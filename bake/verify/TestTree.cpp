@@ -12,7 +12,7 @@ namespace tss::verify {
 namespace {
 
 constexpr std::uint32_t leafSize = 8;
-constexpr std::uint64_t enoughLooks = 500;
+constexpr std::uint64_t enoughLooks = 500, anyLooks = std::numeric_limits<std::uint64_t>::max();
 constexpr double overstated = 1 + 1e-12, understated = 1 - 1e-15;
 
 } // namespace
@@ -132,7 +132,7 @@ void TestTree::visit(std::int32_t at, const Gap& gap, Search& search) const {
 
 std::vector<TestTree::Found> TestTree::deepest(const PoseBox& box, double limit, std::size_t most,
                                                std::uint64_t& work) const {
-    Search search{limit, most, -infinity, enoughLooks, 0, {}};
+    Search search{limit, most, -infinity, most < tests_.size() ? enoughLooks : anyLooks, 0, {}};
     // What rounds of gaps and of where points are is in the change.
     const auto gap = [&](const Vec3& a, const Vec3& b, double radius) {
         const MovingPoint point = box.carry(b, false);
@@ -145,8 +145,7 @@ std::vector<TestTree::Found> TestTree::deepest(const PoseBox& box, double limit,
 }
 
 double TestTree::leastGap(const Pose& pose, double enough, std::uint64_t& work) const {
-    constexpr auto any = std::numeric_limits<std::uint64_t>::max();
-    Search search{infinity, 1, enough, any, 0, {}};
+    Search search{infinity, 1, enough, anyLooks, 0, {}};
     const auto gap = [&](const Vec3& a, const Vec3& b, double) {
         return std::pair((pose * b - a).norm(), 0.0);
     };

@@ -15,8 +15,8 @@ public:
         auto operator<=>(const Found&) const = default;
     };
     /// Of the tests whose gap may come to `limit` in the box, up to `most` of the deepest at its middle, the
-    /// deepest first; none only where none may. Not always the very deepest: the search ends after
-    /// `enoughLooks` once it has found one. work: counts what was looked at.
+    /// deepest first; none only where none may. Not always the very deepest: where not all are asked for, the
+    /// search ends after `enoughLooks` once it has found one. work: counts what was looked at.
     std::vector<Found> deepest(const PoseBox& box, double limit, std::size_t most, std::uint64_t& work) const;
 
     /// The least gap of a test at a pose, or one that is no more than `enough`; infinity: there is no test.

@@ -281,6 +281,12 @@ TEST_CASE("columns are read as the first line names them, in any order") {
     CHECK(answer("  # one pose\n1,0.25\n", "query") == pose);
     CHECK(answer("0.25,1\n", "query") != pose);
 
+    CHECK(run("trans\n0.25\n", "query").err.find("expected a column of rot") != std::string::npos);
+    CHECK(answer("trans\n0.25\n", "play") == answer("2,0.25\n", "play")); // the other one rests
+    const Ran rests = run("step,trans\n0,0.25\n", "play");
+    CHECK((rests.out + rests.err).find("no column of rot: what has none stays where it rests") !=
+          std::string::npos);
+
     const Ran own = run("pitch,reach\n1,0.25\n", "query");
     CHECK(own.exit == 0);
     CHECK((own.out + own.err).find("has none of the names rot, trans: the columns are taken in that order") !=
