@@ -76,9 +76,10 @@ void markApart(const SkinGround& ground, const ClosestPointQuery& skin, double f
     });
 }
 
-/// Gives each bone the skin that is barred from all others, but for what is near other skin.
+/// Gives each bone of several the skin that is barred from all others, but for what is near other skin.
 void holdOwn(const SkinGround& ground, const ClosestPointQuery& skin, std::vector<FrameHolder>& holders) {
     const std::size_t count = ground.skin.vertices.size();
+    if (holders.size() < 2) return;
     for (FrameHolder& own : holders) {
         if (!std::isfinite(own.holder.size)) continue; // moves with the skin
         std::vector<char> alone(count);
