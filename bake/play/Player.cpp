@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace tss {
 
@@ -40,11 +41,13 @@ private:
         std::vector<Pose> poses;        ///< of the muscles' bones since rest; empty: none moves
         std::vector<double> restDepths; ///< one a touched vertex
         SkinFollowMeasure follow;
+        std::vector<std::optional<Solid>> bones; ///< in their own frames; none of a muscle that moves
     };
 
     std::vector<double> clamped(const std::vector<double>& asked) const;
     /// Of the bone at a muscle's insertion against that at its origin, since rest.
     static Pose farOf(const Skin& skin, std::size_t m);
+    static std::vector<std::optional<Solid>> bonesOf(const Skin& skin);
     std::vector<double> depths(const Skin& skin, std::span<const Vec3> positions) const;
 
     const SceneModel& scene_;
@@ -81,8 +84,9 @@ Player::State::State(const SceneModel& scene, std::vector<std::string>& warnings
         const auto rig = skinRig(scene, skin);
         SkinFollowMeasure follow(scene.bodies[skin.body].mesh, muscles, *rig);
         skins_.push_back(
-            {static_cast<int>(k), std::move(muscles), SkinResponse(rig), {}, {}, {}, std::move(follow)});
+            {static_cast<int>(k), std::move(muscles), SkinResponse(rig), {}, {}, {}, std::move(follow), {}});
         skins_.back().activations.assign(skins_.back().muscles.size(), 0.0);
+        skins_.back().bones = bonesOf(skins_.back());
         skins_.back().restDepths = depths(skins_.back(), skins_.back().response.rig().rest);
     }
 }
@@ -114,18 +118,31 @@ Pose Player::State::farOf(const Skin& skin, std::size_t m) {
     return between(skin.poses[m], skin.poses[insertion]);
 }
 
+std::vector<std::optional<Solid>> Player::State::bonesOf(const Skin& skin) {
+    std::vector<std::optional<Solid>> bones(skin.muscles.size());
+    for (std::size_t m = 0; m < bones.size(); ++m) {
+        const MuscleDeformer& body = *skin.muscles[m];
+        if (body.rigid() && skin.response.rig().bodies[m].insertion < 0 && !body.muscle().surface.empty())
+            bones[m].emplace(body.muscle().surface);
+    }
+    return bones;
+}
+
 std::vector<double> Player::State::depths(const Skin& skin, std::span<const Vec3> positions) const {
     std::vector<double> deepest(positions.size(), 0.0);
     for (std::size_t m = 0; m < skin.muscles.size(); ++m) {
         const MuscleDeformer& deformer = *skin.muscles[m];
         if (deformer.muscle().surface.empty()) continue;
-        std::vector<Vec3> places = verticesBetween(deformer, skin.activations[m], farOf(skin, m));
-        if (!skin.poses.empty())
-            for (Vec3& v : places) v = skin.poses[m] * v;
-        const Solid solid({std::move(places), deformer.muscle().surface.triangles});
+        std::optional<Solid> muscle;
+        if (!skin.bones[m])
+            muscle.emplace(TriangleMesh{verticesBetween(deformer, skin.activations[m], farOf(skin, m)),
+                                        deformer.muscle().surface.triangles});
+        const Solid& solid = muscle ? *muscle : *skin.bones[m];
+        const Eigen::AlignedBox3d box = bounds(solid.mesh());
+        const Pose back = skin.poses.empty() ? Pose::Identity() : Pose(skin.poses[m].inverse());
         for (std::size_t i = 0; i < positions.size(); ++i)
-            if (solid.inside(positions[i]))
-                deepest[i] = std::max(deepest[i], solid.boundary().distance(positions[i]));
+            if (const Vec3 x = back * positions[i]; box.contains(x) && solid.inside(x))
+                deepest[i] = std::max(deepest[i], solid.boundary().distance(x));
     }
     return deepest;
 }
