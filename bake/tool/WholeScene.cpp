@@ -6,6 +6,7 @@
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/MeshQuery.h"
 #include "bake/model/AddPair.h"
+#include "bake/model/Kinematics.h"
 #include "bake/model/ShowMotion.h"
 #include "bake/motion/MuscleFibre.h"
 #include "bake/motion/MuscleVolume.h"
