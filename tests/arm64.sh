@@ -56,7 +56,7 @@ compile() {
 run_tests() {
     local names
     names=$(IFS='|' && echo "${folders[*]}")
-    ctest --test-dir "$build" --output-on-failure --timeout 3000 -R "^($names)$"
+    ctest --test-dir "$build" --output-on-failure --timeout 9000 -R "^($names)$"
 }
 
 # What both builds of tss make of one scene and say about it.
@@ -82,7 +82,7 @@ same_bytes() {
     echo "the same table and the same answers"
 }
 
-parts "libraries for ARM64=1" "building=12" "tests under emulation=20" ${both:+"one bake on both=2"}
+parts "libraries for ARM64=1" "building=12" "tests under emulation=90" ${both:+"one bake on both=2"}
 part "libraries for ARM64" unpack_libraries
 part "setting up" configure
 part "building" compile
