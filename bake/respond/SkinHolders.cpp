@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <set>
 
 namespace tss {
 namespace {
@@ -36,14 +36,17 @@ FrameHolder holderOf(const SkinGround& ground, const std::vector<int>& frames, i
     return made;
 }
 
-/// How often frames move, and about what.
-void setMotions(const SkinParameters& p, const std::vector<int>& frames, std::vector<FrameHolder>& holders) {
+/// How often frames move, and about what. Returns which frames move in each swing: #swings of #holders,
+/// those alike once.
+std::set<std::vector<char>> setMotions(const SkinParameters& p, const std::vector<int>& frames,
+                                       std::vector<FrameHolder>& holders) {
     struct Least {
         std::size_t movers = 0; ///< frames that move in its own swings, the fewest
         Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
         Vec3 right = Vec3::Zero();
     };
     std::vector<Least> least(holders.size());
+    std::set<std::vector<char>> groups;
     for (FrameHolder& holder : holders) holder.moves = p.swings.empty();
     for (const BoneSwing& swing : p.swings) {
         std::map<std::size_t, Pose> moved;
@@ -51,6 +54,9 @@ void setMotions(const SkinParameters& p, const std::vector<int>& frames, std::ve
             for (std::size_t m = 0; m < station.size(); ++m)
                 if (frames[m] >= 0 && station[m].matrix() != Pose::Identity().matrix())
                     moved[static_cast<std::size_t>(frames[m])] = station[m];
+        std::vector<char> group(holders.size(), 0);
+        for (const auto& [h, pose] : moved) group[h] = 1;
+        groups.insert(group);
         for (const auto& [h, pose] : moved) {
             ++holders[h].moves;
             Least& own = least[h];
@@ -73,6 +79,7 @@ void setMotions(const SkinParameters& p, const std::vector<int>& frames, std::ve
         const Vec3 from = before ? Vec3(middle - before->box.center()) : Vec3::Zero();
         holders[h].twists = some * places.solve(from).norm() > aheadCosine * from.norm();
     }
+    return groups;
 }
 
 } // namespace
@@ -93,7 +100,7 @@ std::vector<SkinHolder> skinHolders(const SkinGround& ground, const SkinParamete
     std::vector<FrameHolder> holders;
     const int count = frames.empty() ? 0 : *std::max_element(frames.begin(), frames.end()) + 1;
     for (int f = 0; f < count; ++f) holders.push_back(holderOf(ground, frames, f));
-    setMotions(parameters, frames, holders);
+    const std::set<std::vector<char>> groups = setMotions(parameters, frames, holders);
     bool onSkin = false; // something moves with the skin itself
     for (std::size_t m = 0; m < frames.size(); ++m)
         onSkin |= frames[m] < 0 && !ground.bodies[m]->muscle().surface.empty();
@@ -101,11 +108,7 @@ std::vector<SkinHolder> skinHolders(const SkinGround& ground, const SkinParamete
         holders.push_back(holderOf(ground, frames, -1));
         holders.back().holder.size = infinity;
     }
-    const std::optional<SkinHolder> still = holdParts(ground, holders);
-    std::vector<SkinHolder> made;
-    for (const FrameHolder& h : holders) made.push_back(h.holder);
-    if (still) made.push_back(*still);
-    return made;
+    return holdParts(ground, std::move(holders), {groups.begin(), groups.end()});
 }
 
 } // namespace tss

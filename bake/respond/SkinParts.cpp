@@ -3,6 +3,7 @@
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 #include "bake/base/UnionFind.h"
+#include "bake/respond/SkinSides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,13 +23,6 @@ constexpr double leastArm = 0.25;
 
 /// Of the least that a bone beside it holds: what is smaller than this is a patch, no part of the body.
 constexpr double leastPart = 0.1;
-
-/// Skin that one bone alone is not apart from is its own for certain from this far on along the skin, in
-/// sizes of the bone: so far seeds are from other bones too.
-constexpr double ownMargin = 0.12;
-/// And where it is at most this many times farther than another: a leg whose bones are not named is the
-/// trunk's, though the other leg's bone is nearer; but what is inside of a mouth is not the neck's.
-constexpr double ownFarther = 1.5;
 
 /// The nearest to each vertex, of those that it is not apart from where there is one.
 std::vector<std::size_t> nearestOf(const std::vector<FrameHolder>& holders, std::size_t count) {
@@ -74,32 +68,6 @@ void markApart(const SkinGround& ground, const ClosestPointQuery& skin, double f
     parallelFor(holder.holder.apart.size(), [&](std::size_t v) {
         holder.holder.apart[v] = holder.holder.distance[v] > far || isBarred(ground, skin, holder, v);
     });
-}
-
-/// Gives each bone of several the skin that is barred from all others, but for what is near other skin.
-void holdOwn(const SkinGround& ground, const ClosestPointQuery& skin, std::vector<FrameHolder>& holders) {
-    const std::size_t count = ground.skin.vertices.size();
-    if (holders.size() < 2) return;
-    for (FrameHolder& own : holders) {
-        if (!std::isfinite(own.holder.size)) continue; // moves with the skin
-        std::vector<char> alone(count);
-        parallelFor(count, [&](std::size_t v) {
-            alone[v] =
-                !own.holder.apart[v] &&
-                std::all_of(holders.begin(), holders.end(), [&](const FrameHolder& h) {
-                    return &h == &own || (h.holder.apart[v] &&
-                                          own.holder.distance[v] <= ownFarther * h.holder.distance[v] &&
-                                          isBarred(ground, skin, h, v));
-                });
-        });
-        std::vector<std::uint32_t> others;
-        for (std::uint32_t v = 0; v < count; ++v)
-            if (!alone[v]) others.push_back(v);
-        std::vector<double> along(count, infinity);
-        lowerDistances(ground.graph, others, infinity, along);
-        for (std::uint32_t v = 0; v < count; ++v)
-            if (along[v] > ownMargin * own.extent) own.holder.sure.push_back(v);
-    }
 }
 
 /// Skin that hangs together and is apart from all bones.
@@ -183,6 +151,10 @@ FreeParts freeParts(const SkinGround& ground, const ClosestPointQuery& skin,
     return made;
 }
 
+void append(std::vector<std::uint32_t>& list, const std::vector<std::uint32_t>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+}
+
 /// What holds still though no bone does: the skin far from all bones.
 SkinHolder stillOf(const std::vector<FrameHolder>& holders, const FreeParts& free) {
     SkinHolder still{std::vector<double>(holders[0].holder.distance.size(), 0), infinity, {}, {}};
@@ -196,7 +168,7 @@ SkinHolder stillOf(const std::vector<FrameHolder>& holders, const FreeParts& fre
     for (const FreePart& part : free.parts) {
         const bool isEnd = part.beside.size() == 1 && part.area < free.held[part.beside.begin()->first];
         for (const std::uint32_t v : part.vertices) still.distance[v] = isEnd ? longest : 0;
-        if (!isEnd) still.sure.insert(still.sure.end(), part.vertices.begin(), part.vertices.end());
+        if (!isEnd) append(still.sure, part.vertices);
     }
     return still;
 }
@@ -249,7 +221,7 @@ bool isBesideRow(const FreePart& part, const std::vector<FrameHolder>& holders) 
 
 /// Gives what of such a part is clearly between two bones of the row, or beyond its ends, to the one before.
 void holdBesideRow(const FreePart& part, const std::vector<Vec3>& places, std::size_t still,
-                   std::vector<FrameHolder>& holders) {
+                   const std::vector<FrameHolder>& holders, std::vector<SkinHolder>& made) {
     std::vector<std::size_t> row{still};
     for (const auto& [h, times] : part.beside)
         if (holders[h].moves > 0) row.push_back(h);
@@ -259,32 +231,43 @@ void holdBesideRow(const FreePart& part, const std::vector<Vec3>& places, std::s
         for (std::size_t k = 0; k < row.size(); ++k)
             if ((k == 0 || beyond(places[v], row[k], holders) >= aheadCosine) &&
                 (k + 1 == row.size() || beyond(places[v], row[k + 1], holders) <= -aheadCosine))
-                holders[row[k]].holder.sure.push_back(v);
+                made[row[k]].sure.push_back(v);
 }
 
 /// Gives a part to the bone that it goes on from, or else to what holds still. One beside other bones too is
 /// claimed like all other skin, but for what is clearly on one side of a row of vertebrae.
 void holdPart(const FreePart& part, const std::vector<Vec3>& places, std::size_t still,
-              std::vector<FrameHolder>& holders) {
-    if (isBesideRow(part, holders)) return holdBesideRow(part, places, still, holders);
+              const std::vector<FrameHolder>& holders, std::vector<SkinHolder>& made) {
+    if (isBesideRow(part, holders)) return holdBesideRow(part, places, still, holders, made);
     const std::optional<std::size_t> from = goesOnFrom(part, holders);
     if (from && part.beside.size() > 1) return;
-    std::vector<std::uint32_t>& sure = holders[from.value_or(still)].holder.sure;
-    sure.insert(sure.end(), part.vertices.begin(), part.vertices.end());
+    append(made[from.value_or(still)].sure, part.vertices);
 }
 
 } // namespace
 
-std::optional<SkinHolder> holdParts(const SkinGround& ground, std::vector<FrameHolder>& holders) {
+std::vector<SkinHolder> holdParts(const SkinGround& ground, std::vector<FrameHolder> holders,
+                                  std::vector<std::vector<char>> moved) {
     std::size_t still = 0;
     while (still < holders.size() && holders[still].moves > 0) ++still;
     const bool anyStill = still < holders.size();
-    const ClosestPointQuery skin(ground.skin);
-    const FreeParts free = freeParts(ground, skin, holders, anyStill);
-    holdOwn(ground, skin, holders);
-    for (const FreePart& part : free.parts)
-        if (anyStill && !part.beside.empty()) holdPart(part, ground.skin.vertices, still, holders);
-    return anyStill ? std::nullopt : std::optional(stillOf(holders, free));
+    const FreeParts free = freeParts(ground, ClosestPointQuery(ground.skin), holders, anyStill);
+    std::vector<SkinHolder> made;
+    for (const FrameHolder& h : holders) made.push_back(h.holder);
+    if (!anyStill) made.push_back(stillOf(holders, free));
+    for (std::vector<char>& group : moved) group.resize(made.size(), 0);
+    const SkinSides sides(ground, made, moved);
+    for (const FreePart& part : free.parts) {
+        if (!anyStill || part.beside.empty()) continue;
+        if (isBesideRow(part, holders))
+            holdBesideRow(part, ground.skin.vertices, still, holders, made);
+        else if (const std::optional<std::size_t> owner = sides.ownerOf(part.vertices))
+            append(made[*owner].sure, part.vertices);
+        else
+            holdPart(part, ground.skin.vertices, still, holders, made);
+    }
+    sides.hold(made);
+    return made;
 }
 
 } // namespace tss

@@ -94,21 +94,6 @@ std::vector<std::uint32_t> mostContrasting(const SkinHolder& holder, std::vector
     return seeds;
 }
 
-/// The seeds of each holder, all by the one rule or all by the other, or one would reach farther than the
-/// next.
-std::vector<std::vector<std::uint32_t>> seedsOf(const std::vector<SkinHolder>& holders) {
-    std::vector<std::vector<std::uint32_t>> clear, seeds;
-    bool all = true;
-    for (std::size_t h = 0; h < holders.size(); ++h) {
-        const std::vector<double> contrast = contrastOf(holders, h);
-        seeds.push_back(mostContrasting(holders[h], contrast));
-        const bool sized = std::isfinite(holders[h].size);
-        clear.push_back(sized ? undisputed(holders[h], contrast) : seeds.back());
-        all = all && !clear.back().empty();
-    }
-    return all ? clear : seeds;
-}
-
 /// Of each holder that has a seed the one that lies farthest, along the skin, from the seeds of others.
 std::vector<std::uint32_t> endsOf(const std::vector<std::uint32_t>& holder,
                                   const std::vector<double>& nearest, const std::vector<double>& second,
@@ -152,10 +137,14 @@ Claims claim(const TriangleMesh& skin, const SkinGraph& graph, const std::vector
     std::vector<double> nearest(count, infinity), second(count, infinity);
     Claims claims{std::vector<std::uint32_t>(count, 0), {}, {}, {}, {}};
     std::vector<std::uint32_t> rival(count, 0);
-    const std::vector<std::vector<std::uint32_t>> seeds = seedsOf(holders);
+    std::vector<std::vector<std::uint32_t>> seeds = seedsOf(holders);
+    std::vector<std::int64_t> owner(count, -1);
+    for (std::uint32_t h = 0; h < holders.size(); ++h)
+        for (const std::uint32_t v : holders[h].sure) owner[v] = h;
     for (std::uint32_t h = 0; h < holders.size(); ++h) {
         std::vector<double> along(count, infinity);
-        std::vector<std::uint32_t> sources = seeds[h];
+        std::vector<std::uint32_t>& sources = seeds[h];
+        std::erase_if(sources, [&](std::uint32_t v) { return owner[v] >= 0 && owner[v] != h; });
         sources.insert(sources.end(), holders[h].sure.begin(), holders[h].sure.end());
         lowerDistances(graph, sources, infinity, along);
         for (std::size_t v = 0; v < count; ++v) {
@@ -173,9 +162,6 @@ Claims claim(const TriangleMesh& skin, const SkinGraph& graph, const std::vector
     const std::vector<double> gap = gapsOf(graph, claims.holder, nearest, second);
     claims.ends = endsOf(claims.holder, nearest, second, holders.size());
     claims.shells = heldShells(skin, holders, nearest);
-    std::vector<char> sure(count, 0);
-    for (const SkinHolder& h : holders)
-        for (const std::uint32_t v : h.sure) sure[v] = 1;
     for (std::size_t v = 0; v < count; ++v) {
         const bool ofShell = !std::isfinite(nearest[v]);
         if (ofShell) claims.holder[v] = claims.shells[v].holder;
@@ -188,7 +174,7 @@ Claims claim(const TriangleMesh& skin, const SkinGraph& graph, const std::vector
         if (certainty == 0 && nearest[v] < second[v]) certainty = (second[v] - nearest[v]) / gap[v];
         const double close = closeShare * size;
         double distance =
-            std::max(sure[v] ? std::min(own.distance[v], sureShare * size) : own.distance[v], close);
+            std::max(owner[v] >= 0 ? std::min(own.distance[v], sureShare * size) : own.distance[v], close);
         if (ofShell) { // of a thing that is held the end at the hand counts
             distance = std::max(claims.shells[v].distance, close);
             distance *= distance / std::max(claims.shells[v].least, close);
@@ -308,6 +294,20 @@ private:
 };
 
 } // namespace
+
+/// All by the one rule or all by the other, or one would reach farther than the next.
+std::vector<std::vector<std::uint32_t>> seedsOf(const std::vector<SkinHolder>& holders) {
+    std::vector<std::vector<std::uint32_t>> clear, seeds;
+    bool all = true;
+    for (std::size_t h = 0; h < holders.size(); ++h) {
+        const std::vector<double> contrast = contrastOf(holders, h);
+        seeds.push_back(mostContrasting(holders[h], contrast));
+        const bool sized = std::isfinite(holders[h].size);
+        clear.push_back(sized ? undisputed(holders[h], contrast) : seeds.back());
+        all = all && !clear.back().empty();
+    }
+    return all ? clear : seeds;
+}
 
 std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const SkinGraph& graph,
                                                const std::vector<SkinHolder>& holders,

@@ -12,6 +12,10 @@ struct SkinHolder {
     std::vector<char> apart;         ///< #V: skin that never begins what it holds; empty: none
 };
 
+/// Vertices that are each holder's beyond doubt: near to it and far from all others, or where there are too
+/// few much nearer to it than to all others.
+std::vector<std::vector<std::uint32_t>> seedsOf(const std::vector<SkinHolder>& holders);
+
 /// How far the holders go, and how firmly vertices stay whatever their shares are.
 struct SkinStrokes {
     std::vector<std::vector<DualPose>> motions; ///< of #holders or fewer each, since rest; others hold still
