@@ -178,11 +178,15 @@ bool isAmidst(const FrameHolder& holder) {
     return (holder.box.center() - holder.joint).norm() < leastArm * holder.extent;
 }
 
-/// How much nearer a place is to a bone that moves than to the nearest one that moves in fewer swings: 1
-/// where it lies straight beyond it, -1 straight before the other.
+/// How far a place lies beyond a bone that moves, seen from its joint, 1: straight, -1: straight back. Where
+/// the joint is in the middle of the bone, or the bone twists, how much nearer it is to it than to the
+/// nearest bone that moves in fewer swings.
 double beyond(const Vec3& place, std::size_t bone, const std::vector<FrameHolder>& holders) {
+    const FrameHolder& holder = holders[bone];
+    const Vec3 middle = holder.box.center(), arm = middle - holder.joint, way = place - holder.joint;
+    if (!holder.twists && !isAmidst(holder)) return way.dot(arm) / std::max(way.norm() * arm.norm(), 1e-300);
     const FrameHolder* before = boneBefore(holders, bone);
-    const Vec3 middle = holders[bone].box.center(), other = before ? before->box.center() : middle;
+    const Vec3 other = before ? before->box.center() : middle;
     return other == middle ? 1 : ((place - other).norm() - (place - middle).norm()) / (middle - other).norm();
 }
 
@@ -191,8 +195,8 @@ bool isVertebra(const FrameHolder& holder) {
     return isAmidst(holder) && !holder.twists;
 }
 
-/// The vertebra that a part goes on from, as a tail does: most of what is around it belongs to bones that
-/// move, and it is nearer to that one of those that move in the fewest swings than to the one before.
+/// The bone that a part goes on from, as a hand does from a forearm: most of what is around it belongs to
+/// bones that move, and it lies beyond that one of those that move in the fewest swings.
 std::optional<std::size_t> goesOnFrom(const FreePart& part, const std::vector<FrameHolder>& holders) {
     std::size_t moves = ~std::size_t{0};
     for (const auto& [h, times] : part.beside)
@@ -200,7 +204,8 @@ std::optional<std::size_t> goesOnFrom(const FreePart& part, const std::vector<Fr
     std::optional<std::size_t> from;
     for (const auto& [h, times] : part.beside) {
         if (holders[h].moves != moves || (from && times <= part.beside.at(*from))) continue;
-        if (isVertebra(holders[h]) && beyond(part.ring, h, holders) >= 0) from = h;
+        const bool nearer = holders[h].twists || isAmidst(holders[h]);
+        if (beyond(part.ring, h, holders) >= (nearer ? 0 : aheadCosine)) from = h;
     }
     return movingShare(part, holders) > 0.5 ? from : std::nullopt;
 }
