@@ -82,7 +82,7 @@ same_bytes() {
     echo "the same table and the same answers"
 }
 
-parts "libraries for ARM64=1" "building=12" "tests under emulation=90" ${both:+"one bake on both=2"}
+parts "libraries for ARM64=1" "setting up=1" "building=12" "tests under emulation=90" ${both:+"one bake on both=2"}
 part "libraries for ARM64" unpack_libraries
 part "setting up" configure
 part "building" compile
