@@ -89,7 +89,12 @@ SkinSides::SkinSides(const SkinGround& ground, const std::vector<SkinHolder>& ho
         }
         for (std::size_t v = 0; v < count; ++v) {
             const double farther = std::max(nearest[0][v], nearest[1][v]);
-            if (std::isfinite(farther)) swing.price[v] = farther;
+            if (std::isfinite(farther))
+                swing.price[v] = farther;
+            else if (std::isfinite(nearest[0][v]))
+                swing.undoubted[v] = SkinSide::Outside; // of its shell
+            else if (std::isfinite(nearest[1][v]))
+                swing.undoubted[v] = SkinSide::Inside;
         }
         if (both[0] && both[1]) swings_.push_back(std::move(swing));
     }

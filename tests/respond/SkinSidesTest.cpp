@@ -1,5 +1,6 @@
 // Where a skin is parted between bones.
 #include "bake/respond/SkinSides.h"
+#include "tests/geometry/TestMeshes.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -82,4 +83,24 @@ TEST_CASE("seeds that lie far off by chance part no skin, and each bone has what
     CHECK(sure(0, [](double x) { return x < 25; }) == 25 * around);
     CHECK(sure(1, [](double x) { return x > 52; }) == 8 * around);
     CHECK(sure(0, [](double x) { return x > 42; }) + sure(1, [](double x) { return x < 30; }) == 0);
+}
+
+TEST_CASE("a shell on which one bone alone is sure of anything is that one's") {
+    TriangleMesh mesh = vase();
+    const std::size_t count = mesh.vertices.size();
+    test::append(mesh, test::transformed(vase(), Eigen::Affine3d(Eigen::Translation3d(0, 20, 0))));
+    const SkinGround ground(mesh, {}, {});
+    std::vector<SkinHolder> holders(2);
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        const double x = mesh.vertices[v].x();
+        holders[0].distance.push_back(v < count ? 1 + std::abs(x - 22) : 60);
+        holders[1].distance.push_back(1 + std::abs(x - 50));
+    }
+    holders[0].size = holders[1].size = 10;
+    SkinSides(ground, holders, {{0, 1}}).hold(holders);
+    const auto second = [&](const SkinHolder& h) {
+        return std::count_if(h.sure.begin(), h.sure.end(), [&](std::uint32_t v) { return v >= count; });
+    };
+    CHECK(second(holders[0]) == 0);
+    CHECK(second(holders[1]) == static_cast<std::ptrdiff_t>(count));
 }
