@@ -42,10 +42,10 @@ SkinCarriage carrySkin(const SkinGround& ground, const SkinParameters& parameter
 /// What carries skin, one for each frame and, where it takes one, one more for what holds still: how far each
 /// vertex is from the bones of a frame (from its muscles, where it has none), and what belongs to it for
 /// certain, see SkinSides. Skin far or apart from every bone is a part of the body whose bones are not named,
-/// unless it is a hollow as in a mouth, or a patch. It goes with what it hangs on where it hangs on one thing
+/// unless it is a hollow as in a mouth. It goes with what it hangs on where it hangs on one thing
 /// alone. Else where it lies beyond a bone that moves, as a hand does beyond a forearm, it goes on from that
-/// one; a trunk on both sides of a vertebra is parted; a trunk beside an arm goes with what holds still. Where
-/// no bone holds still it stays, unless it is the smaller end of one bone.
+/// one; a trunk on both sides of a vertebra is parted; a trunk beside an arm goes with what holds still.
+/// Where no bone holds still it stays, unless it is the smaller end of one bone.
 std::vector<SkinHolder> skinHolders(const SkinGround& ground, const SkinParameters& parameters,
                                     const std::vector<int>& frames);
 

@@ -21,9 +21,6 @@ constexpr double stillDistance = 0.5;
 /// In sizes of a bone: nearer to its joint its middle says nothing about where the bone goes.
 constexpr double leastArm = 0.25;
 
-/// Of the least that a bone beside it holds: what is smaller than this is a patch, no part of the body.
-constexpr double leastPart = 0.1;
-
 /// The nearest to each vertex, of those that it is not apart from where there is one.
 std::vector<std::size_t> nearestOf(const std::vector<FrameHolder>& holders, std::size_t count) {
     std::vector<std::size_t> nearest(count, 0);
@@ -94,8 +91,7 @@ double movingShare(const FreePart& part, const std::vector<FrameHolder>& holders
     return moving / std::max(all, 1.0);
 }
 
-/// No part of the body is a hollow, as in a mouth, or a patch that is small against what bones beside it
-/// hold.
+/// A hollow, as in a mouth, is no part of the body.
 FreeParts freeParts(const SkinGround& ground, const ClosestPointQuery& skin,
                     std::vector<FrameHolder>& holders, bool anyStill) {
     const std::size_t count = ground.skin.vertices.size();
@@ -136,14 +132,9 @@ FreeParts freeParts(const SkinGround& ground, const ClosestPointQuery& skin,
     });
     for (auto& [root, part] : parts) {
         std::size_t around = 0;
-        bool isPart = !anyStill;
-        for (const auto& [h, times] : part.beside) {
-            around += times;
-            isPart |= part.area >= leastPart * made.held[h];
-        }
+        for (const auto& [h, times] : part.beside) around += times;
         if (around > 0) {
-            const bool isHollow = part.box.diagonal().norm() <= part.around.diagonal().norm();
-            if (isHollow || !isPart) continue;
+            if (part.box.diagonal().norm() <= part.around.diagonal().norm()) continue; // a hollow
             part.ring /= static_cast<double>(around);
         }
         made.parts.push_back(std::move(part));
