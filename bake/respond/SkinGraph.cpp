@@ -60,12 +60,15 @@ SkinGraph skinGraph(const TriangleMesh& skin) {
 }
 
 std::vector<std::uint32_t> lowerDistances(const SkinGraph& graph, std::span<const std::uint32_t> sources,
-                                          double limit, std::vector<double>& distance) {
+                                          double limit, std::vector<double>& distance,
+                                          std::span<const double> starts) {
     std::vector<std::uint32_t> lowered;
     using Item = std::pair<double, std::uint32_t>;
     std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
-    for (const std::uint32_t v : sources)
-        if (distance[v] > 0) queue.push({distance[v] = 0, v});
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        const double start = starts.empty() ? 0 : starts[i];
+        if (start < distance[sources[i]]) queue.push({distance[sources[i]] = start, sources[i]});
+    }
     while (!queue.empty()) {
         const auto [d, v] = queue.top();
         queue.pop();

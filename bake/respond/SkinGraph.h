@@ -28,9 +28,11 @@ struct SkinGraph {
 SkinGraph skinGraph(const TriangleMesh& skin);
 
 /// Lowers each distance to that along the edges from a source, as far as it is at most `limit`. distance: #V,
-/// infinite where nothing is known. Returns the vertices whose distance it has lowered.
+/// infinite where nothing is known. starts: #sources, how far each is itself; empty: 0. Returns the vertices
+/// whose distance it has lowered.
 std::vector<std::uint32_t> lowerDistances(const SkinGraph& graph, std::span<const std::uint32_t> sources,
-                                          double limit, std::vector<double>& distance);
+                                          double limit, std::vector<double>& distance,
+                                          std::span<const double> starts = {});
 
 /// The cotangent Laplacian, symmetric, its rows summing to zero, without a unit. Angles beyond a right one
 /// and slivers keep a small weight above 0, so that what is spread by it stays between its bounds. softness:

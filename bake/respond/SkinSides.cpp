@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <queue>
 
 namespace tss {
 namespace {
@@ -42,21 +41,17 @@ std::vector<std::uint32_t> firmOnes(const SkinGraph& graph, const SkinHolder& ho
 /// Makes those either that are no farther from a cut than the cut is from what it parts.
 void keepCertain(const SkinGraph& graph, const std::vector<double>& price, std::vector<SkinSide>& sides) {
     const double most = *std::max_element(price.begin(), price.end());
-    std::vector<double> from(sides.size(), infinity); // since farther by `most` than all that count
-    using Item = std::pair<double, std::uint32_t>;
-    std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+    std::vector<std::uint32_t> beside;
+    std::vector<double> starts; // farther by `most` than the price allows, so that all are above 0
     for (std::uint32_t v = 0; v < sides.size(); ++v)
         for (const SkinGraph::Edge& edge : graph.edges[v])
-            if (sides[edge.to] != sides[v] && !std::isfinite(from[v]))
-                queue.push({from[v] = most - price[v], v});
-    while (!queue.empty()) {
-        const auto [distance, v] = queue.top();
-        queue.pop();
-        if (distance > from[v]) continue;
-        for (const SkinGraph::Edge& edge : graph.edges[v])
-            if (distance + edge.length < from[edge.to])
-                queue.push({from[edge.to] = distance + edge.length, edge.to});
-    }
+            if (sides[edge.to] != sides[v]) {
+                beside.push_back(v);
+                starts.push_back(most - price[v]);
+                break;
+            }
+    std::vector<double> from(sides.size(), infinity);
+    lowerDistances(graph, beside, most, from, starts);
     for (std::size_t v = 0; v < sides.size(); ++v)
         if (from[v] <= most) sides[v] = SkinSide::Either;
 }
