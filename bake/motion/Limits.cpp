@@ -1,5 +1,6 @@
 #include "bake/base/Error.h"
 #include "bake/motion/LimitConflict.h"
+#include "bake/motion/LimitRounding.h"
 #include "bake/motion/MotionBound.h"
 
 #include <algorithm>
@@ -122,10 +123,7 @@ bool withinLimits(const Motion& motion, std::span<const double> q, double slack)
 }
 
 bool beyondLimits(const Motion& motion, std::span<const double> q) {
-    // Values and limits may have been rounded to floats.
-    const auto hairOf = [](const Dof& dof) {
-        return 2e-7 * std::max(std::abs(dof.lower), std::abs(dof.upper));
-    };
+    const auto hairOf = [](const Dof& dof) { return limitRounding(dof, fileRounding); };
     if (q.size() != motion.dofs.size()) return true;
     if (!std::ranges::all_of(q, [](double value) { return std::isfinite(value); })) return true;
     for (std::size_t k = 0; k < q.size(); ++k) {

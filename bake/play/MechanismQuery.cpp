@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/model/CheckIndices.h"
 #include "bake/model/Kinematics.h"
+#include "bake/motion/LimitRounding.h"
 #include "bake/play/ChainPoses.h"
 #include "bake/table/TableKernels.h"
 
@@ -122,8 +123,7 @@ MechanismQuery::Prepared::Prepared(const SceneModel& scene, const std::vector<in
         planes_ = planes_ || !part.motion.planes.empty();
         for (std::size_t k = 0; k < part.values.size(); ++k) {
             const Dof& dof = part.motion.dofs[k];
-            const double hair =
-                2e-7 * std::max(std::abs(dof.lower), std::abs(dof.upper)); // as beyondLimits()
+            const double hair = limitRounding(dof, fileRounding); // as beyondLimits()
             lower_[part.values[k]] = std::max(lower_[part.values[k]], dof.lower - hair);
             upper_[part.values[k]] = std::min(upper_[part.values[k]], dof.upper + hair);
         }

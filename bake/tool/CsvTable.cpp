@@ -4,6 +4,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/Words.h"
 #include "bake/model/Kinematics.h"
+#include "bake/motion/LimitRounding.h"
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
@@ -104,7 +105,7 @@ std::vector<std::size_t> orderOf(const std::vector<std::string>& header, const D
 
 /// Limits and poses are printed with 6 digits: what they round to beyond a limit stands for the limit.
 double withoutRounding(const Dof& dof, double value) {
-    const double hair = 5e-6 * std::max(std::abs(dof.lower), std::abs(dof.upper));
+    const double hair = limitRounding(dof, 5e-6);
     if (value < dof.lower && value >= dof.lower - hair) return dof.lower;
     if (value > dof.upper && value <= dof.upper + hair) return dof.upper;
     return value;

@@ -54,6 +54,19 @@ TEST_CASE("a value that is not a number is not within limits") {
     CHECK_FALSE(withinLimits(twoSlides(), std::vector<double>{NAN, 0}));
 }
 
+TEST_CASE("limits far from 0 end where they end, but for what rounding does near 0") {
+    Motion motion = twoSlides();
+    motion.dofs[0].lower = 1.7e9; // as time stamps are
+    motion.dofs[0].upper = 1.7e9 + 50;
+    CHECK_FALSE(beyondLimits(motion, std::vector{1.7e9 + 50, 0.0}));
+    CHECK(beyondLimits(motion, std::vector{1.7e9 + 51, 0.0}));
+    CHECK(beyondLimits(motion, std::vector{1.7e9 - 1, 0.0}));
+    const double once = 1.1;
+    motion.dofs[0].lower = motion.dofs[0].upper = float(once); // one value alone, as files hold it
+    CHECK_FALSE(beyondLimits(motion, std::vector{once, double(2 + 1e-7f)}));
+    CHECK(beyondLimits(motion, std::vector{once + 1e-5, 0.0}));
+}
+
 TEST_CASE("what is no pose of a motion is beyond its limits, and is not posed") {
     const FloatTrapsOff traps;
     const Motion motion = twoSlides();

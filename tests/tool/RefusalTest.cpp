@@ -318,6 +318,24 @@ TEST_CASE("an axis that is in another unit than the meshes is remarked upon") {
     CHECK(said("1.2,5000,0.3").find("same unit") == std::string::npos); // anywhere along the axis
 }
 
+TEST_CASE("a query beyond limits that are far from 0 is not answered at a pose within them") {
+    const Folder folder;
+    writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
+    writeObj(boxMesh({9, -1, -1}, {11, 1, 1}), folder / "b.obj");
+    writeText(folder.path() / "way.csv", "value,tx,ty,tz\n1700000000,0,0,0\n1700000100,-20,0,0\n");
+    REQUIRE(
+        runTss("make -o far.tss --a a.obj --b b.obj --dof path:way.csv:1700000000:1700000030", folder.path())
+            .exit == 0);
+    REQUIRE(runTss("bake far.tss -o baked.tss --tolerance 0.1", folder.path()).exit == 0);
+    writeText(folder.path() / "poses.csv", "path\n1700000000\n1700000030\n1700000050\n");
+    for (const std::string pairs : {"", " --all-pairs"}) {
+        const Ran ran =
+            runTss("query baked.tss --json --poses poses.csv -o answers.csv" + pairs, folder.path());
+        INFO(ran.err);
+        CHECK(Json::parse(ran.out)["outsideRows"] == Json{2}); // where the boxes overlap
+    }
+}
+
 TEST_CASE("a query beyond the limits says so, and claims nothing there") {
     const Folder folder;
     writeObj(boxMesh({-1, -1, -1}, {1, 1, 1}), folder / "a.obj");
