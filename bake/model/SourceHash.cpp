@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/Sha256.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace tss {
@@ -126,6 +127,14 @@ std::string difference(const std::string& stored, const std::string& now,
     return changed + " changed since its table was baked";
 }
 
+/// Some limit of a table's motion lies beyond those that it can have been proven for.
+bool isWider(const Motion& made, const Motion& limits) {
+    for (std::size_t k = 0; k < std::min(made.dofCount(), limits.dofCount()); ++k)
+        if (made.dofs[k].lower < limits.dofs[k].lower || made.dofs[k].upper > limits.dofs[k].upper)
+            return true;
+    return false;
+}
+
 void refuse(const std::string& why, const std::string& path, const std::string& fileName) {
     if (!why.empty()) throw InputError({fileName, "", path}, why + ": expected a fresh table, bake it again");
 }
@@ -162,10 +171,13 @@ std::string sourceHash(const SceneModel& scene, const SkinModel& skin) {
 
 std::string staleness(const SceneModel& scene, const Pair& pair) {
     if (!pair.table && !pair.proof) return "";
-    return difference(pair.sourceHash, sourceHash(scene, pair),
-                      {"the mesh of " + scene.bodies[pair.bodyA].path,
-                       "the mesh of " + scene.bodies[pair.bodyB].path, "the joint", "the limits",
-                       "the settings"});
+    std::string changed = difference(pair.sourceHash, sourceHash(scene, pair),
+                                     {"the mesh of " + scene.bodies[pair.bodyA].path,
+                                      "the mesh of " + scene.bodies[pair.bodyB].path, "the joint",
+                                      "the limits", "the settings"});
+    if (changed.empty() && pair.table && isWider(pair.table->motion, pairMotion(scene, pair)))
+        return "its table says that it was made for wider limits than its joints have";
+    return changed;
 }
 
 std::string staleness(const SceneModel& scene, const SkinModel& skin) {

@@ -45,6 +45,25 @@ TEST_CASE("a table is fresh after saving and loading") {
     CHECK_NOTHROW(requireFresh(again, "test.tss"));
 }
 
+TEST_CASE("a table that says it was made for more than its joints' limits is not believed") {
+    SceneModel scene = baked();
+    Pair& pair = scene.pairs[0];
+    Table table;
+    table.motion = pairMotion(scene, pair);
+    pair.proof.reset();
+    const auto saysLimits = [&](double lower, double upper) {
+        table.motion.dofs[0].lower = lower;
+        table.motion.dofs[0].upper = upper;
+        pair.table = std::make_shared<Table>(table);
+        return staleness(scene, pair);
+    };
+    const auto [lower, upper] = std::pair(table.motion.dofs[0].lower, table.motion.dofs[0].upper);
+    CHECK(saysLimits(lower, upper).empty());
+    CHECK_THAT(saysLimits(lower, upper + 0.1), Catch::Contains("wider limits"));
+    CHECK_THAT(saysLimits(lower - 0.1, upper), Catch::Contains("wider limits"));
+    CHECK_THROWS_AS(requireFresh(scene, "test.tss"), InputError);
+}
+
 TEST_CASE("a stale table is refused with what changed") {
     SceneModel scene = baked();
     SECTION("a mesh") {
