@@ -47,8 +47,9 @@ void checkVersion(const std::string& version, const Place& place, Problems& prob
 }
 
 /// Checks an array of strings or a list op of such: {"prepend": [...], "append": ..., "delete": ...,
-/// "explicit": ...}. wanted: what the strings are, for the message.
-void checkList(const Value& value, const Place& place, const char* wanted, Problems& problems) {
+/// "explicit": ...}. Paths are absolute ones, of prims or properties.
+void checkList(const Value& value, const Place& place, bool ofPaths, Problems& problems) {
+    const char* const wanted = ofPaths ? "paths" : "names of API schemas";
     if (const auto* ops = value.as<Value::Object>()) {
         for (const auto& [key, items] : *ops) {
             if (std::ranges::find(listOps, key) == listOps.end())
@@ -57,7 +58,7 @@ void checkList(const Value& value, const Place& place, const char* wanted, Probl
             else if (items.as<Value::Object>())
                 problems.add(place / key, "expected an array of ", wanted, ", found ", describe(items));
             else
-                checkList(items, place / key, wanted, problems);
+                checkList(items, place / key, ofPaths, problems);
         }
         return;
     }
@@ -65,22 +66,13 @@ void checkList(const Value& value, const Place& place, const char* wanted, Probl
         return problems.add(place / 0, "expected a string, found ", describe(numbers->element(0)));
     const auto* array = value.as<Value::Array>();
     if (!array) return problems.add(place, "expected an array of ", wanted, ", found ", describe(value));
-    for (std::size_t i = 0; i < array->size(); ++i)
-        if (!(*array)[i].as<std::string>())
+    for (std::size_t i = 0; i < array->size(); ++i) {
+        const auto* text = (*array)[i].as<std::string>();
+        if (!text)
             problems.add(place / i, "expected a string, found ", describe((*array)[i]));
-}
-
-/// Checks that the strings of such a list are absolute paths of prims or properties.
-void checkPaths(const Value& value, const Place& place, Problems& problems) {
-    if (const auto* ops = value.as<Value::Object>()) {
-        for (const auto& [key, items] : *ops)
-            if (items.as<Value::Array>()) checkPaths(items, place / key, problems);
-        return;
+        else if (ofPaths && !isPath(*text))
+            problems.add(place / i, "expected an absolute path such as /Scene/Body, found \"", *text, "\"");
     }
-    const auto* array = value.as<Value::Array>();
-    for (std::size_t i = 0; array && i < array->size(); ++i)
-        if (const auto* path = (*array)[i].as<std::string>(); path && !isPath(*path))
-            problems.add(place / i, "expected an absolute path such as /Scene/Body, found \"", *path, "\"");
 }
 
 /// Splits [[t, v], ...], in whatever form the parser found for it.
@@ -141,7 +133,7 @@ struct LayerReader {
         const Place at = place / "metadata";
         if (auto* found = object(taken.mapped(), at)) metadata = std::move(*found);
         if (const auto schemas = metadata.find("apiSchemas"); schemas != metadata.end())
-            checkList(schemas->second, at / "apiSchemas", "names of API schemas", problems);
+            checkList(schemas->second, at / "apiSchemas", false, problems);
         for (const char* key :
              {"subLayers", "payload", "variantSets", "variantSelection", "inheritPaths", "specializes"})
             if (metadata.contains(key))
@@ -149,10 +141,8 @@ struct LayerReader {
                     at / key, key,
                     " is kept, but what it would bring into the scene does not count: references alone "
                     "are composed");
-        if (const auto references = metadata.find("references"); references != metadata.end()) {
-            checkList(references->second, at / "references", "paths", problems);
-            checkPaths(references->second, at / "references", problems);
-        }
+        if (const auto references = metadata.find("references"); references != metadata.end())
+            checkList(references->second, at / "references", true, problems);
         return metadata;
     }
 
@@ -192,11 +182,9 @@ struct LayerReader {
     Property readProperty(Value::Object keys, const Place& place) {
         Property property;
         if (auto targets = keys.extract("targetPaths")) {
-            const Place at = place / "targetPaths";
             if (keys.contains("typeName"))
                 problems.add(place, "expected \"typeName\" or \"targetPaths\", found both");
-            checkList(targets.mapped(), at, "paths", problems);
-            checkPaths(targets.mapped(), at, problems);
+            checkList(targets.mapped(), place / "targetPaths", true, problems);
             property.targetPaths = std::move(targets.mapped());
         } else {
             readAttribute(keys, property, place);

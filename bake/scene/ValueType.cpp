@@ -50,17 +50,46 @@ std::map<std::string, ValueType, std::less<>> makeTypes() {
 }
 
 /// Checks the single numbers of one value.
-class NumberCheck {
+/// Brings values of one type into the form that they are kept in.
+class Conformer {
 public:
-    NumberCheck(const ValueType& type, std::string_view typeName, Problems& problems)
-        : type_(type), name_(typeName.substr(0, typeName.find('['))), problems_(problems) {}
+    Conformer(const ValueType& type, std::string_view typeName, Problems& problems)
+        : type_(type), typeName_(typeName), width_(static_cast<std::size_t>(type.width)),
+          problems_(problems) {}
 
+    void conform(Value& value, const Place& place) const {
+        if (type_.base == Base::Bool) return checkAll<bool>(value, "true or false", place);
+        if (type_.base == Base::Text) {
+            checkAll<std::string>(value, "a string", place);
+            if (typeName_.starts_with("asset")) checkAssets(value, place);
+        } else if (hasBigInteger(value)) {
+            return;
+        } else if (type_.rows > 1 && type_.array) {
+            eachMatrix(value, place);
+        } else if (type_.rows > 1) {
+            array(value, place);
+            const Numbers* rows = value.as<Numbers>();
+            if (!rows || rows->count() != std::size_t(type_.rows))
+                problems_.add(place, "expected ", type_.rows, " rows (", typeName_, "), found ",
+                              describe(value));
+        } else if (type_.array) {
+            array(value, place);
+        } else if (type_.width > 1) {
+            Numbers numbers;
+            appendTuple(value, place, numbers.values);
+            value = Value(std::move(numbers));
+        } else {
+            value = Value(read(value, [&] { return place; }));
+        }
+    }
+
+private:
     /// The number as the slot stores it. place: a function, as it is needed for a problem only.
     template <class PlaceOf>
     double stored(double number, const PlaceOf& place) const {
         if (type_.base == Base::Integer) {
             if (number != std::trunc(number) || number < type_.lowest || number > type_.highest)
-                problems_.add(place(), "expected ", integerText(), ", found ", describe(Value(number)));
+                problems_.add(place(), "expected ", wantedNumber(), ", found ", describe(Value(number)));
             return number;
         }
         if (!type_.isFloat() || !std::isfinite(number)) return number;
@@ -68,8 +97,8 @@ public:
         // The largest float is mostly written with fewer digits, which are a little more than it is.
         const bool rounds = type_.base == Base::Float && std::abs(number) < 0x1.ffffffp127;
         if (std::abs(number) > limit && !rounds)
-            problems_.add(place(), "expected a number of at most ", limit, " in a ", name_, ", found ",
-                          describe(Value(number)));
+            problems_.add(place(), "expected a number of at most ", limit, " in a ",
+                          typeName_.substr(0, typeName_.find('[')), ", found ", describe(Value(number)));
         return nearestFloat(number);
     }
 
@@ -77,133 +106,128 @@ public:
     template <class PlaceOf>
     double read(const Value& value, const PlaceOf& place) const {
         if (const double* number = value.as<double>()) return stored(*number, place);
-        if (const auto* big = value.as<std::int64_t>(); big && type_.isReal())
-            return stored(static_cast<double>(*big), place);
-        if (const auto* huge = value.as<std::uint64_t>(); huge && type_.isReal())
-            return stored(static_cast<double>(*huge), place);
-        const std::string* word = value.as<std::string>();
-        if (word && type_.isReal()) {
-            if (*word == "inf") return std::numeric_limits<double>::infinity();
-            if (*word == "-inf") return -std::numeric_limits<double>::infinity();
-            if (*word == "nan") return std::numeric_limits<double>::quiet_NaN();
+        if (type_.isReal()) {
+            if (const auto* big = value.as<std::int64_t>()) return stored(static_cast<double>(*big), place);
+            if (const auto* huge = value.as<std::uint64_t>())
+                return stored(static_cast<double>(*huge), place);
+            if (const auto* word = value.as<std::string>()) {
+                if (*word == "inf") return std::numeric_limits<double>::infinity();
+                if (*word == "-inf") return -std::numeric_limits<double>::infinity();
+                if (*word == "nan") return std::numeric_limits<double>::quiet_NaN();
+            }
         }
-        problems_.add(place(), "expected ", type_.base == Base::Integer ? integerText() : "a number",
-                      ", found ", describe(value));
+        problems_.add(place(), "expected ", wantedNumber(), ", found ", describe(value));
         return 0;
     }
 
-    std::string integerText() const {
+    std::string wantedNumber() const {
+        if (type_.base != Base::Integer) return "a number";
         return joined("an integer from ", type_.lowest, " to ", type_.highest);
     }
 
-private:
+    std::string wantedTuple() const { return joined("an array of ", width_, " numbers (", typeName_, ")"); }
+
+    void notAnArray(const Value& value, const Place& place) const {
+        problems_.add(place, "expected an array (", typeName_, "), found ", describe(value));
+    }
+
+    void appendTuple(const Value& value, const Place& place, std::vector<double>& out) const {
+        const std::size_t start = out.size();
+        const auto here = [&] { return place / (out.size() - start); };
+        const auto* numbers = value.as<Numbers>();
+        const auto* array = value.as<Value::Array>();
+        if (numbers && numbers->width == 0 && numbers->values.size() == width_)
+            for (const double number : numbers->values) out.push_back(stored(number, here));
+        else if (array && array->size() == width_)
+            for (const Value& element : *array) out.push_back(read(element, here));
+        else
+            problems_.add(place, "expected ", wantedTuple(), ", found ", describe(value));
+        out.resize(start + width_);
+    }
+
+    /// An array of numbers or of tuples; where it is none it becomes an empty one.
+    void array(Value& value, const Place& place) const {
+        Numbers* numbers = value.as<Numbers>();
+        const auto* array = value.as<Value::Array>();
+        Numbers block{{}, type_.width == 1 ? 0 : type_.width};
+        if (numbers && numbers->width == block.width) {
+            for (std::size_t i = 0; i < numbers->values.size(); ++i)
+                numbers->values[i] = stored(numbers->values[i], [&] {
+                    return block.width == 0 ? place / i : place / (i / width_) / (i % width_);
+                });
+            return;
+        }
+        if (numbers)
+            problems_.add(place / 0, "expected ", block.width == 0 ? "a number" : wantedTuple(), ", found ",
+                          numbers->width == 0 ? describe(Value(numbers->values[0]))
+                                              : joined("an array of ", numbers->width, " elements"));
+        else if (!array)
+            notAnArray(value, place);
+        if (!array || array->empty()) {
+            value = Value(Value::Array());
+            return;
+        }
+        block.values.reserve(array->size() * width_);
+        for (std::size_t i = 0; i < array->size(); ++i) {
+            if (block.width == 0)
+                block.values.push_back(read((*array)[i], [&] { return place / i; }));
+            else
+                appendTuple((*array)[i], place / i, block.values);
+        }
+        value = Value(std::move(block));
+    }
+
+    void eachMatrix(Value& value, const Place& place) const {
+        auto* matrices = value.as<Value::Array>();
+        if (!matrices) return notAnArray(value, place);
+        ValueType one = type_;
+        one.array = false;
+        const Conformer conformer(one, typeName_.substr(0, typeName_.size() - 2), problems_);
+        for (std::size_t i = 0; i < matrices->size(); ++i)
+            if (!(*matrices)[i].isNull()) conformer.conform((*matrices)[i], place / i);
+    }
+
+    /// The value, or each element of an array, is a T.
+    template <class T>
+    void checkAll(const Value& value, const char* wanted, const Place& place) const {
+        const auto* elements = value.as<Value::Array>();
+        if (!type_.array) {
+            if (!value.as<T>()) problems_.add(place, "expected ", wanted, ", found ", describe(value));
+        } else if (!elements) {
+            notAnArray(value, place);
+        } else {
+            for (std::size_t i = 0; i < elements->size(); ++i)
+                if (!(*elements)[i].as<T>())
+                    problems_.add(place / i, "expected ", wanted, ", found ", describe((*elements)[i]));
+        }
+    }
+
+    void checkAssets(const Value& value, const Place& place) const {
+        if (const auto* array = value.as<Value::Array>())
+            for (std::size_t i = 0; i < array->size(); ++i) checkAssets((*array)[i], place / i);
+        const auto* path = value.as<std::string>();
+        const auto bad = [](char c) { return c == '@' || static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+        if (path && std::ranges::any_of(*path, bad))
+            problems_.add(place, "expected the path of a file without @ and control characters, found ",
+                          describe(value));
+    }
+
+    /// An integer that a double cannot hold, or an array with one, stays as it is.
+    bool hasBigInteger(const Value& value) const {
+        if (type_.base != Base::Integer || type_.highest < 4294967296.0) return false;
+        const auto* array = value.as<Value::Array>();
+        if (array) return std::ranges::any_of(*array, [&](const Value& v) { return isBigInteger(v); });
+        return isBigInteger(value);
+    }
+    bool isBigInteger(const Value& value) const {
+        return value.as<std::int64_t>() || (type_.lowest == 0 && value.as<std::uint64_t>());
+    }
+
     const ValueType& type_;
-    std::string_view name_;
+    std::string_view typeName_;
+    std::size_t width_;
     Problems& problems_;
 };
-
-std::string tupleText(int width, std::string_view typeName) {
-    return joined("an array of ", width, " numbers (", typeName, ")");
-}
-
-void notAnArray(const Value& value, std::string_view typeName, const Place& place, Problems& problems) {
-    problems.add(place, "expected an array (", typeName, "), found ", describe(value));
-}
-
-/// One tuple of `width` numbers appended to `out`; `out` always grows by width.
-void appendTuple(const Value& value, int width, const NumberCheck& check, std::string_view typeName,
-                 const Place& place, Problems& problems, std::vector<double>& out) {
-    const std::size_t start = out.size();
-    if (const Numbers* numbers = value.as<Numbers>(); numbers && numbers->width == 0) {
-        if (numbers->values.size() == std::size_t(width))
-            for (double number : numbers->values)
-                out.push_back(check.stored(number, [&] { return place / (out.size() - start); }));
-        else
-            problems.add(place, "expected ", tupleText(width, typeName), ", found ", describe(value));
-    } else if (const auto* array = value.as<Value::Array>(); array && array->size() == std::size_t(width)) {
-        for (const Value& element : *array)
-            out.push_back(check.read(element, [&] { return place / (out.size() - start); }));
-    } else {
-        problems.add(place, "expected ", tupleText(width, typeName), ", found ", describe(value));
-    }
-    out.resize(start + width);
-}
-
-/// An array of numbers, or of tuples, whatever form the parser found for it.
-void conformArray(Value& value, int width, const NumberCheck& check, std::string_view typeName,
-                  const Place& place, Problems& problems) {
-    if (Numbers* numbers = value.as<Numbers>(); numbers && numbers->width == (width == 1 ? 0 : width)) {
-        for (std::size_t i = 0; i < numbers->values.size(); ++i)
-            numbers->values[i] = check.stored(numbers->values[i], [&] {
-                return width == 1 ? place / i : place / (i / width) / (i % width);
-            });
-        return;
-    }
-    if (const Numbers* numbers = value.as<Numbers>()) {
-        const bool flat = numbers->width == 0;
-        problems.add(place / 0, "expected ", width == 1 ? "a number" : tupleText(width, typeName), ", found ",
-                     flat ? describe(Value(numbers->values[0]))
-                          : joined("an array of ", numbers->width, " elements"));
-        value = Value(Value::Array());
-        return;
-    }
-    const auto* array = value.as<Value::Array>();
-    if (!array) {
-        notAnArray(value, typeName, place, problems);
-        value = Value(Value::Array());
-        return;
-    }
-    if (array->empty()) return;
-    Numbers block{{}, width == 1 ? 0 : width};
-    block.values.reserve(array->size() * width);
-    for (std::size_t i = 0; i < array->size(); ++i) {
-        if (width == 1)
-            block.values.push_back(check.read((*array)[i], [&] { return place / i; }));
-        else
-            appendTuple((*array)[i], width, check, typeName, place / i, problems, block.values);
-    }
-    value = Value(std::move(block));
-}
-
-template <class T>
-void conformEach(Value& value, bool array, const char* wanted, std::string_view typeName, const Place& place,
-                 Problems& problems) {
-    const auto check = [&](const Value& element, const Place& at) {
-        if (!element.as<T>()) problems.add(at, "expected ", wanted, ", found ", describe(element));
-    };
-    if (!array) return check(value, place);
-    if (const auto* elements = value.as<Value::Array>()) {
-        for (std::size_t i = 0; i < elements->size(); ++i)
-            if (!(*elements)[i].as<T>()) check((*elements)[i], place / i);
-    } else {
-        notAnArray(value, typeName, place, problems);
-    }
-}
-
-/// The path of a file, which .usda writes between @.
-void checkAssets(const Value& value, const Place& place, Problems& problems) {
-    if (const auto* array = value.as<Value::Array>())
-        for (std::size_t i = 0; i < array->size(); ++i) checkAssets((*array)[i], place / i, problems);
-    const auto* path = value.as<std::string>();
-    const auto bad = [](char c) { return c == '@' || static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
-    if (path && std::ranges::any_of(*path, bad))
-        problems.add(place, "expected the path of a file without @ and control characters, found ",
-                     describe(value));
-}
-
-/// Integers of 64 bits that no double holds stay as they are, in a plain array.
-bool isBigInteger(const Value& value, const ValueType& type) {
-    if (type.base != Base::Integer || type.highest < 4294967296.0) return false;
-    return value.as<std::int64_t>() || (type.lowest == 0 && value.as<std::uint64_t>());
-}
-
-bool hasBigInteger(const Value& value, const ValueType& type) {
-    const auto* array = value.as<Value::Array>();
-    if (!array) return isBigInteger(value, type);
-    for (const Value& element : *array)
-        if (isBigInteger(element, type)) return true;
-    return false;
-}
 
 } // namespace
 
@@ -219,41 +243,7 @@ std::optional<ValueType> valueType(std::string_view typeName) {
 
 void conform(Value& value, const ValueType& type, std::string_view typeName, const Place& place,
              Problems& problems) {
-    if (value.isNull()) return;
-    if (type.base == Base::Bool)
-        return conformEach<bool>(value, type.array, "true or false", typeName, place, problems);
-    if (type.base == Base::Text) {
-        conformEach<std::string>(value, type.array, "a string", typeName, place, problems);
-        if (typeName.starts_with("asset")) checkAssets(value, place, problems);
-        return;
-    }
-    if (hasBigInteger(value, type)) return;
-
-    const NumberCheck check(type, typeName, problems);
-    if (type.rows > 1 && type.array) {
-        auto* matrices = value.as<Value::Array>();
-        if (!matrices)
-            notAnArray(value, typeName, place, problems);
-        else
-            for (std::size_t i = 0; i < matrices->size(); ++i) {
-                ValueType one = type;
-                one.array = false;
-                conform((*matrices)[i], one, typeName.substr(0, typeName.size() - 2), place / i, problems);
-            }
-    } else if (type.rows > 1) {
-        conformArray(value, type.width, check, typeName, place, problems);
-        const Numbers* rows = value.as<Numbers>();
-        if (!rows || rows->count() != std::size_t(type.rows))
-            problems.add(place, "expected ", type.rows, " rows (", typeName, "), found ", describe(value));
-    } else if (type.array) {
-        conformArray(value, type.width, check, typeName, place, problems);
-    } else if (type.width > 1) {
-        Numbers tuple;
-        appendTuple(value, type.width, check, typeName, place, problems, tuple.values);
-        value = Value(std::move(tuple));
-    } else {
-        value = Value(check.read(value, [&] { return place; }));
-    }
+    if (!value.isNull()) Conformer(type, typeName, problems).conform(value, place);
 }
 
 } // namespace tss
