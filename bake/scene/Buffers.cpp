@@ -109,16 +109,15 @@ private:
 } // namespace
 
 void BufferReader::readAll(const Value& list, const Place& place) {
-    any_ = true;
+    buffers_.emplace();
     const auto* array = list.as<Value::Array>();
     if (!array) return problems_.add(place, "expected an array of buffers, found ", describe(list));
     for (std::size_t i = 0; i < array->size(); ++i) {
         const auto* keys = (*array)[i].as<Value::Object>();
         if (!keys) problems_.add(place / i, "expected an object, found ", describe((*array)[i]));
         auto bytes = keys ? read(*keys, place / i) : std::nullopt;
-        unread_.push_back(!bytes);
-        buffers_.push_back(bytes ? std::move(*bytes) : std::string());
-        left_.push_back(buffers_.back().size());
+        const std::size_t size = bytes ? bytes->size() : 0;
+        buffers_->push_back({std::move(bytes), size});
     }
 }
 
@@ -171,7 +170,7 @@ std::optional<std::uint64_t> BufferReader::whole(const Value::Object& keys, cons
 void BufferReader::fill(Value& value, const ValueType& type, const std::string& typeName,
                         const Place& place) {
     const auto* keys = value.as<Value::Object>();
-    if (!any_ || !keys || !keys->contains(bufferKey)) return;
+    if (!buffers_ || !keys || !keys->contains(bufferKey)) return;
     auto numbers = view(*keys, type, typeName, place);
     value = numbers ? std::move(*numbers) : Value(Value::Array());
 }
@@ -191,18 +190,19 @@ std::optional<Value> BufferReader::view(const Value::Object& keys, const ValueTy
     const auto index = whole(keys, bufferKey, place), offset = whole(keys, offsetKey, place),
                count = whole(keys, countKey, place);
     if (!index || !offset || !count) return std::nullopt;
-    if (*index >= buffers_.size())
-        return wrong(place / bufferKey, "expected an index below ", buffers_.size(),
+    if (*index >= buffers_->size())
+        return wrong(place / bufferKey, "expected an index below ", buffers_->size(),
                      ", the number of buffers, found ", *index);
-    if (unread_[*index]) return std::nullopt; // which has been said
-    const std::string& bytes = buffers_[*index];
+    Loaded& buffer = (*buffers_)[*index];
+    if (!buffer.bytes) return std::nullopt; // which has been said
+    const std::string& bytes = *buffer.bytes;
     const std::size_t step = sizeOf(scalar), each = step * static_cast<std::size_t>(type.width);
     if (*offset > bytes.size() || *count > (bytes.size() - *offset) / each)
         return wrong(place / countKey, "expected elements inside of the buffer's ", bytes.size(),
                      " bytes, found ", *count, " of ", each, " bytes from ", *offset);
-    if (*count * each > left_[*index])
+    if (*count * each > buffer.left)
         return wrong(place, "expected values that use no byte of a buffer twice");
-    left_[*index] -= *count * each;
+    buffer.left -= *count * each;
     if (*count == 0) return std::nullopt;
     Numbers numbers{{}, type.width == 1 ? 0 : type.width};
     numbers.values.reserve(*count * static_cast<std::size_t>(type.width));
@@ -216,8 +216,7 @@ Buffer takeBuffer(Layer& layer, const std::string& stem, std::size_t fewest) {
     packer.pack(layer.children);
     if (packer.bytes.empty()) return {};
     const std::string hash = hashOf(packer.bytes);
-    constexpr std::size_t nameDigits =
-        16; // a name of its own for each content: an old scene keeps its own buffer
+    constexpr std::size_t nameDigits = 16;
     Buffer buffer{stem + "." + hash.substr(0, nameDigits) + ".bin", std::move(packer.bytes)};
     layer.other["buffers"] =
         Value(Value::Array{Value(Value::Object{{uriKey, Value(buffer.uri)},

@@ -26,12 +26,14 @@ private:
     std::optional<Value> view(const Value::Object& keys, const ValueType& type, const std::string& typeName,
                               const Place& place);
 
+    struct Loaded {
+        std::optional<std::string> bytes; ///< none: it could not be read
+        std::size_t left = 0;             ///< bytes that no value has used yet
+    };
+
     std::string file_;
     Problems& problems_;
-    bool any_ = false;
-    std::vector<std::string> buffers_;
-    std::vector<bool> unread_;      ///< that could not be read
-    std::vector<std::size_t> left_; ///< bytes of each that no value has used yet
+    std::optional<std::vector<Loaded>> buffers_; ///< none: the file does not speak of buffers
 };
 
 /// Takes the numeric arrays of at least `fewest` elements out of the layer, which then names them in the one

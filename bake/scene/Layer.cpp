@@ -18,18 +18,9 @@ std::string_view takeName(std::string_view& path) {
     return name;
 }
 
-template <class Prims>
-auto* find(Prims& prims, std::string_view path) {
-    auto* level = &prims;
-    decltype(level->data()) found = nullptr;
-    while (!path.empty()) {
-        const std::string_view name = takeName(path);
-        const auto it = std::ranges::find_if(*level, [&](const Prim& p) { return p.name == name; });
-        if (name.empty() || it == level->end()) return decltype(found)(nullptr);
-        found = &*it;
-        level = &it->children;
-    }
-    return found;
+const Prim* named(const std::vector<Prim>& prims, std::string_view name) {
+    const auto found = std::ranges::find(prims, name, &Prim::name);
+    return found == prims.end() ? nullptr : &*found;
 }
 
 void appendItems(const Value::Object& ops, const char* key, std::vector<std::string>& items) {
@@ -47,16 +38,21 @@ const Property* Prim::property(std::string_view name) const {
 }
 
 const Prim* Prim::child(std::string_view name) const {
-    for (const Prim& prim : children)
-        if (prim.name == name) return &prim;
-    return nullptr;
+    return named(children, name);
 }
 
 const Prim* findPrim(const Layer& layer, std::string_view path) {
-    return find(layer.children, path);
+    const std::vector<Prim>* level = &layer.children;
+    const Prim* found = nullptr;
+    while (!path.empty()) {
+        found = named(*level, takeName(path));
+        if (!found) return nullptr;
+        level = &found->children;
+    }
+    return found;
 }
 Prim* findPrim(Layer& layer, std::string_view path) {
-    return find(layer.children, path);
+    return const_cast<Prim*>(findPrim(std::as_const(layer), path));
 }
 
 Prim& makePrim(Layer& layer, std::string_view path, const std::string& typeName) {
@@ -68,7 +64,7 @@ Prim& makePrim(Layer& layer, std::string_view path, const std::string& typeName)
         if (!isPrimName(name))
             throw InputError({"", "", std::string(whole)},
                              "expected a prim path of names [A-Za-z_][A-Za-z0-9_]*");
-        auto it = std::ranges::find_if(*level, [&](const Prim& p) { return p.name == name; });
+        auto it = std::ranges::find(*level, name, &Prim::name);
         if (it == level->end()) {
             Prim made;
             made.name = name;

@@ -15,9 +15,9 @@ std::vector<std::string> references(const Prim& prim) {
     return found == prim.metadata.end() ? std::vector<std::string>() : listItems(found->second);
 }
 
-bool isInstanceable(const Prim& prim) {
-    const bool* flag = member<bool>(prim.metadata, "instanceable");
-    return flag && *flag;
+bool flagOf(const Prim& prim, const char* key, bool fallback) {
+    const bool* flag = member<bool>(prim.metadata, key);
+    return flag ? *flag : fallback;
 }
 
 void moveAll(Composed& prim, const std::string& from, const std::string& to) {
@@ -66,14 +66,8 @@ void merge(Composed& stronger, Composed weaker) {
         [](const Composed& child) -> const std::string& { return child.prim.name; }, merge);
 }
 
-/// The prim has internal references: metadata "references", paths of prims of the same layer.
-bool hasReferences(const Prim& prim) {
-    return prim.metadata.contains("references");
-}
-
 bool takesPart(const Prim& prim) {
-    const bool* flag = member<bool>(prim.metadata, "active");
-    return prim.specifier == "def" && (!flag || *flag);
+    return prim.specifier == "def" && flagOf(prim, "active", true);
 }
 
 bool saysInvisible(const Prim& prim) {
@@ -99,7 +93,8 @@ public:
         if (full_) return composed;
         const auto targets = references(prim);
         open_.push_back(&prim);
-        if (targets.empty() || !isInstanceable(prim)) // what stands below an instance does not count
+        if (targets.empty() ||
+            !flagOf(prim, "instanceable", false)) // what stands below an instance does not count
             for (std::size_t i = 0; i < prim.children.size() && !full_; ++i)
                 composed.children.push_back(compose(prim.children[i], place.child(i, prim.children[i].name)));
         for (std::size_t i = 0; i < targets.size() && !full_; ++i) addReference(targets[i], place, composed);
@@ -118,12 +113,7 @@ private:
             full_ = true;
             return;
         }
-        to.prim.specifier = prim.specifier;
-        to.prim.typeName = prim.typeName;
-        to.prim.name = prim.name;
-        to.prim.metadata = prim.metadata;
-        to.prim.properties = prim.properties;
-        to.prim.other = prim.other;
+        to.prim = {prim.specifier, prim.typeName, prim.name, prim.metadata, prim.properties, {}, prim.other};
     }
 
     void addBelow(const std::vector<Prim>& prims, const Place& place) {
@@ -177,7 +167,7 @@ int PrimIndex::addEntry(const Prim& prim, const Place& place, int parent, bool c
 void PrimIndex::add(const std::vector<Prim>& prims, const Place& place, int parent, Composer& composer) {
     for (std::size_t i = 0; i < prims.size(); ++i) {
         const Place at = place.child(i, prims[i].name);
-        if (hasReferences(prims[i]) && prims[i].specifier == "def") {
+        if (prims[i].metadata.contains("references") && prims[i].specifier == "def") {
             composed_.push_back(composer.compose(prims[i], at));
             add(composed_.back(), parent);
         } else if (takesPart(prims[i])) {
