@@ -20,83 +20,78 @@ struct TypedSample {
     bool asFloat = false;
 };
 
-/// Each calls visit(key, node) for the members of an object until it returns false; true when it never does.
+/// Each calls visit(key, node) for the members of an object.
 template <class Visit>
-bool forMembers(const Value::Object& object, const Visit& visit) {
-    for (const auto& [key, value] : object)
-        if (!visit(key, TypedValue{value})) return false;
-    return true;
+void forMembers(const Value::Object& object, const Visit& visit) {
+    for (const auto& [key, value] : object) visit(key, TypedValue{value});
 }
 
 template <class Visit>
-bool forMembers(const std::map<std::string, Property>& properties, const Visit& visit) {
-    for (const auto& [name, property] : properties)
-        if (!visit(name, property)) return false;
-    return true;
+void forMembers(const std::map<std::string, Property>& properties, const Visit& visit) {
+    for (const auto& [name, property] : properties) visit(name, property);
 }
 
 template <class Visit>
-bool forMembers(const Property& property, const Visit& visit) {
-    if (property.targetPaths)
-        return visit("targetPaths", TypedValue{*property.targetPaths}) && forMembers(property.other, visit);
+void forMembers(const Property& property, const Visit& visit) {
     const auto type = valueType(property.typeName);
     const bool asFloat = type && type->isFloat();
-    const auto& value = property.defaultValue;
-    return visit("typeName", property.typeName) &&
-           (!value || visit("default", TypedValue{*value, asFloat})) &&
-           (property.timeSamples.empty() ||
-            visit("timeSamples", TypedSamples{property.timeSamples, asFloat})) &&
-           forMembers(property.other, visit);
+    if (property.targetPaths) {
+        visit("targetPaths", TypedValue{*property.targetPaths});
+    } else {
+        visit("typeName", property.typeName);
+        if (property.defaultValue) visit("default", TypedValue{*property.defaultValue, asFloat});
+        if (!property.timeSamples.empty()) visit("timeSamples", TypedSamples{property.timeSamples, asFloat});
+    }
+    forMembers(property.other, visit);
 }
 
 template <class Visit>
-bool forMembers(const Prim& prim, const Visit& visit) {
-    return visit("specifier", prim.specifier) &&
-           (prim.typeName.empty() || visit("typeName", prim.typeName)) && visit("name", prim.name) &&
-           (prim.metadata.empty() || visit("metadata", prim.metadata)) &&
-           (prim.properties.empty() || visit("properties", prim.properties)) &&
-           forMembers(prim.other, visit) && (prim.children.empty() || visit("primChildren", prim.children));
+void forMembers(const Prim& prim, const Visit& visit) {
+    visit("specifier", prim.specifier);
+    if (!prim.typeName.empty()) visit("typeName", prim.typeName);
+    visit("name", prim.name);
+    if (!prim.metadata.empty()) visit("metadata", prim.metadata);
+    if (!prim.properties.empty()) visit("properties", prim.properties);
+    forMembers(prim.other, visit);
+    if (!prim.children.empty()) visit("primChildren", prim.children);
 }
 
 template <class Visit>
-bool forMembers(const Layer& layer, const Visit& visit) {
-    return visit("format", std::string("osgtss")) && visit("formatVersion", layer.formatVersion) &&
-           (layer.metadata.empty() || visit("metadata", layer.metadata)) && forMembers(layer.other, visit) &&
-           (layer.children.empty() || visit("primChildren", layer.children));
+void forMembers(const Layer& layer, const Visit& visit) {
+    visit("format", std::string("osgtss"));
+    visit("formatVersion", layer.formatVersion);
+    if (!layer.metadata.empty()) visit("metadata", layer.metadata);
+    forMembers(layer.other, visit);
+    if (!layer.children.empty()) visit("primChildren", layer.children);
 }
 
 template <class Node>
 concept isObject = requires(const Node& node) {
-    forMembers(node, [](const auto&...) { return true; });
+    forMembers(node, [](const auto&...) {});
 };
 
 /// The same for the elements of an array: visit(node).
 template <class Visit>
-bool forElements(const std::vector<Prim>& prims, const Visit& visit) {
-    for (const Prim& prim : prims)
-        if (!visit(prim)) return false;
-    return true;
+void forElements(const std::vector<Prim>& prims, const Visit& visit) {
+    for (const Prim& prim : prims) visit(prim);
 }
 
 template <class Visit>
-bool forElements(const TypedSamples& typed, const Visit& visit) {
-    for (const Property::Sample& sample : typed.samples)
-        if (!visit(TypedSample{sample, typed.asFloat})) return false;
-    return true;
+void forElements(const TypedSamples& typed, const Visit& visit) {
+    for (const Property::Sample& sample : typed.samples) visit(TypedSample{sample, typed.asFloat});
 }
 
 template <class Visit>
-bool forElements(const TypedSample& typed, const Visit& visit) {
+void forElements(const TypedSample& typed, const Visit& visit) {
     const Value time(typed.sample.time);
-    return visit(TypedValue{time}) && visit(TypedValue{typed.sample.value, typed.asFloat});
+    visit(TypedValue{time});
+    visit(TypedValue{typed.sample.value, typed.asFloat});
 }
 
 /// Of a value that is an array.
 template <class Visit>
-bool forElements(const TypedValue& typed, const Visit& visit) {
-    for (const Value& element : *typed.value.as<Value::Array>())
-        if (!visit(TypedValue{element, typed.asFloat})) return false;
-    return true;
+void forElements(const TypedValue& typed, const Visit& visit) {
+    for (const Value& element : *typed.value.as<Value::Array>()) visit(TypedValue{element, typed.asFloat});
 }
 
 } // namespace tss

@@ -3,7 +3,10 @@
 #include "bake/scene/Utf8.h"
 #include "bake/scene/WriteLayer.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <iterator>
 
 namespace tss {
 
@@ -60,15 +63,12 @@ void appendUsdaString(std::string& out, std::string_view text) {
     out += '"';
     for (char c : repairedUtf8(text)) {
         const auto byte = static_cast<unsigned char>(c);
-        if (c == '"' || c == '\\') {
-            out += '\\';
-            out += c;
-        } else if (c == '\n') {
+        if (c == '\n') {
             out += "\\n";
         } else if (byte < 0x20) {
-            const char* const digits = "0123456789abcdef";
-            out += {'\\', 'x', digits[byte >> 4], digits[byte & 15]};
+            fmt::format_to(std::back_inserter(out), "\\x{:02x}", byte);
         } else {
+            if (c == '"' || c == '\\') out += '\\';
             out += c;
         }
     }

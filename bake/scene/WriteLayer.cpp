@@ -23,7 +23,7 @@ constexpr std::size_t lineWidth = 110;
 /// A string literal; bytes that are not UTF-8 become U+FFFD, so that the text can always be read.
 void appendQuoted(std::string& out, std::string_view text) {
     out += '"';
-    for (const char c : isUtf8(text) ? std::string(text) : repairedUtf8(text)) {
+    for (const char c : repairedUtf8(text)) {
         const auto byte = static_cast<unsigned char>(c);
         if (c == '\n') {
             out += "\\n";
@@ -44,21 +44,22 @@ class JsonWriter {
 public:
     std::string out;
 
-    /// Any node: an object or an array, or where a line has no end, on that line.
     template <class Node>
     void write(const Node& node, std::size_t indent) {
-        const std::size_t before = out.size();
-        budget_ = lineStart_ + lineWidth;
-        const bool fits = before < budget_ && inLine(node);
-        budget_ = noEnd;
-        if (fits) return;
-        out.resize(before);
+        const std::size_t before = out.size(), end = lineStart_ + lineWidth;
+        if (before < end) {
+            budget_ = end;
+            writeInLine(node);
+            budget_ = noEnd;
+            if (out.size() <= end) return;
+            out.resize(before);
+        }
         emit(node, indent);
     }
-    /// Writes on one line; false, perhaps with a part written, when that goes beyond the budget.
+    /// Writes on one line; only a part of it when that goes beyond the budget.
     template <class Node>
-    bool inLine(const Node& node) {
-        return emit(node, onOneLine) && out.size() <= budget_;
+    void writeInLine(const Node& node) {
+        emit(node, onOneLine);
     }
 
 private:
@@ -79,10 +80,11 @@ private:
 
     /// What stands between two brackets, from each(item): item(node) or item(node, key) for every part.
     template <class Each>
-    bool emitParts(const char (&brackets)[3], std::size_t indent, const Each& each) {
+    void emitParts(const char (&brackets)[3], std::size_t indent, const Each& each) {
         out += brackets[0];
         bool first = true;
-        const auto part = [&](const auto& node, const std::string_view* key) {
+        each([&](const auto& node, const std::string_view* key) {
+            if (out.size() > budget_) return;
             if (!first) out += indent == onOneLine ? ", " : ",";
             first = false;
             if (indent != onOneLine) newLine(indent + 1);
@@ -90,35 +92,27 @@ private:
                 appendQuoted(out, *key);
                 out += ": ";
             }
-            if (indent == onOneLine) return inLine(node);
-            write(node, indent + 1);
-            return true;
-        };
-        const bool fits = each(part);
+            indent == onOneLine ? writeInLine(node) : write(node, indent + 1);
+        });
         if (indent != onOneLine) newLine(indent);
         out += brackets[1];
-        return fits;
     }
 
     template <class Node>
-    bool emit(const Node& node, std::size_t indent) {
+    void emit(const Node& node, std::size_t indent) {
         if constexpr (isObject<Node>)
-            return emitParts("{}", indent, [&](const auto& part) {
-                return forMembers(
-                    node, [&](std::string_view key, const auto& member) { return part(member, &key); });
+            emitParts("{}", indent, [&](const auto& part) {
+                forMembers(node, [&](std::string_view key, const auto& member) { part(member, &key); });
             });
         else
-            return emitParts("[]", indent, [&](const auto& part) {
-                return forElements(node, [&](const auto& element) { return part(element, nullptr); });
+            emitParts("[]", indent, [&](const auto& part) {
+                forElements(node, [&](const auto& element) { part(element, nullptr); });
             });
     }
 
-    bool emit(const std::string& text, std::size_t) {
-        appendQuoted(out, text);
-        return true;
-    }
+    void emit(const std::string& text, std::size_t) { appendQuoted(out, text); }
 
-    bool emit(const TypedValue& typed, std::size_t indent) {
+    void emit(const TypedValue& typed, std::size_t indent) {
         const Value& value = typed.value;
         if (const auto* object = value.as<Value::Object>()) return emit(*object, indent);
         if (value.as<Value::Array>()) return emit<TypedValue>(typed, indent);
@@ -134,15 +128,14 @@ private:
             out += std::to_string(*huge);
         else
             out += "null";
-        return true;
     }
 
     /// Many elements fill their lines.
-    bool emitNumbers(const Numbers& numbers, bool asFloat, std::size_t indent) {
+    void emitNumbers(const Numbers& numbers, bool asFloat, std::size_t indent) {
         out += '[';
         if (indent != onOneLine) newLine(indent + 1);
         const std::size_t width = static_cast<std::size_t>(std::max(numbers.width, 1));
-        for (std::size_t i = 0; i < numbers.values.size(); i += width) {
+        for (std::size_t i = 0; i < numbers.values.size() && out.size() <= budget_; i += width) {
             if (i > 0) out += ',';
             if (i > 0 && indent != onOneLine && out.size() - lineStart_ > lineWidth - 10) newLine(indent + 1);
             if (numbers.width > 0) out += '[';
@@ -151,11 +144,9 @@ private:
                 appendReal(numbers.values[i + k], asFloat);
             }
             if (numbers.width > 0) out += ']';
-            if (out.size() > budget_) return false;
         }
         if (indent != onOneLine) newLine(indent);
         out += ']';
-        return true;
     }
 
     std::size_t lineStart_ = 0;
@@ -169,27 +160,22 @@ public:
 
     template <class Node>
     void write(const Node& node) {
+        std::size_t count = 0;
         if constexpr (isObject<Node>) {
-            std::size_t count = 0;
-            forMembers(node, [&](const auto&...) { return ++count; });
+            forMembers(node, [&](const auto&...) { ++count; });
             head(map, count);
             forMembers(node, [&](std::string_view key, const auto& member) {
                 write(std::string(key));
                 write(member);
-                return true;
             });
         } else {
-            std::size_t count = 0;
-            forElements(node, [&](const auto&) { return ++count; });
+            forElements(node, [&](const auto&) { ++count; });
             head(array, count);
-            forElements(node, [&](const auto& element) {
-                write(element);
-                return true;
-            });
+            forElements(node, [&](const auto& element) { write(element); });
         }
     }
 
-    void write(const std::string& text) { item(isUtf8(text) ? text : repairedUtf8(text)); }
+    void write(const std::string& text) { item(repairedUtf8(text)); }
 
     void write(const TypedValue& typed) {
         const Value& value = typed.value;
@@ -243,7 +229,7 @@ private:
 
 std::string jsonText(const Value& value) {
     JsonWriter writer;
-    writer.inLine(TypedValue{value});
+    writer.writeInLine(TypedValue{value});
     return std::move(writer.out);
 }
 
