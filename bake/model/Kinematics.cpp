@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace tss {
 
@@ -96,74 +97,63 @@ void append(Motion& motion, Pose& place, const Joint& joint, bool backwards, boo
 
 } // namespace
 
-JointWays::JointWays(const std::vector<Joint>& joints) : only_(joints.size()) {
+JointWays::JointWays(const std::vector<Joint>& joints) : only_(joints.size(), true) {
     int most = -1;
     for (const Joint& joint : joints) most = std::max({most, joint.body0, joint.body1});
-    at_.resize(static_cast<std::size_t>(most + 2));
+    std::vector<std::vector<Step>> from(static_cast<std::size_t>(most + 2)); // each body, the world first
     for (int j = 0; j < static_cast<int>(joints.size()); ++j) {
         const Joint& joint = joints[j];
         if (!joint.enabled || joint.body0 == joint.body1) continue;
-        at_[joint.body0 + 1].push_back({j, joint.body1 + 1});
-        at_[joint.body1 + 1].push_back({j, joint.body0 + 1});
+        from[joint.body0 + 1].push_back({j, joint.body1 + 1});
+        from[joint.body1 + 1].push_back({j, joint.body0 + 1});
     }
-    findOnly();
-}
-
-/// Tarjan's bridges ("A note on finding the bridges of a graph", 1974): depth first, with the earliest body
-/// that what is below each one leads back to.
-void JointWays::findOnly() {
-    struct Open {
-        int body, by; // the joint that it was come by
-        std::size_t next = 0;
-    };
-    std::vector<int> number(at_.size(), -1), earliest(at_.size());
-    int count = 0;
-    for (int root = 0; root < static_cast<int>(at_.size()); ++root) {
-        if (number[root] >= 0) continue;
-        std::vector<Open> open;
-        const auto enter = [&](int body, int by) {
-            number[body] = earliest[body] = count++;
-            open.push_back({body, by});
-        };
-        enter(root, -1);
-        while (!open.empty()) {
-            Open& top = open.back();
-            if (top.next < at_[top.body].size()) {
-                const Step step = at_[top.body][top.next++];
-                if (step.joint == top.by) continue;
-                if (number[step.body] < 0)
-                    enter(step.body, step.joint);
-                else
-                    earliest[top.body] = std::min(earliest[top.body], number[step.body]);
-                continue;
+    const int bodies = static_cast<int>(from.size());
+    above_.assign(from.size(), Step{-1, -1});
+    depth_.assign(from.size(), -1);
+    for (int root = 0; root < bodies; ++root) {
+        if (depth_[root] >= 0) continue;
+        depth_[root] = 0;
+        std::vector<int> reached{root};
+        for (std::size_t i = 0; i < reached.size(); ++i)
+            for (const Step& step : from[reached[i]]) {
+                if (depth_[step.body] >= 0) continue;
+                depth_[step.body] = depth_[reached[i]] + 1;
+                above_[step.body] = {step.joint, reached[i]};
+                reached.push_back(step.body);
             }
-            const Open done = top;
-            open.pop_back();
-            if (open.empty()) break;
-            const int above = open.back().body;
-            earliest[above] = std::min(earliest[above], earliest[done.body]);
-            only_[done.by] = earliest[done.body] > number[above];
-        }
     }
+    // A joint that is not in the forest leads round all those in it between its two bodies.
+    std::vector<int> top(from.size()); // of each body, as far up as such loops have led already
+    std::iota(top.begin(), top.end(), 0);
+    const auto climbed = [&](int body) {
+        while (top[body] != body) body = top[body] = top[top[body]];
+        return body;
+    };
+    for (int body = 0; body < bodies; ++body)
+        for (const Step& step : from[body]) {
+            if (step.joint == above_[body].joint || step.joint == above_[step.body].joint) continue;
+            int a = climbed(body), b = climbed(step.body);
+            while (a != b) {
+                int& lower = depth_[a] > depth_[b] ? a : b;
+                only_[above_[lower].joint] = false;
+                top[lower] = above_[lower].body;
+                lower = climbed(lower);
+            }
+        }
 }
 
 std::optional<std::vector<int>> JointWays::chain(int bodyA, int bodyB) const {
-    const std::size_t from = static_cast<std::size_t>(bodyA) + 1, to = static_cast<std::size_t>(bodyB) + 1;
-    std::vector<int> way;
-    if (from == to || from >= at_.size() || to >= at_.size()) return way;
-    std::vector<Step> arrivedBy(at_.size(), Step{-1, -1}); // and where from
-    std::vector<int> front{static_cast<int>(from)};
-    for (std::size_t i = 0; i < front.size() && arrivedBy[to].joint < 0; ++i)
-        for (const Step& step : at_[front[i]]) {
-            if (step.body == static_cast<int>(from) || arrivedBy[step.body].joint >= 0) continue;
-            arrivedBy[step.body] = {step.joint, front[i]};
-            front.push_back(step.body);
-        }
-    if (arrivedBy[to].joint < 0) return way;
-    for (std::size_t body = to; body != from; body = static_cast<std::size_t>(arrivedBy[body].body))
-        way.push_back(arrivedBy[body].joint);
-    std::ranges::reverse(way);
-    // It is the only one just when none of its joints can be gone round.
+    std::vector<int> way, back;
+    int a = bodyA + 1, b = bodyB + 1;
+    if (std::max(a, b) >= static_cast<int>(above_.size())) return way;
+    while (a != b) {
+        const bool fromA = depth_[a] >= depth_[b];
+        const Step up = above_[fromA ? a : b];
+        if (up.joint < 0) return std::vector<int>(); // two trees
+        (fromA ? way : back).push_back(up.joint);
+        (fromA ? a : b) = up.body;
+    }
+    way.insert(way.end(), back.rbegin(), back.rend());
     if (!std::ranges::all_of(way, [&](int joint) { return only_[joint]; })) return std::nullopt;
     return way;
 }

@@ -19,10 +19,11 @@ private:
     struct Step {
         int joint, body;
     };
-    void findOnly();
 
-    std::vector<std::vector<Step>> at_; ///< from each body, the world first
-    std::vector<bool> only_;            ///< by joint: nothing else leads from one side of it to the other
+    // A forest of the bodies, the world first: where from each body the way up leads, and how far it is.
+    std::vector<Step> above_;
+    std::vector<int> depth_;
+    std::vector<bool> only_; ///< by joint: nothing else leads from one side of it to the other
 };
 
 /// One chain() of the ways of these joints.
