@@ -6,7 +6,7 @@
 // osgTSS.
 #include "bake/base/Error.h"
 #include "bake/compare/MeshTruth.h"
-#include "osgTSS/src/joints/SwingDofs.h"
+#include "osgTSS/src/joints/DofState.h"
 
 #include <osgAnimation/BasicAnimationManager>
 #include <osgDB/ReadFile>

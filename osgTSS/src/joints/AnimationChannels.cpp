@@ -12,32 +12,6 @@ namespace {
 
 using namespace osgAnimation;
 
-/// Keys of the channel if it is of this type. Curves are followed between their keys, so finely that what
-/// they swing beyond the samples is less than a part in a thousand of a step between two keys.
-template <class ChannelType, class Value>
-bool read(const Channel& channel, int steps, std::vector<Keys<Value>>& out) {
-    const auto* typed = dynamic_cast<const ChannelType*>(&channel);
-    if (!typed) return false;
-    const auto* sampler = typed->getSamplerTyped();
-    const auto* container = sampler ? sampler->getKeyframeContainerTyped() : nullptr;
-    if (!container || container->empty()) return true;
-    Keys<Value> keys;
-    const auto add = [&](double time) {
-        typename ChannelType::UsingType value;
-        sampler->getValueAt(time, value);
-        keys.times.push_back(time);
-        keys.values.push_back(Value(value));
-    };
-    for (std::size_t k = 0; k + 1 < container->size(); ++k) {
-        const double from = (*container)[k].getTime(), to = (*container)[k + 1].getTime();
-        if (!(from < to)) continue;
-        for (int step = 0; step < steps; ++step) add(from + (to - from) * step / steps);
-    }
-    add(container->back().getTime());
-    out.push_back(std::move(keys));
-    return true;
-}
-
 template <class... Containers>
 void timesOf(const KeyframeContainer& container, std::vector<double>& times) {
     const auto add = [&](const auto* keys) {
@@ -46,24 +20,6 @@ void timesOf(const KeyframeContainer& container, std::vector<double>& times) {
         return true;
     };
     (add(dynamic_cast<const Containers*>(&container)) || ...);
-}
-
-constexpr int curve = 32;
-
-void readAny(const Channel& channel, std::vector<Keys<double>>& out) {
-    read<FloatLinearChannel>(channel, 1, out) || read<DoubleLinearChannel>(channel, 1, out) ||
-        read<FloatStepChannel>(channel, 1, out) || read<DoubleStepChannel>(channel, 1, out) ||
-        read<FloatCubicBezierChannel>(channel, curve, out) ||
-        read<DoubleCubicBezierChannel>(channel, curve, out);
-}
-
-void readAny(const Channel& channel, std::vector<Keys<osg::Vec3d>>& out) {
-    read<Vec3LinearChannel>(channel, 1, out) || read<Vec3StepChannel>(channel, 1, out) ||
-        read<Vec3CubicBezierChannel>(channel, curve, out);
-}
-
-void readAny(const Channel& channel, std::vector<Keys<osg::Quat>>& out) {
-    read<QuatSphericalLinearChannel>(channel, curve, out) || read<QuatStepChannel>(channel, 1, out);
 }
 
 std::vector<AnimationManagerBase*> managersOn(osg::Node& node) {
@@ -119,6 +75,11 @@ std::vector<AnimationChannels::Channels> AnimationChannels::of(const osg::Node& 
     return found;
 }
 
+void sortOnce(std::vector<double>& times) {
+    std::ranges::sort(times);
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+}
+
 std::vector<double> keyTimes(const Channel& channel) {
     const Sampler* sampler = channel.getSampler();
     const KeyframeContainer* container = sampler ? sampler->getKeyframeContainer() : nullptr;
@@ -131,7 +92,7 @@ std::vector<double> keyTimes(const Channel& channel) {
                 Vec4CubicBezierKeyframeContainer>(*container, times);
     if (times.empty() && container && container->size() > 0)
         times = {channel.getStartTime(), channel.getEndTime()};
-    std::ranges::sort(times);
+    sortOnce(times);
     return times;
 }
 
@@ -145,14 +106,25 @@ bool isCurve(const Channel& channel) {
            dynamic_cast<const Vec4CubicBezierKeyframeContainer*>(keys);
 }
 
-template <class Value>
-std::vector<Keys<Value>> AnimationChannels::keys(const osg::Node& node, const std::string& target,
-                                                 const std::string& element) const {
-    std::vector<Keys<Value>> all;
-    for (const Channels& animation : of(node, target))
-        for (const auto& channel : animation)
-            if (channel->getName() == element) readAny(*channel, all);
-    return all;
+std::vector<osg::ref_ptr<Channel>> channelsOf(StackedTransformElement& element,
+                                              const AnimationChannels::Channels& animation) {
+    std::vector<osg::ref_ptr<Channel>> found;
+    for (const auto& channel : animation) {
+        if (element.getName() != channel->getName()) continue;
+        const osg::ref_ptr<Channel> copy = channel->clone();
+        Target* target = element.getOrCreateTarget();
+        if (target && copy->setTarget(target)) found.push_back(copy);
+    }
+    return found;
+}
+
+std::vector<double> withSteps(const std::vector<double>& keyTimes, int steps) {
+    std::vector<double> times;
+    for (std::size_t k = 0; k + 1 < keyTimes.size(); ++k)
+        for (int step = 0; step < steps; ++step)
+            times.push_back(keyTimes[k] + (keyTimes[k + 1] - keyTimes[k]) * step / steps);
+    if (!keyTimes.empty()) times.push_back(keyTimes.back());
+    return times;
 }
 
 bool AnimationChannels::animates(const osg::Node& node, const std::string& target,
@@ -162,12 +134,5 @@ bool AnimationChannels::animates(const osg::Node& node, const std::string& targe
                                    [&](const auto& channel) { return channel->getName() == element; });
     });
 }
-
-template std::vector<Keys<double>> AnimationChannels::keys(const osg::Node&, const std::string&,
-                                                           const std::string&) const;
-template std::vector<Keys<osg::Vec3d>> AnimationChannels::keys(const osg::Node&, const std::string&,
-                                                               const std::string&) const;
-template std::vector<Keys<osg::Quat>> AnimationChannels::keys(const osg::Node&, const std::string&,
-                                                              const std::string&) const;
 
 } // namespace osgTSS

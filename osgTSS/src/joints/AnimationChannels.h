@@ -1,10 +1,9 @@
 #pragma once
 #include <osg/Node>
-#include <osg/Quat>
-#include <osg/Vec3>
 #include <osgAnimation/Animation>
 #include <osgAnimation/AnimationManagerBase>
 #include <osgAnimation/Channel>
+#include <osgAnimation/StackedTransformElement>
 
 #include <map>
 #include <string>
@@ -15,13 +14,6 @@ namespace osgTSS {
 /// The animation managers among the update callbacks of a graph, each once.
 std::vector<osgAnimation::AnimationManagerBase*> animationManagers(osg::Node& root);
 
-/// Values over time, seconds: of a channel of numbers, vectors or turns.
-template <class Value>
-struct Keys {
-    std::vector<double> times;
-    std::vector<Value> values;
-};
-
 /// The channels of the osgAnimation managers of a graph, by the target that they animate (the name of an
 /// update callback) and its element. A manager animates what is at and below the nodes that it stands on:
 /// another character may have bones of the same names.
@@ -29,12 +21,6 @@ class AnimationChannels {
 public:
     AnimationChannels() = default;
     explicit AnimationChannels(osg::Node& root);
-
-    /// The keys of each channel that animates the element of the node; with values between the keys where the
-    /// channel is a curve. Channels of another type are left out.
-    template <class Value>
-    std::vector<Keys<Value>> keys(const osg::Node& node, const std::string& target,
-                                  const std::string& element) const;
 
     /// Whether some channel, of whatever type, animates the element.
     bool animates(const osg::Node& node, const std::string& target, const std::string& element) const;
@@ -53,7 +39,21 @@ private:
 /// Whether the values between the channel's keys swing as a curve does.
 bool isCurve(const osgAnimation::Channel& channel);
 
+/// Between the keys of a curve it is followed so finely that what it swings beyond the samples is less than a
+/// part in a thousand of a step between two keys.
+inline constexpr int stepsOfCurve = 32;
+
+/// Rising, each once.
+void sortOnce(std::vector<double>& times);
+
 /// When a channel has keys, seconds, rising; of a channel of an unknown type its start and its end.
 std::vector<double> keyTimes(const osgAnimation::Channel& channel);
+
+/// These times, and so many steps from each to the next.
+std::vector<double> withSteps(const std::vector<double>& keyTimes, int steps);
+
+/// Copies of those channels of an animation that move the element, which is their target.
+std::vector<osg::ref_ptr<osgAnimation::Channel>> channelsOf(osgAnimation::StackedTransformElement& element,
+                                                            const AnimationChannels::Channels& animation);
 
 } // namespace osgTSS

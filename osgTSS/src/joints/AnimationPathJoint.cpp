@@ -46,6 +46,7 @@ tss::TimeSamples oneRound(const osg::AnimationPathCallback& animation, double ra
     return samples;
 }
 
+/// Its callback places it by the time alone: nothing is lost by what is shown.
 class AnimationPathNode : public JointNode {
 public:
     AnimationPathNode(osg::Node& node, osg::AnimationPathCallback& animation)
@@ -57,14 +58,12 @@ public:
         return _node.valid() && _animation.valid() && _animation->getAnimationPath() &&
                _animation->getAnimationPath()->getPeriod() > 0;
     }
-    std::size_t dofCount() const override { return 1; }
     std::optional<Stray> stray() const override {
         if (!valid() ||
             (_animation->getAnimationPath() == _path && sameKeys() && _animation->getPivotPoint() == _pivot))
             return std::nullopt;
         return Stray{"its animation path is another one", true};
     }
-    void restoreAsked() override {} // the callback places the node by the time alone
 
     std::vector<double> asked() const override {
         // Paused, or not begun: the callback leaves the node where it is.

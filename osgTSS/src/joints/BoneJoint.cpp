@@ -1,5 +1,6 @@
 #include "JointKinds.h"
 
+#include "AxisDofs.h"
 #include "BoneMotion.h"
 
 #include <osg/ValueObject>
@@ -8,7 +9,6 @@
 #include <osgTSS/Convert>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace osgTSS {
@@ -47,43 +47,18 @@ bool alike(const osg::Matrixd& a, const osg::Matrixd& b, double turn) {
     return true;
 }
 
-class BoneNode : public JointNode {
+class BoneNode : public OverwrittenNode<Bone, osg::Matrixd> {
 public:
     BoneNode(Bone& bone, const tss::Joint& joint, const tss::Pose& frame0, const tss::Pose& frame1)
-        : _bone(&bone), _joint(joint), _frame0(frame0), _frame1(frame1), _still(boneStill(bone)),
-          _above(standingAbove(bone)) {
-        std::size_t turns = 0;
-        for (const tss::Dof& dof : joint.dofs) {
-            int axis = 0;
-            dof.axis.cwiseAbs().maxCoeff(&axis);
-            _axes.push_back(axis);
-            if (dof.kind == tss::DofKind::Rotation && turns < 3) _order[turns++] = axis;
-        }
-        _turns = turns;
-        if (turns == 2) _order[2] = 3 - _order[0] - _order[1];
-    }
-
-    bool valid() const override { return _bone.valid(); }
-    std::size_t dofCount() const override { return _axes.size(); }
-
-    void restoreAsked() override {
-        if (_stopped && _bone->getMatrix() == _shown) _bone->setMatrix(_asked);
-    }
+        : OverwrittenNode(bone), _dofs(joint.dofs), _frame0(frame0), _frame1(frame1), _still(boneStill(bone)),
+          _above(standingAbove(bone)) {}
 
     std::vector<double> asked() const override { return look().values; }
 
-    void show(const std::vector<double>& values) override {
-        _stopped = values != look().values;
-        if (!_stopped) return;
-        _asked = _bone->getMatrix();
-        _bone->setMatrix(matrixAt(values, look().scale));
-        _shown = _bone->getMatrix();
-    }
-
     std::optional<Stray> stray() const override {
         const std::vector<double>& values = look().values;
-        for (std::size_t k = 0; k < _axes.size(); ++k)
-            if (auto beyond = beyondLimits(_joint.dofs[k], values[k])) {
+        for (std::size_t k = 0; k < values.size(); ++k)
+            if (auto beyond = beyondLimits(_dofs.dofs()[k], values[k])) {
                 beyond->unserved = true; // other keys than were known: they are played
                 return beyond;
             }
@@ -96,13 +71,6 @@ public:
     }
 
 private:
-    std::array<double, 3> anglesOf(const Eigen::Matrix3d& turned) const {
-        if (_turns > 1) return turnsOf(turned, _order);
-        if (_turns == 0) return {};
-        const Eigen::Quaterniond q(turned);
-        return {2 * std::atan2(q.vec()[_order[0]], q.w()), 0, 0};
-    }
-
     /// What the joint knows of a matrix of the bone.
     struct Look {
         osg::Matrixd matrix;
@@ -113,52 +81,35 @@ private:
 
     /// Of the matrix now; asked for several times a frame.
     const Look& look() const {
-        const osg::Matrixd& matrix = _bone->getMatrix();
+        const osg::Matrixd& matrix = _node->getMatrix();
         if (!_look.values.empty() && _look.matrix == matrix) return _look;
         _look.matrix = matrix;
-        _look.values.assign(_axes.size(), 0);
+        _look.values.assign(_dofs.dofs().size(), 0);
         _look.fits = false;
         const auto rigid = toSimilarity(matrix);
         if (!rigid) return _look;
         _look.scale = rigid->scale;
-        const tss::Pose moved = _frame0.inverse(Eigen::Isometry) * rigid->pose * _frame1;
-        const std::array<double, 3> angles = anglesOf(moved.linear());
-        std::size_t turn = 0;
-        for (std::size_t k = 0; k < _axes.size(); ++k) {
-            const tss::Dof& dof = _joint.dofs[k];
-            if (dof.kind == tss::DofKind::Rotation) {
-                const double angle = angles[turn++];
-                _look.values[k] = angle - wholeTurns(angle, (dof.lower + dof.upper) / 2);
-            } else {
-                _look.values[k] = moved.translation()[_axes[k]];
-            }
-        }
+        _look.values = _dofs.valuesOf(_frame0.inverse(Eigen::Isometry) * rigid->pose * _frame1);
         // As much as was taken for standing still, and its rounding.
         _look.fits = alike(matrix, matrixAt(_look.values, _look.scale), 2 * _still);
         return _look;
     }
 
     osg::Matrixd matrixAt(const std::vector<double>& values, double scale) const {
-        tss::Pose moved = tss::Pose::Identity();
-        for (std::size_t k = 0; k < _axes.size(); ++k)
-            if (_joint.dofs[k].kind == tss::DofKind::Rotation)
-                moved.rotate(Eigen::AngleAxisd(values[k], tss::Vec3::Unit(_axes[k])));
-            else
-                moved.translate(values[k] * tss::Vec3::Unit(_axes[k]));
         return osg::Matrixd::scale(scale, scale, scale) *
-               toOsg(_frame0 * moved * _frame1.inverse(Eigen::Isometry));
+               toOsg(_frame0 * _dofs.poseAt(values) * _frame1.inverse(Eigen::Isometry));
     }
 
-    osg::observer_ptr<Bone> _bone;
-    tss::Joint _joint;
+    osg::Matrixd read() const override { return _node->getMatrix(); }
+    void write(const osg::Matrixd& matrix) override { _node->setMatrix(matrix); }
+    osg::Matrixd stateAt(const std::vector<double>& values) const override {
+        return matrixAt(values, look().scale);
+    }
+
+    AxisDofs _dofs;
     tss::Pose _frame0, _frame1; ///< in the bone's own lengths, against its parent node
     double _still;
     std::vector<Standing> _above;
-    std::vector<int> _axes; ///< of each DOF
-    std::array<int, 3> _order{};
-    std::size_t _turns = 0;
-    bool _stopped = false;
-    osg::Matrixd _asked, _shown;
     mutable Look _look;
 };
 

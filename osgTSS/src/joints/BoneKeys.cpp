@@ -12,9 +12,8 @@ namespace {
 
 using namespace osgAnimation;
 
-/// Places looked at from one key to the next, the first key among them: turns bend between keys, and curves
-/// swing.
-constexpr int stepsBetweenKeys = 4, stepsOfCurve = 32;
+/// Places looked at from one key to the next, as turns bend between keys.
+constexpr int stepsBetweenKeys = 4;
 
 /// Elements of its own, so that nothing of what plays is touched. What this animation does not move is where
 /// another one begins that does: where it is now may be of the moment.
@@ -34,21 +33,17 @@ public:
         }
     }
 
+    /// Of the keys and between them.
     std::vector<double> times() const {
         std::vector<double> all;
         for (const auto& channel : _channels) {
             const std::vector<double> keys = keyTimes(*channel);
             all.insert(all.end(), keys.begin(), keys.end());
         }
-        std::ranges::sort(all);
-        all.erase(std::unique(all.begin(), all.end()), all.end());
-        return all;
-    }
-
-    int steps() const {
-        return std::ranges::any_of(_channels, [](const auto& channel) { return isCurve(*channel); })
-                   ? stepsOfCurve
-                   : stepsBetweenKeys;
+        sortOnce(all);
+        const bool curves =
+            std::ranges::any_of(_channels, [](const auto& channel) { return isCurve(*channel); });
+        return withSteps(all, curves ? stepsOfCurve : stepsBetweenKeys);
     }
 
     osg::Matrixd at(double time) const {
@@ -65,19 +60,6 @@ public:
 private:
     using Channels = std::vector<osg::ref_ptr<Channel>>;
 
-    /// Copies of those that move an element of this name, which move this one.
-    static Channels channelsOf(StackedTransformElement& element,
-                               const AnimationChannels::Channels& animation) {
-        Channels found;
-        for (const auto& channel : animation) {
-            if (element.getName() != channel->getName()) continue;
-            const osg::ref_ptr<Channel> copy = channel->clone();
-            Target* target = element.getOrCreateTarget();
-            if (target && copy->setTarget(target)) found.push_back(copy);
-        }
-        return found;
-    }
-
     std::vector<osg::ref_ptr<StackedTransformElement>> _elements;
     Channels _channels;
 };
@@ -91,15 +73,9 @@ std::vector<std::vector<osg::Matrixd>> boneRuns(Bone& bone, const AnimationChann
     const std::vector<AnimationChannels::Channels> animations = channels.of(bone, stack->getName());
     for (const AnimationChannels::Channels& animation : animations) {
         const StackCopy copy(*stack, animation, animations);
-        const std::vector<double> times = copy.times();
-        if (times.empty()) continue;
-        const int steps = copy.steps();
         std::vector<osg::Matrixd> run;
-        for (std::size_t k = 0; k + 1 < times.size(); ++k)
-            for (int step = 0; step < steps; ++step)
-                run.push_back(copy.at(times[k] + (times[k + 1] - times[k]) * step / steps));
-        run.push_back(copy.at(times.back()));
-        runs.push_back(std::move(run));
+        for (const double time : copy.times()) run.push_back(copy.at(time));
+        if (!run.empty()) runs.push_back(std::move(run));
     }
     return runs;
 }

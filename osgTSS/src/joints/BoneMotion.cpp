@@ -1,10 +1,11 @@
 #include "BoneMotion.h"
 
-#include "JointNode.h"
+#include "AxisDofs.h"
 
 #include "bake/base/Error.h"
 #include "bake/model/Kinematics.h"
 #include "bake/motion/SmallSystems.h"
+#include "bake/motion/WholeTurn.h"
 
 #include <osg/ValueObject>
 #include <osgTSS/Convert>
@@ -19,9 +20,6 @@ namespace osgTSS {
 namespace {
 
 constexpr double tau = 2 * std::numbers::pi;
-
-/// The middle one of three turns may not come near a quarter, where the others are not told apart.
-constexpr double mostMiddle = 80 * tau / 360;
 
 struct Sample {
     tss::Pose pose;
@@ -124,39 +122,26 @@ struct Track {
 /// next; empty where the middle one goes too far.
 std::vector<Track> turnTracks(const Samples& samples, const TurnFrame& frame,
                               const std::array<int, 3>& order) {
-    std::vector<Track> tracks(3);
-    for (std::size_t k = 0; k < 3; ++k) tracks[k].axis = order[k];
     const Eigen::Matrix3d from = (frame.mean.toRotationMatrix() * frame.frame).transpose();
-    for (const Sample& sample : samples.all) {
-        const auto angles = turnsOf(from * sample.pose.linear() * frame.frame, order);
-        if (std::abs(angles[1]) > mostMiddle) return {};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double before = sample.first ? 0 : tracks[k].values.back();
-            tracks[k].values.push_back(angles[k] - wholeTurns(angles[k], before));
-        }
-    }
+    std::array<std::vector<double>, 3> angles;
+    for (const Sample& sample : samples.all)
+        if (!addTurns(from * sample.pose.linear() * frame.frame, order, sample.first, angles)) return {};
+    std::vector<Track> tracks;
+    for (std::size_t k = 0; k < 3; ++k) tracks.push_back({order[k], std::move(angles[k])});
     return tracks;
-}
-
-/// Of the turns about one axis alone.
-std::vector<Track> hingeTrack(const Samples& samples, const TurnFrame& frame) {
-    Track track;
-    const Eigen::Matrix3d from = (frame.mean.toRotationMatrix() * frame.frame).transpose();
-    for (const Sample& sample : samples.all) {
-        const Eigen::Quaterniond q(from * sample.pose.linear() * frame.frame);
-        const double angle = 2 * std::atan2(q.x(), q.w());
-        track.values.push_back(angle - wholeTurns(angle, sample.first ? 0 : track.values.back()));
-    }
-    return {track};
 }
 
 /// As few DOFs as serve, and of these the narrowest box.
 std::vector<Track> turnsOfBone(const Samples& samples, const TurnFrame& frame) {
     if (frame.most <= samples.still) return {};
-    if (frame.offAxis <= samples.still) return hingeTrack(samples, frame);
     std::vector<Track> best;
     double bestBox = 0;
     std::array<int, 3> order{0, 1, 2};
+    if (frame.offAxis <= samples.still) {
+        best = turnTracks(samples, frame, order);
+        best.resize(1);
+        return best;
+    }
     do {
         std::vector<Track> tracks = turnTracks(samples, frame, order);
         if (tracks.empty()) continue;
@@ -218,7 +203,7 @@ tss::Dof dofOf(const std::string& name, tss::DofKind kind, const Track& track, s
     if (kind == tss::DofKind::Rotation && dof.upper - dof.lower >= tau) { // it has no end
         dof.lower = -tau / 2;
         dof.upper = tau / 2;
-        dof.rest -= wholeTurns(dof.rest, 0);
+        dof.rest = tss::nearestTurn(dof.rest, 0);
     }
     return dof;
 }

@@ -1,11 +1,12 @@
 #include "JointKinds.h"
 
+#include "AxisDofs.h"
+#include "DofState.h"
 #include "DofWords.h"
 
 #include "bake/base/Error.h"
 
 #include <osg/ValueObject>
-#include <osg/observer_ptr>
 
 #include <algorithm>
 #include <array>
@@ -25,38 +26,30 @@ struct Axis {
 
 constexpr unsigned int firstFlag = 0x80000000u; // translations X Y Z, then pitch, roll, yaw
 
-Axis translation(const osgSim::DOFTransform& node, int i) {
-    return {tss::DofKind::Translation,
-            i,
-            node.getCurrentTranslate()[i],
-            node.getMinTranslate()[i],
-            node.getMaxTranslate()[i],
-            node.getIncrementTranslate()[i],
-            (node.getLimitationFlags() & (firstFlag >> i)) != 0};
-}
-
-/// i: index into HPR.
-Axis turn(const osgSim::DOFTransform& node, int i) {
-    constexpr std::array<int, 3> direction{2, 0, 1};
-    constexpr std::array<int, 3> flag{5, 3, 4};
-    return {tss::DofKind::Rotation,
-            direction[i],
-            node.getCurrentHPR()[i],
-            node.getMinHPR()[i],
-            node.getMaxHPR()[i],
-            node.getIncrementHPR()[i],
-            (node.getLimitationFlags() & (firstFlag >> flag[i])) != 0};
+/// At a place of the node's DofState.
+Axis axisAt(const osgSim::DOFTransform& node, std::size_t place) {
+    constexpr std::array<int, 6> direction{0, 1, 2, 2, 0, 1}, flag{0, 1, 2, 5, 3, 4};
+    const auto of = [&](const osg::Vec3& translate, const osg::Vec3& hpr) {
+        return place < 3 ? translate[place] : hpr[place - 3];
+    };
+    return {place < 3 ? tss::DofKind::Translation : tss::DofKind::Rotation,
+            direction[place],
+            of(node.getCurrentTranslate(), node.getCurrentHPR()),
+            of(node.getMinTranslate(), node.getMinHPR()),
+            of(node.getMaxTranslate(), node.getMaxHPR()),
+            of(node.getIncrementTranslate(), node.getIncrementHPR()),
+            (node.getLimitationFlags() & (firstFlag >> flag[place])) != 0};
 }
 
 /// The node multiplies translations first and then the turns in the order of its name, seen as columns.
-std::array<Axis, 6> axesInOrder(const osgSim::DOFTransform& node) {
+std::vector<Axis> axesInOrder(const osgSim::DOFTransform& node) {
     using osgSim::DOFTransform;
-    static const std::map<DOFTransform::MultOrder, std::array<int, 3>> orders = {
-        {DOFTransform::PRH, {1, 2, 0}}, {DOFTransform::PHR, {1, 0, 2}}, {DOFTransform::HPR, {0, 1, 2}},
-        {DOFTransform::HRP, {0, 2, 1}}, {DOFTransform::RPH, {2, 1, 0}}, {DOFTransform::RHP, {2, 0, 1}}};
-    const std::array<int, 3>& hpr = orders.at(node.getHPRMultOrder());
-    return {translation(node, 0), translation(node, 1), translation(node, 2),
-            turn(node, hpr[0]),   turn(node, hpr[1]),   turn(node, hpr[2])};
+    static const std::map<DOFTransform::MultOrder, std::array<std::size_t, 3>> orders = {
+        {DOFTransform::PRH, {4, 5, 3}}, {DOFTransform::PHR, {4, 3, 5}}, {DOFTransform::HPR, {3, 4, 5}},
+        {DOFTransform::HRP, {3, 5, 4}}, {DOFTransform::RPH, {5, 4, 3}}, {DOFTransform::RHP, {5, 3, 4}}};
+    std::vector<Axis> axes{axisAt(node, 0), axisAt(node, 1), axisAt(node, 2)};
+    for (const std::size_t place : orders.at(node.getHPRMultOrder())) axes.push_back(axisAt(node, place));
+    return axes;
 }
 
 const char* const limitsTag = "osgTSS:limits";
@@ -121,94 +114,69 @@ tss::TimeSamples drive(const tss::Dof& dof, const Axis& axis, double rate) {
     return samples;
 }
 
-/// Where a DOF stands in the node's vectors.
+constexpr std::array<const char*, 6> stateNames{"slide X", "slide Y", "slide Z",
+                                                "turn H",  "turn P",  "turn R"};
+
+/// Where a DOF stands in the node.
 struct DofSlot {
-    bool rotation;
-    int component; ///< of HPR or of translate
-    bool fullTurn; ///< limits of a whole turn or more: angles are told apart up to whole turns only
+    std::size_t place; ///< in the node's DofState
+    bool fullTurn;     ///< limits of a whole turn or more: angles are told apart up to whole turns only
     tss::Dof dof;
+
+    /// The nearest of the angles that it does not tell apart.
+    double nearest(double value, double to) const { return fullTurn ? tss::nearestTurn(value, to) : value; }
+    double valueIn(const DofState& state) const { return nearest(state[place], (dof.lower + dof.upper) / 2); }
 };
 
-/// The nearest of the angles that a slot does not tell apart.
-double nearest(const DofSlot& slot, double value, double to) {
-    return slot.fullTurn ? tss::nearestTurn(value, to) : value;
-}
-
-class DofTransformNode : public JointNode {
+class DofTransformNode : public OverwrittenNode<osgSim::DOFTransform, DofState> {
 public:
     DofTransformNode(osgSim::DOFTransform& node, std::vector<DofSlot> slots)
-        : _node(&node), _slots(std::move(slots)), _scale(node.getCurrentScale()), _put(node.getPutMatrix()),
-          _inversePut(node.getInversePutMatrix()) {}
-
-    bool valid() const override { return _node.valid(); }
-    std::size_t dofCount() const override { return _slots.size(); }
-
-    void restoreAsked() override {
-        if (!_stopped || _node->getCurrentHPR() != _shownHPR ||
-            _node->getCurrentTranslate() != _shownTranslate)
-            return;
-        _node->setCurrentHPR(_askedHPR);
-        _node->setCurrentTranslate(_askedTranslate);
-    }
+        : OverwrittenNode(node), _slots(std::move(slots)), _scale(node.getCurrentScale()),
+          _put(node.getPutMatrix()), _inversePut(node.getInversePutMatrix()) {}
 
     std::vector<double> asked() const override {
+        const DofState state = read();
         std::vector<double> values;
-        for (const DofSlot& slot : _slots) {
-            const double value =
-                (slot.rotation ? _node->getCurrentHPR() : _node->getCurrentTranslate())[slot.component];
-            values.push_back(nearest(slot, value, (slot.dof.lower + slot.dof.upper) / 2));
-        }
+        for (const DofSlot& slot : _slots) values.push_back(slot.valueIn(state));
         return values;
     }
 
     std::optional<Stray> stray() const override {
-        const std::vector<double> values = asked();
-        for (int turn = 0; turn < 2; ++turn)
-            for (int i = 0; i < 3; ++i) {
-                const bool known = std::ranges::any_of(_slots, [&](const DofSlot& slot) {
-                    return slot.rotation == (turn == 1) && slot.component == i;
-                });
-                const float value = (turn ? _node->getCurrentHPR() : _node->getCurrentTranslate())[i];
-                if (!known && value != 0)
-                    return Stray{std::string("its ") + (turn ? "turn" : "slide") + " " +
-                                     (turn ? "HPR" : "XYZ")[i] + " is " + std::to_string(value) +
-                                     ", and was taken to stay 0",
-                                 true};
-            }
+        const DofState state = read();
+        for (std::size_t place = 0; place < state.size(); ++place)
+            if (state[place] != 0 && std::ranges::find(_slots, place, &DofSlot::place) == _slots.end())
+                return Stray{std::string("its ") + stateNames[place] + " is " + std::to_string(state[place]) +
+                                 ", and was taken to stay 0",
+                             true};
         if (_node->getCurrentScale() != _scale) return Stray{"its scale has changed", true};
         if (_node->getPutMatrix() != _put || _node->getInversePutMatrix() != _inversePut)
             return Stray{"its put matrix has changed", true};
-        for (std::size_t k = 0; k < _slots.size(); ++k) {
-            auto beyond = beyondLimits(_slots[k].dof, values[k]);
+        for (const DofSlot& slot : _slots) {
+            auto beyond = beyondLimits(slot.dof, slot.valueIn(state));
             if (!beyond) continue;
-            beyond->unserved = _slots[k].dof.lower == _slots[k].dof.upper;
+            beyond->unserved = slot.dof.lower == slot.dof.upper;
             return beyond;
         }
         return std::nullopt;
     }
 
-    void show(const std::vector<double>& values) override {
-        _askedHPR = _shownHPR = _node->getCurrentHPR();
-        _askedTranslate = _shownTranslate = _node->getCurrentTranslate();
+private:
+    DofState read() const override { return dofState(*_node); }
+    void write(const DofState& state) override { setDofState(*_node, state); }
+    DofState stateAt(const std::vector<double>& values) const override {
+        DofState state = read();
         for (std::size_t k = 0; k < _slots.size(); ++k) {
-            float& value = (_slots[k].rotation ? _shownHPR : _shownTranslate)[_slots[k].component];
+            float& value = state[_slots[k].place];
             // What was not changed keeps its bits.
-            if (values[k] != nearest(_slots[k], value, (_slots[k].dof.lower + _slots[k].dof.upper) / 2))
-                value = static_cast<float>(nearest(_slots[k], values[k], value));
+            if (values[k] != _slots[k].valueIn(state))
+                value = static_cast<float>(_slots[k].nearest(values[k], value));
         }
-        _stopped = _shownHPR != _askedHPR || _shownTranslate != _askedTranslate;
-        if (!_stopped) return;
-        _node->setCurrentHPR(_shownHPR);
-        _node->setCurrentTranslate(_shownTranslate);
+        return state;
     }
 
-private:
-    osg::observer_ptr<osgSim::DOFTransform> _node;
     std::vector<DofSlot> _slots;
     osg::Vec3 _scale;
     osg::Matrix _put, _inversePut;
-    bool _stopped = false;
-    osg::Vec3 _askedHPR, _askedTranslate, _shownHPR, _shownTranslate;
 };
 
 } // namespace
@@ -250,19 +218,16 @@ FoundJoints dofTransformJoint(const osgSim::DOFTransform& node, double timeCodes
     return found;
 }
 
-/// Heading turns about Z, pitch about X, roll about Y.
 std::unique_ptr<JointNode> makeDofTransformNode(osgSim::DOFTransform& node, const tss::Joint& joint) {
-    constexpr int componentOfAxis[3] = {1, 2, 0};
     std::vector<DofSlot> slots;
     for (const tss::Dof& dof : joint.dofs) {
-        Eigen::Index axis = 0;
-        dof.axis.cwiseAbs().maxCoeff(&axis);
+        const int axis = axisOf(dof);
         // Of any length, below 0 under a mirror: a value is that of the node's own units.
         if (dof.kind == tss::DofKind::Path || dof.axis != tss::Vec3(tss::Vec3::Unit(axis) * dof.axis[axis]))
             return nullptr;
-        const bool rotation = dof.kind == tss::DofKind::Rotation;
-        const bool fullTurn = rotation && dof.upper - dof.lower >= 2 * osg::PI * (1 - 1e-6);
-        slots.push_back({rotation, rotation ? componentOfAxis[axis] : static_cast<int>(axis), fullTurn, dof});
+        const bool fullTurn =
+            dof.kind == tss::DofKind::Rotation && dof.upper - dof.lower >= 2 * osg::PI * (1 - 1e-6);
+        slots.push_back({placeOf(dof.kind, axis), fullTurn, dof});
     }
     return std::make_unique<DofTransformNode>(node, std::move(slots));
 }

@@ -10,6 +10,8 @@
 
 namespace osgTSS {
 
+namespace {
+
 tss::Dof parseDofWord(const std::string& word, const std::string& tag) {
     std::istringstream text(word);
     std::string token;
@@ -29,6 +31,8 @@ tss::Dof parseDofWord(const std::string& word, const std::string& tag) {
     dof.upper = upper * unit;
     return dof;
 }
+
+} // namespace
 
 std::vector<tss::Dof> parseDofWords(const std::string& words, const std::string& tag) {
     std::istringstream text(words);

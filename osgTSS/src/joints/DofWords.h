@@ -6,11 +6,8 @@
 
 namespace osgTSS {
 
-/// "rotZ:-24:18": a turn in degrees, or a slide in units of length, with its limits. `tag` is named in
-/// errors: throws tss::InputError for another word, and for reversed limits.
-tss::Dof parseDofWord(const std::string& word, const std::string& tag);
-
-/// The words of a user value, none where the node has no such value.
+/// Words such as "rotZ:-24:18": a turn in degrees, or a slide in units of length, with its limits. `tag` is
+/// named in errors: throws tss::InputError for another word, and for reversed limits.
 std::vector<tss::Dof> parseDofWords(const std::string& words, const std::string& tag);
 
 } // namespace osgTSS

@@ -4,7 +4,6 @@
 #include <osg/Matrixd>
 #include <osg/Vec3d>
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -30,10 +29,5 @@ tss::Pose rigid(const osg::Matrixd& matrix, const char* what, double* off = null
 /// The scale where it is the same in all directions, to `fewDigits` of it (`off`: raised to how far that is);
 /// 0 where it is not.
 double evenScale(const osg::Vec3d& scale, double& off);
-
-/// Angles (radians) of turns about three different coordinate axes (0 X, 1 Y, 2 Z) whose product, the first
-/// outermost as columns, is the rotation: R = R(axes[0], out[0]) R(axes[1], out[1]) R(axes[2], out[2]). The
-/// middle angle is within a quarter turn of 0.
-std::array<double, 3> turnsOf(const Eigen::Matrix3d& rotation, const std::array<int, 3>& axes);
 
 } // namespace osgTSS

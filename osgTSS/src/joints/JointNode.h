@@ -2,9 +2,9 @@
 #include "bake/motion/WholeTurn.h"
 
 #include <osg/Math>
+#include <osg/observer_ptr>
 
 #include <cmath>
-#include <cstddef>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -37,10 +37,9 @@ public:
 
     /// The node is still there.
     virtual bool valid() const = 0;
-    virtual std::size_t dofCount() const = 0;
     /// Before anything writes: what was asked for last comes back, so that an animation that steps from its
     /// own last value, or an application that asks once, does not see that it was stopped.
-    virtual void restoreAsked() = 0;
+    virtual void restoreAsked() {}
     /// What is asked for.
     virtual std::vector<double> asked() const = 0;
     /// What the node shows: what is asked for is written on it, unless it keeps both.
@@ -51,9 +50,35 @@ public:
     virtual void show(const std::vector<double>& values) = 0;
 };
 
-/// How far an angle is from the one nearest to `middle` that differs from it by whole turns.
-inline double wholeTurns(double angle, double middle) {
-    return 2 * osg::PI * std::round((angle - middle) / (2 * osg::PI));
-}
+/// A node on which what is shown is written over what was asked for. State: what of the node holds the
+/// values. While nothing stops the joint, it is left exactly as it was set.
+template <class Node, class State>
+class OverwrittenNode : public JointNode {
+public:
+    explicit OverwrittenNode(Node& node) : _node(&node) {}
+
+    bool valid() const override { return _node.valid(); }
+    void restoreAsked() final {
+        if (_stopped && read() == _shown) write(_asked);
+    }
+    void show(const std::vector<double>& values) final {
+        _stopped = values != asked();
+        if (!_stopped) return;
+        _asked = read();
+        write(stateAt(values));
+        _shown = read();
+    }
+
+protected:
+    virtual State read() const = 0;
+    virtual void write(const State& state) = 0;
+    virtual State stateAt(const std::vector<double>& values) const = 0;
+
+    const osg::observer_ptr<Node> _node;
+
+private:
+    bool _stopped = false;
+    State _asked{}, _shown{};
+};
 
 } // namespace osgTSS

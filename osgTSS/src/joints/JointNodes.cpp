@@ -20,6 +20,7 @@ namespace {
 
 const char* const tagName = "osgTSS:joint";
 
+/// It keeps what is asked for and what it shows apart itself.
 class JointTransformNode : public JointNode {
 public:
     explicit JointTransformNode(JointTransform& node)
@@ -27,8 +28,6 @@ public:
           _frame1(node.getJoint().frame1) {}
 
     bool valid() const override { return _node.valid() && _node->getNumDofs() == _dofs; }
-    std::size_t dofCount() const override { return _dofs; }
-    void restoreAsked() override {} // it keeps the two apart itself
     std::vector<double> asked() const override { return _node->getAskedValues(); }
     std::vector<double> shown() const override { return _node->getValues(); }
     void show(const std::vector<double>& values) override { _node->setResolvedValues(values); }

@@ -1,10 +1,10 @@
 #include "StackedDof.h"
 
-#include "FoundJoint.h"
-#include "JointNode.h"
+#include "AxisDofs.h"
 
 #include "bake/base/Error.h"
 #include "bake/motion/TurnBetween.h"
+#include "bake/motion/WholeTurn.h"
 
 #include <osgAnimation/StackedQuaternionElement>
 #include <osgAnimation/StackedRotateAxisElement>
@@ -23,6 +23,13 @@ using namespace osgAnimation;
 
 constexpr std::array<const char*, 3> translationName{".x", ".y", ".z"};
 constexpr std::array<const char*, 3> turnName{".rx", ".ry", ".rz"};
+
+/// Values over time, seconds.
+template <class Value>
+struct Keys {
+    std::vector<double> times;
+    std::vector<Value> values;
+};
 
 /// A DOF whose limits are the range of values, and its drive when they are those of one channel.
 MovedAxis spanning(const std::string& name, tss::DofKind kind, int axis, const std::vector<Keys<double>>& all,
@@ -50,58 +57,58 @@ MovedAxis spanning(const std::string& name, tss::DofKind kind, int axis, const s
     return moved;
 }
 
-template <class Value, class Part>
-std::vector<Keys<double>> part(const std::vector<Keys<Value>>& all, const Part& of) {
-    std::vector<Keys<double>> parts;
-    for (const Keys<Value>& keys : all) {
-        parts.push_back({keys.times, {}});
-        for (const Value& value : keys.values) parts.back().values.push_back(of(value));
-    }
-    return parts;
-}
-
 Eigen::Matrix3d matrixOf(const osg::Quat& q) {
     return Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized().toRotationMatrix();
 }
 
-/// Turns of all keys in an order, each channel without jumps; nothing where the middle one comes near a
-/// quarter turn, where the others are not told apart.
-std::optional<std::vector<std::array<Keys<double>, 3>>> turnKeys(const std::vector<Keys<osg::Quat>>& all,
-                                                                 const std::array<int, 3>& order) {
-    const double most = osg::DegreesToRadians(80.0);
-    std::vector<std::array<Keys<double>, 3>> turns;
-    for (const Keys<osg::Quat>& keys : all) {
-        std::array<Keys<double>, 3> channel;
-        for (const osg::Quat& value : keys.values) {
-            const auto angles = turnsOf(matrixOf(value), order);
-            if (std::abs(angles[1]) > most) return std::nullopt;
-            for (std::size_t k = 0; k < 3; ++k) {
-                std::vector<double>& values = channel[k].values;
-                const double before = !values.empty() ? values.back() : 0;
-                values.push_back(angles[k] - wholeTurns(angles[k], before));
+/// What an element says along the keys of each channel that moves it.
+template <class Element, class ValueOf>
+auto keysOf(const Element& element, const std::vector<AnimationChannels::Channels>& animations,
+            int stepsBetweenKeys, const ValueOf& valueOf) {
+    std::vector<Keys<std::invoke_result_t<ValueOf, const Element&>>> all;
+    for (const AnimationChannels::Channels& animation : animations) {
+        const osg::ref_ptr<Element> moved = osg::clone(&element, osg::CopyOp::DEEP_COPY_ALL);
+        for (const auto& channel : channelsOf(*moved, animation)) {
+            auto& keys = all.emplace_back();
+            keys.times = withSteps(keyTimes(*channel), isCurve(*channel) ? stepsOfCurve : stepsBetweenKeys);
+            for (const double time : keys.times) {
+                channel->reset();
+                channel->update(time, 1, 0);
+                moved->update(static_cast<float>(time));
+                keys.values.push_back(valueOf(*moved));
             }
         }
-        for (Keys<double>& part : channel) part.times = keys.times;
-        turns.push_back(std::move(channel));
+    }
+    std::erase_if(all, [](const auto& keys) { return keys.times.empty(); });
+    return all;
+}
+
+using TurnKeys = std::vector<Keys<Eigen::Matrix3d>>;
+
+/// Of each of three turns in an order the keys, a channel each; none where they are not told apart.
+std::vector<std::vector<Keys<double>>> inTurns(const TurnKeys& all, const std::array<int, 3>& order) {
+    std::vector<std::vector<Keys<double>>> turns(3);
+    for (const Keys<Eigen::Matrix3d>& keys : all) {
+        std::array<std::vector<double>, 3> angles;
+        for (const Eigen::Matrix3d& value : keys.values)
+            if (!addTurns(value, order, angles[0].empty(), angles)) return {};
+        for (std::size_t k = 0; k < 3; ++k) turns[k].push_back({keys.times, std::move(angles[k])});
     }
     return turns;
 }
 
-std::vector<MovedAxis> movedTurns(const std::string& name, const std::vector<Keys<osg::Quat>>& all,
-                                  double rate) {
+std::vector<MovedAxis> movedTurns(const std::string& name, const TurnKeys& keys, double rate) {
     std::array<int, 3> order{0, 1, 2};
     do {
-        const auto turns = turnKeys(all, order);
-        if (!turns) continue;
+        const auto turns = inTurns(keys, order);
         std::vector<MovedAxis> moved;
-        for (std::size_t k = 0; k < 3; ++k) {
-            std::vector<Keys<double>> of;
-            for (const auto& channel : *turns) of.push_back(channel[k]);
-            moved.push_back(spanning(name + turnName[order[k]], tss::DofKind::Rotation, order[k], of, rate));
+        for (std::size_t k = 0; k < turns.size(); ++k) {
+            moved.push_back(
+                spanning(name + turnName[order[k]], tss::DofKind::Rotation, order[k], turns[k], rate));
             if (moved.back().dof.upper - moved.back().dof.lower > 4 * osg::PI)
                 throw tss::InputError("the keys of " + name + " turn more than twice round");
         }
-        return moved;
+        if (!moved.empty()) return moved;
     } while (std::next_permutation(order.begin(), order.end()));
     throw tss::InputError("the keys of " + name + " turn too far about several axes to be told apart");
 }
@@ -130,21 +137,25 @@ Eigen::Matrix3d product(const std::array<double, 3>& angles, const std::array<in
 std::vector<MovedAxis> movedAxes(const StackedTransformElement& element, const osg::Node& node,
                                  const AnimationChannels& channels, const std::string& target, double rate) {
     const std::string& name = element.getName();
+    const std::vector<AnimationChannels::Channels> animations = channels.of(node, target);
+    std::vector<MovedAxis> moved;
     if (const auto* turn = dynamic_cast<const StackedRotateAxisElement*>(&element)) {
-        const auto keys = channels.keys<double>(node, target, name);
-        return keys.empty() ? std::vector<MovedAxis>{} : movedAboutAxis(*turn, keys, rate);
+        const auto keys = keysOf(*turn, animations, 1, [](const auto& at) { return at.getAngle(); });
+        return keys.empty() ? moved : movedAboutAxis(*turn, keys, rate);
     }
-    if (dynamic_cast<const StackedTranslateElement*>(&element)) {
-        const auto keys = channels.keys<osg::Vec3d>(node, target, name);
-        std::vector<MovedAxis> moved;
-        for (int k = 0; k < 3 && !keys.empty(); ++k)
-            moved.push_back(spanning(name + translationName[k], tss::DofKind::Translation, k,
-                                     part(keys, [k](const osg::Vec3d& v) { return v[k]; }), rate));
+    if (const auto* slide = dynamic_cast<const StackedTranslateElement*>(&element)) {
+        for (int k = 0; k < 3; ++k) {
+            const auto keys =
+                keysOf(*slide, animations, 1, [k](const auto& at) { return double(at.getTranslate()[k]); });
+            if (keys.empty()) break;
+            moved.push_back(spanning(name + translationName[k], tss::DofKind::Translation, k, keys, rate));
+        }
         return moved;
     }
-    if (dynamic_cast<const StackedQuaternionElement*>(&element)) {
-        const auto keys = channels.keys<osg::Quat>(node, target, name);
-        return keys.empty() ? std::vector<MovedAxis>{} : movedTurns(name, keys, rate);
+    if (const auto* turns = dynamic_cast<const StackedQuaternionElement*>(&element)) {
+        const auto turned = [](const auto& at) { return matrixOf(at.getQuaternion()); };
+        const TurnKeys keys = keysOf(*turns, animations, stepsOfCurve, turned);
+        return keys.empty() ? moved : movedTurns(name, keys, rate);
     }
     if (channels.animates(node, target, name))
         throw tss::InputError("a channel animates its element " + name +
@@ -164,7 +175,7 @@ double StackedDof::value() const {
     }
     const osg::Quat& q = static_cast<StackedQuaternionElement&>(*element).getQuaternion();
     const double angle = turnsOf(matrixOf(q), _order)[_index];
-    return angle - wholeTurns(angle, _middle);
+    return tss::nearestTurn(angle, _middle);
 }
 
 void StackedDof::setValue(double value) {

@@ -51,46 +51,33 @@ private:
     tss::Pose _fixed = tss::Pose::Identity(); ///< since the last DOF
 };
 
-class StackedNode : public JointNode {
+class StackedNode : public OverwrittenNode<osg::MatrixTransform, std::vector<double>> {
 public:
     StackedNode(osg::MatrixTransform& node, osgAnimation::UpdateMatrixTransform& animation,
                 std::vector<StackedDof> dofs)
-        : _node(&node), _animation(&animation), _dofs(std::move(dofs)) {}
+        : OverwrittenNode(node), _animation(&animation), _dofs(std::move(dofs)) {}
 
     bool valid() const override { return _node.valid() && _animation.valid(); }
-    std::size_t dofCount() const override { return _dofs.size(); }
 
-    void restoreAsked() override {
-        if (_stopped && asked() == _shown) write(_asked);
-    }
     std::vector<double> asked() const override {
         std::vector<double> values;
         for (const StackedDof& dof : _dofs) values.push_back(dof.value());
         return values;
     }
 
-    void show(const std::vector<double>& values) override {
-        _asked = asked();
-        _stopped = values != _asked;
-        if (!_stopped) return;
-        write(values);
-        _shown = asked();
+private:
+    std::vector<double> read() const override { return asked(); }
+    std::vector<double> stateAt(const std::vector<double>& values) const override { return values; }
+    void write(const std::vector<double>& values) override {
+        for (std::size_t k = 0; k < _dofs.size(); ++k) _dofs[k].setValue(values[k]);
         osg::Matrix matrix;
         for (const auto& element : _animation->getStackedTransforms())
             if (!element->isIdentity()) element->applyToMatrix(matrix);
         _node->setMatrix(matrix);
     }
 
-private:
-    void write(const std::vector<double>& values) {
-        for (std::size_t k = 0; k < _dofs.size(); ++k) _dofs[k].setValue(values[k]);
-    }
-
-    osg::observer_ptr<osg::MatrixTransform> _node;
     osg::observer_ptr<osgAnimation::UpdateMatrixTransform> _animation;
     std::vector<StackedDof> _dofs;
-    bool _stopped = false;
-    std::vector<double> _asked, _shown;
 };
 
 } // namespace

@@ -72,6 +72,7 @@ struct JointCallback::Binding {
                    return !joint.access || (joint.access->valid() && joint.inPlace());
                });
     }
+    std::vector<double> valuesOf(std::size_t joint) const;
     void choose(const Scene& scene, const std::vector<std::string>& pairPaths);
     void watch(const Scene& scene, const std::vector<std::string>& pairPaths);
     void restoreAsked() const;
@@ -130,14 +131,18 @@ JointCallback::Binding::Binding(osg::Node& owner, const Scene& scene,
     choose(scene, pairPaths);
 }
 
+/// Where a joint of the plan is.
+std::vector<double> JointCallback::Binding::valuesOf(std::size_t joint) const {
+    const auto first = q.begin() + static_cast<std::ptrdiff_t>((*plan)->firstValue[joint]);
+    const std::size_t count = model->joints[(*plan)->joints[joint]].dofs.size();
+    return {first, first + static_cast<std::ptrdiff_t>(count)};
+}
+
 /// The pairs whose joints are all there, and their plan; joints stay where they are.
 void JointCallback::Binding::choose(const Scene& scene, const std::vector<std::string>& pairPaths) {
     std::map<int, std::vector<double>> at;
-    for (std::size_t j = 0; plan && j < (*plan)->joints.size() && !q.empty(); ++j) {
-        const auto first = q.begin() + ((*plan)->firstValue[j]);
-        const auto count = model->joints[(*plan)->joints[j]].dofs.size();
-        at[(*plan)->joints[j]] = std::vector<double>(first, first + count);
-    }
+    for (std::size_t j = 0; plan && j < (*plan)->joints.size() && !q.empty(); ++j)
+        at[(*plan)->joints[j]] = valuesOf(j);
     served.clear();
     for (const std::string& path : pairPaths) {
         const int pair = tss::findPair(*model, path);
@@ -231,12 +236,7 @@ void JointCallback::Binding::tellBeyond() {
 }
 
 void JointCallback::Binding::show() const {
-    auto next = q.begin();
-    for (JointNode* joint : joints) {
-        const auto end = next + (joint->dofCount());
-        joint->show(std::vector<double>(next, end));
-        next = end;
-    }
+    for (std::size_t j = 0; j < joints.size(); ++j) joints[j]->show(valuesOf(j));
     if (skeletons) skeletons->refresh();
 }
 

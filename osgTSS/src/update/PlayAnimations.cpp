@@ -2,7 +2,7 @@
 #include "osgTSS/src/CallbackOf.h"
 #include "osgTSS/src/joints/AnimationChannels.h"
 #include "osgTSS/src/joints/JointKinds.h"
-#include "osgTSS/src/joints/SwingDofs.h"
+#include "osgTSS/src/joints/DofState.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,85 @@
+#include "AxisDofs.h"
+
+#include "bake/motion/WholeTurn.h"
+
+#include <osg/Math>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgTSS {
+
+std::array<double, 3> turnsOf(const Eigen::Matrix3d& rotation, const std::array<int, 3>& axes) {
+    const auto [a, b, c] = axes;
+    const double hand = (a + 1) % 3 == b ? 1 : -1;
+    return {std::atan2(-hand * rotation(b, c), rotation(c, c)),
+            std::asin(std::clamp(hand * rotation(a, c), -1.0, 1.0)),
+            std::atan2(-hand * rotation(a, b), rotation(a, a))};
+}
+
+bool addTurns(const Eigen::Matrix3d& rotation, const std::array<int, 3>& axes, bool first,
+              std::array<std::vector<double>, 3>& run) {
+    const double mostMiddle = osg::DegreesToRadians(80.0);
+    const std::array<double, 3> angles = turnsOf(rotation, axes);
+    if (std::abs(angles[1]) > mostMiddle) return false;
+    for (std::size_t k = 0; k < 3; ++k)
+        run[k].push_back(tss::nearestTurn(angles[k], first ? 0 : run[k].back()));
+    return true;
+}
+
+int axisOf(const tss::Dof& dof) {
+    int axis = 0;
+    dof.axis.cwiseAbs().maxCoeff(&axis);
+    return axis;
+}
+
+AxisDofs::AxisDofs(std::vector<tss::Dof> dofs) : _dofs(std::move(dofs)) {
+    for (const tss::Dof& dof : _dofs)
+        if (dof.kind == tss::DofKind::Rotation) _order[_turns++] = axisOf(dof);
+    std::size_t count = _turns;
+    for (int axis = 0; axis < 3 && count < 3; ++axis)
+        if (std::find(_order.begin(), _order.begin() + _turns, axis) == _order.begin() + _turns)
+            _order[count++] = axis;
+}
+
+tss::Pose AxisDofs::poseAt(const std::vector<double>& values) const {
+    tss::Pose pose = tss::Pose::Identity();
+    for (std::size_t k = 0; k < _dofs.size(); ++k) {
+        const tss::Vec3 axis = tss::Vec3::Unit(axisOf(_dofs[k]));
+        if (_dofs[k].kind == tss::DofKind::Rotation)
+            pose.rotate(Eigen::AngleAxisd(values[k], axis));
+        else
+            pose.translate(values[k] * axis);
+    }
+    return pose;
+}
+
+std::vector<double> AxisDofs::valuesOf(const tss::Pose& pose) const {
+    const std::array<double, 3> first = turnsOf(pose.linear(), _order),
+                                other{first[0] + osg::PI, osg::PI - first[1], first[2] + osg::PI};
+    const std::vector<double> values = valuesBy(first, pose.translation()),
+                              others = valuesBy(other, pose.translation());
+    return beyond(others, other) < beyond(values, first) - 1e-9 ? others : values;
+}
+
+std::vector<double> AxisDofs::valuesBy(const std::array<double, 3>& turns, const tss::Vec3& slides) const {
+    std::vector<double> values;
+    std::size_t turn = 0;
+    for (const tss::Dof& dof : _dofs)
+        values.push_back(dof.kind == tss::DofKind::Rotation
+                             ? tss::nearestTurn(turns[turn++], (dof.lower + dof.upper) / 2)
+                             : slides[axisOf(dof)]);
+    return values;
+}
+
+/// How far turns go beyond the limits, and those that no DOF makes from 0.
+double AxisDofs::beyond(const std::vector<double>& values, const std::array<double, 3>& turns) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < _dofs.size(); ++k)
+        if (_dofs[k].kind == tss::DofKind::Rotation)
+            sum += std::max({0.0, _dofs[k].lower - values[k], values[k] - _dofs[k].upper});
+    for (std::size_t k = _turns; k < turns.size(); ++k) sum += std::abs(tss::nearestTurn(turns[k], 0));
+    return sum;
+}
+
+} // namespace osgTSS

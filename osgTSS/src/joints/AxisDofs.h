@@ -1,0 +1,43 @@
+#pragma once
+#include "bake/motion/Motion.h"
+
+#include <array>
+#include <vector>
+
+namespace osgTSS {
+
+/// Angles (radians) of turns about three different coordinate axes (0 X, 1 Y, 2 Z) whose product, the first
+/// outermost as columns, is the rotation: R = R(axes[0], out[0]) R(axes[1], out[1]) R(axes[2], out[2]). The
+/// middle angle is within a quarter turn of 0.
+std::array<double, 3> turnsOf(const Eigen::Matrix3d& rotation, const std::array<int, 3>& axes);
+
+/// Adds the angles of a rotation to those of a run of them, without jumps from the one before; first: of the
+/// run. False where the middle angle comes near a quarter turn, where the others are not told apart.
+bool addTurns(const Eigen::Matrix3d& rotation, const std::array<int, 3>& axes, bool first,
+              std::array<std::vector<double>, 3>& run);
+
+/// The coordinate axis that a DOF is about or along, whatever its length and sign.
+int axisOf(const tss::Dof& dof);
+
+/// DOFs along and about coordinate axes, slides before turns: poses by their values, and back.
+class AxisDofs {
+public:
+    /// Three turns at most, about different axes.
+    explicit AxisDofs(std::vector<tss::Dof> dofs);
+
+    const std::vector<tss::Dof>& dofs() const { return _dofs; }
+    tss::Pose poseAt(const std::vector<double>& values) const;
+    /// Of the two ways in which three turns make a rotation the one that the limits allow, or nearly. What of
+    /// the pose no DOF can do is left out.
+    std::vector<double> valuesOf(const tss::Pose& pose) const;
+
+private:
+    std::vector<double> valuesBy(const std::array<double, 3>& turns, const tss::Vec3& slides) const;
+    double beyond(const std::vector<double>& values, const std::array<double, 3>& turns) const;
+
+    std::vector<tss::Dof> _dofs;
+    std::array<int, 3> _order{}; ///< of the turns; axes that none is about come last
+    std::size_t _turns = 0;
+};
+
+} // namespace osgTSS
