@@ -22,170 +22,142 @@ struct JointText {
     std::vector<double> asked, values;
 };
 
-class Writer {
+/// Writes such a line, or reads it: the same steps for both.
+class Line {
 public:
-    void pass(double value) {
-        std::array<char, 32> buffer;
-        const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-        word(std::string(buffer.data(), end));
-    }
-    /// Anything but letters, digits and a few signs as %XX.
-    void pass(const std::string& name) {
-        std::string escaped = "=";
-        for (unsigned char c : name) {
-            if (std::isalnum(c) || c == '/' || c == '_' || c == ':' || c == '.') {
-                escaped += static_cast<char>(c);
-            } else {
-                std::array<char, 4> hex;
-                std::snprintf(hex.data(), hex.size(), "%%%02X", c);
-                escaped += hex.data();
-            }
-        }
-        word(escaped);
-    }
-    void pass(tss::DofKind kind) { word(std::to_string(static_cast<int>(kind))); }
-    template <class Items, class Each>
-    void list(const Items& items, const Each& each) {
-        word(std::to_string(items.size()));
-        for (const auto& item : items) each(item);
-    }
-    void expect(bool, const char*, std::size_t) {}
-
-    std::string text;
-
-private:
-    void word(const std::string& word) { text += (text.empty() ? "" : " ") + word; }
-};
-
-class Reader {
-public:
-    explicit Reader(const std::string& line) : _words(line) {}
+    Line() = default; ///< writes
+    explicit Line(const std::string& text) : _reads(true), _words(text) {}
 
     void pass(double& value) {
-        const std::string w = word();
+        std::array<char, 32> buffer;
+        if (!_reads) return write({buffer.data(), std::to_chars(buffer.begin(), buffer.end(), value).ptr});
+        const std::string w = read();
         const auto [end, error] = std::from_chars(w.data(), w.data() + w.size(), value);
         if (error != std::errc() || end != w.data() + w.size() || std::isnan(value)) refuse("a number", w);
     }
     void pass(std::string& name) {
-        const std::string w = word();
+        if (!_reads) return write(escaped(name));
+        const std::string w = read();
         if (w.empty() || w[0] != '=') refuse("a name after =", w);
-        name.clear();
-        for (std::size_t i = 1; i < w.size(); ++i) {
-            unsigned int code = 0;
-            const bool hex = w[i] == '%' && i + 2 < w.size() &&
-                             std::from_chars(&w[i + 1], &w[i + 1] + 2, code, 16).ptr == &w[i + 1] + 2;
-            name += hex ? static_cast<char>(code) : w[i];
-            if (hex) i += 2;
-        }
+        name = unescaped(w);
     }
     void pass(tss::DofKind& kind) {
-        const std::size_t number = count();
+        auto number = static_cast<std::size_t>(kind);
+        passCount(number);
         expect(number <= static_cast<std::size_t>(tss::DofKind::Path), "a kind of DOF", number);
         kind = static_cast<tss::DofKind>(number);
     }
     template <class Items, class Each>
     void list(Items& items, const Each& each) {
-        items.resize(count());
+        std::size_t count = items.size();
+        passCount(count);
+        items.resize(count);
         for (auto& item : items) each(item);
     }
     void expect(bool holds, const char* expected, std::size_t found) {
         if (!holds) refuse(expected, std::to_string(found));
     }
     void end() {
-        const std::string rest = word();
+        const std::string rest = read();
         if (!rest.empty()) refuse("the end", rest);
     }
+    std::string text() const { return _words.str(); }
 
 private:
-    std::size_t count() {
+    void passCount(std::size_t& count) {
         constexpr double most = 1e6; // a broken line does not allocate
-        double value = 0;
+        auto value = static_cast<double>(count);
         pass(value);
         if (!(value >= 0 && value <= most && value == std::floor(value)))
             refuse("a count", std::to_string(value));
-        return static_cast<std::size_t>(value);
+        count = static_cast<std::size_t>(value);
+    }
+    /// Behind "=", anything but letters, digits and a few signs as %XX.
+    static std::string escaped(const std::string& name) {
+        std::string text = "=";
+        for (unsigned char c : name) {
+            std::array<char, 4> hex{static_cast<char>(c)};
+            if (!std::isalnum(c) && c != '/' && c != '_' && c != ':' && c != '.')
+                std::snprintf(hex.data(), hex.size(), "%%%02X", c);
+            text += hex.data();
+        }
+        return text;
+    }
+    static std::string unescaped(const std::string& text) {
+        std::string name;
+        for (std::size_t i = 1; i < text.size(); ++i) {
+            unsigned int code = 0;
+            const bool hex =
+                text[i] == '%' && i + 2 < text.size() &&
+                std::from_chars(&text[i + 1], &text[i + 1] + 2, code, 16).ptr == &text[i + 1] + 2;
+            name += hex ? static_cast<char>(code) : text[i];
+            if (hex) i += 2;
+        }
+        return name;
     }
     [[noreturn]] static void refuse(const std::string& expected, const std::string& found) {
         throw tss::InputError("joint: expected " + expected + ", found \"" + found + "\"");
     }
-    std::string word() {
-        std::string w;
-        _words >> w;
-        return w;
+    void write(const std::string& word) { _words << (_words.tellp() > 0 ? " " : "") << word; }
+    std::string read() {
+        std::string word;
+        _words >> word;
+        return word;
     }
-    std::istringstream _words;
+
+    bool _reads = false;
+    std::stringstream _words;
 };
 
-// What a line holds, in its order, written or read.
-
-template <class Stream, class Numbers>
-void passNumbers(Stream& stream, Numbers& numbers) {
-    stream.list(numbers, [&](auto& number) { stream.pass(number); });
+void pass(Line& line, std::vector<double>& numbers) {
+    line.list(numbers, [&](double& number) { line.pass(number); });
 }
 
-template <class Stream, class Vector>
-void passVector(Stream& stream, Vector&& vector) {
-    for (Eigen::Index k = 0; k < vector.size(); ++k) stream.pass(vector[k]);
+template <class Vector>
+void passVector(Line& line, Vector&& vector) {
+    for (Eigen::Index k = 0; k < vector.size(); ++k) line.pass(vector[k]);
 }
 
-template <class Stream, class Pose>
-void passPose(Stream& stream, Pose& pose) {
+void pass(Line& line, tss::Pose& pose) {
     for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 3; ++row) stream.pass(pose.matrix()(row, column));
+        for (int row = 0; row < 3; ++row) line.pass(pose.matrix()(row, column));
 }
 
-template <class Stream, class Dof>
-void passDof(Stream& stream, Dof& dof) {
-    stream.pass(dof.name);
-    stream.pass(dof.kind);
-    passVector(stream, dof.origin);
-    passVector(stream, dof.axis);
-    for (auto* value : {&dof.lower, &dof.upper, &dof.rest}) stream.pass(*value);
-    passPose(stream, dof.frame);
-    stream.list(dof.path, [&](auto& row) {
-        stream.pass(row.value);
-        passVector(stream, row.translation);
-        passVector(stream, row.rotation.coeffs());
+void pass(Line& line, tss::Dof& dof) {
+    line.pass(dof.name);
+    line.pass(dof.kind);
+    passVector(line, dof.origin);
+    passVector(line, dof.axis);
+    for (double* value : {&dof.lower, &dof.upper, &dof.rest}) line.pass(*value);
+    pass(line, dof.frame);
+    line.list(dof.path, [&](tss::PathRow& row) {
+        line.pass(row.value);
+        passVector(line, row.translation);
+        passVector(line, row.rotation.coeffs());
     });
 }
 
-template <class Stream, class Text>
-void passText(Stream& stream, Text& text) {
-    auto& joint = text.joint;
-    stream.pass(joint.path);
-    passPose(stream, joint.frame0);
-    passPose(stream, joint.frame1);
-    stream.list(joint.dofs, [&](auto& dof) { passDof(stream, dof); });
-    stream.list(joint.planes, [&](auto& plane) {
-        passNumbers(stream, plane.coefficients);
-        stream.pass(plane.bound);
+void pass(Line& line, JointText& text) {
+    tss::Joint& joint = text.joint;
+    line.pass(joint.path);
+    pass(line, joint.frame0);
+    pass(line, joint.frame1);
+    line.list(joint.dofs, [&](tss::Dof& dof) { pass(line, dof); });
+    line.list(joint.planes, [&](tss::LimitPlane& plane) {
+        pass(line, plane.coefficients);
+        line.pass(plane.bound);
         const std::size_t count = plane.coefficients.size();
-        stream.expect(count == joint.dofs.size(), "a coefficient a DOF", count);
+        line.expect(count == joint.dofs.size(), "a coefficient a DOF", count);
     });
-    stream.list(joint.drives, [&](auto& drive) {
-        passNumbers(stream, drive.times);
-        passNumbers(stream, drive.values);
-        stream.expect(drive.times.size() == drive.values.size(), "a value a time", drive.values.size());
+    line.list(joint.drives, [&](tss::TimeSamples& drive) {
+        pass(line, drive.times);
+        pass(line, drive.values);
+        line.expect(drive.times.size() == drive.values.size(), "a value a time", drive.values.size());
     });
-    passNumbers(stream, text.asked);
-    passNumbers(stream, text.values);
-    stream.expect(text.asked.size() == joint.dofs.size() && text.values.size() == joint.dofs.size(),
-                  "a value a DOF", text.values.size());
-}
-
-std::string writeJointText(const JointText& text) {
-    Writer out;
-    passText(out, text);
-    return out.text;
-}
-
-/// Throws tss::InputError where the line is not one that writeJointText() makes.
-JointText readJointText(const std::string& line) {
-    Reader in(line);
-    JointText text;
-    passText(in, text);
-    in.end();
-    return text;
+    pass(line, text.asked);
+    pass(line, text.values);
+    line.expect(text.asked.size() == joint.dofs.size() && text.values.size() == joint.dofs.size(),
+                "a value a DOF", text.values.size());
 }
 
 bool checkJoint(const osgTSS::JointTransform&) {
@@ -193,10 +165,13 @@ bool checkJoint(const osgTSS::JointTransform&) {
 }
 
 bool readJoint(osgDB::InputStream& is, osgTSS::JointTransform& node) {
-    std::string line;
-    is.readWrappedString(line);
+    std::string words;
+    is.readWrappedString(words);
     try {
-        const JointText text = readJointText(line);
+        Line line(words);
+        JointText text;
+        pass(line, text);
+        line.end();
         node.setJoint(text.joint);
         node.setValues(text.asked);
         node.setResolvedValues(text.values);
@@ -208,7 +183,10 @@ bool readJoint(osgDB::InputStream& is, osgTSS::JointTransform& node) {
 }
 
 bool writeJoint(osgDB::OutputStream& os, const osgTSS::JointTransform& node) {
-    os.writeWrappedString(writeJointText({node.getJoint(), node.getAskedValues(), node.getValues()}));
+    Line line;
+    JointText text{node.getJoint(), node.getAskedValues(), node.getValues()};
+    pass(line, text);
+    os.writeWrappedString(line.text());
     os << std::endl;
     return true;
 }
