@@ -1,6 +1,7 @@
 #include "BodyGeometry.h"
 
 #include "bake/base/UnionFind.h"
+#include "bake/geometry/Import.h"
 #include "bake/motion/ClosestPointQuery.h"
 
 #include <osg/LightModel>
@@ -9,11 +10,8 @@
 #include <osgTSS/Convert>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <numeric>
-#include <span>
+#include <unordered_map>
 
 namespace osgTSS {
 
@@ -23,111 +21,75 @@ using tss::Vec3;
 
 /// A mesh as it is drawn: vertices split where the surface has a crease, one normal each.
 struct ShadedMesh {
-    std::vector<std::uint32_t> source; ///< of each drawn vertex, its vertex in the mesh
-    std::vector<tss::Vec3> normals;    ///< unit, one a drawn vertex
-    std::vector<tss::Tri> triangles;   ///< indices of drawn vertices; triangles without area are left out
+    std::vector<tss::Vec3> points;
+    std::vector<tss::Vec3> normals;  ///< unit, one a point
+    std::vector<tss::Tri> triangles; ///< triangles without area are left out
 };
 
-/// Each vertex's representative: the first vertex in the same place.
-std::vector<int> weld(const std::vector<Vec3>& vertices) {
-    std::vector<int> order(vertices.size()), representative(vertices.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto key = [&](int i) { return std::array{vertices[i].x(), vertices[i].y(), vertices[i].z()}; };
-    std::ranges::sort(order, [&](int i, int j) { return std::pair(key(i), i) < std::pair(key(j), j); });
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        const bool same = k > 0 && key(order[k]) == key(order[k - 1]);
-        representative[order[k]] = same ? representative[order[k - 1]] : order[k];
-    }
-    return representative;
+/// Unit; zero for a triangle without area.
+Vec3 faceNormal(const tss::TriangleMesh& mesh, std::size_t t) {
+    const Vec3 cross = (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0));
+    const double area = cross.norm();
+    return area > 0 ? Vec3(cross / area) : Vec3::Zero();
 }
 
-/// A triangle's corner, sorted by the place where it stands.
-struct Corner {
-    int place;
-    int triangle;
-    int k;
-};
+double cornerAngle(const tss::TriangleMesh& mesh, std::size_t t, int k) {
+    const Vec3& p = mesh.corner(t, k);
+    const Vec3 a = (mesh.corner(t, (k + 1) % 3) - p).normalized();
+    const Vec3 b = (mesh.corner(t, (k + 2) % 3) - p).normalized();
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
-struct Surface {
-    const tss::TriangleMesh& mesh;
-    std::vector<int> place;        ///< of each vertex
-    std::vector<Vec3> faceNormals; ///< unit; zero for a triangle without area
-
-    int at(int triangle, int k) const { return place[mesh.triangles[triangle][k % 3]]; }
-
-    double angle(const Corner& c) const {
-        const Vec3& p = mesh.corner(c.triangle, c.k);
-        const Vec3 a = (mesh.corner(c.triangle, (c.k + 1) % 3) - p).normalized();
-        const Vec3 b = (mesh.corner(c.triangle, (c.k + 2) % 3) - p).normalized();
-        return std::atan2(a.cross(b).norm(), a.dot(b));
-    }
-};
-
-/// Joins the corners around one place whose triangles share an edge there and are flatter than the crease.
-/// group: one per corner, the index of the first corner of its group.
-std::vector<std::size_t> groupCorners(const Surface& surface, std::span<const Corner> corners,
-                                      double minCosine) {
-    tss::UnionFind together(corners.size());
-    // Spokes: the far end of each edge that starts here, with the corner it belongs to.
-    std::vector<std::pair<int, std::size_t>> spokes;
-    for (std::size_t c = 0; c < corners.size(); ++c)
-        for (int step : {1, 2}) spokes.emplace_back(surface.at(corners[c].triangle, corners[c].k + step), c);
-    std::ranges::sort(spokes);
-    for (std::size_t first = 0; first < spokes.size();) {
-        std::size_t end = first;
-        while (end < spokes.size() && spokes[end].first == spokes[first].first) ++end;
-        for (std::size_t i = first; i < end; ++i)
-            for (std::size_t j = i + 1; j < end; ++j) {
-                const Vec3& n = surface.faceNormals[corners[spokes[i].second].triangle];
-                const Vec3& m = surface.faceNormals[corners[spokes[j].second].triangle];
-                if (n.dot(m) < minCosine) continue;
-                together.join(spokes[i].second, spokes[j].second);
-            }
+/// Joins the corners (3 a triangle) of one vertex whose triangles share an edge there and are flatter than
+/// the crease.
+tss::UnionFind joinCorners(const tss::TriangleMesh& mesh, const std::vector<Vec3>& normals,
+                           double minCosine) {
+    struct Spoke {
+        int from, to; ///< an edge of a triangle, from the corner's vertex
+        std::size_t corner;
+        auto ends() const { return std::pair(from, to); }
+    };
+    std::vector<Spoke> spokes;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k)
+            for (int step : {1, 2})
+                spokes.push_back({mesh.triangles[t][k], mesh.triangles[t][(k + step) % 3], 3 * t + k});
+    std::ranges::sort(spokes, {}, &Spoke::ends);
+    tss::UnionFind together(3 * mesh.triangles.size());
+    for (auto first = spokes.begin(); first != spokes.end();) {
+        const auto end = std::ranges::upper_bound(first, spokes.end(), first->ends(), {}, &Spoke::ends);
+        for (auto i = first; i != end; ++i)
+            for (auto j = i + 1; j != end; ++j)
+                if (normals[i->corner / 3].dot(normals[j->corner / 3]) >= minCosine)
+                    together.join(i->corner, j->corner);
         first = end;
     }
-    std::vector<std::size_t> group(corners.size());
-    for (std::size_t c = 0; c < corners.size(); ++c) group[c] = together.root(c);
-    return group;
+    return together;
 }
 
 /// Normals weighted by the corner angles, averaged over the triangles around a vertex that hang together over
 /// edges flatter than the crease angle (radians). Vertices in one place count as one, so that meshes stored
 /// as loose triangles come out smooth too.
-ShadedMesh shade(const tss::TriangleMesh& mesh, double creaseAngle) {
-    Surface surface{mesh, weld(mesh.vertices), {}};
-    std::vector<Corner> corners;
-    std::vector<int> drawn(mesh.triangles.size(), -1);
+ShadedMesh shade(const tss::TriangleMesh& soup, double creaseAngle) {
+    const tss::TriangleMesh mesh = tss::welded(soup);
+    std::vector<Vec3> normals;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) normals.push_back(faceNormal(mesh, t));
+    tss::UnionFind together = joinCorners(mesh, normals, std::cos(creaseAngle));
+    std::unordered_map<std::size_t, int> vertexOfGroup;
     ShadedMesh result;
-    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
-        const Vec3 cross =
-            (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0));
-        const double area = cross.norm();
-        surface.faceNormals.push_back(area > 0 ? Vec3(cross / area) : Vec3::Zero());
-        if (!(area > 0)) continue;
-        drawn[t] = static_cast<int>(result.triangles.size());
-        result.triangles.push_back(mesh.triangles[t]);
-        for (int k = 0; k < 3; ++k) corners.push_back({surface.at(t, k), t, k});
-    }
-    std::ranges::stable_sort(corners, [](const Corner& a, const Corner& b) { return a.place < b.place; });
-    const double minCosine = std::cos(creaseAngle);
-    for (std::size_t first = 0; first < corners.size();) {
-        std::size_t end = first;
-        while (end < corners.size() && corners[end].place == corners[first].place) ++end;
-        const std::span<const Corner> around(&corners[first], end - first);
-        const auto group = groupCorners(surface, around, minCosine);
-        std::map<std::size_t, int> vertexOfGroup;
-        for (std::size_t c = 0; c < around.size(); ++c) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (normals[t].isZero()) continue;
+        tss::Tri& drawn = result.triangles.emplace_back();
+        for (int k = 0; k < 3; ++k) {
             const auto [entry, fresh] =
-                vertexOfGroup.emplace(group[c], static_cast<int>(result.source.size()));
+                vertexOfGroup.emplace(together.root(3 * t + k), static_cast<int>(result.points.size()));
             if (fresh) {
-                result.source.push_back(static_cast<std::uint32_t>(around[c].place));
+                result.points.push_back(mesh.corner(t, k));
                 result.normals.push_back(Vec3::Zero());
             }
-            result.normals[entry->second] +=
-                surface.angle(around[c]) * surface.faceNormals[around[c].triangle];
-            result.triangles[drawn[around[c].triangle]][around[c].k] = entry->second;
+            drawn[k] = entry->second;
+            result.normals[drawn[k]] += cornerAngle(mesh, t, k) * normals[t];
         }
-        first = end;
     }
     for (Vec3& normal : result.normals) normal.normalize();
     return result;
@@ -182,16 +144,14 @@ osg::ref_ptr<osg::Geometry> makeGeometry(osg::Vec3Array& vertices, osg::Vec3Arra
 }
 
 osg::ref_ptr<osg::Node> makeBodyNode(const tss::Body& body) {
-    const ShadedMesh shaded = shade(body.mesh, creaseAngle);
+    ShadedMesh shaded = shade(body.mesh, creaseAngle);
     const Eigen::AlignedBox3d box = tss::bounds(body.mesh);
     const bool recentre = !box.isEmpty() && box.center().norm() > farAway * box.diagonal().norm();
     const Vec3 centre = recentre ? Vec3(box.center()) : Vec3(0, 0, 0);
 
-    std::vector<Vec3> points;
-    points.reserve(shaded.source.size());
-    for (std::uint32_t vertex : shaded.source) points.push_back(body.mesh.vertices[vertex] - centre);
+    for (Vec3& point : shaded.points) point -= centre;
     osg::ref_ptr<osg::Geometry> geometry =
-        makeGeometry(*toOsg(points), *toOsg(shaded.normals), shaded.triangles, body.displayColor);
+        makeGeometry(*toOsg(shaded.points), *toOsg(shaded.normals), shaded.triangles, body.displayColor);
     geometry->setStateSet(makeBodyState(body.displayColor, body.doubleSided));
     if (!body.visible) geometry->setNodeMask(0);
     if (!recentre) return geometry;
