@@ -15,29 +15,18 @@ bool is(const osg::Object& object) {
     return dynamic_cast<const osg::TemplateValueObject<Value>*>(&object);
 }
 
-bool isWords(const osg::Object& object) {
-    return is<std::string>(object);
-}
-bool isFlag(const osg::Object& object) {
-    return is<bool>(object);
-}
-bool isWordsOrFlag(const osg::Object& object) {
-    return isWords(object) || isFlag(object);
-}
-bool isDegrees(const osg::Object& object) {
-    return is<double>(object);
-}
-bool isPoint(const osg::Object& object) {
-    return is<osg::Vec3d>(object) || is<osg::Vec3f>(object);
-}
-bool isActivation(const osg::Object& object) {
-    return is<double>(object) || is<float>(object) || isWords(object);
-}
-
 struct Tag {
     std::string_view name;
     const char* type;
     bool (*fits)(const osg::Object& object);
+};
+
+constexpr auto isWords = is<std::string>;
+constexpr auto isFlag = is<bool>;
+constexpr auto isEither = [](const osg::Object& object) { return isWords(object) || isFlag(object); };
+constexpr auto isPoint = [](const osg::Object& o) { return is<osg::Vec3d>(o) || is<osg::Vec3f>(o); };
+constexpr auto isActivation = [](const osg::Object& object) {
+    return is<double>(object) || is<float>(object) || isWords(object);
 };
 
 /// What an application sets.
@@ -49,10 +38,10 @@ constexpr Tag tags[] = {
     {"osgTSS:moved", "a bool", isFlag},
     {"osgTSS:static", "a bool", isFlag},
     {"osgTSS:ignored", "a bool", isFlag},
-    {"osgTSS:still", "a double", isDegrees},
-    {"osgTSS:skin", "a bool or a std::string", isWordsOrFlag},
-    {"osgTSS:muscle", "a bool or a std::string", isWordsOrFlag},
-    {"osgTSS:bone", "a bool or a std::string", isWordsOrFlag},
+    {"osgTSS:still", "a double", is<double>},
+    {"osgTSS:skin", "a bool or a std::string", isEither},
+    {"osgTSS:muscle", "a bool or a std::string", isEither},
+    {"osgTSS:bone", "a bool or a std::string", isEither},
     {"osgTSS:activation", "a double, a float or a std::string", isActivation},
 };
 
