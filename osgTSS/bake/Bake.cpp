@@ -1,5 +1,7 @@
 #include "bake/pipeline/Bake.h"
 
+#include "osgTSS/src/EachNode.h"
+
 #include "bake/base/Error.h"
 #include "bake/check/EarlyContact.h"
 #include "bake/model/Kinematics.h"
@@ -10,7 +12,6 @@
 #include "bake/scene/SceneLayer.h"
 #include "bake/table/Query.h"
 
-#include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osg/ValueObject>
 #include <osgAnimation/Bone>
@@ -30,59 +31,36 @@ namespace osgTSS {
 
 namespace {
 
-/// Writes what options say of nodes onto them, and remembers which names there were.
-class TagNodes : public osg::NodeVisitor {
-public:
-    explicit TagNodes(const BakeOptions& options)
-        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _options(options) {
-        setNodeMaskOverride(~0u);
-    }
-
-    void apply(osg::Node& node) override {
-        tag(node, _options.ignored, "osgTSS:ignored");
-        traverse(node);
-    }
-
-    void apply(osg::Transform& node) override {
+/// Writes what options say of nodes onto them.
+void tagNodes(osg::Node& root, const BakeOptions& options) {
+    std::set<std::string> used; // names that there are
+    const auto tag = [&](osg::Node& node, const std::vector<std::string>& names, const char* value) {
+        if (std::ranges::find(names, node.getName()) == names.end()) return;
+        node.setUserValue(value, true);
+        used.insert(node.getName());
+    };
+    eachNode(root, [&](osg::Node& node) {
+        tag(node, options.ignored, "osgTSS:ignored");
+        if (!node.asTransform()) return;
         std::string words =
-            _options.writtenLimits && dynamic_cast<osgSim::DOFTransform*>(&node) ? "written" : "";
-        for (const auto& [name, word] : _options.limits)
+            options.writtenLimits && dynamic_cast<osgSim::DOFTransform*>(&node) ? "written" : "";
+        for (const auto& [name, word] : options.limits)
             if (name == node.getName() || name == "*") {
                 words += (words.empty() ? "" : " ") + word;
                 used.insert(name);
             }
         if (!words.empty()) node.setUserValue("osgTSS:limits", words);
-        tag(node, _options.still, "osgTSS:static");
-        if (_options.boneStill > 0 && dynamic_cast<osgAnimation::Bone*>(&node))
-            node.setUserValue("osgTSS:still", _options.boneStill);
-        apply(static_cast<osg::Node&>(node));
-    }
-
-    std::set<std::string> used;
-
-private:
-    void tag(osg::Node& node, const std::vector<std::string>& names, const char* value) {
-        if (std::ranges::find(names, node.getName()) == names.end()) return;
-        node.setUserValue(value, true);
-        used.insert(node.getName());
-    }
-
-    const BakeOptions& _options;
-};
-
-void tagNodes(osg::Node& root, const BakeOptions& options) {
-    if (options.limits.empty() && options.still.empty() && options.ignored.empty() &&
-        !options.writtenLimits && !(options.boneStill > 0))
-        return;
-    TagNodes visitor(options);
-    root.accept(visitor);
+        tag(node, options.still, "osgTSS:static");
+        if (options.boneStill > 0 && dynamic_cast<osgAnimation::Bone*>(&node))
+            node.setUserValue("osgTSS:still", options.boneStill);
+    });
     std::set<std::string> names(options.still.begin(), options.still.end());
     for (const auto& [name, word] : options.limits) names.insert(name);
     for (const std::string& name : options.ignored)
-        if (!visitor.used.contains(name))
+        if (!used.contains(name))
             OSG_WARN << "osgTSS: option ignore: no node is named \"" << name << "\"" << std::endl;
     for (const std::string& name : names)
-        if (!visitor.used.contains(name))
+        if (!used.contains(name))
             OSG_WARN << "osgTSS: options limits and static: no transform is named \"" << name << "\""
                      << std::endl;
 }
@@ -114,32 +92,34 @@ std::shared_ptr<tss::SceneModel> extract(osg::Node& root, const BakeOptions& opt
     return model;
 }
 
+bool isBaked(const tss::Pair& pair) {
+    return pair.table || pair.proof;
+}
+bool isBaked(const tss::SkinModel& skin) {
+    return bool(skin.table);
+}
+
 /// Tables and proofs of an earlier bake that still fit. Returns how many.
 std::size_t takeFromCache(tss::SceneModel& model, const std::string& file) {
     std::error_code failed;
     if (file.empty() || !std::filesystem::exists(file, failed)) return 0;
     std::size_t taken = 0;
+    const auto take = [&](auto& all, const auto& cached) {
+        for (auto& item : all)
+            for (const auto& old : cached) {
+                if (old.path != item.path || !isBaked(old) || old.settings != item.settings ||
+                    old.sourceHash != tss::sourceHash(model, item))
+                    continue;
+                item.table = old.table;
+                if constexpr (requires { item.proof; }) item.proof = old.proof;
+                item.sourceHash = old.sourceHash;
+                ++taken;
+            }
+    };
     try {
         const tss::SceneModel cached = tss::loadScene(file);
-        for (tss::Pair& pair : model.pairs)
-            for (const tss::Pair& old : cached.pairs) {
-                if (old.path != pair.path || (!old.table && !old.proof) || old.settings != pair.settings ||
-                    old.sourceHash != tss::sourceHash(model, pair))
-                    continue;
-                pair.table = old.table;
-                pair.proof = old.proof;
-                pair.sourceHash = old.sourceHash;
-                ++taken;
-            }
-        for (tss::SkinModel& skin : model.skins)
-            for (const tss::SkinModel& old : cached.skins) {
-                if (old.path != skin.path || !old.table || old.settings != skin.settings ||
-                    old.sourceHash != tss::sourceHash(model, skin))
-                    continue;
-                skin.table = old.table;
-                skin.sourceHash = old.sourceHash;
-                ++taken;
-            }
+        take(model.pairs, cached.pairs);
+        take(model.skins, cached.skins);
     } catch (const std::exception& error) {
         OSG_WARN << "osgTSS: " << file << " is baked anew: " << error.what() << std::endl;
     }
