@@ -1,8 +1,9 @@
 #include "bake/base/Error.h"
 #include "osgTSS/src/CallbackOf.h"
+#include "osgTSS/src/EachNode.h"
 #include "osgTSS/src/joints/AnimationChannels.h"
-#include "osgTSS/src/joints/JointKinds.h"
 #include "osgTSS/src/joints/DofState.h"
+#include "osgTSS/src/joints/JointKinds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@
 #include <osg/observer_ptr>
 #include <osgAnimation/BasicAnimationManager>
 #include <osgTSS/PlayAnimations>
+#include <set>
 #include <vector>
 
 namespace osgTSS {
@@ -98,59 +100,44 @@ std::optional<Turns> turnsOf(osgAnimation::BasicAnimationManager& manager) {
     return turns;
 }
 
-/// The DOFTransforms that nothing moves and that could.
-class StandingDofs : public osg::NodeVisitor {
-public:
-    StandingDofs() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    void apply(osg::Transform& node) override {
-        if (auto* found = dynamic_cast<osgSim::DOFTransform*>(&node)) add(*found);
-        traverse(node);
+/// Of a DOFTransform that nothing moves and that could.
+std::optional<Swing> swingOf(osgSim::DOFTransform& node) {
+    bool still = false;
+    node.getUserValue("osgTSS:static", still);
+    if (still || node.getAnimationOn() || node.getUpdateCallback()) return std::nullopt;
+    try {
+        std::vector<tss::Dof> dofs = dofTransformJoint(node, 1).joints.front().dofs;
+        const auto moves = [](const tss::Dof& dof) { return dof.lower < dof.upper; };
+        if (std::ranges::any_of(dofs, moves)) return Swing{&node, std::move(dofs)};
+    } catch (const tss::InputError&) { // it is no joint, as was said on loading
     }
+    return std::nullopt;
+}
 
-    std::vector<Swing> swings;
-
-private:
-    void add(osgSim::DOFTransform& node) {
-        bool still = false;
-        node.getUserValue("osgTSS:static", still);
-        if (still || node.getAnimationOn() || node.getUpdateCallback()) return;
-        if (std::ranges::any_of(swings, [&](const Swing& swing) { return swing.node == &node; })) return;
-        try {
-            const FoundJoints found = dofTransformJoint(node, 1);
-            for (const tss::Joint& joint : found.joints)
-                if (std::ranges::any_of(joint.dofs,
-                                        [](const tss::Dof& dof) { return dof.lower < dof.upper; }))
-                    swings.push_back({&node, joint.dofs});
-        } catch (const tss::InputError&) { // it is no joint, as was said on loading
-        }
-    }
-};
-
-/// The longest round of the paths that nodes move along, seconds.
-class PathRounds : public osg::NodeVisitor {
-public:
-    PathRounds() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    void apply(osg::Node& node) override {
-        if (const auto* found = callbackOf<osg::AnimationPathCallback>(node.getUpdateCallback());
-            found && found->getAnimationPath()) {
-            const bool swings = found->getAnimationPath()->getLoopMode() == osg::AnimationPath::SWING;
-            const double round = (swings ? 2 : 1) * found->getAnimationPath()->getPeriod() /
-                                 std::abs(found->getTimeMultiplier());
-            if (std::isfinite(round)) longest = std::max(longest, round);
-        }
-        traverse(node);
-    }
-
-    double longest = 0;
-};
+/// Of the path that a node moves along, seconds; 0: of none.
+double roundOf(osg::Node& node) {
+    const auto* found = callbackOf<osg::AnimationPathCallback>(node.getUpdateCallback());
+    if (!found || !found->getAnimationPath()) return 0;
+    const bool swings = found->getAnimationPath()->getLoopMode() == osg::AnimationPath::SWING;
+    const double round =
+        (swings ? 2 : 1) * found->getAnimationPath()->getPeriod() / std::abs(found->getTimeMultiplier());
+    return std::isfinite(round) ? round : 0;
+}
 
 } // namespace
 
 double playAnimations(osg::Node& root) {
     std::vector<Turns> found;
-    PathRounds paths;
-    root.accept(paths);
-    double longest = paths.longest;
+    std::vector<Swing> swings;
+    std::set<osg::Node*> seen; // some have several parents
+    double longest = 0;
+    eachNode(root, [&](osg::Node& node) {
+        if (!seen.insert(&node).second) return;
+        longest = std::max(longest, roundOf(node));
+        auto* dofs = dynamic_cast<osgSim::DOFTransform*>(&node);
+        if (std::optional<Swing> swing = dofs ? swingOf(*dofs) : std::nullopt)
+            swings.push_back(std::move(*swing));
+    });
     for (osgAnimation::AnimationManagerBase* any : animationManagers(root)) {
         auto* manager = dynamic_cast<osgAnimation::BasicAnimationManager*>(any);
         if (!manager) continue;
@@ -164,11 +151,9 @@ double playAnimations(osg::Node& root) {
         longest = std::max(longest, turns->round());
         found.push_back(std::move(*turns));
     }
-    StandingDofs standing;
-    root.accept(standing);
-    if (!standing.swings.empty()) longest = std::max(longest, swingSeconds);
-    if (!found.empty() || !standing.swings.empty())
-        root.addUpdateCallback(new PlayInTurn(std::move(found), std::move(standing.swings)));
+    if (!swings.empty()) longest = std::max(longest, swingSeconds);
+    if (!found.empty() || !swings.empty())
+        root.addUpdateCallback(new PlayInTurn(std::move(found), std::move(swings)));
     return longest;
 }
 
