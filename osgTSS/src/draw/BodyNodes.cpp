@@ -1,8 +1,8 @@
 #include "BodyNodes.h"
 
 #include "osgTSS/src/EachNode.h"
+#include "osgTSS/src/NodePaths.h"
 
-#include <osg/Transform>
 #include <osg/UserDataContainer>
 #include <osg/ValueObject>
 #include <osgAnimation/MorphGeometry>
@@ -66,25 +66,29 @@ std::string carrierPath(const SkinGeometry& skin) {
     return path;
 }
 
+BodyFrame BodyNodes::frame(const std::string& body) const {
+    const auto found = frames.find(body);
+    return found == frames.end() ? BodyFrame{} : found->second;
+}
+
+SkinGeometry* BodyNodes::shape(const std::string& body) const {
+    const auto found = shapes.find(body);
+    return found == shapes.end() ? nullptr : found->second;
+}
+
 BodyNodes findBodyNodes(osg::Node& root) {
     BodyNodes found;
     eachNode(root, [&](osg::Node& node) {
-        std::string path;
         if (auto* shape = dynamic_cast<SkinGeometry*>(&node)) found.shapes.emplace(shape->getPath(), shape);
-        if (node.getUserValue(tagName, path)) found.frames.emplace(path, BodyFrame{&node, bodyScale(node)});
+        const std::string path = bodyPath(node);
+        if (!path.empty()) found.frames.emplace(path, BodyFrame{&node, bodyScale(node)});
     });
     return found;
 }
 
 std::optional<osg::Matrixd> toAbove(osg::Node& owner, osg::Node& node) {
-    for (const osg::NodePath& path : node.getParentalNodePaths(&owner)) {
-        if (path.empty() || path.front() != &owner) continue;
-        osg::Matrix matrix;
-        for (osg::Node* at : path)
-            if (at->asTransform()) at->asTransform()->computeLocalToWorldMatrix(matrix, nullptr);
-        return matrix;
-    }
-    return std::nullopt;
+    const osg::NodePathList paths = pathsFrom(owner, node);
+    return paths.empty() ? std::nullopt : std::optional(alongPath(paths.front()));
 }
 
 tss::Pose carriedSince(const osg::Matrixd& world, const osg::Matrixd& toFrame, double scale,

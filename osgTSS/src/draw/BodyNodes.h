@@ -3,6 +3,7 @@
 
 #include <osg/Matrixd>
 #include <osg/Node>
+#include <osg/observer_ptr>
 #include <osgTSS/SkinGeometry>
 
 #include <map>
@@ -29,20 +30,23 @@ std::string carrierPath(const SkinGeometry& skin);
 /// The drawable that install() has put this one in place of; null: none.
 osg::Drawable* replacedBy(osg::Drawable& drawable);
 
+/// Where the coordinates of a body are in a graph.
 struct BodyFrame {
-    osg::Node* node = nullptr;
-    double scale = 1;
+    osg::observer_ptr<osg::Node> node; ///< whose children are in them; null: the graph names none
+    double scale = 1;                  ///< from the lengths there to the body's
 };
 
 /// What shows bodies at and below a node, by the bodies' paths; of several the first. Sees masked nodes.
 struct BodyNodes {
     std::map<std::string, BodyFrame> frames;
     std::map<std::string, SkinGeometry*> shapes;
+
+    BodyFrame frame(const std::string& body) const;
+    SkinGeometry* shape(const std::string& body) const; ///< null: there is none
 };
 BodyNodes findBodyNodes(osg::Node& root);
 
-/// From a node's children to what the owner hangs in, whatever is hidden on the way; nothing where the node
-/// is not below the owner.
+/// From a node's children to what the owner hangs in; nothing where the node is not below the owner.
 std::optional<osg::Matrixd> toAbove(osg::Node& owner, osg::Node& node);
 
 /// How far a node has been carried since rest, in a frame; exactly nothing for less than rounding, and where

@@ -1,7 +1,6 @@
 #include "BodyNodes.h"
 #include "SphereGeometry.h"
 #include "osgTSS/src/EachNode.h"
-#include "osgTSS/src/SceneCache.h"
 
 #include <osg/BlendFunc>
 #include <osg/LineWidth>
@@ -12,6 +11,8 @@
 #include <osgTSS/Overlay>
 
 #include "bake/geometry/PartSet.h"
+#include "bake/motion/MuscleDeformer.h"
+#include "bake/play/SkinSetup.h"
 
 #include <cmath>
 #include <limits>
@@ -65,24 +66,20 @@ private:
     osg::ref_ptr<osg::Vec3Array> _vertices = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
 };
 
-/// Where something of a body stands now, in the overlay's frame.
-struct Carrier {
-    osg::observer_ptr<osg::Node> node;
-    double scale = 1;
+/// Where a body stands now, in the overlay's frame; nothing when its node is gone.
+std::optional<Similarity> placeNow(const BodyFrame& body, osg::Node& root, const osg::Matrixd& fromRoot) {
+    const auto toRoot = body.node.valid() ? toAbove(root, *body.node) : std::nullopt;
+    auto place = toRoot ? toSimilarity(*toRoot * fromRoot) : std::nullopt;
+    if (place) place->scale /= body.scale;
+    return place;
+}
 
-    /// Nothing when the node is gone.
-    std::optional<Similarity> now(osg::Node& root, const osg::Matrixd& fromRoot) const {
-        if (!node.valid()) return std::nullopt;
-        const osg::MatrixList matrices = node->getWorldMatrices(&root);
-        if (matrices.empty()) return std::nullopt;
-        auto place = toSimilarity(matrices.front() * fromRoot);
-        if (place) place->scale /= scale;
-        return place;
-    }
-};
+tss::Vec3 movedPoint(const tss::Vec3& point, const Similarity& to) {
+    return to.pose * (to.scale * point);
+}
 
 tss::Sphere moved(const tss::Sphere& sphere, const Similarity& to) {
-    return {to.pose * (to.scale * sphere.centre), std::abs(to.scale) * sphere.radius};
+    return {movedPoint(sphere.centre, to), std::abs(to.scale) * sphere.radius};
 }
 
 /// One table: where its spheres are is said anew each frame.
@@ -153,10 +150,9 @@ struct DrawnRegion {
 
 private:
     void add(const tss::TriangleMesh& mesh, const Similarity& to) {
-        const auto moved = [&](const tss::Vec3& x) -> tss::Vec3 { return to.pose * (to.scale * x); };
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
             for (int k = 0; k < 3; ++k)
-                lines->add(moved(mesh.corner(t, k)), moved(mesh.corner(t, (k + 1) % 3)));
+                lines->add(movedPoint(mesh.corner(t, k), to), movedPoint(mesh.corner(t, (k + 1) % 3), to));
     }
 };
 
@@ -164,10 +160,10 @@ struct DrawnPair {
     DrawnTable table;
     DrawnRegion region;
     const tss::Table* source;
-    Carrier bodyA, bodyB;
+    BodyFrame bodyA, bodyB;
 
     void follow(osg::Node& root, const osg::Matrixd& fromRoot) {
-        const auto nowA = bodyA.now(root, fromRoot), nowB = bodyB.now(root, fromRoot);
+        const auto nowA = placeNow(bodyA, root, fromRoot), nowB = placeNow(bodyB, root, fromRoot);
         if (!nowA || !nowB) return;
         for (std::size_t i = 0; i < table.a.size(); ++i) table.a[i] = moved(source->a[i], *nowA);
         for (std::size_t i = 0; i < table.b.size(); ++i) table.b[i] = moved(source->b[i], *nowB);
@@ -176,32 +172,26 @@ struct DrawnPair {
     }
 };
 
-/// A bone as a muscle that does not contract.
-std::shared_ptr<const tss::MuscleDeformer> bone(const tss::TriangleMesh& mesh) {
-    tss::Muscle muscle;
-    muscle.surface = mesh;
-    muscle.maxContraction = 0;
-    return std::make_shared<const tss::MuscleDeformer>(std::move(muscle));
-}
+/// A muscle or a bone below a skin.
+struct DrawnUnder {
+    BodyFrame body;
+    std::shared_ptr<const tss::MuscleDeformer> shape; ///< in the skin's frame
+    int muscle;                                       ///< whose activation it has; -1: none
+    tss::Pose toBody;                                 ///< from the skin's frame, at rest
+};
 
 /// Skin spheres ride on vertices of the skin, muscle spheres on the muscle as it is shortened.
 struct DrawnSkin {
-    struct Rider {
-        const tss::MuscleDeformer* muscle;
-        tss::MusclePoint point;
-    };
     DrawnTable table;
     const tss::SkinTable* source;
     const tss::TriangleMesh* rest;
-    Carrier body;
-    std::vector<tss::UnderSkin> under; ///< the muscles and bones below the skin
-    std::vector<Carrier> muscleBodies; ///< one each
-    std::vector<std::shared_ptr<const tss::MuscleDeformer>> muscles;
-    std::vector<Rider> riders; ///< one per muscle sphere
+    BodyFrame body;
     osg::observer_ptr<SkinGeometry> shape;
+    std::vector<DrawnUnder> under;
+    std::vector<tss::MusclePoint> points; ///< one per muscle sphere
 
     void follow(const Scene& scene, double time, osg::Node& root, const osg::Matrixd& fromRoot) {
-        const auto now = body.now(root, fromRoot);
+        const auto now = placeNow(body, root, fromRoot);
         if (!now || !shape.valid() || !shape->getVertices()) return;
         for (std::size_t i = 0; i < table.a.size(); ++i) {
             const std::uint32_t vertex = source->skinVertices[i];
@@ -211,19 +201,17 @@ struct DrawnSkin {
         }
         std::vector<tss::MuscleState> states;
         std::vector<std::optional<Similarity>> places;
-        for (std::size_t m = 0; m < muscles.size(); ++m) {
-            const int muscle = under[m].muscle;
-            states.push_back(muscles[m]->state(muscle < 0 ? 0 : scene.getActivation(muscle, time)));
-            places.push_back(muscleBodies[m].now(root, fromRoot));
+        for (const DrawnUnder& of : under) {
+            states.push_back(of.shape->state(of.muscle < 0 ? 0 : scene.getActivation(of.muscle, time)));
+            places.push_back(placeNow(of.body, root, fromRoot));
         }
         for (std::size_t i = 0; i < table.b.size(); ++i) {
             const std::size_t m = source->muscleOf[i];
             if (!places[m]) continue;
-            const Rider& rider = riders[i];
-            const double thickness = rider.muscle->thickness(rider.point.s, states[m]);
-            table.b[i] =
-                moved({rider.muscle->map(rider.point, states[m]), source->table.b[i].radius * thickness},
-                      *places[m]);
+            const double thickness = under[m].shape->thickness(points[i].s, states[m]);
+            table.b[i] = moved({under[m].toBody * under[m].shape->map(points[i], states[m]),
+                                source->table.b[i].radius * thickness},
+                               *places[m]);
         }
         table.draw();
     }
@@ -240,47 +228,36 @@ struct Overlay::Drawing {
 
     Drawing(osg::Node& root, const Scene& scene) : model(scene.shareModel()) {
         const BodyNodes nodes = findBodyNodes(root);
-        const auto carrier = [&](int body) {
-            const auto found = nodes.frames.find(model->bodies[body].path);
-            return found == nodes.frames.end() ? Carrier{} : Carrier{found->second.node, found->second.scale};
-        };
-        for (const tss::Pair& pair : model->pairs)
-            if (pair.table)
-                pairs.push_back({DrawnTable(*pair.table),
-                                 {tss::meshOf(model->bodies[pair.bodyA].mesh, pair.table->restRegion.a),
-                                  tss::meshOf(model->bodies[pair.bodyB].mesh, pair.table->restRegion.b)},
-                                 pair.table.get(),
-                                 carrier(pair.bodyA),
-                                 carrier(pair.bodyB)});
-        for (const tss::SkinModel& skin : model->skins) {
-            const auto shape = nodes.shapes.find(model->bodies[skin.body].path);
-            if (!skin.table || shape == nodes.shapes.end()) continue;
-            DrawnSkin drawn{DrawnTable(skin.table->table),
-                            skin.table.get(),
-                            &model->bodies[skin.body].mesh,
-                            carrier(skin.body),
-                            {},
-                            {},
-                            {},
-                            {},
-                            shape->second};
-            const tss::Pose& skinPlace = model->bodies[skin.body].placement;
-            std::vector<tss::Pose> toMuscle;
-            drawn.under = tss::underSkin(*model, skin);
-            std::erase_if(drawn.under, [](const tss::UnderSkin& under) { return under.body < 0; });
-            for (const tss::UnderSkin& under : drawn.under) {
-                drawn.muscleBodies.push_back(carrier(under.body));
-                drawn.muscles.push_back(under.muscle >= 0 ? scene.getCache().muscle(under.muscle)
-                                                          : bone(model->bodies[under.body].mesh));
-                toMuscle.push_back(model->bodies[under.body].placement.inverse(Eigen::Isometry) * skinPlace);
-            }
-            for (std::size_t i = 0; i < skin.table->table.b.size(); ++i) {
-                const std::size_t m = skin.table->muscleOf[i];
-                drawn.riders.push_back({drawn.muscles[m].get(),
-                                        drawn.muscles[m]->bind(toMuscle[m] * skin.table->table.b[i].centre)});
-            }
-            skins.push_back(std::move(drawn));
+        for (const tss::Pair& pair : model->pairs) {
+            if (!pair.table) continue;
+            const tss::Body &a = model->bodies[pair.bodyA], &b = model->bodies[pair.bodyB];
+            pairs.push_back({DrawnTable(*pair.table),
+                             {tss::meshOf(a.mesh, pair.table->restRegion.a),
+                              tss::meshOf(b.mesh, pair.table->restRegion.b)},
+                             pair.table.get(),
+                             nodes.frame(a.path),
+                             nodes.frame(b.path)});
         }
+        for (const tss::SkinModel& skin : model->skins) addSkin(nodes, skin);
+    }
+
+    void addSkin(const BodyNodes& nodes, const tss::SkinModel& skin) {
+        const tss::Body& body = model->bodies[skin.body];
+        SkinGeometry* shape = nodes.shape(body.path);
+        if (!skin.table || !shape) return;
+        const tss::Table& table = skin.table->table;
+        DrawnSkin drawn{
+            DrawnTable(table), skin.table.get(), &body.mesh, nodes.frame(body.path), shape, {}, {}};
+        const std::vector<tss::UnderSkin> under = tss::underSkin(*model, skin);
+        const auto shapes = tss::skinMuscles(*model, skin);
+        for (std::size_t k = 0; k < under.size() && under[k].body >= 0; ++k) {
+            const tss::Body& of = model->bodies[under[k].body];
+            drawn.under.push_back({nodes.frame(of.path), shapes[k], under[k].muscle,
+                                   of.placement.inverse(Eigen::Isometry) * body.placement});
+        }
+        for (std::size_t i = 0; i < table.b.size(); ++i)
+            drawn.points.push_back(shapes[skin.table->muscleOf[i]]->bind(table.b[i].centre));
+        skins.push_back(std::move(drawn));
     }
 
     template <class Each>
@@ -344,8 +321,7 @@ void Overlay::traverse(osg::NodeVisitor& visitor) {
     if (!_drawing->drawn || _drawing->traversal != visitor.getTraversalNumber()) {
         _drawing->drawn = true;
         _drawing->traversal = visitor.getTraversalNumber();
-        const osg::MatrixList own = getWorldMatrices(&root);
-        const osg::Matrixd fromRoot = own.empty() ? osg::Matrixd() : osg::Matrixd::inverse(own.front());
+        const osg::Matrixd fromRoot = osg::Matrixd::inverse(*toAbove(root, *this));
         for (DrawnPair& pair : _drawing->pairs) pair.follow(root, fromRoot);
         if (const osg::FrameStamp* stamp = visitor.getFrameStamp())
             for (DrawnSkin& skin : _drawing->skins)

@@ -1,13 +1,11 @@
 #include "CollectTriangles.h"
 
-#include <osg/Geometry>
 #include <osg/TriangleFunctor>
 #include <osg/TriangleIndexFunctor>
 #include <osgTSS/Convert>
 
 #include <algorithm>
 #include <map>
-#include <vector>
 
 namespace osgTSS {
 
@@ -57,16 +55,9 @@ struct Points {
     void operator()(const osg::Vec3& a, const osg::Vec3& b, const osg::Vec3& c, bool) { (*this)(a, b, c); }
 };
 
-/// Of a geometry, by its vertices.
 struct Corners {
-    Collector* collector = nullptr;
-    const std::vector<osg::Vec3d>* vertices = nullptr;
-    void operator()(unsigned int a, unsigned int b, unsigned int c) {
-        if (std::max({a, b, c}) < vertices->size())
-            collector->add((*vertices)[a], (*vertices)[b], (*vertices)[c]);
-        else
-            ++collector->dropped;
-    }
+    std::vector<std::array<unsigned int, 3>> all;
+    void operator()(unsigned int a, unsigned int b, unsigned int c) { all.push_back({a, b, c}); }
 };
 
 /// The places of a geometry's vertices, whatever they are stored as.
@@ -117,23 +108,34 @@ double determinant(const osg::Matrixd& m) {
     return (x ^ y) * z;
 }
 
+std::vector<osg::Vec3d> pointsOf(const osg::Geometry& geometry) {
+    Vertices vertices;
+    if (geometry.getVertexArray()) geometry.getVertexArray()->accept(vertices);
+    return std::move(vertices.all);
+}
+
+std::vector<std::array<unsigned int, 3>> trianglesOf(const osg::Geometry& geometry) {
+    osg::TriangleIndexFunctor<Corners> corners;
+    for (const auto& primitives : geometry.getPrimitiveSetList())
+        if (primitives) primitives->accept(corners);
+    return std::move(corners.all);
+}
+
 std::size_t collectTriangles(const osg::Drawable& drawable, const osg::Matrixd& matrix, double scale,
                              tss::TriangleMesh& mesh) {
     if (shrunkToPoint(matrix)) return 0; // draws nothing
     Collector collector(matrix, scale, (determinant(matrix) < 0) != (scale < 0), mesh);
-    const osg::Geometry* geometry = drawable.asGeometry();
-    if (!geometry) {
+    if (const osg::Geometry* geometry = drawable.asGeometry()) {
+        const std::vector<osg::Vec3d> points = pointsOf(*geometry);
+        for (const auto& [a, b, c] : trianglesOf(*geometry))
+            if (std::max({a, b, c}) < points.size())
+                collector.add(points[a], points[b], points[c]);
+            else if (!points.empty())
+                ++collector.dropped;
+    } else {
         osg::TriangleFunctor<Points> functor;
         functor.collector = &collector;
         drawable.accept(functor);
-    } else if (geometry->getVertexArray()) {
-        Vertices vertices;
-        geometry->getVertexArray()->accept(vertices);
-        osg::TriangleIndexFunctor<Corners> functor;
-        functor.collector = &collector;
-        functor.vertices = &vertices.all;
-        for (const auto& primitives : geometry->getPrimitiveSetList())
-            if (primitives) primitives->accept(functor);
     }
     return collector.dropped;
 }

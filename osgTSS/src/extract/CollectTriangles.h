@@ -1,8 +1,11 @@
 #pragma once
 #include "bake/geometry/TriangleMesh.h"
 
-#include <osg/Drawable>
+#include <osg/Geometry>
 #include <osg/Matrixd>
+
+#include <array>
+#include <vector>
 
 namespace osgTSS {
 
@@ -12,6 +15,12 @@ namespace osgTSS {
 /// Returns how many were left out since a corner is no finite point, or no vertex of the geometry.
 std::size_t collectTriangles(const osg::Drawable& drawable, const osg::Matrixd& matrix, double scale,
                              tss::TriangleMesh& mesh);
+
+/// The places of a geometry's vertices, whatever they are stored as; none for what is no place.
+std::vector<osg::Vec3d> pointsOf(const osg::Geometry& geometry);
+
+/// The triangles of a geometry, by its vertices.
+std::vector<std::array<unsigned int, 3>> trianglesOf(const osg::Geometry& geometry);
 
 /// Of the upper 3x3 part: below 0 where the matrix mirrors.
 double determinant(const osg::Matrixd& matrix);

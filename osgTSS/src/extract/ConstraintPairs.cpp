@@ -3,7 +3,7 @@
 #include "osgTSS/src/joints/AnimationChannels.h"
 
 #include "bake/base/Error.h"
-#include "bake/model/AddPair.h"
+#include "bake/model/Kinematics.h"
 #include "bake/motion/MotionBound.h"
 
 #include <osg/Notify>
@@ -14,25 +14,12 @@
 // Which of the bodies that were found are pairs.
 namespace osgTSS {
 
-std::vector<int> ConstraintVisitor::jointsToTop(int body) const {
-    std::vector<int> joints;
-    for (int joint = _jointAbove[body]; joint >= 0; joint = _jointAbove[_model.joints[joint].body0])
-        joints.push_back(joint);
-    return joints;
-}
-
 /// A pair of two bodies by the joints between them; not where those have more DOFs than a table can.
-void ConstraintVisitor::addPair(int a, int b) {
-    std::vector<int> up = jointsToTop(a), down = jointsToTop(b);
-    while (!up.empty() && !down.empty() && up.back() == down.back()) {
-        up.pop_back();
-        down.pop_back();
-    }
+void ConstraintVisitor::addPair(int a, int b, const std::vector<int>& joints) {
     tss::Pair pair;
     pair.bodyA = a;
     pair.bodyB = b;
-    pair.joints = up;
-    pair.joints.insert(pair.joints.end(), down.rbegin(), down.rend());
+    pair.joints = joints;
     std::size_t dofs = 0;
     for (int joint : pair.joints) dofs += _model.joints[joint].dofs.size();
     if (dofs > tss::maxDofs) {
@@ -85,6 +72,7 @@ void ConstraintVisitor::addPairs() {
         while (_jointAbove[body] >= 0) body = _model.joints[_jointAbove[body]].body0;
         return body;
     };
+    const tss::JointWays ways(_model.joints);
     const int count = static_cast<int>(_model.bodies.size());
     for (int body = 0; body < count; ++body)
         if (_dropped[body] > 0 && !_quiet)
@@ -95,7 +83,7 @@ void ConstraintVisitor::addPairs() {
         for (int a = 0; a < b; ++a)
             if (_dropped[a] == 0 && _dropped[b] == 0 && !_model.bodies[a].mesh.empty() &&
                 !_model.bodies[b].mesh.empty() && top(a) == top(b) && wanted(a, b))
-                addPair(a, b);
+                addPair(a, b, *ways.chain(a, b)); // the only one: joints make a tree
     if (_tooManyDofs > 0 && !_quiet)
         OSG_NOTICE << "osgTSS: " << _tooManyDofs
                    << " pairs of bodies are left out: the joints between them have more "

@@ -37,7 +37,7 @@ void ConstraintVisitor::addSoftBody(osg::Drawable& drawable, const char* fallbac
     const osg::ref_ptr<osg::Geometry> shape = shapeOf(drawable);
     const auto similarity = toSimilarity(_place.toBody);
     if (!similarity) throw tss::InputError("the transforms above it shear, or scale axes differently");
-    Place place;
+    PlaceInBody place;
     place.scale = _place.scale * similarity->scale;
     place.visible = _place.visible;
     place.color = _place.color;
@@ -67,15 +67,14 @@ bool ConstraintVisitor::addSoft(osg::Drawable& drawable) {
             const auto* morph = dynamic_cast<osgAnimation::MorphGeometry*>(own);
             if (morph)
                 model.travel = std::max(model.travel, reachOf(*morph) * std::abs(_bodyNodes.back().scale));
-            _soft->addSkin(model, drawable.getName(), carrier);
+            _soft->skins.push_back({model, drawable.getName(), carrier});
             if (morph) _soft->setCarried(_model, model.body);
             auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(own);
             if (rig && _skeleton) _skeleton->skins.push_back({rig, model.body, _bodyNodes.back().scale});
             return true;
         }
-        tss::MuscleModel model;
-        const MuscleTag tag = parseMuscle(*muscle);
-        model.muscle = tag.muscle;
+        TaggedMuscle tagged = parseMuscle(*muscle);
+        tss::MuscleModel& model = tagged.model;
         osg::Drawable* own = replacedBy(drawable);
         if (dynamic_cast<osgAnimation::MorphGeometry*>(own ? own : &drawable))
             throw tss::InputError("expected a shape of its own, and it has morph targets");
@@ -88,7 +87,7 @@ bool ConstraintVisitor::addSoft(osg::Drawable& drawable) {
         model.body = static_cast<int>(_model.bodies.size()) - 1;
         model.bone = carrier;
         model.path = freePath(drawable.getName().empty() ? "Muscle" : drawable.getName());
-        _soft->addMuscle(model, tag.skins, tag.to);
+        _soft->muscles.push_back(std::move(tagged));
     } catch (const tss::InputError& error) {
         warn(std::string(skin ? "it is no skin: " : "it is no muscle: ") + error.message);
     }

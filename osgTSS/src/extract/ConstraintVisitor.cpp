@@ -97,11 +97,11 @@ void ConstraintVisitor::begin(osg::Node& node) {
     if (node.asTransform()) _bodyNodes.back().node = nullptr; // the node's own frame is another
 }
 
-void ConstraintVisitor::enter(osg::Node& node, const Place& place) {
-    const Place above = _place;
+void ConstraintVisitor::enter(osg::Node& node, const PlaceInBody& place) {
+    const PlaceInBody above = _place;
     _place = place;
     _place.visible = place.visible && node.getNodeMask() != 0;
-    if (_skeleton) _skeleton->addNode(node, {place.body, place.toBody, place.scale});
+    if (_skeleton) _skeleton->addNode(node, place);
     const osg::Material* material = materialOf(node);
     if (material && material->getColorMode() == osg::Material::OFF)
         _place.color = material->getDiffuse(osg::Material::FRONT);
@@ -109,7 +109,7 @@ void ConstraintVisitor::enter(osg::Node& node, const Place& place) {
     std::string group;
     if (node.getUserValue("osgTSS:collides", group)) _groups[_place.body].insert(group);
     if (const auto skins = tagWords(node, boneTag))
-        _soft->addBone(_place.body, node.getName(), wordsOf(*skins));
+        _soft->bones.push_back({_place.body, node.getName(), wordsOf(*skins)});
     if (auto* levels = dynamic_cast<osg::LOD*>(&node))
         traverseLevels(*levels);
     else
@@ -159,7 +159,7 @@ void ConstraintVisitor::applyTransform(osg::Transform& node) {
     else
         node.computeLocalToWorldMatrix(matrix, this);
     if (moves) return enterMoved(node, matrix);
-    Place place = _place;
+    PlaceInBody place = _place;
     place.toBody = matrix;
     enter(node, place);
 }
@@ -205,11 +205,11 @@ void ConstraintVisitor::traverseLevels(osg::LOD& node) {
 void ConstraintVisitor::apply(osg::Drawable& drawable) {
     begin(drawable);
     if (leftOut(drawable)) return;
-    const Place place = _place;
+    const PlaceInBody place = _place;
     enter(drawable, place);
     if (addSoft(drawable)) return;
     if (auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable); rig && _skeleton)
-        return addRig(*rig);
+        return _skeleton->addRig(*rig, getNodePath(), _place);
     tss::Body& body = _model.bodies[_place.body];
     const bool first = body.mesh.empty();
     _dropped[_place.body] += collectTriangles(drawable, place.toBody, place.scale, body.mesh);
@@ -217,7 +217,7 @@ void ConstraintVisitor::apply(osg::Drawable& drawable) {
 }
 
 /// first: the body shows nothing else yet.
-void ConstraintVisitor::addLook(const osg::Drawable& drawable, const Place& place, bool first) {
+void ConstraintVisitor::addLook(const osg::Drawable& drawable, const PlaceInBody& place, bool first) {
     tss::Body& body = _model.bodies[place.body];
     const bool visible = place.visible && drawable.getNodeMask() != 0;
     body.visible = first ? visible : body.visible || visible;
@@ -243,29 +243,21 @@ void ConstraintVisitor::applySkeleton(osg::Transform& node) {
             warn("skin " + skin.rig->getName() + ": at " + std::to_string(torn) +
                  " places of it stand vertices that different bones hold, and go on to move as one");
     }
-    for (RigParts::Part& part : _skeleton->parts()) {
-        tss::Body& body = _model.bodies[part.body];
+    for (const auto& [index, part] : _skeleton->parts()) {
+        tss::Body& body = _model.bodies[index];
         const bool first = body.mesh.empty();
         const int offset = static_cast<int>(body.mesh.vertices.size());
         body.mesh.vertices.insert(body.mesh.vertices.end(), part.mesh.vertices.begin(),
                                   part.mesh.vertices.end());
         for (const tss::Tri& triangle : part.mesh.triangles)
             body.mesh.triangles.push_back(triangle + tss::Tri::Constant(offset));
-        _dropped[part.body] += part.dropped;
+        _dropped[index] += part.dropped;
         if (body.mesh.empty()) continue;
-        const SkeletonMeshes::Look& look = _skeleton->look(part.rig);
-        Place place;
-        place.body = part.body;
-        place.visible = look.visible;
-        place.color = look.color;
-        addLook(*look.drawable, place, first);
+        PlaceInBody place = part.rig->place;
+        place.body = index;
+        addLook(*part.rig->geometry, place, first);
     }
     _skeleton = std::move(outer);
-}
-
-void ConstraintVisitor::addRig(osgAnimation::RigGeometry& rig) {
-    _skeleton->addRig(rig, getNodePath(), {_place.body, _place.toBody, _place.scale},
-                      {&rig, _place.visible, _place.color});
 }
 
 void ConstraintVisitor::enterJoint(osg::Transform& node, FoundJoints found) {
@@ -302,7 +294,7 @@ void ConstraintVisitor::enterJoint(osg::Transform& node, FoundJoints found) {
         const bool last = k + 1 == found.joints.size();
         body = addJoint(joint, body, node, last ? scale * found.scale : 0);
     }
-    Place place;
+    PlaceInBody place;
     place.body = body;
     place.scale = scale * found.scale;
     place.visible = _place.visible;
@@ -330,7 +322,7 @@ void ConstraintVisitor::enterMoved(osg::Transform& node, const osg::Matrixd& mat
     const auto similarity = toSimilarity(matrix);
     if (!similarity)
         return warn("what hangs below is left out: it moves, and shears or scales axes differently");
-    Place place = _place;
+    PlaceInBody place = _place;
     place.scale = _place.scale * similarity->scale;
     place.toBody = osg::Matrixd();
     tss::Pose local = similarity->pose;

@@ -1,5 +1,6 @@
 #include "Machines.h"
 
+#include "FindQuietly.h"
 #include "TableFit.h"
 #include "osgTSS/src/draw/BodyNodes.h"
 #include "osgTSS/src/joints/JointNodes.h"
@@ -26,7 +27,7 @@ int ordinal(const std::vector<osg::Node*>& nodes, int joint) {
 } // namespace
 
 Machines::Machines(osg::Node& root, const tss::SceneModel& model)
-    : _root(root), _model(model), _tagged(findAllJointNodes(root)) {
+    : _root(root), _model(model), _tagged(findJointNodes(root)) {
     for (std::size_t j = 0; j < model.joints.size(); ++j)
         _modelJoints.emplace(model.joints[j].path, static_cast<int>(j));
 }
@@ -35,10 +36,7 @@ const Machines::Extraction& Machines::extraction(bool activeOnly) {
     std::unique_ptr<Extraction>& made = activeOnly ? _active : _all;
     if (!made) {
         made = std::make_unique<Extraction>();
-        made->visitor.setQuiet(true);
-        made->visitor.setActiveOnly(activeOnly);
-        _root.accept(made->visitor);
-        made->found = &made->visitor.getModel();
+        made->found = &findQuietly(_root, made->visitor, activeOnly);
     }
     return *made;
 }

@@ -1,39 +1,38 @@
 #pragma once
-#include "RigParts.h"
-
 #include <osg/Transform>
-#include <osg/Vec4>
+#include <osgAnimation/Bone>
+#include <osgAnimation/RigGeometry>
+#include <osgTSS/ConstraintVisitor>
 
-#include <algorithm>
-#include <optional>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace osgTSS {
 
-/// What a visitor meets below one skeleton.
-struct SkeletonMeshes {
-    /// How a rigged mesh is drawn.
-    struct Look {
-        const osg::Drawable* drawable = nullptr;
-        bool visible = true;
-        std::optional<osg::Vec4> color{};
-    };
-
+/// What a visitor meets below one skeleton: the rigged meshes, cut into the parts that its bones hold. A
+/// triangle is of the body whose bones weigh most at its corners, in the place that it is bound in.
+class SkeletonMeshes {
+public:
     explicit SkeletonMeshes(const osg::Transform& skeleton) : _skeleton(skeleton) {}
 
     const osg::Node& skeleton() const { return _skeleton; }
 
     /// Takes note of where a bone's own coordinates are; other nodes are passed over.
-    void addNode(const osg::Node& node, const InBody& place) {
-        if (const auto* bone = dynamic_cast<const osgAnimation::Bone*>(&node)) _parts.addBone(*bone, place);
+    void addNode(const osg::Node& node, const PlaceInBody& place) {
+        if (const auto* bone = dynamic_cast<const osgAnimation::Bone*>(&node))
+            _bones[bone->getName()] = {bone, place};
     }
 
-    /// path: from the root to the mesh.
-    void addRig(osgAnimation::RigGeometry& rig, const osg::NodePath& path, const InBody& place,
-                const Look& look) {
-        const auto at = std::find(path.begin(), path.end(), &_skeleton);
-        _parts.addRig(rig, osg::computeLocalToWorld(osg::NodePath(at + 1, path.end())), place);
-        _looks.push_back(look);
+    /// The body that a bone is part of; -1: there is none of this name.
+    int bodyOf(const std::string& bone) const {
+        const auto found = _bones.find(bone);
+        return found != _bones.end() ? found->second.place.body : -1;
     }
+
+    /// path: from the root to the mesh. place: of the node that it hangs below, for vertices that no bone
+    /// holds.
+    void addRig(osgAnimation::RigGeometry& rig, const osg::NodePath& path, const PlaceInBody& place);
 
     /// A mesh that is a skin, which is no part of any bone.
     struct Skin {
@@ -43,14 +42,32 @@ struct SkeletonMeshes {
     };
     std::vector<Skin> skins;
 
-    int bodyOf(const std::string& bone) const { return _parts.bodyOf(bone); }
-    std::vector<RigParts::Part> parts() const { return _parts.parts(); }
-    const Look& look(std::size_t rig) const { return _looks[rig]; }
+    struct Rig {
+        osgAnimation::RigGeometry* geometry = nullptr;
+        osg::Matrixd toSkeleton;
+        PlaceInBody place;
+    };
+    /// What a body has of the meshes.
+    struct Part {
+        const Rig* rig = nullptr; ///< the first one, in the order that they were added
+        tss::TriangleMesh mesh;
+        std::size_t dropped = 0; ///< triangles left out since a corner is no finite point
+    };
+
+    /// The parts, by body. Meshes hang together where their vertices are at one place; where a part was cut
+    /// off another its rim is closed by a fan, so that what was a solid is cut into solids.
+    std::map<int, Part> parts() const;
 
 private:
+    struct Held {
+        const osgAnimation::Bone* bone = nullptr;
+        PlaceInBody place;
+    };
+    class Cutter;
+
     const osg::Transform& _skeleton;
-    RigParts _parts;
-    std::vector<Look> _looks;
+    std::map<std::string, Held> _bones;
+    std::vector<Rig> _rigs;
 };
 
 } // namespace osgTSS

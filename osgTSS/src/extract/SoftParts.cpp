@@ -102,25 +102,13 @@ double reachOf(const osgAnimation::MorphGeometry& morph) {
     return reach.empty() ? 0 : *std::ranges::max_element(reach);
 }
 
-void SoftParts::addBone(int body, std::string name, std::vector<std::string> skins) {
-    _bones.push_back({body, std::move(name), std::move(skins)});
-}
-
-void SoftParts::addSkin(tss::SkinModel skin, std::string name, int carrier) {
-    _skins.push_back({std::move(skin), std::move(name), carrier});
-}
-
-void SoftParts::addMuscle(tss::MuscleModel muscle, std::vector<std::string> skins, std::string to) {
-    _muscles.push_back({std::move(muscle), std::move(skins), std::move(to)});
-}
-
-tss::MuscleModel SoftParts::finished(const tss::SceneModel& scene, const Muscle& muscle) const {
+tss::MuscleModel SoftParts::finished(const tss::SceneModel& scene, const TaggedMuscle& muscle) const {
     tss::MuscleModel model = muscle.model;
     model.muscle.surface = scene.bodies[model.body].mesh;
     model.muscle.fibre = findFibre(scene, model);
     if (muscle.to.empty()) return model;
-    const auto bone = std::ranges::find_if(_bones, [&](const Bone& b) { return b.name == muscle.to; });
-    if (bone == _bones.end())
+    const auto bone = std::ranges::find_if(bones, [&](const Bone& b) { return b.name == muscle.to; });
+    if (bone == bones.end())
         throw tss::InputError("no node that is tagged as a bone is called \"" + muscle.to + "\"");
     if (bone->body != model.bone) model.insertionBone = bone->body;
     return model;
@@ -130,11 +118,11 @@ tss::MuscleModel SoftParts::finished(const tss::SceneModel& scene, const Muscle&
 std::size_t SoftParts::setWeights(tss::SceneModel& scene, int body, osgAnimation::RigGeometry& rig,
                                   double scale, const std::function<int(const std::string&)>& bodyOf) {
     const auto skin =
-        std::ranges::find_if(_skins, [&](const Skin& found) { return found.model.body == body; });
+        std::ranges::find_if(skins, [&](const Skin& found) { return found.model.body == body; });
     const tss::TriangleMesh& mesh = scene.bodies[body].mesh;
     const osg::ref_ptr<osg::Geometry> source = restGeometryOf(rig);
     const auto drawn = DrawnVertices::of(*source, mesh, scale, {});
-    if (skin == _skins.end() || !drawn) return 0;
+    if (skin == skins.end() || !drawn) return 0;
     skin->rigged = true;
     const std::vector<Held> held = heldBy(rig, source->getVertexArray()->getNumElements(), bodyOf);
     const std::vector<bool> used = verticesIn(*source, true);
@@ -171,7 +159,7 @@ std::size_t SoftParts::setWeights(tss::SceneModel& scene, int body, osgAnimation
 }
 
 void SoftParts::setCarried(tss::SceneModel& scene, int body) {
-    for (Skin& skin : _skins) {
+    for (Skin& skin : skins) {
         if (skin.model.body != body) continue;
         const std::size_t count = scene.bodies[body].mesh.vertices.size();
         skin.model.weights.influences = 1;
@@ -185,37 +173,38 @@ void SoftParts::setCarried(tss::SceneModel& scene, int body) {
 /// The bodies that are tagged to be; without any tag all that have a mesh, but below a rigged mesh, which is
 /// the shape of the bones itself, none.
 std::vector<int> SoftParts::bonesOf(const tss::SceneModel& scene, const Skin& skin) const {
-    std::vector<int> bones;
+    std::vector<int> found;
     const auto soft = [&](int body) {
-        return std::ranges::any_of(_skins, [&](const Skin& other) { return other.model.body == body; }) ||
-               std::ranges::any_of(_muscles, [&](const Muscle& other) { return other.model.body == body; });
+        return std::ranges::any_of(skins, [&](const Skin& other) { return other.model.body == body; }) ||
+               std::ranges::any_of(muscles,
+                                   [&](const TaggedMuscle& other) { return other.model.body == body; });
     };
     const auto add = [&](int body) {
-        if (!soft(body) && !scene.bodies[body].mesh.empty() && std::ranges::find(bones, body) == bones.end())
-            bones.push_back(body);
+        if (!soft(body) && !scene.bodies[body].mesh.empty() && std::ranges::find(found, body) == found.end())
+            found.push_back(body);
     };
-    for (const Bone& bone : _bones)
+    for (const Bone& bone : bones)
         if (means(bone.skins, skin.name)) add(bone.body);
-    if (_bones.empty() && !skin.rigged)
+    if (bones.empty() && !skin.rigged)
         for (std::size_t body = 0; body < scene.bodies.size(); ++body) add(static_cast<int>(body));
-    return bones;
+    return found;
 }
 
 void SoftParts::finish(tss::SceneModel& scene, const std::function<void(const std::string&)>& tell) const {
-    std::vector<std::pair<int, const Muscle*>> muscles; ///< place in the scene
-    for (const Muscle& muscle : _muscles) {
+    std::vector<std::pair<int, const TaggedMuscle*>> placed; ///< place in the scene
+    for (const TaggedMuscle& muscle : muscles) {
         try {
             scene.muscles.push_back(finished(scene, muscle));
-            muscles.emplace_back(static_cast<int>(scene.muscles.size()) - 1, &muscle);
+            placed.emplace_back(static_cast<int>(scene.muscles.size()) - 1, &muscle);
         } catch (const tss::InputError& error) {
             tell(muscle.model.path + ": it is no muscle: " + error.message);
         }
     }
-    for (const Skin& skin : _skins) {
+    for (const Skin& skin : skins) {
         tss::SkinModel model = skin.model;
         model.path = scene.bodies[model.body].path;
         model.bones = bonesOf(scene, skin);
-        for (const auto& [index, muscle] : muscles)
+        for (const auto& [index, muscle] : placed)
             if (means(muscle->skins, skin.name)) model.muscles.push_back(index);
         if (model.bones.empty() && model.muscles.empty() && model.weights.joints.empty()) {
             tell(model.path + ": a skin with nothing below it stays as it is");

@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/model/SceneModel.h"
+#include "SoftTags.h"
 
 #include <osgAnimation/MorphGeometry>
 #include <osgAnimation/RigGeometry>
@@ -19,17 +19,23 @@ osg::ref_ptr<osg::Geometry> restGeometryOf(osg::Drawable& drawable);
 double reachOf(const osgAnimation::MorphGeometry& morph);
 
 /// What a visitor meets of skins, of muscles and of the bones below them.
-class SoftParts {
-public:
-    /// A body of the model that skins lie on, by the node that was tagged. skins: their names, none: all.
-    void addBone(int body, std::string name, std::vector<std::string> skins);
-    /// Its body is in the model, with its mesh. carrier: the body that its node is part of.
-    void addSkin(tss::SkinModel skin, std::string name, int carrier);
-    /// The same of a muscle, which rides on its carrier.
-    /// to: the name of the bone that its insertion moves with.
-    void addMuscle(tss::MuscleModel muscle, std::vector<std::string> skins, std::string to);
-
-    bool empty() const { return _skins.empty() && _muscles.empty(); }
+struct SoftParts {
+    struct Skin {
+        tss::SkinModel model; ///< its body is in the scene, with its mesh
+        std::string name;
+        int carrier = -1; ///< the body that its node is part of
+        bool rigged = false;
+    };
+    /// A body that skins lie on, by the node that was tagged.
+    struct Bone {
+        int body = -1;
+        std::string name;
+        std::vector<std::string> skins; ///< their names, none: all
+    };
+    std::vector<Skin> skins;
+    std::vector<TaggedMuscle>
+        muscles; ///< their bodies likewise; each rides on the body that its node is part of
+    std::vector<Bone> bones;
 
     /// The weights that a rigged mesh has, for its skin. bodyOf: of a bone by its name, -1: not known.
     /// Returns at how many places there are vertices that different bones hold.
@@ -44,28 +50,8 @@ public:
     void finish(tss::SceneModel& scene, const std::function<void(const std::string&)>& tell) const;
 
 private:
-    struct Skin {
-        tss::SkinModel model;
-        std::string name;
-        int carrier = -1;
-        bool rigged = false;
-    };
-    struct Muscle {
-        tss::MuscleModel model;
-        std::vector<std::string> skins;
-        std::string to;
-    };
-    struct Bone {
-        int body = -1;
-        std::string name;
-        std::vector<std::string> skins;
-    };
-    tss::MuscleModel finished(const tss::SceneModel& scene, const Muscle& muscle) const;
+    tss::MuscleModel finished(const tss::SceneModel& scene, const TaggedMuscle& muscle) const;
     std::vector<int> bonesOf(const tss::SceneModel& scene, const Skin& skin) const;
-
-    std::vector<Skin> _skins;
-    std::vector<Muscle> _muscles;
-    std::vector<Bone> _bones;
 };
 
 } // namespace osgTSS

@@ -72,20 +72,20 @@ tss::SkinModel parseSkin(const std::string& words) {
     return skin;
 }
 
-MuscleTag parseMuscle(const std::string& words) {
-    MuscleTag tag;
+TaggedMuscle parseMuscle(const std::string& words) {
+    TaggedMuscle tag;
     for (const std::string& text : wordsOf(words)) {
         const Word word = split(text);
         if (text == "tube")
-            tag.muscle.form = tss::MuscleForm::Tube;
+            tag.model.muscle.form = tss::MuscleForm::Tube;
         else if (text == "sheet")
-            tag.muscle.form = tss::MuscleForm::Sheet;
+            tag.model.muscle.form = tss::MuscleForm::Sheet;
         else if (text == "ring")
-            tag.muscle.form = tss::MuscleForm::Ring;
+            tag.model.muscle.form = tss::MuscleForm::Ring;
         else if (word.key == "contract")
-            tag.muscle.maxContraction = numberOf(word, muscleTag, 0, std::nextafter(1.0, 0.0));
+            tag.model.muscle.maxContraction = numberOf(word, muscleTag, 0, std::nextafter(1.0, 0.0));
         else if (word.key == "anchor")
-            tag.muscle.anchor = numberOf(word, muscleTag, 0, 1);
+            tag.model.muscle.anchor = numberOf(word, muscleTag, 0, 1);
         else if (word.key == "skin" && !word.value.empty())
             tag.skins.push_back(word.value);
         else if (word.key == "to" && !word.value.empty())

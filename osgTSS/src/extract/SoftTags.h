@@ -26,14 +26,14 @@ std::vector<std::string> wordsOf(const std::string& text);
 tss::SkinModel parseSkin(const std::string& words);
 
 /// A muscle as its words say: without a surface and a fibre.
-struct MuscleTag {
-    tss::Muscle muscle;
+struct TaggedMuscle {
+    tss::MuscleModel model;
     std::vector<std::string> skins; ///< the names of those that it pushes; none: all
     std::string to; ///< the name of the bone that its insertion moves with; empty: as its origin
 };
 
 /// "sheet contract=0.15 anchor=0.5 skin=NAME to=NAME". Throws tss::InputError.
-MuscleTag parseMuscle(const std::string& words);
+TaggedMuscle parseMuscle(const std::string& words);
 
 /// "0:0 1:1 2:0": activations over seconds, as samples over time codes. Throws tss::InputError.
 tss::TimeSamples parseActivation(const std::string& words, double timeCodesPerSecond);

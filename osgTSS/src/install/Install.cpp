@@ -117,7 +117,7 @@ void installGroup(osg::Node& root, Scene& scene, const std::vector<PairPlace>& g
     for (const PairPlace& place : group)
         for (std::size_t k = 0; k < place.joints.size(); ++k) {
             const std::string& path = model.joints[model.pairs[place.pair].joints[k]].path;
-            if (below.at(path) != place.joints[k])
+            if (below.at(path).front() != place.joints[k])
                 OSG_WARN << "osgTSS: joint " << path << " is there several times below node \""
                          << node.getName() << "\", and is served once; give each machine a node of its own"
                          << std::endl;

@@ -1,8 +1,10 @@
 #include "InstallSkins.h"
 
 #include "osgTSS/src/EachNode.h"
+#include "osgTSS/src/NodePaths.h"
 #include "osgTSS/src/draw/BodyNodes.h"
 #include "osgTSS/src/draw/DrawnVertices.h"
+#include "osgTSS/src/extract/FindQuietly.h"
 #include "osgTSS/src/extract/SoftParts.h"
 #include "osgTSS/src/extract/SoftTags.h"
 
@@ -70,11 +72,8 @@ osg::ref_ptr<SkinGeometry> shownInsteadOf(osg::Drawable& drawable, const std::st
 /// The groups of the graph below root that hold the drawable; copies of the graph may hold it too.
 std::vector<osg::Group*> parentsBelow(osg::Node& root, osg::Drawable& drawable) {
     std::vector<osg::Group*> parents;
-    for (osg::Group* parent : drawable.getParents()) {
-        const osg::NodePathList paths = parent->getParentalNodePaths(&root);
-        if (std::ranges::any_of(paths, [&](const osg::NodePath& path) { return path.front() == &root; }))
-            parents.push_back(parent);
-    }
+    for (osg::Group* parent : drawable.getParents())
+        if (!pathsFrom(root, *parent).empty()) parents.push_back(parent);
     return parents;
 }
 
@@ -104,13 +103,9 @@ void putBack(osg::Node& root, SkinGeometry& shown) {
 class OwnSkins {
 public:
     OwnSkins(osg::Node& root, Scene& scene, bool activeOnly)
-        : _root(root), _scene(scene), _model(scene.getModel()) {
-        _visitor.setQuiet(true);
-        _visitor.setActiveOnly(activeOnly);
-        root.accept(_visitor);
-        // Rounded as what was baked is.
-        _found = tss::readScene(tss::toLayer(_visitor.getModel()), "the graph");
-    }
+        : _root(root), _scene(scene), _model(scene.getModel()),
+          _bodies(findQuietly(root, _visitor, activeOnly).bodies),
+          _found(tss::readScene(tss::toLayer(_visitor.getModel()), "the graph")) {}
 
     /// Why the graph does not hold what the skin was made from; empty: it does, and shows it from now on.
     std::string show(int index) {
@@ -159,31 +154,28 @@ private:
 
     /// The body of the graph that a drawable hangs in.
     std::string carrierOf(osg::Drawable& drawable) const {
-        const auto& nodes = _visitor.getBodyNodes();
-        std::size_t carrier = 0; // what no joint moves
-        for (const osg::NodePath& path : drawable.getParentalNodePaths(&_root)) {
-            if (path.front() != &_root) continue;
-            for (const osg::Node* at : path)
-                for (std::size_t b = 0; b < nodes.size(); ++b)
-                    if (nodes[b].node == at && at != &drawable) carrier = b;
-            break;
-        }
-        return const_cast<ConstraintVisitor&>(_visitor).getModel().bodies[carrier].path;
+        const osg::NodePathList paths = pathsFrom(_root, drawable);
+        std::string carrier = _bodies.front().path; // what no joint moves
+        if (paths.empty()) return carrier;
+        for (const osg::Node* at : paths.front())
+            for (std::size_t b = 0; b < _bodies.size(); ++b)
+                if (_visitor.getBodyNodes()[b].node == at && at != &drawable) carrier = _bodies[b].path;
+        return carrier;
     }
 
     /// Bodies may have been put in another order when they were rounded.
     ConstraintVisitor::BodyNode nodeOf(int foundBody) const {
-        const auto& bodies = const_cast<ConstraintVisitor&>(_visitor).getModel().bodies;
-        for (std::size_t b = 0; b < bodies.size(); ++b)
-            if (bodies[b].path == _found.bodies[foundBody].path) return _visitor.getBodyNodes()[b];
-        return {};
+        const auto body = std::ranges::find(_bodies, _found.bodies[foundBody].path, &tss::Body::path);
+        if (body == _bodies.end()) return {};
+        return _visitor.getBodyNodes()[static_cast<std::size_t>(body - _bodies.begin())];
     }
 
     osg::Node& _root;
     Scene& _scene;
     const tss::SceneModel& _model;
     ConstraintVisitor _visitor;
-    tss::SceneModel _found;
+    const std::vector<tss::Body>& _bodies; ///< that it has found
+    tss::SceneModel _found;                ///< rounded as what was baked is
     std::set<const osg::Drawable*> _shown;
 };
 

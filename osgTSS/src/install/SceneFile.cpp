@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/model/SourceHash.h"
 #include "osgTSS/src/EachNode.h"
+#include "osgTSS/src/extract/FindQuietly.h"
 
 #include <osg/Notify>
 #include <osgTSS/ConstraintVisitor>
@@ -43,9 +44,8 @@ osg::ref_ptr<Scene> sceneOf(osg::Node& root) {
     }
     // What has come since it was installed, or stands around it, is missing in the scene.
     Scene& scene = **found.begin();
-    visitor.setQuiet(true);
-    root.accept(visitor);
-    const std::size_t joints = visitor.getModel().joints.size(), known = scene.getModel().joints.size();
+    const std::size_t joints = findQuietly(root, visitor).joints.size(),
+                      known = scene.getModel().joints.size();
     if (joints > known)
         OSG_WARN << "osgTSS: the scene that is written has " << known << " joints, and the graph " << joints
                  << ": expected its node alone, or install() of what all of it is baked to" << std::endl;

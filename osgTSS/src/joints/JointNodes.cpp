@@ -105,7 +105,7 @@ bool carriesJoint(osg::Node& node) {
     return node.getUserValue(tagName, paths);
 }
 
-std::map<std::string, std::vector<osg::Node*>> findAllJointNodes(osg::Node& root) {
+std::map<std::string, std::vector<osg::Node*>> findJointNodes(osg::Node& root) {
     std::map<std::string, std::vector<osg::Node*>> found;
     eachNode(root, [&](osg::Node& node) {
         const auto add = [&](const std::string& path) {
@@ -122,12 +122,6 @@ std::map<std::string, std::vector<osg::Node*>> findAllJointNodes(osg::Node& root
         for (std::string path; words >> path;) add(path);
     });
     return found;
-}
-
-std::map<std::string, osg::Node*> findJointNodes(osg::Node& root) {
-    std::map<std::string, osg::Node*> first;
-    for (const auto& [path, nodes] : findAllJointNodes(root)) first.emplace(path, nodes.front());
-    return first;
 }
 
 } // namespace osgTSS

@@ -32,11 +32,8 @@ void tagJoint(osg::Node& node, const std::string& jointPath);
 /// Whether the node carries a joint.
 bool carriesJoint(osg::Node& node);
 
-/// The nodes at and below `root` that carry a joint, by the joint's path. Sees masked nodes; of several nodes
-/// with one path the first.
-std::map<std::string, osg::Node*> findJointNodes(osg::Node& root);
-
-/// All of them, in the order of the graph.
-std::map<std::string, std::vector<osg::Node*>> findAllJointNodes(osg::Node& root);
+/// The nodes at and below `root` that carry a joint, by the joint's path, in the order of the graph. Sees masked
+/// nodes.
+std::map<std::string, std::vector<osg::Node*>> findJointNodes(osg::Node& root);
 
 } // namespace osgTSS

@@ -1,5 +1,7 @@
 #include "ContactReport.h"
 
+#include "osgTSS/src/NodePaths.h"
+
 #include <osgTSS/Convert>
 
 #include <algorithm>
@@ -24,9 +26,8 @@ void ContactReport::watch(const Scene& scene, const tss::JointPlan& plan, osg::N
     }
     const auto side = [&](int body) {
         for (const BodyNodes& below : nodes)
-            if (const auto found = below.frames.find(model.bodies[body].path); found != below.frames.end())
-                return Side{found->second.node, found->second.scale};
-        return Side{};
+            if (BodyFrame frame = below.frame(model.bodies[body].path); frame.node.valid()) return frame;
+        return BodyFrame{};
     };
     _unknown = false;
     std::map<int, Watched> before;
@@ -68,8 +69,7 @@ void ContactReport::locate(const tss::SceneModel& model, const tss::QueryResult&
     osg::Matrixd toWorld = toOsg(model.bodies[pair.bodyA].placement);
     double scale = 1;
     if (contact.nodeA) {
-        const osg::MatrixList matrices = contact.nodeA->getWorldMatrices();
-        if (!matrices.empty()) toWorld = matrices.front();
+        toWorld = alongPath(contact.nodeA->getParentalNodePaths().front());
         scale = watched.a.scale;
     }
     contact.point = toOsg(found.point) / scale * toWorld;

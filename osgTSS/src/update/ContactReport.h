@@ -2,7 +2,6 @@
 #include "osgTSS/src/SceneCache.h"
 #include "osgTSS/src/draw/BodyNodes.h"
 
-#include <osg/observer_ptr>
 #include <osgTSS/ContactCallback>
 #include <osgTSS/Scene>
 
@@ -38,14 +37,10 @@ public:
     void lookAgain() { _unknown = true; }
 
 private:
-    struct Side {
-        osg::observer_ptr<osg::Node> node;
-        double scale = 1;
-    };
     /// A pair and what was last told of it.
     struct Watched {
         int pair = -1;
-        Side a, b;
+        BodyFrame a, b;
         bool touching = false;
         Contact last;
     };

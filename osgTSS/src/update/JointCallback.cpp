@@ -96,11 +96,12 @@ JointCallback::Binding::Binding(osg::Node& owner, const Scene& scene,
             const tss::Joint& what = model->joints[index];
             const auto node = nodes.find(what.path);
             if (node != nodes.end()) {
-                joint.access = makeJointNode(*node->second, what);
-                const osg::NodePathList paths = node->second->getParentalNodePaths(&owner);
+                joint.access = makeJointNode(*node->second.front(), what);
+                const osg::NodePathList paths = node->second.front()->getParentalNodePaths(&owner);
                 if (!paths.empty()) joint.path = paths.front();
                 joint.transforms = transformsOf(joint.path);
-                if (!skeletons && dynamic_cast<osgAnimation::Bone*>(node->second)) skeletons.emplace(owner);
+                if (!skeletons && dynamic_cast<osgAnimation::Bone*>(node->second.front()))
+                    skeletons.emplace(owner);
             }
             const BoundJoint* old = nullptr;
             if (before && before->updated && before->model == model)

@@ -52,7 +52,7 @@ struct LimitsCallback::Watch {
     bool updated = false; ///< there was an update since
 
     Watch(osg::Node& node, const Scene& scene) : model(scene.shareModel()), parts(node, *model) {
-        const auto nodes = findAllJointNodes(node);
+        const auto nodes = findJointNodes(node);
         std::set<int> known;
         for (const tss::Pair& pair : model->pairs) {
             if (!pair.proof) continue;
@@ -73,7 +73,7 @@ struct LimitsCallback::Watch {
 
     /// What was not made for this graph, pair by pair, of those whose joints are there.
     unsigned int tellUnfit(osg::Node& node) const {
-        const auto nodes = findAllJointNodes(node);
+        const auto nodes = findJointNodes(node);
         Machines machines(node, *model);
         unsigned int told = 0;
         for (std::size_t p = 0; p < model->pairs.size(); ++p) {

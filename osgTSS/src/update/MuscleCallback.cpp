@@ -49,8 +49,8 @@ struct Asked {
 /// A muscle as one drawable shows it.
 struct Shown {
     osg::observer_ptr<SkinGeometry> geometry;
-    osg::observer_ptr<osg::Node> frame,
-        insertion; ///< of the surface, and of the insertion's bone; may be null
+    BodyFrame frame;                               ///< of the surface
+    osg::observer_ptr<osg::Node> insertion;        ///< its bone; may be null
     tss::Pose restInverse = tss::Pose::Identity(); ///< surface to that bone, at rest
     std::optional<tss::MuscleSpan> span;
     std::shared_ptr<const tss::SceneModel> model;
@@ -62,7 +62,6 @@ struct Shown {
     Asked asked;
 
     tss::Pose far = tss::Pose::Identity(); ///< of the insertion's bone since rest, in the surface's frame
-    double scale = 1;                      ///< from the frame's lengths to the surface's
 
     Shown(osg::Node& node, const Scene& scene, const std::string& path)
         : geometry(dynamic_cast<SkinGeometry*>(&node)), model(scene.shareModel()),
@@ -84,17 +83,13 @@ struct Shown {
         const BodyNodes nodes = findBodyNodes(owner);
         const tss::MuscleModel& own = model->muscles[muscle];
         const tss::Body& body = model->bodies[own.body];
-        const auto shape = nodes.shapes.find(body.path);
-        const auto at = nodes.frames.find(body.path);
-        if (shape == nodes.shapes.end() || at == nodes.frames.end()) return;
-        geometry = shape->second;
-        frame = at->second.node;
-        scale = at->second.scale;
-        if (own.insertionBone < 0) return;
+        frame = nodes.frame(body.path);
+        if (!frame.node.valid()) return;
+        geometry = nodes.shape(body.path);
+        if (!geometry.valid() || own.insertionBone < 0) return;
         const tss::Body& bone = model->bodies[own.insertionBone];
-        const auto found = nodes.frames.find(bone.path);
-        if (found == nodes.frames.end()) return;
-        insertion = found->second.node;
+        insertion = nodes.frame(bone.path).node;
+        if (!insertion.valid()) return;
         restInverse = bone.placement.inverse(Eigen::Isometry) * body.placement;
         span.emplace(*deformer);
     }
@@ -102,10 +97,10 @@ struct Shown {
     /// Whether it looks otherwise than in the last update.
     bool change(osg::Node& owner, double now) {
         tss::Pose moved = tss::Pose::Identity();
-        if (span && frame.valid() && insertion.valid()) {
-            const auto fromBone = toAbove(owner, *insertion), from = toAbove(owner, *frame);
+        if (span && frame.node.valid() && insertion.valid()) {
+            const auto fromBone = toAbove(owner, *insertion), from = toAbove(owner, *frame.node);
             moved = fromBone && from
-                        ? carriedSince(*fromBone, osg::Matrixd::inverse(*from), scale, restInverse)
+                        ? carriedSince(*fromBone, osg::Matrixd::inverse(*from), frame.scale, restInverse)
                         : far;
         }
         if (now == activation && moved.matrix() == far.matrix()) return false;

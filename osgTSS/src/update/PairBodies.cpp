@@ -1,6 +1,8 @@
 #include "PairBodies.h"
 
+#include "osgTSS/src/NodePaths.h"
 #include "osgTSS/src/draw/BodyNodes.h"
+#include "osgTSS/src/extract/FindQuietly.h"
 #include "osgTSS/src/joints/JointNodes.h"
 
 #include "bake/base/Error.h"
@@ -18,12 +20,6 @@
 namespace osgTSS {
 
 namespace {
-
-const tss::SceneModel& extract(osg::Node& root, ConstraintVisitor& visitor) {
-    visitor.setQuiet(true);
-    root.accept(visitor);
-    return visitor.getModel();
-}
 
 /// Nothing for what no joints lead to.
 std::optional<tss::Motion> motionBetween(const tss::SceneModel& model, int body, int other) {
@@ -47,7 +43,7 @@ struct Drawn {
 std::vector<Drawn> drawnAt(osg::Node& node, const osg::Matrixd& toBody, double scale) {
     constexpr double everywhere = 1e300;
     ConstraintVisitor visitor;
-    const tss::SceneModel& model = extract(node, visitor);
+    const tss::SceneModel& model = findQuietly(node, visitor);
     const auto similarity = toSimilarity(toBody);
     std::vector<Drawn> found;
     for (std::size_t k = 0; k < model.bodies.size(); ++k) {
@@ -73,14 +69,8 @@ std::vector<Drawn> drawnAt(osg::Node& node, const osg::Matrixd& toBody, double s
 
 } // namespace
 
-osg::NodePathList pathsFrom(osg::Node& above, osg::Node& node) {
-    osg::NodePathList paths = node.getParentalNodePaths(&above);
-    std::erase_if(paths, [&](const osg::NodePath& path) { return path.front() != &above; });
-    return paths;
-}
-
 PairBodies::PairBodies(osg::Node& root, const tss::SceneModel& model)
-    : _root(root), _now(extract(root, _visitor)) {
+    : _root(root), _now(findQuietly(root, _visitor)) {
     const auto& nodes = _visitor.getBodyNodes();
     std::vector<const tss::Joint*> movedBy(model.bodies.size(), nullptr);
     for (const tss::Joint& joint : model.joints)
@@ -113,10 +103,10 @@ bool PairBodies::isNamed(int body, const std::string& path, const tss::Joint* mo
 int PairBodies::bodyAt(const osg::NodePath& path, osg::Matrixd& toBody) const {
     for (std::size_t k = path.size(); k-- > 0;)
         if (const auto found = _bodyOf.find(path[k]); found != _bodyOf.end()) {
-            toBody = osg::computeLocalToWorld(osg::NodePath(path.begin() + k + 1, path.end()));
+            toBody = alongPath(osg::NodePath(path.begin() + k + 1, path.end()));
             return found->second;
         }
-    toBody = osg::computeLocalToWorld(path);
+    toBody = alongPath(path);
     return 0;
 }
 

@@ -13,9 +13,6 @@
 
 namespace osgTSS {
 
-/// All ways from a node to one below it, both included; empty where there are none.
-osg::NodePathList pathsFrom(osg::Node& above, osg::Node& node);
-
 /// The bodies of the pairs that have tables or proofs, as a graph holds them now, and what else in the graph
 /// could come to them.
 class PairBodies {

@@ -29,8 +29,7 @@ struct Played {
     std::shared_ptr<const tss::SceneModel> model;
     const tss::SkinModel* skin = nullptr;
     osg::observer_ptr<SkinGeometry> geometry;
-    osg::observer_ptr<osg::Node> frame; ///< of the skin
-    double scale = 1;                   ///< from its lengths to the body's
+    BodyFrame frame;                    ///< of the skin
     std::optional<DrawnVertices> drawn; ///< of a geometry that the skin was made from; else one per vertex
     std::vector<Bone> bones;            ///< one per muscle or bone below the skin
     bool riding = false;                ///< some of them moves with a node
@@ -55,19 +54,16 @@ Played::Played(osg::Node& owner, const Scene& scene, const std::string& path) : 
     skin = &model->skins[index];
     const BodyNodes nodes = findBodyNodes(owner);
     const std::string& body = model->bodies[skin->body].path;
-    const auto shape = nodes.shapes.find(body);
-    const auto at = nodes.frames.find(body);
-    if (shape == nodes.shapes.end() || at == nodes.frames.end()) {
+    geometry = nodes.shape(body);
+    frame = nodes.frame(body);
+    if (!geometry.valid() || !frame.node.valid()) {
         OSG_WARN << "osgTSS: nothing below node \"" << owner.getName() << "\" shows skin " << path
                  << std::endl;
         return;
     }
-    geometry = shape->second;
-    frame = at->second.node;
-    scale = at->second.scale;
     const tss::TriangleMesh& mesh = model->bodies[skin->body].mesh;
     if (replacedBy(*geometry)) {
-        drawn = DrawnVertices::of(*geometry->getRestGeometry(), mesh, scale, tss::skinNormals(mesh));
+        drawn = DrawnVertices::of(*geometry->getRestGeometry(), mesh, frame.scale, tss::skinNormals(mesh));
         if (!drawn) {
             OSG_WARN << "osgTSS: skin " << path
                      << " does not play: its geometry has other vertices than its mesh" << std::endl;
@@ -90,9 +86,8 @@ void Played::findBones(const BodyNodes& nodes) {
         bone.muscle = under.muscle;
         const int body = under.bone;
         const bool along = body < 0 || model->bodies[body].path == carrierPath(*geometry);
-        const auto found = along ? nodes.frames.end() : nodes.frames.find(model->bodies[body].path);
-        bone.outside = !along && found == nodes.frames.end() && drawn; // its root is a transform
-        if (found != nodes.frames.end()) bone.node = found->second.node;
+        if (!along) bone.node = nodes.frame(model->bodies[body].path).node;
+        bone.outside = !along && !bone.node.valid() && drawn; // its root is a transform
         if (bone.node.valid() || bone.outside) {
             bone.restInverse = (skinInverse * model->bodies[body].placement).inverse(Eigen::Isometry);
             riding = true;
@@ -105,7 +100,7 @@ void Played::findBones(const BodyNodes& nodes) {
 /// stays where it was.
 void Played::pose(osg::Node& owner) {
     poses.resize(bones.size(), tss::Pose::Identity());
-    const std::optional<osg::Matrixd> fromSkin = toAbove(owner, *frame);
+    const std::optional<osg::Matrixd> fromSkin = toAbove(owner, *frame.node);
     if (!fromSkin) return;
     const osg::Matrixd toSkin = osg::Matrixd::inverse(*fromSkin);
     for (std::size_t k = 0; k < bones.size(); ++k) {
@@ -114,7 +109,7 @@ void Played::pose(osg::Node& owner) {
             fromBone = osg::Matrixd();
         else if (bones[k].node.valid())
             fromBone = toAbove(owner, *bones[k].node);
-        if (fromBone) poses[k] = carriedSince(*fromBone, toSkin, scale, bones[k].restInverse);
+        if (fromBone) poses[k] = carriedSince(*fromBone, toSkin, frame.scale, bones[k].restInverse);
     }
 }
 
@@ -127,7 +122,7 @@ void Played::morphed(osg::NodeVisitor& visitor) {
     if (!now || now->size() != rest.size()) return;
     for (const std::uint32_t vertex : response->rig().vertices) {
         const std::uint32_t one = drawn->of(vertex).front();
-        shift.push_back(scale * toCore((*now)[one] - rest[one]));
+        shift.push_back(frame.scale * toCore((*now)[one] - rest[one]));
     }
 }
 
@@ -174,7 +169,7 @@ bool SkinCallback::run(osg::Object* object, osg::Object* data) {
         *node, [&](const Played*) { return std::make_unique<Played>(*node, *_scene, _skinPath); },
         [&](const Played& state) {
             return state.model == _scene->shareModel() &&
-                   (!state.response || (state.geometry.valid() && state.frame.valid()));
+                   (!state.response || (state.geometry.valid() && state.frame.node.valid()));
         });
     if (!played.response) return result;
     const unsigned int traversal = visitor->getTraversalNumber(), frame = stamp->getFrameNumber();

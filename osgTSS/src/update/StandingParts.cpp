@@ -1,6 +1,7 @@
 #include "StandingParts.h"
 
 #include "PairBodies.h"
+#include "osgTSS/src/NodePaths.h"
 #include "osgTSS/src/extract/MovedNodes.h"
 #include "osgTSS/src/joints/JointKinds.h"
 #include "osgTSS/src/joints/JointNodes.h"

@@ -1,8 +1,8 @@
-#include "RigParts.h"
+#include "SkeletonMeshes.h"
 
 #include "CollectTriangles.h"
+#include "osgTSS/src/NodePaths.h"
 
-#include <osg/TriangleIndexFunctor>
 #include <osgTSS/Convert>
 
 #include <algorithm>
@@ -18,24 +18,8 @@ namespace {
 /// Vertices whose coordinates round to the same multiple of this share of the meshes' size are one.
 constexpr double sameVertex = 1e-6;
 
-struct TriangleList {
-    std::vector<std::array<unsigned int, 3>> triangles;
-    void operator()(unsigned int a, unsigned int b, unsigned int c) { triangles.push_back({a, b, c}); }
-};
-
 osg::Geometry& sourceOf(osgAnimation::RigGeometry& rig) {
     return rig.getSourceGeometry() ? *rig.getSourceGeometry() : rig;
-}
-
-/// Vertices in the skeleton; empty where they are no floats.
-std::vector<osg::Vec3d> verticesOf(osgAnimation::RigGeometry& rig, const osg::Matrixd& toSkeleton) {
-    std::vector<osg::Vec3d> points;
-    const osg::Array* array = sourceOf(rig).getVertexArray();
-    if (const auto* floats = dynamic_cast<const osg::Vec3Array*>(array))
-        for (const osg::Vec3& v : *floats) points.push_back(osg::Vec3d(v) * toSkeleton);
-    else if (const auto* doubles = dynamic_cast<const osg::Vec3dArray*>(array))
-        for (const osg::Vec3d& v : *doubles) points.push_back(v * toSkeleton);
-    return points;
 }
 
 bool finite(const osg::Vec3d& v) {
@@ -71,25 +55,24 @@ std::vector<std::vector<int>> loopsOf(const std::set<Edge>& edges) {
 } // namespace
 
 /// All meshes as one: vertices that are at one place are one, each with what holds it.
-class RigParts::Cutter {
+class SkeletonMeshes::Cutter {
 public:
-    explicit Cutter(const RigParts& parts) : _p(parts) {
+    explicit Cutter(const SkeletonMeshes& parts) : _p(parts) {
         for (const auto& [name, held] : parts._bones) _holders.push_back(held);
-        for (const Rig& rig : parts._rigs) addLoose(rig);
         double size = 0;
-        for (const Rig& rig : parts._rigs)
-            for (const osg::Vec3d& v : verticesOf(*rig.rig, rig.toSkeleton))
+        for (const Rig& rig : parts._rigs) {
+            addLoose(rig);
+            for (const osg::Vec3d& v : verticesOf(rig))
                 if (finite(v)) size = std::max(size, v.length());
+        }
         _cell = size > 0 ? sameVertex * size : 1;
-        for (std::size_t k = 0; k < parts._rigs.size(); ++k) addTriangles(k);
+        for (const Rig& rig : parts._rigs) addTriangles(rig);
     }
 
-    std::vector<Part> cut() {
-        for (std::size_t t = 0; t < _triangles.size(); ++t) place(t);
+    std::map<int, Part> cut() {
+        for (Triangle& triangle : _triangles) place(triangle);
         for (auto& [body, part] : _parts) close(body, part);
-        std::vector<Part> parts;
-        for (auto& [body, part] : _parts) parts.push_back(std::move(part));
-        return parts;
+        return std::move(_parts);
     }
 
 private:
@@ -99,7 +82,7 @@ private:
     };
     struct Triangle {
         std::array<int, 3> vertices;
-        std::size_t rig;
+        const Rig* rig;
         int body = -1;
     };
 
@@ -110,11 +93,17 @@ private:
         _holders.push_back(loose);
     }
 
-    void addTriangles(std::size_t index) {
-        const Rig& rig = _p._rigs[index];
-        const std::vector<osg::Vec3d> points = verticesOf(*rig.rig, rig.toSkeleton);
+    /// In the skeleton.
+    static std::vector<osg::Vec3d> verticesOf(const Rig& rig) {
+        std::vector<osg::Vec3d> points = pointsOf(sourceOf(*rig.geometry));
+        for (osg::Vec3d& point : points) point = point * rig.toSkeleton;
+        return points;
+    }
+
+    void addTriangles(const Rig& rig) {
+        const std::vector<osg::Vec3d> points = verticesOf(rig);
         std::vector<std::vector<std::pair<int, float>>> weights(points.size());
-        if (const auto* map = rig.rig->getInfluenceMap())
+        if (const auto* map = rig.geometry->getInfluenceMap())
             for (const auto& [name, influence] : *map) {
                 const auto bone = _p._bones.find(name);
                 if (bone == _p._bones.end()) continue;
@@ -122,15 +111,13 @@ private:
                 for (const auto& [vertex, weight] : influence)
                     if (vertex < weights.size() && weight > 0) weights[vertex].emplace_back(holder, weight);
             }
-        const int loose = static_cast<int>(_p._bones.size() + index);
-        osg::TriangleIndexFunctor<TriangleList> corners;
-        sourceOf(*rig.rig).accept(corners);
-        for (const auto& corner : corners.triangles) {
-            Triangle triangle{{}, index};
+        const int loose = static_cast<int>(_p._bones.size() + (&rig - _p._rigs.data()));
+        for (const auto& corner : trianglesOf(sourceOf(*rig.geometry))) {
+            Triangle triangle{{}, &rig};
             const bool good = std::ranges::all_of(
                 corner, [&](unsigned int v) { return v < points.size() && finite(points[v]); });
             if (!good) {
-                ++part(rig.place.body, index).dropped;
+                ++part(rig.place.body, rig).dropped;
                 continue;
             }
             for (std::size_t k = 0; k < 3; ++k) {
@@ -152,14 +139,7 @@ private:
         return entry->second;
     }
 
-    Part& part(int body, std::size_t rig) {
-        const auto [entry, fresh] = _parts.try_emplace(body);
-        if (fresh) {
-            entry->second.body = body;
-            entry->second.rig = rig;
-        }
-        return entry->second;
-    }
+    Part& part(int body, const Rig& rig) { return _parts.try_emplace(body, Part{&rig, {}}).first->second; }
 
     /// The heaviest holder of a vertex that is of this body, or the other one.
     int holderOf(int vertex, int body, int other) const {
@@ -179,8 +159,7 @@ private:
                          : held.place.toBody;
     }
 
-    void place(std::size_t index) {
-        Triangle& triangle = _triangles[index];
+    void place(Triangle& triangle) {
         std::map<int, float> bodies, holders;
         for (int vertex : triangle.vertices)
             for (const auto& [holder, weight] : _vertices[vertex].weights) {
@@ -192,20 +171,20 @@ private:
         std::erase_if(holders,
                       [&](const auto& entry) { return _holders[entry.first].place.body != triangle.body; });
         const int main = std::ranges::max_element(holders, lighter)->first;
-        Part& of = part(triangle.body, triangle.rig);
+        Part& of = part(triangle.body, *triangle.rig);
         tss::Tri corners;
-        for (int k = 0; k < 3; ++k) corners[k] = vertexIn(of, triangle.vertices[k], main);
-        const osg::Matrixd& fromMesh = _p._rigs[triangle.rig].toSkeleton;
+        for (int k = 0; k < 3; ++k) corners[k] = vertexIn(of, triangle.body, triangle.vertices[k], main);
+        const osg::Matrixd& fromMesh = triangle.rig->toSkeleton;
         const bool mirrored = (determinant(fromMesh * toBody(main)) < 0) != (_holders[main].place.scale < 0);
         if (mirrored) std::swap(triangle.vertices[1], triangle.vertices[2]);
         of.mesh.triangles.push_back(mirrored ? tss::Tri(corners[0], corners[2], corners[1]) : corners);
     }
 
-    int vertexIn(Part& of, int vertex, int main) {
+    int vertexIn(Part& of, int body, int vertex, int main) {
         const auto [entry, fresh] =
-            _inPart.emplace(Edge{of.body, vertex}, static_cast<int>(of.mesh.vertices.size()));
+            _inPart.emplace(Edge{body, vertex}, static_cast<int>(of.mesh.vertices.size()));
         if (!fresh) return entry->second;
-        const int holder = holderOf(vertex, of.body, main);
+        const int holder = holderOf(vertex, body, main);
         const Held& held = _holders[holder];
         of.mesh.vertices.push_back(held.place.scale * toCore(_vertices[vertex].point * toBody(holder)));
         return entry->second;
@@ -241,7 +220,7 @@ private:
         }
     }
 
-    const RigParts& _p;
+    const SkeletonMeshes& _p;
     std::vector<Held> _holders; ///< the bones, then what moves with the node of each mesh
     double _cell = 1;
     std::vector<Vertex> _vertices;
@@ -251,11 +230,13 @@ private:
     std::map<Edge, int> _inPart; ///< (body, vertex) -> vertex of the part
 };
 
-void RigParts::addRig(osgAnimation::RigGeometry& rig, const osg::Matrixd& toSkeleton, const InBody& place) {
-    _rigs.push_back({&rig, toSkeleton, place});
+void SkeletonMeshes::addRig(osgAnimation::RigGeometry& rig, const osg::NodePath& path,
+                            const PlaceInBody& place) {
+    const auto at = std::find(path.begin(), path.end(), &_skeleton);
+    _rigs.push_back({&rig, alongPath(osg::NodePath(at + 1, path.end())), place});
 }
 
-std::vector<RigParts::Part> RigParts::parts() const {
+std::map<int, SkeletonMeshes::Part> SkeletonMeshes::parts() const {
     return Cutter(*this).cut();
 }
 
