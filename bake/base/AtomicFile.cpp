@@ -20,7 +20,7 @@ namespace {
     throw InputError(Where{file}, what + ": " + std::strerror(errno));
 }
 
-/// Closes on the way out, and removes the file again unless it was kept.
+/// An open file that is closed at the end of the scope and, unless `kept`, removed.
 struct Temporary {
     int descriptor = -1;
     std::string name;
@@ -35,10 +35,10 @@ struct Temporary {
     }
 };
 
-/// What a name stands for: links are followed, so that the file they name is replaced and they stay.
+/// The file that a name stands for, symbolic links resolved: the file is replaced and the links stay.
 struct Target {
     std::string name;
-    std::optional<mode_t> mode; ///< of the file that is there
+    std::optional<mode_t> mode; ///< permissions of the existing file
 };
 
 /// Throws InputError where that is no regular file.
@@ -108,7 +108,7 @@ void writeFileAtomically(const std::string& file, std::string_view content) {
 std::string readWholeFile(const std::string& file) {
     Temporary open;
     open.kept = true;
-    // Without waiting for whoever would write into a pipe: that is refused below.
+    // O_NONBLOCK: opening a pipe must not wait for a writer; it is refused below.
     open.descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (open.descriptor < 0) fail(file, "cannot be read");
     struct stat status {};

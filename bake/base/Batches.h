@@ -10,9 +10,10 @@
 
 namespace tss {
 
-/// Goes on with the last jobs of a list, at most `width` at the same time: run(job, count), count being how
-/// many of them, returns a part whose `left` are the jobs that it leaves in its place. Returns the parts,
-/// that of the last job first. The same for any number of threads where each part depends on its job alone.
+/// Takes up to `width` jobs from the end of a list and runs them in parallel: run(job, count), where count is
+/// how many run, returns a result whose member `left` lists the jobs that replace this one in the list.
+/// Returns the results, that of the last job first. The same for any number of threads if each result depends
+/// on its job alone.
 template <class Job, class Run>
 auto runLast(std::vector<Job>& jobs, std::size_t width, const Run& run) {
     const std::size_t count = std::min(width, jobs.size());

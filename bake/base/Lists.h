@@ -6,7 +6,7 @@
 
 namespace tss {
 
-/// Lists of different lengths, one after the other in one block of memory.
+/// Lists of different lengths in one block of memory (compressed rows).
 template <class T>
 class Lists {
 public:
@@ -24,11 +24,11 @@ public:
     std::span<const T> operator[](std::size_t list) const {
         return {items_.data() + start_[list], items_.data() + start_[list + 1]};
     }
-    /// Of all lists.
+    /// The items of all lists, one list after the other.
     const std::vector<T>& items() const { return items_; }
     std::size_t bytes() const { return start_.size() * sizeof(start_[0]) + items_.size() * sizeof(T); }
 
-    /// The items of a new list, one by one, until it ends.
+    /// Appends an item to the list that is being built; endList() completes it.
     void push_back(const T& item) { items_.push_back(item); }
     void endList() { start_.push_back(static_cast<std::uint32_t>(items_.size())); }
 
@@ -38,7 +38,7 @@ public:
     }
 
 private:
-    std::vector<std::uint32_t> start_{0}; ///< #lists, and an end
+    std::vector<std::uint32_t> start_{0}; ///< #lists + 1: where each begins in items_, and the end
     std::vector<T> items_;
 };
 

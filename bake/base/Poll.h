@@ -8,13 +8,13 @@
 
 namespace tss {
 
-/// Lets work inside of parallelFor() hear that it should stop: any thread may ask, often and at little cost;
-/// the Progress behind it is asked by one thread at a time, every so many times.
+/// Cancellation of work inside of parallelFor(): any thread may call stopped() often and at little cost;
+/// every so many calls one thread calls the Progress, which is not thread-safe.
 class Poll {
 public:
     Poll(const Progress& progress, std::string step) : progress_(progress), step_(std::move(step)) {}
 
-    /// The work should stop.
+    /// Whether the work should stop.
     bool stopped() {
         if (progress_ && ++asked_ % 1024 == 0 && mutex_.try_lock()) {
             const std::lock_guard lock(mutex_, std::adopt_lock);

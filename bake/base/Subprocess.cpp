@@ -21,15 +21,15 @@ namespace tss {
 
 namespace {
 
-/// The first byte that comes back; the last is `whole`.
+/// First byte of what the child sends: what follows. The last byte is `whole`, else the message was cut off.
 constexpr char result = 'r', refusal = 'e', tooLarge = 'm', whole = '.';
 
-/// Between the parts of a refusal: file, pointer, path, message.
+/// Separates the parts of a refusal (an InputError): file, pointer, path, message.
 constexpr char partEnd = '\0';
 
-/// No handlers and no traps of the program that this one was begun by, no terminal, and no more memory than
-/// that.
-void settle(std::size_t memory) {
+/// Sets up the child: it ends with its parent, has none of the parent's signal handlers and floating-point
+/// traps, neither terminal nor core dump, and may use `memory` bytes more than now.
+void restrictChild(std::size_t memory) {
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
@@ -108,7 +108,7 @@ std::string runInSubprocess(const std::function<std::string()>& work, std::size_
     const pid_t child = fork();
     if (child == 0) {
         close(ends[0]);
-        settle(memory);
+        restrictChild(memory);
         answer(work, ends[1]);
     }
     close(ends[1]);

@@ -6,7 +6,7 @@
 
 namespace tss {
 
-/// Which of some things hang together (union-find, Tarjan 1975). The root of a set is its first member.
+/// Disjoint sets (union-find, Tarjan 1975). The root of a set is its member of lowest index.
 class UnionFind {
 public:
     explicit UnionFind(std::size_t count) : parent_(count) {

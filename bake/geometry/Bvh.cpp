@@ -24,7 +24,7 @@ double halfArea(const Box& box) {
 struct Split {
     int axis = -1;
     int bin = 0;
-    double cost = std::numeric_limits<double>::infinity();
+    double cost = infinity;
 };
 
 class Builder {

@@ -1,11 +1,11 @@
 #pragma once
+#include "bake/base/Infinity.h"
 #include "bake/geometry/TriangleMesh.h"
 
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -63,7 +63,7 @@ void visitNearest(const Bvh& bvh, const Vec3& p, double& best2, Leaf&& leaf) {
 /// Calls leaf(item) for every item whose box comes within `radius` of p, in the order of the tree.
 template <class Leaf>
 void visitBall(const Bvh& bvh, const Vec3& p, double radius, Leaf&& leaf) {
-    double radius2 = std::nextafter(radius * radius, std::numeric_limits<double>::infinity());
+    double radius2 = std::nextafter(radius * radius, infinity);
     visitNearest(bvh, p, radius2, leaf);
 }
 

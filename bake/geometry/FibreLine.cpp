@@ -1,12 +1,12 @@
 #include "bake/geometry/FibreLine.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/Infinity.h"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <queue>
 
@@ -14,12 +14,10 @@ namespace tss {
 
 namespace {
 
-constexpr double unreached = std::numeric_limits<double>::infinity();
-
-/// Along the edges of the surface.
-class Ways {
+/// Shortest distances along the edges of a surface (Dijkstra).
+class EdgeDistances {
 public:
-    explicit Ways(const TriangleMesh& mesh) : mesh_(mesh), next_(mesh.vertices.size()) {
+    explicit EdgeDistances(const TriangleMesh& mesh) : mesh_(mesh), next_(mesh.vertices.size()) {
         for (const Tri& t : mesh.triangles)
             for (int k = 0; k < 3; ++k) {
                 next_[t[k]].push_back(t[(k + 1) % 3]);
@@ -27,8 +25,8 @@ public:
             }
     }
 
-    std::vector<double> lengthsFrom(int vertex) const {
-        std::vector<double> lengths(next_.size(), unreached);
+    std::vector<double> from(int vertex) const {
+        std::vector<double> lengths(next_.size(), infinity);
         using Entry = std::pair<double, int>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
         lengths[vertex] = 0;
@@ -55,35 +53,36 @@ private:
 int farthest(const std::vector<double>& lengths) {
     int best = -1;
     for (std::size_t v = 0; v < lengths.size(); ++v)
-        if (lengths[v] != unreached && (best < 0 || lengths[v] > lengths[best])) best = static_cast<int>(v);
+        if (lengths[v] != infinity && (best < 0 || lengths[v] > lengths[best])) best = static_cast<int>(v);
     return best;
 }
 
-/// The ways from both ends of the component that a vertex is of.
+/// The two ends of a connected component, vertices that are farthest from each other along the surface, and
+/// the distance of every vertex from either; infinite in other components.
 struct Ends {
     int first = -1, second = -1;
     std::vector<double> fromFirst, fromSecond;
 };
 
-Ends endsFrom(const Ways& ways, int vertex) {
+Ends endsFrom(const EdgeDistances& distances, int vertex) {
     Ends ends;
-    ends.first = farthest(ways.lengthsFrom(vertex));
-    ends.fromFirst = ways.lengthsFrom(ends.first);
+    ends.first = farthest(distances.from(vertex));
+    ends.fromFirst = distances.from(ends.first);
     ends.second = farthest(ends.fromFirst);
-    ends.fromSecond = ways.lengthsFrom(ends.second);
+    ends.fromSecond = distances.from(ends.second);
     return ends;
 }
 
 Ends longestEnds(const TriangleMesh& mesh) {
-    const Ways ways(mesh);
+    const EdgeDistances distances(mesh);
     std::vector<bool> seen(mesh.vertices.size());
     Ends best;
     double length = -1;
     for (const Tri& t : mesh.triangles) {
         if (seen[t[0]]) continue;
-        Ends ends = endsFrom(ways, t[0]);
+        Ends ends = endsFrom(distances, t[0]);
         for (std::size_t v = 0; v < seen.size(); ++v)
-            if (ends.fromFirst[v] != unreached) seen[v] = true;
+            if (ends.fromFirst[v] != infinity) seen[v] = true;
         const double its = ends.fromFirst[ends.second];
         if (its > length) length = its, best = std::move(ends);
     }
@@ -91,14 +90,14 @@ Ends longestEnds(const TriangleMesh& mesh) {
     return best;
 }
 
-/// The line goes straight on as far as the end slice does: the vertex that is farthest by way may lie beside
-/// it.
-Vec3 endBeyond(const TriangleMesh& mesh, const std::vector<double>& here, const std::vector<double>& there,
-               int slices, const Vec3& last, const Vec3& before) {
+/// The end of the line: straight on from its last point as far as the end slice reaches. The vertex farthest
+/// along the surface would not do, as it may lie beside the line.
+Vec3 extrapolatedEnd(const TriangleMesh& mesh, const std::vector<double>& here,
+                     const std::vector<double>& there, int slices, const Vec3& last, const Vec3& before) {
     const Vec3 direction = (last - before).normalized();
     double farthest = 0;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-        if (here[v] < unreached && here[v] * slices < here[v] + there[v])
+        if (here[v] < infinity && here[v] * slices < here[v] + there[v])
             farthest = std::max(farthest, direction.dot(mesh.vertices[v] - last));
     return last + farthest * direction;
 }
@@ -118,9 +117,9 @@ std::vector<Vec3> fibreLine(const TriangleMesh& mesh, int inner) {
             first += ends.fromFirst[v];
             both += ends.fromFirst[v] + ends.fromSecond[v];
         }
-        if (!(both < unreached) || !(both > 0)) continue; // another component
+        if (!(both < infinity) || !(both > 0)) continue; // another component
         const int slice = std::min(slices - 1, static_cast<int>(slices * first / both));
-        const double area = (b - a).cross(c - a).norm() / 2;
+        const double area = mesh.areaNormal(t).norm() / 2;
         middles[slice] += area * (a + b + c) / 3;
         areas[slice] += area;
     }
@@ -128,9 +127,9 @@ std::vector<Vec3> fibreLine(const TriangleMesh& mesh, int inner) {
     for (int k = 1; k + 1 < slices; ++k)
         if (areas[k] > 0) line.push_back(middles[k] / areas[k]);
     if (line.size() < 2) return {mesh.vertices[ends.first], mesh.vertices[ends.second]};
-    const Vec3 first = endBeyond(mesh, ends.fromFirst, ends.fromSecond, slices, line[0], line[1]);
+    const Vec3 first = extrapolatedEnd(mesh, ends.fromFirst, ends.fromSecond, slices, line[0], line[1]);
     const Vec3 last =
-        endBeyond(mesh, ends.fromSecond, ends.fromFirst, slices, line.back(), line[line.size() - 2]);
+        extrapolatedEnd(mesh, ends.fromSecond, ends.fromFirst, slices, line.back(), line[line.size() - 2]);
     line.insert(line.begin(), first);
     line.push_back(last);
     return line;
@@ -138,31 +137,31 @@ std::vector<Vec3> fibreLine(const TriangleMesh& mesh, int inner) {
 
 namespace {
 
-/// Triangles as points with areas.
-struct Spots {
+/// A surface as point masses, one at the centroid of each triangle.
+struct Centroids {
     std::vector<Vec3> centres;
     std::vector<double> areas;
-    Vec3 middle = Vec3::Zero();
-    double whole = 0;
+    Vec3 middle = Vec3::Zero(); ///< their centre of mass
+    double whole = 0;           ///< sum of the areas
 };
 
-Spots spotsOf(const TriangleMesh& mesh) {
-    Spots spots;
+Centroids centroidsOf(const TriangleMesh& mesh) {
+    Centroids surface;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
-        spots.centres.push_back((a + b + c) / 3);
-        spots.areas.push_back((b - a).cross(c - a).norm() / 2);
-        spots.middle += spots.areas.back() * spots.centres.back();
-        spots.whole += spots.areas.back();
+        surface.centres.push_back((a + b + c) / 3);
+        surface.areas.push_back(mesh.areaNormal(t).norm() / 2);
+        surface.middle += surface.areas.back() * surface.centres.back();
+        surface.whole += surface.areas.back();
     }
-    if (!(spots.whole > 0)) throw InputError("a muscle's mesh has no area; expected a closed surface");
-    spots.middle /= spots.whole;
-    return spots;
+    if (!(surface.whole > 0)) throw InputError("a muscle's mesh has no area; expected a closed surface");
+    surface.middle /= surface.whole;
+    return surface;
 }
 
 /// The middles of slices about an axis; fewer than `points` where some are empty.
-std::vector<Vec3> lineAbout(const Spots& spots, const Vec3& x, const Vec3& y, int points) {
-    const auto& [centres, areas, middle, whole] = spots;
+std::vector<Vec3> lineAbout(const Centroids& surface, const Vec3& x, const Vec3& y, int points) {
+    const auto& [centres, areas, middle, whole] = surface;
     std::vector<Vec3> sums(points, Vec3::Zero());
     std::vector<double> weights(points, 0);
     for (std::size_t t = 0; t < centres.size(); ++t) {
@@ -194,11 +193,11 @@ bool isOpen(const TriangleMesh& mesh, const Vec3& middle, const Vec3& x, const V
 } // namespace
 
 std::vector<Vec3> ringLine(const TriangleMesh& mesh, int points) {
-    const Spots spots = spotsOf(mesh);
+    const Centroids surface = centroidsOf(mesh);
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (std::size_t t = 0; t < spots.centres.size(); ++t) {
-        const Vec3 from = spots.centres[t] - spots.middle;
-        spread += spots.areas[t] / spots.whole * from * from.transpose();
+    for (std::size_t t = 0; t < surface.centres.size(); ++t) {
+        const Vec3 from = surface.centres[t] - surface.middle;
+        spread += surface.areas[t] / surface.whole * from * from.transpose();
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread); // the least extent first
     const auto about = [&](int axis) {
@@ -208,11 +207,11 @@ std::vector<Vec3> ringLine(const TriangleMesh& mesh, int points) {
     // A ring that is higher than wide has its least extent across: it goes round where it is open.
     for (int axis = 0; axis < 3; ++axis) {
         const auto [x, y] = about(axis);
-        std::vector<Vec3> line = lineAbout(spots, x, y, points);
-        if (static_cast<int>(line.size()) == points && isOpen(mesh, spots.middle, x, y)) return line;
+        std::vector<Vec3> line = lineAbout(surface, x, y, points);
+        if (static_cast<int>(line.size()) == points && isOpen(mesh, surface.middle, x, y)) return line;
     }
     const auto [x, y] = about(0);
-    return lineAbout(spots, x, y, points);
+    return lineAbout(surface, x, y, points);
 }
 
 } // namespace tss

@@ -3,6 +3,7 @@
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/base/Words.h"
 
 #include <algorithm>
 #include <array>
@@ -122,8 +123,7 @@ std::vector<std::string> takeSkins(Json& gltf) {
             for (const Json& joint : skin.value("joints", Json::array()))
                 if (joint.is_number_integer()) joints.insert(joint.get<std::int64_t>());
     std::vector<std::string> leftOut;
-    if (!joints.empty())
-        leftOut.push_back(std::to_string(joints.size()) + (joints.size() > 1 ? " bones" : " bone"));
+    if (!joints.empty()) leftOut.push_back(counted(joints.size(), "bone"));
     const Json extensions = gltf.value("extensionsUsed", Json::array());
     if (std::ranges::find(extensions, "EXT_mesh_gpu_instancing") != extensions.end())
         leftOut.push_back("the copies of meshes that EXT_mesh_gpu_instancing makes");

@@ -84,11 +84,9 @@ TriangleMesh importMesh(const std::string& file, MeshFileNotes* notes) {
     TriangleMesh mesh;
     for (const ImportedNode& node : read.nodes) append(node, mesh);
     mesh = checked(mesh, file);
-    const auto isFlat = [&](const Tri& t) {
-        const std::vector<Vec3>& x = mesh.vertices;
-        return hasZeroArea(x[t[0]], x[t[1]], x[t[2]]);
-    };
-    if (std::ranges::all_of(mesh.triangles, isFlat))
+    std::size_t flat = 0;
+    while (flat < mesh.triangles.size() && hasZeroArea(mesh, flat)) ++flat;
+    if (flat == mesh.triangles.size())
         throw InputError(Where{file}, "has no area, a mesh with a surface was expected");
     if (notes) *notes = read.notes;
     return mesh;

@@ -2,6 +2,7 @@
 
 #include "bake/base/Error.h"
 #include "bake/base/UnionFind.h"
+#include "bake/base/Words.h"
 #include "bake/geometry/Bvh.h"
 #include "bake/geometry/TriangleDistance.h"
 
@@ -22,8 +23,8 @@ bool inRange(const TriangleMesh& mesh, const Tri& t) {
     return t.minCoeff() >= 0 && t.maxCoeff() < static_cast<int>(mesh.vertices.size());
 }
 
-/// The corners turned so that the least index stands first: equal for equal triangles of equal sense.
-std::array<int, 3> turned(const Tri& t) {
+/// The corners rotated so that the least index comes first: a key of the triangle and its orientation.
+std::array<int, 3> orientedKey(const Tri& t) {
     int k = 0;
     t.minCoeff(&k);
     return {t[k], t[(k + 1) % 3], t[(k + 2) % 3]};
@@ -32,7 +33,8 @@ std::array<int, 3> turned(const Tri& t) {
 /// For every triangle, whether an earlier one is the same.
 std::vector<char> duplicates(const TriangleMesh& mesh) {
     std::vector<std::pair<std::array<int, 3>, std::size_t>> keys;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) keys.push_back({turned(mesh.triangles[t]), t});
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        keys.push_back({orientedKey(mesh.triangles[t]), t});
     std::sort(keys.begin(), keys.end());
     std::vector<char> repeated(keys.size(), 0);
     for (std::size_t i = 1; i < keys.size(); ++i)
@@ -45,7 +47,7 @@ std::vector<char> duplicates(const TriangleMesh& mesh) {
 int countTurnedOver(const TriangleMesh& mesh) {
     std::vector<std::array<int, 3>> keys;
     for (const Tri& t : mesh.triangles)
-        if (inRange(mesh, t) && t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) keys.push_back(turned(t));
+        if (inRange(mesh, t) && t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) keys.push_back(orientedKey(t));
     std::sort(keys.begin(), keys.end());
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     const auto isThere = [&](const std::array<int, 3>& key) {
@@ -121,6 +123,10 @@ bool hasZeroArea(const Vec3& a, const Vec3& b, const Vec3& c) {
     return !(scale > 0) || (ab / scale).cross(ca / scale).norm() < 1e-14;
 }
 
+bool hasZeroArea(const TriangleMesh& mesh, std::size_t triangle) {
+    return hasZeroArea(mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2));
+}
+
 MeshAudit auditMesh(const TriangleMesh& mesh) {
     MeshAudit audit;
     audit.vertices = static_cast<int>(mesh.vertices.size());
@@ -147,8 +153,8 @@ MeshAudit auditMesh(const TriangleMesh& mesh) {
 }
 
 std::string text(const MeshAudit& audit) {
-    std::string s = fmt::format("{} vertices, {} triangles, {} component{}{}", audit.vertices,
-                                audit.triangles, audit.components, audit.components == 1 ? "" : "s",
+    std::string s = fmt::format("{} vertices, {} triangles, {}{}", audit.vertices, audit.triangles,
+                                counted(static_cast<std::size_t>(audit.components), "component"),
                                 audit.watertight ? ", watertight" : "");
     const auto say = [&s](int count, const char* what) {
         if (count > 0) s += fmt::format("\n{} {}", count, what);
@@ -180,30 +186,25 @@ void checkIndices(const TriangleMesh& mesh) {
 
 namespace {
 
-bool isFlat(const TriangleMesh& mesh, std::size_t t) {
-    return hasZeroArea(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
-}
-
-/// The triangles with an area, to ask what lies on them.
-class Areas {
+/// The triangles of a mesh that have an area, in a tree: tells which zero-area triangles lie on them.
+class SolidTriangles {
 public:
-    Areas(const TriangleMesh& mesh, const std::vector<char>& flat) : mesh_(mesh) {
+    SolidTriangles(const TriangleMesh& mesh, const std::vector<char>& flat) : mesh_(mesh) {
         std::vector<Eigen::AlignedBox3d> boxes;
         double size = 0;
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
             if (flat[t]) continue;
             triangles_.push_back(t);
-            Eigen::AlignedBox3d box(mesh.corner(t, 0));
-            boxes.push_back(box.extend(mesh.corner(t, 1)).extend(mesh.corner(t, 2)));
+            const Eigen::AlignedBox3d& box = boxes.emplace_back(bounds(mesh, t));
             size = std::max({size, box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()});
         }
         rounding_ = 4 * std::numeric_limits<double>::epsilon() * size;
         tree_ = buildBvh(boxes);
     }
 
-    /// The zero-area triangle adds nothing to the surface: its longest edge lies on one of the others, or
-    /// each part of it that its third corner makes does.
-    bool holds(std::size_t t) const {
+    /// Whether a zero-area triangle adds nothing to the surface: its longest edge lies on a triangle with an
+    /// area, or both parts that the third corner divides that edge into do.
+    bool cover(std::size_t t) const {
         int k = 0;
         double longest = -1;
         for (int i = 0; i < 3; ++i)
@@ -215,12 +216,12 @@ public:
         const Vec3 &a = mesh_.corner(t, k), &b = mesh_.corner(t, (k + 1) % 3),
                    &c = mesh_.corner(t, (k + 2) % 3);
         const double near = rounding_ + 2e-14 * longest;
-        return holds(a, b, near) || (holds(a, c, near) && holds(c, b, near));
+        return coverSegment(a, b, near) || (coverSegment(a, c, near) && coverSegment(c, b, near));
     }
 
 private:
-    /// Some triangle has both ends on it, so that it has all between them.
-    bool holds(const Vec3& a, const Vec3& b, double near) const {
+    /// Whether both ends of a segment, and so all of it, lie on one triangle.
+    bool coverSegment(const Vec3& a, const Vec3& b, double near) const {
         bool held = false;
         visitBall(tree_, a, near, [&](std::uint32_t i) {
             const auto on = [&](const Vec3& p) {
@@ -240,18 +241,18 @@ private:
     double rounding_ = 0;
 };
 
-/// For every triangle, whether the cleaned mesh does without it.
-std::vector<char> needless(const TriangleMesh& mesh) {
+/// For every triangle, whether cleaned() leaves it out.
+std::vector<char> redundantTriangles(const TriangleMesh& mesh) {
     std::vector<char> without = duplicates(mesh), flat(mesh.triangles.size(), 0);
-    for (std::size_t t = 0; t < flat.size(); ++t) flat[t] = isFlat(mesh, t);
+    for (std::size_t t = 0; t < flat.size(); ++t) flat[t] = hasZeroArea(mesh, t);
     const auto count = std::count(flat.begin(), flat.end(), 1);
     if (count == static_cast<std::ptrdiff_t>(flat.size()))
         throw InputError("the mesh has no triangle with an area (" + std::to_string(mesh.vertices.size()) +
                          " vertices, " + std::to_string(mesh.triangles.size()) + " triangles)");
     if (count == 0) return without;
-    const Areas areas(mesh, flat);
+    const SolidTriangles solid(mesh, flat);
     for (std::size_t t = 0; t < flat.size(); ++t)
-        if (flat[t] && !without[t]) without[t] = areas.holds(t);
+        if (flat[t] && !without[t]) without[t] = solid.cover(t);
     return without;
 }
 
@@ -260,7 +261,7 @@ std::vector<char> needless(const TriangleMesh& mesh) {
 TriangleMesh cleaned(const TriangleMesh& mesh, std::vector<std::uint32_t>* loaded) {
     checkIndices(mesh);
     if (loaded) loaded->clear();
-    const std::vector<char> without = needless(mesh);
+    const std::vector<char> without = redundantTriangles(mesh);
     TriangleMesh result;
     std::vector<int> place(mesh.vertices.size(), -1);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -38,6 +38,7 @@ std::string text(const MeshAudit& audit);
 
 /// The triangle has no area: a corner twice, or its height is under 1e-14 of its longest edge.
 bool hasZeroArea(const Vec3& a, const Vec3& b, const Vec3& c);
+bool hasZeroArea(const TriangleMesh& mesh, std::size_t triangle);
 
 /// Throws InputError for vertices that are not finite and for indices out of range; an empty mesh passes.
 void checkIndices(const TriangleMesh& mesh);

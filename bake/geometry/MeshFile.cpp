@@ -5,6 +5,7 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/base/Subprocess.h"
+#include "bake/base/Words.h"
 #include "bake/geometry/MeshFileParts.h"
 #include "bake/geometry/Polygon.h"
 
@@ -219,7 +220,7 @@ std::vector<std::string> leftOutOf(const aiScene& scene) {
     }
     std::vector<std::string> names;
     const auto add = [&](std::size_t count, const char* what) {
-        if (count > 0) names.push_back(std::to_string(count) + " " + what + (count > 1 ? "s" : ""));
+        if (count > 0) names.push_back(counted(count, what));
     };
     add(scene.mNumAnimations, "animation");
     add(bones.size(), "bone");

@@ -25,9 +25,9 @@ MeshQuery::MeshQuery(const TriangleMesh& mesh) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         corners_.push_back(
             {mesh.corner(t, 0) - origin_, mesh.corner(t, 1) - origin_, mesh.corner(t, 2) - origin_});
-        Eigen::AlignedBox3d box(corners_.back().a);
-        boxes.push_back(box.extend(corners_.back().b).extend(corners_.back().c));
-        if (!hasZeroArea(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2))) continue;
+        Eigen::AlignedBox3d box(corners_.back()[0]);
+        boxes.push_back(box.extend(corners_.back()[1]).extend(corners_.back()[2]));
+        if (!hasZeroArea(mesh, t)) continue;
         flat_.resize(mesh.triangles.size(), 0);
         flat_[t] = 1;
     }
@@ -41,7 +41,7 @@ ClosestPoint MeshQuery::closest(const Vec3& p, double within) const {
     double best2 = within * within;
     visitNearest(bvh_, local, best2, [&](std::uint32_t t) {
         const Corners& k = corners_[t];
-        const Vec3 q = closestOnTriangle(local, k.a, k.b, k.c);
+        const Vec3 q = closestOnTriangle(local, k[0], k[1], k[2]);
         const double d2 = (q - local).squaredNorm();
         if (d2 < best2) {
             best2 = d2;
@@ -66,12 +66,12 @@ bool MeshQuery::comesWithin(const Vec3& p, double within) const {
     while (top > 0) {
         const Bvh::Node& node = bvh_.nodes[stack[--top]];
         if (!(squaredDistance(node, local) < within2)) continue;
-        // All of the node's triangles are.
+        // The farthest corner of the box is within the distance, and so is everything in it.
         if ((local - node.lower).cwiseAbs().cwiseMax((node.upper - local).cwiseAbs()).squaredNorm() < within2)
             return true;
         for (std::uint32_t i = 0; i < node.count; ++i) {
             const Corners& k = corners_[bvh_.items[node.first + i]];
-            if ((closestOnTriangle(local, k.a, k.b, k.c) - local).squaredNorm() < within2) return true;
+            if ((closestOnTriangle(local, k[0], k[1], k[2]) - local).squaredNorm() < within2) return true;
         }
         if (node.count > 0) continue;
         const std::uint32_t a = node.first, b = node.first + 1;
@@ -91,8 +91,8 @@ double squaredDistanceOfBoxes(const Bvh::Node& node, const Vec3& middle, const V
 
 } // namespace
 
-double MeshQuery::searchOther(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double best2,
-                              bool anyWill, std::uint64_t& looks) const {
+double MeshQuery::squaredDistanceTo(const MeshQuery& other, const Eigen::Isometry3d& otherToThis,
+                                    double best2, bool stopAtFirst, std::uint64_t& looks) const {
     if (bvh_.empty() || other.bvh_.empty()) return best2;
     const Eigen::Matrix3d turn = otherToThis.linear(), size = turn.cwiseAbs();
     const Vec3 shift = otherToThis * other.origin_ - origin_;
@@ -102,14 +102,14 @@ double MeshQuery::searchOther(const MeshQuery& other, const Eigen::Isometry3d& o
         return squaredDistanceOfBoxes(bvh_.nodes[here], middle, size * (0.5 * (node.upper - node.lower)));
     };
     const double asked2 = best2;
-    struct Both {
-        double bound2;
+    struct NodePair {
+        double bound2; // of the squared distance of their boxes
         std::uint32_t here, there;
     };
-    std::vector<Both> stack{{bound2(0, 0), 0, 0}};
-    std::vector<TriangleCorners> moved;
+    std::vector<NodePair> stack{{bound2(0, 0), 0, 0}};
+    std::vector<Corners> moved;
     while (!stack.empty()) {
-        const Both both = stack.back();
+        const NodePair both = stack.back();
         stack.pop_back();
         if (!(both.bound2 < best2)) continue;
         const Bvh::Node &a = bvh_.nodes[both.here], &b = other.bvh_.nodes[both.there];
@@ -117,23 +117,22 @@ double MeshQuery::searchOther(const MeshQuery& other, const Eigen::Isometry3d& o
             moved.clear();
             for (std::uint32_t j = b.first; j < b.first + b.count; ++j) {
                 const Corners& k = other.corners_[other.bvh_.items[j]];
-                moved.push_back({turn * k.a + shift, turn * k.b + shift, turn * k.c + shift});
+                moved.push_back({turn * k[0] + shift, turn * k[1] + shift, turn * k[2] + shift});
             }
             looks += std::uint64_t(a.count) * b.count;
             for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
-                const Corners& k = corners_[bvh_.items[i]];
-                const TriangleCorners s{k.a, k.b, k.c};
-                for (const TriangleCorners& t : moved)
+                const Corners& s = corners_[bvh_.items[i]];
+                for (const Corners& t : moved)
                     if (!surelyBeyond(s, t, best2)) best2 = std::min(best2, squaredDistanceOfTriangles(s, t));
             }
-            if (best2 == 0 || (anyWill && best2 < asked2)) return best2;
+            if (best2 == 0 || (stopAtFirst && best2 < asked2)) return best2;
             continue;
         }
         ++looks;
-        // The larger one is opened; what is nearer comes first.
+        // The larger node is replaced by its children; the nearer pair goes on top of the stack.
         const bool openHere = b.count > 0 || (a.count == 0 && (a.upper - a.lower).squaredNorm() >=
                                                                   (b.upper - b.lower).squaredNorm());
-        Both parts[2];
+        NodePair parts[2];
         for (std::uint32_t k = 0; k < 2; ++k) {
             parts[k].here = openHere ? a.first + k : both.here;
             parts[k].there = openHere ? both.there : b.first + k;
@@ -149,15 +148,15 @@ double MeshQuery::searchOther(const MeshQuery& other, const Eigen::Isometry3d& o
 double MeshQuery::distanceTo(const MeshQuery& other, const Eigen::Isometry3d& otherToThis,
                              double within) const {
     std::uint64_t looks = 0;
-    const double best2 = searchOther(other, otherToThis, within * within, false, looks);
-    return best2 < within * within ? std::sqrt(best2) : std::numeric_limits<double>::infinity();
+    const double best2 = squaredDistanceTo(other, otherToThis, within * within, false, looks);
+    return best2 < within * within ? std::sqrt(best2) : infinity;
 }
 
 bool MeshQuery::apart(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double distance,
                       std::uint64_t* looks) const {
     const double distance2 = distance * distance;
     std::uint64_t seen = 0;
-    const double best2 = searchOther(other, otherToThis, distance2, true, seen);
+    const double best2 = squaredDistanceTo(other, otherToThis, distance2, true, seen);
     if (looks) *looks += seen;
     return !(best2 < distance2);
 }
@@ -173,10 +172,10 @@ void MeshQuery::buildDipoles() {
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
             const Corners& k = corners_[bvh_.items[i]];
             if (!flat_.empty() && flat_[bvh_.items[i]]) continue;
-            const Vec3 normal = 0.5 * (k.b - k.a).cross(k.c - k.a);
+            const Vec3 normal = 0.5 * (k[1] - k[0]).cross(k[2] - k[0]);
             dipole.areaNormal += normal;
             areas[n] += normal.norm();
-            weighted += normal.norm() * (k.a + k.b + k.c) / 3;
+            weighted += normal.norm() * (k[0] + k[1] + k[2]) / 3;
         }
         if (node.count == 0)
             for (const std::uint32_t child : {node.first, node.first + 1}) {
@@ -217,7 +216,7 @@ double MeshQuery::approximateWinding(const Vec3& local, double beta) const {
 double MeshQuery::solidAngleOf(std::uint32_t triangle, const Vec3& local) const {
     if (!flat_.empty() && flat_[triangle]) return 0;
     const Corners& k = corners_[triangle];
-    return solidAngle(local, k.a, k.b, k.c);
+    return solidAngle(local, k[0], k[1], k[2]);
 }
 
 double MeshQuery::exactWinding(const Vec3& local) const {
@@ -227,7 +226,7 @@ double MeshQuery::exactWinding(const Vec3& local) const {
 }
 
 int MeshQuery::crossings(const Vec3& local) const {
-    const Vec3 along(1, 0.6180339887498949, 0.4142135623730951); // of no grid
+    const Vec3 along(1, 0.6180339887498949, 0.4142135623730951); // along no axis and no diagonal of a grid
     const Vec3 inverse = along.cwiseInverse();
     const auto meets = [&](const Bvh::Node& node) {
         const Eigen::Array3d low = (node.lower - local).array() * inverse.array(),
@@ -235,11 +234,12 @@ int MeshQuery::crossings(const Vec3& local) const {
         const double enters = low.maxCoeff(), leaves = high.minCoeff();
         return leaves >= 0 && enters <= leaves + 1e-12 * std::abs(leaves);
     };
-    // Seen along the ray, which is the middle then: a triangle's turns about it. Corners are moved alike in
-    // all triangles, so that the ray slips through no edge.
+    // The triangle is projected along the ray, which becomes the origin, and its winding number about the
+    // origin counted. A corner shared by two triangles is projected to the same bits in both, so that the ray
+    // cannot slip through between them.
     const auto crossing = [&](std::uint32_t triangle) {
         const Corners& k = corners_[triangle];
-        const Vec3 from[] = {k.a - local, k.b - local, k.c - local};
+        const Vec3 from[] = {k[0] - local, k[1] - local, k[2] - local};
         double y[3], z[3];
         for (int i = 0; i < 3; ++i) {
             y[i] = from[i].y() - along.y() * from[i].x();
@@ -280,7 +280,7 @@ double MeshQuery::windingNumber(const Vec3& p) const {
         const double w = approximateWinding(local, beta);
         if (std::abs(w - crossed) <= 0.2) return w;
     }
-    // Few openings let the ray out: the mesh is open, or the ray ran along an edge.
+    // The ray and the dipoles disagree: the mesh is open, or the ray ran along an edge.
     const double w = approximateWinding(local, 20);
     return std::abs(std::abs(w) - 0.5) > 0.2 && std::abs(w) < 1.3 ? w : exactWinding(local);
 }

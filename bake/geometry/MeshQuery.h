@@ -1,15 +1,13 @@
 #pragma once
+#include "bake/base/Infinity.h"
 #include "bake/geometry/Bvh.h"
-
-#include <array>
-#include <limits>
 
 namespace tss {
 
 /// The nearest point of a mesh.
 struct ClosestPoint {
     Vec3 point = Vec3::Zero();
-    double distance = std::numeric_limits<double>::infinity(); ///< infinity: nothing within the limit asked
+    double distance = infinity; ///< infinity: nothing within the limit asked
     int triangle = -1;
 };
 
@@ -34,16 +32,14 @@ public:
     double extent() const { return bvh_.empty() ? 0 : origin_.norm() + radius(); }
 
     /// The nearest point of the mesh to p, if it is nearer than `within`.
-    ClosestPoint closest(const Vec3& p, double within = std::numeric_limits<double>::infinity()) const;
+    ClosestPoint closest(const Vec3& p, double within = infinity) const;
 
     /// Whether some point of the mesh is nearer to p than `within`: closest() without the answer to which, at
     /// a fraction of the time where the mesh is well within.
     bool comesWithin(const Vec3& p, double within) const;
 
     /// Distance from p to the mesh, or infinity where it is not below `within`.
-    double distance(const Vec3& p, double within = std::numeric_limits<double>::infinity()) const {
-        return closest(p, within).distance;
-    }
+    double distance(const Vec3& p, double within = infinity) const { return closest(p, within).distance; }
 
     /// The generalised winding number of the mesh about p: 1 inside a closed mesh, 2 where two closed
     /// components overlap, 0 outside, -1 in an inverted mesh, a fraction about an open one (Jacobson 2013).
@@ -51,13 +47,13 @@ public:
     /// right: many shells on one another add up to much. What is neither is summed exactly.
     double windingNumber(const Vec3& p) const;
 
-    /// |winding number| >= 1/2: inside the union of the components, whichever way they are turned.
+    /// |winding number| >= 1/2: inside the union of the components, whichever way they are oriented.
     bool inside(const Vec3& p) const;
 
     /// The least distance of the surfaces, the other mesh moved into this one's frame: 0 where they cross,
     /// infinity where it is not below `within`. Right to rounding.
     double distanceTo(const MeshQuery& other, const Eigen::Isometry3d& otherToThis,
-                      double within = std::numeric_limits<double>::infinity()) const;
+                      double within = infinity) const;
 
     /// The surfaces stay at least `distance` away from each other. Adds to `*looks` the pairs of nodes and of
     /// triangles that it looked at.
@@ -67,38 +63,32 @@ public:
     const Bvh& bvh() const { return bvh_; }
 
     /// The corners of the triangle at this place among the tree's items, about centre() as its nodes are.
-    std::array<Vec3, 3> localTriangle(std::uint32_t item) const {
-        const Corners& k = corners_[bvh_.items[item]];
-        return {k.a, k.b, k.c};
-    }
+    const Corners& localTriangle(std::uint32_t item) const { return corners_[bvh_.items[item]]; }
 
 private:
-    struct Corners {
-        Vec3 a, b, c;
-    };
-    /// What a node's triangles look like from afar.
+    /// First-order far field of a node's triangles (Barill 2018).
     struct Dipole {
         Vec3 centre = Vec3::Zero();
         Vec3 areaNormal = Vec3::Zero();
         double radius = 0; ///< all the node's corners lie within it about the centre
     };
 
-    /// The square of the least distance of the surfaces where that is below best2, else best2. anyWill: the
-    /// first that is found will do.
-    double searchOther(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double best2,
-                       bool anyWill, std::uint64_t& looks) const;
+    /// Squared distance of the surfaces where it is below best2, else best2. stopAtFirst: ends with the first
+    /// squared distance found below best2, not the least. Counts what it visits in `looks`.
+    double squaredDistanceTo(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double best2,
+                             bool stopAtFirst, std::uint64_t& looks) const;
     void buildDipoles();
-    /// Of one triangle; 0 for those without an area, of which rounding could make anything.
+    /// Of one triangle; 0 for one without area, whose solid angle would be rounding alone.
     double solidAngleOf(std::uint32_t triangle, const Vec3& local) const;
     double exactWinding(const Vec3& local) const;
-    /// How many more times a ray from there goes out of the mesh than into it: of a closed mesh the winding
-    /// number, but where it runs along an edge.
+    /// By how much the exits of a ray from `local` outnumber its entries: the winding number where the mesh
+    /// is closed and the ray runs along no edge.
     int crossings(const Vec3& local) const;
-    /// A node's dipole stands for its triangles when it is farther than beta of its radii.
+    /// Barill's approximation: a node farther away than beta of its radii counts by its dipole.
     double approximateWinding(const Vec3& local, double beta) const;
 
     Vec3 origin_ = Vec3::Zero();
-    std::vector<Corners> corners_;
+    std::vector<Corners> corners_; ///< one per triangle, about origin_
     Bvh bvh_;
     std::vector<Dipole> dipoles_; ///< one per node
     std::vector<char> flat_;      ///< one per triangle: it has no area; empty where all have one

@@ -32,7 +32,8 @@ Vec3 middle(const Corners& c) {
     return (c[0] + c[1] + c[2]) / 3;
 }
 
-/// The part of a triangle with these corners, cut as often as `cuts`; 0 where it is cut otherwise.
+/// SurfacePart::cuts of the part of a triangle that has the wanted corners and lies as deep as `cuts`; 0
+/// where halving the triangle's longest edges never makes that part.
 std::uint32_t cutsOf(Corners whole, const Corners& wanted, std::uint32_t cuts) {
     std::uint32_t found = 1;
     for (; cuts > 1; cuts >>= 1) {
@@ -49,34 +50,34 @@ std::uint32_t cutsOf(Corners whole, const Corners& wanted, std::uint32_t cuts) {
 
 void PartSet::insert(SurfacePart part) {
     if (contains(part)) return;
-    in_.insert(key(part.triangle, part.cuts));
+    parts_.insert(key(part.triangle, part.cuts));
     for (std::uint32_t cuts = part.cuts; cuts > 0; cuts >>= 1)
-        if (!above_.insert(key(part.triangle, cuts)).second) break;
-    // Two halves become the whole.
-    if (part.cuts > 1 && in_.erase(key(part.triangle, part.cuts ^ 1u)) > 0) {
-        in_.erase(key(part.triangle, part.cuts));
+        if (!ancestors_.insert(key(part.triangle, cuts)).second) break;
+    // Where both halves are in the set now, their parent takes their place.
+    if (part.cuts > 1 && parts_.erase(key(part.triangle, part.cuts ^ 1u)) > 0) {
+        parts_.erase(key(part.triangle, part.cuts));
         insert({part.triangle, part.cuts >> 1});
     }
 }
 
 bool PartSet::contains(SurfacePart part) const {
-    if (!above_.count(key(part.triangle, 1))) return false;
+    if (!ancestors_.count(key(part.triangle, 1))) return false;
     for (std::uint32_t cuts = part.cuts; cuts > 0; cuts >>= 1)
-        if (in_.count(key(part.triangle, cuts))) return true;
+        if (parts_.count(key(part.triangle, cuts))) return true;
     return false;
 }
 
 bool PartSet::holds(SurfacePart part) const {
-    return in_.count(key(part.triangle, part.cuts)) > 0;
+    return parts_.count(key(part.triangle, part.cuts)) > 0;
 }
 
 bool PartSet::reaches(SurfacePart part) const {
-    return above_.count(key(part.triangle, part.cuts)) > 0;
+    return ancestors_.count(key(part.triangle, part.cuts)) > 0;
 }
 
 std::vector<SurfacePart> PartSet::merged() const {
     std::vector<SurfacePart> parts;
-    for (const std::uint64_t one : in_) {
+    for (const std::uint64_t one : parts_) {
         const SurfacePart part{static_cast<std::uint32_t>(one >> 32), static_cast<std::uint32_t>(one)};
         const bool whole = part.cuts == 1 || !contains({part.triangle, part.cuts >> 1});
         if (whole) parts.push_back(part);
@@ -92,15 +93,15 @@ std::array<SurfacePart, 2> halves(SurfacePart part) {
 std::vector<SurfacePart> partsOf(const TriangleMesh& other, const TriangleMesh& mesh,
                                  const std::vector<SurfacePart>& parts) {
     std::map<Place, std::vector<std::uint32_t>> at;
-    for (const SurfacePart& part : parts) at[placeOf(corners(mesh, {part.triangle, 1}))];
+    for (const SurfacePart& part : parts) at[placeOf(mesh.corners(part.triangle))];
     for (std::uint32_t t = 0; t < other.triangles.size() && !at.empty(); ++t)
-        if (const auto found = at.find(placeOf(corners(other, {t, 1}))); found != at.end())
+        if (const auto found = at.find(placeOf(other.corners(t))); found != at.end())
             found->second.push_back(t);
     std::vector<SurfacePart> result;
     for (const SurfacePart& part : parts) {
-        const Corners whole = corners(mesh, {part.triangle, 1});
+        const Corners whole = mesh.corners(part.triangle);
         for (const std::uint32_t t : at[placeOf(whole)]) {
-            const Corners there = corners(other, {t, 1});
+            const Corners there = other.corners(t);
             const std::uint32_t cuts =
                 there == whole ? part.cuts : cutsOf(there, corners(mesh, part), part.cuts);
             if (cuts > 0) result.push_back({t, cuts});
@@ -129,8 +130,7 @@ double area(const TriangleMesh& mesh, const std::vector<SurfacePart>& parts) {
 
 double area(const TriangleMesh& mesh) {
     double sum = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        sum += area(Corners{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) sum += area(mesh.corners(t));
     return sum;
 }
 

@@ -9,26 +9,27 @@ namespace tss {
 /// A set of parts of one mesh's surface. Parts may be put in twice and inside one another.
 class PartSet {
 public:
-    bool empty() const { return in_.empty(); }
+    bool empty() const { return parts_.empty(); }
 
     void insert(SurfacePart part);
 
-    /// All of the part lies in the set, as one part of it.
+    /// The part itself or an ancestor of it (what it was halved from) is in the set.
     bool contains(SurfacePart part) const;
 
-    /// The same, asked of a part whose wholes are known not to be.
+    /// As contains(), for a part no ancestor of which is in the set: one look-up.
     bool holds(SurfacePart part) const;
 
-    /// Some part in the set is this one or a part of it.
+    /// The part itself or a descendant of it is in the set.
     bool reaches(SurfacePart part) const;
 
     /// The same surface in as few parts as there are: two halves become the whole; sorted.
     std::vector<SurfacePart> merged() const;
 
 private:
-    std::unordered_set<std::uint64_t> in_; ///< the parts; perhaps others inside them, but no two halves
-    std::unordered_set<std::uint64_t>
-        above_; ///< all parts that were put in, and all of which these are parts
+    /// Keys of the parts. A part and a descendant of it may both be in it, but never both halves of one part.
+    std::unordered_set<std::uint64_t> parts_;
+    /// Keys of all parts that were ever inserted, and of all their ancestors.
+    std::unordered_set<std::uint64_t> ancestors_;
 };
 
 /// The two halves of a part, in the order of halves(). Its cuts must be fewer than mostCuts.

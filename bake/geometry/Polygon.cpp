@@ -1,8 +1,9 @@
 // Ears are cut off one after the other (Meisters, "Polygons have ears", 1975).
 #include "bake/geometry/Polygon.h"
 
+#include "bake/base/Infinity.h"
+
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace tss {
@@ -68,7 +69,7 @@ private:
     /// leaves none, that of the corner that takes the least area with it.
     std::size_t next(std::size_t from) const {
         std::size_t least = from;
-        double area = std::numeric_limits<double>::infinity();
+        double area = infinity;
         for (std::size_t k = 0; k < ring_.size(); ++k) {
             const std::size_t at = (from + k) % ring_.size();
             const double own = turnAt(at);

@@ -41,15 +41,15 @@ std::vector<OpenEdge> unbalanced(std::vector<EdgeUse> edges) {
     return open;
 }
 
-/// Two places nearer than this share of the mesh's diagonal are one.
-constexpr double samePlace = 1e-6;
-/// What is this share of an edge wide is a crack along it and no hole.
+/// Vertices nearer to each other than this share of the mesh's diagonal count as one.
+constexpr double weldShare = 1e-6;
+/// A gap along an edge narrower than this share of the edge's length is a crack, not a hole.
 constexpr double crackShare = 0.01;
 
-/// The ends of open edges, to find those at a place.
+/// The end vertices of open edges, in a tree: finds those near a vertex and those along an edge.
 class OpenVertices {
 public:
-    /// least: what is nearer is at one place, scene units.
+    /// least: vertices nearer to each other than this count as one, scene units.
     OpenVertices(const TriangleMesh& mesh, const std::vector<OpenEdge>& open, double least) : mesh_(mesh) {
         std::map<int, double> shortest;
         for (const OpenEdge& e : open)
@@ -67,16 +67,16 @@ public:
         tree_ = buildBvh(boxes);
     }
 
-    /// For every vertex of the mesh the first of those that stand at its place, across a crack too, or
-    /// itself.
-    std::vector<int> joined() const {
+    /// For every vertex of the mesh the one of lowest index among those that count as one with it, also
+    /// across a crack; itself where there is none.
+    std::vector<int> representatives() const {
         std::vector<int> place(mesh_.vertices.size());
         std::iota(place.begin(), place.end(), 0);
         for (std::size_t k = 0; k < vertices_.size(); ++k) {
             const int v = vertices_[k];
             visitBall(tree_, mesh_.vertices[v], near_[k], [&](std::uint32_t i) {
                 const int other = vertices_[i];
-                // Never on from there: a rim of short edges is no point.
+                // Not transitive: a rim of many short edges must not collapse into one point.
                 if ((mesh_.vertices[other] - mesh_.vertices[v]).norm() <= std::min(near_[k], near_[i]))
                     place[v] = std::min(place[v], other);
             });
@@ -105,36 +105,37 @@ public:
 private:
     const TriangleMesh& mesh_;
     std::vector<int> vertices_;
-    std::vector<double> near_; ///< of each of them
+    std::vector<double> near_; ///< distance within which another vertex counts as one with each
     Bvh tree_;
 };
 
-/// What is open in a mesh: the rims of its holes, and the strips of surface that close its cracks.
+/// The openings of a mesh: edges on the rims of holes, and strips of triangles that close cracks.
 struct Openings {
     std::vector<OpenEdge> rims;
     std::vector<Tri> strips;
-    double widest = 0; ///< of the cracks, scene units; 0: what is nearer than samePlace
+    double widest = 0; ///< width of the widest crack, scene units; 0 where all are below weldShare
 };
 
 class FindOpenings {
 public:
-    explicit FindOpenings(const TriangleMesh& mesh) : mesh_(mesh), least_(samePlace * diagonal(mesh)) {}
+    explicit FindOpenings(const TriangleMesh& mesh) : mesh_(mesh), least_(weldShare * diagonal(mesh)) {}
 
     Openings run() {
         std::vector<EdgeUse> edges;
-        for (const Tri& t : mesh_.triangles) {
-            // A segment or a point of surface bounds nothing, so that it has no opening either.
-            if (hasZeroArea(mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]])) continue;
+        for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+            // A zero-area triangle is a segment or a point: it bounds nothing and has no opening either.
+            if (hasZeroArea(mesh_, i)) continue;
+            const Tri& t = mesh_.triangles[i];
             for (int k = 0; k < 3; ++k) edges.push_back(edgeUse(t[k], t[(k + 1) % 3], 1));
         }
         found_.rims = unbalanced(std::move(edges));
         if (found_.rims.empty()) return std::move(found_);
-        // Vertices that stand at one place first, so that the ends of what is cut up next are single ones.
-        const std::vector<int> place = OpenVertices(mesh_, found_.rims, least_).joined();
+        // First vertices that count as one are joined, so that the edges divided next have unique ends.
+        const std::vector<int> place = OpenVertices(mesh_, found_.rims, least_).representatives();
         replace([&](const OpenEdge& e) { return std::vector{e.from, place[e.from], place[e.to], e.to}; }, 1);
         const OpenVertices ends(mesh_, found_.rims, least_);
         replace([&](const OpenEdge& e) { return ends.along(e, least_); }, 0);
-        if (!(found_.widest > least_)) { // nothing but rounding
+        if (!(found_.widest > least_)) { // no crack wider than rounding
             found_.widest = 0;
             found_.strips.clear();
         }
@@ -142,26 +143,26 @@ public:
     }
 
 private:
-    /// Puts another way between its ends in the place of each open edge, less `skipped` steps at both ends:
-    /// they are those of the edges beside it. What lies between edge and way is closed by a strip.
-    template <class WayOf>
-    void replace(const WayOf& wayOf, std::size_t skipped) {
+    /// Replaces each open edge by a polyline between its ends, without the first and last `skipped` segments,
+    /// which the neighbouring edges have too. A strip closes what lies between edge and polyline.
+    template <class PolylineOf>
+    void replace(const PolylineOf& polylineOf, std::size_t skipped) {
         std::vector<EdgeUse> edges;
         for (const OpenEdge& e : found_.rims) {
-            const std::vector<int> way = wayOf(e);
-            for (std::size_t i = 1 + skipped; i + skipped < way.size(); ++i)
-                edges.push_back(edgeUse(way[i - 1], way[i], e.excess));
-            addStrip(e, way);
+            const std::vector<int> line = polylineOf(e);
+            for (std::size_t i = 1 + skipped; i + skipped < line.size(); ++i)
+                edges.push_back(edgeUse(line[i - 1], line[i], e.excess));
+            addStrip(e, line);
         }
         found_.rims = unbalanced(std::move(edges));
     }
 
-    void addStrip(const OpenEdge& e, const std::vector<int>& way) {
+    void addStrip(const OpenEdge& e, const std::vector<int>& line) {
         const Vec3 &a = mesh_.vertices[e.from], &b = mesh_.vertices[e.to];
-        for (std::size_t i = 1; i + 1 < way.size(); ++i) {
-            const Vec3& p = mesh_.vertices[way[i]];
+        for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+            const Vec3& p = mesh_.vertices[line[i]];
             found_.widest = std::max(found_.widest, (closestOnSegment(p, a, b) - p).norm());
-            if (const Tri t(e.to, way[i - 1], way[i]); t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
+            if (const Tri t(e.to, line[i - 1], line[i]); t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
                 found_.strips.insert(found_.strips.end(), static_cast<std::size_t>(e.excess), t);
         }
     }
@@ -252,7 +253,7 @@ Solid::Solid(const TriangleMesh& mesh, Interior interior)
 
 double Solid::protrusion(const Vec3& centre, double radius) const {
     const double distance = boundary_.distance(centre);
-    // On the surface the side makes no difference, and is the one thing that is slow to tell.
+    // On the surface both formulas agree, and the winding number, which is slow, is not needed.
     const bool out = distance <= 1e-9 * radius || !inside(centre);
     return std::max(0.0, out ? radius + distance : radius - distance);
 }

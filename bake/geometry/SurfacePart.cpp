@@ -20,7 +20,7 @@ std::array<Corners, 2> halves(const Corners& corners) {
 }
 
 Corners corners(const TriangleMesh& mesh, SurfacePart part) {
-    Corners now{mesh.corner(part.triangle, 0), mesh.corner(part.triangle, 1), mesh.corner(part.triangle, 2)};
+    Corners now = mesh.corners(part.triangle);
     for (int bit = std::bit_width(part.cuts) - 2; bit >= 0; --bit) now = halves(now)[part.cuts >> bit & 1];
     return now;
 }

@@ -7,9 +7,6 @@
 
 namespace tss {
 
-/// The three corners of a triangle or of a part of one.
-using Corners = std::array<Vec3, 3>;
-
 /// Cuts the longest edge in half, the first of equal ones: (a, middle, c) and (middle, b, c), where the edge
 /// runs from a to b and c is the corner opposite.
 std::array<Corners, 2> halves(const Corners& corners);

@@ -1,12 +1,14 @@
 #include "bake/geometry/TriangleDistance.h"
 
+#include "bake/base/Infinity.h"
+
 #include <algorithm>
 
 namespace tss {
 namespace {
 
-/// The segment from p to q goes through the triangle's inside.
-bool pierces(const Vec3& p, const Vec3& q, const TriangleCorners& t, const Vec3& normal) {
+/// Whether the segment from p to q passes through the inside of the triangle.
+bool pierces(const Vec3& p, const Vec3& q, const Corners& t, const Vec3& normal) {
     const double before = normal.dot(p - t[0]), after = normal.dot(q - t[0]);
     if (!(before * after < 0)) return false;
     const Vec3 x = p + before / (before - after) * (q - p);
@@ -15,15 +17,16 @@ bool pierces(const Vec3& p, const Vec3& q, const TriangleCorners& t, const Vec3&
     return true;
 }
 
-/// Apart by more than the distance along a direction of any length, whatever rounding does.
-bool beyondAlong(const Vec3& n, const TriangleCorners& s, const TriangleCorners& t, double distance2) {
+/// Whether the projections of two triangles on an axis n of any length are farther apart than a distance,
+/// given squared, rounding counted against it.
+bool separatedAlong(const Vec3& n, const Corners& s, const Corners& t, double distance2) {
     const double s0 = n.dot(s[0]), s1 = n.dot(s[1]), s2 = n.dot(s[2]);
     const double t0 = n.dot(t[0]), t1 = n.dot(t[1]), t2 = n.dot(t[2]);
     const double sLow = std::min({s0, s1, s2}), sHigh = std::max({s0, s1, s2});
     const double tLow = std::min({t0, t1, t2}), tHigh = std::max({t0, t1, t2});
     const double gap = std::max(tLow - sHigh, sLow - tHigh);
     if (!(gap > 0)) return false;
-    const auto reach = [&](const TriangleCorners& c) {
+    const auto reach = [&](const Corners& c) {
         return std::max({c[0].squaredNorm(), c[1].squaredNorm(), c[2].squaredNorm()});
     };
     const double length2 = n.squaredNorm();
@@ -52,12 +55,12 @@ double squaredDistanceOfSegments(const Vec3& a, const Vec3& b, const Vec3& c, co
     return best;
 }
 
-double squaredDistanceOfTriangles(const TriangleCorners& s, const TriangleCorners& t) {
+double squaredDistanceOfTriangles(const Corners& s, const Corners& t) {
     const Vec3 normalS = (s[1] - s[0]).cross(s[2] - s[0]), normalT = (t[1] - t[0]).cross(t[2] - t[0]);
     for (int k = 0; k < 3; ++k)
         if (pierces(s[k], s[(k + 1) % 3], t, normalT) || pierces(t[k], t[(k + 1) % 3], s, normalS)) return 0;
     // Apart, the nearest pair has a corner of one of them in it, or lies on an edge of each.
-    double best = std::numeric_limits<double>::infinity();
+    double best = infinity;
     for (int k = 0; k < 3; ++k) {
         best = std::min(best, (closestOnTriangle(s[k], t[0], t[1], t[2]) - s[k]).squaredNorm());
         best = std::min(best, (closestOnTriangle(t[k], s[0], s[1], s[2]) - t[k]).squaredNorm());
@@ -67,14 +70,14 @@ double squaredDistanceOfTriangles(const TriangleCorners& s, const TriangleCorner
     return best;
 }
 
-bool surelyBeyond(const TriangleCorners& s, const TriangleCorners& t, double distance2) {
+bool surelyBeyond(const Corners& s, const Corners& t, double distance2) {
     const Vec3 edgesS[] = {s[1] - s[0], s[2] - s[1], s[0] - s[2]};
     const Vec3 edgesT[] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
     const Vec3 normalS = edgesS[0].cross(edgesS[1]), normalT = edgesT[0].cross(edgesT[1]);
-    if (beyondAlong(normalS, s, t, distance2) || beyondAlong(normalT, s, t, distance2)) return true;
+    if (separatedAlong(normalS, s, t, distance2) || separatedAlong(normalT, s, t, distance2)) return true;
     for (int k = 0; k < 3; ++k)
-        if (beyondAlong(normalS.cross(edgesS[k]), s, t, distance2) ||
-            beyondAlong(normalT.cross(edgesT[k]), s, t, distance2))
+        if (separatedAlong(normalS.cross(edgesS[k]), s, t, distance2) ||
+            separatedAlong(normalT.cross(edgesT[k]), s, t, distance2))
             return true;
     return false;
 }

@@ -1,8 +1,6 @@
 #pragma once
 #include "bake/geometry/TriangleMesh.h"
 
-#include <array>
-
 namespace tss {
 
 /// The point of the triangle a, b, c nearest to p. Right also for slivers and for triangles that are a
@@ -20,14 +18,13 @@ double solidAngle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 /// Squared distance of the segments a, b and c, d.
 double squaredDistanceOfSegments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-using TriangleCorners = std::array<Vec3, 3>;
-
 /// Squared distance of two triangles, 0 where they cross. Right to rounding also for slivers and for
 /// triangles that are a segment or a point.
-double squaredDistanceOfTriangles(const TriangleCorners& s, const TriangleCorners& t);
+double squaredDistanceOfTriangles(const Corners& s, const Corners& t);
 
-/// Soon tells most triangles that are apart by more than a distance, given squared: by their planes, or by
-/// those through an edge of one across it. False: it is not known.
-bool surelyBeyond(const TriangleCorners& s, const TriangleCorners& t, double distance2);
+/// A quick test by separating axes: true where two triangles are certainly farther apart than a distance,
+/// given squared, because their projections on some axis are. The axes are the normals of both triangles and
+/// the directions in each plane across its edges. False where none of them shows it.
+bool surelyBeyond(const Corners& s, const Corners& t, double distance2);
 
 } // namespace tss

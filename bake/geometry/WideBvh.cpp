@@ -16,7 +16,8 @@ WideBvh::WideBvh(const Bvh& bvh, std::span<const Vec3> normals) : items_(bvh.ite
     add(bvh, 0, below);
 }
 
-/// Of the node's children and theirs, as far as there are any. Returns where it is.
+/// Makes one node of a Bvh node's grandchildren, or children that are leaves, and adds their subtrees.
+/// Returns its index.
 std::uint32_t WideBvh::add(const Bvh& bvh, std::uint32_t index,
                            std::span<const Eigen::AlignedBox3d> normals) {
     std::vector<std::uint32_t> below{index};

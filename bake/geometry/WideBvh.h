@@ -3,35 +3,36 @@
 
 namespace tss {
 
-/// The same hierarchy with four boxes a node, tested at once. Its boxes are floats about the middle of all,
-/// and every test allows for their rounding, so that nothing is passed over that the doubles would find.
+/// A Bvh with up to four children a node, whose boxes are tested at once in a vector. Boxes are floats,
+/// relative to the centre of the whole; every test is conservative by their rounding, so that it finds
+/// whatever the doubles of the Bvh would.
 class WideBvh {
 public:
     WideBvh() = default;
     /// normals: of the items, unit or zero.
     WideBvh(const Bvh& bvh, std::span<const Vec3> normals);
 
-    /// As visitNearest() of a Bvh. facing: what lies below a box is passed over where none of the normals n
-    /// there has n . facing > 0; zero: nothing is passed over.
+    /// As visitNearest() of a Bvh. facing: subtrees in which no item's normal n has n . facing > 0 are
+    /// skipped; zero: none is skipped.
     template <class Leaf>
     void visitNearest(const Vec3& p, double& best2, const Vec3& facing, Leaf&& leaf) const;
 
-    /// Calls leaf(item) for items whose box the straight way may pass through, until one answers true.
-    /// Returns whether one has.
+    /// Calls leaf(item) for items whose box the segment may pass through, until a call returns true. Returns
+    /// whether one did.
     template <class Leaf>
-    bool visitWay(const Vec3& from, const Vec3& to, Leaf&& leaf) const;
+    bool visitSegment(const Vec3& from, const Vec3& to, Leaf&& leaf) const;
 
 private:
     using Four = Eigen::Array4f;
     struct Node {
-        Four lower[3], upper[3];              ///< about centre_; far away where there is no child
-        Four least[3], most[3];               ///< of the normals below
+        Four lower[3], upper[3];              ///< of each child's box, about centre_; far away for no child
+        Four least[3], most[3];               ///< bounds of the normals in each child's subtree
         std::array<std::uint32_t, 4> first{}; ///< leaf: place in items_; inner node: the child
         std::array<std::uint32_t, 4> count{}; ///< of a leaf's items; 0: an inner node
     };
-    /// A Bvh is at most 100 deep, and two of its levels are one here.
+    /// Large enough: a Bvh is at most 100 levels deep, two of which make one here, with 3 siblings each.
     using Stack = std::array<std::pair<float, std::uint32_t>, 256>;
-    /// Of a float's rounding, after the few operations that a test has.
+    /// Bound of the relative rounding error of a test, which has a few float operations.
     static constexpr float slack = 1e-6f;
 
     std::uint32_t add(const Bvh& bvh, std::uint32_t index, std::span<const Eigen::AlignedBox3d> normals);
@@ -39,7 +40,7 @@ private:
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> items_;
     Vec3 centre_ = Vec3::Zero();
-    float size_ = 0; ///< most that a coordinate of a box is
+    float size_ = 0; ///< largest absolute coordinate of a box about centre_
 };
 
 template <class Leaf>
@@ -80,12 +81,12 @@ void WideBvh::visitNearest(const Vec3& p, double& best2, const Vec3& facing, Lea
 }
 
 template <class Leaf>
-bool WideBvh::visitWay(const Vec3& from, const Vec3& to, Leaf&& leaf) const {
+bool WideBvh::visitSegment(const Vec3& from, const Vec3& to, Leaf&& leaf) const {
     if (nodes_.empty()) return false;
     const Eigen::Array3f start = (from - centre_).cast<float>(), end = (to - centre_).cast<float>();
     const Eigen::Array3f off =
         Eigen::Array3f::Constant(slack * (start.abs().max(end.abs()).maxCoeff() + size_));
-    constexpr float least = 1e-18f; // along no axis is a way quite still, which is cheaper
+    constexpr float least = 1e-18f; // in place of 0 along an axis: cheaper than a case of its own
     const Eigen::Array3f way = end - start, perWay = (way.abs() < least).select(least, way).inverse();
     const Eigen::Array3f low = start + off, high = start - off;
     std::array<std::uint32_t, std::tuple_size_v<Stack>> stack;

@@ -20,19 +20,13 @@ std::vector<Vec3> vertexNormals(const TriangleMesh& mesh) {
 }
 
 ClosestPointQuery::ClosestPointQuery(const TriangleMesh& mesh) : mesh_(mesh) {
-    std::vector<Eigen::AlignedBox3d> boxes(mesh.triangles.size());
+    std::vector<Eigen::AlignedBox3d> boxes;
     std::vector<Vec3> normals;
-    for (std::size_t t = 0; t < boxes.size(); ++t) {
-        for (int k = 0; k < 3; ++k) boxes[t].extend(mesh.corner(t, k));
-        normals.push_back(normal(static_cast<std::uint32_t>(t)).normalized());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        boxes.push_back(bounds(mesh, t));
+        normals.push_back(mesh.areaNormal(t).normalized());
     }
     bvh_ = WideBvh(buildBvh(boxes, 1), normals);
-}
-
-/// With twice the triangle's area.
-Vec3 ClosestPointQuery::normal(std::uint32_t t) const {
-    const Vec3& a = mesh_.corner(t, 0);
-    return (mesh_.corner(t, 1) - a).cross(mesh_.corner(t, 2) - a);
 }
 
 NearestPoint ClosestPointQuery::search(const Vec3& x, double range, const Vec3& facing, int first) const {
@@ -40,7 +34,7 @@ NearestPoint ClosestPointQuery::search(const Vec3& x, double range, const Vec3& 
     double bound = range * range;
     const bool any = facing.isZero(0);
     const auto probe = [&](std::uint32_t t) {
-        if (!any && !(normal(t).dot(facing) > 0)) return;
+        if (!any && !(mesh_.areaNormal(t).dot(facing) > 0)) return;
         const Vec3 &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
         const Vec3 w = nearestOnTriangle(x, a, b, c);
         const Vec3 p = w[0] * a + w[1] * b + w[2] * c;
@@ -64,14 +58,14 @@ NearestPoint ClosestPointQuery::nearestFacing(const Vec3& x, double range, const
 }
 
 int ClosestPointQuery::entered(const Vec3& from, const Vec3& to) const {
-    const Vec3 way = to - from;
+    const Vec3 segment = to - from;
     int triangle = -1;
-    bvh_.visitWay(from, to, [&](std::uint32_t t) {
+    bvh_.visitSegment(from, to, [&](std::uint32_t t) {
         const Vec3 &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
-        const Vec3 normal = this->normal(t);
-        const double along = normal.dot(way), ahead = normal.dot(a - from);
-        if (!(along < 0) || ahead > 0 || ahead < along) return false; // the front faces where it comes from
-        const Vec3 p = from + ahead / along * way;
+        const Vec3 normal = mesh_.areaNormal(t);
+        const double along = normal.dot(segment), ahead = normal.dot(a - from);
+        if (!(along < 0) || ahead > 0 || ahead < along) return false; // parallel, from behind, or not reached
+        const Vec3 p = from + ahead / along * segment;
         if (normal.dot((b - a).cross(p - a)) < 0 || normal.dot((c - b).cross(p - b)) < 0 ||
             normal.dot((a - c).cross(p - c)) < 0)
             return false;

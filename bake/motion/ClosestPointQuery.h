@@ -51,24 +51,23 @@ Eigen::Matrix<T, 3, 1> nearestOnTriangle(const Eigen::Matrix<T, 3, 1>& x, const 
 /// Unit normals of the vertices, weighted by angle; zero for a vertex of no triangle with area.
 std::vector<Vec3> vertexNormals(const TriangleMesh& mesh);
 
-/// Nearest-point queries that know where on the triangle they end and can be told which triangles to see.
-/// Keeps a reference to the mesh, which must have no index out of range.
+/// Closest-point queries that return barycentric weights and can be restricted to triangles that face a
+/// direction. Keeps a reference to the mesh, which must have no index out of range.
 class ClosestPointQuery {
 public:
     explicit ClosestPointQuery(const TriangleMesh& mesh);
 
-    /// The nearest point nearer than `range`. Of equally near triangles the first met answers.
+    /// The nearest point that is nearer than `range`. Of equally near triangles the first visited counts.
     NearestPoint nearest(const Vec3& x, double range) const;
 
     /// Nearest among the triangles whose normal n has n . facing > 0. first: a triangle that is probably
     /// near, looked at before all others, -1: none; it changes how long the search takes, not what it finds.
     NearestPoint nearestFacing(const Vec3& x, double range, const Vec3& facing, int first = -1) const;
 
-    /// A triangle through whose front the straight way from one place to another goes in, -1: none.
+    /// A triangle that the segment crosses from its front to its back, -1: none.
     int entered(const Vec3& from, const Vec3& to) const;
 
 private:
-    Vec3 normal(std::uint32_t t) const;
     NearestPoint search(const Vec3& x, double range, const Vec3& facing, int first) const;
 
     const TriangleMesh& mesh_;

@@ -185,7 +185,7 @@ TEST_CASE("the distance of two triangles is that of their nearest points, 0 wher
     std::mt19937_64 random(6);
     int crossing = 0;
     for (int i = 0; i < 400; ++i) {
-        TriangleCorners s, t;
+        Corners s, t;
         for (int k = 0; k < 3; ++k) {
             s[k] = uniformPoint(random, 1);
             t[k] = uniformPoint(random, 1) + Vec3(i % 3, 0, 0);
@@ -219,7 +219,7 @@ TEST_CASE(
         // Flat ones side by side in one plane, as of two plates, and any; some of them slivers, or far away.
         const double height = i % 2 == 0 ? 0 : 1;
         const Vec3 place = i % 5 == 0 ? Vec3(1e4, -1e4, 1e4) : Vec3::Zero();
-        TriangleCorners s, t;
+        Corners s, t;
         for (int k = 0; k < 3; ++k) {
             s[k] = uniformPoint(random, 1).cwiseProduct(Vec3(1, 1, height)) + place;
             t[k] = (uniformPoint(random, 1) + Vec3(2, 0, 0)).cwiseProduct(Vec3(1, 1, height)) + place;
