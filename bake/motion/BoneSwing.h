@@ -5,11 +5,12 @@
 
 namespace tss {
 
-/// What the bones under a skin do while one joint value goes from rest to a limit: #stations, near to each
-/// other, of #muscles poses, the motion of the bone that each rides on since rest, in the skin's frame.
+/// The motion of all bodies under a skin while one joint value goes from rest to a limit, sampled: #samples
+/// of #bodies poses, each the motion since rest of the bone that the body moves with, in the skin's frame.
 using BoneSwing = std::vector<std::vector<Pose>>;
 
-/// The motion of one bone since rest as another one sees it; exactly none while the two move as one.
+/// Motion of the insertion's bone since rest, seen from the origin's; exactly the identity while both move
+/// alike.
 inline Pose between(const Pose& origin, const Pose& insertion) {
     return origin.matrix() == insertion.matrix() ? Pose::Identity()
                                                  : origin.inverse(Eigen::Isometry) * insertion;

@@ -7,13 +7,14 @@ namespace tss {
 
 namespace {
 
-/// The least that a plane's left side can be in the cell.
+/// Minimum over the cell of the term of DOF k on the left side of a plane.
 double least(const LimitPlane& plane, const Cell& cell, std::size_t k) {
     const double c = plane.coefficients[k];
     return c * (c > 0 ? cell.lower[k] : cell.upper[k]);
 }
 
-/// Tightens every DOF against one plane. A hair of slack keeps what lies on the plane itself.
+/// Tightens the range of every DOF by one plane (interval propagation); rounding is allowed for, so that
+/// poses on the plane itself stay in. False where the cell is outside altogether.
 bool shrink(const LimitPlane& plane, Cell& cell, std::size_t dofs) {
     double sum = 0, size = std::abs(plane.bound);
     for (std::size_t k = 0; k < dofs; ++k) {

@@ -3,19 +3,19 @@
 
 namespace tss {
 
-/// Linear demands normal . y >= bound on n unknowns, the normals of unit length; one after the other without
-/// gaps, since hundreds of them are gone through again and again.
+/// Linear inequalities normal . y >= bound on n unknowns, the normals of unit length, packed in one array
+/// since the solver goes through hundreds of them again and again.
 class QpRows {
 public:
     QpRows() = default;
     explicit QpRows(std::size_t room) : numbers_(room * (maxDofs + 1)) {}
 
-    /// None, of n unknowns.
+    /// Removes all rows; those added next have n unknowns.
     void clear(int n) {
         n_ = n;
         count_ = 0;
     }
-    /// One more, to be filled: n numbers of its normal, then its bound. Allocates where there is no room.
+    /// Adds a row, to be filled in: n numbers of its normal, then its bound. Grows the array where needed.
     double* add() {
         const std::size_t first = stride() * std::size_t(count_++);
         if (first + stride() > numbers_.size()) numbers_.resize(2 * (first + stride()));
@@ -34,7 +34,7 @@ private:
     std::vector<double> numbers_;
 };
 
-/// The rows that hold a nearest point: without any of them it would be nearer.
+/// The rows that are active at a nearest point, with a positive multiplier.
 struct QpActive {
     int count = 0;
     std::array<int, maxDofs> rows{};

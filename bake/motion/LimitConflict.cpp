@@ -10,8 +10,8 @@ namespace tss {
 
 namespace {
 
-/// Q in units of the ranges about a value within the limits: box and planes as demands on what is added to
-/// it.
+/// Limits and planes as inequalities on the offset from a value within the limits, each DOF's offset in units
+/// of its range.
 class ScaledLimits {
 public:
     explicit ScaledLimits(const Motion& motion) : motion_(motion) {
@@ -21,17 +21,17 @@ public:
         }
     }
 
-    /// Some value within the limits meets these planes.
-    bool leave(const std::vector<std::size_t>& planes) const {
-        constexpr double hair = 1e-9;
+    /// Whether some value within the limits satisfies these planes.
+    bool feasible(const std::vector<std::size_t>& planes) const {
+        constexpr double tolerance = 1e-9;
         const std::size_t n = range_.size();
         QpRows rows(2 * n + planes.size());
         rows.clear(static_cast<int>(n));
         for (std::size_t k = 0; k < n; ++k) addBox(rows, k);
         for (const std::size_t p : planes)
-            if (!addPlane(rows, motion_.planes[p], hair)) return false;
+            if (!addPlane(rows, motion_.planes[p], tolerance)) return false;
         DofValues y{};
-        return nearestToOrigin(rows, hair, y);
+        return nearestToOrigin(rows, tolerance, y);
     }
 
 private:
@@ -46,21 +46,21 @@ private:
         }
     }
 
-    /// False: the DOFs that it is about cannot move, and it does not hold.
-    bool addPlane(QpRows& rows, const LimitPlane& plane, double hair) const {
+    /// Returns false for a plane that is violated and has coefficients on fixed DOFs alone.
+    bool addPlane(QpRows& rows, const LimitPlane& plane, double tolerance) const {
         const std::size_t n = range_.size();
-        double squared = 0, excess = -plane.bound, size = std::abs(plane.bound);
+        const double over = excess(plane, centre_);
+        double squared = 0, size = std::abs(plane.bound);
         for (std::size_t k = 0; k < n; ++k) {
             const double c = plane.coefficients[k];
             squared += c * range_[k] * c * range_[k];
-            excess += c * centre_[k];
             size += std::abs(c * centre_[k]);
         }
         const double rounding = 1e-12 * size, length = std::sqrt(squared);
-        if (!(length > 0)) return excess <= hair * size;
+        if (!(length > 0)) return over <= tolerance * size;
         double* row = rows.add();
         for (std::size_t k = 0; k < n; ++k) row[k] = -plane.coefficients[k] * range_[k] / length;
-        row[n] = (excess - rounding) / length;
+        row[n] = (over - rounding) / length;
         return true;
     }
 
@@ -74,17 +74,17 @@ std::vector<std::size_t> conflictingPlanes(const Motion& motion) {
     const ScaledLimits limits(motion);
     std::vector<std::size_t> planes(motion.planes.size());
     std::iota(planes.begin(), planes.end(), 0);
-    if (planes.empty() || limits.leave(planes)) return {};
-    // Each plane that the conflict does without is none of it.
+    if (planes.empty() || limits.feasible(planes)) return {};
+    // Deletion filter: a plane without which the others still conflict is not part of the subset.
     for (std::size_t i = planes.size(); i-- > 0;) {
         std::vector<std::size_t> others = planes;
         others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-        if (!limits.leave(others)) planes = std::move(others);
+        if (!limits.feasible(others)) planes = std::move(others);
     }
     return planes;
 }
 
-LimitPlane inReach(LimitPlane plane) {
+LimitPlane rescaled(LimitPlane plane) {
     double largest = 0;
     for (const double c : plane.coefficients) largest = std::max(largest, std::abs(c));
     if (!(largest > 0)) return plane;

@@ -3,13 +3,14 @@
 
 namespace tss {
 
-/// The limit planes that together leave no value of the DOFs within their limits, no fewer of them would:
-/// their places in motion.planes, rising; none where some value meets them all, give or take 1e-9 of the
-/// ranges and rounding, so that a coupling by two planes that face each other is no conflict. For motions of
-/// at most maxDofs DOFs that are finite.
+/// A minimal infeasible subset of the limit planes: planes that no value within the limits satisfies
+/// together, while without any one of them some value does. Indices into motion.planes, rising; empty where
+/// some value satisfies all planes up to 1e-9 of the ranges and rounding, so that an equality written as two
+/// opposite planes is no conflict. The motion must have finite limits and at most maxDofs DOFs.
 std::vector<std::size_t> conflictingPlanes(const Motion& motion);
 
-/// The same plane with a largest coefficient of 1 to 2, whose squares are numbers: a power of two times it.
-LimitPlane inReach(LimitPlane plane);
+/// The same plane scaled by a power of two, so that its largest coefficient lies in [1, 2) and squares of
+/// coefficients neither overflow nor vanish.
+LimitPlane rescaled(LimitPlane plane);
 
 } // namespace tss

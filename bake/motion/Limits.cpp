@@ -5,17 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace tss {
 
 namespace {
 
-double excess(const LimitPlane& plane, std::span<const double> q) {
-    return std::inner_product(q.begin(), q.end(), plane.coefficients.begin(), -plane.bound);
-}
-
-/// Straight towards a pose within all limits and planes, as far as the planes ask.
+/// Moves q straight towards a pose within all limits and planes, until it meets the planes too.
 void pullTowards(const Motion& motion, const std::vector<double>& inside, std::vector<double>& q) {
     double share = 0;
     for (const LimitPlane& plane : motion.planes) {
@@ -26,7 +21,7 @@ void pullTowards(const Motion& motion, const std::vector<double>& inside, std::v
     for (std::size_t k = 0; k < q.size(); ++k) q[k] += share * (inside[k] - q[k]);
 }
 
-/// Radians, some 15,900 turns: as far as the sines of tables are right (bake/table/SinVersin.h).
+/// Radians, some 15,900 turns: the range in which the tables' sine is accurate (bake/table/SinVersin.h).
 constexpr double farthestTurn = 1e5;
 
 bool isRigid(const Pose& frame) {
@@ -83,23 +78,23 @@ std::string names(const Motion& motion) {
     return s;
 }
 
-/// Q holds some pose, and the rest is one of them. A proof about no pose would prove anything.
+/// Throws unless Q holds the rest pose: of an empty Q anything could be proven.
 void checkNotEmpty(const Motion& motion) {
     const std::vector<double> rest = restValues(motion);
     for (const Dof& dof : motion.dofs) {
-        const double hair =
+        const double slack =
             1e-9 * (dof.upper - dof.lower) + 1e-12 * std::max(std::abs(dof.lower), std::abs(dof.upper));
-        if (!(dof.rest >= dof.lower - hair && dof.rest <= dof.upper + hair))
+        if (!(dof.rest >= dof.lower - slack && dof.rest <= dof.upper + slack))
             throw InputError("DOF '" + dof.name +
                              "': expected a rest value within its limits, found one outside");
     }
     for (std::size_t p = 0; p < motion.planes.size(); ++p) {
         const LimitPlane& plane = motion.planes[p];
-        double hair = 1e-12 * std::abs(plane.bound);
+        double slack = 1e-12 * std::abs(plane.bound);
         for (std::size_t k = 0; k < rest.size(); ++k)
-            hair += std::abs(plane.coefficients[k]) *
-                    (1e-9 * (motion.dofs[k].upper - motion.dofs[k].lower) + 1e-12 * std::abs(rest[k]));
-        if (excess(plane, rest) <= hair) continue;
+            slack += std::abs(plane.coefficients[k]) *
+                     (1e-9 * (motion.dofs[k].upper - motion.dofs[k].lower) + 1e-12 * std::abs(rest[k]));
+        if (excess(plane, rest) <= slack) continue;
         const std::vector<std::size_t> conflict =
             motion.dofCount() <= maxDofs ? conflictingPlanes(motion) : std::vector<std::size_t>();
         if (!conflict.empty())
@@ -123,22 +118,19 @@ bool withinLimits(const Motion& motion, std::span<const double> q, double slack)
 }
 
 bool beyondLimits(const Motion& motion, std::span<const double> q) {
-    const auto hairOf = [](const Dof& dof) { return limitRounding(dof, fileRounding); };
+    const auto roundingOf = [](const Dof& dof) { return limitRounding(dof, fileRounding); };
     if (q.size() != motion.dofs.size()) return true;
     if (!std::ranges::all_of(q, [](double value) { return std::isfinite(value); })) return true;
     for (std::size_t k = 0; k < q.size(); ++k) {
         const Dof& dof = motion.dofs[k];
-        const double hair = hairOf(dof);
-        if (!(q[k] >= dof.lower - hair && q[k] <= dof.upper + hair)) return true;
+        const double rounding = roundingOf(dof);
+        if (!(q[k] >= dof.lower - rounding && q[k] <= dof.upper + rounding)) return true;
     }
     return std::any_of(motion.planes.begin(), motion.planes.end(), [&](const LimitPlane& plane) {
-        double excess = -plane.bound, hair = 1e-12 * std::abs(plane.bound);
-        for (std::size_t k = 0; k < q.size(); ++k) {
-            const Dof& dof = motion.dofs[k];
-            excess += plane.coefficients[k] * q[k];
-            hair += std::abs(plane.coefficients[k]) * hairOf(dof);
-        }
-        return !(excess <= hair);
+        double rounding = 1e-12 * std::abs(plane.bound);
+        for (std::size_t k = 0; k < q.size(); ++k)
+            rounding += std::abs(plane.coefficients[k]) * roundingOf(motion.dofs[k]);
+        return !(excess(plane, q) <= rounding);
     });
 }
 
@@ -153,8 +145,8 @@ std::vector<double> clampToLimits(const Motion& motion, std::span<const double> 
     double range = 0;
     for (const Dof& dof : motion.dofs) range = std::max(range, dof.upper - dof.lower);
     std::vector<LimitPlane> planes;
-    for (const LimitPlane& plane : motion.planes) planes.push_back(inReach(plane));
-    // Planes at a sharp angle draw the projections out; a round costs some nanoseconds.
+    for (const LimitPlane& plane : motion.planes) planes.push_back(rescaled(plane));
+    // Cyclic projection converges slowly where planes meet at a sharp angle; a round takes some nanoseconds.
     for (int round = 0; round < 10000; ++round) {
         if (withinLimits(motion, q, 1e-13 * range)) return q;
         for (const LimitPlane& plane : planes) {

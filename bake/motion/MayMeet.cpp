@@ -14,6 +14,7 @@ BallAbout::BallAbout(const TriangleMesh& mesh) {
 
 namespace {
 
+/// Bound of how far any point of the ball moves within the cell of `motion`.
 double moveOf(const CellMotion& motion, const BallAbout& ball) {
     return motion.pointMotion(motion.centrePose() * ball.centre).move + motion.relativeMove() * ball.radius;
 }
@@ -29,7 +30,7 @@ Swept::Swept(const BallAbout& inB, const Motion& motion) {
 
 bool mayMeet(const MeshQuery& a, const MeshQuery& b, const BallAbout& inB, const Motion& motion,
              double margin) {
-    constexpr int most = 1000;
+    constexpr int most = 1000; // cells
     const MotionRates rates(motion);
     const double rounding = coordinateRounding(motion, a.extent(), b.extent());
     std::vector<Cell> open{wholeBox(motion)};

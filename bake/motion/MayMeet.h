@@ -4,7 +4,7 @@
 
 namespace tss {
 
-/// A ball about all points of a mesh, in its frame.
+/// A ball that contains a mesh, in the mesh's frame; its centre is that of the bounding box.
 struct BallAbout {
     Vec3 centre = Vec3::Zero();
     double radius = 0;
@@ -18,10 +18,11 @@ struct BallAbout {
 bool mayMeet(const MeshQuery& a, const MeshQuery& b, const BallAbout& inB, const Motion& motion,
              double margin);
 
-/// Where B is at the middle of all limits, and how far from there a point of it may be at most.
+/// Bounds where B can be: its pose at the middle of all limits, and how far any of its points can move from
+/// there within them.
 struct Swept {
-    Pose middle;
-    double reach = 0;
+    Pose middle;      ///< B to A
+    double reach = 0; ///< scene units
 
     Swept(const BallAbout& inB, const Motion& motion);
 };

@@ -10,6 +10,11 @@ namespace tss {
 
 using Pose = Eigen::Isometry3d;
 
+/// Whether a pose is exactly the identity.
+inline bool isIdentity(const Pose& pose) {
+    return pose.matrix() == Pose::Identity().matrix();
+}
+
 enum class DofKind { Rotation, Translation, Path };
 
 /// One row of a path: the rigid pose at a value. Between rows: linear in translation, slerp in rotation.
@@ -30,7 +35,7 @@ struct Dof {
     Vec3 axis = Vec3::UnitX();
     double lower = 0; ///< lower <= upper, finite
     double upper = 0;
-    double rest = 0;           ///< value where the joint rests: motions start there, overlap there is free
+    double rest = 0;           ///< value at rest: motions start there, overlap of the bodies there is allowed
     std::vector<PathRow> path; ///< at least two rows, values strictly rising, covering [lower, upper]
     Pose frame = Pose::Identity();
 };
@@ -40,6 +45,13 @@ struct LimitPlane {
     std::vector<double> coefficients; ///< one per DOF
     double bound = 0;
 };
+
+/// By how much q violates a plane, in the plane's own unit; at most 0 where it holds. q: one value per DOF.
+inline double excess(const LimitPlane& plane, std::span<const double> q) {
+    double sum = -plane.bound;
+    for (std::size_t k = 0; k < q.size(); ++k) sum += plane.coefficients[k] * q[k];
+    return sum;
+}
 
 /// The longest chain that is served.
 inline constexpr std::size_t maxDofs = 12;
@@ -72,8 +84,8 @@ void expectValues(const Motion& motion, std::span<const double> q);
 /// Every limit and every plane holds at q, with a slack in the DOF's own unit.
 bool withinLimits(const Motion& motion, std::span<const double> q, double slack = 0);
 
-/// Some value is outside of its limits or a plane by more than files round, or is no finite number, or there
-/// is not one a DOF.
+/// Some value violates its limits or a plane by more than rounding to float in a file explains, or is not
+/// finite, or there is not one a DOF.
 bool beyondLimits(const Motion& motion, std::span<const double> q);
 
 /// Clamps each DOF into its limits, then pulls q back into the planes by cyclic projection (at most 10000

@@ -1,14 +1,17 @@
 #include "bake/motion/MotionFrame.h"
 
+#include "bake/base/Infinity.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 
 namespace tss {
 
 namespace {
 
-/// A value this near to a row stands on it: rounding must not hold a joint just before a row for ever.
+/// The value moved ahead by 1e-9 of the path's range: one nearer than that before a row counts as on it, or
+/// rounding could hold a joint just before a row for ever.
 double nudged(const std::vector<PathRow>& rows, double value, double way) {
     return value + std::copysign(1e-9 * (rows.back().value - rows.front().value), way);
 }
@@ -89,10 +92,10 @@ void evaluateFrame(const Motion& motion, const double* q, const double* directio
         frame.twists[k] = twist(dof, rows, before, own);
         if (still != rows && !frame.rowAhead) {
             frame.rowAhead = true;
-            std::copy_n(frame.twists.begin(), k, frame.before.begin());
+            std::copy_n(frame.twists.begin(), k, frame.twistsBeforeRow.begin());
         }
         if (frame.rowAhead)
-            frame.before[k] = still != rows ? pathTwist(dof, still, before, own) : frame.twists[k];
+            frame.twistsBeforeRow[k] = still != rows ? pathTwist(dof, still, before, own) : frame.twists[k];
         before = before * own;
     }
     frame.pose = before * motion.base;
@@ -108,7 +111,8 @@ void evaluateLinks(const Motion& motion, const double* q, std::size_t from, std:
 }
 
 void speedBounds(const Motion& motion, const Vec3& point, double* speeds) {
-    // y: the point as the DOFs within place it at the middle of their limits, give or take `stray`.
+    // From the last DOF inwards: y is the point placed by the DOFs after k at the middle of their limits,
+    // from where they may move it by at most `stray`.
     Vec3 y = motion.base * point;
     double stray = 0;
     for (std::size_t k = motion.dofs.size(); k-- > 0;) {
@@ -119,7 +123,7 @@ void speedBounds(const Motion& motion, const Vec3& point, double* speeds) {
         switch (dof.kind) {
         case DofKind::Rotation:
             speeds[k] = (y - dof.origin).cross(dof.axis).norm() + stray;
-            stray += 2 * speeds[k] * std::sin(0.5 * std::min(half, 3.14159265358979323846));
+            stray += 2 * speeds[k] * std::sin(0.5 * std::min(half, std::numbers::pi));
             break;
         case DofKind::Translation:
             speeds[k] = dof.axis.norm();
@@ -148,7 +152,7 @@ double turnBound(const Dof& dof) {
 }
 
 double nextRow(const Dof& dof, double q, double way) {
-    const double none = std::copysign(std::numeric_limits<double>::infinity(), way);
+    const double none = std::copysign(infinity, way);
     if (dof.kind != DofKind::Path || way == 0) return none;
     q = nudged(dof.path, q, way);
     if (way > 0) {

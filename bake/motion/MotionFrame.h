@@ -14,9 +14,10 @@ struct DofTwist {
 struct MotionFrame {
     Pose pose = Pose::Identity();
     std::array<DofTwist, maxDofs> twists;
-    /// Some path stands a hair before a row: it moves by `before` until there and by `twists` from there on.
-    /// Of the others the two are the same. Set only where rowAhead.
-    std::array<DofTwist, maxDofs> before;
+    /// Set only where rowAhead: the twists on the last bit of the way before the row; equal to `twists` for
+    /// DOFs that are not at a row.
+    std::array<DofTwist, maxDofs> twistsBeforeRow;
+    /// Some path DOF is within rounding before one of its rows; `twists` are those beyond the row.
     bool rowAhead = false;
 };
 
@@ -25,9 +26,9 @@ struct MotionFrame {
 /// `direction` is meant.
 void evaluateFrame(const Motion& motion, const double* q, const double* direction, MotionFrame& frame);
 
-/// The same in parts, of a motion without paths. before[k] is the pose of all DOFs before k: known for k up
-/// to `from`, set for all up to `to`; twists are set from `from` to before `to`. T(q) = before[#DOFs] *
-/// motion.base.
+/// Part of evaluateFrame(), for a motion without paths, with the same bits. before[k] is the product of the
+/// poses of all DOFs before k: given for k <= from, computed for from < k <= to; twists[k] is computed for
+/// from <= k < to. T(q) = before[#DOFs] * motion.base.
 void evaluateLinks(const Motion& motion, const double* q, std::size_t from, std::size_t to, Pose* before,
                    DofTwist* twists);
 

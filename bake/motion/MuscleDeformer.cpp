@@ -1,25 +1,26 @@
 #include "bake/motion/MuscleDeformer.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/Infinity.h"
 #include "bake/geometry/ConnectedParts.h"
 #include "bake/motion/MuscleMedial.h"
 #include "bake/motion/MuscleVolume.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 
 namespace tss {
 namespace {
 
-/// Shortest local length, as a share of that at rest, that a muscle may be given.
+/// Least local length that a contraction may reach, as a share of that at rest.
 constexpr double leastStretch = 0.05;
-/// How far from its surface a muscle's line may lead, in sizes of that: beyond, it is a mistake.
+/// A fibre point farther from the surface than this many times its diagonal is refused as a mistake.
 constexpr double farthestFibre = 100;
 
-/// The muscle again when its surface is one that a volume and queries can be had of.
+/// The muscle itself, if its surface has a volume and can be queried; throws otherwise. A rigid one gets a
+/// fibre and a form that mean nothing, and is turned inside out where its volume is negative.
 Muscle checked(Muscle muscle) {
     const TriangleMesh& mesh = muscle.surface;
     const int count = static_cast<int>(mesh.vertices.size());
@@ -110,11 +111,11 @@ MuscleDeformer::MuscleDeformer(Muscle muscle)
         points_.push_back({x, s, offset, normals_[v], 0, shares_.back()});
     }
     for (const double end : {lower, upper})
-        if (ring_ && !holdsAt(end)) refuse(end);
+        if (ring_ && !isValidAt(end)) throwTooShort(end);
 }
 
-/// Of a ring: its volume is kept, and no part of it has gone through the middle.
-bool MuscleDeformer::holdsAt(double activation) const {
+/// Of a ring: its volume is kept, and no vertex has passed its axis.
+bool MuscleDeformer::isValidAt(double activation) const {
     constexpr double kept = 1e-6; // of the volume
     const std::vector<Vec3> now = vertices(activation);
     if (!(std::abs(enclosedVolume(now, muscle_.surface.triangles) - volume_) <= kept * volume_)) return false;
@@ -123,33 +124,33 @@ bool MuscleDeformer::holdsAt(double activation) const {
     return true;
 }
 
-void MuscleDeformer::refuse(double end) const {
+void MuscleDeformer::throwTooShort(double end) const {
     double works = 0, fails = 1; // of the contraction there
     for (int i = 0; i < 20; ++i) {
         const double middle = (works + fails) / 2;
-        (holdsAt(middle * end) ? works : fails) = middle;
+        (isValidAt(middle * end) ? works : fails) = middle;
     }
     throw InputError("a ring of muscle may " + std::string(end < 0 ? "lengthen" : "shorten") +
                      " by at most " + std::to_string(works * std::abs(end) * muscle_.maxContraction) +
                      " of its length: beyond that it goes through its own middle or cannot keep its volume");
 }
 
-double MuscleDeformer::gain(double s, double activation) const {
+double MuscleDeformer::thickeningGain(double s, double activation) const {
     const double length = 1 - activation * muscle_.maxContraction * (ring_ ? 1 : contractionBump(s));
     return (muscle_.form == MuscleForm::Sheet ? 1 / length : 1 / std::sqrt(length)) - 1;
 }
 
-Vec3 MuscleDeformer::slide(const MusclePoint& point, double activation) const {
+Vec3 MuscleDeformer::shiftAt(const MusclePoint& point, double activation) const {
     const double s = point.s;
     if (ring_) return -activation * muscle_.maxContraction * ring_->spoke(s);
     double shift = -activation * muscle_.maxContraction * (contractionIntegral(s) - anchorIntegral_);
-    // Between two bones what is drawn towards the anchor is held by the bone that it comes from.
+    // Both ends of a muscle between two bones stay on them: the shift fades out towards either end.
     if (muscle_.spans) shift *= s > muscle_.anchor ? 1 - point.share : point.share;
     return shift == 0 ? Vec3(Vec3::Zero()) : Vec3(fibre_.point(s + shift) - fibre_.point(s));
 }
 
 double MuscleDeformer::insertionShare(const Vec3& rest) const {
-    const NearestPoint near = locator_.nearest(rest, std::numeric_limits<double>::infinity());
+    const NearestPoint near = locator_.nearest(rest, infinity);
     if (near.triangle < 0) return 0;
     double share = 0;
     for (int k = 0; k < 3; ++k)
@@ -158,7 +159,7 @@ double MuscleDeformer::insertionShare(const Vec3& rest) const {
 }
 
 double MuscleDeformer::thickness(double s, const MuscleState& state) const {
-    return 1 + state.thickening * gain(s, state.activation);
+    return 1 + state.thickening * thickeningGain(s, state.activation);
 }
 
 MuscleState MuscleDeformer::state(double activation) const {
@@ -171,8 +172,8 @@ MuscleState MuscleDeformer::state(double activation) const {
     std::vector<Vec3> p(points_.size()), q(points_.size());
     for (std::size_t v = 0; v < p.size(); ++v) {
         const MusclePoint& x = points_[v];
-        p[v] = x.rest - centre + slide(x, state.activation);
-        q[v] = gain(x.s, state.activation) * x.offset;
+        p[v] = x.rest - centre + shiftAt(x, state.activation);
+        q[v] = thickeningGain(x.s, state.activation) * x.offset;
     }
     state.thickening = swellingFor(volume_, swollenVolume(volume_, p, q, muscle_.surface.triangles), 1);
     return state;
@@ -186,13 +187,13 @@ std::vector<Vec3> MuscleDeformer::vertices(const MuscleState& state) const {
 
 Vec3 MuscleDeformer::map(const MusclePoint& point, const MuscleState& state) const {
     if (state.activation == 0) return point.rest;
-    return point.rest + slide(point, state.activation) +
-           state.thickening * gain(point.s, state.activation) * point.offset;
+    return point.rest + shiftAt(point, state.activation) +
+           state.thickening * thickeningGain(point.s, state.activation) * point.offset;
 }
 
 MusclePoint MuscleDeformer::bind(const Vec3& rest) const {
     MusclePoint point{rest, parameter(rest), Vec3::Zero(), Vec3::Zero(), 0, 0};
-    const NearestPoint near = locator_.nearest(rest, std::numeric_limits<double>::infinity());
+    const NearestPoint near = locator_.nearest(rest, infinity);
     if (near.triangle < 0) return point;
     const Tri& t = muscle_.surface.triangles[near.triangle];
     Vec3 onSurface = Vec3::Zero();

@@ -8,14 +8,15 @@
 
 namespace tss {
 
-/// A point as the muscle carries it: what map() needs, found once by bind().
+/// A point bound to a muscle: what map() needs, found once by bind().
 struct MusclePoint {
     Vec3 rest;                  ///< at activation 0
     double s = 0;               ///< fibre parameter
-    Vec3 offset = Vec3::Zero(); ///< what thickens: from the fibre line (tube) or medial surface (sheet)
+    Vec3 offset = Vec3::Zero(); ///< part of its position that thickening scales, scene units: from the fibre
+                                ///< line (tube, ring) or medial surface (sheet) to the surface
     Vec3 normal = Vec3::Zero(); ///< outward, of the nearest surface
     double height = 0;          ///< above the surface, negative inside, scene units
-    double share = 0;           ///< of the motion of the insertion's bone
+    double share = 0;           ///< weight of the insertion's bone in its motion, in [0, 1]
 };
 
 /// A muscle at one activation.
@@ -63,7 +64,7 @@ public:
     /// #V: the surface vertices, bound.
     const std::vector<MusclePoint>& surfacePoints() const { return points_; }
 
-    /// Takes hold of any point. Inside the muscle it thickens with it; outside it rides on the surface.
+    /// Binds any point: inside the muscle it thickens with it, outside it keeps its offset to the surface.
     MusclePoint bind(const Vec3& rest) const;
     Vec3 map(const MusclePoint& point, const MuscleState& state) const;
     Vec3 map(const Vec3& rest, double activation) const { return map(bind(rest), state(activation)); }
@@ -78,10 +79,12 @@ public:
 private:
     double parameter(const Vec3& x) const { return ring_ ? ring_->parameter(x) : fibre_.parameter(x); }
     Vec3 linePoint(double s) const { return ring_ ? ring_->point(s) : fibre_.point(s); }
-    Vec3 slide(const MusclePoint& point, double activation) const;
-    double gain(double s, double activation) const;
-    bool holdsAt(double activation) const;
-    [[noreturn]] void refuse(double end) const; ///< of the activation range of a ring
+    /// Displacement along the fibre, of a ring towards its axis: C(s') - C(s).
+    Vec3 shiftAt(const MusclePoint& point, double activation) const;
+    double thickeningGain(double s, double activation) const; ///< g(s, a) - 1
+    bool isValidAt(double activation) const;
+    /// Throws InputError that says how far a ring may contract. end: of its activation range.
+    [[noreturn]] void throwTooShort(double end) const;
 
     Muscle muscle_;
     std::optional<MuscleRing> ring_;

@@ -12,8 +12,6 @@ public:
     /// chord than the one before it is left out.
     explicit MuscleFibre(const std::vector<Vec3>& points);
 
-    double chord() const { return chord_; }              ///< scene units
-    const Vec3& direction() const { return direction_; } ///< unit, origin to insertion
     double parameter(const Vec3& x) const { return (x - origin_).dot(direction_) / chord_; }
     Vec3 point(double s) const; ///< its own parameter is s; straight beyond the ends
 
@@ -23,13 +21,13 @@ private:
         Vec3 side;  ///< from the chord to the curve
         Vec3 slope; ///< d side / ds
     };
-    Vec3 origin_, direction_;
-    double chord_ = 0;
+    Vec3 origin_, direction_; ///< of the chord; direction_ unit, towards the insertion
+    double chord_ = 0;        ///< its length, scene units
     std::vector<Knot> knots_;
 };
 
-/// Whether a line goes on along its chord all the way: what comes back, as of a muscle that winds round by
-/// more than half a turn, is left out of MuscleFibre.
+/// Whether a polyline advances along its chord from each point to the next. MuscleFibre leaves out the points
+/// of one that does not, as of a muscle that winds by more than half a turn.
 bool goesOnAlongChord(const std::vector<Vec3>& points);
 
 /// How the shortening spreads along the fibre: a bump with smooth ends on [0, 1] and an integral of 1.

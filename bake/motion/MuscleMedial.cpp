@@ -7,13 +7,12 @@ namespace {
 
 constexpr int smoothingRounds = 8;
 constexpr int bisections = 30;
-constexpr double leastLength = 0.3; // of a normal that unit ones are averaged to
+constexpr double leastLength = 0.3; // of a mean of unit normals; a shorter one has no sure direction
 
-/// Whether a point whose nearest one of the surface is `hit` lies on the outer side of its triangle. Near an
-/// edge that says little unless the point is before the triangle.
-bool beyond(const TriangleMesh& mesh, const Vec3& point, const NearestPoint& hit) {
-    const Vec3& a = mesh.corner(hit.triangle, 0);
-    const Vec3 n = (mesh.corner(hit.triangle, 1) - a).cross(mesh.corner(hit.triangle, 2) - a);
+/// Whether a point is outside of the surface, judged by the triangle of its closest point `hit`: within 60
+/// degrees of the triangle's normal, since near an edge the side of one triangle alone says little.
+bool isOutside(const TriangleMesh& mesh, const Vec3& point, const NearestPoint& hit) {
+    const Vec3 n = mesh.areaNormal(static_cast<std::size_t>(hit.triangle));
     return (point - hit.point).dot(n) > 0.5 * hit.distance * n.norm();
 }
 
@@ -25,15 +24,15 @@ double touchingBall(const TriangleMesh& mesh, const Vec3& x, const Vec3& n, doub
         const double r = (lower + upper) / 2;
         const Vec3 centre = x - r * n;
         const NearestPoint hit = locator.nearest(centre, r);
-        const bool inside = hit.triangle < 0 || (hit.distance >= r - slack && !beyond(mesh, centre, hit));
+        const bool inside = hit.triangle < 0 || (hit.distance >= r - slack && !isOutside(mesh, centre, hit));
         (inside ? lower : upper) = r;
     }
     return lower;
 }
 
-/// Inscribed balls fill a body: what they thicken it by, to first order, is no less than its volume. Coarse
-/// and rough surfaces touch smaller ones at their corners: these are made as much larger as that lacks.
-void fillVolume(const TriangleMesh& mesh, std::vector<Vec3>& offsets) {
+/// Scales the offsets up where the volume that they sweep, to first order, is less than that of the body:
+/// inscribed balls fill a body, but on coarse or rough surfaces those that touch at vertices are too small.
+void scaleToVolume(const TriangleMesh& mesh, std::vector<Vec3>& offsets) {
     const Vec3& o = mesh.vertices.front();
     double volume = 0, thickened = 0;
     for (const Tri& t : mesh.triangles) {
@@ -102,7 +101,7 @@ std::vector<Vec3> medialOffsets(const TriangleMesh& mesh, const ClosestPointQuer
     smooth(radii, rings);
     std::vector<Vec3> offsets(radii.size());
     for (std::size_t v = 0; v < radii.size(); ++v) offsets[v] = radii[v] * directions[v];
-    if (!offsets.empty()) fillVolume(mesh, offsets);
+    if (!offsets.empty()) scaleToVolume(mesh, offsets);
     return offsets;
 }
 

@@ -9,10 +9,6 @@
 namespace tss {
 namespace {
 
-bool isRest(const Pose& pose) {
-    return pose.matrix() == Pose::Identity().matrix();
-}
-
 Pose blended(double share, const DualPose& far) {
     PoseBlend blend(true);
     blend.add(share, far);
@@ -52,7 +48,7 @@ MuscleSpan::MuscleSpan(const MuscleDeformer& muscle, double unit)
 }
 
 std::vector<Pose> MuscleSpan::posesAt(const Pose& far) const {
-    const DualPose dual = DualPose(far).onSideOf(side_);
+    const DualPose dual = DualPose(far).inHemisphereOf(side_);
     std::vector<Pose> poses;
     poses.reserve(shares_.size());
     for (const double share : shares_)
@@ -61,11 +57,12 @@ std::vector<Pose> MuscleSpan::posesAt(const Pose& far) const {
 }
 
 double MuscleSpan::swell(const std::vector<Pose>& poses, std::span<const Vec3> places) const {
-    // What is asked beyond cannot be given by swelling: a sheet that is drawn together to half its length
-    // gets twice as thick on average and three times where it swells most.
+    // Bounds of the factor. A sheet compressed to half its length becomes twice as thick on average and three
+    // times where it swells most, which is a factor of 2.
     constexpr double least = -0.9, most = 2;
-    // Where a muscle is folded its volume hardly grows with what it swells by.
-    constexpr double leastSlope = 0.1; // of that at rest
+    // Lower bound of d volume / d factor, as a share of that at rest: it nearly vanishes where a muscle
+    // folds.
+    constexpr double leastSlope = 0.1;
     if (places.empty()) return 0;
     const Vec3 middle = places.front();
     std::vector<Vec3> now(places.size()), out(places.size());
@@ -80,19 +77,21 @@ double MuscleSpan::swell(const std::vector<Pose>& poses, std::span<const Vec3> p
 }
 
 double MuscleSpan::swell(const Pose& far, std::span<const Vec3> places) const {
-    return isRest(far) ? 0 : swell(posesAt(far), places);
+    return isIdentity(far) ? 0 : swell(posesAt(far), places);
 }
 
 double MuscleSpan::carry(const Pose& far, std::span<Vec3> places, std::span<Vec3> normals) const {
-    constexpr double side = 1e-3;         // of shares to either side: what a surface is bent by
-    constexpr double leastStretch = 0.05; // of its length, for normals alone
-    if (isRest(far)) return 0;
+    constexpr double side = 1e-3;         // step of the share for the central difference below
+    constexpr double leastStretch = 0.05; // lower bound of the local stretch that turns normals
+    if (isIdentity(far)) return 0;
     const std::vector<Pose> poses = posesAt(far);
     const double factor = swell(poses, places);
-    const DualPose dual = DualPose(far).onSideOf(side_);
+    const DualPose dual = DualPose(far).inHemisphereOf(side_);
     for (std::size_t v = 0; v < places.size(); ++v) {
         if (!normals.empty()) {
-            // The place moves by share and place, so its gradient is R (1 + u g^T), u along the blend.
+            // The place depends on the share too, so the deformation gradient is R (I + u g^T), where g is
+            // the gradient of the share and u the derivative of the place by it. Normals turn by its inverse
+            // transpose (Sherman-Morrison).
             Vec3& normal = normals[v];
             if (!gradients_[v].isZero()) {
                 const Vec3 along = blended(shares_[v] + side, dual) * places[v] -
@@ -110,7 +109,7 @@ double MuscleSpan::carry(const Pose& far, std::span<Vec3> places, std::span<Vec3
 
 std::vector<Vec3> verticesBetween(const MuscleDeformer& muscle, double activation, const Pose& far) {
     std::vector<Vec3> places = muscle.vertices(activation);
-    if (muscle.muscle().spans && !isRest(far)) MuscleSpan(muscle).carry(far, places);
+    if (muscle.muscle().spans && !isIdentity(far)) MuscleSpan(muscle).carry(far, places);
     return places;
 }
 

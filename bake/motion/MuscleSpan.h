@@ -6,24 +6,25 @@
 
 namespace tss {
 
-/// A muscle between two bones (METHOD 6.1): each point moves with the blend of their motions by its
-/// MuscleDeformer::insertionShare(). Blending changes the volume; to keep it, the part that moves with both
-/// bones becomes thicker or thinner, all of it by one factor, and the parts that move with one bone stay as
-/// they are.
+/// A muscle between two bones (METHOD 6.1): each vertex moves by the dual quaternion blend of both bones'
+/// motions, with its MuscleDeformer::insertionShare() as weight. Blending alone changes the volume; it is
+/// restored by displacing vertices along swelling(), all scaled by one factor. swelling() vanishes where the
+/// muscle moves with one bone alone.
 class MuscleSpan {
 public:
     /// unit: scene units per length of what carry() is given.
     explicit MuscleSpan(const MuscleDeformer& muscle, double unit = 1);
 
-    /// How much it swells: the factor on swelling(). places: #V, as the muscle's activation has them,
-    /// in the frame of the origin's bone. far: the motion of the insertion's bone since rest, in that frame.
+    /// The factor on swelling() that restores the volume. places: #V, vertices at the muscle's activation, in
+    /// the frame of the origin's bone. far: motion of the insertion's bone since rest, in that frame.
     double swell(const Pose& far, std::span<const Vec3> places) const;
 
-    /// Moves the places, and turns their normals with them. Returns swell(). far at rest: nothing, bit for
-    /// bit.
+    /// Deforms the places and turns their normals accordingly. Returns swell(). Where `far` is the identity
+    /// nothing changes by a bit.
     double carry(const Pose& far, std::span<Vec3> places, std::span<Vec3> normals = {}) const;
 
-    /// #V: away from the medial surface, whatever the muscle's form.
+    /// #V, lengths as given to carry(): displacements away from the medial surface, whatever the muscle's
+    /// form.
     const std::vector<Vec3>& swelling() const { return swelling_; }
 
 private:
@@ -33,9 +34,9 @@ private:
     std::vector<Tri> triangles_;
     Eigen::Vector4d side_;        ///< Muscle::side
     std::vector<double> shares_;  ///< #V, of the insertion's bone
-    std::vector<Vec3> gradients_; ///< #V, of the shares along the surface, per length
+    std::vector<Vec3> gradients_; ///< #V, gradient of the shares along the surface, per length
     std::vector<Vec3> swelling_;
-    double slope_ = 0; ///< of six times the volume by the factor on swelling_, at rest
+    double slope_ = 0; ///< derivative of six times the volume by the factor on swelling_, at rest
 };
 
 /// The vertices of a muscle, in the frame of its origin's bone. far: see MuscleSpan::carry(); of a muscle

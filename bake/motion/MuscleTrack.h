@@ -5,8 +5,8 @@
 
 namespace tss {
 
-/// What a muscle carries, tabulated over its activation and linear between the nodes: what the run time
-/// moves, and what the search proves its table for (METHOD 6.1, 6.2). One block of positions a node.
+/// Points bound to a muscle, tabulated over its activation and interpolated linearly between the nodes
+/// (METHOD 6.1, 6.2): the run time moves by this table, and the search for contacts is about it.
 struct MuscleTrack {
     std::vector<double> nodes; ///< rising; the ends of the activation range, and 0 where it lies inside
     std::size_t points = 0;
@@ -15,7 +15,7 @@ struct MuscleTrack {
     double error = 0; ///< largest distance to the exact deformation half way between the nodes, scene units
 };
 
-/// A place between two nodes: positions are (1 - t) * node + t * (node + 1). Exact at the nodes.
+/// Interpolation between two nodes: positions are (1 - t) * node + t * (node + 1). Exact at the nodes.
 struct TrackPlace {
     std::size_t node = 0;
     double t = 0;
@@ -24,11 +24,11 @@ struct TrackPlace {
 /// Nodes of an activation range: steps of equal width on either side of 0.
 std::vector<double> activationNodes(double lower, double upper, int steps = 32);
 
-/// Follows the points over the activation range of the muscle.
+/// Tabulates the points at these activations.
 MuscleTrack makeTrack(const MuscleDeformer& muscle, std::span<const MusclePoint> points,
                       const std::vector<double>& nodes);
 
-/// Clamped into the range of the nodes; NaN counts as 0.
+/// The interpolation at an activation, clamped into the range of the nodes; NaN counts as 0.
 TrackPlace locate(const std::vector<double>& nodes, double activation);
 
 inline Vec3 trackPosition(const MuscleTrack& track, const TrackPlace& place, std::size_t point) {

@@ -18,10 +18,7 @@ bool enclosesVolume(const TriangleMesh& mesh) {
     constexpr double flat = 1e-9; // mean thickness, as a share of the size
     if (mesh.empty()) return false;
     double area = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Vec3& a = mesh.corner(t, 0);
-        area += (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).norm() / 2;
-    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) area += mesh.areaNormal(t).norm() / 2;
     return enclosedVolume(mesh.vertices, mesh.triangles) > flat * area * diagonal(mesh);
 }
 
@@ -54,7 +51,7 @@ double swellingFor(double wanted, const std::array<double, 4>& c, double start) 
 }
 
 double boundedSwelling(const std::array<double, 4>& c, double leastSlope, double least, double most) {
-    // Where the slope c1 + 2 c2 k + 3 c3 k^2 crosses the least one.
+    // The values of k at which the slope c1 + 2 c2 k + 3 c3 k^2 equals leastSlope.
     std::array<double, 2> crossings{0, 0};
     const double a = 3 * c[3], b = 2 * c[2], rest = c[1] - leastSlope, inside = b * b - 4 * a * rest;
     if (inside > 0) {
@@ -62,7 +59,7 @@ double boundedSwelling(const std::array<double, 4>& c, double leastSlope, double
         crossings = {a != 0 ? q / a : 0, q != 0 ? rest / q : 0};
         if (crossings[0] > crossings[1]) std::swap(crossings[0], crossings[1]);
     }
-    /// The cubic's value at k, without what it would fall short of the least slope.
+    // The modified cubic at k: the integral from 0 to k of max(slope, leastSlope).
     const auto value = [&](double k) {
         double sum = c[0] + k * leastSlope, from = 0;
         for (const double crossing : {crossings[k < 0], crossings[k >= 0], k}) {

@@ -9,7 +9,7 @@ namespace tss {
 /// The volume enclosed by a closed mesh, positive when it is outward oriented.
 double enclosedVolume(const std::vector<Vec3>& vertices, const std::vector<Tri>& triangles);
 
-/// Whether a closed mesh encloses more than what rounding makes of a flat one.
+/// Whether the volume of a closed mesh is positive by more than the rounding of a flat one.
 bool enclosesVolume(const TriangleMesh& mesh);
 
 /// Six times the volume of a closed mesh whose vertices are places + k swelling, less six times `wanted`: a
@@ -21,8 +21,9 @@ std::array<double, 4> swollenVolume(double wanted, std::span<const Vec3> places,
 /// of `wanted`, any k will do: start.
 double swellingFor(double wanted, const std::array<double, 4>& cubic, double start);
 
-/// The same that changes continuously with the cubic and stays within [least, most]: the root of the cubic as
-/// it would be if its slope were nowhere less than leastSlope, > 0. Where it is not, the root itself.
+/// A root that changes continuously with the cubic and stays within [least, most]: that of the cubic modified
+/// so that its slope is nowhere less than leastSlope, > 0. Where the slope is no less anyway, the root
+/// itself.
 double boundedSwelling(const std::array<double, 4>& cubic, double leastSlope, double least, double most);
 
 } // namespace tss

@@ -13,7 +13,7 @@ struct DualPose {
     Eigen::Vector4d dual{0, 0, 0, 0}; ///< half the translation times the rotation
 
     DualPose() = default;
-    /// The one of less than half a turn.
+    /// With w >= 0: a rotation of at most half a turn.
     explicit DualPose(const Pose& pose) {
         Eigen::Quaterniond q = Eigen::Quaterniond(pose.linear()).normalized();
         if (q.w() < 0) q.coeffs() = -q.coeffs();
@@ -22,35 +22,36 @@ struct DualPose {
         dual = (Eigen::Quaterniond(0, t.x(), t.y(), t.z()) * q).coeffs();
     }
 
-    /// A rotation is two quaternions, one for either way round: the one on the side of another, for a motion
-    /// of more than half a turn.
-    DualPose onSideOf(const Eigen::Vector4d& side) const {
+    /// q and -q are the same rotation, reached by turning the one way or the other: the one of the two in the
+    /// hemisphere of a reference quaternion, which may be a turn of more than half a turn.
+    DualPose inHemisphereOf(const Eigen::Vector4d& reference) const {
         DualPose result = *this;
-        if (side.dot(real) < 0) result.real = -real, result.dual = -dual;
+        if (reference.dot(real) < 0) result.real = -real, result.dual = -dual;
         return result;
     }
 };
 
-/// The mean of some motions, weighted by shares. What the shares leave to 1 stays where it is.
+/// Dual quaternion linear blending (DLB): the mean of motions weighted by shares. Where the shares sum to
+/// less than 1, the identity has the rest.
 class PoseBlend {
 public:
     PoseBlend() = default;
-    /// asGiven: a motion goes the way round that its quaternion says, be it more than half a turn.
-    explicit PoseBlend(bool asGiven) : asGiven_(asGiven) {}
+    /// keepSigns: quaternions are summed with the signs they have, so that a turn may be more than half a
+    /// turn; otherwise each is first brought into the hemisphere of the sum so far.
+    explicit PoseBlend(bool keepSigns) : keepSigns_(keepSigns) {}
 
     void add(double share, const DualPose& pose) {
-        // A rotation is two quaternions: the one on the side of what is there already, at first of rest.
-        const double side = asGiven_ ? 1 : real_.isZero() ? pose.real[3] : real_.dot(pose.real);
+        const double side = keepSigns_ ? 1 : real_.isZero() ? pose.real[3] : real_.dot(pose.real);
         const double signed_ = side < 0 ? -share : share;
         real_ += signed_ * pose.real;
         dual_ += signed_ * pose.dual;
         left_ -= share;
     }
 
-    /// A mean that is no rotation (opposite ones in equal shares) is rest.
+    /// The normalised mean; the identity where it vanishes, as of opposite quaternions in equal shares.
     Pose pose() const {
         Eigen::Vector4d real = real_;
-        real[3] += real[3] < 0 && !asGiven_ ? -std::max(left_, 0.0) : std::max(left_, 0.0);
+        real[3] += real[3] < 0 && !keepSigns_ ? -std::max(left_, 0.0) : std::max(left_, 0.0);
         const double length = real.norm();
         if (!(length > 1e-9)) return Pose::Identity();
         const Eigen::Quaterniond q(Eigen::Vector4d(real / length)), d(Eigen::Vector4d(dual_ / length));
@@ -63,16 +64,16 @@ public:
 private:
     Eigen::Vector4d real_{0, 0, 0, 0}, dual_{0, 0, 0, 0};
     double left_ = 1;
-    bool asGiven_ = false;
+    bool keepSigns_ = false;
 };
 
-/// Part of the way from one motion to another, round the side that is meant. A share of 0 is the first bit
-/// for bit.
+/// Interpolates between two motions; share 0 is `from` bit for bit. hemisphere: reference quaternion that
+/// tells which way round the relative rotation goes, see DualPose::inHemisphereOf().
 inline Pose blendBetween(const Pose& from, const Pose& to, double share,
-                         const Eigen::Vector4d& side = {0, 0, 0, 1}) {
+                         const Eigen::Vector4d& hemisphere = {0, 0, 0, 1}) {
     if (share == 0 || from.matrix() == to.matrix()) return from;
     PoseBlend blend(true);
-    blend.add(share, DualPose(from.inverse(Eigen::Isometry) * to).onSideOf(side));
+    blend.add(share, DualPose(from.inverse(Eigen::Isometry) * to).inHemisphereOf(hemisphere));
     return from * blend.pose();
 }
 

@@ -17,7 +17,7 @@ struct SingularValues {
 };
 SingularValues singularValues(const Eigen::Matrix3d& matrix);
 
-/// The least x of those that solve matrix * x = right best; the matrix may be singular.
+/// Minimum-norm least-squares solution of matrix * x = right; the matrix may be singular.
 Eigen::Matrix<double, 6, 1> leastSolution(const Eigen::Matrix<double, 6, 6>& matrix,
                                           const Eigen::Matrix<double, 6, 1>& right);
 

@@ -8,19 +8,20 @@
 
 namespace tss {
 
-/// Whether the limits are one whole turn: the joint goes on where they meet, and has no end.
+/// Whether the limits span exactly one whole turn: the DOF is periodic and has no end.
 inline bool wholeTurn(const Dof& dof) {
     constexpr double turn = 2 * std::numbers::pi;
     return dof.kind == DofKind::Rotation && std::abs(dof.upper - dof.lower - turn) <= 1e-6 * turn;
 }
 
-/// The same poses with none of them twice: turns of more than once round go once round, about where they
-/// rest, and a billionth of a turn beyond, far more than rounding moves. Where planes bind the values all
-/// stays.
+/// The same set of poses without repetitions: the limits of rotations by more than a whole turn are cut to
+/// one turn about rest, and a billionth of a turn more, which covers rounding. Unchanged where there are
+/// planes, whose couplings are not periodic.
 inline Motion onceRound(Motion motion) {
     constexpr double turn = (1 + 1e-9) * 2 * std::numbers::pi;
     for (Dof& dof : motion.dofs) {
-        if (dof.kind != DofKind::Rotation || dof.upper - dof.lower <= turn || !motion.planes.empty()) continue;
+        if (dof.kind != DofKind::Rotation || dof.upper - dof.lower <= turn || !motion.planes.empty())
+            continue;
         dof.lower = std::max(dof.lower, std::min(dof.rest - turn / 2, dof.upper - turn));
         dof.upper = std::min(dof.upper, dof.lower + turn);
     }
@@ -33,7 +34,8 @@ inline double nearestTurn(double value, double to) {
     return value + turn * std::round((to - value) / turn);
 }
 
-/// Values that may be asked of a motion's DOFs, those that turn all the way round brought within their limits.
+/// Brings the values of periodic DOFs within their limits by whole turns; others stay, all where there are
+/// planes.
 inline void wrapTurns(const Motion& motion, std::span<double> values) {
     if (!motion.planes.empty()) return;
     for (std::size_t k = 0; k < motion.dofs.size(); ++k) {

@@ -83,7 +83,7 @@ MuscleWays muscleWays(const SceneModel& scene, const MuscleModel& muscle) {
             for (std::size_t k = 0; k < rest.size(); ++k)
                 if (end[k] != rest[k]) values[k] += (end[k] - rest[k]) * s / wayStations;
             all.push_back(
-                DualPose(insertionMotion(scene, muscle, posedBodies(scene, values))).onSideOf(last));
+                DualPose(insertionMotion(scene, muscle, posedBodies(scene, values))).inHemisphereOf(last));
             last = all.back().real;
             sum += last;
             if (s % sparse == 0) ways.far.push_back(all.back());

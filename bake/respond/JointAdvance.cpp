@@ -7,20 +7,21 @@ namespace tss {
 
 namespace {
 
-/// A rate of the gap that holds until the row just ahead of some paths and beyond it: of each DOF what closes
-/// it more.
-double slowestRate(const JointModel::Group& group, const MotionFrame& frame, const DofValues& step,
-                   const Vec3& normal, const Vec3& centre) {
+/// A lower bound of the gap's rate just before and just beyond a row of some paths: for each DOF the smaller
+/// of the two rates.
+double lowestRate(const JointModel::Group& group, const MotionFrame& frame, const DofValues& step,
+                  const Vec3& normal, const Vec3& centre) {
     double rate = 0;
     for (std::size_t k = 0; k < group.dofs.size(); ++k)
-        rate += std::min(step[group.dofs[k]] * normal.dot(frame.before[k].velocity(centre)),
+        rate += std::min(step[group.dofs[k]] * normal.dot(frame.twistsBeforeRow[k].velocity(centre)),
                          step[group.dofs[k]] * normal.dot(frame.twists[k].velocity(centre)));
     return rate;
 }
 
-/// Gap and rate of every active pair at q; thresholds rise as pairs free themselves.
-void observe(const JointModel& model, const DofValues& q, const DofValues& step, std::size_t activeCount,
-             ResponseRoom& ws) {
+/// Computes gap and rate of every active pair at q, and raises thresholds as gaps grow, up to the contact
+/// offset.
+void updateGaps(const JointModel& model, const DofValues& q, const DofValues& step, std::size_t activeCount,
+                ResponseBuffers& ws) {
     std::uint32_t at = ~0u;
     DofTwist whole;
     for (std::size_t i = 0; i < activeCount; ++i) {
@@ -35,16 +36,16 @@ void observe(const JointModel& model, const DofValues& q, const DofValues& step,
         Vec3 centre, normal;
         near.gap = pairGap(pair, frame.pose, centre, normal);
         near.rate = normal.dot(whole.velocity(centre));
-        if (frame.rowAhead) near.rate = slowestRate(model.groups[at], frame, step, normal, centre);
-        if (!ws.common)
+        if (frame.rowAhead) near.rate = lowestRate(model.groups[at], frame, step, normal, centre);
+        if (!ws.commonThreshold)
             near.threshold =
                 std::max(near.threshold, std::min(model.groups[pair.group].contactOffset, near.gap));
     }
 }
 
-/// Time until a gap g >= 0 that changes at `rate` can have closed when its rate falls by `acceleration` a
-/// unit of time: the positive root of g + rate t - acceleration t^2 / 2, written without cancellation. Times
-/// from 1 on, where every way ends, are all HUGE_VAL.
+/// Time until a gap g >= 0 can close that changes at `rate`, while the rate falls by at most `acceleration`
+/// per unit of time: the positive root of g + rate t - acceleration t^2 / 2, written without cancellation. A
+/// time of 1 or more, beyond the end of the way, is returned as HUGE_VAL.
 double closingTime(double g, double rate, double acceleration) {
     const double root = std::sqrt(rate * rate + 2 * acceleration * g);
     if (rate <= 0) {
@@ -67,9 +68,9 @@ double timeToRow(const JointModel::Group& group, const DofValues& q, const DofVa
     return time;
 }
 
-/// The time for which no near pair can reach its threshold, 0 when one is there.
-double freeTime(const JointModel& model, const DofValues& q, const DofValues& step, double left,
-                std::size_t activeCount, ResponseRoom& ws) {
+/// A time, at most `left`, during which no active pair can reach its threshold; 0 when one is there already.
+double safeTime(const JointModel& model, const DofValues& q, const DofValues& step, double left,
+                std::size_t activeCount, ResponseBuffers& ws) {
     double time = left;
     std::uint32_t at = ~0u;
     double row = HUGE_VAL;
@@ -81,7 +82,7 @@ double freeTime(const JointModel& model, const DofValues& q, const DofValues& st
         const bool closes = near.rate < 0 || (near.rate == 0 && near.acceleration > 0 && room <= 0);
         if (closes && room < 0.05 * model.groups[pair.group].contactOffset) {
             ws.held[pair.group] |= stoppedStep;
-            time = 0; // the others are looked at too: several may hold
+            time = 0; // no early exit: all groups that stop the way are to be marked
         }
         if (time == 0) continue;
         if (const std::uint32_t group = pair.group; group != at) {
@@ -129,7 +130,7 @@ void MotionBounds::bound(const JointModel& model, const DofValues& step, NearPai
     }
 }
 
-double advance(const JointModel& model, const DofValues& step, DofValues& q, ResponseRoom& ws) {
+double advance(const JointModel& model, const DofValues& step, DofValues& q, ResponseBuffers& ws) {
     const DofValues start = q;
     std::size_t activeCount = 0;
     if (ws.active.size() < ws.nearCount) ws.active.resize(ws.near.size());
@@ -145,8 +146,8 @@ double advance(const JointModel& model, const DofValues& step, DofValues& q, Res
     }
     double t = 0;
     for (int round = 0; round < 60 && t < 1; ++round) {
-        observe(model, q, step, activeCount, ws);
-        const double share = freeTime(model, q, step, 1 - t, activeCount, ws);
+        updateGaps(model, q, step, activeCount, ws);
+        const double share = safeTime(model, q, step, 1 - t, activeCount, ws);
         if (share <= 1e-13) break;
         t = share >= 1 - t ? 1 : t + share;
         for (int l = 0; l < model.dofCount; ++l) q[l] = start[l] + t * step[l];

@@ -3,21 +3,20 @@
 
 namespace tss {
 
-/// Of the groups in clusters the pairs that can come to their threshold on the straight way from q to
-/// q + way go into the near list, those that are in it already aside: with their gap at q, the threshold that
-/// `cull` gives them, and no gradient. Work is in proportion to what is near. All other pairs of these groups
-/// stay farther apart than their contact offset all the way.
+/// Appends to the near list the pairs of clustered groups whose gap can fall to their threshold on the
+/// straight way from q to q + step, unless they are listed already: with their gap at q, the threshold that
+/// cull() gives, and no gradient. The cost is proportional to how many are near. All other pairs of these
+/// groups keep a gap above their contact offset all the way.
 ///
-/// In METHOD 5.1's terms: on the way a gap falls by no more than the sum of the speed bounds, nor by more
-/// than its rate at q with half the bound of its acceleration. The first is asked of a whole group before
-/// it is placed, with what was known of it where the joint stood before; the larger of both bounds of all its
-/// pairs is the margin within which its table is asked; then each pair found is asked for itself.
-/// Returns false where it stopped, the list incomplete, because more than `most` pairs are near, or too many
-/// have to be asked for that.
-bool listOnStep(const JointModel& model, const DofValues& q, const DofValues& step, ResponseRoom& ws,
+/// On the way a gap falls by no more than the sum of the speed bounds, and by no more than its rate at q and
+/// half the bound of its acceleration (METHOD 5.1). First the whole group is tested by these bounds and what
+/// the cache knows of its last pose; then the table is searched within the larger bound of all pairs; then
+/// each pair found is tested by its own bounds. Returns false where it stopped, the list incomplete, because
+/// more than `most` pairs are near or far more had to be tested.
+bool listOnStep(const JointModel& model, const DofValues& q, const DofValues& step, ResponseBuffers& ws,
                 std::size_t most = ~std::size_t(0));
 
-/// Smallest gap of the pairs of one group in clusters: of all of them, looking at few.
+/// Smallest gap of all pairs of one clustered group, by branch and bound over its clusters.
 double smallestGap(const JointModel& model, std::size_t group, const Pose& pose);
 
 } // namespace tss

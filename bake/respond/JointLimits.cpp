@@ -30,10 +30,10 @@ void addLimits(const JointModel& model, const DofValues& q, double trust, const 
     }
     for (const LimitPlane& plane : model.planes) {
         double* row = rows.add();
-        double value = -plane.bound, squared = 0;
+        const double value = excess(plane, {goal.data(), std::size_t(n)});
+        double squared = 0;
         for (int l = 0; l < n; ++l) {
             row[l] = -plane.coefficients[l] * model.perWeight[l];
-            value += plane.coefficients[l] * goal[l];
             squared += row[l] * row[l];
         }
         const double scale = 1 / std::sqrt(squared);
@@ -42,37 +42,27 @@ void addLimits(const JointModel& model, const DofValues& q, double trust, const 
     }
 }
 
-namespace {
-
-/// By how much q is beyond a plane, in the plane's own unit.
-double excess(const JointModel& model, const LimitPlane& plane, const DofValues& q) {
-    double sum = -plane.bound;
-    for (int l = 0; l < model.dofCount; ++l) sum += plane.coefficients[l] * q[l];
-    return sum;
-}
-
-} // namespace
-
-DofValues clampToLimits(const JointModel& model, const double* asked, ResponseRoom& ws) {
+DofValues clampToLimits(const JointModel& model, const double* asked, ResponseBuffers& ws) {
     const int n = model.dofCount;
     DofValues q{};
     for (int l = 0; l < n; ++l) q[l] = std::clamp(asked[l], model.lower[l], model.upper[l]);
-    const auto within = [&](const LimitPlane& plane) { return excess(model, plane, q) <= 0; };
-    if (std::all_of(model.planes.begin(), model.planes.end(), within)) return q;
+    const std::span<const double> values(q.data(), std::size_t(n)), rest(model.rest.data(), std::size_t(n));
+    const auto holds = [&](const LimitPlane& plane) { return excess(plane, values) <= 0; };
+    if (std::all_of(model.planes.begin(), model.planes.end(), holds)) return q;
     ws.rows.clear(n);
     addLimits(model, q, 1, q, ws.rows);
     DofValues y;
     if (nearestToOrigin(ws.rows, 1e-12 * model.scale, y))
         for (int l = 0; l < n; ++l)
             q[l] = std::clamp(q[l] + y[l] / model.weights[l], model.lower[l], model.upper[l]);
-    // Ranges may differ by so much that this finds nothing, or what is a hair for one of them only: straight
-    // towards the rest then.
+    // Where ranges differ by many orders of magnitude this may find nothing, or a point beyond a plane by
+    // more than rounding. Then q moves straight towards rest until it meets the planes.
     double share = 0;
     for (const LimitPlane& plane : model.planes) {
         double size = 0;
         for (int l = 0; l < n; ++l) size += std::abs(plane.coefficients[l]) * model.range[l];
-        if (const double over = excess(model, plane, q); over > 1e-9 * size)
-            share = std::max(share, over / (over - std::min(0.0, excess(model, plane, model.rest))));
+        if (const double over = excess(plane, values); over > 1e-9 * size)
+            share = std::max(share, over / (over - std::min(0.0, excess(plane, rest))));
     }
     for (int l = 0; l < n; ++l) q[l] += std::min(share, 1.0) * (model.rest[l] - q[l]);
     return q;
@@ -80,7 +70,7 @@ DofValues clampToLimits(const JointModel& model, const double* asked, ResponseRo
 
 void wrapTurns(const JointModel& model, DofValues& q) {
     for (int l = 0; l < model.dofCount; ++l)
-        if (model.round[l] && (q[l] < model.first[l] || q[l] > model.first[l] + model.range[l]))
+        if (model.periodic[l] && (q[l] < model.first[l] || q[l] > model.first[l] + model.range[l]))
             q[l] = nearestTurn(q[l], model.first[l] + 0.5 * model.range[l]);
 }
 

@@ -31,13 +31,13 @@ void addPairs(const Table& table, std::uint32_t group, JointModel& model) {
     const std::vector<int>& dofs = model.groups[group].dofs;
     const TableTests& list = *model.groups[group].tests;
     constexpr std::uint32_t none = ~0u;
-    std::vector<std::uint32_t> movers(table.b.size(), none);
+    std::vector<std::uint32_t> rowOf(table.b.size(), none); // per sphere of B
     for (std::size_t k = 0; k < list.size(); ++k) {
         const TablePair test = list[k];
-        std::uint32_t& mover = movers[list.spheres(k).b];
-        const bool first = mover == none;
-        if (first) mover = model.moverCount++;
-        model.pairs.push_back({test.a, test.b, test.contactDistance, group, mover});
+        std::uint32_t& speedRow = rowOf[list.spheres(k).b];
+        const bool first = speedRow == none;
+        if (first) speedRow = model.speedRows++;
+        model.pairs.push_back({test.a, test.b, test.contactDistance, group, speedRow});
         if (!first) continue;
         DofValues own;
         speedBounds(table.motion, test.b, own.data());
@@ -51,10 +51,10 @@ void addPairs(const Table& table, std::uint32_t group, JointModel& model) {
     }
 }
 
-/// contactOffset = 1.5 epsilon (METHOD 5.3), of each table its own: a coarse one keeps its own bodies apart
-/// by more, and no others. For a lossless table a distance far above the rounding of a gap and far below
-/// anything seen.
-double keptGap(const JointModel& model, const JointModel::Group& group, double epsilon) {
+/// The group's contactOffset (METHOD 5.3): 1.5 epsilon of its own table, so that a coarse table does not keep
+/// the bodies of others farther apart. Where epsilon is 0, a distance far above the rounding of a gap and far
+/// below what can be seen.
+double contactOffsetOf(const JointModel& model, const JointModel::Group& group, double epsilon) {
     double size = 0, coordinate = group.motion.base.translation().norm();
     for (std::uint32_t i = group.firstPair; i < group.lastPair; ++i) {
         const JointModel::Pair& p = model.pairs[i];
@@ -66,12 +66,11 @@ double keptGap(const JointModel& model, const JointModel::Group& group, double e
     return std::max({1.5 * epsilon, 1e-6 * size, 1e-13 * coordinate, std::numeric_limits<double>::min()});
 }
 
-void addTable(const TableOnJoint& entry, int index, JointModel& model) {
+void addTable(const TableOnJoint& entry, JointModel& model) {
     const Motion& motion = entry.table->motion;
     JointModel::Group group;
     group.motion = motion;
     group.dofs = entry.dofs;
-    group.table = index;
     group.tests = std::make_shared<TableTests>(*entry.table);
     for (std::size_t k = 0; k < motion.dofs.size(); ++k) {
         const Dof& dof = motion.dofs[k];
@@ -85,17 +84,18 @@ void addTable(const TableOnJoint& entry, int index, JointModel& model) {
         LimitPlane whole{std::vector<double>(model.dofCount, 0.0), plane.bound};
         for (std::size_t k = 0; k < motion.dofs.size(); ++k)
             whole.coefficients[entry.dofs[k]] = plane.coefficients[k];
-        model.planes.push_back(inReach(whole));
+        model.planes.push_back(rescaled(whole));
     }
     group.firstPair = static_cast<std::uint32_t>(model.pairs.size());
     model.groups.push_back(group);
     addPairs(*entry.table, static_cast<std::uint32_t>(model.groups.size() - 1), model);
     JointModel::Group& added = model.groups.back();
     added.lastPair = static_cast<std::uint32_t>(model.pairs.size());
-    added.contactOffset = keptGap(model, added, entry.table->epsilon);
+    added.contactOffset = contactOffsetOf(model, added, entry.table->epsilon);
 }
 
-/// Makes the vector kernels of the last group's table, and what is asked of one in clusters.
+/// Makes the vector kernels of the last group's table and, where these put it into clusters, its tree and the
+/// ball around its spheres of B.
 void prepareGroup(const Table& table, JointModel& model) {
     JointModel::Group& group = model.groups.back();
     group.prepared = std::make_shared<PreparedTable>(table);
@@ -114,11 +114,11 @@ void prepareGroup(const Table& table, JointModel& model) {
         group.spread = std::max(group.spread, (pair.b - group.middle).norm());
 }
 
-/// Finds each group its chain.
+/// Assigns each group without paths a chain that begins with its DOFs, or that its DOFs extend.
 void findChains(JointModel& model) {
     for (JointModel::Group& group : model.groups) {
         if (group.paths) continue;
-        const auto begins = [&](const JointModel::Chain& chain) {
+        const auto sharesStart = [&](const JointModel::Chain& chain) {
             const std::size_t both = std::min(chain.dofs.size(), group.dofs.size());
             for (std::size_t k = 0; k < both; ++k) {
                 const Dof &x = chain.motion.dofs[k], &y = group.motion.dofs[k];
@@ -128,7 +128,7 @@ void findChains(JointModel& model) {
             }
             return both > 0;
         };
-        const auto found = std::find_if(model.chains.begin(), model.chains.end(), begins);
+        const auto found = std::find_if(model.chains.begin(), model.chains.end(), sharesStart);
         group.chain = static_cast<int>(found - model.chains.begin());
         if (found == model.chains.end())
             model.chains.push_back({group.motion, group.dofs});
@@ -137,24 +137,24 @@ void findChains(JointModel& model) {
     }
 }
 
-/// Values whose tables all know the whole turn, and that nothing else limits.
-void findTurns(JointModel& model) {
+/// Finds the periodic DOFs: all their tables cover the whole turn, and no plane limits them.
+void findPeriodicDofs(JointModel& model) {
     constexpr double turn = 2 * std::numbers::pi;
     for (int l = 0; l < model.dofCount; ++l) {
-        bool known = false, round = true;
+        bool used = false, periodic = true;
         for (const JointModel::Group& group : model.groups)
             for (std::size_t k = 0; k < group.dofs.size(); ++k)
                 if (group.dofs[k] == l) {
-                    known = true;
-                    round = round && wholeTurn(group.motion.dofs[k]);
+                    used = true;
+                    periodic = periodic && wholeTurn(group.motion.dofs[k]);
                 }
-        round = round && known;
-        for (const LimitPlane& plane : model.planes) round = round && plane.coefficients[l] == 0;
-        model.round[l] = round;
+        periodic = periodic && used;
+        for (const LimitPlane& plane : model.planes) periodic = periodic && plane.coefficients[l] == 0;
+        model.periodic[l] = periodic;
         model.first[l] = model.lower[l];
-        model.range[l] = round ? turn : model.upper[l] - model.lower[l];
-        if (!round) continue;
-        // A way of half a turn from anywhere, and what slides beyond it.
+        model.range[l] = periodic ? turn : model.upper[l] - model.lower[l];
+        if (!periodic) continue;
+        // Room for a way of half a turn from any value, and for sliding beyond its end.
         model.lower[l] = model.first[l] - turn;
         model.upper[l] = model.first[l] + 2 * turn;
     }
@@ -168,19 +168,19 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
                          std::to_string(dofCount));
     JointModel model;
     model.dofCount = dofCount;
-    model.lower.fill(-std::numeric_limits<double>::infinity());
-    model.upper.fill(std::numeric_limits<double>::infinity());
-    model.leastContactOffset = std::numeric_limits<double>::infinity();
+    model.lower.fill(-infinity);
+    model.upper.fill(infinity);
+    model.leastContactOffset = infinity;
     std::size_t tests = 0;
     for (const TableOnJoint& entry : tables) tests += entry.table->testCount();
     model.pairs.reserve(tests);
-    for (std::size_t i = 0; i < tables.size(); ++i) {
-        checkFit(tables[i], dofCount);
-        addTable(tables[i], static_cast<int>(i), model);
-        if (prepare) prepareGroup(*tables[i].table, model);
+    for (const TableOnJoint& entry : tables) {
+        checkFit(entry, dofCount);
+        addTable(entry, model);
+        if (prepare) prepareGroup(*entry.table, model);
         const JointModel::Group& group = model.groups.back();
-        if (!group.clustered) model.listable += group.lastPair - group.firstPair;
-        model.leastContactOffset = std::min(model.leastContactOffset, model.groups.back().contactOffset);
+        if (!group.clustered) model.unclusteredPairs += group.lastPair - group.firstPair;
+        model.leastContactOffset = std::min(model.leastContactOffset, group.contactOffset);
     }
     if (model.groups.empty()) model.leastContactOffset = std::numeric_limits<double>::min();
     for (int l = 0; l < dofCount; ++l)
@@ -190,23 +190,24 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
             throw InputError("joint: expected limits of its tables that overlap");
     for (int l = 0; l < dofCount; ++l)
         model.rest[l] = std::clamp(model.rest[l], model.lower[l], model.upper[l]);
-    findTurns(model);
+    findPeriodicDofs(model);
     if (model.clustered) findChains(model);
-    // A DOF that moves no sphere still needs a weight: the metric must be one.
+    // A DOF that moves no sphere still needs a weight, or the weighted distance would not be a metric.
     const double largest = *std::max_element(model.weights.begin(), model.weights.end());
     for (int l = 0; l < dofCount; ++l)
         model.weights[l] = std::max(model.weights[l], largest > 0 ? 1e-6 * largest : 1.0);
-    // Nor may what its whole range moves be lost beside the others': planes ask for each value.
+    // With planes, whose rows have coefficients on each DOF, weighted ranges must not differ too much in
+    // scale.
     double farthest = 0;
     for (int l = 0; l < dofCount; ++l) farthest = std::max(farthest, model.weights[l] * model.range[l]);
     for (int l = 0; l < dofCount; ++l)
         if (!model.planes.empty() && model.range[l] > 0)
             model.weights[l] = std::max(model.weights[l], std::min(1e-4 * farthest / model.range[l], 1e100));
     for (int l = 0; l < dofCount; ++l) model.perWeight[l] = 1 / model.weights[l];
-    for (std::size_t mover = 0; mover < model.moverCount; ++mover) {
+    for (std::size_t row = 0; row < model.speedRows; ++row) {
         double squared = 0;
         for (int l = 0; l < dofCount; ++l) {
-            const double share = model.speeds[mover * dofCount + l] / model.weights[l];
+            const double share = model.speeds[row * dofCount + l] / model.weights[l];
             squared += share * share;
         }
         model.levers.push_back(std::sqrt(squared));
@@ -219,9 +220,9 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
 
 namespace {
 
-/// Takes a pair into the near list where its gap can fall to its threshold within travel.
-void takeIfNear(const JointModel& model, std::uint32_t p, const Pose& pose, const DofValues& travel,
-                ResponseRoom& ws) {
+/// Appends a pair to the near list if its gap can fall to its threshold within the travel.
+void addIfNear(const JointModel& model, std::uint32_t p, const Pose& pose, const DofValues& travel,
+               ResponseBuffers& ws) {
     const JointModel::Pair& pair = model.pairs[p];
     const double* speed = model.speed(p);
     const double contactOffset = model.groups[pair.group].contactOffset;
@@ -235,20 +236,21 @@ void takeIfNear(const JointModel& model, std::uint32_t p, const Pose& pose, cons
     near.threshold = std::min(contactOffset, near.gap);
 }
 
-/// What a group's table is asked at: its cells end at its limits.
+/// The values of a group's own DOFs, periodic ones brought into the table's limits, where its cells end.
 DofValues valuesOf(const JointModel& model, const JointModel::Group& group, const DofValues& q) {
     DofValues own;
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
         own[k] = q[group.dofs[k]];
-        if (model.round[group.dofs[k]])
+        if (model.periodic[group.dofs[k]])
             own[k] = nearestTurn(own[k], group.motion.dofs[k].lower + std::numbers::pi);
     }
     return own;
 }
 
-/// The tests of a group that a vector query finds under the margin that its fastest pair needs.
+/// Finds, with the vector kernels, the tests of a group that may be near within the travel, judged by the
+/// margin that the fastest pair needs. Returns how many are in ws.found.
 std::uint32_t findWithin(const JointModel& model, const JointModel::Group& group, const DofValues& q,
-                         const DofValues& travel, ResponseRoom& ws) {
+                         const DofValues& travel, ResponseBuffers& ws) {
     const DofValues own = valuesOf(model, group, q);
     double margin = 2 * group.contactOffset;
     for (const int dof : group.dofs) margin += model.weights[dof] * travel[dof];
@@ -257,14 +259,15 @@ std::uint32_t findWithin(const JointModel& model, const JointModel::Group& group
 
 } // namespace
 
-void cull(const JointModel& model, const DofValues& q, const DofValues& travel, ResponseRoom& ws) {
-    ws.unlist();
+void cull(const JointModel& model, const DofValues& q, const DofValues& travel, ResponseBuffers& ws) {
+    ws.clearNear();
     cullMore(model, q, travel, ws);
 }
 
-void cullMore(const JointModel& model, const DofValues& q, const DofValues& travel, ResponseRoom& ws) {
-    // Beside what is kept of tables in clusters.
-    if (ws.near.size() < ws.nearCount + model.listable) ws.near.resize(ws.nearCount + model.listable);
+void cullMore(const JointModel& model, const DofValues& q, const DofValues& travel, ResponseBuffers& ws) {
+    // The near list may already hold pairs of clustered groups.
+    if (ws.near.size() < ws.nearCount + model.unclusteredPairs)
+        ws.near.resize(ws.nearCount + model.unclusteredPairs);
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
         const JointModel::Group& group = model.groups[g];
         if (group.clustered) continue;
@@ -273,36 +276,37 @@ void cullMore(const JointModel& model, const DofValues& q, const DofValues& trav
             if (found == 0) continue;
             placeGroup(model, g, q, travel, ws);
             for (std::uint32_t i = 0; i < found; ++i)
-                takeIfNear(model, group.firstPair + ws.found[i], ws.groups[g].frame.pose, travel, ws);
+                addIfNear(model, group.firstPair + ws.found[i], ws.groups[g].frame.pose, travel, ws);
         } else {
             placeGroup(model, g, q, travel, ws);
             for (std::uint32_t p = group.firstPair; p < group.lastPair; ++p)
-                takeIfNear(model, p, ws.groups[g].frame.pose, travel, ws);
+                addIfNear(model, p, ws.groups[g].frame.pose, travel, ws);
         }
     }
 }
 
-QueryResult nearestTest(const JointModel& model, std::size_t g, const DofValues& q, ResponseRoom& ws) {
+QueryResult nearestTest(const JointModel& model, std::size_t g, const DofValues& q, ResponseBuffers& ws) {
     const JointModel::Group& group = model.groups[g];
     DofValues at;
     for (std::size_t k = 0; k < group.dofs.size(); ++k) at[k] = q[group.dofs[k]];
     const Pose place = pose(group.motion, {at.data(), group.dofs.size()});
     const DofValues own = valuesOf(model, group, q);
-    bool asked = group.prepared != nullptr;
+    bool usesKernels = group.prepared != nullptr;
     for (std::size_t k = 0; k < group.dofs.size(); ++k)
-        asked = asked && own[k] >= group.motion.dofs[k].lower && own[k] <= group.motion.dofs[k].upper;
-    if (!asked) return query(*group.tests, place);
+        usesKernels =
+            usesKernels && own[k] >= group.motion.dofs[k].lower && own[k] <= group.motion.dofs[k].upper;
+    if (!usesKernels) return query(*group.tests, place);
     const TableGap guess = group.prepared->gap(own.data());
-    // One that never touches, as its contact distance is below 0, is in no list of tests.
+    // A test that can never touch, its contact distance being below 0, is left out by testsWithin().
     if (guess.test < 0 || (*group.tests)[std::size_t(guess.test)].contactDistance < 0)
         return query(*group.tests, place);
-    // Of the tests that may be the nearest within what the kernels round, the exact one.
+    // Exactly, among the tests that may be the nearest within the rounding of the kernels.
     const double reach = group.prepared->kernels().reachOf(std::max(0.0, guess.gap));
     const std::uint32_t count = group.prepared->testsWithin(own.data(), reach, ws.found.data());
     return query(*group.tests, place, {ws.found.data(), count});
 }
 
-void narrow(const JointModel& model, double distance, ResponseRoom& ws) {
+void narrow(const JointModel& model, double distance, ResponseBuffers& ws) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < ws.nearCount; ++i) {
         const NearPair& near = ws.near[i];
@@ -313,7 +317,7 @@ void narrow(const JointModel& model, double distance, ResponseRoom& ws) {
     ws.nearCount = kept;
 }
 
-void linearise(const JointModel& model, const DofValues& q, const DofValues& step, ResponseRoom& ws,
+void linearise(const JointModel& model, const DofValues& q, const DofValues& step, ResponseBuffers& ws,
                std::size_t first) {
     std::uint32_t at = ~0u;
     for (std::size_t i = first; i < ws.nearCount; ++i) {
@@ -324,21 +328,21 @@ void linearise(const JointModel& model, const DofValues& q, const DofValues& ste
         const MotionFrame& frame = ws.groups[pair.group].frame;
         Vec3 centre, normal;
         near.gap = pairGap(pair, frame.pose, centre, normal);
-        if (!ws.common) near.threshold = std::min(near.threshold, near.gap);
+        if (!ws.commonThreshold) near.threshold = std::min(near.threshold, near.gap);
         std::fill_n(near.gradient.begin(), model.dofCount, 0.0);
         for (std::size_t k = 0; k < group.dofs.size(); ++k)
             near.gradient[group.dofs[k]] = normal.dot(frame.twists[k].velocity(centre));
     }
 }
 
-double smallestLevel(const JointModel& model, const DofValues& q, ResponseRoom& ws) {
-    double smallest = std::numeric_limits<double>::infinity();
+double smallestLevel(const JointModel& model, const DofValues& q, ResponseBuffers& ws) {
+    double smallest = infinity;
     Vec3 centre, normal;
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
         const JointModel::Group& group = model.groups[g];
         placeGroup(model, g, q, q, ws);
         const Pose& pose = ws.groups[g].frame.pose;
-        double gap = std::numeric_limits<double>::infinity();
+        double gap = infinity;
         if (group.clustered)
             gap = smallestGap(model, g, pose);
         else

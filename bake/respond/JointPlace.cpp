@@ -1,19 +1,19 @@
-// Room for responses, and where the groups of a model stand.
+// The buffers of a response, and the poses of a model's groups.
 #include "bake/respond/JointModel.h"
 
 #include <algorithm>
 
 namespace tss {
 
-ResponseRoom roomFor(const JointModel& model) {
-    ResponseRoom ws;
-    ws.near.resize(model.listable);
-    ws.active.resize(model.listable);
+ResponseBuffers buffersFor(const JointModel& model) {
+    ResponseBuffers ws;
+    ws.near.resize(model.unclusteredPairs);
+    ws.active.resize(model.unclusteredPairs);
     std::size_t room = 0;
     for (const JointModel::Group& group : model.groups)
         if (group.prepared) room = std::max(room, group.prepared->testRoom());
     ws.found.resize(room);
-    ws.rows = QpRows(model.listable + 2 * std::size_t(model.dofCount) + model.planes.size());
+    ws.rows = QpRows(model.unclusteredPairs + 2 * std::size_t(model.dofCount) + model.planes.size());
     ws.groups.resize(model.groups.size());
     ws.chains.resize(model.chains.size());
     ws.ends.resize(model.groups.size());
@@ -21,14 +21,15 @@ ResponseRoom roomFor(const JointModel& model) {
     ws.held.resize(model.groups.size());
     if (!model.clustered) return ws;
     ws.listed.resize(model.pairs.size());
-    ws.known.resize(model.groups.size());
-    for (KnownNear& known : ws.known) known.tests.resize(KnownNear::most);
+    ws.caches.resize(model.groups.size());
+    for (NearCache& cache : ws.caches) cache.tests.resize(NearCache::most);
     return ws;
 }
 
 namespace {
 
-/// The same bits as evaluateFrame.
+/// Places a group with the poses of its chain, computing only links whose values changed. Same bits as
+/// evaluateFrame().
 void placeOnChain(const JointModel& model, const JointModel::Group& group, PlacedGroup& placed,
                   PlacedChain& chain) {
     const std::size_t count = group.dofs.size();
@@ -49,11 +50,11 @@ void placeOnChain(const JointModel& model, const JointModel::Group& group, Place
 } // namespace
 
 void placeGroup(const JointModel& model, std::size_t g, const DofValues& q, const DofValues& step,
-                ResponseRoom& ws) {
+                ResponseBuffers& ws) {
     const JointModel::Group& group = model.groups[g];
     PlacedGroup& placed = ws.groups[g];
     DofValues direction;
-    bool same = placed.known && !group.paths; // a path's twist depends on the way
+    bool same = placed.valid && !group.paths; // the twists of a path depend on the direction
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
         const double value = q[group.dofs[k]];
         same = same && placed.at[k] == value;
@@ -61,7 +62,7 @@ void placeGroup(const JointModel& model, std::size_t g, const DofValues& q, cons
         direction[k] = step[group.dofs[k]];
     }
     if (same) return;
-    placed.known = true;
+    placed.valid = true;
     if (group.chain >= 0) return placeOnChain(model, group, placed, ws.chains[std::size_t(group.chain)]);
     evaluateFrame(group.motion, placed.at.data(), direction.data(), placed.frame);
 }

@@ -7,14 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace tss {
 
 namespace {
 
-/// How far a joint goes in one response towards its free pose, as a share of the limits' diagonal.
+/// How far a joint moves towards its free pose in one response, as a share of the limits' diagonal.
 constexpr double returnShare = 0.05;
 
 TableOnJoint wholeJoint(const Table& table) {
@@ -23,15 +22,15 @@ TableOnJoint wholeJoint(const Table& table) {
     return entry;
 }
 
-/// Where tables are in clusters: a leg is shortened until no more pairs than this come near on it, or until
-/// it goes no farther than the least share of a range. The first one goes no farther than firstLeg.
+/// Of a model with clustered groups: a leg is shortened until at most manyNear pairs come near on it, or
+/// until no DOF moves by more than leastLeg of its range. The first leg moves none by more than firstLeg.
 constexpr std::size_t manyNear = 128;
 constexpr double leastLeg = 1.0 / 4096, firstLeg = 1.0 / 256;
 
-/// The way from a pose to the goal is gone in legs, so that few pairs are near each of them.
+/// The way from a pose to the goal is divided into legs, so that few pairs are near each of them.
 struct Legs {
-    int count = 1;    ///< equal legs; of a model without tables in clusters
-    double share = 1; ///< of the way left that the next leg goes; of a model with such tables
+    int count = 1;    ///< without clustered groups: how many equal legs are left
+    double share = 1; ///< with clustered groups: the share of the rest of the way that the next leg covers
 };
 
 int equalLegs(const JointModel& model, const DofValues& start, const DofValues& goal) {
@@ -43,8 +42,9 @@ int equalLegs(const JointModel& model, const DofValues& start, const DofValues& 
     return static_cast<int>(legs);
 }
 
-/// Lists the pairs near the first of so many legs from q to the goal.
-void cullLeg(const JointModel& model, const DofValues& q, const DofValues& goal, int legs, ResponseRoom& ws) {
+/// Lists the pairs near the first of `legs` equal legs from q to the goal.
+void cullLeg(const JointModel& model, const DofValues& q, const DofValues& goal, int legs,
+             ResponseBuffers& ws) {
     DofValues travel{};
     for (int l = 0; l < model.dofCount; ++l) travel[l] = std::abs(goal[l] - q[l]) / legs;
     cull(model, q, travel, ws);
@@ -56,10 +56,10 @@ DofValues partOfStep(const JointModel& model, const DofValues& q, const DofValue
     return step;
 }
 
-/// The same for a share of the way that has few of them, and no DOF going farther than `most` of its range.
-/// Returns that share.
+/// Lists the pairs near the first part of the way, chosen so that they are few and no DOF moves by more than
+/// `most` of its range. Returns which share of the way that part is.
 double cullAhead(const JointModel& model, const DofValues& q, const DofValues& goal, double most,
-                 ResponseRoom& ws) {
+                 ResponseBuffers& ws) {
     const double whole = shareOfRange(model, partOfStep(model, q, goal, 1));
     for (double share = whole > most ? most / whole : 1;; share *= 0.25) {
         const DofValues step = partOfStep(model, q, goal, share);
@@ -71,7 +71,7 @@ double cullAhead(const JointModel& model, const DofValues& q, const DofValues& g
     }
 }
 
-Legs beginLegs(const JointModel& model, const DofValues& q, const DofValues& goal, ResponseRoom& ws) {
+Legs beginLegs(const JointModel& model, const DofValues& q, const DofValues& goal, ResponseBuffers& ws) {
     Legs legs;
     if (model.clustered) {
         legs.share = cullAhead(model, q, goal, firstLeg, ws);
@@ -85,7 +85,7 @@ Legs beginLegs(const JointModel& model, const DofValues& q, const DofValues& goa
 
 /// Goes from q to the goal, leg by leg, as far as the way is free. Before, ws holds the near pairs of the
 /// first leg; after, those of the last leg that was begun. False where the way is not free to the end.
-bool walk(const JointModel& model, const DofValues& goal, Legs legs, DofValues& q, ResponseRoom& ws) {
+bool walk(const JointModel& model, const DofValues& goal, Legs legs, DofValues& q, ResponseBuffers& ws) {
     if (model.clustered) {
         while (legs.share < 1) {
             const DofValues step = partOfStep(model, q, goal, legs.share);
@@ -107,21 +107,21 @@ bool walk(const JointModel& model, const DofValues& goal, Legs legs, DofValues& 
 
 } // namespace
 
-/// What a responder is made of: the tables as the response wants them.
+/// The implementation of a responder.
 class JointResponder::Prepared {
 public:
     Prepared(std::span<const TableOnJoint> tables, int dofCount, Preparation preparation);
-    JointAnswer respond(const double* last, const double* asked, ResponseRoom& ws) const;
+    JointAnswer respond(const double* last, const double* asked, ResponseBuffers& ws) const;
     const JointModel& model() const { return model_; }
     const DofValues* freePose() const { return hasFreePose_ ? &freePose_ : nullptr; }
 
 private:
     void findFreePose();
-    JointAnswer within(const DofValues& start, const DofValues& goal, ResponseRoom& ws) const;
-    JointAnswer fromFree(const DofValues& start, const DofValues& goal, Legs legs, ResponseRoom& ws) const;
+    JointAnswer respondWithinLimits(const DofValues& start, const DofValues& goal, ResponseBuffers& ws) const;
+    JointAnswer fromFree(const DofValues& start, const DofValues& goal, Legs legs, ResponseBuffers& ws) const;
     JointAnswer fromCollision(const DofValues& start, const DofValues& goal, double depth,
-                              ResponseRoom& ws) const;
-    JointAnswer judged(const DofValues& q, JointStatus status, ResponseRoom& ws) const;
+                              ResponseBuffers& ws) const;
+    JointAnswer answerAt(const DofValues& q, JointStatus status, ResponseBuffers& ws) const;
 
     JointModel model_;
     DofValues freePose_{};
@@ -132,25 +132,25 @@ private:
 JointResponder::Prepared::Prepared(std::span<const TableOnJoint> tables, int dofCount,
                                    Preparation preparation)
     : model_(makeJointModel(tables, dofCount, preparation == Preparation::Fully)) {
-    knownDepth_ = std::numeric_limits<double>::infinity();
+    knownDepth_ = infinity;
     for (const TableOnJoint& entry : tables) knownDepth_ = std::min(knownDepth_, entry.table->gapDepth);
     if (preparation == Preparation::Fully) findFreePose();
 }
 
 void JointResponder::Prepared::findFreePose() {
-    ResponseRoom ws = roomFor(model_);
+    ResponseBuffers ws = buffersFor(model_);
     freePose_ = clampToLimits(model_, model_.rest.data(), ws);
     double best = smallestLevel(model_, freePose_, ws);
-    // A grid of some thousand poses at most, inner points and borders alike.
+    // A grid of at most some thousand poses, limits included.
     const int n = model_.dofCount;
     const int side = n == 0 ? 1 : std::max(2, static_cast<int>(std::pow(1000.0, 1.0 / n)));
     long count = 1;
     for (int l = 0; l < n && count < 5000; ++l) count *= side;
     for (long i = 0; i < count && best <= 2 * model_.leastContactOffset; ++i) {
         DofValues q{};
-        long rest_ = i;
-        for (int l = 0; l < n; ++l, rest_ /= side)
-            q[l] = model_.first[l] + model_.range[l] * double(rest_ % side) / std::max(1, side - 1);
+        long digits = i;
+        for (int l = 0; l < n; ++l, digits /= side)
+            q[l] = model_.first[l] + model_.range[l] * double(digits % side) / std::max(1, side - 1);
         q = clampToLimits(model_, q.data(), ws);
         const double gap = smallestLevel(model_, q, ws);
         if (gap > best) {
@@ -161,11 +161,12 @@ void JointResponder::Prepared::findFreePose() {
     hasFreePose_ = best > 0;
 }
 
-JointAnswer JointResponder::Prepared::judged(const DofValues& q, JointStatus status, ResponseRoom& ws) const {
+JointAnswer JointResponder::Prepared::answerAt(const DofValues& q, JointStatus status,
+                                               ResponseBuffers& ws) const {
     JointAnswer answer;
     answer.q = q;
     answer.status = status;
-    answer.gap = std::numeric_limits<double>::infinity();
+    answer.gap = infinity;
     std::uint32_t at = ~0u;
     Pose inverse = Pose::Identity();
     for (std::size_t i = 0; i < ws.nearCount; ++i) {
@@ -180,7 +181,7 @@ JointAnswer JointResponder::Prepared::judged(const DofValues& q, JointStatus sta
         const double gap = queryGap(*group.tests, test, inverse);
         if (gap < answer.gap) {
             answer.gap = gap;
-            answer.table = group.table;
+            answer.table = static_cast<int>(at);
             answer.test = static_cast<int>(test);
         }
     }
@@ -188,10 +189,10 @@ JointAnswer JointResponder::Prepared::judged(const DofValues& q, JointStatus sta
 }
 
 JointAnswer JointResponder::Prepared::fromFree(const DofValues& start, const DofValues& goal, Legs legs,
-                                               ResponseRoom& ws) const {
+                                               ResponseBuffers& ws) const {
     DofValues q = start;
     if (walk(model_, goal, legs, q, ws)) {
-        const JointAnswer free = judged(q, JointStatus::Free, ws);
+        const JointAnswer free = answerAt(q, JointStatus::Free, ws);
         if (free.gap > 0) return free;
         q = start;
     }
@@ -203,15 +204,15 @@ JointAnswer JointResponder::Prepared::fromFree(const DofValues& start, const Dof
         for (std::uint8_t& held : ws.held) held &= static_cast<std::uint8_t>(~passedBy);
     const double after = weightedDistance(model_, q, goal);
     const bool slid = after < before - 1e-6 * model_.scale;
-    JointAnswer answer = judged(q, slid ? JointStatus::Slid : JointStatus::Blocked, ws);
-    // The guard: rounding may not undo the promise.
+    JointAnswer answer = answerAt(q, slid ? JointStatus::Slid : JointStatus::Blocked, ws);
+    // Rounding must not break the promise of JointResponder: then the joint stays at the start.
     if (!(answer.gap > 0) || !(after <= weightedDistance(model_, start, goal)))
-        answer = judged(start, JointStatus::Blocked, ws);
+        answer = answerAt(start, JointStatus::Blocked, ws);
     return answer;
 }
 
 JointAnswer JointResponder::Prepared::fromCollision(const DofValues& start, const DofValues& goal,
-                                                    double depth, ResponseRoom& ws) const {
+                                                    double depth, ResponseBuffers& ws) const {
     DofValues q = start;
     const bool deep = knownDepth_ > 0 && depth < -knownDepth_ && hasFreePose_;
     const double pushed = deep ? depth : pushOut(model_, q, ws);
@@ -221,14 +222,14 @@ JointAnswer JointResponder::Prepared::fromCollision(const DofValues& start, cons
         answer.status = JointStatus::Separated;
         if (answer.gap > 0) return answer;
     }
-    // Less than this is rounding, not a way out.
+    // A smaller improvement is rounding.
     JointStatus status =
         pushed > depth + 1e-3 * model_.leastContactOffset ? JointStatus::Separated : JointStatus::Stuck;
     if (hasFreePose_) {
-        // From the start, not from where pushes ended: the next response would be pushed back there.
+        // From the start, not from where pushOut() ended, which the next response would be pushed back to.
         DofValues free = freePose_;
         for (int l = 0; l < model_.dofCount; ++l)
-            if (model_.round[l]) free[l] = nearestTurn(free[l], start[l]);
+            if (model_.periodic[l]) free[l] = nearestTurn(free[l], start[l]);
         const double far = weightedDistance(model_, start, free);
         const double t = far > 0 ? std::min(1.0, returnShare * model_.scale / far) : 1;
         for (int l = 0; l < model_.dofCount; ++l)
@@ -237,19 +238,19 @@ JointAnswer JointResponder::Prepared::fromCollision(const DofValues& start, cons
     }
     cull(model_, q, model_.range, ws);
     listOnStep(model_, q, DofValues{}, ws);
-    JointAnswer answer = judged(q, status, ws);
+    JointAnswer answer = answerAt(q, status, ws);
     if (answer.gap > 0) answer.status = JointStatus::Separated;
     return answer;
 }
 
 JointAnswer JointResponder::Prepared::respond(const double* last, const double* asked,
-                                              ResponseRoom& ws) const {
-    for (PlacedGroup& group : ws.groups) group.known = false; // it may have served another joint
+                                              ResponseBuffers& ws) const {
+    for (PlacedGroup& group : ws.groups) group.valid = false; // the workspace may have served another joint
     for (PlacedChain& chain : ws.chains) chain.count = 0;
     std::fill(ws.held.begin(), ws.held.end(), std::uint8_t(0));
-    if (model_.clustered && ws.knownOf != model_.id) {
-        for (KnownNear& known : ws.known) known.forget();
-        ws.knownOf = model_.id;
+    if (model_.clustered && ws.cachesOf != model_.id) {
+        for (NearCache& cache : ws.caches) cache.clear();
+        ws.cachesOf = model_.id;
     }
     DofValues from{}, to{};
     std::copy_n(last, model_.dofCount, from.begin());
@@ -257,36 +258,36 @@ JointAnswer JointResponder::Prepared::respond(const double* last, const double* 
     wrapTurns(model_, from);
     for (int l = 0; l < model_.dofCount; ++l) {
         if (!std::isfinite(to[l])) to[l] = from[l];
-        if (model_.round[l]) to[l] = nearestTurn(to[l], from[l]);
+        if (model_.periodic[l]) to[l] = nearestTurn(to[l], from[l]);
     }
     JointAnswer answer =
-        within(clampToLimits(model_, from.data(), ws), clampToLimits(model_, to.data(), ws), ws);
+        respondWithinLimits(clampToLimits(model_, from.data(), ws), clampToLimits(model_, to.data(), ws), ws);
     wrapTurns(model_, answer.q);
     return answer;
 }
 
-JointAnswer JointResponder::Prepared::within(const DofValues& start, const DofValues& goal,
-                                             ResponseRoom& ws) const {
-    ws.common = false;
+JointAnswer JointResponder::Prepared::respondWithinLimits(const DofValues& start, const DofValues& goal,
+                                                          ResponseBuffers& ws) const {
+    ws.commonThreshold = false;
     const Legs legs = beginLegs(model_, start, goal, ws);
     if (legs.count == 1 && ws.nearCount == 0) {
         JointAnswer free;
         free.q = goal;
-        free.gap = std::numeric_limits<double>::infinity();
+        free.gap = infinity;
         return free;
     }
-    double gap = std::numeric_limits<double>::infinity();
+    double gap = infinity;
     for (std::size_t i = 0; i < ws.nearCount; ++i) gap = std::min(gap, ws.near[i].gap);
-    // Nearer to 0 than any rounding, only the exact query's own arithmetic can tell.
+    // So close to 0 that rounding decides the sign, the arithmetic of the exact query counts.
     const double deepest = std::max(gap, 0.0);
-    if (std::abs(gap) < 0.5 * model_.leastContactOffset) gap = judged(start, JointStatus::Free, ws).gap;
+    if (std::abs(gap) < 0.5 * model_.leastContactOffset) gap = answerAt(start, JointStatus::Free, ws).gap;
     if (gap > 0) return fromFree(start, goal, legs, ws);
     for (std::size_t i = 0; i < ws.nearCount; ++i)
         if (ws.near[i].gap <= deepest) ws.held[model_.pairs[ws.near[i].pair].group] = touchedAtStart;
     return fromCollision(start, goal, gap, ws);
 }
 
-JointWorkspace::JointWorkspace(std::unique_ptr<ResponseRoom> room) : room_(std::move(room)) {}
+JointWorkspace::JointWorkspace(std::unique_ptr<ResponseBuffers> room) : room_(std::move(room)) {}
 JointWorkspace::JointWorkspace(JointWorkspace&&) noexcept = default;
 JointWorkspace& JointWorkspace::operator=(JointWorkspace&&) noexcept = default;
 JointWorkspace::~JointWorkspace() = default;
@@ -307,7 +308,7 @@ JointResponder& JointResponder::operator=(JointResponder&&) noexcept = default;
 JointResponder::~JointResponder() = default;
 
 JointWorkspace JointResponder::workspace() const {
-    return JointWorkspace(std::make_unique<ResponseRoom>(roomFor(prepared_->model())));
+    return JointWorkspace(std::make_unique<ResponseBuffers>(buffersFor(prepared_->model())));
 }
 
 JointAnswer JointResponder::respond(const double* last, const double* asked,

@@ -8,16 +8,16 @@
 
 namespace tss {
 
-struct ResponseRoom;
+struct ResponseBuffers;
 
-/// A table that bears on a joint: dofs[k] is the place of DOF k of the table's motion among the joint's
+/// A table that constrains a joint: dofs[k] is the place of DOF k of the table's motion among the joint's
 /// values. Several tables may share a joint (a mandible against a skull, a tooth guard against both).
 struct TableOnJoint {
     const Table* table = nullptr;
     std::vector<int> dofs;
 };
 
-/// A resolved pose. Of q the first dofCount values mean anything.
+/// A resolved pose. Only the first dofCount values of q are used.
 struct JointAnswer {
     DofValues q{};
     JointStatus status = JointStatus::Free;
@@ -26,20 +26,20 @@ struct JointAnswer {
     int test = -1;  ///< its test in that table
 };
 
-/// Room for one response, made once per thread by JointResponder::workspace.
+/// Buffers of a response, made once per thread by JointResponder::workspace().
 class JointWorkspace {
 public:
-    explicit JointWorkspace(std::unique_ptr<ResponseRoom> room);
+    explicit JointWorkspace(std::unique_ptr<ResponseBuffers> room);
     JointWorkspace(JointWorkspace&&) noexcept;
     JointWorkspace& operator=(JointWorkspace&&) noexcept;
     ~JointWorkspace();
 
-    /// One per table: 0, or that it held the joint in the last response.
+    /// One per table: nonzero if its contact held the joint in the last response.
     std::span<const std::uint8_t> held() const;
 
 private:
     friend class JointResponder;
-    std::unique_ptr<ResponseRoom> room_;
+    std::unique_ptr<ResponseBuffers> room_;
 };
 
 /// What keeps a joint out of collision at run time: everything a response needs, prepared once from the
@@ -60,7 +60,7 @@ public:
     /// A joint with one table; the joint's values are those of its motion.
     explicit JointResponder(const Table& table, Preparation preparation = Preparation::Fully);
 
-    /// A joint that several tables bear on; dofCount values. Throws InputError where they do not fit.
+    /// A joint that several tables constrain; dofCount values. Throws InputError where they do not fit.
     JointResponder(std::span<const TableOnJoint> tables, int dofCount,
                    Preparation preparation = Preparation::Fully);
 
@@ -81,7 +81,8 @@ public:
 
     int dofCount() const;
     const DofValues& weights() const;
-    /// The gap that one table is kept at: 1.5 of its own epsilon, or a millionth of its largest spheres.
+    /// The gap that one table's pairs are kept at: 1.5 times its epsilon, or a millionth of its largest
+    /// spheres.
     double keptGap(std::size_t table = 0) const;
     /// A pose known to be free, towards which a joint returns from deeper than the tables know.
     const DofValues* freePose() const;

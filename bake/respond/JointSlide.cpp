@@ -9,43 +9,45 @@ namespace tss {
 
 namespace {
 
-/// Room kept above a threshold where a move ends, as a share of a pair's contact offset: `advance` stops at a
-/// twentieth.
+/// Margin above the threshold that the end of a move keeps, as a share of a pair's contact offset; advance()
+/// stops at half of it.
 constexpr double endRoom = 0.1;
-/// Less than so much of a pair's contact offset too little room is no reason to look for a way again.
+/// A margin too small by less than this share of a pair's contact offset does not make a second solve worth
+/// it.
 constexpr double liftSlack = 0.04;
-/// The first round of a slide goes no farther than this share of a range.
+/// Trust region of the first round of a slide, as a share of each DOF's range.
 constexpr double firstMove = 1.0 / 128;
-/// And where tables are in clusters, no round: what comes near on the way is listed for each.
+/// Largest trust region of any round where groups are clustered, whose near pairs are listed for each way
+/// anew.
 constexpr double clusteredMove = 1.0 / 512;
-/// Ways on which more tests of clusters come near are cut, down to this share of a range: a round takes half
-/// a microsecond for each.
+/// Where more than `crowd` pairs come near on a way the trust region shrinks, but not below crowdedMove: a
+/// round takes half a microsecond for each pair.
 constexpr std::size_t crowd = 2000;
 constexpr double crowdedMove = clusteredMove / 256;
-/// Ways that a round looks for at most, each with what came near on the one before.
+/// Most solves of a round, each with the pairs that came near on the way found by the one before.
 constexpr int mostListings = 8;
-/// A slide ends where so many rounds brought it no nearer to its goal than by this share of what is left.
+/// A slide ends where this many rounds reduced the distance to the goal by less than this share of it.
 constexpr int stallRounds = 4;
 constexpr double stallShare = 1e-4;
-/// What a pair had to be lifted in a round, above endRoom, it has to be lifted in the next by this share:
-/// ways get shorter, and what they bend shrinks with their square.
+/// Share of a pair's lift beyond endRoom that it starts the next round with: ways get shorter, and their
+/// curvature shrinks with the square.
 constexpr double liftKept = 0.25;
 
-/// The rows of a slide at q: limits, and of every near pair the gap linearised there. Bounds are still to be
-/// set. A pair that no way in question can bring to its threshold has no row.
+/// The quadratic programme of one round of a slide at q: rows for limits, planes, and the linearised gap of
+/// every near pair. A pair whose constraint cannot be active within reach gets no row.
 class SlideRows {
 public:
     SlideRows(const JointModel& model, const DofValues& q, const DofValues& goal, double trust,
-              ResponseRoom& ws)
+              ResponseBuffers& ws)
         : model_(model), q_(q), goal_(goal), ws_(ws),
           least_(-1.5 * weightedDistance(model, q, goal) - model.leastContactOffset) {
         ws.rows.clear(model.dofCount);
         addLimits(model, q, trust, goal, ws.rows);
-        take(0);
+        addPairs(0);
     }
 
-    /// Near pairs from `first` on, linearised.
-    void take(std::size_t first) {
+    /// Computes scale and offset of the rows of near pairs from index `first` on, which must be linearised.
+    void addPairs(std::size_t first) {
         for (std::size_t i = first; i < ws_.nearCount; ++i) {
             NearPair& near = ws_.near[i];
             double squared = 0, offset = -near.gap;
@@ -55,20 +57,20 @@ public:
                 offset -= near.gradient[l] * (goal_[l] - q_[l]);
             }
             near.row = -1;
-            // A gap that no DOF changes is no demand on them.
+            // A gap that no DOF changes cannot be constrained: no row.
             near.rowScale = squared >= 1e-18 ? 1 / std::sqrt(squared) : 0;
             near.rowOffset = offset * near.rowScale;
         }
     }
 
-    /// The way from q to the pose nearest to the goal where every near pair's linearised gap is at least
-    /// demand(near). False where there is none. Marks the groups whose gaps bound the way in ws.held.
-    template <class PoseConstraint>
-    bool nearest(PoseConstraint demand, DofValues& step) {
+    /// Finds the step from q to the pose nearest to the goal at which every near pair's linearised gap is at
+    /// least leastGap(near). False where there is none. Marks the groups whose rows are active in ws.held.
+    template <class LeastGap>
+    bool solve(LeastGap leastGap, DofValues& step) {
         for (std::size_t i = 0; i < ws_.nearCount; ++i) {
             NearPair& near = ws_.near[i];
             if (near.rowScale == 0) continue;
-            const double bound = near.rowScale * demand(near) + near.rowOffset;
+            const double bound = near.rowScale * leastGap(near) + near.rowOffset;
             if (near.row < 0 && bound < least_) continue; // met, however far the way may go
             if (near.row < 0) addRow(near);
             ws_.rows.setBound(near.row, bound);
@@ -105,8 +107,8 @@ private:
 
     const JointModel& model_;
     const DofValues &q_, &goal_;
-    ResponseRoom& ws_;
-    double least_; ///< bounds below it cannot matter
+    ResponseBuffers& ws_;
+    double least_; ///< rows with a bound below this are met within reach whatever the step
 };
 
 double weightedLength(const JointModel& model, const DofValues& step) {
@@ -121,24 +123,25 @@ double leastLift(const JointModel& model, const NearPair& near) {
 
 enum class Ahead { Nothing, Listed, Crowded };
 
-/// Lists what comes near on the way from q, `most` at most, and makes rows of it.
+/// Lists the pairs of clustered groups that come near on a step from q, at most `most` of them, and adds
+/// their rows.
 Ahead listAhead(const JointModel& model, const DofValues& q, const DofValues& step, std::size_t most,
-                SlideRows& rows, ResponseRoom& ws) {
+                SlideRows& rows, ResponseBuffers& ws) {
     if (!model.clustered) return Ahead::Nothing;
     const std::size_t first = ws.nearCount;
     if (!listOnStep(model, q, step, ws, most)) return Ahead::Crowded;
     if (ws.nearCount == first) return Ahead::Nothing;
     linearise(model, q, step, ws, first);
     for (std::size_t i = first; i < ws.nearCount; ++i) ws.near[i].lift = leastLift(model, ws.near[i]);
-    rows.take(first);
+    rows.addPairs(first);
     return Ahead::Listed;
 }
 
-/// A way is found with linearised gaps, but gaps bend, and `advance` must assume the worst bend. Sets for
-/// each near pair how far above its threshold the linear gap has to end for the way to be free: by how much
-/// the true gap at the end is smaller, and by how far its worst bend may dip below a straight line in between
-/// (an eighth of the acceleration). True where the way was found with less than that for some pair.
-bool findLifts(const JointModel& model, const DofValues& q, const DofValues& step, ResponseRoom& ws) {
+/// A step is found with linearised gaps, while advance() must assume the largest curvature. Sets the lift of
+/// each near pair: how far above its threshold the linearised gap has to end for the step to be free, which
+/// is by how much the true gap at the end is smaller, and by how far the curve may sag below its chord (an
+/// eighth of the acceleration). Returns whether the step was found with less than that for some pair.
+bool findLifts(const JointModel& model, const DofValues& q, const DofValues& step, ResponseBuffers& ws) {
     std::fill(ws.ended.begin(), ws.ended.end(), std::uint8_t(0));
     const auto placeEnd = [&](std::size_t g) {
         const JointModel::Group& group = model.groups[g];
@@ -147,32 +150,32 @@ bool findLifts(const JointModel& model, const DofValues& q, const DofValues& ste
         ws.ends[g] = pose(group.motion, {end.data(), group.dofs.size()});
         ws.ended[g] = 1;
     };
-    bool short_ = false;
+    bool tooLow = false;
     Vec3 centre, normal;
     MotionBounds bounds;
     for (std::size_t i = 0; i < ws.nearCount; ++i) {
         NearPair& near = ws.near[i];
         const JointModel::Pair& pair = model.pairs[near.pair];
         if (!ws.ended[pair.group]) placeEnd(pair.group);
-        double guess = near.gap;
-        for (int l = 0; l < model.dofCount; ++l) guess += near.gradient[l] * step[l];
+        double linear = near.gap;
+        for (int l = 0; l < model.dofCount; ++l) linear += near.gradient[l] * step[l];
         const double real = pairGap(pair, ws.ends[pair.group], centre, normal);
         bounds.bound(model, step, near);
         const double contactOffset = model.groups[pair.group].contactOffset;
-        near.lift = endRoom * contactOffset + near.acceleration / 8 + std::max(0.0, guess - real);
-        short_ = short_ || guess < near.threshold + near.lift - liftSlack * contactOffset;
+        near.lift = endRoom * contactOffset + near.acceleration / 8 + std::max(0.0, linear - real);
+        tooLow = tooLow || linear < near.threshold + near.lift - liftSlack * contactOffset;
     }
-    return short_;
+    return tooLow;
 }
 
 enum class Way { None, Found, Crowded };
 
-/// The way of one round of a slide, what can matter on it listed. corner: whether the joint is known to be
-/// where no way lifts all pairs; set here.
+/// Finds the step of one round of a slide, with all pairs that come near on it listed. corner: set once no
+/// step gives all pairs their lift.
 Way slideStep(const JointModel& model, const DofValues& q, const DofValues& goal, double trust,
-              ResponseRoom& ws, bool& corner, DofValues& step) {
+              ResponseBuffers& ws, bool& corner, DofValues& step) {
     const auto lifted = [](const NearPair& near) { return near.threshold + near.lift; };
-    // In a corner the lift cannot be had: where the pair is now is always feasible.
+    // In a corner a pair need not get farther than it is now, which is always feasible.
     const auto held = [](const NearPair& near) {
         return std::min(near.threshold + near.lift, std::max(near.threshold, near.gap));
     };
@@ -180,9 +183,9 @@ Way slideStep(const JointModel& model, const DofValues& q, const DofValues& goal
     const std::size_t most = trust > crowdedMove ? crowd : ~std::size_t(0);
     const auto find = [&](DofValues& found) {
         for (int listing = 0; listing < mostListings; ++listing) {
-            if (corner || !rows.nearest(lifted, found)) {
+            if (corner || !rows.solve(lifted, found)) {
                 corner = true;
-                if (!rows.nearest(held, found)) return Way::None;
+                if (!rows.solve(held, found)) return Way::None;
             }
             const Ahead ahead = listAhead(model, q, found, most, rows, ws);
             if (ahead == Ahead::Crowded) return Way::Crowded;
@@ -197,9 +200,10 @@ Way slideStep(const JointModel& model, const DofValues& q, const DofValues& goal
     return way == Way::Crowded ? way : Way::Found;
 }
 
-/// Leaves in the near list what is in clusters: what came near on one way will on the next.
-void keepClustered(const JointModel& model, ResponseRoom& ws) {
-    if (!model.clustered) return ws.unlist();
+/// Removes the pairs of unclustered groups from the near list. Those of clustered groups stay, since what
+/// came near on one way will on the next.
+void keepClustered(const JointModel& model, ResponseBuffers& ws) {
+    if (!model.clustered) return ws.clearNear();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < ws.nearCount; ++i)
         if (model.groups[model.pairs[ws.near[i].pair].group].clustered) {
@@ -209,9 +213,10 @@ void keepClustered(const JointModel& model, ResponseRoom& ws) {
     ws.nearCount = kept;
 }
 
-/// Culls for a round at q, `distance` from the goal. Returns whether for all that follow, too, none of which
-/// is farther from the goal. Else for moves of no more than `trust` of each range.
-bool cullRound(const JointModel& model, const DofValues& q, double distance, double trust, ResponseRoom& ws) {
+/// Culls for a round at q, `distance` from the goal. Returns true if the near list also serves all later
+/// rounds, none of which is farther from the goal; otherwise it holds for moves up to `trust` of each range.
+bool cullRound(const JointModel& model, const DofValues& q, double distance, double trust,
+               ResponseBuffers& ws) {
     bool all = true;
     DofValues travel{};
     for (int l = 0; l < model.dofCount; ++l) {
@@ -229,7 +234,7 @@ bool cullRound(const JointModel& model, const DofValues& q, double distance, dou
 
 } // namespace
 
-void slide(const JointModel& model, const DofValues& goal, DofValues& q, ResponseRoom& ws) {
+void slide(const JointModel& model, const DofValues& goal, DofValues& q, ResponseBuffers& ws) {
     double trust = model.clustered ? clusteredMove : firstMove;
     double distance = weightedDistance(model, q, goal);
     const double least = std::clamp(1e-3 * distance, 1e-7 * model.scale, 1e-5 * model.scale);
@@ -255,17 +260,18 @@ void slide(const JointModel& model, const DofValues& goal, DofValues& q, Respons
         DofValues step{};
         for (int l = 0; l < model.dofCount; ++l) step[l] = goal[l] - q[l];
         linearise(model, q, step, ws);
-        // No pose from here on is farther from the goal than this one, so from this one than twice that.
+        // No later pose is farther from the goal than this one, so none is farther from this one than twice
+        // that.
         narrow(model, 2 * distance, ws);
         const Way way = slideStep(model, q, goal, trust, ws, corner, step);
         if (way == Way::None) return;
         if (way == Way::Crowded) {
             trust *= 0.25;
-            ws.unlist();
+            ws.clearNear();
             continue;
         }
         if (weightedLength(model, step) < least) return;
-        // Pairs are known to be near only where a pose is no farther from the goal than this one.
+        // The near list is complete only for poses no farther from the goal than this one.
         DofValues end = q, next = q;
         for (int l = 0; l < model.dofCount; ++l) end[l] += step[l];
         if (weightedDistance(model, end, goal) < distance) advance(model, step, next, ws);
@@ -281,7 +287,7 @@ void slide(const JointModel& model, const DofValues& goal, DofValues& q, Respons
     }
 }
 
-double pushOut(const JointModel& model, DofValues& q, ResponseRoom& ws) {
+double pushOut(const JointModel& model, DofValues& q, ResponseBuffers& ws) {
     constexpr double trust = 0.25;
     DofValues travel{};
     for (int l = 0; l < model.dofCount; ++l) travel[l] = trust * model.range[l];
@@ -289,7 +295,7 @@ double pushOut(const JointModel& model, DofValues& q, ResponseRoom& ws) {
     const auto gapAt = [&](const NearPair& near, double level) {
         return gapOf(model, model.contactOffset(near.pair), level);
     };
-    ws.common = true;
+    ws.commonThreshold = true;
     for (int round = 0; round < 40 && depth < 0.5 * model.leastContactOffset; ++round) {
         cull(model, q, travel, ws);
         DofValues step{};
@@ -300,7 +306,7 @@ double pushOut(const JointModel& model, DofValues& q, ResponseRoom& ws) {
         SlideRows rows(model, q, q, trust, ws);
         const auto raised = [&](const NearPair& near) { return gapAt(near, depth + share * missing); };
         for (int listing = 0; listing < mostListings && share >= 1e-4; ++listing) {
-            while (share >= 1e-4 && !rows.nearest(raised, step)) share *= 0.5;
+            while (share >= 1e-4 && !rows.solve(raised, step)) share *= 0.5;
             if (share < 1e-4 || listAhead(model, q, step, ~std::size_t(0), rows, ws) == Ahead::Nothing) break;
         }
         if (share < 1e-4) break;
@@ -308,7 +314,7 @@ double pushOut(const JointModel& model, DofValues& q, ResponseRoom& ws) {
             ws.near[i].threshold = gapAt(ws.near[i], std::min(depth, model.leastContactOffset));
         DofValues end = q;
         double t = advance(model, step, end, ws);
-        // The far end of the free way need not be the shallowest pose on it.
+        // The end of the free way need not be the least deep pose on it.
         double there = smallestLevel(model, end, ws);
         for (int halving = 0; halving < 20 && there < depth + 0.25 * t * share * missing; ++halving) {
             t *= 0.5;
@@ -319,7 +325,7 @@ double pushOut(const JointModel& model, DofValues& q, ResponseRoom& ws) {
         q = end;
         depth = there;
     }
-    ws.common = false;
+    ws.commonThreshold = false;
     return depth;
 }
 

@@ -3,17 +3,17 @@
 
 namespace tss {
 
-/// From a pose that is held by contact on towards the goal along the contact (METHOD 5.4): the nearest pose
-/// under linearised gaps, limits and couplings, each move guarded by `advance`, at most 20 rounds, and 40
-/// more of moves of farMove while the goal is farther; it ends where four rounds gain nothing to speak of. q
-/// comes never farther from the goal in the weighted metric. The result is a local optimum: a bay of the
-/// obstacle keeps the joint although there may be a nearer pose around it. Leaves in ws.near what is near at
-/// q.
-void slide(const JointModel& model, const DofValues& goal, DofValues& q, ResponseRoom& ws);
+/// Moves q from a pose stopped by contact along the contact towards the goal (METHOD 5.4), by sequential
+/// quadratic programming: each round finds the nearest pose to the goal under linearised gaps, limits and
+/// planes, and advance() guards the move to it. At most 20 rounds, and 40 more limited to farMove while the
+/// goal is far; ends where four rounds gain next to nothing. The weighted distance to the goal never grows.
+/// The result is a local optimum: a concave obstacle may hold the joint although there is a nearer pose
+/// around it. Afterwards ws.near holds the pairs near q.
+void slide(const JointModel& model, const DofValues& goal, DofValues& q, ResponseBuffers& ws);
 
-/// Leads a joint out of collision by the shortest moves (METHOD 5.6): one common threshold, the deepest gap,
-/// which each move raises (above contact a share of what each table keeps, levelOf()); demands are shortened
-/// where they cannot all be met. Returns the smallest level at q then; > 0: it is out.
-double pushOut(const JointModel& model, DofValues& q, ResponseRoom& ws);
+/// Moves a joint out of collision by short steps (METHOD 5.6). All pairs have one common threshold, the
+/// smallest level (levelOf()) of all, which each step raises; where not all pairs can be raised that far at
+/// once, by less. Returns the smallest level at q afterwards; > 0: out of collision.
+double pushOut(const JointModel& model, DofValues& q, ResponseBuffers& ws);
 
 } // namespace tss

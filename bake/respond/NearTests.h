@@ -3,32 +3,32 @@
 
 namespace tss {
 
-/// What rounding may do to lengths compared here, as a share of them.
-inline constexpr double hair = 1e-7;
+/// Relative allowance for rounding where lengths are compared.
+inline constexpr double lengthRounding = 1e-7;
 
-/// How the pairs of a group may come nearer on one way.
-struct Closing {
-    double most = 0; ///< of the speed bounds of all pairs
-    double bend = 0; ///< half of the largest bound of acceleration
+/// How far the gaps of all pairs of a group can fall during one step, scene units.
+struct ClosingBounds {
+    double speed = 0;     ///< largest sum of speed bounds
+    double curvature = 0; ///< half of the largest acceleration bound: on top of the rate at the start
 };
-Closing closingOf(const JointModel::Group& group, const DofValues& step);
+ClosingBounds closingBounds(const JointModel::Group& group, const DofValues& step);
 
-/// The fastest that the gap of any pair of a group in clusters changes where it stands, moved by `whole`.
+/// Bound of |rate| of all gaps of a clustered group at its pose, for the twist of a whole step.
 double fastestRate(const JointModel::Group& group, const MotionFrame& frame, const DofTwist& whole);
 
-/// A pair that stays farther apart than this cannot matter.
-inline double keptFrom(const JointModel::Group& group) {
+/// A pair whose gap stays above this cannot become active.
+inline double relevantGap(const JointModel::Group& group) {
     return 2 * group.contactOffset;
 }
 
-/// Whether, by what is known of a group in clusters, none of its pairs can matter on the straight way from q
-/// to q + step. The group need not be placed.
-bool stillClear(const JointModel& model, std::size_t group, const DofValues& q, const DofValues& step,
-                const ResponseRoom& ws);
+/// Whether the cache of a clustered group shows that none of its pairs can become active on the straight way
+/// from q to q + step. The group need not be placed.
+bool staysClear(const JointModel& model, std::size_t group, const DofValues& q, const DofValues& step,
+                const ResponseBuffers& ws);
 
-/// The tests of such a group that may be within the margin where it is placed, at q; some of them once more
-/// than `enough` are. Good until the next of these calls.
+/// All tests of a clustered group whose gap is at most the margin at its pose (that of q), and perhaps
+/// others; of more than `enough` only some. The span is valid until the next call.
 std::span<const std::uint32_t> testsNear(const JointModel& model, std::size_t group, const DofValues& q,
-                                         double margin, std::uint32_t enough, ResponseRoom& ws);
+                                         double margin, std::uint32_t enough, ResponseBuffers& ws);
 
 } // namespace tss

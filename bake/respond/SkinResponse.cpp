@@ -77,7 +77,7 @@ SkinUpdate SkinResponse::State::update(std::span<const double> activations, std:
         activations_[m] = a;
         const Pose pose = m < poses.size() && canBeServed(poses[m]) ? poses[m] : Pose::Identity();
         same = same && pose.matrix() == poses_[m].matrix();
-        rest = rest && pose.matrix() == Pose::Identity().matrix();
+        rest = rest && isIdentity(pose);
         poses_[m] = pose;
     }
     SkinUpdate result;

@@ -5,10 +5,6 @@
 namespace tss {
 namespace {
 
-bool isIdentity(const Pose& pose) {
-    return pose.matrix() == Pose::Identity().matrix();
-}
-
 /// The far end goes with the insertion's bone, and what muscles move by swells with the belly.
 void placeFar(const SkinBody& body, const Pose& far, SkinScene::Placed& placed, SkinScene& scene) {
     std::vector<Vec3> places(body.count), normals(body.count);

@@ -95,9 +95,9 @@ TEST_CASE("just before a path's row both segments' twists are told, on it and aw
             Vec3 x = at(row - way * hair);
             const Vec3 behind = velocityAt(row, way, -2e-6 * way), ahead = velocityAt(row, way, 0);
             REQUIRE(frame.rowAhead);
-            CHECK((frame.before[1].velocity(x) - behind).norm() < 1e-3 * (1 + behind.norm()));
+            CHECK((frame.twistsBeforeRow[1].velocity(x) - behind).norm() < 1e-3 * (1 + behind.norm()));
             CHECK((frame.twists[1].velocity(x) - ahead).norm() < 1e-3 * (1 + ahead.norm()));
-            CHECK(frame.before[0].velocity(x) == frame.twists[0].velocity(x));
+            CHECK(frame.twistsBeforeRow[0].velocity(x) == frame.twists[0].velocity(x));
             x = at(row);
             CHECK_FALSE(frame.rowAhead);
             CHECK((frame.twists[1].velocity(x) - ahead).norm() < 1e-3 * (1 + ahead.norm()));

@@ -156,9 +156,9 @@ TEST_CASE("what is not listed for a way stays away from contact all along it") {
     const Chain chain(9);
     const JointModel model = makeJointModel(chain.onJoint, links - 1, true);
     REQUIRE(model.clustered);
-    REQUIRE(model.listable > 0);               // tables of both kinds
+    REQUIRE(model.unclusteredPairs > 0);               // tables of both kinds
     REQUIRE(model.chains.size() == links - 2); // of each link that a table begins with
-    ResponseRoom kept = roomFor(model);
+    ResponseBuffers kept = buffersFor(model);
     Random random(10);
     const Motion limits = chain.limits();
     std::size_t listed = 0, asked = 0, nearest = 0;
@@ -171,16 +171,16 @@ TEST_CASE("what is not listed for a way stays away from contact all along it") {
             q[k] = from[k];
             step[k] = between(random, -size, size);
         }
-        ResponseRoom ws = roomFor(model);
-        for (PlacedGroup& group : kept.groups) group.known = false;
-        ws.unlist();
-        kept.unlist();
+        ResponseBuffers ws = buffersFor(model);
+        for (PlacedGroup& group : kept.groups) group.valid = false;
+        ws.clearNear();
+        kept.clearNear();
         REQUIRE(listOnStep(model, q, step, ws));
         // A little before, and here with what is known from there.
         DofValues before = q;
         for (std::size_t k = 0; k < from.size(); ++k) before[k] -= 0.5 * step[k];
         REQUIRE(listOnStep(model, before, step, kept));
-        kept.unlist();
+        kept.clearNear();
         REQUIRE(listOnStep(model, q, step, kept));
         REQUIRE(kept.nearCount == ws.nearCount);
         for (std::size_t k = 0; k < ws.nearCount; ++k) REQUIRE(kept.near[k].pair == ws.near[k].pair);
@@ -218,8 +218,8 @@ TEST_CASE(
     "what comes near of tables that are asked whole has room beside what is kept of those in clusters") {
     const Chain chain(9);
     const JointModel model = makeJointModel(chain.onJoint, links - 1, true);
-    ResponseRoom ws = roomFor(model);
-    ws.unlist();
+    ResponseBuffers ws = buffersFor(model);
+    ws.clearNear();
     ws.nearCount = ws.near.size(); // full of what is kept
     const std::size_t kept = ws.nearCount;
     cullMore(model, DofValues{}, model.range, ws);
@@ -278,8 +278,8 @@ TEST_CASE("a slide over a wide range lists no more of a table in clusters than i
     const Table table = makeTable(a, b, all, {}, motion);
     const JointModel model = makeJointModel(std::vector<TableOnJoint>{{&table, {0, 1, 2, 3}}}, 4, true);
     REQUIRE(model.clustered);
-    ResponseRoom ws = roomFor(model);
-    ws.unlist();
+    ResponseBuffers ws = buffersFor(model);
+    ws.clearNear();
     DofValues q{};
     const DofValues goal{0.1, 0, -0.05, 0}; // along the plate, and into it
     slide(model, goal, q, ws);
