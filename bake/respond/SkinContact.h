@@ -3,46 +3,49 @@
 
 namespace tss {
 
-/// In sizes of the skin: places that differ by less are the same.
+/// Run-time length: a vertex that moved by less counts as unmoved.
 constexpr float settled = 1e-5f;
-/// In sizes of the skin: what has moved by less since it met nothing is not looked up, and so may be as deep
-/// unseen: 0.03 mm on a head. At a tenth of it a dog's head takes a fifth longer.
+/// Run-time length: a row that touched nothing is not queried again before its vertex has moved by this much,
+/// so that penetration up to this depth may be missed: 0.03 mm on a head. With a tenth of it a dog's head
+/// takes a fifth longer.
 constexpr float unseen = 1e-4f;
-/// In radii of the skin: what is first met deeper than this was not met from outside.
+/// In radii of the skin: a contact first found deeper than this was not entered from outside.
 constexpr float enterDepth = 0.25f;
 
-/// normal . sum weight_k x_k >= level, x the places of the skin. Run-time lengths.
+/// A contact constraint normal . sum_k weight_k x_k >= level, x the positions of skin vertices. Run-time
+/// lengths.
 struct SkinPlane {
     std::uint32_t vertex[4] = {0, 0, 0, 0};
     float weight[4] = {0, 0, 0, 0};
-    int vertices = 0;
+    int vertices = 0; ///< how many of the four are used
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
     float level = 0;
-    float distance = 0;                            ///< signed, as the row's offset is meant
-    float push = 0;                                ///< >= 0, along the normal
-    float gap = std::numeric_limits<float>::max(); ///< of the skin as it is: < 0 asks for a push
-    bool found = false; ///< else it is no contact, and normal, level, distance and gap say nothing
+    float distance = 0; ///< signed distance of the vertex from the surface, comparable to SkinRow::offset
+    float push = 0;     ///< >= 0, the force along the normal (Lagrange multiplier)
+    float gap =
+        std::numeric_limits<float>::max(); ///< signed distance to the constraint: < 0 where it is violated
+    bool found = false; ///< whether there is contact; if not, normal, level, distance and gap mean nothing
 };
 
-/// From the place that a row's vertex is before to the vertex, as they stand; in the body's frame. Before a
-/// bone, whose places stay in its frame: from there.
-Eigen::Vector3f relativeOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
+/// Offset from a row's anchor to its vertex in the current scene, in the body's frame. For a skin vertex
+/// before a bone, whose anchor never moves in that frame, the vertex itself.
+Eigen::Vector3f anchorOffset(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
 
-/// Whether what the row is about may have come together, by how far it is off where its muscle alone, or
-/// nothing, has moved it.
-bool mayMeet(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
+/// Whether the two sides of a row may touch, judged by how far their offset is from that at the same
+/// activation of its muscle with everything else at rest (SkinClearance).
+bool mayTouch(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
 
-/// How far a row that is not SkinOnBody is from the triangles that it is known to meet.
-float distanceToKnown(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
+/// Distance of a row that is not SkinOnBody from the nearest of its start triangles, by their first corners.
+float distanceToStarts(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
 
-/// The plane that a row meets as the scene stands. Surfaces that face another way than the skin, and what
-/// lies beside a rim, ask for less and then for nothing, without a jump. offset: as SkinRow::offset.
-SkinPlane lookUp(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset);
-inline SkinPlane lookUp(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    return lookUp(rig, scene, row, row.offset);
+/// The contact constraint of a row in the current scene. It fades out continuously where the surface does not
+/// face the vertex, and beside a rim of the surface. offset: in place of SkinRow::offset.
+SkinPlane queryContact(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset);
+inline SkinPlane queryContact(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    return queryContact(rig, scene, row, row.offset);
 }
 
-/// Where what a plane holds is, in the skin as it is.
-Eigen::Vector3f placeOf(const SkinScene& scene, const SkinPlane& plane);
+/// The point that a plane constrains, sum_k weight_k x_k, in the current scene.
+Eigen::Vector3f constrainedPoint(const SkinScene& scene, const SkinPlane& plane);
 
 } // namespace tss

@@ -3,34 +3,36 @@
 
 namespace tss {
 
+/// A vertex's role in a cut: free, on the source's side, on the sink's side, or not in the graph.
 enum class SkinSide : signed char { Either, Inside, Outside, Removed };
 
 struct SkinCut {
-    std::vector<char> inside; ///< #V
-    double cost = 0;          ///< price times length along it, scene units squared
+    std::vector<char> inside; ///< #V: on the source's side
+    double cost = 0;          ///< integral of the price along the cut, scene units squared
 };
 
-/// Parts a skin in two by the cut that costs least: a largest flow from what is inside to what is outside by
-/// Dinic's method ("Algorithm for solution of a problem of maximum flow in networks with power estimation",
-/// 1970), over the dual lengths of edges.
+/// Minimum cut of a skin in two, by a maximum flow from Inside (sources) to Outside (sinks) with Dinic's
+/// algorithm
+/// ("Algorithm for solution of a problem of maximum flow in networks with power estimation", 1970). The
+/// capacity of an edge is its dual length, which the cut runs along, times the price there.
 class SkinCutter {
 public:
-    /// price: #V, what a cut costs there per length, >= 0.
+    /// price: #V, cost of a cut per length, >= 0.
     SkinCutter(const TriangleMesh& skin, const SkinGraph& graph, const std::vector<double>& price);
 
-    /// sides: #V; what is removed may be cut for nothing. Of cuts that cost the same the one with the least
+    /// sides: #V; edges at Removed vertices cost nothing. Of cuts of equal cost that with the smallest
     /// inside.
     SkinCut cut(const std::vector<SkinSide>& sides) const;
 
 private:
     struct Arc {
-        std::uint32_t to = 0, back = 0; ///< vertex, and the place of the arc the other way in its list
-        double room = 0;                ///< for more flow
+        std::uint32_t to = 0, back = 0; ///< vertex, and index of the reverse arc in its list
+        double capacity = 0;            ///< residual capacity
     };
     class Flow;
 
-    std::vector<std::vector<Arc>> arcs_; ///< of each vertex
-    double none_ = 0;                    ///< room that is rounding
+    std::vector<std::vector<Arc>> arcs_; ///< per vertex
+    double tolerance_ = 0;               ///< residual capacities up to this are rounding
 };
 
 } // namespace tss

@@ -7,7 +7,7 @@
 
 namespace tss {
 
-/// [paper] The spheres of a skin's table as they move: what a skin without a sheet is pushed by.
+/// [paper] The spheres of a skin's table with what moves them: they push a skin that has no elastic sheet.
 struct SkinSpheres {
     struct Row {
         std::uint32_t vertex = 0;          ///< index into SkinRig::vertices
@@ -30,9 +30,9 @@ SkinSpheres skinSpheres(const SkinTable& table,
                         const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
                         std::span<const int> insertions, const std::vector<std::uint32_t>& indexOf);
 
-/// Each skin sphere leaves the sphere that it is deepest in, until it is in none. poses: one per body, in the
-/// skin's frame. places: of the touched vertices, at rest, pushed; normals: theirs at rest. Returns how many
-/// were pushed.
+/// Moves each skin sphere out of the sphere that it is deepest in, until it overlaps none. poses: one per
+/// body, in the skin's frame. places: of the touched vertices, at rest on entry; normals: theirs at rest.
+/// Returns how many vertices moved.
 std::size_t pushOut(const SkinSpheres& spheres, std::span<const double> activations,
                     std::span<const Pose> poses, std::span<const Vec3> normals, std::span<Vec3> places);
 

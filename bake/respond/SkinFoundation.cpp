@@ -13,20 +13,21 @@ namespace {
 
 /// Distance of the nodes, in lengths l: closer ones would resolve what the sheet smooths away.
 constexpr double nodeSpacing = 0.8;
-/// In spacings: how far a node bears on vertices. Every vertex is nearer than 1 to some node; and where every
-/// vertex is a node, six neighbours weigh less than the node itself, or nodes could move against each other
-/// without anything that shows.
+/// Radius of a node's weight function, in node spacings. More than 1, as every vertex is nearer than that to
+/// some node; but so small that where every vertex is a node, six neighbours together weigh less than the
+/// node itself, or nodes could move against each other without moving any vertex.
 constexpr double nodeReach = 1.25;
-/// A column is cut where it is below this share of its peak, and fades to nothing before.
+/// A column is truncated where it is below this share of its peak, and fades out up to twice that.
 constexpr double columnCut = 3e-3;
 /// In lengths l: beyond, a column is below its cut (it falls as exp(-0.87 r / l)).
 constexpr double columnReach = 7;
-constexpr std::size_t nodesAPatch = 48; ///< columns that are solved on one patch of the skin
+constexpr std::size_t nodesAPatch =
+    48; ///< columns that are solved with one factorisation, on one patch of the skin
 
 using Weights = std::vector<std::vector<std::pair<std::uint32_t, double>>>; ///< #V: nodes and weights
 
-/// Nodes no nearer to each other than `spacing`, along the skin, and each vertex's weights of those around,
-/// which fall off smoothly. near: #V, what needs nodes.
+/// Chooses nodes at least `spacing` apart along the skin, and computes each vertex's weights of the nodes
+/// around it, which fall off smoothly. near: #V, vertices that need nodes. at: receives the nodes' vertices.
 Weights chooseNodes(const SkinGraph& graph, const std::vector<bool>& near, double spacing,
                     std::vector<std::uint32_t>& at) {
     Weights weights(graph.vertices());
@@ -76,7 +77,7 @@ SparseMatrix sheetOn(const TriangleMesh& skin, const SkinGraph& graph, const Wei
 
 using Columns = std::vector<std::vector<std::pair<std::uint32_t, float>>>; ///< #nodes
 
-/// The columns of some nodes, each cut to what it has within a patch around them all.
+/// Solves for the columns of some nodes on a patch around them all, with the rest of the skin fixed.
 void solvePatch(const SparseMatrix& sheet, const std::vector<Vec3>& places,
                 std::span<const std::uint32_t> wanted, double reach, Columns& columns) {
     Eigen::AlignedBox3d box;
@@ -107,8 +108,8 @@ void solvePatch(const SparseMatrix& sheet, const std::vector<Vec3>& places,
     }
 }
 
-/// What is cut off one of two columns is cut off the other, or the problem of the pushes is not symmetric.
-void cutAlike(Columns& columns) {
+/// Makes truncation symmetric: an entry missing in one of two columns is removed from the other too.
+void symmetrise(Columns& columns) {
     const auto entryOf = [&](std::uint32_t column, std::uint32_t node) -> float* {
         auto& list = columns[column];
         const auto found = std::lower_bound(list.begin(), list.end(), node,
@@ -127,7 +128,7 @@ void cutAlike(Columns& columns) {
     for (auto& column : columns) std::erase_if(column, [](const auto& entry) { return entry.second == 0; });
 }
 
-/// The columns of those that are needed.
+/// The columns of the nodes that are needed.
 Columns solveColumns(const SparseMatrix& sheet, const std::vector<Vec3>& places,
                      const std::vector<bool>& needed, double reach) {
     std::vector<std::uint32_t> wanted;
@@ -139,7 +140,7 @@ Columns solveColumns(const SparseMatrix& sheet, const std::vector<Vec3>& places,
         const std::size_t first = p * nodesAPatch, last = std::min(first + nodesAPatch, wanted.size());
         solvePatch(sheet, places, std::span(wanted).subspan(first, last - first), reach, columns);
     });
-    cutAlike(columns);
+    symmetrise(columns);
     return columns;
 }
 

@@ -4,7 +4,7 @@
 
 namespace tss {
 
-/// Some of a node or a vertex.
+/// An entry of a sparse row or column: a node or a vertex, and its coefficient.
 struct SkinEntry {
     std::uint32_t index = 0;
     float value = 0;
@@ -12,16 +12,17 @@ struct SkinEntry {
 
 /// The answer of a skin to a push, tabulated (METHOD 6.5). The skin is an elastic sheet with stretch and
 /// bending on an elastic foundation, B = b l^2 L M^-1 L + s L + M / l^2, which never changes; what one push
-/// does is a column of its inverse, and dies away within a few lengths l. Pushes and moves live on nodes, of
-/// which every vertex has a few: a vertex that is pushed by a force f pushes its nodes by their weights, and
-/// moves by the weighted mean of how they move. Columns are cut where they have died away, so what is pushed
-/// is exactly what is tabulated, and scalar, so that they serve whatever way the skin is turned.
+/// does is a column of its inverse, and dies away within a few lengths l. Forces and displacements are
+/// interpolated between nodes: a force on a vertex is distributed to its nodes by their weights, and the
+/// vertex moves by the weighted mean of their displacements. Columns are truncated where they have died away;
+/// they are scalar, so that they hold in whatever direction the push is.
 struct SkinFoundation {
-    double length = 0; ///< l
+    double length = 0; ///< l, in the units of the skin that it was made for
     std::size_t nodes = 0;
-    Lists<SkinEntry> weights;  ///< of each vertex on nodes, 1 together; of those never moved none
-    Lists<SkinEntry> columns;  ///< of each node, empty where nothing pushes; the largest of all is 1
-    Lists<SkinEntry> vertices; ///< of each node, with their weights
+    Lists<SkinEntry> weights; ///< per vertex: nodes and weights, sum 1; none for vertices that never move
+    Lists<SkinEntry> columns; ///< per node: column of the inverse over nodes, scaled so that the largest
+                              ///< entry of all is 1; empty for nodes that nothing pushes
+    Lists<SkinEntry> vertices; ///< per node: the vertices that it is interpolated to (transpose of weights)
 
     std::size_t bytes() const;
 };

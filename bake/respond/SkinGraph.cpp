@@ -13,8 +13,8 @@ constexpr double leastCotangent = 1e-3, mostCotangent = 10;
 
 constexpr int bitsAnAxis = 20;
 
-/// Puts two zero bits between each two bits.
-std::uint64_t apart(std::uint64_t x) {
+/// Inserts two zero bits between each two bits.
+std::uint64_t dilatedBits(std::uint64_t x) {
     std::uint64_t result = 0;
     for (int bit = 0; bit < bitsAnAxis; ++bit) result |= (x >> bit & 1) << (3 * bit);
     return result;
@@ -28,11 +28,9 @@ SkinGraph skinGraph(const TriangleMesh& skin) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
     graph.area.assign(count, 0);
     double all = 0;
-    for (const Tri& t : skin.triangles) {
-        const double third = (skin.vertices[t[1]] - skin.vertices[t[0]])
-                                 .cross(skin.vertices[t[2]] - skin.vertices[t[0]])
-                                 .norm() /
-                             6;
+    for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
+        const Tri& t = skin.triangles[i];
+        const double third = skin.areaNormal(i).norm() / 6; // of the triangle's area
         all += 3 * third;
         for (int k = 0; k < 3; ++k) {
             graph.area[t[k]] += third;
@@ -42,7 +40,7 @@ SkinGraph skinGraph(const TriangleMesh& skin) {
             edges.emplace_back(b, a);
         }
     }
-    // A vertex without a triangle, or between slivers only, still needs a place in what is solved.
+    // A vertex without triangles, or with slivers only, still needs some mass in linear systems.
     const double least = count > 0 ? std::max(1e-2 * all / static_cast<double>(count), 1e-300) : 0;
     for (double& a : graph.area) a = std::max(a, least);
     std::sort(edges.begin(), edges.end());
@@ -83,7 +81,7 @@ std::vector<std::uint32_t> lowerDistances(const SkinGraph& graph, std::span<cons
     return lowered;
 }
 
-SparseMatrix skinLaplacian(const TriangleMesh& skin, std::span<const double> softness) {
+SparseMatrix skinLaplacian(const TriangleMesh& skin, std::span<const double> stiffness) {
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(12 * skin.triangles.size());
     for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
@@ -95,7 +93,7 @@ SparseMatrix skinLaplacian(const TriangleMesh& skin, std::span<const double> sof
             const double sine = u.cross(v).norm(), cosine = u.dot(v);
             double weight = sine > 0 ? cosine / sine / 2 : mostCotangent;
             weight = std::clamp(weight, leastCotangent, mostCotangent);
-            if (!softness.empty()) weight *= softness[i];
+            if (!stiffness.empty()) weight *= stiffness[i];
             entries.emplace_back(a, b, -weight);
             entries.emplace_back(b, a, -weight);
             entries.emplace_back(a, a, weight);
@@ -117,7 +115,7 @@ std::vector<std::uint32_t> alongCurve(const std::vector<Vec3>& points) {
     for (const Vec3& p : points) {
         const Vec3 cell = scale * (p - box.min());
         std::uint64_t bits = 0;
-        for (int k = 0; k < 3; ++k) bits |= apart(static_cast<std::uint64_t>(cell[k])) << k;
+        for (int k = 0; k < 3; ++k) bits |= dilatedBits(static_cast<std::uint64_t>(cell[k])) << k;
         code.push_back(bits);
     }
     std::vector<std::uint32_t> order(points.size());

@@ -12,7 +12,7 @@ namespace tss {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// The vertices of a skin as neighbours along its edges.
+/// The edge graph of a skin.
 struct SkinGraph {
     struct Edge {
         std::uint32_t to = 0;
@@ -27,20 +27,19 @@ struct SkinGraph {
 
 SkinGraph skinGraph(const TriangleMesh& skin);
 
-/// Lowers each distance to that along the edges from a source, as far as it is at most `limit`. distance: #V,
-/// infinite where nothing is known. starts: #sources, how far each is itself; empty: 0. Returns the vertices
-/// whose distance it has lowered.
+/// Dijkstra's algorithm: lowers each distance to the shortest one along edges from a source, where that is at
+/// most `limit`. distance: #V, infinite where unknown. starts: #sources, initial distance of each; empty: 0.
+/// Returns the vertices whose distance was lowered.
 std::vector<std::uint32_t> lowerDistances(const SkinGraph& graph, std::span<const std::uint32_t> sources,
                                           double limit, std::vector<double>& distance,
                                           std::span<const double> starts = {});
 
-/// The cotangent Laplacian, symmetric, its rows summing to zero, without a unit. Angles beyond a right one
-/// and slivers keep a small weight above 0, so that what is spread by it stays between its bounds. softness:
-/// #triangles factors; empty: 1.
-SparseMatrix skinLaplacian(const TriangleMesh& skin, std::span<const double> softness = {});
+/// The cotangent Laplacian: symmetric, rows sum to zero, no unit. Edge weights are clamped above 0 at obtuse
+/// angles and slivers, so that what is diffused by it stays within its bounds. stiffness: #triangles factors;
+/// empty: 1.
+SparseMatrix skinLaplacian(const TriangleMesh& skin, std::span<const double> stiffness = {});
 
-/// The indices of some points in the order of a curve that fills space (Morton's), so that what is near stays
-/// near in memory.
+/// The indices of points in Morton order (Z-order curve), so that points near in space are near in memory.
 std::vector<std::uint32_t> alongCurve(const std::vector<Vec3>& points);
 
 } // namespace tss

@@ -1,11 +1,11 @@
 #include "bake/respond/SkinMoves.h"
 
-#include "bake/respond/SkinCarry.h"
+#include "bake/respond/SkinAttachment.h"
 
 namespace tss {
 namespace {
 
-/// What a muscle between two bones swells by while these swing, on top of what its vertices move by: #V.
+/// Adds to `most`, #V displacements, the largest swelling of a muscle between two bones over all swings.
 void addSwelling(const MuscleDeformer& muscle, int insertion, std::size_t m,
                  const std::vector<BoneSwing>& swings, std::vector<double>& most) {
     if (insertion < 0) return;
@@ -27,17 +27,17 @@ SkinMoves skinMoves(const TriangleMesh& skin,
     SkinMoves moves;
     moves.stray.assign(bodies.size(), std::vector<double>(skin.vertices.size(), 0));
     moves.shares = moves.stray;
-    const SkinGround ground(skin, bodies, parameters);
-    const std::vector<int> frames = framesOf(ground, parameters);
-    const SkinCarriage carriage = carrySkin(ground, parameters);
-    std::vector<bool> taken(carriage.frames.size(), false);
+    const SkinAnatomy anatomy(skin, bodies, parameters);
+    const std::vector<int> frames = framesOf(anatomy, parameters);
+    const SkinAttachment attachment = attachSkin(anatomy, parameters);
+    std::vector<bool> taken(attachment.frames.size(), false);
     for (std::size_t m = 0; m < bodies.size(); ++m)
         if (frames[m] >= 0 && !taken[frames[m]]) {
             taken[frames[m]] = true;
-            moves.shares[m] = carriage.frames[frames[m]];
+            moves.shares[m] = attachment.frames[frames[m]];
         }
     for (std::size_t m = 0; m < bodies.size(); ++m) {
-        if (carriage.muscles[m].empty()) continue;
+        if (attachment.muscles[m].empty()) continue;
         const Muscle& muscle = bodies[m]->muscle();
         std::vector<double> most(muscle.surface.vertices.size(), 0);
         for (const double node : activationNodes(muscle.activationLower, muscle.activationUpper, bodySteps)) {
@@ -47,12 +47,12 @@ SkinMoves skinMoves(const TriangleMesh& skin,
         }
         addSwelling(*bodies[m], insertionOf(parameters, m), m, parameters.swings, most);
         for (std::size_t v = 0; v < skin.vertices.size(); ++v) {
-            if (!(carriage.muscles[m][v] > 0)) continue;
+            if (!(attachment.muscles[m][v] > 0)) continue;
             double moved = 0;
-            for (const int corner : muscle.surface.triangles[carriage.bound[m][v].triangle])
+            for (const int corner : muscle.surface.triangles[attachment.bindings[m][v].triangle])
                 moved = std::max(moved, most[corner]);
             for (std::size_t other = 0; other < bodies.size(); ++other)
-                if (other != m) moves.stray[other][v] += carriage.muscles[m][v] * moved;
+                if (other != m) moves.stray[other][v] += attachment.muscles[m][v] * moved;
         }
     }
     return moves;

@@ -3,12 +3,13 @@
 
 namespace tss {
 
-/// What muscles and bones do to the vertices of a skin, as SkinSearchOptions wants it: one list a body, #V
+/// How far muscles and bones move the vertices of a skin, as SkinSearchOptions expects it: #bodies of #V
 /// each.
 struct SkinMoves {
-    std::vector<std::vector<double>> stray;  ///< how far the contraction of the others may move the vertex
-    std::vector<std::vector<double>> shares; ///< of the body's motion that the vertex makes; bodies of one
-                                             ///< frame have it once
+    std::vector<std::vector<double>>
+        stray; ///< bound of the vertex's displacement by other muscles, scene units
+    std::vector<std::vector<double>> shares; ///< share of the body's motion in the vertex's; only the first
+                                             ///< body of a frame has it
 };
 SkinMoves skinMoves(const TriangleMesh& skin,
                     const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,

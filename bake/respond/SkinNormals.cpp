@@ -5,28 +5,29 @@
 namespace tss {
 namespace {
 
-/// The two other corners of a triangle at a vertex, in its turn.
+/// The two other corners of a triangle at a vertex, in the triangle's order.
 using Side = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Takes one triangle after the other, each time with the next one around where there is one.
+/// Pairs each triangle with the next one around the vertex, if there is one that is not yet paired.
 void pairUp(std::vector<Side>& sides, std::uint32_t vertex, Lists<SkinFan>& fans) {
-    const auto follower = [&](std::uint32_t corner) {
+    const auto successor = [&](std::uint32_t corner) {
         std::size_t k = 0;
         while (k < sides.size() && sides[k].first != corner) ++k;
         return k;
     };
-    const auto isLed = [&](std::size_t at) {
+    const auto hasPredecessor = [&](std::size_t at) {
         for (const Side& side : sides)
             if (side.second == sides[at].first) return true;
         return false;
     };
     while (!sides.empty()) {
-        std::size_t at = 0; // at a rim from where nothing comes before, so that few are left alone
-        while (at + 1 < sides.size() && isLed(at)) ++at;
-        if (isLed(at)) at = 0;
+        // At a rim begin with the first triangle, so that few remain single.
+        std::size_t at = 0;
+        while (at + 1 < sides.size() && hasPredecessor(at)) ++at;
+        if (hasPredecessor(at)) at = 0;
         const Side side = sides[at];
         sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(at));
-        const std::size_t next = follower(side.second);
+        const std::size_t next = successor(side.second);
         if (next == sides.size()) {
             fans.push_back({side.first, side.second, vertex});
             continue;
@@ -41,9 +42,9 @@ void pairUp(std::vector<Side>& sides, std::uint32_t vertex, Lists<SkinFan>& fans
 
 std::vector<Vec3> skinNormals(const TriangleMesh& skin) {
     std::vector<Vec3> normals(skin.vertices.size(), Vec3::Zero());
-    for (const Tri& t : skin.triangles) {
-        const Vec3& a = skin.vertices[t[0]];
-        const Vec3 n = (skin.vertices[t[1]] - a).cross(skin.vertices[t[2]] - a);
+    for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
+        const Tri& t = skin.triangles[i];
+        const Vec3 n = skin.areaNormal(i);
         for (int k = 0; k < 3; ++k) normals[t[k]] += n;
     }
     for (Vec3& n : normals)

@@ -7,17 +7,16 @@
 
 namespace tss {
 
-/// Unit normals of all vertices, weighted by area: those of SkinResponse at rest.
+/// Unit vertex normals weighted by triangle area, as SkinResponse has them at rest.
 std::vector<Vec3> skinNormals(const TriangleMesh& skin);
 
-/// Two triangles around a vertex v that share the edge (v, middle), or one: together their area vectors are
-/// half of (middle - v) x (last - first).
+/// Two triangles around a vertex v that share the edge (v, middle), or a single one with v itself as first
+/// corner: the sum of their area vectors is half of (middle - v) x (last - first), one cross product for two.
 struct SkinFan {
     std::uint32_t middle = 0, last = 0, first = 0;
 };
 
-/// The triangles around each of the first `count` vertices that they name, two at a time where they share an
-/// edge.
+/// The triangles around each of the first `count` vertices, grouped in pairs where they share an edge.
 Lists<SkinFan> skinFans(const std::vector<Tri>& triangles, std::size_t count);
 
 } // namespace tss

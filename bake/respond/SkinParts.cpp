@@ -12,37 +12,43 @@
 namespace tss {
 namespace {
 
-/// In sizes of a bone: skin beyond this is not its own, beside a bone that holds still: a chin is within it
-/// of its teeth. Where bones are short and the body is thick, it is within twice the depth that the bone lies
-/// at.
+/// In diagonals of a bone: skin farther away is not the bone's, if there is a bone that never moves. A chin
+/// is nearer to its teeth than that. For short bones deep in a thick body the limit is twice their depth.
 constexpr double farDistance = 1.5;
-/// Where no bone holds still, skin this far from all bones does, ever less so up to them.
+/// In diagonals of a bone: if all bones move, skin farther than this from all of them stays at rest; nearer,
+/// ever less so.
 constexpr double stillDistance = 0.5;
-/// In sizes of a bone: nearer to its joint its middle says nothing about where the bone goes.
+/// In diagonals of a bone: with its joint nearer to its centre than this, the direction from joint to centre
+/// means nothing.
 constexpr double leastArm = 0.25;
 
-/// The nearest to each vertex, of those that it is not apart from where there is one.
-std::vector<std::size_t> nearestOf(const std::vector<FrameHolder>& holders, std::size_t count) {
+/// The nearest influence to each vertex, preferring those that it is not excluded from.
+std::vector<std::size_t> nearestOf(const std::vector<FrameInfluence>& influences, std::size_t count) {
     std::vector<std::size_t> nearest(count, 0);
     const auto less = [&](std::size_t v, std::size_t a, std::size_t b) {
-        const bool apart = !holders[a].holder.apart.empty() && holders[a].holder.apart[v],
-                   other = !holders[b].holder.apart.empty() && holders[b].holder.apart[v];
-        return apart != other ? other : holders[a].holder.distance[v] < holders[b].holder.distance[v];
+        const bool excludedA =
+                       !influences[a].influence.excluded.empty() && influences[a].influence.excluded[v],
+                   excludedB =
+                       !influences[b].influence.excluded.empty() && influences[b].influence.excluded[v];
+        return excludedA != excludedB
+                   ? excludedB
+                   : influences[a].influence.distance[v] < influences[b].influence.distance[v];
     };
     for (std::size_t v = 0; v < count; ++v)
-        for (std::size_t h = 1; h < holders.size(); ++h)
+        for (std::size_t h = 1; h < influences.size(); ++h)
             if (less(v, h, nearest[v])) nearest[v] = h;
     return nearest;
 }
 
-double depthOf(const SkinGround& ground, const ClosestPointQuery& skin, const FrameHolder& holder) {
+/// Depth of the deepest vertex of a frame's bodies below the skin, scene units.
+double depthOf(const SkinAnatomy& anatomy, const ClosestPointQuery& skin, const FrameInfluence& frame) {
     double deepest = 0;
-    for (const std::size_t m : holder.bodies) {
-        const std::vector<Vec3>& places = ground.bodies[m]->muscle().surface.vertices;
+    for (const std::size_t m : frame.bodies) {
+        const std::vector<Vec3>& places = anatomy.bodies[m]->muscle().surface.vertices;
         std::vector<double> depth(places.size(), 0);
         parallelFor(places.size(), [&](std::size_t v) {
             const NearestPoint near = skin.nearest(places[v], infinity);
-            const Vec3 normal = ground.normals[ground.skin.triangles[near.triangle][0]];
+            const Vec3 normal = anatomy.normals[anatomy.skin.triangles[near.triangle][0]];
             if ((places[v] - near.point).dot(normal) < 0) depth[v] = near.distance;
         });
         for (const double d : depth) deepest = std::max(deepest, d);
@@ -50,66 +56,72 @@ double depthOf(const SkinGround& ground, const ClosestPointQuery& skin, const Fr
     return deepest;
 }
 
-/// Whether the straight way from a vertex to the bone leaves the body and goes in again elsewhere, as from
-/// the belly to a leg. Out alone does not count: teeth are not inside of lips.
-bool isBarred(const SkinGround& ground, const ClosestPointQuery& skin, const FrameHolder& holder,
-              std::size_t v) {
-    constexpr double away = 1e-3; // of the way, so that it does not begin in the skin
-    const Vec3 &x = ground.skin.vertices[v], &to = holder.nearest[v];
+/// Whether the straight line from a vertex to the nearest point of the bone re-enters the body, as from the
+/// belly to a leg. Leaving it alone does not count: teeth are outside of the lips.
+bool isOccluded(const SkinAnatomy& anatomy, const ClosestPointQuery& skin, const FrameInfluence& frame,
+                std::size_t v) {
+    constexpr double away = 1e-3; // of the line, so that it does not start on the skin itself
+    const Vec3 &x = anatomy.skin.vertices[v], &to = frame.nearest[v];
     return skin.entered(x + away * (to - x), to) >= 0;
 }
 
-/// Marks those vertices that are apart from the bone: far from it, or the way is barred. far: scene units.
-void markApart(const SkinGround& ground, const ClosestPointQuery& skin, double far, FrameHolder& holder) {
-    holder.holder.apart.assign(ground.skin.vertices.size(), 1);
-    parallelFor(holder.holder.apart.size(), [&](std::size_t v) {
-        holder.holder.apart[v] = holder.holder.distance[v] > far || isBarred(ground, skin, holder, v);
+/// Excludes vertices from the bone that are farther away than `far` (scene units), or occluded.
+void markExcluded(const SkinAnatomy& anatomy, const ClosestPointQuery& skin, double far,
+                  FrameInfluence& frame) {
+    frame.influence.excluded.assign(anatomy.skin.vertices.size(), 1);
+    parallelFor(frame.influence.excluded.size(), [&](std::size_t v) {
+        frame.influence.excluded[v] =
+            frame.influence.distance[v] > far || isOccluded(anatomy, skin, frame, v);
     });
 }
 
-/// Skin that hangs together and is apart from all bones.
+/// A connected part of the skin whose vertices are excluded from all bones.
 struct FreePart {
     std::vector<std::uint32_t> vertices;
-    double area = 0;                           ///< scene units squared
-    std::map<std::size_t, std::size_t> beside; ///< the holders nearest to what is around it, and to how much
-    Vec3 ring = Vec3::Zero();                  ///< the middle of what is around it
-    Eigen::AlignedBox3d box, around;           ///< its bounds, and those of what is around it
+    double area = 0; ///< scene units squared
+    /// Influences nearest to the vertices around the part, with the number of edges that lead there.
+    std::map<std::size_t, std::size_t> neighbours;
+    Vec3 rimCentre = Vec3::Zero(); ///< mean position of the vertices around it
+    Eigen::AlignedBox3d box;       ///< bounds of its vertices
+    Eigen::AlignedBox3d rimBox;    ///< bounds of the vertices around it
 };
 
 struct FreeParts {
     std::vector<FreePart> parts;
-    std::vector<double> held; ///< #holders: the area of the skin that is not free and nearest to each
+    std::vector<double>
+        ownedArea; ///< #influences: area of the skin outside of all parts that is nearest to each
 };
 
-/// The share of what is around a part that belongs to bones that move.
-double movingShare(const FreePart& part, const std::vector<FrameHolder>& holders) {
+/// The share of a part's neighbours that are bones that move.
+double movingShare(const FreePart& part, const std::vector<FrameInfluence>& influences) {
     double moving = 0, all = 0;
-    for (const auto& [h, times] : part.beside) {
+    for (const auto& [h, times] : part.neighbours) {
         all += static_cast<double>(times);
-        if (holders[h].moves > 0) moving += static_cast<double>(times);
+        if (influences[h].moves > 0) moving += static_cast<double>(times);
     }
     return moving / std::max(all, 1.0);
 }
 
-/// A hollow, as in a mouth, is no part of the body.
-FreeParts freeParts(const SkinGround& ground, const ClosestPointQuery& skin,
-                    std::vector<FrameHolder>& holders, bool anyStill) {
-    const std::size_t count = ground.skin.vertices.size();
+/// Finds the parts, and excludes their vertices from the bones. A hollow, a part within the bounds of its rim
+/// such as a mouth, is left out.
+FreeParts freeParts(const SkinAnatomy& anatomy, const ClosestPointQuery& skin,
+                    std::vector<FrameInfluence>& influences, bool anyStill) {
+    const std::size_t count = anatomy.skin.vertices.size();
     std::vector<char> isFree(count, 1);
-    for (FrameHolder& h : holders) {
-        const double far = anyStill ? std::max(farDistance * h.extent, 2 * depthOf(ground, skin, h))
+    for (FrameInfluence& h : influences) {
+        const double far = anyStill ? std::max(farDistance * h.extent, 2 * depthOf(anatomy, skin, h))
                                     : stillDistance * h.extent;
-        markApart(ground, skin, far, h);
-        for (std::size_t v = 0; v < count; ++v) isFree[v] = isFree[v] && h.holder.apart[v];
+        markExcluded(anatomy, skin, far, h);
+        for (std::size_t v = 0; v < count; ++v) isFree[v] = isFree[v] && h.influence.excluded[v];
     }
-    const std::vector<std::size_t> nearest = nearestOf(holders, count);
-    FreeParts made{{}, std::vector<double>(holders.size(), 0)};
+    const std::vector<std::size_t> nearest = nearestOf(influences, count);
+    FreeParts made{{}, std::vector<double>(influences.size(), 0)};
     for (std::size_t v = 0; v < count; ++v)
-        if (!isFree[v]) made.held[nearest[v]] += ground.graph.area[v];
+        if (!isFree[v]) made.ownedArea[nearest[v]] += anatomy.graph.area[v];
     UnionFind sets(count);
     const auto edges = [&](const auto& visit) {
         for (std::size_t v = 0; v < count; ++v)
-            for (const SkinGraph::Edge& edge : ground.graph.edges[v])
+            for (const SkinGraph::Edge& edge : anatomy.graph.edges[v])
                 if (isFree[v]) visit(v, edge.to);
     };
     edges([&](std::size_t v, std::size_t next) {
@@ -120,22 +132,22 @@ FreeParts freeParts(const SkinGround& ground, const ClosestPointQuery& skin,
         if (isFree[v]) {
             FreePart& part = parts[sets.root(v)];
             part.vertices.push_back(static_cast<std::uint32_t>(v));
-            part.area += ground.graph.area[v];
-            part.box.extend(ground.skin.vertices[v]);
+            part.area += anatomy.graph.area[v];
+            part.box.extend(anatomy.skin.vertices[v]);
         }
     edges([&](std::size_t v, std::size_t next) {
         if (isFree[next]) return;
         FreePart& part = parts[sets.root(v)];
-        ++part.beside[nearest[next]];
-        part.ring += ground.skin.vertices[next];
-        part.around.extend(ground.skin.vertices[next]);
+        ++part.neighbours[nearest[next]];
+        part.rimCentre += anatomy.skin.vertices[next];
+        part.rimBox.extend(anatomy.skin.vertices[next]);
     });
     for (auto& [root, part] : parts) {
         std::size_t around = 0;
-        for (const auto& [h, times] : part.beside) around += times;
+        for (const auto& [h, times] : part.neighbours) around += times;
         if (around > 0) {
-            if (part.box.diagonal().norm() <= part.around.diagonal().norm()) continue; // a hollow
-            part.ring /= static_cast<double>(around);
+            if (part.box.diagonal().norm() <= part.rimBox.diagonal().norm()) continue; // a hollow
+            part.rimCentre /= static_cast<double>(around);
         }
         made.parts.push_back(std::move(part));
     }
@@ -146,117 +158,123 @@ void append(std::vector<std::uint32_t>& list, const std::vector<std::uint32_t>& 
     list.insert(list.end(), more.begin(), more.end());
 }
 
-/// What holds still though no bone does: the skin far from all bones.
-SkinHolder stillOf(const std::vector<FrameHolder>& holders, const FreeParts& free) {
-    SkinHolder still{std::vector<double>(holders[0].holder.distance.size(), 0), infinity, {}, {}};
+/// The influence that never moves, if all bones move: on skin far from all bones.
+SkinInfluence restInfluence(const std::vector<FrameInfluence>& influences, const FreeParts& free) {
+    SkinInfluence still{std::vector<double>(influences[0].influence.distance.size(), 0), infinity, {}, {}};
     double longest = 0;
-    for (const FrameHolder& h : holders) {
+    for (const FrameInfluence& h : influences) {
         longest = std::max(longest, 2 * stillDistance * h.extent);
-        for (std::size_t v = 0; v < still.distance.size(); ++v) // at that distance as near as the bone
+        for (std::size_t v = 0; v < still.distance.size();
+             ++v) // so that at stillDistance both are equally near
             still.distance[v] =
-                std::max(still.distance[v], 2 * stillDistance * h.extent - h.holder.distance[v]);
+                std::max(still.distance[v], 2 * stillDistance * h.extent - h.influence.distance[v]);
     }
     for (const FreePart& part : free.parts) {
-        const bool isEnd = part.beside.size() == 1 && part.area < free.held[part.beside.begin()->first];
+        const bool isEnd =
+            part.neighbours.size() == 1 && part.area < free.ownedArea[part.neighbours.begin()->first];
         for (const std::uint32_t v : part.vertices) still.distance[v] = isEnd ? longest : 0;
-        if (!isEnd) append(still.sure, part.vertices);
+        if (!isEnd) append(still.certain, part.vertices);
     }
     return still;
 }
 
-/// Whether a bone's joint is in its middle.
-bool isAmidst(const FrameHolder& holder) {
-    return (holder.box.center() - holder.joint).norm() < leastArm * holder.extent;
+/// Whether a bone's joint is near the bone's centre.
+bool hasCentralJoint(const FrameInfluence& frame) {
+    return (frame.box.center() - frame.joint).norm() < leastArm * frame.extent;
 }
 
-/// How far a place lies beyond a bone that moves, seen from its joint, 1: straight, -1: straight back. Where
-/// the joint is in the middle of the bone, or the bone twists, how much nearer it is to it than to the
-/// nearest bone that moves in fewer swings.
-double beyond(const Vec3& place, std::size_t bone, const std::vector<FrameHolder>& holders) {
-    const FrameHolder& holder = holders[bone];
-    const Vec3 middle = holder.box.center(), arm = middle - holder.joint, way = place - holder.joint;
-    if (!holder.twists && !isAmidst(holder)) return way.dot(arm) / std::max(way.norm() * arm.norm(), 1e-300);
-    const FrameHolder* before = boneBefore(holders, bone);
-    const Vec3 other = before ? before->box.center() : middle;
+/// How well a place continues a moving bone, in [-1, 1]: the cosine of the angle, seen from the joint,
+/// between the directions to the place and to the bone's centre. For a bone with a central joint, or one that
+/// twists: by how much the place is nearer to it than to its parent, as a share of the distance between the
+/// two.
+double continuation(const Vec3& place, std::size_t bone, const std::vector<FrameInfluence>& influences) {
+    const FrameInfluence& frame = influences[bone];
+    const Vec3 middle = frame.box.center(), arm = middle - frame.joint, way = place - frame.joint;
+    if (!frame.twists && !hasCentralJoint(frame))
+        return way.dot(arm) / std::max(way.norm() * arm.norm(), 1e-300);
+    const FrameInfluence* parent = parentBone(influences, bone);
+    const Vec3 other = parent ? parent->box.center() : middle;
     return other == middle ? 1 : ((place - other).norm() - (place - middle).norm()) / (middle - other).norm();
 }
 
-/// Whether it may be one of a row: its joint is in its middle, and it bends against the one before.
-bool isVertebra(const FrameHolder& holder) {
-    return isAmidst(holder) && !holder.twists;
+/// Whether a bone may be a vertebra of a row: its joint is central, and it bends rather than twists.
+bool isVertebra(const FrameInfluence& frame) {
+    return hasCentralJoint(frame) && !frame.twists;
 }
 
-/// The bone that a part goes on from, as a hand does from a forearm: most of what is around it belongs to
-/// bones that move, and it lies beyond that one of those that move in the fewest swings.
-std::optional<std::size_t> goesOnFrom(const FreePart& part, const std::vector<FrameHolder>& holders) {
+/// The bone that a part continues, as a hand does a forearm: moving bones have most of its neighbourhood, and
+/// of those nearest to the root of the hierarchy this is the one with most of it that the part lies beyond.
+std::optional<std::size_t> continuedBone(const FreePart& part,
+                                         const std::vector<FrameInfluence>& influences) {
     std::size_t moves = ~std::size_t{0};
-    for (const auto& [h, times] : part.beside)
-        if (holders[h].moves > 0) moves = std::min(moves, holders[h].moves);
+    for (const auto& [h, times] : part.neighbours)
+        if (influences[h].moves > 0) moves = std::min(moves, influences[h].moves);
     std::optional<std::size_t> from;
-    for (const auto& [h, times] : part.beside) {
-        if (holders[h].moves != moves || (from && times <= part.beside.at(*from))) continue;
-        const bool nearer = holders[h].twists || isAmidst(holders[h]);
-        if (beyond(part.ring, h, holders) >= (nearer ? 0 : aheadCosine)) from = h;
+    for (const auto& [h, times] : part.neighbours) {
+        if (influences[h].moves != moves || (from && times <= part.neighbours.at(*from))) continue;
+        const bool byDistance = influences[h].twists || hasCentralJoint(influences[h]);
+        if (continuation(part.rimCentre, h, influences) >= (byDistance ? 0 : aheadCosine)) from = h;
     }
-    return movingShare(part, holders) > 0.5 ? from : std::nullopt;
+    return movingShare(part, influences) > 0.5 ? from : std::nullopt;
 }
 
-/// Whether a part is beside a row of vertebrae, as a trunk on both sides of it, and one that holds still; of
-/// two bones alike each has half of what is around it, so a third is those that move.
-bool isBesideRow(const FreePart& part, const std::vector<FrameHolder>& holders) {
-    for (const auto& [h, times] : part.beside)
-        if (holders[h].moves > 0 && !isVertebra(holders[h])) return false;
-    const double moving = movingShare(part, holders);
+/// Whether a part, such as a trunk, borders on vertebrae and on bones that never move, the vertebrae having
+/// more than a third of its neighbourhood: of two like bones each has half of it.
+bool isBesideVertebrae(const FreePart& part, const std::vector<FrameInfluence>& influences) {
+    for (const auto& [h, times] : part.neighbours)
+        if (influences[h].moves > 0 && !isVertebra(influences[h])) return false;
+    const double moving = movingShare(part, influences);
     return moving < 1 && 3 * moving > 1;
 }
 
-/// Gives what of such a part is clearly between two bones of the row, or beyond its ends, to the one before.
-void holdBesideRow(const FreePart& part, const std::vector<Vec3>& places, std::size_t still,
-                   const std::vector<FrameHolder>& holders, std::vector<SkinHolder>& made) {
+/// Assigns vertices of such a part that are clearly between two bones of the row, or beyond its ends, to the
+/// one before them in the hierarchy.
+void assignBesideVertebrae(const FreePart& part, const std::vector<Vec3>& places, std::size_t still,
+                           const std::vector<FrameInfluence>& influences, std::vector<SkinInfluence>& made) {
     std::vector<std::size_t> row{still};
-    for (const auto& [h, times] : part.beside)
-        if (holders[h].moves > 0) row.push_back(h);
+    for (const auto& [h, times] : part.neighbours)
+        if (influences[h].moves > 0) row.push_back(h);
     std::sort(row.begin() + 1, row.end(),
-              [&](std::size_t a, std::size_t b) { return holders[a].moves < holders[b].moves; });
+              [&](std::size_t a, std::size_t b) { return influences[a].moves < influences[b].moves; });
     for (const std::uint32_t v : part.vertices)
         for (std::size_t k = 0; k < row.size(); ++k)
-            if ((k == 0 || beyond(places[v], row[k], holders) >= aheadCosine) &&
-                (k + 1 == row.size() || beyond(places[v], row[k + 1], holders) <= -aheadCosine))
-                made[row[k]].sure.push_back(v);
+            if ((k == 0 || continuation(places[v], row[k], influences) >= aheadCosine) &&
+                (k + 1 == row.size() || continuation(places[v], row[k + 1], influences) <= -aheadCosine))
+                made[row[k]].certain.push_back(v);
 }
 
-/// Gives a part to the bone that it goes on from, or else to what holds still. One beside other bones too is
-/// claimed like all other skin.
-void holdPart(const FreePart& part, std::size_t still, const std::vector<FrameHolder>& holders,
-              std::vector<SkinHolder>& made) {
-    const std::optional<std::size_t> from = goesOnFrom(part, holders);
-    if (from && part.beside.size() > 1) return;
-    append(made[from.value_or(still)].sure, part.vertices);
+/// Assigns a part to the bone that it continues, or else to the influence that never moves. If it continues
+/// one and has other neighbours too, it is left to be claimed like all other skin.
+void assignPart(const FreePart& part, std::size_t still, const std::vector<FrameInfluence>& influences,
+                std::vector<SkinInfluence>& made) {
+    const std::optional<std::size_t> from = continuedBone(part, influences);
+    if (from && part.neighbours.size() > 1) return;
+    append(made[from.value_or(still)].certain, part.vertices);
 }
 
 } // namespace
 
-std::vector<SkinHolder> holdParts(const SkinGround& ground, std::vector<FrameHolder> holders,
-                                  std::vector<std::vector<char>> moved) {
+std::vector<SkinInfluence> assignParts(const SkinAnatomy& anatomy, std::vector<FrameInfluence> influences,
+                                       std::vector<std::vector<char>> moved) {
     std::size_t still = 0;
-    while (still < holders.size() && holders[still].moves > 0) ++still;
-    const bool anyStill = still < holders.size();
-    const FreeParts free = freeParts(ground, ClosestPointQuery(ground.skin), holders, anyStill);
-    std::vector<SkinHolder> made;
-    for (const FrameHolder& h : holders) made.push_back(h.holder);
-    if (!anyStill) made.push_back(stillOf(holders, free));
+    while (still < influences.size() && influences[still].moves > 0) ++still;
+    const bool anyStill = still < influences.size();
+    const FreeParts free = freeParts(anatomy, ClosestPointQuery(anatomy.skin), influences, anyStill);
+    std::vector<SkinInfluence> made;
+    for (const FrameInfluence& h : influences) made.push_back(h.influence);
+    if (!anyStill) made.push_back(restInfluence(influences, free));
     for (std::vector<char>& group : moved) group.resize(made.size(), 0);
-    const SkinSides sides(ground, made, moved);
+    const SkinSides sides(anatomy, made, moved);
     for (const FreePart& part : free.parts) {
-        if (!anyStill || part.beside.empty()) continue;
-        if (isBesideRow(part, holders))
-            holdBesideRow(part, ground.skin.vertices, still, holders, made);
+        if (!anyStill || part.neighbours.empty()) continue;
+        if (isBesideVertebrae(part, influences))
+            assignBesideVertebrae(part, anatomy.skin.vertices, still, influences, made);
         else if (const std::optional<std::size_t> owner = sides.ownerOf(part.vertices))
-            append(made[*owner].sure, part.vertices);
+            append(made[*owner].certain, part.vertices);
         else
-            holdPart(part, still, holders, made);
+            assignPart(part, still, influences, made);
     }
-    sides.hold(made);
+    sides.assignCertain(made);
     return made;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
-#include "bake/respond/SkinHolders.h"
+#include "bake/respond/SkinInfluences.h"
 
 namespace tss {
 
-/// Gives the parts of a skin whose bones are not named to what they go with, see skinHolders(), and each bone
-/// what is its own for certain. Returns the holders, and one more for what holds still where no bone does.
-/// moved: #swings of #holders.
-std::vector<SkinHolder> holdParts(const SkinGround& ground, std::vector<FrameHolder> holders,
-                                  std::vector<std::vector<char>> moved);
+/// Assigns the parts of a skin whose bones are not given to influences, see skinInfluences(), and to each
+/// influence the vertices that certainly belong to it. Returns the influences, with one more that never moves
+/// if no bone is at rest. moved: #swings of #influences.
+std::vector<SkinInfluence> assignParts(const SkinAnatomy& anatomy, std::vector<FrameInfluence> influences,
+                                       std::vector<std::vector<char>> moved);
 
 } // namespace tss

@@ -7,40 +7,42 @@
 namespace tss {
 namespace {
 
-/// Rows that ask for opposite things give way by this share of their push, so that pushes stay bounded.
-constexpr float giveWay = 0.003f;
-/// Sweeps that find out what pushes, and steps of conjugate gradients that then find out how much, in turn.
+/// Regularisation: this share of each diagonal element is added to it, so that the pushes of contradicting
+/// planes stay bounded.
+constexpr float regularisation = 0.003f;
+/// Gauss-Seidel sweeps, which find the active set, and conjugate gradient steps on it, in turn.
 constexpr int sweepsBetween = 3, stepsBetween = 8;
-/// Of what is lacking at the planes around: how far a push may move any place. Planes that ask for opposite
-/// things would push without bounds.
+/// A push may move no vertex by more than this many times the largest violation of the planes coupled with
+/// it: pushes of contradicting planes would grow without bounds.
 constexpr float mostPush = 15;
-/// A step against the limits of the pushes is halved until it helps, down to this share of it.
+/// A conjugate gradient step, clamped to the bounds, is halved until the energy decreases, down to this share
+/// of it.
 constexpr float leastStep = 0.1f;
 
 } // namespace
 
 SkinPushes::SkinPushes(const SkinFoundation& foundation)
-    : foundation_(foundation), dense_(foundation.nodes, 0), stamp_(foundation.nodes, 0),
-      lastOwner_(foundation.nodes, none), nodes_(foundation.nodes, Move::Zero()) {
+    : foundation_(foundation), lastPlane_(foundation.nodes, none), dense_(foundation.nodes, 0),
+      stamp_(foundation.nodes, 0), nodes_(foundation.nodes, Move::Zero()) {
     clear();
 }
 
-/// What each new plane has of the nodes, and how nodes move by a push of 1 along it.
-void SkinPushes::gather(std::span<const SkinPlane> planes) {
+/// Computes weights_ and column_ of the new planes.
+void SkinPushes::addColumns(std::span<const SkinPlane> planes) {
     const SkinFoundation& f = foundation_;
     const auto collect = [&](Lists<SkinEntry>& out) {
-        for (const std::uint32_t n : seen_) {
+        for (const std::uint32_t n : touched_) {
             out.push_back({n, dense_[n]});
             dense_[n] = 0;
         }
         out.endList();
-        seen_.clear();
+        touched_.clear();
         ++round_;
     };
     const auto add = [&](std::uint32_t n, float value) {
         if (stamp_[n] != round_) {
             stamp_[n] = round_;
-            seen_.push_back(n);
+            touched_.push_back(n);
         }
         dense_[n] += value;
     };
@@ -48,191 +50,196 @@ void SkinPushes::gather(std::span<const SkinPlane> planes) {
     for (const SkinPlane& plane : planes.subspan(self_.size())) {
         for (int k = 0; k < plane.vertices; ++k)
             for (const auto& [node, weight] : f.weights[plane.vertex[k]])
-                // What has no column cannot be pushed; seen without it the problem stays symmetric.
+                // A node without a column cannot be pushed. Leaving out its weight keeps the matrix
+                // symmetric.
                 if (!f.columns[node].empty()) add(node, plane.weight[k] * weight);
-        collect(own_);
-        for (const SkinEntry& own : own_[own_.size() - 1])
-            for (const auto& [node, move] : f.columns[own.index]) add(node, own.value * move);
+        collect(weights_);
+        for (const SkinEntry& weight : weights_[weights_.size() - 1])
+            for (const auto& [node, move] : f.columns[weight.index]) add(node, weight.value * move);
         collect(column_);
     }
 }
 
-/// How much a push of 1 along each new plane's normal moves those before it, and they it, were their normals
-/// alike. Only planes that have some of the nodes that it moves.
-void SkinPushes::couple() {
-    const std::size_t count = own_.size();
+/// Computes the couplings of the new planes with all others that constrain a node they move, and builds the
+/// blocks of coupling_ anew.
+void SkinPushes::addCouplings() {
+    const std::size_t count = weights_.size();
     sums_.resize(count, 0);
     summed_.resize(count, 0);
-    std::vector<std::uint32_t> met;
+    std::vector<std::uint32_t> coupled;
     for (std::uint32_t r = static_cast<std::uint32_t>(self_.size()); r < count; ++r) {
-        for (const auto& [node, value] : own_[r]) {
-            owners_.push_back({r, value, lastOwner_[node]});
-            lastOwner_[node] = static_cast<std::uint32_t>(owners_.size()) - 1;
+        for (const auto& [node, value] : weights_[r]) {
+            nodePlanes_.push_back({r, value, lastPlane_[node]});
+            lastPlane_[node] = static_cast<std::uint32_t>(nodePlanes_.size()) - 1;
         }
         float peak = 0;
         for (const auto& [node, move] : column_[r]) {
             peak = std::max(peak, std::abs(move));
-            for (std::uint32_t o = lastOwner_[node]; o != none; o = owners_[o].before) {
-                const Owner& owner = owners_[o];
-                if (!summed_[owner.plane]) met.push_back(owner.plane);
-                summed_[owner.plane] = 1;
-                sums_[owner.plane] += move * owner.value;
+            for (std::uint32_t o = lastPlane_[node]; o != none; o = nodePlanes_[o].previous) {
+                const NodePlane& other = nodePlanes_[o];
+                if (!summed_[other.plane]) coupled.push_back(other.plane);
+                summed_[other.plane] = 1;
+                sums_[other.plane] += move * other.weight;
             }
         }
         peak_.push_back(peak);
-        std::sort(met.begin(), met.end());
-        for (const std::uint32_t s : met) {
+        std::sort(coupled.begin(), coupled.end());
+        for (const std::uint32_t s : coupled) {
             if (s < r && sums_[s] != 0) before_.push_back({s, sums_[s]});
             if (s < r) sums_[s] = 0;
             summed_[s] = 0;
         }
-        met.clear();
+        coupled.clear();
         self_.push_back(std::exchange(sums_[r], 0));
         before_.endList();
     }
-    // Those behind each plane.
+    // The transpose of before_: per plane its couplings with planes of higher index.
     std::vector<std::uint32_t> start(count + 1, 0);
     for (const SkinEntry& entry : before_.items()) ++start[entry.index + 1];
     for (std::size_t r = 0; r < count; ++r) start[r + 1] += start[r];
-    std::vector<SkinEntry> behind(before_.items().size());
+    std::vector<SkinEntry> after(before_.items().size());
     std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
     for (std::uint32_t r = 0; r < count; ++r)
-        for (const auto& [plane, value] : before_[r]) behind[next[plane]++] = {r, value};
-    coupleStart_.assign(1, 0);
+        for (const auto& [plane, value] : before_[r]) after[next[plane]++] = {r, value};
+    rowStart_.assign(1, 0);
     coupling_.clear();
-    fours_.clear();
+    firstColumn_.clear();
     for (std::uint32_t r = 0; r < count; ++r) {
         const auto take = [&](const SkinEntry& entry) {
             const std::uint32_t first = entry.index / 4 * 4;
-            if (fours_.size() == coupleStart_.back() || fours_.back() != first) {
-                fours_.push_back(first);
+            if (firstColumn_.size() == rowStart_.back() || firstColumn_.back() != first) {
+                firstColumn_.push_back(first);
                 coupling_.push_back(Four::Zero());
             }
             coupling_.back()[entry.index - first] = entry.value;
         };
         std::ranges::for_each(before_[r], take);
-        std::for_each(behind.begin() + start[r], behind.begin() + start[r + 1], take);
-        coupleStart_.push_back(static_cast<std::uint32_t>(coupling_.size()));
+        std::for_each(after.begin() + start[r], after.begin() + start[r + 1], take);
+        rowStart_.push_back(static_cast<std::uint32_t>(coupling_.size()));
     }
 }
 
 void SkinPushes::clear() {
-    for (const SkinEntry& entry : own_.items()) lastOwner_[entry.index] = none;
-    owners_.clear();
-    own_.clear();
+    for (const SkinEntry& entry : weights_.items()) lastPlane_[entry.index] = none;
+    nodePlanes_.clear();
+    weights_.clear();
     column_.clear();
     self_.clear();
     peak_.clear();
     before_.clear();
 }
 
-/// What each plane still lacks, and how much of it a push of each other one gives: the matrix of the problem.
+/// Sets up the problem for the planes' current normals and levels: demand, matrix, bounds and residual.
 void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base, float deepest) {
     const std::size_t count = planes.size(), whole = (count + 3) / 4 * 4;
-    asked_.assign(whole, 0);
+    demand_.assign(whole, 0);
     for (std::vector<float>& normals : normals_) normals.assign(whole, 0);
     for (std::size_t r = 0; r < count; ++r) {
         Eigen::Vector3f now = Eigen::Vector3f::Zero();
         for (int k = 0; k < planes[r].vertices; ++k)
             now += planes[r].weight[k] * base[planes[r].vertex[k]].head<3>();
-        asked_[r] = planes[r].level - planes[r].normal.dot(now);
+        demand_[r] = planes[r].level - planes[r].normal.dot(now);
         for (int k = 0; k < 3; ++k) normals_[k][r] = planes[r].normal[k];
     }
-    lack_ = asked_;
+    lack_ = demand_;
     matrix_.resize(coupling_.size());
-    most_.resize(count);
+    upperBound_.resize(count);
     for (std::size_t r = 0; r < count; ++r) {
         const Eigen::Vector3f& normal = planes[r].normal;
-        Four asked = Four::Constant(std::max(asked_[r], 0.0f));
-        for (std::uint32_t e = coupleStart_[r]; e < coupleStart_[r + 1]; ++e) {
-            const std::uint32_t first = fours_[e];
-            const Four facing = normal[0] * four(normals_[0], first) +
-                                (normal[1] * four(normals_[1], first) + normal[2] * four(normals_[2], first));
+        Four asked = Four::Constant(std::max(demand_[r], 0.0f));
+        for (std::uint32_t e = rowStart_[r]; e < rowStart_[r + 1]; ++e) {
+            const std::uint32_t first = firstColumn_[e];
+            const Four facing =
+                normal[0] * blockAt(normals_[0], first) +
+                (normal[1] * blockAt(normals_[1], first) + normal[2] * blockAt(normals_[2], first));
             matrix_[e] = coupling_[e] * facing;
-            asked = asked.max((coupling_[e] != 0).select(four(asked_, first), Four::Zero()));
+            asked = asked.max((coupling_[e] != 0).select(blockAt(demand_, first), Four::Zero()));
         }
-        // No push moves any place by more than a few times what is lacking around its own, which may give way
-        // less than those beside it; a plane that was turned where pushes had thrown the skin asks for more
-        // than anything lacked.
-        most_[r] =
+        // See mostPush. The peak of a column may be at another vertex than the plane's own. `deepest` limits
+        // the demand of planes whose normals were updated where earlier pushes had displaced the skin too
+        // far.
+        upperBound_[r] =
             self_[r] > 0 ? mostPush * std::min(asked.maxCoeff(), deepest) / std::max(self_[r], peak_[r]) : 0;
     }
     for (std::size_t r = 0; r < count; ++r) {
-        planes[r].push = std::min(planes[r].push, most_[r]);
-        if (planes[r].push > 0) spread(r, planes[r].push);
+        planes[r].push = std::min(planes[r].push, upperBound_[r]);
+        if (planes[r].push > 0) addPush(r, planes[r].push);
     }
 }
 
-/// Adds to each plane what `factor` of the row of one of them in the matrix gives it.
+/// sums += factor * row r of the matrix.
 void SkinPushes::addRow(std::size_t r, float factor, std::vector<float>& sums) const {
-    sums[r] += (1 + giveWay) * self_[r] * factor;
+    sums[r] += (1 + regularisation) * self_[r] * factor;
     float* sum = sums.data();
     const Four* matrix = matrix_.data();
-    const std::uint32_t* fours = fours_.data();
-    for (std::uint32_t e = coupleStart_[r], end = coupleStart_[r + 1]; e < end; ++e)
+    const std::uint32_t* fours = firstColumn_.data();
+    for (std::uint32_t e = rowStart_[r], end = rowStart_[r + 1]; e < end; ++e)
         Eigen::Map<Four>(sum + fours[e]) += matrix[e] * factor;
 }
 
-/// Takes from what the planes lack what a change of one push gives them.
-void SkinPushes::spread(std::size_t r, float change) {
+/// Updates the residual for a change of one push.
+void SkinPushes::addPush(std::size_t r, float change) {
     addRow(r, -change, lack_);
 }
 
-/// One push after the other, to what its plane lacks. Returns the largest change of a place.
+/// One sweep of projected Gauss-Seidel. Returns the largest displacement that a change of push makes.
 float SkinPushes::sweep(std::span<SkinPlane> planes, bool backwards) {
     float largest = 0;
     for (std::size_t k = 0; k < planes.size(); ++k) {
-        const std::size_t r = backwards ? planes.size() - 1 - k : k; // no end is always the last
-        if (!(self_[r] > 0)) continue;                               // nothing there can give way
-        const float next = std::clamp(planes[r].push + lack_[r] / ((1 + giveWay) * self_[r]), 0.0f, most_[r]);
+        const std::size_t r =
+            backwards ? planes.size() - 1 - k : k; // alternating, so that neither end is favoured
+        if (!(self_[r] > 0)) continue;             // no vertex of it can move
+        const float next =
+            std::clamp(planes[r].push + lack_[r] / ((1 + regularisation) * self_[r]), 0.0f, upperBound_[r]);
         largest = std::max(largest, std::abs(next - planes[r].push) * self_[r]);
         setPush(planes[r], r, next);
     }
     return largest;
 }
 
-/// What all planes would be given, were each push changed by its part of way_.
-void SkinPushes::answer() {
-    answer_.assign(asked_.size(), 0);
-    for (std::size_t r = 0; r < way_.size(); ++r)
-        if (way_[r] != 0) addRow(r, way_[r], answer_);
+/// product_ = matrix * direction_.
+void SkinPushes::multiply() {
+    product_.assign(demand_.size(), 0);
+    for (std::size_t r = 0; r < direction_.size(); ++r)
+        if (direction_[r] != 0) addRow(r, direction_[r], product_);
 }
 
-/// Conjugate gradients over those that push: fills step_, by which they would lack nothing. Returns how many
-/// steps it took.
+/// Conjugate gradients, with the diagonal as preconditioner, on the free pushes: fills step_, the change of
+/// pushes that makes their residual vanish. Returns the number of iterations.
 int SkinPushes::findStep(std::span<const SkinPlane> planes, int steps) {
     const std::size_t count = planes.size();
     step_.assign(count, 0);
-    way_.assign(count, 0);
-    left_.assign(count, 0);
+    direction_.assign(count, 0);
+    residual_.assign(count, 0);
     float size = 0;
     for (std::size_t r = 0; r < count; ++r) {
-        if (!inside(planes, r)) continue;
-        left_[r] = lack_[r];
-        way_[r] = left_[r] / self_[r];
-        size += left_[r] * way_[r];
+        if (!isFree(planes, r)) continue;
+        residual_[r] = lack_[r];
+        direction_[r] = residual_[r] / self_[r];
+        size += residual_[r] * direction_[r];
     }
     const float enough = 1e-8f * size;
     int taken = 0;
     for (; taken < steps && size > enough; ++taken) {
-        answer();
+        multiply();
         float curve = 0;
-        float least = 0; // of the curvature, were nothing cut off the columns
+        float least =
+            0; // the curvature of the regularisation alone: less shows that cut columns made it indefinite
         for (std::size_t r = 0; r < count; ++r) {
-            curve += way_[r] * answer_[r];
-            least += giveWay * self_[r] * way_[r] * way_[r];
+            curve += direction_[r] * product_[r];
+            least += regularisation * self_[r] * direction_[r] * direction_[r];
         }
         if (!(curve > least)) break;
         const float reach = size / curve;
         float next = 0;
         for (std::size_t r = 0; r < count; ++r) {
-            if (!inside(planes, r)) continue;
-            step_[r] += reach * way_[r];
-            left_[r] -= reach * answer_[r];
-            next += left_[r] * left_[r] / self_[r];
+            if (!isFree(planes, r)) continue;
+            step_[r] += reach * direction_[r];
+            residual_[r] -= reach * product_[r];
+            next += residual_[r] * residual_[r] / self_[r];
         }
         for (std::size_t r = 0; r < count; ++r)
-            if (inside(planes, r)) way_[r] = left_[r] / self_[r] + next / size * way_[r];
+            if (isFree(planes, r)) direction_[r] = residual_[r] / self_[r] + next / size * direction_[r];
         size = next;
     }
     return taken;
@@ -242,44 +249,45 @@ void SkinPushes::setPush(SkinPlane& plane, std::size_t r, float push) {
     const float change = push - plane.push;
     if (change == 0) return;
     plane.push = push;
-    spread(r, change);
+    addPush(r, change);
 }
 
-/// Goes as much of step_ as helps.
-void SkinPushes::goStep(std::span<SkinPlane> planes) {
+/// Changes the pushes by as much of step_, clamped to the bounds, as decreases the energy.
+void SkinPushes::lineSearch(std::span<SkinPlane> planes) {
     const std::size_t count = planes.size();
     const float before = energy(planes);
-    way_.resize(count);
-    for (std::size_t r = 0; r < count; ++r) way_[r] = planes[r].push; // from where it goes
+    direction_.resize(count);
+    for (std::size_t r = 0; r < count; ++r) direction_[r] = planes[r].push; // the pushes at the start
     for (float share = 1; share > leastStep; share /= 2) {
         for (std::size_t r = 0; r < count; ++r)
             setPush(planes[r], r,
-                    step_[r] == 0 ? way_[r] : std::clamp(way_[r] + share * step_[r], 0.0f, most_[r]));
+                    step_[r] == 0 ? direction_[r]
+                                  : std::clamp(direction_[r] + share * step_[r], 0.0f, upperBound_[r]));
         if (!(energy(planes) > before)) return;
     }
-    for (std::size_t r = 0; r < count; ++r) setPush(planes[r], r, way_[r]);
+    for (std::size_t r = 0; r < count; ++r) setPush(planes[r], r, direction_[r]);
 }
 
-/// What the pushes make as small as they can, up to a factor.
+/// The objective that the pushes minimise, p . A p / 2 - demand . p, times 2.
 float SkinPushes::energy(std::span<const SkinPlane> planes) const {
     float sum = 0;
-    for (std::size_t r = 0; r < planes.size(); ++r) sum -= planes[r].push * (asked_[r] + lack_[r]);
+    for (std::size_t r = 0; r < planes.size(); ++r) sum -= planes[r].push * (demand_[r] + lack_[r]);
     return sum;
 }
 
 void SkinPushes::solve(std::span<SkinPlane> planes, std::span<const Move> base, float deepest, int sweeps) {
     if (planes.size() > self_.size()) {
-        gather(planes);
-        couple();
+        addColumns(planes);
+        addCouplings();
     }
     prepare(planes, base, deepest);
     for (int done = 0; done < sweeps;) {
         float largest = 0;
         for (int k = 0; k < sweepsBetween && done < sweeps; ++k, ++done) largest = sweep(planes, k % 2 != 0);
         if (largest <= settled) break;
-        // What lies between opposite pushes is settled in a few steps, for which sweeps would take thousands.
+        // Where opposite planes push, these few steps do what would take thousands of sweeps.
         const int steps = findStep(planes, std::min(stepsBetween, sweeps - done));
-        if (steps > 0) goStep(planes);
+        if (steps > 0) lineSearch(planes);
         done += steps;
     }
 }
@@ -296,21 +304,21 @@ std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, std::span<Move>
         for (const auto& [n, value] : column_[r]) {
             if (stamp_[n] != round_) {
                 stamp_[n] = round_;
-                seen_.push_back(n);
+                touched_.push_back(n);
                 nodes_[n].setZero();
             }
             nodes_[n] += value * along;
         }
     }
-    std::sort(seen_.begin(), seen_.end());
-    for (const std::uint32_t n : seen_) {
+    std::sort(touched_.begin(), touched_.end());
+    for (const std::uint32_t n : touched_) {
         const Move move = nodes_[n];
         for (const auto& [vertex, weight] : foundation_.vertices[n]) {
             places[vertex] += weight * move;
             blocks[vertex / SkinRig::block] = 1;
         }
     }
-    seen_.clear();
+    touched_.clear();
     return pushing;
 }
 

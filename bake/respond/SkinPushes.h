@@ -5,74 +5,88 @@
 
 namespace tss {
 
-/// The small problem of the contacts that push (METHOD 6.5): pushes p >= 0 along the planes' normals, so that
-/// with the moves that they make through the columns of the foundation no plane is broken. Starts from
-/// nothing every time: what came before leaves no trace. Keeps its lists between calls.
+/// Solves for the contact forces (METHOD 6.5): pushes p >= 0 along the planes' normals such that no plane is
+/// violated once the skin has moved by the columns of the foundation times p. A linear complementarity
+/// problem, or quadratic programme with bounds, solved by projected Gauss-Seidel sweeps and conjugate
+/// gradients in turn. Buffers are kept between calls, results are not.
 class SkinPushes {
 public:
     explicit SkinPushes(const SkinFoundation& foundation);
 
-    /// Forgets all planes.
+    /// Removes all planes.
     void clear();
 
-    /// Solves for planes of a skin that stands as `base`, starting from their pushes. Planes that were there
-    /// at the last call since clear() come first and may have other normals and levels only. deepest: what
-    /// any lacks as the skin is carried, which bounds the pushes. sweeps: at most; they end when no place
-    /// changes any more.
+    /// Solves for the pushes of the planes, starting from those they have. base: skin before any push. The
+    /// planes of the last call since clear() come first, and may have changed in normal and level only.
+    /// deepest: the largest violation before any push, which bounds the pushes. sweeps: most iterations; they
+    /// end early when no vertex moves any more.
     void solve(std::span<SkinPlane> planes, std::span<const Move> base, float deepest, int sweeps);
 
-    /// Adds the moves by the planes' pushes to #touched places, and marks the blocks of those. Returns how
-    /// many planes push.
+    /// Adds the displacements by the planes' pushes to #touched positions, and marks their blocks. Returns
+    /// how many planes have a push.
     std::size_t apply(std::span<const SkinPlane> planes, std::span<Move> places, std::span<char> blocks);
 
 private:
     using Four = Eigen::Array4f;
     static constexpr std::uint32_t none = ~0u;
-    /// A plane that has some of a node, and which has before it.
-    struct Owner {
+    /// Entry of a linked list, one per node, of the planes that constrain the node.
+    struct NodePlane {
         std::uint32_t plane;
-        float value;
-        std::uint32_t before;
+        float weight;           ///< of the node in the plane
+        std::uint32_t previous; ///< entry in nodePlanes_, or `none`
     };
-    /// Free to push more or less.
-    bool inside(std::span<const SkinPlane> planes, std::size_t r) const {
-        return planes[r].push > 0 && planes[r].push < most_[r];
+    /// Whether a push is strictly between its bounds.
+    bool isFree(std::span<const SkinPlane> planes, std::size_t r) const {
+        return planes[r].push > 0 && planes[r].push < upperBound_[r];
     }
-    void gather(std::span<const SkinPlane> planes);
-    void couple();
+    void addColumns(std::span<const SkinPlane> planes);
+    void addCouplings();
     void prepare(std::span<SkinPlane> planes, std::span<const Move> base, float deepest);
-    void spread(std::size_t r, float change);
+    void addPush(std::size_t r, float change);
     void addRow(std::size_t r, float factor, std::vector<float>& sums) const;
-    Four four(const std::vector<float>& values, std::uint32_t first) const {
+    Four blockAt(const std::vector<float>& values, std::uint32_t first) const {
         return Eigen::Map<const Four>(values.data() + first);
     }
     void setPush(SkinPlane& plane, std::size_t r, float push);
     float sweep(std::span<SkinPlane> planes, bool backwards);
     float energy(std::span<const SkinPlane> planes) const;
-    void answer();
+    void multiply();
     int findStep(std::span<const SkinPlane> planes, int steps);
-    void goStep(std::span<SkinPlane> planes);
+    void lineSearch(std::span<SkinPlane> planes);
 
     const SkinFoundation& foundation_;
-    Lists<SkinEntry> own_;    ///< what each plane has of the nodes
-    Lists<SkinEntry> column_; ///< how the nodes move when it pushes
-    Lists<SkinEntry>
-        before_; ///< of each plane those before it that it moves, and how much; the same both ways
-    std::vector<std::uint32_t> coupleStart_; ///< one per plane and an end
-    std::vector<Four> coupling_, matrix_;    ///< how much nearer to their goal four other planes come by it
-    std::vector<std::uint32_t> fours_;       ///< of coupling_: the first of the four
-    std::vector<Owner> owners_;
+    // Of the planes so far, kept by solve() from call to call until clear(). "Coupling" of two planes: by how
+    // much a push of 1 of one would move the other's constrained point along its normal if both normals were
+    // equal.
+    Lists<SkinEntry> weights_; ///< per plane: its weights on nodes
+    Lists<SkinEntry> column_;  ///< per plane: displacement of nodes by a push of 1
+    Lists<SkinEntry> before_;  ///< per plane: coupling with planes of lower index (symmetric)
+    std::vector<float> self_;  ///< per plane: coupling with itself
+    std::vector<float> peak_;  ///< per plane: largest displacement of a node by a push of 1
+    std::vector<NodePlane> nodePlanes_;
+    std::vector<std::uint32_t> lastPlane_; ///< per node: last entry of its list in nodePlanes_, or `none`
+
+    // The off-diagonal rows of the symmetric matrix, in blocks of four columns.
+    std::vector<std::uint32_t> rowStart_; ///< #planes + 1, into the next three
+    std::vector<Four> coupling_;
+    std::vector<Four> matrix_;               ///< coupling times the cosine between both normals
+    std::vector<std::uint32_t> firstColumn_; ///< of each block
+
+    // Per plane; those read in blocks are padded to whole blocks of four.
+    std::vector<float> upperBound_;                  ///< of the push
+    std::vector<float> demand_;                      ///< violation before any push (right-hand side), padded
+    std::vector<float> lack_;                        ///< violation with the current pushes (residual), padded
+    std::array<std::vector<float>, 3> normals_;      ///< x, y and z, padded
+    std::vector<float> step_, direction_, residual_; ///< of conjugate gradients
+    std::vector<float> product_;                     ///< matrix times direction_, padded
+
+    // Sparse accumulators over nodes and over planes.
+    std::vector<float> dense_;
+    std::vector<std::uint32_t> touched_, stamp_; ///< nodes touched in this round; per node: its last round
+    std::uint32_t round_ = 0;
     std::vector<float> sums_;
     std::vector<char> summed_;
-    std::vector<float> peak_; ///< of each plane: most that its push moves a node
-    std::vector<float> dense_, self_, most_;
-    std::vector<float> asked_, lack_; ///< one per plane, up to whole fours
-    std::array<std::vector<float>, 3> normals_;
-    std::vector<float> step_, way_, left_, answer_; ///< of conjugate gradients
-    std::vector<std::uint32_t> seen_, stamp_;
-    std::vector<std::uint32_t> lastOwner_; ///< of each node
-    std::vector<Move> nodes_;
-    std::uint32_t round_ = 0;
+    std::vector<Move> nodes_; ///< displacements
 };
 
 } // namespace tss

@@ -1,6 +1,6 @@
 #include "bake/respond/SkinResponse.h"
 
-#include "bake/respond/SkinResistance.h"
+#include "bake/respond/SkinContactSolver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,26 +13,26 @@ double activationOf(std::span<const double> activations, const SkinBody& body, s
     return std::isnan(a) || body.nodes.empty() ? 0 : std::clamp(a, body.nodes.front(), body.nodes.back());
 }
 
-/// y, z, x: in one instruction, as all of it is taken from one place.
-inline Move turned(const Move& x) {
+/// The components y, z, x: a cross product is a difference of two such products (one shuffle instruction).
+inline Move rotated(const Move& x) {
     return {x[1], x[2], x[0], x[3]};
 }
 
-/// A pose so far off that the squares of its lengths are no floats is as good as none.
-bool canBeServed(const Pose& pose) {
+/// Whether squared lengths of a pose fit into floats; other poses count as the identity.
+bool isUsable(const Pose& pose) {
     constexpr double most = 1e15; // scene units
     return pose.matrix().allFinite() && pose.matrix().cwiseAbs().maxCoeff() < most;
 }
 
 } // namespace
 
-/// All of a response: its rig, and what the last update left.
+/// The implementation of a response: its rig, and the state of the last update.
 class SkinResponse::State {
 public:
     explicit State(std::shared_ptr<const SkinRig> rig);
     SkinUpdate update(std::span<const double> activations, std::span<const Pose> poses,
                       std::span<const Vec3> shift);
-    bool shiftBy(std::span<const Vec3> shift);
+    bool setShift(std::span<const Vec3> shift);
     void deform();
     void toRest();
     void showPlaces(std::size_t block);
@@ -41,10 +41,10 @@ public:
 
     std::shared_ptr<const SkinRig> rig_;
     SkinScene scene_;
-    SkinResistance resistance_;
+    SkinContactSolver contactSolver_;
     SkinClock clock_;
     std::vector<Vec3> positions_, normals_;
-    std::vector<char> shown_, shownBefore_; ///< #blocks: places and normals are not those at rest
+    std::vector<char> shown_, shownBefore_; ///< #blocks: positions or normals are not those at rest
     std::vector<double> activations_;
     std::vector<Pose> poses_;
     std::vector<Vec3> shift_; ///< #touched; empty: none
@@ -54,12 +54,12 @@ public:
 };
 
 SkinResponse::State::State(std::shared_ptr<const SkinRig> rig)
-    : rig_(std::move(rig)), resistance_(*rig_, clock_), positions_(rig_->rest), normals_(rig_->restNormals),
-      shown_(rig_->blocks(), 0), activations_(rig_->bodies.size(), 0),
+    : rig_(std::move(rig)), contactSolver_(*rig_, clock_), positions_(rig_->rest),
+      normals_(rig_->restNormals), shown_(rig_->blocks(), 0), activations_(rig_->bodies.size(), 0),
       poses_(rig_->bodies.size(), Pose::Identity()) {}
 
-/// Takes it over, and returns whether it was that already.
-bool SkinResponse::State::shiftBy(std::span<const Vec3> shift) {
+/// Stores the shift; returns whether it is the same as before.
+bool SkinResponse::State::setShift(std::span<const Vec3> shift) {
     const bool none = std::all_of(shift.begin(), shift.end(), [](const Vec3& s) { return s.isZero(0); });
     if (none || shift.size() != rig_->vertices.size()) shift = {};
     if (std::equal(shift.begin(), shift.end(), shift_.begin(), shift_.end())) return true;
@@ -69,13 +69,13 @@ bool SkinResponse::State::shiftBy(std::span<const Vec3> shift) {
 
 SkinUpdate SkinResponse::State::update(std::span<const double> activations, std::span<const Pose> poses,
                                        std::span<const Vec3> shift) {
-    bool same = shiftBy(shift), rest = shift_.empty();
+    bool same = setShift(shift), rest = shift_.empty();
     for (std::size_t m = 0; m < rig_->bodies.size(); ++m) {
         const double a = activationOf(activations, rig_->bodies[m], m);
         same = same && a == activations_[m];
         rest = rest && a == 0;
         activations_[m] = a;
-        const Pose pose = m < poses.size() && canBeServed(poses[m]) ? poses[m] : Pose::Identity();
+        const Pose pose = m < poses.size() && isUsable(poses[m]) ? poses[m] : Pose::Identity();
         same = same && pose.matrix() == poses_[m].matrix();
         rest = rest && isIdentity(pose);
         poses_[m] = pose;
@@ -113,11 +113,11 @@ void SkinResponse::State::deform() {
     }
     {
         const SkinClock::Scope scope(clock_, SkinPart::Carry);
-        resistance_.takeBack(scene_);
+        contactSolver_.undoPushes(scene_);
         placeBodies(*rig_, activations_, poses_, shift_, scene_);
     }
-    contacts_ = resistance_.push(scene_);
-    pushed_ = contacts_ > 0 ? rig_->size * static_cast<double>(resistance_.farthest()) : 0;
+    contacts_ = contactSolver_.push(scene_);
+    pushed_ = contacts_ > 0 ? rig_->size * static_cast<double>(contactSolver_.farthest()) : 0;
 }
 
 void SkinResponse::State::toRest() {
@@ -128,7 +128,7 @@ void SkinResponse::State::toRest() {
     atRest_ = true;
 }
 
-/// Places of a block as they are now.
+/// Copies the positions of a block to the output, scene units.
 void SkinResponse::State::showPlaces(std::size_t block) {
     if (rig_->parameters.faithful) return;
     const std::size_t first = block * SkinRig::block,
@@ -153,7 +153,7 @@ void SkinResponse::State::showNormals(std::size_t block) {
         const Move own = skin[v];
         for (const SkinFan& fan : rig_->fans[v]) {
             const Move spoke = skin[fan.middle] - own, rim = skin[fan.last] - skin[fan.first];
-            sum += spoke.cwiseProduct(turned(rim)) - turned(spoke).cwiseProduct(rim);
+            sum += spoke.cwiseProduct(rotated(rim)) - rotated(spoke).cwiseProduct(rim);
         }
         const float squared = sum.squaredNorm();
         const float scale = squared > 0 ? outward / std::sqrt(squared) : 0;
@@ -166,13 +166,13 @@ void SkinResponse::State::showNormals(std::size_t block) {
     }
 }
 
-/// What has moved, and the normals around it; all other skin is at rest.
+/// Updates the output where skin has moved, the normals around it, and what is back at rest.
 void SkinResponse::State::show() {
     const SkinClock::Scope scope(clock_, SkinPart::Show);
     shownBefore_.swap(shown_);
     shown_.assign(rig_->blocks(), 0);
     for (std::size_t b = 0; b < shown_.size(); ++b)
-        if (scene_.live[b] != 0 || resistance_.pushed(b))
+        if (scene_.live[b] != 0 || contactSolver_.pushed(b))
             for (const std::uint32_t around : rig_->around[b]) shown_[around] = 1;
     for (std::size_t b = 0; b < shown_.size(); ++b)
         if (shown_[b] != 0 || shownBefore_[b] != 0) showPlaces(b);

@@ -14,7 +14,7 @@ namespace tss {
 namespace {
 
 constexpr std::uint32_t untouched = 0xffffffff;
-/// In lengths of the ground: how far around what may be pushed the skin gives way.
+/// How far around vertices that may be pushed the skin deforms, in units of SkinAnatomy::length.
 constexpr double giveReach = 7;
 
 void check(const TriangleMesh& skin, std::size_t bodies, const SkinTable& table) {
@@ -31,14 +31,15 @@ void check(const TriangleMesh& skin, std::size_t bodies, const SkinTable& table)
         if (c >= t.b.size()) throw InputError("the table of a skin names a sphere that it does not have");
 }
 
-/// The vertices that anything may move, and the ring around them, whose normals turn. Returns where each
-/// vertex of the mesh is among them.
-std::vector<std::uint32_t> touch(SkinRig& rig, const SkinGround& ground, const SkinCarriage& carriage,
-                                 const std::vector<std::uint32_t>& pushed) {
-    const std::size_t count = ground.skin.vertices.size();
+/// Fills the rig's vertices: those that anything may move, and the ring around them, whose normals turn.
+/// Returns for each vertex of the mesh its index among them, or `untouched`.
+std::vector<std::uint32_t> addVertices(SkinRig& rig, const SkinAnatomy& anatomy,
+                                       const SkinAttachment& attachment,
+                                       const std::vector<std::uint32_t>& pushed) {
+    const std::size_t count = anatomy.skin.vertices.size();
     std::vector<double> distance(count, infinity);
-    lowerDistances(ground.graph, pushed, rig.parameters.faithful ? 0 : giveReach * ground.length, distance);
-    for (const auto* lists : {&carriage.frames, &carriage.muscles})
+    lowerDistances(anatomy.graph, pushed, rig.parameters.faithful ? 0 : giveReach * anatomy.length, distance);
+    for (const auto* lists : {&attachment.frames, &attachment.muscles})
         for (const auto& list : *lists)
             for (std::size_t v = 0; v < list.size(); ++v)
                 if (list[v] > 0) distance[v] = 0;
@@ -46,17 +47,17 @@ std::vector<std::uint32_t> touch(SkinRig& rig, const SkinGround& ground, const S
     for (std::uint32_t v = 0; v < count; ++v) {
         if (!std::isfinite(distance[v])) continue;
         keep[v] = true;
-        for (const SkinGraph::Edge& edge : ground.graph.edges[v]) keep[edge.to] = true;
+        for (const SkinGraph::Edge& edge : anatomy.graph.edges[v]) keep[edge.to] = true;
     }
     std::vector<std::uint32_t> indexOf(count, untouched);
-    for (const std::uint32_t v : alongCurve(ground.skin.vertices)) {
-        if (!keep[v] || ground.first[v] != v) continue;
+    for (const std::uint32_t v : alongCurve(anatomy.skin.vertices)) {
+        if (!keep[v] || anatomy.first[v] != v) continue;
         indexOf[v] = static_cast<std::uint32_t>(rig.vertices.size());
         rig.vertices.push_back(v);
-        rig.rest.push_back(ground.skin.vertices[v]);
-        rig.restNormals.push_back(ground.inverted ? Vec3(-ground.normals[v]) : ground.normals[v]);
+        rig.rest.push_back(anatomy.skin.vertices[v]);
+        rig.restNormals.push_back(anatomy.inverted ? Vec3(-anatomy.normals[v]) : anatomy.normals[v]);
     }
-    for (std::uint32_t v = 0; v < count; ++v) indexOf[v] = indexOf[ground.first[v]];
+    for (std::uint32_t v = 0; v < count; ++v) indexOf[v] = indexOf[anatomy.first[v]];
     return indexOf;
 }
 
@@ -68,7 +69,7 @@ Move placeOf(const SkinRig& rig, const Vec3& x) {
     return toMove((x - rig.centre) / rig.size);
 }
 
-/// Those of touched vertices only, and the fans of all at a touched vertex.
+/// Adds the triangles whose corners are all touched, and the fans of all triangles at touched vertices.
 void addTriangles(SkinRig& rig, const TriangleMesh& skin, const std::vector<std::uint32_t>& indexOf) {
     std::vector<std::uint32_t> borderOf(skin.vertices.size(), untouched);
     std::vector<Tri> at;
@@ -100,18 +101,18 @@ void addTriangles(SkinRig& rig, const TriangleMesh& skin, const std::vector<std:
     for (const Vec3& n : rig.restNormals) rig.placeNormals.push_back(toMove(rig.inverted ? Vec3(-n) : n));
 }
 
-/// What is at the place of a touched vertex too.
-void addTwins(SkinRig& rig, const SkinGround& ground, const std::vector<std::uint32_t>& indexOf) {
+/// Adds the duplicates of touched vertices along seams.
+void addTwins(SkinRig& rig, const SkinAnatomy& anatomy, const std::vector<std::uint32_t>& indexOf) {
     for (std::uint32_t v = 0; v < indexOf.size(); ++v) {
-        if (indexOf[v] == untouched || ground.first[v] == v) continue;
+        if (indexOf[v] == untouched || anatomy.first[v] == v) continue;
         rig.vertices.push_back(v);
         rig.twins.push_back(indexOf[v]);
-        rig.rest.push_back(ground.skin.vertices[v]);
+        rig.rest.push_back(anatomy.skin.vertices[v]);
         rig.restNormals.push_back(rig.restNormals[indexOf[v]]);
     }
 }
 
-/// Which blocks bodies and frames move, and those around each.
+/// Finds which blocks each body and frame moves, and which blocks' normals depend on each block.
 void addBlocks(SkinRig& rig) {
     const auto mark = [](std::vector<std::uint32_t>& list, std::size_t block) {
         if (list.empty() || list.back() != block) list.push_back(static_cast<std::uint32_t>(block));
@@ -162,35 +163,35 @@ SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, i
     return body;
 }
 
-void addBodies(SkinRig& rig, const SkinGround& ground, const std::vector<int>& frames) {
+void addBodies(SkinRig& rig, const SkinAnatomy& anatomy, const std::vector<int>& frames) {
     std::uint32_t first = 0;
-    for (std::size_t m = 0; m < ground.bodies.size(); ++m) {
+    for (std::size_t m = 0; m < anatomy.bodies.size(); ++m) {
         rig.bodies.push_back({});
         rig.bodies.back().first = first;
-        first += static_cast<std::uint32_t>(ground.bodies[m]->muscle().surface.vertices.size());
+        first += static_cast<std::uint32_t>(anatomy.bodies[m]->muscle().surface.vertices.size());
     }
     parallelFor(rig.bodies.size(), [&](std::size_t m) {
         rig.bodies[m] =
-            bodyOf(rig, *ground.bodies[m], frames[m], insertionOf(rig.parameters, m), rig.bodies[m].first);
+            bodyOf(rig, *anatomy.bodies[m], frames[m], insertionOf(rig.parameters, m), rig.bodies[m].first);
     });
     rig.bodyVertices = first;
 }
 
-void addShares(SkinRig& rig, const SkinCarriage& carriage) {
-    rig.frames = carriage.frames.size();
+void addShares(SkinRig& rig, const SkinAttachment& attachment) {
+    rig.frames = attachment.frames.size();
     for (const std::uint32_t v : rig.vertices) {
-        for (std::size_t m = 0; m < carriage.muscles.size(); ++m) {
-            if (carriage.muscles[m].empty() || !(carriage.muscles[m][v] > 0)) continue;
-            const NearestPoint& near = carriage.bound[m][v];
+        for (std::size_t m = 0; m < attachment.muscles.size(); ++m) {
+            if (attachment.muscles[m].empty() || !(attachment.muscles[m][v] > 0)) continue;
+            const NearestPoint& near = attachment.bindings[m][v];
             const Tri& corners = rig.bodies[m].triangles[near.triangle];
             for (int k = 0; k < 3; ++k)
                 if (near.weights[k] > 0)
                     rig.pulls.push_back({rig.bodies[m].first + static_cast<std::uint32_t>(corners[k]),
-                                         static_cast<float>(carriage.muscles[m][v] * near.weights[k])});
+                                         static_cast<float>(attachment.muscles[m][v] * near.weights[k])});
         }
         for (std::uint32_t f = 0; f < rig.frames; ++f)
-            if (carriage.frames[f][v] > 0)
-                rig.frameShares.push_back({f, static_cast<float>(carriage.frames[f][v])});
+            if (attachment.frames[f][v] > 0)
+                rig.frameShares.push_back({f, static_cast<float>(attachment.frames[f][v])});
         rig.pulls.endList();
         rig.frameShares.endList();
     }
@@ -222,10 +223,10 @@ Pose SkinRig::local(const Pose& pose) const {
 }
 
 std::size_t SkinRig::bytes() const {
-    std::size_t sum = foundation.bytes() + rows.size() * sizeof(SkinRow) + apart.size() * sizeof(SkinApart) +
-                      pulls.bytes() + frameShares.bytes() + fans.bytes() + around.bytes() +
-                      vertices.size() * (2 * sizeof(Vec3) + 2 * sizeof(Move)) +
-                      2 * triangles.size() * sizeof(Tri);
+    std::size_t sum =
+        foundation.bytes() + rows.size() * sizeof(SkinRow) + clearances.size() * sizeof(SkinClearance) +
+        pulls.bytes() + frameShares.bytes() + fans.bytes() + around.bytes() +
+        vertices.size() * (2 * sizeof(Vec3) + 2 * sizeof(Move)) + 2 * triangles.size() * sizeof(Tri);
     for (const SkinBody& body : bodies)
         sum += (body.rest.size() + body.places.size() + body.normals.size()) * sizeof(Move) +
                2 * body.triangles.size() * sizeof(Tri);
@@ -240,41 +241,41 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     auto result = std::make_shared<SkinRig>();
     SkinRig& rig = *result;
     rig.parameters = parameters;
-    const SkinGround ground(skin, bodies, parameters);
-    rig.size = ground.size;
-    rig.inverted = ground.inverted;
-    rig.centre = ground.centre;
+    const SkinAnatomy anatomy(skin, bodies, parameters);
+    rig.size = anatomy.size;
+    rig.inverted = anatomy.inverted;
+    rig.centre = anatomy.centre;
     rig.radius = static_cast<float>(std::max(largestRadius(table.table), 1e-3 * rig.size) / rig.size);
-    SkinCarriage carriage;
-    std::vector<SkinBefore> before;
+    SkinAttachment attachment;
+    std::vector<ContactCandidate> candidates;
     std::vector<std::uint32_t> pushed;
     if (parameters.faithful) {
         pushed = table.skinVertices;
     } else {
-        carriage = carrySkin(ground, parameters);
-        before = skinBefore(ground, table);
-        for (const SkinBefore& b : before) pushed.push_back(b.vertex);
+        attachment = attachSkin(anatomy, parameters);
+        candidates = contactCandidates(anatomy, table);
+        for (const ContactCandidate& candidate : candidates) pushed.push_back(candidate.vertex);
     }
-    const std::vector<std::uint32_t> indexOf = touch(rig, ground, carriage, pushed);
-    addTriangles(rig, ground.skin, indexOf);
-    addBodies(rig, ground, framesOf(ground, parameters));
-    addShares(rig, carriage);
+    const std::vector<std::uint32_t> indexOf = addVertices(rig, anatomy, attachment, pushed);
+    addTriangles(rig, anatomy.skin, indexOf);
+    addBodies(rig, anatomy, framesOf(anatomy, parameters));
+    addShares(rig, attachment);
     addBlocks(rig);
     if (parameters.faithful) {
         rig.spheres = skinSpheres(table, bodies, parameters.insertions, indexOf);
-        addTwins(rig, ground, indexOf);
+        addTwins(rig, anatomy, indexOf);
         return result;
     }
     if (rig.rest.empty()) return result;
-    const std::vector<bool> mayBePushed = addRows(rig, before, indexOf);
+    const std::vector<bool> mayBePushed = addRows(rig, candidates, indexOf);
     TriangleMesh local{{}, rig.triangles};
     for (const Move& x : rig.places) local.vertices.push_back(x.head<3>().cast<double>());
     std::vector<double> firmness;
-    for (const std::uint32_t v : rig.vertices) firmness.push_back(carriage.firmness[v]);
-    rig.foundation = skinFoundation(local, skinGraph(local), mayBePushed, firmness, ground.length / rig.size,
+    for (const std::uint32_t v : rig.vertices) firmness.push_back(attachment.firmness[v]);
+    rig.foundation = skinFoundation(local, skinGraph(local), mayBePushed, firmness, anatomy.length / rig.size,
                                     parameters.stretchCompliance, parameters.bendCompliance);
     measureRows(rig);
-    addTwins(rig, ground, indexOf);
+    addTwins(rig, anatomy, indexOf);
     return result;
 }
 

@@ -12,134 +12,141 @@
 
 namespace tss {
 
-/// How a skin behaves (METHOD 6.5). Compliances and other values between 0 and 1e12 and beyond throw nothing.
+/// How a skin behaves (METHOD 6.5).
 struct SkinParameters {
-    double stretchCompliance = 0; ///< of the sheet that answers contacts, >= 0; at 1 it is half as stiff
-    double bendCompliance = 0;    ///< the same of its bending, >= 0
-    /// #bodies: what each moves with, -1: with the skin itself. Bodies of one frame move together. Empty: a
-    /// bone with itself alone, a muscle with the skin.
+    double stretchCompliance = 0; ///< of the elastic sheet, >= 0; at 1 it is half as stiff in stretch
+    double bendCompliance = 0;    ///< of the elastic sheet, >= 0; at 1 it is half as stiff in bending
+    /// #bodies: the moving frame that each is rigid in, -1: the skin's own. Empty: each bone is a frame of
+    /// its own, muscles are in the skin's.
     std::vector<int> frames;
-    /// #bodies: of a muscle between two bones a body that moves with the one at its insertion, else -1; it
-    /// moves with the one at its origin. Empty: no muscle lies between two.
+    /// #bodies: for a muscle between two bones a body that moves with the bone at its insertion; the muscle's
+    /// own frame is that of the bone at its origin. -1 for all others. Empty: -1 for all.
     std::vector<int> insertions;
-    /// #frames of #V in [0,1], the shares of frames in each vertex; empty: found from where the bones lie
+    /// #frames of #V in [0,1]: skinning weights; empty: computed from where the bones are.
     std::vector<std::vector<double>> shares;
-    std::vector<BoneSwing> swings; ///< of the bodies: which of them move at all, and where skin meets what
-    std::vector<double> tether;    ///< #V in [0,1], how firmly a vertex keeps its rest place; empty: 0
-    std::vector<double> attach;    ///< #V in [0,1], how firmly the muscle below carries it; empty: 1
-    bool selfContact = false;      ///< the skin also keeps out of itself: lip against lip, lid against lid
-    int iterations = 60; ///< most sweeps over the contacts that push, for each time they are looked up, >= 1
-    bool faithful = false; ///< [paper] spheres push spheres out, no elastic sheet
+    std::vector<BoneSwing> swings; ///< sampled motions of the bodies, one per joint value and direction
+    std::vector<double> tether;    ///< #V in [0,1], how firmly a vertex keeps its rest position; empty: 0
+    std::vector<double> attach;    ///< #V in [0,1], how firmly it follows the muscle below it; empty: 1
+    bool selfContact = false;      ///< the skin collides with itself too: lip against lip, lid against lid
+    int iterations = 60;           ///< most solver iterations for each time that contacts are queried, >= 1
+    bool faithful = false;         ///< [paper] spheres are pushed out of spheres, no elastic sheet
 };
 
 inline int insertionOf(const SkinParameters& parameters, std::size_t body) {
     return parameters.insertions.empty() ? -1 : parameters.insertions[body];
 }
 
-constexpr int bodySteps = 16; ///< stretches of a muscle's range that its surface is tabulated over
+constexpr int bodySteps = 16; ///< intervals of a muscle's activation range between tabulated surfaces
 
-/// Run-time lengths are floats in sizes of the skin, from its middle.
+/// x, y, z and mostly 0. "Run-time lengths" are floats relative to the skin's centre, in units of its size.
 using Move = Eigen::Vector4f;
 
-/// A muscle or a bone as the run time moves it.
+/// A muscle or a bone at run time, run-time lengths.
 struct SkinBody {
-    std::uint32_t first = 0, count = 0; ///< its vertices among those of all bodies
-    std::vector<Tri> triangles, across; ///< across: the one beyond each edge (k, k+1), -1: none
-    std::vector<double> nodes;          ///< rising activations; one: a bone
-    std::vector<Move> rest;             ///< #count, at activation 0, in the skin's frame
-    std::vector<Move> places, normals;  ///< #nodes blocks of #count
-    std::vector<float> strain;          ///< #nodes: most that an edge has changed, of its length at rest
-    std::vector<std::uint32_t> blocks;  ///< of the skin, that it displaces
-    int frame = -1;                     ///< that it moves with
-    int insertion = -1;                 ///< body that its far end moves with, -1: all of it moves with one
-    std::shared_ptr<const MuscleSpan> span;   ///< in run-time lengths; null where insertion is -1
-    std::shared_ptr<const TriangleMesh> mesh; ///< of a bone, in run-time lengths; null: a muscle
-    std::shared_ptr<const ClosestPointQuery> locator;
+    std::uint32_t first = 0, count = 0; ///< range of its vertices among those of all bodies
+    std::vector<Tri> triangles;
+    std::vector<Tri> across;                  ///< per triangle: the neighbour beyond edge (k, k+1), -1: none
+    std::vector<double> nodes;                ///< rising activations at which it is tabulated; one: a bone
+    std::vector<Move> rest;                   ///< #count vertices at activation 0, in the skin's frame
+    std::vector<Move> places, normals;        ///< #nodes blocks of #count: vertices and unit normals
+    std::vector<float> strain;                ///< #nodes: strainOf() there
+    std::vector<std::uint32_t> blocks;        ///< blocks of skin vertices that it displaces
+    int frame = -1;                           ///< see SkinParameters::frames
+    int insertion = -1;                       ///< see SkinParameters::insertions
+    std::shared_ptr<const MuscleSpan> span;   ///< null where insertion is -1
+    std::shared_ptr<const TriangleMesh> mesh; ///< of a bone; null: a muscle
+    std::shared_ptr<const ClosestPointQuery> locator; ///< on `mesh`
 
     bool bone() const { return mesh != nullptr; }
-    /// The most that an edge has changed, of its length at rest. now: #count places.
+    /// Largest relative change of an edge vector since rest. now: #count vertices.
     float strainOf(const Move* now) const;
 };
 
-/// A vertex of a muscle that moves a vertex of the skin by a share of its own move.
+/// A body's vertex whose displacement is added to that of a skin vertex, times a share.
 struct SkinPull {
-    std::uint32_t from = 0; ///< among the vertices of all bodies
+    std::uint32_t from = 0; ///< index among the vertices of all bodies
     float share = 0;
 };
 
-/// A frame's share in a vertex.
+/// A frame's skinning weight in a vertex.
 struct SkinFrameShare {
     std::uint32_t frame = 0;
     float share = 0;
 };
 
-/// What meets what in a row of contact.
-enum class SkinMeeting : std::uint8_t {
-    SkinOnBody, ///< a skin vertex a body's surface
-    BodyOnSkin, ///< a body's vertex the skin from below
-    SkinOnSkin, ///< a skin vertex another part of the skin
+/// The two sides of a possible contact: a vertex against a surface.
+enum class SkinContactKind : std::uint8_t {
+    SkinOnBody, ///< a skin vertex against a body's surface
+    BodyOnSkin, ///< a body's vertex against the skin, from below
+    SkinOnSkin, ///< a skin vertex against another part of the skin
 };
 
-/// How the two of a row lie where its muscle alone has moved, and everything else is at rest.
-struct SkinApart {
-    /// x, y, z: what meets, from the place that it is before. w: while they are no farther off that than
-    /// this, here or on the way to the next, nothing meets.
-    Move lie = Move::Zero();
+/// How far the two sides of a row are apart at one node of its muscle's activation, everything else at rest:
+/// it lets mayTouch() rule out contact without a query.
+struct SkinClearance {
+    /// x, y, z: offset from the row's anchor to its vertex. w: gap; while the offset differs from this one by
+    /// less than the gap, here or between this node and the next, the two sides do not touch.
+    Move offsetAndGap = Move::Zero();
 
-    Eigen::Vector3f relative() const { return lie.head<3>(); }
-    float gap() const { return lie[3]; }
-    float& gap() { return lie[3]; }
+    Eigen::Vector3f relative() const { return offsetAndGap.head<3>(); }
+    float gap() const { return offsetAndGap[3]; }
+    float& gap() { return offsetAndGap[3]; }
 };
 
-/// A possible contact. Where it is looked for starts from a triangle known beforehand, so that the answer has
-/// no history.
+/// A possible contact of a vertex with a surface. Queries start from triangles tabulated here rather than
+/// from the last result, so that the response has no history.
 struct SkinRow {
-    SkinMeeting meeting = SkinMeeting::SkinOnBody;
+    SkinContactKind kind = SkinContactKind::SkinOnBody;
     std::uint32_t vertex = 0; ///< of the skin; BodyOnSkin: among those of all bodies
     std::uint32_t body = 0;
-    std::uint32_t first = 0, last = 0; ///< triangles to start from: range in SkinRig::starts
-    bool within = false;               ///< at rest it is already on the wrong side, and is to get no deeper
-    bool turned = false;               ///< within a body that overlaps itself: the surface beside it faces it
-    Tri corners{0, 0, 0};              ///< of the place at rest that it is before, and its weights
-    Eigen::Vector3f weights = Eigen::Vector3f::Zero();
-    std::uint32_t apart = 0; ///< in SkinRig::apart: one at each of the muscle's nodes, else one at rest
-    Eigen::Vector3f facing = Eigen::Vector3f::Zero(); ///< SkinOnBody: of a muscle's surface there, unit
-    float offset = 0; ///< signed distance that is kept, at most 0: the overlap at rest
+    std::uint32_t first = 0, last = 0; ///< start triangles of the query: range in SkinRig::starts
+    bool insideAtRest = false; ///< the vertex is on the wrong side of the surface at rest already, and is
+                               ///< only kept from getting deeper
+    bool flipped = false; ///< the surface overlaps itself, and its side next to the vertex is wound the wrong
+                          ///< way round: its normal counts negative
+    Tri corners{0, 0, 0}; ///< anchor, the point of the surface that the vertex faces at rest: triangle ...
+    Eigen::Vector3f weights = Eigen::Vector3f::Zero(); ///< ... and barycentric weights
+    std::uint32_t clearance =
+        0; ///< first in SkinRig::clearances: one per node of its muscle, else one at rest
+    Eigen::Vector3f facing =
+        Eigen::Vector3f::Zero(); ///< SkinOnBody of a muscle: unit normal at the anchor at rest
+    float offset = 0; ///< least signed distance to keep, <= 0: the overlap at rest, run-time lengths
 };
 
 /// The part of a skin that never changes. Immutable once made, shared between instances (SkinResponse) and
-/// threads. Indices of vertices are into `vertices`, the touched ones; the rest of the skin stays as
-/// modelled.
+/// threads. "Touched" vertices are those that anything can move, or whose normals turn; indices of vertices
+/// are into `vertices`, which lists them. The rest of the skin stays as modelled.
 struct SkinRig {
     SkinParameters parameters;
     double size = 0; ///< diagonal of the skin's bounds, scene units; 1 where it has none
     Vec3 centre = Vec3::Zero();
-    float radius = 0; ///< of the skin, in sizes: how far contact beside a rim fades
+    float radius = 0; ///< thickness of the skin, run-time length: over which contact beside a rim fades out
 
-    std::vector<std::uint32_t>
-        vertices;                     ///< indices into the skin mesh, near ones beside each other, then twins
-    std::vector<Vec3> rest;           ///< places of the vertices, scene units
-    std::vector<Vec3> restNormals;    ///< unit; of the mesh as it is wound
-    bool inverted = false;            ///< it is wound inwards, which what follows is not
-    std::vector<std::uint32_t> twins; ///< of each vertex at the place of another one that other, touched one
-    std::vector<Tri> triangles;       ///< of touched vertices only
-    std::vector<Tri> across;          ///< beyond each of their edges, -1: none
-    Lists<SkinFan> fans;              ///< all at a touched vertex, into vertices then borderPlaces
+    std::vector<std::uint32_t> vertices; ///< indices into the skin mesh, in the order of a space-filling
+                                         ///< curve, then twins
+    std::vector<Vec3> rest;           ///< positions of the vertices, scene units
+    std::vector<Vec3> restNormals;    ///< unit, by the mesh's own winding
+    bool inverted = false;            ///< the mesh is wound inwards; all members below are as if outwards
+    std::vector<std::uint32_t> twins; ///< for each of the last vertices, duplicates along seams: the one at
+                                      ///< the same position that it follows
+    std::vector<Tri> triangles; ///< those of touched vertices only
+    std::vector<Tri> across;    ///< per triangle: the neighbour beyond edge (k, k+1), -1: none
+    Lists<SkinFan> fans;        ///< per touched vertex; indices into vertices, then borderPlaces
 
-    std::vector<Move> places, placeNormals; ///< rest and normals outward as the run time has them
-    std::vector<Move> borderPlaces;         ///< of the untouched corners of fans
-    /// Touched vertices move in blocks of this many.
+    std::vector<Move> places, placeNormals; ///< rest positions and outward normals, run-time lengths
+    std::vector<Move> borderPlaces;         ///< untouched corners of fans, run-time lengths
+    /// Touched vertices are updated in blocks of this many.
     static constexpr std::size_t block = 16;
-    Lists<std::uint32_t> around; ///< of each block it and those with a normal that hangs on it
+    Lists<std::uint32_t> around; ///< per block: the blocks whose normals depend on it, itself included
     std::vector<SkinBody> bodies;
-    std::size_t bodyVertices = 0;
-    Lists<SkinPull> pulls; ///< of each vertex
+    std::size_t bodyVertices = 0; ///< of all bodies together
+    Lists<SkinPull> pulls;        ///< per vertex
     std::size_t frames = 0;
-    Lists<SkinFrameShare> frameShares;                   ///< of each vertex
-    std::vector<std::vector<std::uint32_t>> frameBlocks; ///< #frames, that it moves
-    std::vector<SkinRow> rows;
-    std::vector<SkinApart> apart;
-    std::vector<int> starts;
+    Lists<SkinFrameShare> frameShares;                   ///< per vertex
+    std::vector<std::vector<std::uint32_t>> frameBlocks; ///< #frames: blocks that each moves
+    std::vector<SkinRow> rows;                           ///< all possible contacts
+    std::vector<SkinClearance> clearances;               ///< of the rows
+    std::vector<int> starts;                             ///< start triangles of the rows' queries
     SkinFoundation foundation;
     SkinSpheres spheres; ///< of the faithful mode
 

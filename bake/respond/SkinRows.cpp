@@ -1,5 +1,6 @@
 #include "bake/respond/SkinRows.h"
 
+#include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 #include "bake/respond/SkinContact.h"
 
@@ -11,11 +12,11 @@ namespace {
 
 using Vec3f = Eigen::Vector3f;
 
-/// In radii of the skin: how far from the skin a body's vertex, or another part of the skin, is seen.
-constexpr double seenReach = 3;
-constexpr std::size_t swingStops = 4; ///< of each swing, at which meetings are looked for
+/// In radii of the skin: how near to the skin a body's vertex, or another part of the skin, has to come.
+constexpr double contactReach = 3;
+constexpr std::size_t swingStops = 4; ///< samples of each swing at which contacts are sought
 
-/// Activations and poses at which meetings are looked for.
+/// Activations and poses at which contacts are sought.
 struct Station {
     std::vector<double> activations;
     std::vector<Pose> poses;
@@ -46,27 +47,26 @@ TriangleMesh skinAt(const SkinRig& rig, const SkinScene& scene) {
 }
 
 Vec3 triangleNormal(const TriangleMesh& mesh, int t) {
-    const Vec3& a = mesh.corner(t, 0);
-    return (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).normalized();
+    return mesh.areaNormal(static_cast<std::size_t>(t)).normalized();
 }
 
-/// Triangles of the skin that something was before, by what it is; through: and was behind it at rest.
-struct Met {
-    std::vector<std::vector<int>> triangles;
-    std::vector<char> through;
+/// Contacts of vertices with the skin that were found at the stations.
+struct FoundContacts {
+    std::vector<std::vector<int>> triangles; ///< per vertex: triangles of the skin that it came near to
+    std::vector<char> outside;               ///< per vertex: a muscle's that is above the skin at rest
 
-    explicit Met(std::size_t count) : triangles(count), through(count, 0) {}
+    explicit FoundContacts(std::size_t vertices) : triangles(vertices), outside(vertices, 0) {}
+
+    void add(std::size_t vertex, int triangle) {
+        auto& list = triangles[vertex];
+        if (std::find(list.begin(), list.end(), triangle) == list.end()) list.push_back(triangle);
+    }
 };
 
-void meet(Met& met, std::size_t what, int triangle) {
-    auto& list = met.triangles[what];
-    if (std::find(list.begin(), list.end(), triangle) == list.end()) list.push_back(triangle);
-}
-
-/// Body vertices that the skin comes to lie on.
-void meetBodies(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& skin,
-                const ClosestPointQuery& locator, bool atRest, Met& met) {
-    const double reach = seenReach * static_cast<double>(rig.radius);
+/// Adds body vertices that come near to the skin above them.
+void findBodyContacts(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& skin,
+                      const ClosestPointQuery& locator, bool atRest, FoundContacts& found) {
+    const double reach = contactReach * static_cast<double>(rig.radius);
     Eigen::AlignedBox3d box = bounds(skin);
     for (std::size_t m = 0; m < rig.bodies.size(); ++m) {
         const SkinBody& body = rig.bodies[m];
@@ -76,70 +76,70 @@ void meetBodies(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& 
             const Vec3 x = placed.toSkin(scene.surface[v].head<3>()).cast<double>();
             if (box.squaredExteriorDistance(x) > reach * reach) return;
             const Vec3 own = (placed.turn * scene.normals[v].head<3>()).cast<double>();
-            if (met.through[v]) return;
-            if (atRest && !body.bone()) { // bones stick out where they should: teeth do
+            if (found.outside[v]) return;
+            if (atRest && !body.bone()) { // bones such as teeth may stick out
                 const NearestPoint any = locator.nearest(x, reach);
                 if (any.triangle >= 0 && triangleNormal(skin, any.triangle).dot(x - any.point) > 0) {
-                    met.through[v] = 1;
-                    meet(met, v, any.triangle);
+                    found.outside[v] = 1;
+                    found.add(v, any.triangle);
                     return;
                 }
             }
             const NearestPoint near = locator.nearestFacing(x, reach, own);
             if (near.triangle < 0) return;
             const double above = triangleNormal(skin, near.triangle).dot(near.point - x);
-            if (above >= -static_cast<double>(enterDepth * rig.radius)) meet(met, v, near.triangle);
+            if (above >= -static_cast<double>(enterDepth * rig.radius)) found.add(v, near.triangle);
         });
     }
 }
 
-/// Skin vertices that come before another part of the skin.
-void meetFolds(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& skin,
-               const ClosestPointQuery& locator, Met& met) {
-    const double reach = seenReach * static_cast<double>(rig.radius),
+/// Adds skin vertices that come near to another part of the skin.
+void findSelfContacts(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& skin,
+                      const ClosestPointQuery& locator, FoundContacts& found) {
+    const double reach = contactReach * static_cast<double>(rig.radius),
                  depth = static_cast<double>(enterDepth * rig.radius);
     parallelFor(skin.vertices.size(), [&](std::size_t v) {
         const Vec3 own = scene.normalOf(v).cast<double>();
         const Vec3& x = skin.vertices[v];
         const NearestPoint near = locator.nearestFacing(x, reach, -own);
         if (near.triangle < 0 || (skin.triangles[near.triangle].array() == static_cast<int>(v)).any()) return;
-        // Before it, and not through the layer that the vertex is a part of.
+        // In front of the triangle, and the triangle in front of the vertex: not the back of its own layer.
         if (triangleNormal(skin, near.triangle).dot(x - near.point) < -depth ||
             own.dot(near.point - x) < -depth)
             return;
-        meet(met, v, near.triangle);
+        found.add(v, near.triangle);
     });
 }
 
-void addMet(SkinRig& rig, const Met& met, SkinMeeting meeting, std::vector<bool>& pushed) {
+void addRowsOf(SkinRig& rig, const FoundContacts& found, SkinContactKind kind, std::vector<bool>& pushed) {
     std::size_t body = 0;
-    for (std::uint32_t v = 0; v < met.triangles.size(); ++v) {
-        const std::vector<int>& triangles = met.triangles[v];
-        if (meeting == SkinMeeting::BodyOnSkin)
+    for (std::uint32_t v = 0; v < found.triangles.size(); ++v) {
+        const std::vector<int>& triangles = found.triangles[v];
+        if (kind == SkinContactKind::BodyOnSkin)
             while (v >= rig.bodies[body].first + rig.bodies[body].count) ++body;
         if (triangles.empty()) continue;
         SkinRow row;
-        row.meeting = meeting;
+        row.kind = kind;
         row.vertex = v;
         row.body = static_cast<std::uint32_t>(body);
         row.first = static_cast<std::uint32_t>(rig.starts.size());
         rig.starts.insert(rig.starts.end(), triangles.begin(), triangles.end());
         row.last = static_cast<std::uint32_t>(rig.starts.size());
-        row.within = met.through[v] != 0;
+        row.insideAtRest = found.outside[v] != 0;
         row.corners = rig.triangles[triangles.front()];
         row.weights.setConstant(1 / 3.0f);
         rig.rows.push_back(row);
         for (const int t : triangles)
             for (const int corner : rig.triangles[t]) pushed[corner] = true;
-        if (meeting == SkinMeeting::SkinOnSkin) pushed[v] = true;
+        if (kind == SkinContactKind::SkinOnSkin) pushed[v] = true;
     }
 }
 
-/// How far outside a bone a place is, by the nearest of its surface: what faces the skin may be its other
-/// side. Negative inside.
-float outside(const SkinBody& body, const Move& place) {
+/// Signed distance of a point from a bone, negative inside, by the nearest point of the whole surface,
+/// whichever way that faces.
+float signedDistance(const SkinBody& body, const Move& place) {
     const Vec3 x = place.head<3>().cast<double>();
-    const NearestPoint near = body.locator->nearest(x, std::numeric_limits<double>::infinity());
+    const NearestPoint near = body.locator->nearest(x, infinity);
     if (near.triangle < 0) return 0;
     Vec3 normal = triangleNormal(*body.mesh, near.triangle);
     if (!(near.weights.minCoeff() > 0)) {
@@ -153,69 +153,70 @@ float outside(const SkinBody& body, const Move& place) {
 }
 
 bool ofMuscle(const SkinRig& rig, const SkinRow& row) {
-    return row.meeting != SkinMeeting::SkinOnSkin && !rig.bodies[row.body].bone();
+    return row.kind != SkinContactKind::SkinOnSkin && !rig.bodies[row.body].bone();
 }
 
-/// What a row of a muscle keeps of how a scene stands.
-SkinApart apartOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    SkinApart apart;
-    apart.lie.head<3>() = relativeOf(rig, scene, row);
-    const SkinPlane plane = lookUp(rig, scene, row);
-    apart.gap() = apart.relative().norm();
+/// The clearance of a muscle's row in a scene.
+SkinClearance clearanceOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    SkinClearance clearance;
+    clearance.offsetAndGap.head<3>() = anchorOffset(rig, scene, row);
+    const SkinPlane plane = queryContact(rig, scene, row);
+    clearance.gap() = clearance.relative().norm();
     if (plane.found)
-        apart.gap() = std::clamp(plane.distance, 0.0f, apart.gap());
-    else if (row.meeting == SkinMeeting::BodyOnSkin)
-        apart.gap() = distanceToKnown(rig, scene, row);
-    return apart;
+        clearance.gap() = std::clamp(plane.distance, 0.0f, clearance.gap());
+    else if (row.kind == SkinContactKind::BodyOnSkin)
+        clearance.gap() = distanceToStarts(rig, scene, row);
+    return clearance;
 }
 
-/// Each node's gap becomes what holds up to the next one.
-void bridgeNodes(SkinApart* apart, std::size_t nodes) {
-    for (std::size_t n = 0; n + 1 < nodes; ++n) {
-        const float step = (apart[n + 1].relative() - apart[n].relative()).norm();
-        apart[n].gap() = std::max(std::min(apart[n].gap(), apart[n + 1].gap()) - step / 2, 0.0f);
+/// Lowers the gap of each node to one that holds for all activations up to the next node.
+void boundBetweenNodes(SkinClearance* nodes, std::size_t count) {
+    for (std::size_t n = 0; n + 1 < count; ++n) {
+        const float step = (nodes[n + 1].relative() - nodes[n].relative()).norm();
+        nodes[n].gap() = std::max(std::min(nodes[n].gap(), nodes[n + 1].gap()) - step / 2, 0.0f);
     }
 }
 
-/// The overlap at rest, which way the surface faces there, and how far a row that is no muscle's is free.
+/// Measures a row at rest: overlap, the surface's normal at the anchor, and, unless it is a muscle's, its
+/// clearance.
 void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
-    const bool body = row.meeting == SkinMeeting::SkinOnBody, bone = rig.bodies[row.body].bone();
+    const bool body = row.kind == SkinContactKind::SkinOnBody, bone = rig.bodies[row.body].bone();
     if (body && !bone) {
         for (int k = 0; k < 3; ++k)
             row.facing +=
                 row.weights[k] * scene.normals[rig.bodies[row.body].first + row.corners[k]].head<3>();
         if (row.facing.squaredNorm() > 0) row.facing.normalize();
     }
-    SkinApart& apart = rig.apart[row.apart];
-    apart.lie.head<3>() = relativeOf(rig, scene, row);
-    row.offset = -1; // whatever the overlap at rest is, it is believed
-    SkinPlane plane = lookUp(rig, scene, row, 0);
+    SkinClearance& clearance = rig.clearances[row.clearance];
+    clearance.offsetAndGap.head<3>() = anchorOffset(rig, scene, row);
+    row.offset = -1; // so that the query trusts an overlap of any depth
+    SkinPlane plane = queryContact(rig, scene, row, 0);
     row.offset = 0;
-    if (body && row.within && plane.found && plane.distance > 0) {
-        row.turned = true;
-        plane = lookUp(rig, scene, row, 0);
+    if (body && row.insideAtRest && plane.found && plane.distance > 0) {
+        row.flipped = true;
+        plane = queryContact(rig, scene, row, 0);
     }
     if (body && bone) {
-        // Nothing comes in before it has come as far as the bone is away.
-        apart.gap() = std::max(outside(rig.bodies[row.body], scene.skin[row.vertex]), 0.0f);
-        if (plane.found && apart.gap() == 0) row.offset = std::min(plane.distance, 0.0f);
+        // No contact before the vertex has moved by its distance from the bone.
+        clearance.gap() = std::max(signedDistance(rig.bodies[row.body], scene.skin[row.vertex]), 0.0f);
+        if (plane.found && clearance.gap() == 0) row.offset = std::min(plane.distance, 0.0f);
     } else if (plane.found) {
         row.offset = std::min(plane.distance, 0.0f);
-        apart.gap() = std::clamp(plane.distance, 0.0f, apart.relative().norm());
-    } else if (!body) { // it faces another way now, and is far from what it meets
-        apart.gap() = distanceToKnown(rig, scene, row);
+        clearance.gap() = std::clamp(plane.distance, 0.0f, clearance.relative().norm());
+    } else if (!body) { // the surface faces another way at rest
+        clearance.gap() = distanceToStarts(rig, scene, row);
     }
 }
 
 } // namespace
 
-std::vector<SkinBefore> skinBefore(const SkinGround& ground, const SkinTable& table) {
+std::vector<ContactCandidate> contactCandidates(const SkinAnatomy& anatomy, const SkinTable& table) {
     const Table& t = table.table;
-    std::vector<SkinBefore> result;
-    std::vector<bool> meets(ground.bodies.size());
+    std::vector<ContactCandidate> result;
+    std::vector<bool> meets(anatomy.bodies.size());
     std::set<std::pair<std::uint32_t, std::uint32_t>> known;
     for (std::size_t i = 0; i < t.a.size(); ++i) {
-        const std::uint32_t v = ground.first[table.skinVertices[i]];
+        const std::uint32_t v = anatomy.first[table.skinVertices[i]];
         std::fill(meets.begin(), meets.end(), false);
         for (std::uint32_t k = t.rowOffsets[i]; k < t.rowOffsets[i + 1]; ++k)
             meets[table.muscleOf[t.columns[k]]] = true;
@@ -223,65 +224,67 @@ std::vector<SkinBefore> skinBefore(const SkinGround& ground, const SkinTable& ta
             if (meets[m] && known.emplace(v, m).second) result.push_back({v, m, false, {}});
     }
     parallelFor(result.size(), [&](std::size_t k) {
-        SkinBefore& before = result[k];
-        const Vec3 &x = ground.skin.vertices[before.vertex], &own = ground.normals[before.vertex];
-        const ClosestPointQuery& locator = ground.locators[before.body];
-        before.inside = !ground.inside[before.body].empty() && ground.inside[before.body][before.vertex];
-        const MuscleDeformer& body = *ground.bodies[before.body];
-        before.near =
-            body.rigid() ? locator.nearestFacing(x, ground.size, own) : locator.nearest(x, ground.size);
-        if (before.near.triangle < 0 || body.rigid()) return;
+        ContactCandidate& candidate = result[k];
+        const Vec3 &x = anatomy.skin.vertices[candidate.vertex], &own = anatomy.normals[candidate.vertex];
+        const ClosestPointQuery& locator = anatomy.locators[candidate.body];
+        candidate.inside =
+            !anatomy.inside[candidate.body].empty() && anatomy.inside[candidate.body][candidate.vertex];
+        const MuscleDeformer& body = *anatomy.bodies[candidate.body];
+        candidate.nearest =
+            body.rigid() ? locator.nearestFacing(x, anatomy.size, own) : locator.nearest(x, anatomy.size);
+        if (candidate.nearest.triangle < 0 || body.rigid()) return;
         Vec3 smooth = Vec3::Zero();
         for (int c = 0; c < 3; ++c)
-            smooth +=
-                before.near.weights[c] *
-                ground.surfaceNormals[before.body][body.muscle().surface.triangles[before.near.triangle][c]];
-        // Outside of the muscle's other side the skin is no cover of it.
-        if (smooth.dot(own) <= 0 && !before.inside) before.near.triangle = -1;
+            smooth += candidate.nearest.weights[c] *
+                      anatomy.surfaceNormals[candidate.body]
+                                            [body.muscle().surface.triangles[candidate.nearest.triangle][c]];
+        // Skin beyond the muscle's far side does not lie on the muscle.
+        if (smooth.dot(own) <= 0 && !candidate.inside) candidate.nearest.triangle = -1;
     });
-    std::erase_if(result, [](const SkinBefore& before) { return before.near.triangle < 0; });
+    std::erase_if(result, [](const ContactCandidate& candidate) { return candidate.nearest.triangle < 0; });
     return result;
 }
 
-std::vector<bool> addRows(SkinRig& rig, const std::vector<SkinBefore>& before,
+std::vector<bool> addRows(SkinRig& rig, const std::vector<ContactCandidate>& candidates,
                           const std::vector<std::uint32_t>& indexOf) {
     std::vector<bool> pushed(rig.places.size(), false);
-    for (const SkinBefore& b : before) {
+    for (const ContactCandidate& candidate : candidates) {
         SkinRow row;
-        row.vertex = indexOf[b.vertex];
-        row.body = b.body;
-        row.within = b.inside;
+        row.vertex = indexOf[candidate.vertex];
+        row.body = candidate.body;
+        row.insideAtRest = candidate.inside;
         row.first = static_cast<std::uint32_t>(rig.starts.size());
-        rig.starts.push_back(b.near.triangle);
+        rig.starts.push_back(candidate.nearest.triangle);
         row.last = row.first + 1;
-        row.corners = rig.bodies[b.body].triangles[b.near.triangle];
-        row.weights = b.near.weights.cast<float>();
+        row.corners = rig.bodies[candidate.body].triangles[candidate.nearest.triangle];
+        row.weights = candidate.nearest.weights.cast<float>();
         rig.rows.push_back(row);
         pushed[row.vertex] = true;
     }
     std::sort(rig.rows.begin(), rig.rows.end(), [](const SkinRow& a, const SkinRow& b) {
         return std::pair(a.vertex, a.body) < std::pair(b.vertex, b.body);
     });
-    Met bodies(rig.bodyVertices), folds(rig.parameters.selfContact ? rig.places.size() : 0);
+    FoundContacts bodies(rig.bodyVertices), folds(rig.parameters.selfContact ? rig.places.size() : 0);
     SkinScene scene;
     bool atRest = true;
     for (const Station& station : stationsOf(rig)) {
         placeBodies(rig, station.activations, station.poses, {}, scene);
         const TriangleMesh skin = skinAt(rig, scene);
         const ClosestPointQuery locator(skin);
-        meetBodies(rig, scene, skin, locator, atRest, bodies);
+        findBodyContacts(rig, scene, skin, locator, atRest, bodies);
         atRest = false;
-        if (rig.parameters.selfContact) meetFolds(rig, scene, skin, locator, folds);
+        if (rig.parameters.selfContact) findSelfContacts(rig, scene, skin, locator, folds);
     }
-    addMet(rig, bodies, SkinMeeting::BodyOnSkin, pushed);
-    addMet(rig, folds, SkinMeeting::SkinOnSkin, pushed);
+    addRowsOf(rig, bodies, SkinContactKind::BodyOnSkin, pushed);
+    addRowsOf(rig, folds, SkinContactKind::SkinOnSkin, pushed);
     return pushed;
 }
 
 void measureRows(SkinRig& rig) {
     for (SkinRow& row : rig.rows) {
-        row.apart = static_cast<std::uint32_t>(rig.apart.size());
-        rig.apart.resize(rig.apart.size() + (ofMuscle(rig, row) ? rig.bodies[row.body].nodes.size() : 1));
+        row.clearance = static_cast<std::uint32_t>(rig.clearances.size());
+        rig.clearances.resize(rig.clearances.size() +
+                              (ofMuscle(rig, row) ? rig.bodies[row.body].nodes.size() : 1));
     }
     SkinScene scene;
     std::vector<double> activations(rig.bodies.size(), 0);
@@ -297,11 +300,11 @@ void measureRows(SkinRig& rig) {
             activations[m] = nodes[n];
             placeBodies(rig, activations, poses, {}, scene);
             for (const std::uint32_t r : rowsOf[m])
-                rig.apart[rig.rows[r].apart + n] = apartOf(rig, scene, rig.rows[r]);
+                rig.clearances[rig.rows[r].clearance + n] = clearanceOf(rig, scene, rig.rows[r]);
         }
         activations[m] = 0;
         for (const std::uint32_t r : rowsOf[m])
-            bridgeNodes(rig.apart.data() + rig.rows[r].apart, nodes.size());
+            boundBetweenNodes(rig.clearances.data() + rig.rows[r].clearance, nodes.size());
     }
 }
 

@@ -1,27 +1,28 @@
 #pragma once
-#include "bake/respond/SkinCarry.h"
+#include "bake/respond/SkinAttachment.h"
 
 // The steps of makeSkinRig() that make its rows of contact.
 namespace tss {
 
-/// A skin vertex that the table lets meet a body, and where it is before it at rest.
-struct SkinBefore {
+/// A skin vertex and a body that the table has a test of, and that face each other at rest.
+struct ContactCandidate {
     std::uint32_t vertex = 0; ///< of the skin mesh
     std::uint32_t body = 0;
-    bool inside = false; ///< the body, a muscle
-    NearestPoint near;
+    bool inside = false;  ///< the vertex is inside of the body, a muscle, at rest
+    NearestPoint nearest; ///< of the body's surface at rest
 };
 
-/// One for each vertex and body of the table that face each other.
-std::vector<SkinBefore> skinBefore(const SkinGround& ground, const SkinTable& table);
+std::vector<ContactCandidate> contactCandidates(const SkinAnatomy& anatomy, const SkinTable& table);
 
-/// Fills rows and starts: the vertices before bodies; the bodies' vertices below the skin; with self contact
-/// the vertices before another part of the skin. The latter two are found at rest, at both ends of each
-/// muscle's range and along the swings of the bones. Returns, #touched, which vertices contacts may push.
-std::vector<bool> addRows(SkinRig& rig, const std::vector<SkinBefore>& before,
+/// Fills rows and starts: skin vertices against bodies, from the candidates; body vertices against the skin;
+/// with self contact skin vertices against other parts of the skin. The latter two are found by queries at
+/// rest, at both ends of each muscle's range and along the swings of the bones. Returns, #touched, which
+/// vertices contacts may push.
+std::vector<bool> addRows(SkinRig& rig, const std::vector<ContactCandidate>& candidates,
                           const std::vector<std::uint32_t>& indexOf);
 
-/// Finds what each row keeps, by the look-up of the run time, or the skin would never come back to rest.
+/// Measures offset, facing and clearances of each row. Uses the run time's own query, or the skin would not
+/// return exactly to rest.
 void measureRows(SkinRig& rig);
 
 } // namespace tss

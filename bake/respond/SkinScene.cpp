@@ -5,8 +5,8 @@
 namespace tss {
 namespace {
 
-/// The far end goes with the insertion's bone, and what muscles move by swells with the belly.
-void placeFar(const SkinBody& body, const Pose& far, SkinScene::Placed& placed, SkinScene& scene) {
+/// Deforms a muscle between two bones by the motion of its insertion; `moves` include its swelling.
+void spanMuscle(const SkinBody& body, const Pose& far, SkinScene::Placed& placed, SkinScene& scene) {
     std::vector<Vec3> places(body.count), normals(body.count);
     for (std::uint32_t v = 0; v < body.count; ++v) {
         places[v] = scene.surface[body.first + v].head<3>().cast<double>();
@@ -21,7 +21,7 @@ void placeFar(const SkinBody& body, const Pose& far, SkinScene::Placed& placed, 
     placed.strain = std::max(placed.strain, body.strainOf(scene.surface.data() + body.first));
 }
 
-/// far: of the insertion's bone against the origin's, run-time lengths.
+/// Interpolates the surface at an activation. far: motion of the insertion's bone seen from the origin's.
 void placeSurface(const SkinBody& body, double activation, const Pose& far, SkinScene::Placed& placed,
                   SkinScene& scene) {
     if (placed.activation == activation && placed.far.matrix() == far.matrix()) return;
@@ -43,15 +43,16 @@ void placeSurface(const SkinBody& body, double activation, const Pose& far, Skin
     }
     placed.strain = body.strain[at.node];
     if (at.t != 0) placed.strain = std::max(placed.strain, body.strain[at.node + 1]);
-    if (!isIdentity(far)) placeFar(body, far, placed, scene);
+    if (!isIdentity(far)) spanMuscle(body, far, placed, scene);
 }
 
-/// What the bones' shares of a vertex make of its place, which muscles have displaced by `sum`.
-Move turned(const SkinRig& rig, SkinScene& scene, std::size_t v, const Move& sum) {
+/// The position of a vertex by dual quaternion skinning, after muscles have displaced it by `sum`; rotates
+/// its normal.
+Move blendedPlace(const SkinRig& rig, SkinScene& scene, std::size_t v, const Move& sum) {
     PoseBlend blend;
     bool moves = false;
     for (const auto& [frame, share] : rig.frameShares[v])
-        if (!scene.still[frame]) {
+        if (!scene.atRest[frame]) {
             blend.add(static_cast<double>(share), scene.frames[frame]);
             moves = true;
         }
@@ -68,7 +69,7 @@ Move turned(const SkinRig& rig, SkinScene& scene, std::size_t v, const Move& sum
 void placeBlock(const SkinRig& rig, std::size_t block, bool turns, std::span<const Vec3> shift,
                 SkinScene& scene) {
     const std::size_t last = std::min((block + 1) * SkinRig::block, rig.places.size());
-    // By pointers, that what is written is known not to change them.
+    // Plain pointers let the compiler assume that writing positions changes no size or pointer.
     const Move *rest = rig.places.data(), *restNormals = rig.placeNormals.data(), *moves = scene.moves.data();
     Move *carried = scene.carried.data(), *skin = scene.skin.data(), *normals = scene.skinNormals.data();
     for (std::size_t v = block * SkinRig::block; v < last; ++v) {
@@ -76,7 +77,7 @@ void placeBlock(const SkinRig& rig, std::size_t block, bool turns, std::span<con
         for (const SkinPull& pull : rig.pulls[v]) sum += pull.share * moves[pull.from];
         if (!shift.empty()) sum.head<3>() += (shift[v] / rig.size).cast<float>();
         normals[v] = restNormals[v];
-        carried[v] = skin[v] = turns ? turned(rig, scene, v, sum) : Move(rest[v] + sum);
+        carried[v] = skin[v] = turns ? blendedPlace(rig, scene, v, sum) : Move(rest[v] + sum);
     }
 }
 
@@ -96,8 +97,8 @@ void placeBodies(const SkinRig& rig, std::span<const double> activations, std::s
                  std::span<const Vec3> shift, SkinScene& scene) {
     if (scene.bodies.size() != rig.bodies.size()) prepareScene(rig, scene);
     scene.frames.resize(rig.frames);
-    scene.still.assign(rig.frames, true);
-    // 1: it was live; 2: it is.
+    scene.atRest.assign(rig.frames, true);
+    // Bits of `live` in here: 1, the block was live at the last update; 2, it is now.
     const auto wake = [&](const std::vector<std::uint32_t>& blocks) {
         for (const std::uint32_t b : blocks) scene.live[b] |= 2;
     };
@@ -113,12 +114,12 @@ void placeBodies(const SkinRig& rig, std::span<const double> activations, std::s
         const Pose local = rig.local(poses[m]);
         placed.turn = local.linear().cast<float>();
         placed.shift = local.translation().cast<float>();
-        if (body.frame < 0 || !scene.still[body.frame]) continue;
+        if (body.frame < 0 || !scene.atRest[body.frame]) continue;
         scene.frames[body.frame] = DualPose(local);
-        scene.still[body.frame] = false;
+        scene.atRest[body.frame] = false;
         wake(rig.frameBlocks[body.frame]);
     }
-    const bool turns = std::find(scene.still.begin(), scene.still.end(), false) != scene.still.end();
+    const bool turns = std::find(scene.atRest.begin(), scene.atRest.end(), false) != scene.atRest.end();
     for (std::size_t b = 0; b < scene.live.size(); ++b) {
         if (!shift.empty()) scene.live[b] |= 2;
         if (scene.live[b] != 0) placeBlock(rig, b, turns, shift, scene);

@@ -4,59 +4,60 @@
 
 namespace tss {
 
-/// What may carry skin: its distance to each vertex and how large it is.
-struct SkinHolder {
-    std::vector<double> distance;    ///< #V, >= 0, scene units
-    double size = 0;                 ///< diagonal of its bounds, scene units; infinite: no size of its own
-    std::vector<std::uint32_t> sure; ///< vertices that are its own, however far
-    std::vector<char> apart;         ///< #V: skin that never begins what it holds; empty: none
+/// Something that skin may follow, a bone above all.
+struct SkinInfluence {
+    std::vector<double> distance;       ///< #V, its distance from each vertex, >= 0, scene units
+    double size = 0;                    ///< diagonal of its bounds, scene units; infinite: no size of its own
+    std::vector<std::uint32_t> certain; ///< vertices that belong to it whatever their distance
+    std::vector<char> excluded; ///< #V: the vertex may not be one of its seeds; empty: none is excluded
 };
 
-/// Vertices that are each holder's beyond doubt: near to it and far from all others, or where there are too
-/// few much nearer to it than to all others.
-std::vector<std::vector<std::uint32_t>> seedsOf(const std::vector<SkinHolder>& holders);
+/// The seeds of each influence, vertices that certainly follow it: near to it and far from all others, or,
+/// where those are too few, much nearer to it than to all others.
+std::vector<std::vector<std::uint32_t>> seedsOf(const std::vector<SkinInfluence>& influences);
 
-/// How far the holders go, and how firmly vertices stay whatever their shares are.
-struct SkinStrokes {
-    std::vector<std::vector<DualPose>> motions; ///< of #holders or fewer each, since rest; others hold still
-    std::span<const double> tether;             ///< #V in [0,1]; empty: 0
-    bool asGiven = false;                       ///< motions go the way round that their quaternions say
-    int rounds = 16;      ///< of solves, at most, each after what would be turned over was made stiffer:
-    double stiffer = 1.2; ///< by this factor; what gets stiff slowly disturbs little around it
-    /// A holder's end is its seed farthest from all others: it is held by so much at least, or the rounds
-    /// end.
+/// Motions that the shares have to suit: where one would fold the skin, shares are made to change more
+/// slowly.
+struct ShareOptions {
+    std::vector<std::vector<DualPose>>
+        motions;                    ///< motions since rest, each of the first influences; others rest
+    std::span<const double> tether; ///< #V in [0,1], see SkinParameters; empty: 0
+    bool keepSigns = false;         ///< see PoseBlend
+    int maxRounds = 16;             ///< most solves, each after triangles that would fold were made stiffer
+    double stiffening = 1.2; ///< factor of each round; small, as slow stiffening disturbs little around
+    /// The rounds end before an influence's share at its end, its seed farthest from all others, falls below
+    /// this.
     double leastAtEnds = 0;
 };
 
-/// Which share of a vertex follows each holder (METHOD 6.5): #holders of #V, >= 0, all of a vertex 1
-/// together. Whose a vertex is, is not a matter of the nearest: a closed upper lip lies on the lower teeth.
-/// Vertices much nearer to one holder than to any other are its seeds; every other vertex is claimed by the
-/// holder whose seeds are nearest along the skin; the claims are spread by a linear solve, softly where two
-/// meet and where the shares would change too fast or a stroke would turn the skin over.
+/// Skinning weights (METHOD 6.3): #influences of #V, >= 0, sum 1 at each vertex. The nearest bone does not
+/// tell whose a vertex is: a closed upper lip lies on the lower teeth. Each vertex is claimed by the
+/// influence whose seeds are nearest along the skin; a linear solve diffuses the claims, softly where two
+/// meet, and more where the shares would change too fast or a motion would fold the skin.
 std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const SkinGraph& graph,
-                                               const std::vector<SkinHolder>& holders,
-                                               const SkinStrokes& strokes = {});
+                                               const std::vector<SkinInfluence>& influences,
+                                               const ShareOptions& options = {});
 
-/// Spreads values over the skin so that they change over lengths of `reach`, within their bounds. firmness:
-/// #V, >= 1, how much more than usual a vertex keeps of its own value. values: lists of #V.
+/// Smooths values over the skin by screened diffusion with a decay length of `reach`. firmness: #V, >= 1,
+/// weight with which a vertex keeps its own value. values: lists of #V.
 void spreadOver(const TriangleMesh& skin, const SkinGraph& graph, double reach,
                 std::span<const double> firmness, std::vector<std::vector<double>>& values);
 
-/// How a vertex of a shell without a seed is held.
+/// What a vertex of a shell, a connected component of the skin without a seed, is bound to.
 struct ShellVertex {
-    int round = -1;              ///< in which its shell was; -1: none, its skin has a seed
-    std::uint32_t holder = 0;    ///< that it goes with where `weights` are 0
-    Tri skin = Tri::Zero();      ///< the corners of the skin that it goes with, held in an earlier round
-    Vec3 weights = Vec3::Zero(); ///< barycentric
-    double distance = 0;         ///< to what it goes with, scene units
-    double least = 0;            ///< the least distance of its shell
+    int round = -1;              ///< in which its shell is bound; -1: it is not of a shell
+    std::uint32_t influence = 0; ///< what it is bound to if `weights` are 0
+    Tri skin = Tri::Zero();      ///< else: corners of the triangle of the skin, bound in an earlier round
+    Vec3 weights = Vec3::Zero(); ///< barycentric, in that triangle
+    double distance = 0;         ///< to what it is bound to, scene units
+    double least = 0;            ///< least distance of all vertices of its shell
 };
 
-/// Shells that hang together with no seed, as clothes, helmets and shoes are: those nearest to what is held
-/// come first, and each vertex goes with the nearest holder, or with the nearest skin that is held by then
-/// where that is nearer; so shoes go with trousers and these with hips. nearestSeed: #V, how far it is along
-/// the skin to a seed, infinite where there is none. Returns #V; empty where all skin has a seed.
-std::vector<ShellVertex> heldShells(const TriangleMesh& skin, const std::vector<SkinHolder>& holders,
+/// Binds shells such as clothes, helmets and shoes, in rounds, the nearest ones first: each vertex to the
+/// nearest influence, or to skin bound in an earlier round where that is nearer. So shoes follow trousers,
+/// and these hips. nearestSeed: #V, distance along the skin to a seed, infinite where none is reached.
+/// Returns #V; empty where there are no shells.
+std::vector<ShellVertex> bindShells(const TriangleMesh& skin, const std::vector<SkinInfluence>& influences,
                                     const std::vector<double>& nearestSeed);
 
 } // namespace tss

@@ -12,24 +12,24 @@
 namespace tss {
 namespace {
 
-/// Shells up to this many times as far from what is held as the nearest one are held in one round with it.
+/// Shells up to this many times as far from bound skin as the nearest one are bound in the same round.
 constexpr double alike = 2;
 
 struct Shell {
     std::vector<std::uint32_t> vertices, triangles; ///< of the skin
-    double least = infinity, most = infinity;       ///< distances of its vertices to what they go with
+    double least = infinity, most = infinity;       ///< of the distances of its vertices, scene units
     Eigen::AlignedBox3d box;
 };
 
-/// Triangles of the skin that are held, to be asked for the nearest.
-class HeldSkin {
+/// Triangles of the skin that are bound already, with closest-point queries.
+class BoundSkin {
 public:
-    HeldSkin(const TriangleMesh& skin, std::vector<std::uint32_t> triangles)
+    BoundSkin(const TriangleMesh& skin, std::vector<std::uint32_t> triangles)
         : skin_(skin), triangles_(std::move(triangles)), mesh_(partOf(skin, triangles_)), query_(mesh_),
           box_(bounds(mesh_)) {}
 
-    /// Lets a shell's vertices go with this skin where that is nearer than what they went with.
-    void take(Shell& shell, std::vector<ShellVertex>& made) const {
+    /// Binds a shell's vertices to this skin where that is nearer than what they are bound to.
+    void bind(Shell& shell, std::vector<ShellVertex>& made) const {
         if (triangles_.empty() || !(box_.exteriorDistance(shell.box) < shell.most)) return;
         parallelFor(shell.vertices.size(), [&](std::size_t i) {
             ShellVertex& vertex = made[shell.vertices[i]];
@@ -68,20 +68,20 @@ void measure(Shell& shell, const std::vector<ShellVertex>& made) {
     }
 }
 
-ShellVertex byHolders(const std::vector<SkinHolder>& holders, std::size_t v) {
+ShellVertex nearestInfluence(const std::vector<SkinInfluence>& influences, std::size_t v) {
     ShellVertex made;
     made.distance = infinity;
-    for (std::uint32_t h = 0; h < holders.size(); ++h) {
-        if (!(holders[h].distance[v] < made.distance)) continue;
-        made.distance = holders[h].distance[v];
-        made.holder = h;
+    for (std::uint32_t h = 0; h < influences.size(); ++h) {
+        if (!(influences[h].distance[v] < made.distance)) continue;
+        made.distance = influences[h].distance[v];
+        made.influence = h;
     }
     return made;
 }
 
 } // namespace
 
-std::vector<ShellVertex> heldShells(const TriangleMesh& skin, const std::vector<SkinHolder>& holders,
+std::vector<ShellVertex> bindShells(const TriangleMesh& skin, const std::vector<SkinInfluence>& influences,
                                     const std::vector<double>& nearestSeed) {
     const std::size_t count = nearestSeed.size();
     const auto isSeeded = [&](std::size_t v) { return std::isfinite(nearestSeed[v]); };
@@ -92,18 +92,18 @@ std::vector<ShellVertex> heldShells(const TriangleMesh& skin, const std::vector<
     for (const Tri& t : skin.triangles)
         for (int k = 0; k < 2; ++k) sets.join(t[k], t[k + 1]);
     std::map<std::size_t, Shell> byRoot;
-    std::vector<std::uint32_t> held; // triangles that were held in the last round
+    std::vector<std::uint32_t> bound; // triangles bound in the last round
     for (std::uint32_t i = 0; i < skin.triangles.size(); ++i) {
         const auto v = static_cast<std::size_t>(skin.triangles[i][0]);
-        (isSeeded(v) ? held : byRoot[sets.root(v)].triangles).push_back(i);
+        (isSeeded(v) ? bound : byRoot[sets.root(v)].triangles).push_back(i);
     }
     std::vector<ShellVertex> made(count);
     for (std::uint32_t v = 0; v < count; ++v) {
         if (isSeeded(v)) continue;
-        made[v] = byHolders(holders, v);
+        made[v] = nearestInfluence(influences, v);
         made[v].least = made[v].distance;
         made[v].round = 0;
-        const auto shell = byRoot.find(sets.root(v)); // a vertex of no triangle is of none
+        const auto shell = byRoot.find(sets.root(v)); // a vertex without triangles is in no shell
         if (shell == byRoot.end()) continue;
         shell->second.vertices.push_back(v);
         shell->second.box.extend(skin.vertices[v]);
@@ -111,17 +111,17 @@ std::vector<ShellVertex> heldShells(const TriangleMesh& skin, const std::vector<
     std::vector<Shell> shells;
     for (auto& [root, shell] : byRoot) shells.push_back(std::move(shell));
     for (int round = 0; !shells.empty(); ++round) {
-        const HeldSkin below(skin, std::move(held));
+        const BoundSkin below(skin, std::move(bound));
         double least = infinity;
         for (Shell& shell : shells) {
-            below.take(shell, made);
+            below.bind(shell, made);
             measure(shell, made);
             least = std::min(least, shell.least);
         }
-        held.clear();
+        bound.clear();
         std::erase_if(shells, [&](const Shell& shell) {
             if (shell.least > alike * least) return false;
-            held.insert(held.end(), shell.triangles.begin(), shell.triangles.end());
+            bound.insert(bound.end(), shell.triangles.begin(), shell.triangles.end());
             for (const std::uint32_t v : shell.vertices) {
                 made[v].round = round;
                 made[v].least = shell.least;

@@ -11,25 +11,26 @@
 namespace tss {
 namespace {
 
-/// Of the most firmly held patch of a holder's seeds: what is held less so lies far off by chance.
+/// Patches of seeds less firm than this share of an influence's firmest patch are dropped: they lie far off
+/// by chance.
 constexpr double firmShare = 0.1;
-/// A part hangs on one side alone where this share of what it costs to part it from that one parts it from
-/// the other.
+/// A part is attached to one side alone if cutting it off from the other side costs less than this share of
+/// cutting it off from that one.
 constexpr double clearShare = 0.2;
 
-/// Leaves those patches out that are held much less firmly than others: area over squared distance.
-std::vector<std::uint32_t> firmOnes(const SkinGraph& graph, const SkinHolder& holder,
-                                    const std::vector<std::uint32_t>& seeds) {
-    std::vector<char> is(graph.vertices(), 0);
-    for (const std::uint32_t v : seeds) is[v] = 1;
+/// The seeds without patches that are much less firm than others, by their sum of area over squared distance.
+std::vector<std::uint32_t> firmSeeds(const SkinGraph& graph, const SkinInfluence& influence,
+                                     const std::vector<std::uint32_t>& seeds) {
+    std::vector<char> isSeed(graph.vertices(), 0);
+    for (const std::uint32_t v : seeds) isSeed[v] = 1;
     UnionFind sets(graph.vertices());
     for (const std::uint32_t v : seeds)
         for (const SkinGraph::Edge& edge : graph.edges[v])
-            if (is[edge.to]) sets.join(v, edge.to);
+            if (isSeed[edge.to]) sets.join(v, edge.to);
     std::map<std::size_t, double> firm;
     double most = 0;
     for (const std::uint32_t v : seeds) {
-        const double distance = std::max(holder.distance[v], graph.meanEdge);
+        const double distance = std::max(influence.distance[v], graph.meanEdge);
         most = std::max(most, firm[sets.root(v)] += graph.area[v] / (distance * distance));
     }
     std::vector<std::uint32_t> kept;
@@ -38,11 +39,11 @@ std::vector<std::uint32_t> firmOnes(const SkinGraph& graph, const SkinHolder& ho
     return kept;
 }
 
-/// Makes those either that are no farther from a cut than the cut is from what it parts.
-void keepCertain(const SkinGraph& graph, const std::vector<double>& price, std::vector<SkinSide>& sides) {
+/// Sets vertices to Either that are no farther from a cut than the cut there is from the seeds.
+void dropUncertain(const SkinGraph& graph, const std::vector<double>& price, std::vector<SkinSide>& sides) {
     const double most = *std::max_element(price.begin(), price.end());
     std::vector<std::uint32_t> beside;
-    std::vector<double> starts; // farther by `most` than the price allows, so that all are above 0
+    std::vector<double> starts; // most - price: within `most` then means within the price
     for (std::uint32_t v = 0; v < sides.size(); ++v)
         for (const SkinGraph::Edge& edge : graph.edges[v])
             if (sides[edge.to] != sides[v]) {
@@ -58,27 +59,27 @@ void keepCertain(const SkinGraph& graph, const std::vector<double>& price, std::
 
 } // namespace
 
-SkinSides::SkinSides(const SkinGround& ground, const std::vector<SkinHolder>& holders,
+SkinSides::SkinSides(const SkinAnatomy& anatomy, const std::vector<SkinInfluence>& influences,
                      const std::vector<std::vector<char>>& moved)
-    : ground_(ground) {
-    const std::size_t count = ground.skin.vertices.size();
-    std::vector<std::vector<std::uint32_t>> seeds = seedsOf(holders);
-    for (std::size_t h = 0; h < holders.size(); ++h) {
-        seeds[h] = firmOnes(ground.graph, holders[h], seeds[h]);
+    : anatomy_(anatomy) {
+    const std::size_t count = anatomy.skin.vertices.size();
+    std::vector<std::vector<std::uint32_t>> seeds = seedsOf(influences);
+    for (std::size_t h = 0; h < influences.size(); ++h) {
+        seeds[h] = firmSeeds(anatomy.graph, influences[h], seeds[h]);
         seeded_.push_back(!seeds[h].empty());
         along_.emplace_back(count, infinity);
-        lowerDistances(ground.graph, seeds[h], infinity, along_.back());
+        lowerDistances(anatomy.graph, seeds[h], infinity, along_.back());
     }
     for (const std::vector<char>& group : moved) {
         Swing swing{group, std::vector<double>(count, 0), std::vector<SkinSide>(count, SkinSide::Either)};
         std::vector<double> nearest[2] = {std::vector<double>(count, infinity),
                                           std::vector<double>(count, infinity)};
         bool both[2] = {false, false};
-        for (std::size_t h = 0; h < holders.size(); ++h) {
+        for (std::size_t h = 0; h < influences.size(); ++h) {
             const bool inside = group[h];
             both[inside] |= seeded_[h];
             for (const std::uint32_t v : seeds[h])
-                swing.undoubted[v] = inside ? SkinSide::Inside : SkinSide::Outside;
+                swing.fixed[v] = inside ? SkinSide::Inside : SkinSide::Outside;
             for (std::size_t v = 0; v < count; ++v)
                 nearest[inside][v] = std::min(nearest[inside][v], along_[h][v]);
         }
@@ -87,16 +88,16 @@ SkinSides::SkinSides(const SkinGround& ground, const std::vector<SkinHolder>& ho
             if (std::isfinite(farther))
                 swing.price[v] = farther;
             else if (std::isfinite(nearest[0][v]))
-                swing.undoubted[v] = SkinSide::Outside; // of its shell
+                swing.fixed[v] = SkinSide::Outside; // the only seeds on its shell
             else if (std::isfinite(nearest[1][v]))
-                swing.undoubted[v] = SkinSide::Inside;
+                swing.fixed[v] = SkinSide::Inside;
         }
         if (both[0] && both[1]) swings_.push_back(std::move(swing));
     }
 }
 
-/// The one that moves in those swings in whose sides the vertex is, and in no other; the nearest of several.
-std::optional<std::size_t> SkinSides::holderOf(const std::vector<SkinSide>& sides, std::uint32_t v) const {
+/// The influence that is moved by exactly those swings on whose inside the vertex is; the nearest of several.
+std::optional<std::size_t> SkinSides::influenceOf(const std::vector<SkinSide>& sides, std::uint32_t v) const {
     std::optional<std::size_t> found;
     for (std::size_t h = 0; h < along_.size(); ++h) {
         if (!seeded_[h] || !std::isfinite(along_[h][v])) continue;
@@ -111,45 +112,46 @@ std::optional<std::size_t> SkinSides::holderOf(const std::vector<SkinSide>& side
 std::optional<std::size_t> SkinSides::ownerOf(const std::vector<std::uint32_t>& part) const {
     std::vector<SkinSide> sides(swings_.size(), SkinSide::Either);
     parallelFor(swings_.size(), [&](std::size_t s) {
-        const SkinCutter cutter(ground_.skin, ground_.graph, swings_[s].price);
-        std::vector<SkinSide> tied = swings_[s].undoubted;
+        const SkinCutter cutter(anatomy_.skin, anatomy_.graph, swings_[s].price);
+        std::vector<SkinSide> tied = swings_[s].fixed;
         const auto cut = [&](SkinSide side) {
             for (const std::uint32_t v : part) tied[v] = side;
             return cutter.cut(tied);
         };
         const SkinCut inside = cut(SkinSide::Inside), outside = cut(SkinSide::Outside);
         for (std::size_t v = 0; v < tied.size(); ++v)
-            if (inside.inside[v] != outside.inside[v]) tied[v] = SkinSide::Removed; // what goes with the part
+            if (inside.inside[v] != outside.inside[v])
+                tied[v] = SkinSide::Removed; // what changes sides with the part
         const double without = cutter.cut(tied).cost, toOut = inside.cost - without,
                      toIn = outside.cost - without;
         if (toOut < clearShare * toIn) sides[s] = SkinSide::Inside;
         if (toIn < clearShare * toOut) sides[s] = SkinSide::Outside;
     });
-    return swings_.empty() || part.empty() ? std::nullopt : holderOf(sides, part.front());
+    return swings_.empty() || part.empty() ? std::nullopt : influenceOf(sides, part.front());
 }
 
-SkinSides::Sides SkinSides::sidesOf(const std::vector<SkinHolder>& holders) const {
+SkinSides::Sides SkinSides::sidesOf(const std::vector<SkinInfluence>& influences) const {
     Sides sides(swings_.size());
     parallelFor(swings_.size(), [&](std::size_t s) {
-        std::vector<SkinSide> tied = swings_[s].undoubted;
-        for (std::size_t h = 0; h < holders.size(); ++h)
-            for (const std::uint32_t v : holders[h].sure)
+        std::vector<SkinSide> tied = swings_[s].fixed;
+        for (std::size_t h = 0; h < influences.size(); ++h)
+            for (const std::uint32_t v : influences[h].certain)
                 tied[v] = swings_[s].moved[h] ? SkinSide::Inside : SkinSide::Outside;
-        const SkinCut cut = SkinCutter(ground_.skin, ground_.graph, swings_[s].price).cut(tied);
+        const SkinCut cut = SkinCutter(anatomy_.skin, anatomy_.graph, swings_[s].price).cut(tied);
         for (const char inside : cut.inside)
             sides[s].push_back(inside ? SkinSide::Inside : SkinSide::Outside);
-        keepCertain(ground_.graph, swings_[s].price, sides[s]);
+        dropUncertain(anatomy_.graph, swings_[s].price, sides[s]);
     });
     return sides;
 }
 
-void SkinSides::hold(std::vector<SkinHolder>& holders) const {
+void SkinSides::assignCertain(std::vector<SkinInfluence>& influences) const {
     if (swings_.empty()) return;
-    const Sides sides = sidesOf(holders);
+    const Sides sides = sidesOf(influences);
     std::vector<SkinSide> here(swings_.size());
-    for (std::uint32_t v = 0; v < ground_.graph.vertices(); ++v) {
+    for (std::uint32_t v = 0; v < anatomy_.graph.vertices(); ++v) {
         for (std::size_t s = 0; s < here.size(); ++s) here[s] = sides[s][v];
-        if (const std::optional<std::size_t> h = holderOf(here, v)) holders[*h].sure.push_back(v);
+        if (const std::optional<std::size_t> h = influenceOf(here, v)) influences[*h].certain.push_back(v);
     }
 }
 

@@ -1,43 +1,45 @@
 #pragma once
-#include "bake/respond/SkinCarry.h"
+#include "bake/respond/SkinAttachment.h"
 #include "bake/respond/SkinCut.h"
 
 #include <optional>
 
 namespace tss {
 
-/// Which skin goes along in each swing of a joint: that inside of the cut that parts the skin most easily
-/// between what the bones that it moves hold beyond doubt and what the others do, where a cut costs as much
-/// as it is far from the farther one of the two. So a limb is parted from its body around its root, however
-/// much of either no bone is named for.
+/// Which skin moves in each swing of a joint: the inside of a minimum cut between the seeds of the influences
+/// that the swing moves and those of the others. A cut costs, per length, its distance along the skin from
+/// the farther of the two. So a limb is separated from its body around its root, even where large parts of
+/// either have no bones.
 class SkinSides {
 public:
-    /// moved: #swings of #holders.
-    SkinSides(const SkinGround& ground, const std::vector<SkinHolder>& holders,
+    /// moved: #swings of #influences.
+    SkinSides(const SkinAnatomy& anatomy, const std::vector<SkinInfluence>& influences,
               const std::vector<std::vector<char>>& moved);
 
-    /// What a part hangs on alone: to part it from all others costs next to nothing.
+    /// The one influence that a part of the skin is attached to, if there is one: to cut it off from all
+    /// others costs next to nothing.
     std::optional<std::size_t> ownerOf(const std::vector<std::uint32_t>& part) const;
 
-    /// Gives each holder what is its own for certain: beyond every cut by more than the cut there is from
-    /// what it parts.
-    void hold(std::vector<SkinHolder>& holders) const;
+    /// Assigns to each influence its certain vertices: those farther from every cut than the cut there is
+    /// from the seeds.
+    void assignCertain(std::vector<SkinInfluence>& influences) const;
 
 private:
     struct Swing {
-        std::vector<char> moved;         ///< #holders
-        std::vector<double> price;       ///< #V: the distance along the skin to the farther one
-        std::vector<SkinSide> undoubted; ///< #V
+        std::vector<char> moved; ///< #influences
+        std::vector<double>
+            price; ///< #V: distance along the skin to the farther of both groups of seeds, scene units
+        std::vector<SkinSide> fixed; ///< #V: sides of the seeds, Either for all others
     };
     using Sides = std::vector<std::vector<SkinSide>>; ///< #swings of #V
 
-    Sides sidesOf(const std::vector<SkinHolder>& holders) const;
-    std::optional<std::size_t> holderOf(const std::vector<SkinSide>& sides, std::uint32_t v) const;
+    Sides sidesOf(const std::vector<SkinInfluence>& influences) const;
+    std::optional<std::size_t> influenceOf(const std::vector<SkinSide>& sides, std::uint32_t v) const;
 
-    const SkinGround& ground_;
-    std::vector<std::vector<double>> along_; ///< #holders of #V: distance to its seeds
-    std::vector<char> seeded_;               ///< #holders
-    std::vector<Swing> swings_;              ///< those that have seeds on both sides
+    const SkinAnatomy& anatomy_;
+    std::vector<std::vector<double>> along_; ///< #influences of #V: distance along the skin to its seeds
+    std::vector<char> seeded_;               ///< #influences: it has seeds
+    std::vector<Swing> swings_;              ///< those with seeds on both sides
 };
 
 } // namespace tss

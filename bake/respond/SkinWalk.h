@@ -7,22 +7,22 @@
 
 namespace tss {
 
-/// Where a walk over a surface has ended.
+/// A point of a surface: the end of a walk.
 struct SurfacePoint {
     int triangle = -1;
     Eigen::Vector3f weights = Eigen::Vector3f::Zero(); ///< barycentric
     Eigen::Vector3f point = Eigen::Vector3f::Zero();
-    float squared = std::numeric_limits<float>::infinity(); ///< distance
+    float squared = std::numeric_limits<float>::infinity(); ///< squared distance from the point asked for
 };
 
-/// look(triangle) at those that meet at a corner of `from`, beside it.
-template <class Look>
-void lookAround(int from, int corner, const std::vector<Tri>& triangles, const std::vector<Tri>& across,
-                const Look& look) {
-    // At a vertex through which a surface passes twice a way around may not come back.
+/// Calls visit(triangle) for the other triangles around a corner of triangle `from`.
+template <class Visit>
+void visitAround(int from, int corner, const std::vector<Tri>& triangles, const std::vector<Tri>& across,
+                 const Visit& visit) {
+    // At a non-manifold vertex the way around may not come back to `from`.
     constexpr int most = 64;
     const int vertex = triangles[from][corner];
-    // Out over the edge that leaves the vertex, and at a rim again over that which comes to it.
+    // Around the one way, and from a rim on the other way.
     for (const int edge : {0, 2}) {
         int at = from;
         for (int i = 0; i < most; ++i) {
@@ -31,19 +31,20 @@ void lookAround(int from, int corner, const std::vector<Tri>& triangles, const s
             at = across[at][(k + edge) % 3];
             if (at == from) return;
             if (at < 0) break;
-            look(at);
+            visit(at);
         }
     }
 }
 
-/// From a triangle downhill over edges and corners to the nearest point of the surface around. What is near
-/// through the solid or across a fold is never reached, so that the answer moves without jumps when the
-/// surface does. place(v): where vertex v is.
+/// Walks over a surface from a start triangle to the neighbour with the nearest point, until none is nearer
+/// than the last: a local minimum of the distance to x. Points that are near through the solid or across a
+/// fold are not reached, so that the result moves continuously with the surface. place(v): position of vertex
+/// v.
 template <class Place>
 SurfacePoint walkDownhill(const Eigen::Vector3f& x, int start, const std::vector<Tri>& triangles,
                           const std::vector<Tri>& across, const Place& place, int steps) {
     SurfacePoint best;
-    const auto look = [&](int triangle) {
+    const auto visit = [&](int triangle) {
         const Tri& t = triangles[triangle];
         const Eigen::Vector3f a = place(t[0]), b = place(t[1]), c = place(t[2]);
         const Eigen::Vector3f w = nearestOnTriangle(x, a, b, c);
@@ -51,23 +52,23 @@ SurfacePoint walkDownhill(const Eigen::Vector3f& x, int start, const std::vector
         const float d = (x - p).squaredNorm();
         if (d < best.squared) best = {triangle, w, p, d};
     };
-    look(start);
-    int before = -1; // is farther
-    const auto lookAt = [&](int triangle) {
-        if (triangle != before) look(triangle);
+    visit(start);
+    int before = -1; // the triangle that the walk came from is farther
+    const auto visitOther = [&](int triangle) {
+        if (triangle != before) visit(triangle);
     };
     for (int step = 0; step < steps; ++step) {
         const int from = best.triangle;
         const Eigen::Vector3f w = best.weights;
-        // Only over an edge that the nearest point lies on it may go on downhill, at a corner to any triangle
-        // that meets there.
+        // The distance can only decrease across an edge that the nearest point lies on, or at a corner to any
+        // triangle around it.
         if ((w.array() > 0).count() == 1) {
             int corner = 0;
             w.maxCoeff(&corner);
-            lookAround(from, corner, triangles, across, lookAt);
+            visitAround(from, corner, triangles, across, visitOther);
         } else {
             for (int k = 0; k < 3; ++k)
-                if (w[(k + 2) % 3] <= 0 && across[from][k] >= 0) lookAt(across[from][k]);
+                if (w[(k + 2) % 3] <= 0 && across[from][k] >= 0) visitOther(across[from][k]);
         }
         if (best.triangle == from) break;
         before = from;

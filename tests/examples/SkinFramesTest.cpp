@@ -56,7 +56,7 @@ Lacking lackingOf(Played played) {
                 rig.places[v].head<3>() + ((response.positions()[v] - rig.rest[v]) / rig.size).cast<float>();
         double most = 0;
         for (const SkinRow& row : rig.rows) {
-            const SkinPlane plane = lookUp(rig, stand, row);
+            const SkinPlane plane = queryContact(rig, stand, row);
             const double lack = plane.found ? -rig.size * static_cast<double>(plane.gap) : 0;
             most = std::max(most, lack);
             result.rows += lack > 0.05;

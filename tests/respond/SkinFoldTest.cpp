@@ -129,7 +129,7 @@ double overlap(const SkinRig& rig, std::span<const Vec3> positions) {
 
 std::ptrdiff_t foldsOf(const SkinRig& rig) {
     return std::count_if(rig.rows.begin(), rig.rows.end(),
-                         [](const SkinRow& row) { return row.meeting == SkinMeeting::SkinOnSkin; });
+                         [](const SkinRow& row) { return row.kind == SkinContactKind::SkinOnSkin; });
 }
 
 } // namespace

@@ -14,9 +14,9 @@ public:
     OnTwoBones() {
         band(0, 10, 0, 0);
         for (std::size_t h = 0; h < 2; ++h) {
-            holders[h].size = 10;
+            influences[h].size = 10;
             for (const Vec3& v : skin.vertices)
-                holders[h].distance.push_back((v.x() <= 5) == (h == 0) ? 0.1 : 9);
+                influences[h].distance.push_back((v.x() <= 5) == (h == 0) ? 0.1 : 9);
         }
     }
 
@@ -25,15 +25,15 @@ public:
     std::size_t shell(double from, double to, double height, double rise, double left, double right) {
         const std::size_t first = skin.vertices.size();
         band(from, to, height, rise);
-        holders[0].distance.resize(skin.vertices.size(), left);
-        holders[1].distance.resize(skin.vertices.size(), right);
+        influences[0].distance.resize(skin.vertices.size(), left);
+        influences[1].distance.resize(skin.vertices.size(), right);
         return first;
     }
 
-    std::vector<double> ofRight() const { return claimedShares(skin, skinGraph(skin), holders)[1]; }
+    std::vector<double> ofRight() const { return claimedShares(skin, skinGraph(skin), influences)[1]; }
 
     TriangleMesh skin;
-    std::vector<SkinHolder> holders = std::vector<SkinHolder>(2);
+    std::vector<SkinInfluence> influences = std::vector<SkinInfluence>(2);
 
 private:
     void band(double from, double to, double height, double rise) {
@@ -71,7 +71,7 @@ TEST_CASE("shoes go with trousers and these with hips, though another part of th
     const std::size_t shoe = body.shell(3.5, 2, 3.1, 0, 9, 9);          // at their end, above the left one's
     const std::vector<double> right = body.ofRight();
     for (std::size_t v = trousers; v < right.size(); ++v) CHECK(right[v] > 0.8);
-    const std::vector<ShellVertex> shells = heldShells(body.skin, body.holders, [&] {
+    const std::vector<ShellVertex> shells = bindShells(body.skin, body.influences, [&] {
         std::vector<double> seeded(body.skin.vertices.size(), infinity);
         std::fill(seeded.begin(), seeded.begin() + static_cast<std::ptrdiff_t>(trousers), 0.0);
         return seeded;
@@ -91,5 +91,5 @@ TEST_CASE("a thing in a hand goes with the hand alone, though its other end is b
 
 TEST_CASE("where all skin has a seed there are no shells") {
     const OnTwoBones body;
-    CHECK(heldShells(body.skin, body.holders, std::vector<double>(body.skin.vertices.size(), 1)).empty());
+    CHECK(bindShells(body.skin, body.influences, std::vector<double>(body.skin.vertices.size(), 1)).empty());
 }

@@ -67,17 +67,17 @@ TEST_CASE("a skin is cut where it is thinnest, or where a cut costs less") {
 
 TEST_CASE("seeds that lie far off by chance part no skin, and each bone has what is on its side of the cut") {
     const TriangleMesh mesh = vase();
-    const SkinGround ground(mesh, {}, {});
-    std::vector<SkinHolder> holders(2);
+    const SkinAnatomy anatomy(mesh, {}, {});
+    std::vector<SkinInfluence> influences(2);
     for (const Vec3& v : mesh.vertices) {
         const bool odd = v.x() < 8; // nearer to the other one, as a foot of a crouching animal is
-        holders[0].distance.push_back(odd ? 40 : 1 + std::abs(v.x() - 22));
-        holders[1].distance.push_back(odd ? 20 : 1 + std::abs(v.x() - 50));
+        influences[0].distance.push_back(odd ? 40 : 1 + std::abs(v.x() - 22));
+        influences[1].distance.push_back(odd ? 20 : 1 + std::abs(v.x() - 50));
     }
-    holders[0].size = holders[1].size = 10;
-    SkinSides(ground, holders, {{0, 1}}).hold(holders);
+    influences[0].size = influences[1].size = 10;
+    SkinSides(anatomy, influences, {{0, 1}}).assignCertain(influences);
     const auto sure = [&](std::size_t h, auto&& which) {
-        return std::count_if(holders[h].sure.begin(), holders[h].sure.end(),
+        return std::count_if(influences[h].certain.begin(), influences[h].certain.end(),
                              [&](std::uint32_t v) { return which(mesh.vertices[v].x()); });
     };
     CHECK(sure(0, [](double x) { return x < 25; }) == 25 * around);
@@ -89,18 +89,18 @@ TEST_CASE("a shell on which one bone alone is sure of anything is that one's") {
     TriangleMesh mesh = vase();
     const std::size_t count = mesh.vertices.size();
     test::append(mesh, test::transformed(vase(), Eigen::Affine3d(Eigen::Translation3d(0, 20, 0))));
-    const SkinGround ground(mesh, {}, {});
-    std::vector<SkinHolder> holders(2);
+    const SkinAnatomy anatomy(mesh, {}, {});
+    std::vector<SkinInfluence> influences(2);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
         const double x = mesh.vertices[v].x();
-        holders[0].distance.push_back(v < count ? 1 + std::abs(x - 22) : 60);
-        holders[1].distance.push_back(1 + std::abs(x - 50));
+        influences[0].distance.push_back(v < count ? 1 + std::abs(x - 22) : 60);
+        influences[1].distance.push_back(1 + std::abs(x - 50));
     }
-    holders[0].size = holders[1].size = 10;
-    SkinSides(ground, holders, {{0, 1}}).hold(holders);
-    const auto second = [&](const SkinHolder& h) {
-        return std::count_if(h.sure.begin(), h.sure.end(), [&](std::uint32_t v) { return v >= count; });
+    influences[0].size = influences[1].size = 10;
+    SkinSides(anatomy, influences, {{0, 1}}).assignCertain(influences);
+    const auto second = [&](const SkinInfluence& h) {
+        return std::count_if(h.certain.begin(), h.certain.end(), [&](std::uint32_t v) { return v >= count; });
     };
-    CHECK(second(holders[0]) == 0);
-    CHECK(second(holders[1]) == static_cast<std::ptrdiff_t>(count));
+    CHECK(second(influences[0]) == 0);
+    CHECK(second(influences[1]) == static_cast<std::ptrdiff_t>(count));
 }

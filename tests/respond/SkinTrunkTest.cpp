@@ -1,5 +1,5 @@
 // Skin over parts of the body whose bones are not named.
-#include "bake/respond/SkinCarry.h"
+#include "bake/respond/SkinAttachment.h"
 #include "bake/respond/SkinResponse.h"
 #include "bake/respond/SkinRig.h"
 #include "tests/geometry/TestMeshes.h"
@@ -278,7 +278,7 @@ TEST_CASE("vertices that seams repeat stay together, and the skin is as without 
 TEST_CASE("lips that touch vertex on vertex at rest are two, rims at one place are one") {
     TriangleMesh lips = surfaceOf({{0, 0, 0, 4, 4, 2}});
     test::append(lips, surfaceOf({{0, 0, 2, 4, 4, 4}}));
-    const SkinGround apart(lips, {}, {}), seamed(splitAt(lips), {}, {});
+    const SkinAnatomy apart(lips, {}, {}), seamed(splitAt(lips), {}, {});
     for (std::uint32_t v = 0; v < apart.first.size(); ++v) CHECK(apart.first[v] == v);
     CHECK(std::set(seamed.first.begin(), seamed.first.end()).size() < lips.vertices.size());
     // Where floats have rounded them apart as well.
@@ -286,13 +286,13 @@ TEST_CASE("lips that touch vertex on vertex at rest are two, rims at one place a
     std::mt19937 random(3);
     std::uniform_real_distribution<double> off(-2e-7, 2e-7);
     for (Vec3& v : rounded.vertices) v += Vec3{off(random), off(random), off(random)};
-    CHECK(SkinGround(rounded, {}, {}).first == seamed.first);
+    CHECK(SkinAnatomy(rounded, {}, {}).first == seamed.first);
 }
 
 TEST_CASE("rims at one place that the scene's weights, tethers or attachments tell apart are two") {
     const TriangleMesh lips = splitAt(surfaceOf({{0, 0, 0, 4, 4, 2}}));
     const std::size_t count = lips.vertices.size();
-    const std::vector<std::uint32_t> seamed = SkinGround(lips, {}, {}).first;
+    const std::vector<std::uint32_t> seamed = SkinAnatomy(lips, {}, {}).first;
     std::uint32_t twin = 0;
     while (twin < count && seamed[twin] == twin) ++twin;
     REQUIRE(twin < count);
@@ -302,7 +302,7 @@ TEST_CASE("rims at one place that the scene's weights, tethers or attachments te
     tethered.tether = attached.attach = list;
     weighted.shares = {list};
     for (const SkinParameters& p : {tethered, attached, weighted}) {
-        const std::vector<std::uint32_t> first = SkinGround(lips, {}, p).first;
+        const std::vector<std::uint32_t> first = SkinAnatomy(lips, {}, p).first;
         for (std::uint32_t v = 0; v < count; ++v) CHECK(first[v] == (v == twin ? v : seamed[v]));
     }
 }

@@ -1,4 +1,4 @@
-#include "bake/respond/SkinCarry.h"
+#include "bake/respond/SkinAttachment.h"
 
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
@@ -13,25 +13,29 @@
 namespace tss {
 namespace {
 
-/// Lengths per size of the skin over which it gives way: 4 mm on a head of 0.3 m, the thickness of skin and
-/// what is below it. Never less than an edge, which could not show it.
+/// Size of the skin divided by SkinAnatomy::length: that is 4 mm on a head of 0.3 m, the thickness of skin
+/// and the tissue below it. The length is never less than an edge, which is the finest that the mesh can
+/// show.
 constexpr double lengthsPerSize = 80;
-/// In those lengths: how fast a muscle's hold falls off beyond the tissue on it, and how far from the muscle
-/// it ends.
+/// In those lengths: over which distance a muscle's hold on skin decays beyond the tissue on it, and where it
+/// ends.
 constexpr double holdFall = 0.5, holdReach = 4;
-/// Skin that is inside a muscle at rest cannot slide along it, nor can skin that touches it: how much firmer
-/// than other skin it is held, and over which distance in those lengths that fades.
+/// Skin that touches a muscle or is inside of it at rest cannot slide along it: how much firmer it is
+/// attached than other skin, and over which distance, in those lengths, that decays.
 constexpr double touchFirmness = 300, touchFade = 0.03;
-/// Skin lies over a muscle where the muscle is below it, by at most this much to the side per depth.
+/// Skin lies over a muscle whose nearest point is below it and to the side by at most this much per unit of
+/// depth.
 constexpr double besideOver = 0.6;
-/// A share below this counts as none, so that what hardly moves is left alone; the others are lowered by it.
+/// Shares below this become 0, so that skin that hardly moves is not touched; others are lowered
+/// continuously.
 constexpr double leastShare = 1e-3;
 
 double withoutLeast(double share) {
     return share > leastShare ? (share - leastShare) / (1 - leastShare) : 0;
 }
 
-/// The same for all shares of each vertex, of which what holds still has the rest: 1 together as before.
+/// Applies withoutLeast() to all shares of each vertex and to the rest up to 1, which is at rest, and
+/// normalises them.
 void dropLeast(std::vector<std::vector<double>>& shares) {
     for (std::size_t v = 0; !shares.empty() && v < shares[0].size(); ++v) {
         double still = 1, sum = 0;
@@ -44,7 +48,8 @@ void dropLeast(std::vector<std::vector<double>>& shares) {
     }
 }
 
-/// Of each vertex the first at its place, where both are on rims as along a seam; lips that touch are two.
+/// For each vertex the first one at the same position, if both are on rims of the mesh, as along a seam;
+/// itself otherwise. Vertices of lips that touch are not on rims and stay separate.
 std::vector<std::uint32_t> firstAtPlace(const TriangleMesh& mesh) {
     std::map<std::pair<int, int>, int> sides; // of each edge
     for (const Tri& t : mesh.triangles)
@@ -56,10 +61,10 @@ std::vector<std::uint32_t> firstAtPlace(const TriangleMesh& mesh) {
         if (count == 1) rim[edge.first] = rim[edge.second] = 1;
     }
     for (const Vec3& p : mesh.vertices) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
-    // What floats may have rounded, as long as that is nothing beside an edge.
+    // The rounding of floats, but no more than a small part of an edge.
     const double near =
         std::min(std::ldexp(farthest, -21), 1e-3 * length / std::max<double>(1, sides.size()));
-    using Place = std::array<double, 3>; // in steps of twice that
+    using Place = std::array<double, 3>; // a cell of a grid twice as wide
     std::map<Place, std::vector<std::uint32_t>> at;
     const auto placeOf = [&](const Vec3& p) {
         const Vec3 steps = near > 0 ? Vec3((p / (2 * near)).array().floor()) : p;
@@ -67,7 +72,7 @@ std::vector<std::uint32_t> firstAtPlace(const TriangleMesh& mesh) {
     };
     const auto find = [&](std::uint32_t v) {
         const Vec3& p = mesh.vertices[v];
-        for (int corner = 0; corner < 8; ++corner) { // all within reach are in these
+        for (int corner = 0; corner < 8; ++corner) { // these cells hold all vertices within reach
             const Vec3 side((corner & 1) ? near : -near, (corner & 2) ? near : -near,
                             (corner & 4) ? near : -near);
             const auto found = at.find(placeOf(p + side));
@@ -83,7 +88,7 @@ std::vector<std::uint32_t> firstAtPlace(const TriangleMesh& mesh) {
     return first;
 }
 
-/// What the scene says of the two apart makes them two: rims of lips that touch.
+/// firstAtPlace(), except for vertices that the scene gives different values: those are not joined.
 std::vector<std::uint32_t> seamsOf(const TriangleMesh& mesh, const SkinParameters& p) {
     std::vector<std::uint32_t> first = firstAtPlace(mesh);
     for (std::uint32_t v = 0; v < first.size(); ++v) {
@@ -108,15 +113,15 @@ TriangleMesh joined(const TriangleMesh& mesh, const std::vector<std::uint32_t>& 
 /// How firmly skin goes with a muscle, #V, 0 to 1: wholly over it, through the tissue between the two, whose
 /// thickness is that over the middle one of the vertices over the muscle; less beside it and where it is
 /// deeper. Raises the firmness of what touches it.
-std::vector<double> holdOf(const SkinGround& ground, std::size_t m, std::vector<double>& firmness) {
-    const std::size_t count = ground.skin.vertices.size();
+std::vector<double> holdOf(const SkinAnatomy& anatomy, std::size_t m, std::vector<double>& firmness) {
+    const std::size_t count = anatomy.skin.vertices.size();
     std::vector<double> depth(count, infinity), aside(count, 0);
     parallelFor(count, [&](std::size_t v) {
-        const Vec3& x = ground.skin.vertices[v];
-        const NearestPoint near = ground.locators[m].nearest(x, holdReach * ground.length);
+        const Vec3& x = anatomy.skin.vertices[v];
+        const NearestPoint near = anatomy.locators[m].nearest(x, holdReach * anatomy.length);
         if (near.triangle < 0) return;
-        const Vec3 way = ground.inside[m][v] ? Vec3::Zero() : Vec3(x - near.point);
-        depth[v] = std::max(way.dot(ground.normals[v]), 0.0);
+        const Vec3 way = anatomy.inside[m][v] ? Vec3::Zero() : Vec3(x - near.point);
+        depth[v] = std::max(way.dot(anatomy.normals[v]), 0.0);
         aside[v] = std::sqrt(std::max(way.squaredNorm() - depth[v] * depth[v], 0.0));
     });
     std::vector<double> over;
@@ -128,53 +133,53 @@ std::vector<double> holdOf(const SkinGround& ground, std::size_t m, std::vector<
     std::vector<double> hold(count, 0);
     for (std::size_t v = 0; v < count; ++v) {
         if (!std::isfinite(depth[v])) continue;
-        const double touch = (depth[v] + aside[v]) / (touchFade * ground.length),
-                     away = (aside[v] + std::max(depth[v] - tissue, 0.0)) / (holdFall * ground.length);
+        const double touch = (depth[v] + aside[v]) / (touchFade * anatomy.length),
+                     away = (aside[v] + std::max(depth[v] - tissue, 0.0)) / (holdFall * anatomy.length);
         firmness[v] = std::max(firmness[v], 1 + (touchFirmness - 1) * std::exp(-touch));
         hold[v] = std::exp(-away);
     }
     return hold;
 }
 
-std::vector<std::vector<double>> frameShares(const SkinGround& ground, const SkinParameters& p,
+std::vector<std::vector<double>> frameShares(const SkinAnatomy& anatomy, const SkinParameters& p,
                                              const std::vector<int>& frames) {
     const int count = frames.empty() ? 0 : *std::max_element(frames.begin(), frames.end()) + 1;
     if (!p.shares.empty() || count == 0) return p.shares;
-    SkinStrokes strokes{{}, p.tether};
+    ShareOptions options{{}, p.tether};
     for (const BoneSwing& swing : p.swings) {
         if (swing.empty()) continue;
-        std::vector<DualPose>& motion = strokes.motions.emplace_back(static_cast<std::size_t>(count));
+        std::vector<DualPose>& motion = options.motions.emplace_back(static_cast<std::size_t>(count));
         for (std::size_t m = 0; m < frames.size(); ++m)
             if (frames[m] >= 0) motion[static_cast<std::size_t>(frames[m])] = DualPose(swing.back()[m]);
     }
     std::vector<std::vector<double>> shares =
-        claimedShares(ground.skin, ground.graph, skinHolders(ground, p, frames), strokes);
+        claimedShares(anatomy.skin, anatomy.graph, skinInfluences(anatomy, p, frames), options);
     shares.resize(static_cast<std::size_t>(count));
     return shares;
 }
 
-/// Whether what lies under the skin is rather where its normals point to.
-bool isWoundInwards(const SkinGround& ground) {
-    const std::size_t count = ground.skin.vertices.size();
-    std::vector<double> outward(count, 0); // each vertex's area, by how far its normal points away
+/// Whether the bodies are, on average over the area, on the side that the normals point to.
+bool isWoundInwards(const SkinAnatomy& anatomy) {
+    const std::size_t count = anatomy.skin.vertices.size();
+    std::vector<double> outward(count, 0); // area times cosine between normal and direction from the bodies
     parallelFor(count, [&](std::size_t v) {
-        const Vec3& x = ground.skin.vertices[v];
+        const Vec3& x = anatomy.skin.vertices[v];
         NearestPoint nearest{};
         nearest.distance = infinity;
-        for (const ClosestPointQuery& body : ground.locators)
+        for (const ClosestPointQuery& body : anatomy.locators)
             if (const NearestPoint near = body.nearest(x, nearest.distance); near.triangle >= 0)
                 nearest = near;
         if (nearest.distance < infinity)
-            outward[v] = ground.graph.area[v] * (x - nearest.point).normalized().dot(ground.normals[v]);
+            outward[v] = anatomy.graph.area[v] * (x - nearest.point).normalized().dot(anatomy.normals[v]);
     });
     return std::accumulate(outward.begin(), outward.end(), 0.0) < 0;
 }
 
 } // namespace
 
-SkinGround::SkinGround(const TriangleMesh& mesh,
-                       const std::vector<std::shared_ptr<const MuscleDeformer>>& under,
-                       const SkinParameters& parameters)
+SkinAnatomy::SkinAnatomy(const TriangleMesh& mesh,
+                         const std::vector<std::shared_ptr<const MuscleDeformer>>& under,
+                         const SkinParameters& parameters)
     : first(seamsOf(mesh, parameters)), skin(joined(mesh, first)), bodies(under), graph(skinGraph(skin)),
       normals(skinNormals(skin)) {
     locators.reserve(bodies.size());
@@ -208,58 +213,58 @@ SkinGround::SkinGround(const TriangleMesh& mesh,
     length = std::max(size / lengthsPerSize, graph.meanEdge);
 }
 
-std::vector<int> framesOf(const SkinGround& ground, const SkinParameters& parameters) {
+std::vector<int> framesOf(const SkinAnatomy& anatomy, const SkinParameters& parameters) {
     if (!parameters.frames.empty()) return parameters.frames;
     std::vector<int> frames;
     int next = 0;
-    for (const auto& body : ground.bodies) frames.push_back(body->rigid() ? next++ : -1);
+    for (const auto& body : anatomy.bodies) frames.push_back(body->rigid() ? next++ : -1);
     return frames;
 }
 
-SkinCarriage carrySkin(const SkinGround& ground, const SkinParameters& p) {
-    const std::size_t count = ground.skin.vertices.size();
+SkinAttachment attachSkin(const SkinAnatomy& anatomy, const SkinParameters& p) {
+    const std::size_t count = anatomy.skin.vertices.size();
     const auto free = [&](std::size_t v) { return p.tether.empty() ? 1 : 1 - p.tether[v]; };
-    SkinCarriage carriage;
-    carriage.frames = frameShares(ground, p, framesOf(ground, p));
-    if (p.shares.empty()) dropLeast(carriage.frames);
-    for (auto& list : carriage.frames)
+    SkinAttachment attachment;
+    attachment.frames = frameShares(anatomy, p, framesOf(anatomy, p));
+    if (p.shares.empty()) dropLeast(attachment.frames);
+    for (auto& list : attachment.frames)
         for (std::size_t v = 0; v < count; ++v) list[v] *= free(v);
 
     std::vector<std::vector<double>> holds;
     std::vector<double> sum(count, 0);
-    carriage.firmness.assign(count, 1);
-    for (std::size_t m = 0; m < ground.bodies.size(); ++m) {
-        if (ground.bodies[m]->rigid()) continue;
-        std::vector<double> hold = holdOf(ground, m, carriage.firmness);
+    attachment.firmness.assign(count, 1);
+    for (std::size_t m = 0; m < anatomy.bodies.size(); ++m) {
+        if (anatomy.bodies[m]->rigid()) continue;
+        std::vector<double> hold = holdOf(anatomy, m, attachment.firmness);
         for (std::size_t v = 0; v < count && !p.attach.empty(); ++v) hold[v] *= p.attach[v];
         for (std::size_t v = 0; v < count; ++v) sum[v] += hold[v];
         holds.push_back(std::move(hold));
     }
     for (auto& hold : holds)
         for (std::size_t v = 0; v < count; ++v) hold[v] /= std::max(1.0, sum[v]);
-    spreadOver(ground.skin, ground.graph, ground.length, carriage.firmness, holds);
+    spreadOver(anatomy.skin, anatomy.graph, anatomy.length, attachment.firmness, holds);
 
-    carriage.muscles.resize(ground.bodies.size());
-    carriage.bound.resize(ground.bodies.size());
+    attachment.muscles.resize(anatomy.bodies.size());
+    attachment.bindings.resize(anatomy.bodies.size());
     std::size_t next = 0;
-    for (std::size_t m = 0; m < ground.bodies.size(); ++m) {
-        if (ground.bodies[m]->rigid()) continue;
-        std::vector<double>& share = carriage.muscles[m] = std::move(holds[next++]);
-        carriage.bound[m].resize(count);
+    for (std::size_t m = 0; m < anatomy.bodies.size(); ++m) {
+        if (anatomy.bodies[m]->rigid()) continue;
+        std::vector<double>& share = attachment.muscles[m] = std::move(holds[next++]);
+        attachment.bindings[m].resize(count);
         parallelFor(count, [&](std::size_t v) {
             share[v] = free(v) * withoutLeast(share[v]);
             if (share[v] > 0)
-                carriage.bound[m][v] = ground.locators[m].nearest(ground.skin.vertices[v], infinity);
+                attachment.bindings[m][v] = anatomy.locators[m].nearest(anatomy.skin.vertices[v], infinity);
         });
     }
     const auto join = [&](auto& lists) {
         for (auto& list : lists)
-            for (std::size_t v = 0; v < list.size(); ++v) list[v] = list[ground.first[v]];
+            for (std::size_t v = 0; v < list.size(); ++v) list[v] = list[anatomy.first[v]];
     };
-    join(carriage.frames);
-    join(carriage.muscles);
-    join(carriage.bound);
-    return carriage;
+    join(attachment.frames);
+    join(attachment.muscles);
+    join(attachment.bindings);
+    return attachment;
 }
 
 } // namespace tss

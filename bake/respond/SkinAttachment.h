@@ -1,0 +1,56 @@
+#pragma once
+#include "bake/respond/SkinRig.h"
+#include "bake/respond/SkinShares.h"
+
+namespace tss {
+
+/// A skin with the bones and muscles under it, and what all steps of makeSkinRig() need to know of their
+/// geometry.
+struct SkinAnatomy {
+    SkinAnatomy(const TriangleMesh& mesh, const std::vector<std::shared_ptr<const MuscleDeformer>>& under,
+                const SkinParameters& parameters);
+
+    std::vector<std::uint32_t>
+        first;         ///< #V: the first vertex at the same position: texture seams duplicate vertices
+    TriangleMesh skin; ///< the mesh, its triangles on first vertices only, wound outwards
+    const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies;
+    SkinGraph graph;
+    std::vector<Vec3> normals;
+    std::vector<ClosestPointQuery> locators;       ///< one per body
+    bool inverted = false;                         ///< the mesh as given is wound inwards, towards the bodies
+    std::vector<std::vector<Vec3>> surfaceNormals; ///< per body: vertex normals
+    std::vector<std::vector<bool>>
+        inside;                 ///< per body #V: the vertex is inside of the muscle at rest; empty: a bone
+    Vec3 centre = Vec3::Zero(); ///< of the bounds of the skin's triangles
+    double size = 0;            ///< diagonal of these bounds; 1 where it is 0
+    double length =
+        0; ///< length over which deformation of the skin dies away, scene units: l of the foundation
+};
+
+/// What each vertex of a skin follows before any contact.
+struct SkinAttachment {
+    std::vector<std::vector<double>> frames; ///< #frames of #V: skinning weights
+    std::vector<std::vector<double>>
+        muscles; ///< #bodies of #V: share of the muscle's displacement; empty: a bone
+    std::vector<std::vector<NearestPoint>> bindings; ///< #bodies of #V: the point of the muscle that a vertex
+                                                     ///< with a share is bound to
+    std::vector<double> firmness; ///< #V, >= 1: factor on the foundation's stiffness
+};
+
+/// The frame of each body, see SkinParameters::frames.
+std::vector<int> framesOf(const SkinAnatomy& anatomy, const SkinParameters& parameters);
+
+SkinAttachment attachSkin(const SkinAnatomy& anatomy, const SkinParameters& parameters);
+
+/// The influences on a skin (METHOD 6.3), one per frame and, where needed, one more that never moves: each
+/// vertex's distance from the bones of the frame (its muscles, if it has no bones), and the vertices that
+/// certainly belong to it, see SkinSides. A connected part of the skin that is far from every bone, or hidden
+/// from all of them, belongs to bones that are not given, unless it is a hollow such as a mouth. Such a part
+/// follows the one influence that it is attached to alone, if there is one; else the moving bone that it
+/// continues, as a hand does a forearm; a trunk on both sides of a row of vertebrae is divided among them;
+/// and others, as a trunk beside an arm, follow a bone that never moves. If there is no such bone the part
+/// stays at rest, unless it is the smaller end of one bone.
+std::vector<SkinInfluence> skinInfluences(const SkinAnatomy& anatomy, const SkinParameters& parameters,
+                                          const std::vector<int>& frames);
+
+} // namespace tss

@@ -1,0 +1,265 @@
+#include "bake/respond/SkinContactSolver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace tss {
+namespace {
+
+/// Most rounds of querying, solving and moving: where the skin has moved to there are new contacts, and the
+/// normals of curved surfaces have changed.
+constexpr int mostRounds = 8;
+
+/// A displacement beyond this many times the deepest violation and the foundation's length counts as
+/// diverged: skin thrown far off touches nothing, so that its residual looks like success.
+constexpr float mostMove = 2;
+
+/// Updates normal, gap and level of a plane by its row's latest query. Its vertices and weights stay, since
+/// it has hardly slid, and so does its push.
+void updatePlane(const SkinPlane& now, const SkinScene& scene, SkinPlane& plane) {
+    plane.gap = now.found ? now.gap : std::numeric_limits<float>::max();
+    if (now.found) plane.normal = now.normal;
+    plane.level =
+        now.found ? plane.normal.dot(constrainedPoint(scene, plane)) - plane.gap : -1e6f; // never violated
+}
+
+/// Calls what(vertex) for each skin vertex of a row: its vertex and the corners of its anchor.
+template <class What>
+void eachVertex(const SkinRow& row, const What& what) {
+    if (row.kind != SkinContactKind::BodyOnSkin) what(row.vertex);
+    if (row.kind != SkinContactKind::SkinOnBody)
+        for (const int corner : row.corners) what(static_cast<std::uint32_t>(corner));
+}
+
+} // namespace
+
+SkinContactSolver::SkinContactSolver(const SkinRig& rig, SkinClock& clock)
+    : rig_(rig), clock_(clock), pushes_(rig.foundation), planeOf_(rig.rows.size(), 0),
+      satisfiedOf_(rig.rows.size(), 0), pushed_(rig.blocks(), 0), displaced_(rig.places.size(), 0),
+      visited_(rig.rows.size(), 0) {
+    std::vector<std::vector<std::uint32_t>> rows(rig.blocks());
+    for (std::uint32_t r = 0; r < rig.rows.size(); ++r)
+        eachVertex(rig.rows[r], [&](std::uint32_t v) {
+            std::vector<std::uint32_t>& ofBlock = rows[v / SkinRig::block];
+            if (ofBlock.empty() || ofBlock.back() != r) ofBlock.push_back(r);
+        });
+    blockRows_ = Lists<std::uint32_t>(rows);
+}
+
+/// Stores a row that is not violated; it need not be queried again before contacts have moved its point.
+void SkinContactSolver::addSatisfied(const SkinScene& scene, std::uint32_t r, const SkinPlane& plane) {
+    if (satisfiedOf_[r] == 0) {
+        satisfiedRows_.push_back(r);
+        satisfiedOf_[r] = static_cast<std::uint32_t>(satisfiedRows_.size());
+        satisfied_.emplace_back();
+    }
+    Satisfied& row = satisfied_[satisfiedOf_[r] - 1];
+    row.plane = plane;
+    row.free = unseen;
+    if (plane.found)
+        row.free = std::max(std::min(plane.gap, plane.distance - rig_.rows[r].offset) / 2, settled);
+    row.place = constrainedPoint(scene, row.plane);
+}
+
+bool SkinContactSolver::moved(const SkinScene& scene, const Satisfied& row) const {
+    return (constrainedPoint(scene, row.plane) - row.place).squaredNorm() > row.free * row.free;
+}
+
+bool SkinContactSolver::mayBeViolated(const SkinScene& scene, std::uint32_t r) const {
+    return satisfiedOf_[r] == 0 ? mayTouch(rig_, scene, rig_.rows[r])
+                                : moved(scene, satisfied_[satisfiedOf_[r] - 1]);
+}
+
+void SkinContactSolver::undoPushes(SkinScene& scene) {
+    for (std::size_t b = 0; b < pushed_.size(); ++b) {
+        if (pushed_[b] == 0) continue;
+        pushed_[b] = 0;
+        const std::size_t last = std::min((b + 1) * SkinRig::block, displaced_.size());
+        for (std::size_t v = b * SkinRig::block; v < last; ++v) {
+            scene.skin[v] = scene.carried[v];
+            displaced_[v] = 0;
+        }
+    }
+}
+
+/// Finds which vertices contacts have displaced, and the largest displacement.
+void SkinContactSolver::findDisplaced(const SkinScene& scene) {
+    constexpr float still = settled * settled;
+    float farthest = 0;
+    for (std::size_t b = 0; b < pushed_.size(); ++b) {
+        if (pushed_[b] == 0) continue;
+        const std::size_t last = std::min((b + 1) * SkinRig::block, displaced_.size());
+        const Move *skin = scene.skin.data(), *carried = scene.carried.data();
+        char* displaced = displaced_.data();
+        for (std::size_t v = b * SkinRig::block; v < last; ++v) {
+            const float squared = (skin[v] - carried[v]).squaredNorm();
+            displaced[v] = squared > still;
+            farthest = std::max(farthest, squared);
+        }
+    }
+    farthest_ = std::sqrt(farthest);
+}
+
+/// Whether contacts have displaced any vertex of a plane.
+bool SkinContactSolver::displaced(const SkinPlane& plane) const {
+    bool any = false;
+    for (int k = 0; k < plane.vertices; ++k) any = any || displaced_[plane.vertex[k]];
+    return any;
+}
+
+bool SkinContactSolver::displaced(const SkinRow& row) const {
+    bool any = false;
+    eachVertex(row, [&](std::uint32_t v) { any = any || displaced_[v]; });
+    return any;
+}
+
+/// Key by which addDeepest() groups violated rows: the node with the largest weight, the kind, and the body.
+std::uint64_t SkinContactSolver::selectionKey(const SkinRow& row, const SkinPlane& plane) const {
+    const SkinFoundation& f = rig_.foundation;
+    const std::span<const SkinEntry> weights = f.weights[plane.vertex[0]];
+    const auto most = std::ranges::max_element(weights, {}, &SkinEntry::value);
+    const std::uint64_t node = weights.empty() ? f.nodes : most->index;
+    return (node * 3 + static_cast<std::uint64_t>(row.kind)) * rig_.bodies.size() + row.body;
+}
+
+/// Makes planes of the deepest violated row of each key. Pushes act through nodes, so that its push satisfies
+/// most of the others too; those left over are queried again in the next round.
+void SkinContactSolver::addDeepest() {
+    std::sort(violated_.begin(), violated_.end(), [](const Violated& a, const Violated& b) {
+        return std::tie(a.key, a.plane.gap, a.row) < std::tie(b.key, b.plane.gap, b.row);
+    });
+    for (std::size_t k = 0; k < violated_.size(); ++k) {
+        const std::uint32_t r = violated_[k].row;
+        if (k > 0 && violated_[k].key == violated_[k - 1].key) {
+            deferred_.push_back(r);
+            isDeferred_[r] = 1;
+            continue;
+        }
+        rows_.push_back(r);
+        planes_.push_back(violated_[k].plane);
+        planeOf_[r] = static_cast<std::uint32_t>(planes_.size());
+    }
+    violated_.clear();
+}
+
+void SkinContactSolver::clear() {
+    for (const std::uint32_t r : rows_) planeOf_[r] = 0;
+    for (const std::uint32_t r : satisfiedRows_) satisfiedOf_[r] = 0;
+    rows_.clear();
+    satisfiedRows_.clear();
+    planes_.clear();
+    violated_.clear();
+    satisfied_.clear();
+    pushes_.clear();
+    deferred_.clear();
+    isDeferred_.assign(rig_.rows.size(), 0);
+}
+
+SkinPlane SkinContactSolver::timedQuery(const SkinScene& scene, const SkinRow& row) {
+    if (clock_.costs == nullptr) return queryContact(rig_, scene, row);
+    ++clock_.costs->lookUps;
+    const SkinPart body = rig_.bodies[row.body].bone() ? SkinPart::Bones : SkinPart::Muscles;
+    const SkinClock::Scope scope(clock_, row.kind == SkinContactKind::SkinOnSkin ? SkinPart::Folds : body);
+    return queryContact(rig_, scene, row);
+}
+
+void SkinContactSolver::query(const SkinScene& scene, std::uint32_t r) {
+    const SkinPlane plane = timedQuery(scene, rig_.rows[r]);
+    if (plane.found && plane.gap < 0)
+        violated_.push_back({selectionKey(rig_.rows[r], plane), r, plane});
+    else
+        addSatisfied(scene, r, plane);
+}
+
+/// Queries all rows that may touch, with the skin as muscles and bones carry it.
+void SkinContactSolver::queryAll(const SkinScene& scene) {
+    const SkinClock::Scope scope(clock_, SkinPart::Sort);
+    for (std::uint32_t r = 0; r < rig_.rows.size(); ++r)
+        if (mayTouch(rig_, scene, rig_.rows[r])) query(scene, r);
+}
+
+/// The deepest violation of the rows in violated_.
+float SkinContactSolver::deepestViolation() const {
+    float deepest = 0;
+    for (const Violated& one : violated_) deepest = std::max(deepest, -one.plane.gap);
+    return deepest;
+}
+
+/// Updates all planes, and queries other rows where contacts have displaced the skin. Returns the largest
+/// violation of the planes.
+float SkinContactSolver::queryDisplaced(const SkinScene& scene) {
+    const SkinClock::Scope scope(clock_, SkinPart::Sort);
+    float lack = 0;
+    for (std::size_t k = 0; k < planes_.size(); ++k) {
+        updatePlane(timedQuery(scene, rig_.rows[rows_[k]]), scene, planes_[k]);
+        lack = std::max(lack, -planes_[k].gap);
+    }
+    for (std::size_t k = 0, count = satisfied_.size(); k < count; ++k) {
+        const std::uint32_t r = satisfiedRows_[k];
+        if (planeOf_[r] == 0 && isDeferred_[r] == 0 && displaced(satisfied_[k].plane) &&
+            moved(scene, satisfied_[k]))
+            query(scene, r);
+    }
+    ++pass_;
+    for (std::size_t b = 0; b < pushed_.size(); ++b) {
+        if (pushed_[b] == 0) continue;
+        for (const std::uint32_t r : blockRows_[b]) {
+            if (visited_[r] == pass_) continue; // it has vertices in several blocks
+            visited_[r] = pass_;
+            if (planeOf_[r] == 0 && satisfiedOf_[r] == 0 && isDeferred_[r] == 0 && displaced(rig_.rows[r]) &&
+                mayTouch(rig_, scene, rig_.rows[r]))
+                query(scene, r);
+        }
+    }
+    std::erase_if(deferred_, [&](std::uint32_t r) {
+        if (!mayBeViolated(scene, r)) return false;
+        isDeferred_[r] = 0;
+        query(scene, r);
+        return true;
+    });
+    return lack;
+}
+
+std::size_t SkinContactSolver::push(SkinScene& scene) {
+    clear();
+    queryAll(scene);
+    if (violated_.empty()) return 0;
+    const float deepest = deepestViolation();
+    const float mostMoved = mostMove * (deepest + static_cast<float>(rig_.foundation.length));
+    float last = 0, least = std::numeric_limits<float>::max();
+    best_.clear();
+    for (int round = 1, stalled = 0;; ++round) {
+        std::size_t pushing = 0;
+        {
+            const SkinClock::Scope scope(clock_, SkinPart::Pushes);
+            addDeepest();
+            pushes_.solve(planes_, scene.carried, deepest, rig_.parameters.iterations);
+            applied_ = planes_;
+            pushing = apply(scene, applied_);
+        }
+        const float lack = queryDisplaced(scene), now = std::max(lack, deepestViolation());
+        const bool diverged = farthest_ > mostMoved;
+        if (!diverged && now < least) {
+            least = now;
+            best_.swap(applied_);
+        }
+        // Two rounds without progress: the planes demand more than the skin can give.
+        stalled = lack < last ? 0 : stalled + 1;
+        last = lack;
+        if (round < mostRounds && (!violated_.empty() || (lack > settled && stalled < 2))) continue;
+        // Where bones press from two sides the last result may be worse than no push: then the best one
+        // counts.
+        return diverged || now > deepest ? apply(scene, best_) : pushing;
+    }
+}
+
+/// Displaces the carried skin by the pushes of these planes. Returns how many push.
+std::size_t SkinContactSolver::apply(SkinScene& scene, std::span<const SkinPlane> planes) {
+    undoPushes(scene);
+    const std::size_t pushing = pushes_.apply(planes, scene.skin, pushed_);
+    findDisplaced(scene);
+    return pushing;
+}
+
+} // namespace tss

@@ -1,0 +1,79 @@
+#pragma once
+#include "bake/respond/SkinCosts.h"
+#include "bake/respond/SkinPushes.h"
+
+namespace tss {
+
+/// Contact resolution: rows are queried, the violated ones become planes that push the skin, and rows are
+/// queried again where that has moved it, until no new plane is found. Without history: everything is kept
+/// for one push() only.
+class SkinContactSolver {
+public:
+    /// Keeps references to both.
+    SkinContactSolver(const SkinRig& rig, SkinClock& clock);
+
+    /// Moves all vertices displaced by contacts back to where muscles and bones carry them.
+    void undoPushes(SkinScene& scene);
+
+    /// Pushes the skin of a scene, which must be as muscles and bones carry it. Returns how many planes push.
+    std::size_t push(SkinScene& scene);
+
+    /// Largest displacement by the last push(), run-time length; of no meaning where no plane pushes.
+    float farthest() const { return farthest_; }
+
+    /// Whether contacts may have displaced vertices of a block.
+    bool pushed(std::size_t block) const { return pushed_[block] != 0; }
+
+private:
+    /// A row that was queried in this update and is not violated.
+    struct Satisfied {
+        SkinPlane plane;
+        Eigen::Vector3f place; ///< its constrained point at that time
+        float free = 0;        ///< by how much the point may move before the row is queried again
+    };
+    /// A row that was queried and is violated. Of those with the same key the deepest becomes a plane.
+    struct Violated {
+        std::uint64_t key = 0;
+        std::uint32_t row = 0;
+        SkinPlane plane;
+    };
+    void clear();
+    void queryAll(const SkinScene& scene);
+    float queryDisplaced(const SkinScene& scene);
+    void query(const SkinScene& scene, std::uint32_t r);
+    SkinPlane timedQuery(const SkinScene& scene, const SkinRow& row);
+    void addSatisfied(const SkinScene& scene, std::uint32_t r, const SkinPlane& plane);
+    bool moved(const SkinScene& scene, const Satisfied& row) const;
+    bool mayBeViolated(const SkinScene& scene, std::uint32_t r) const;
+    bool displaced(const SkinPlane& plane) const;
+    bool displaced(const SkinRow& row) const;
+    void findDisplaced(const SkinScene& scene);
+    std::uint64_t selectionKey(const SkinRow& row, const SkinPlane& plane) const;
+    void addDeepest();
+    std::size_t apply(SkinScene& scene, std::span<const SkinPlane> planes);
+    float deepestViolation() const;
+
+    const SkinRig& rig_;
+    SkinClock& clock_;
+    SkinPushes pushes_;
+    std::vector<SkinPlane> planes_;
+    std::vector<SkinPlane> applied_,
+        best_;                        ///< planes_ when last applied, and when least was violated after that
+    std::vector<std::uint32_t> rows_; ///< row of each of planes_
+    std::vector<std::uint32_t> planeOf_; ///< #rows: 1 + its index in planes_, 0: none
+    std::vector<Violated> violated_;
+    std::vector<Satisfied> satisfied_;
+    std::vector<std::uint32_t> satisfiedRows_; ///< row of each of satisfied_
+    std::vector<std::uint32_t> satisfiedOf_;   ///< #rows: 1 + its index in satisfied_, 0: none
+    std::vector<std::uint32_t>
+        deferred_; ///< violated rows that were not chosen, as one with the same key was deeper
+    std::vector<char> isDeferred_;       ///< #rows
+    std::vector<char> pushed_;           ///< #blocks: contacts may have displaced vertices of it
+    std::vector<char> displaced_;        ///< #touched: contacts have displaced the vertex
+    float farthest_ = 0;                 ///< largest of these displacements, run-time length
+    Lists<std::uint32_t> blockRows_;     ///< per block: rows about its vertices
+    std::vector<std::uint32_t> visited_; ///< #rows: the last pass over blocks that came to it
+    std::uint32_t pass_ = 0;
+};
+
+} // namespace tss
