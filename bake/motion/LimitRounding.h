@@ -13,9 +13,9 @@ inline constexpr double fileRounding = 2e-7;
 /// values are rounded to this share of themselves: far from 0 no more than a ten-thousandth of the range, for
 /// beyond that other poses begin.
 inline double limitRounding(const Dof& dof, double share) {
-    const double hair = share * std::max(std::abs(dof.lower), std::abs(dof.upper));
+    const double rounding = share * std::max(std::abs(dof.lower), std::abs(dof.upper));
     const double range = dof.upper - dof.lower;
-    return range > 0 ? std::min(hair, 1e-4 * range) : hair;
+    return range > 0 ? std::min(rounding, 1e-4 * range) : rounding;
 }
 
 } // namespace tss
