@@ -252,11 +252,11 @@ std::vector<double> readScales(const PrimReader& prim, const std::vector<std::st
 }
 
 /// Where no rest is given it is the value nearest to 0 that the limits leave. One that is given is moved to a
-/// limit only where it is beyond by the rounding of the file's floats.
+/// limit only where it is beyond by the rounding of the file's floats; those of a path are doubles.
 double restWithin(const Dof& dof, double rest, bool given) {
     if (!(dof.lower <= dof.upper)) return rest;
     const double within = std::clamp(rest, dof.lower, dof.upper);
-    const double rounding = std::ldexp(std::abs(within), -22);
+    const double rounding = std::ldexp(std::abs(within), dof.kind == DofKind::Path ? -50 : -22);
     return !given || std::abs(rest - within) <= rounding ? within : rest;
 }
 

@@ -210,6 +210,26 @@ TEST_CASE("the smallest scene of the documentation is a scene with a pair") {
     CHECK(pairMotion(scene, scene.pairs[0]).dofs[0].upper == Approx(1.7453).epsilon(1e-4));
 }
 
+TEST_CASE("a rest beyond the limits of a path over time stamps is not taken for one within them") {
+    SceneModel scene = samples::jaw();
+    Dof path;
+    path.name = "path";
+    path.kind = DofKind::Path;
+    path.lower = path.rest = 1.7e9;
+    path.upper = 1.7e9 + 50;
+    path.path = {{path.lower, Vec3::Zero(), {}}, {path.upper, Vec3::UnitX(), {}}};
+    for (PathRow& row : path.path) row.rotation.setIdentity();
+    scene.joints[0].dofs = {path};
+    scene.joints[0].drives.resize(1);
+    scene.joints[0].planes.clear();
+    const auto restRead = [&](double rest) {
+        scene.joints[0].dofs[0].rest = rest;
+        return samples::fromFile(scene).joints[0].dofs[0].rest;
+    };
+    CHECK(restRead(path.upper) == path.upper);
+    CHECK_THROWS_AS(restRead(path.upper + 100), InputError);
+}
+
 TEST_CASE("limits that leave no pose are told with the joint, and a rest not given lies within the limits") {
     SceneModel scene = samples::jaw();
     scene.joints[0].planes = {{{1, 0}, 3}, {{0, 1}, -1.5}}; // lateral is at least -1
