@@ -6,6 +6,7 @@
 #include "bake/model/Kinematics.h"
 
 #include <catch2/catch.hpp>
+#include <osg/MatrixTransform>
 #include <osg/ShapeDrawable>
 #include <osgDB/ReaderWriter>
 #include <osgDB/Registry>
@@ -146,6 +147,23 @@ TEST_CASE("What a bone holds is cut out of the mesh as a solid, and all parts to
     CHECK(volume(body(model, "Upper").mesh) + volume(body(model, "Fore").mesh) == Approx(1.1 * side));
     CHECK(volume(body(model, "Upper").mesh) > 0.4 * side);
     CHECK(volume(body(model, "Fore").mesh) > 0.4 * side);
+}
+
+TEST_CASE("A mesh below a hidden transform is cut where it stands", "[osgTSS]") {
+    const auto thigh = [](osg::Node::NodeMask mask) {
+        Sitter sitter;
+        osg::ref_ptr<osg::MatrixTransform> shift =
+            new osg::MatrixTransform(osg::Matrix::translate(0, 0.5f, 0));
+        shift->setNodeMask(mask);
+        const osg::ref_ptr<osg::Group> above = sitter.rig->getParent(0);
+        shift->addChild(sitter.rig);
+        above->removeChild(sitter.rig);
+        sitter.skeleton->addChild(shift);
+        const tss::SceneModel model = extract(*sitter.root);
+        return tss::bounds(model.bodies[joint(model, "Thigh").body1].mesh);
+    };
+    CHECK(thigh(0).center().y() == Approx(0.5));
+    CHECK(thigh(0).isApprox(thigh(~0u)));
 }
 
 TEST_CASE("An arm that its keys take through the thigh is stopped at it, in what is drawn", "[osgTSS]") {
