@@ -5,12 +5,14 @@
 #include "bake/motion/WholeTurn.h"
 #include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinResponse.h"
-#include "osgTSS/src/SceneCache.h"
+#include "bake/respond/SkinRig.h"
+
+#include <osg/Math>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
+#include <span>
 #include <vector>
 
 namespace osgTSS {
@@ -41,36 +43,20 @@ int intervals(const tss::SceneModel& model, bool animated) {
     return static_cast<int>(std::clamp(codes, 0.0, std::max(least, points / static_cast<double>(vertices))));
 }
 
-/// A skin as it is drawn, once for each pose of its bones.
-class MovingSkin {
-public:
-    MovingSkin(const tss::SceneModel& model, const tss::SkinModel& skin,
-               const std::shared_ptr<const tss::SkinRig>& rig)
-        : _model(model), _skin(skin), _response(rig) {}
-
-    void add(Framing& framing, const std::vector<tss::Pose>& placements, double time, bool turned) {
-        _response.update(tss::skinActivations(_model, _skin, time),
-                         tss::skinPoses(_model, _skin, placements));
-        for (const tss::Vec3& v : _response.positions())
-            framing.add(shown(tss::Vec3(placements[_skin.body] * v), turned));
-    }
-
-private:
-    const tss::SceneModel& _model;
-    const tss::SkinModel& _skin;
-    tss::SkinResponse _response;
+/// A skin, to be drawn once for each pose of its bones.
+struct MovingSkin {
+    const tss::SkinModel& skin;
+    tss::SkinResponse response;
 };
 
 /// By their bodies. One without a table, or whose table does not fit, is drawn as it lies there, as the
 /// loader has said.
-std::map<std::size_t, MovingSkin> movingSkins(const Scene& scene) {
+std::map<std::size_t, MovingSkin> movingSkins(const tss::SceneModel& model) {
     std::map<std::size_t, MovingSkin> skins;
-    const tss::SceneModel& model = scene.getModel();
-    for (std::size_t k = 0; k < model.skins.size(); ++k) {
-        const tss::SkinModel& skin = model.skins[k];
+    for (const tss::SkinModel& skin : model.skins) {
         try {
-            if (const auto rig = scene.getCache().rig(static_cast<int>(k)))
-                skins.emplace(static_cast<std::size_t>(skin.body), MovingSkin(model, skin, rig));
+            if (const auto rig = tss::skinRig(model, skin))
+                skins.emplace(skin.body, MovingSkin{skin, tss::SkinResponse(rig)});
         } catch (const tss::InputError&) {
             continue;
         }
@@ -80,9 +66,8 @@ std::map<std::size_t, MovingSkin> movingSkins(const Scene& scene) {
 
 } // namespace
 
-void addReach(Framing& framing, const Scene& scene, bool turned, bool animated) {
-    const tss::SceneModel& model = scene.getModel();
-    std::map<std::size_t, MovingSkin> skins = movingSkins(scene);
+void addReach(Framing& framing, const tss::SceneModel& model, bool turned, bool animated) {
+    std::map<std::size_t, MovingSkin> skins = movingSkins(model);
     const int count = intervals(model, animated);
     const double codes = std::floor(model.endTimeCode - model.startTimeCode);
     for (int k = 0; k <= count; ++k) {
@@ -96,11 +81,13 @@ void addReach(Framing& framing, const Scene& scene, bool turned, bool animated) 
         const std::vector<tss::Pose> poses = tss::posedBodies(model, values);
         for (std::size_t body = 0; body < poses.size(); ++body) {
             if (!model.bodies[body].visible) continue;
-            if (const auto skin = skins.find(body); skin != skins.end())
-                skin->second.add(framing, poses, time, turned);
-            else
-                for (const tss::Vec3& v : model.bodies[body].mesh.vertices)
-                    framing.add(shown(tss::Vec3(poses[body] * v), turned));
+            std::span<const tss::Vec3> points = model.bodies[body].mesh.vertices;
+            if (const auto found = skins.find(body); found != skins.end()) {
+                auto& [skin, response] = found->second;
+                response.update(tss::skinActivations(model, skin, time), tss::skinPoses(model, skin, poses));
+                points = response.positions();
+            }
+            for (const tss::Vec3& v : points) framing.add(shown(tss::Vec3(poses[body] * v), turned));
         }
     }
 }

@@ -1,9 +1,11 @@
 #pragma once
 #include "Framing.h"
 
-namespace osgTSS {
+namespace tss {
+struct SceneModel;
+}
 
-class Scene;
+namespace osgTSS {
 
 /// Where a point of the scene is drawn, in world coordinates. turned: the loader stands its Y axis up.
 template <class Point>
@@ -13,6 +15,6 @@ osg::Vec3d shown(const Point& x, bool turned) {
 
 /// Adds what bodies and skins reach when the joints and muscles of the scene do all that is asked of them.
 /// animated: the graph's own animations play.
-void addReach(Framing& framing, const Scene& scene, bool turned, bool animated);
+void addReach(Framing& framing, const tss::SceneModel& scene, bool turned, bool animated);
 
 } // namespace osgTSS

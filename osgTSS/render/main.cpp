@@ -178,7 +178,7 @@ void render(const Arguments& arguments) {
     const unsigned int frames = framesOf(arguments, *scene, seconds);
     if (osgTSS::Scene* found = osgTSS::Scene::on(*scene); found && frames > 1) {
         if (!shot.place && !shot.view)
-            osgTSS::addReach(shot.framing, *found, isTurned(arguments, *scene), seconds > 0);
+            osgTSS::addReach(shot.framing, found->getModel(), isTurned(arguments, *scene), seconds > 0);
         showEnd(*found);
     }
     if (shot.place)
