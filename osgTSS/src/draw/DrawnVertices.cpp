@@ -68,28 +68,17 @@ std::optional<DrawnVertices> DrawnVertices::of(const osg::Geometry& rest, const 
     DrawnVertices drawn;
     drawn._scale = scale;
     drawn._restNormals = std::move(restNormals);
-    drawn.take(standing, beside.empty() ? nullptr : &mesh, *vertices);
+    drawn._drawn = tss::Lists<std::uint32_t>(standing);
+    for (std::size_t v = 0; v < standing.size() && !beside.empty(); ++v)
+        for (const std::uint32_t i : standing[v])
+            drawn._away.push_back(scale * toCore((*vertices)[i]) - mesh.vertices[v]);
     const auto* normals = dynamic_cast<const osg::Vec3Array*>(rest.getNormalArray());
     if (normals && normals->size() == vertices->size())
-        for (const std::uint32_t vertex : drawn._drawn)
+        for (const std::uint32_t vertex : drawn._drawn.items())
             drawn._drawnNormals.push_back(toCore((*normals)[vertex]));
     drawn._all.resize(mesh.vertices.size());
     std::iota(drawn._all.begin(), drawn._all.end(), 0u);
     return drawn;
-}
-
-/// mesh: where some of them stand beside it.
-void DrawnVertices::take(const std::vector<std::vector<std::uint32_t>>& standing,
-                         const tss::TriangleMesh* mesh, const osg::Vec3Array& vertices) {
-    _start = {0};
-    for (const auto& at : standing) {
-        _drawn.insert(_drawn.end(), at.begin(), at.end());
-        _start.push_back(static_cast<std::uint32_t>(_drawn.size()));
-    }
-    if (!mesh) return;
-    for (std::size_t v = 0; v < standing.size(); ++v)
-        for (const std::uint32_t i : standing[v])
-            _away.push_back(_scale * toCore(vertices[i]) - mesh->vertices[v]);
 }
 
 void DrawnVertices::deform(SkinGeometry& shown, std::span<const std::uint32_t> vertices,
@@ -103,14 +92,16 @@ void DrawnVertices::deform(SkinGeometry& shown, std::span<const std::uint32_t> v
         const bool turned = turns && !_restNormals.empty() && normals[k] != _restNormals[v];
         const Eigen::Quaterniond turn =
             turned ? tss::turnBetween(_restNormals[v], normals[k]) : Eigen::Quaterniond::Identity();
-        for (std::uint32_t d = _start[v]; d < _start[v + 1]; ++d) {
-            _moved.push_back(_drawn[d]);
+        std::ptrdiff_t d = _drawn[v].data() - _drawn.items().data();
+        for (const std::uint32_t drawn : _drawn[v]) {
+            _moved.push_back(drawn);
             _positions.push_back((_away.empty() ? positions[k] : tss::Vec3(positions[k] + turn * _away[d])) /
                                  _scale);
             if (_drawnNormals.empty())
                 _normals.push_back(tss::Vec3::Zero());
             else
                 _normals.push_back(turned ? tss::Vec3(turn * _drawnNormals[d]) : _drawnNormals[d]);
+            ++d;
         }
     }
     shown.deform(_moved, _positions, _normals);

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/base/Lists.h"
 #include "bake/geometry/TriangleMesh.h"
 
 #include <osg/Geometry>
@@ -26,9 +27,7 @@ public:
                                            double scale, std::vector<tss::Vec3> restNormals);
 
     /// Those of one vertex of the mesh; those that stand at its place first.
-    std::span<const std::uint32_t> of(std::size_t vertex) const {
-        return {_drawn.data() + _start[vertex], _drawn.data() + _start[vertex + 1]};
-    }
+    std::span<const std::uint32_t> of(std::size_t vertex) const { return _drawn[vertex]; }
 
     /// Moves what stands for these vertices of the mesh: three spans of one length, in the mesh's lengths.
     void deform(SkinGeometry& shown, std::span<const std::uint32_t> vertices,
@@ -38,12 +37,8 @@ public:
                 std::span<const tss::Vec3> normals);
 
 private:
-    void take(const std::vector<std::vector<std::uint32_t>>& standing, const tss::TriangleMesh* mesh,
-              const osg::Vec3Array& vertices);
-
     double _scale = 1;
-    std::vector<std::uint32_t> _start,
-        _drawn; ///< of mesh vertex v: _drawn[_start[v]] to _drawn[_start[v + 1]]
+    tss::Lists<std::uint32_t> _drawn;                   ///< of each vertex of the mesh
     std::vector<tss::Vec3> _restNormals, _drawnNormals; ///< of the mesh, and one for each of _drawn; the
                                                         ///< latter may be empty
     std::vector<tss::Vec3> _away;                       ///< of each of _drawn from its vertex at rest
