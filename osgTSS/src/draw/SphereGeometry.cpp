@@ -2,42 +2,37 @@
 
 #include <osg/BlendFunc>
 #include <osg/Material>
+#include <osg/ShapeDrawable>
+#include <osg/TriangleIndexFunctor>
 #include <osgTSS/Convert>
 
-#include <array>
-#include <map>
-#include <utility>
+#include <vector>
 
 namespace osgTSS {
 
 namespace {
 
-/// A unit sphere of few triangles: an octahedron, its edges halved twice.
+struct Triangles {
+    std::vector<unsigned int> corners;
+    void operator()(unsigned int a, unsigned int b, unsigned int c) {
+        corners.insert(corners.end(), {a, b, c});
+    }
+};
+
+/// Of few triangles.
 struct UnitSphere {
-    std::vector<osg::Vec3> points{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    std::vector<std::array<unsigned int, 3>> triangles{{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
-                                                       {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    std::vector<osg::Vec3> points;
+    std::vector<unsigned int> corners; ///< three a triangle
 
     UnitSphere() {
-        for (int round = 0; round < 2; ++round) halve();
-    }
-    void halve() {
-        std::map<std::pair<unsigned int, unsigned int>, unsigned int> middles;
-        const auto middle = [&](unsigned int a, unsigned int b) {
-            const auto [entry, fresh] =
-                middles.emplace(std::minmax(a, b), static_cast<unsigned int>(points.size()));
-            if (!fresh) return entry->second;
-            osg::Vec3 point = points[a] + points[b];
-            point.normalize();
-            points.push_back(point);
-            return entry->second;
-        };
-        std::vector<std::array<unsigned int, 3>> finer;
-        for (const auto& [a, b, c] : triangles) {
-            const unsigned int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-            finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-        }
-        triangles = std::move(finer);
+        osg::ref_ptr<osg::TessellationHints> few = new osg::TessellationHints;
+        few->setDetailRatio(0.3f);
+        osg::ref_ptr<osg::ShapeDrawable> shape = new osg::ShapeDrawable(new osg::Sphere(osg::Vec3(), 1), few);
+        const auto& vertices = static_cast<const osg::Vec3Array&>(*shape->getVertexArray());
+        points.assign(vertices.begin(), vertices.end());
+        osg::TriangleIndexFunctor<Triangles> triangles;
+        shape->accept(triangles);
+        corners = std::move(triangles.corners);
     }
 };
 
@@ -59,8 +54,7 @@ SphereGeometry::SphereGeometry(std::size_t count, const osg::Vec4& color) {
     osg::ref_ptr<osg::DrawElementsUInt> indices = new osg::DrawElementsUInt(GL_TRIANGLES);
     for (std::size_t s = 0; s < count; ++s) {
         normals->insert(normals->end(), unit.points.begin(), unit.points.end());
-        for (const auto& triangle : unit.triangles)
-            for (unsigned int corner : triangle) indices->push_back(static_cast<GLuint>(s * points + corner));
+        for (unsigned int corner : unit.corners) indices->push_back(static_cast<GLuint>(s * points + corner));
     }
     setVertexArray(_vertices);
     setNormalArray(normals);
