@@ -5,7 +5,6 @@
 
 #include <osg/UserDataContainer>
 #include <osgAnimation/RigGeometry>
-#include <osgAnimation/Skeleton>
 
 #include <cmath>
 
@@ -14,15 +13,6 @@ namespace osgTSS {
 namespace {
 
 using osgAnimation::Bone;
-
-/// Null where there is none above.
-osg::Node* skeletonOf(osg::Node& bone) {
-    for (osg::Node* at = &bone; at->getNumParents() > 0;) {
-        at = at->getParent(0);
-        if (dynamic_cast<osgAnimation::Skeleton*>(at)) return at;
-    }
-    return nullptr;
-}
 
 bool holdsVertices(osg::Node& node, const std::string& bone) {
     osg::Drawable* drawable = node.asDrawable();
@@ -55,6 +45,14 @@ bool isBound(Bone& bone) {
 }
 
 } // namespace
+
+osgAnimation::Skeleton* skeletonOf(osg::Node& bone) {
+    for (osg::Node* at = &bone; at->getNumParents() > 0;) {
+        at = at->getParent(0);
+        if (auto* skeleton = dynamic_cast<osgAnimation::Skeleton*>(at)) return skeleton;
+    }
+    return nullptr;
+}
 
 std::optional<osg::Matrixd> boneBound(Bone& bone) {
     if (!isBound(bone)) return std::nullopt;

@@ -4,6 +4,7 @@
 
 #include <osg/Matrixd>
 #include <osgAnimation/Bone>
+#include <osgAnimation/Skeleton>
 
 #include <optional>
 
@@ -34,6 +35,9 @@ osg::Matrixd boneNow(osgAnimation::Bone& bone);
 
 /// Where a bone stands in its parent when the mesh is bound to it; nothing for one that says nothing of that.
 std::optional<osg::Matrixd> boneBound(osgAnimation::Bone& bone);
+
+/// The skeleton that a bone is part of; null where there is none above.
+osgAnimation::Skeleton* skeletonOf(osg::Node& bone);
 
 /// Whether a mesh of the bone's skeleton is tagged as a skin.
 bool wearsSkin(osgAnimation::Bone& bone);

@@ -2,43 +2,26 @@
 
 #include "osgTSS/src/CallbackOf.h"
 #include "osgTSS/src/EachNode.h"
+#include "osgTSS/src/joints/BoneMotion.h"
 
-#include <osg/NodeVisitor>
 #include <osgAnimation/RigGeometry>
 #include <osgAnimation/UpdateBone>
 
+#include <algorithm>
+
 namespace osgTSS {
 
-class SkeletonPose::Collect : public osg::NodeVisitor {
-public:
-    explicit Collect(std::vector<One>& found) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _found(found) {
-        setNodeMaskOverride(~0u);
-    }
-
-    void apply(osg::Transform& node) override {
-        auto* skeleton = dynamic_cast<osgAnimation::Skeleton*>(&node);
-        const int above = _in;
-        if (skeleton) {
-            _in = static_cast<int>(_found.size());
-            _found.emplace_back().skeleton = skeleton;
-        } else if (auto* bone = dynamic_cast<osgAnimation::Bone*>(&node);
-                   bone && _in >= 0 && callbackOf<osgAnimation::UpdateBone>(bone->getUpdateCallback())) {
-            // One without such a callback keeps the matrix in the skeleton that it has.
-            _found[_in].bones.emplace_back(bone);
-        }
-        traverse(node);
-        _in = above;
-    }
-
-private:
-    std::vector<One>& _found;
-    int _in = -1;
-};
-
 SkeletonPose::SkeletonPose(osg::Node& owner) {
-    Collect visitor(_skeletons);
-    owner.accept(visitor);
-    std::erase_if(_skeletons, [](const One& one) { return one.bones.empty(); });
+    eachNode(owner, [&](osg::Node& node) {
+        auto* bone = dynamic_cast<osgAnimation::Bone*>(&node);
+        // One without such a callback keeps the matrix in the skeleton that it has.
+        if (!bone || !callbackOf<osgAnimation::UpdateBone>(bone->getUpdateCallback())) return;
+        osgAnimation::Skeleton* skeleton = skeletonOf(*bone);
+        if (!skeleton) return;
+        auto one = std::ranges::find(_skeletons, skeleton, [](const One& of) { return of.skeleton.get(); });
+        if (one == _skeletons.end()) one = _skeletons.insert(one, One{skeleton, {}});
+        one->bones.emplace_back(bone);
+    });
 }
 
 void SkeletonPose::refresh() const {

@@ -25,8 +25,6 @@ private:
         std::vector<osg::observer_ptr<osgAnimation::Bone>> bones; ///< parents first; those with an update
     };
     std::vector<One> _skeletons;
-
-    class Collect;
 };
 
 } // namespace osgTSS
