@@ -6,31 +6,6 @@
 
 namespace osgTSS {
 
-template <class Use>
-auto SharedPlan::inRoom(const Use& use) {
-    std::vector<tss::JointWorkspace> room;
-    {
-        const std::lock_guard lock(_mutex);
-        if (!_rooms.empty()) {
-            room = std::move(_rooms.back());
-            _rooms.pop_back();
-        }
-    }
-    if (room.empty()) room = tss::workspaces(*_plan);
-    auto result = use(room);
-    const std::lock_guard lock(_mutex);
-    _rooms.push_back(std::move(room));
-    return result;
-}
-
-std::vector<tss::GroupAnswer> SharedPlan::resolve(const std::vector<double>& last, std::vector<double>& q) {
-    return inRoom([&](auto& room) { return tss::resolve(*_plan, last, q, room); });
-}
-
-tss::QueryResult SharedPlan::nearest(std::size_t group, std::size_t table, const std::vector<double>& q) {
-    return inRoom([&](auto& room) { return tss::nearest(*_plan, group, table, q, room); });
-}
-
 std::shared_ptr<SharedPlan> Scene::Cache::plan(const std::vector<std::string>& pairPaths) {
     constexpr std::size_t mostRecent = 4; // each holds its tables made ready, megabytes for large ones
     const std::lock_guard lock(mutex);

@@ -22,17 +22,25 @@ public:
     const tss::JointPlan& operator*() const { return *_plan; }
     const tss::JointPlan* operator->() const { return _plan.get(); }
 
-    /// tss::resolve(). Safe from any thread.
-    std::vector<tss::GroupAnswer> resolve(const std::vector<double>& last, std::vector<double>& q);
-
-    /// tss::nearest(). Safe from any thread.
-    tss::QueryResult nearest(std::size_t group, std::size_t table, const std::vector<double>& q);
+    /// What use(room) returns, in a room that nobody else is in. Safe from any thread.
+    template <class Use>
+    auto inRoom(const Use& use) {
+        std::vector<tss::JointWorkspace> room;
+        {
+            const std::lock_guard lock(_mutex);
+            if (!_rooms.empty()) {
+                room = std::move(_rooms.back());
+                _rooms.pop_back();
+            }
+        }
+        if (room.empty()) room = tss::workspaces(*_plan);
+        auto result = use(room);
+        const std::lock_guard lock(_mutex);
+        _rooms.push_back(std::move(room));
+        return result;
+    }
 
 private:
-    /// Calls use(room), which nobody else is in.
-    template <class Use>
-    auto inRoom(const Use& use);
-
     std::shared_ptr<const tss::JointPlan> _plan;
     std::mutex _mutex;
     std::vector<std::vector<tss::JointWorkspace>> _rooms; ///< that nobody is in

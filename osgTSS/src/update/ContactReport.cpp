@@ -89,7 +89,9 @@ ToldContacts ContactReport::report(const Scene& scene, SharedPlan& plan, const s
             const bool before = watched.touching;
             watched.touching = std::ranges::find(held, static_cast<int>(k)) != held.end();
             if (!watched.touching && !before) continue;
-            if (watched.touching) locate(model, plan.nearest(g, k, q), watched);
+            if (watched.touching)
+                locate(model, plan.inRoom([&](auto& room) { return tss::nearest(*plan, g, k, q, room); }),
+                       watched);
             watched.last.event = !watched.touching ? Contact::END : before ? Contact::STAY : Contact::BEGIN;
             watched.last.status = answers[g].status;
             told.add(watched.last);

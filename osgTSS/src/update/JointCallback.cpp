@@ -6,7 +6,6 @@
 
 #include <osg/Node>
 #include <osg/Notify>
-#include <osg/observer_ptr>
 #include <osgTSS/JointCallback>
 
 #include <algorithm>
@@ -201,7 +200,7 @@ void JointCallback::Binding::resolve() {
     for (std::size_t k = 0; k < q.size(); ++k)
         if (!std::isfinite(asked[k])) asked[k] = q[k]; // it stays where it is
     askedLast = asked;
-    found = plan->resolve(q, asked);
+    found = plan->inRoom([&](auto& room) { return tss::resolve(**plan, q, asked, room); });
     q = asked;
 }
 
