@@ -1,5 +1,3 @@
-#include "bake/base/Error.h"
-
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>

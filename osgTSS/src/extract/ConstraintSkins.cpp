@@ -37,10 +37,8 @@ void ConstraintVisitor::addSoftBody(osg::Drawable& drawable, const char* fallbac
     const osg::ref_ptr<osg::Geometry> shape = shapeOf(drawable);
     const auto similarity = toSimilarity(_place.toBody);
     if (!similarity) throw tss::InputError("the transforms above it shear, or scale axes differently");
-    PlaceInBody place;
-    place.scale = _place.scale * similarity->scale;
-    place.visible = _place.visible;
-    place.color = _place.color;
+    PlaceInBody place = _place;
+    place.scale *= similarity->scale;
     tss::Pose local = similarity->pose;
     local.translation() *= _place.scale;
     const tss::Pose above = _model.bodies[_place.body].placement;

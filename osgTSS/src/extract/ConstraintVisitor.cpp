@@ -5,6 +5,7 @@
 #include "SoftTags.h"
 #include "TagCheck.h"
 #include "osgTSS/src/EachNode.h"
+#include "osgTSS/src/UserFlag.h"
 #include "osgTSS/src/joints/AnimationChannels.h"
 #include "osgTSS/src/joints/BoneMotion.h"
 #include "osgTSS/src/joints/JointKinds.h"
@@ -13,7 +14,6 @@
 #include "bake/base/Error.h"
 #include "bake/model/AddPair.h"
 #include "bake/model/Kinematics.h"
-#include "bake/motion/MotionBound.h"
 
 #include <osg/AutoTransform>
 #include <osg/Billboard>
@@ -24,10 +24,8 @@
 #include <osg/Notify>
 #include <osg/Projection>
 #include <osg/ValueObject>
-#include <osgSim/DOFTransform>
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/Convert>
-#include <osgTSS/JointTransform>
 #include <osgTSS/Overlay>
 
 #include <algorithm>
@@ -37,10 +35,13 @@ namespace osgTSS {
 
 namespace {
 
-const osg::Material* materialOf(const osg::Node& node) {
+/// What the material of a node says, where it has one and vertices do not say otherwise.
+std::optional<osg::Vec4> materialColor(const osg::Node& node) {
     const osg::StateSet* state = node.getStateSet();
-    return state ? dynamic_cast<const osg::Material*>(state->getAttribute(osg::StateAttribute::MATERIAL))
-                 : nullptr;
+    const osg::StateAttribute* found = state ? state->getAttribute(osg::StateAttribute::MATERIAL) : nullptr;
+    const auto* material = dynamic_cast<const osg::Material*>(found);
+    if (!material || material->getColorMode() != osg::Material::OFF) return std::nullopt;
+    return material->getDiffuse(osg::Material::FRONT);
 }
 
 /// The colour of a geometry's first vertex, where its material does not say otherwise.
@@ -56,18 +57,10 @@ std::optional<osg::Vec4> vertexColor(const osg::Drawable& drawable) {
     return std::nullopt;
 }
 
-/// Drawn, but no part of any body.
-bool leftOut(const osg::Node& node) {
-    bool ignored = false;
-    return node.getUserValue("osgTSS:ignored", ignored) && ignored;
-}
-
 bool holdsJoints(osg::Node& node) {
     bool found = false;
     eachNode(node, [&](osg::Node& below) {
-        found = found || (below.asTransform() && (movesItself(below) || isTagged(below) ||
-                                                  dynamic_cast<osgSim::DOFTransform*>(&below) ||
-                                                  dynamic_cast<JointTransform*>(&below)));
+        found = found || (below.asTransform() && (movesItself(below) || saysJoint(below)));
     });
     return found;
 }
@@ -88,13 +81,15 @@ ConstraintVisitor::ConstraintVisitor(Pairs pairs)
 
 ConstraintVisitor::~ConstraintVisitor() = default;
 
-/// At the first node: the body that no joint moves.
-void ConstraintVisitor::begin(osg::Node& node) {
-    if (!_model.bodies.empty()) return;
+/// At the first node: the body that no joint moves. False for a node that is drawn, but no part of any body.
+bool ConstraintVisitor::begin(osg::Node& node) {
+    const bool counts = !hasFlag(node, "osgTSS:ignored");
+    if (!_model.bodies.empty()) return counts;
     _channels = std::make_unique<AnimationChannels>(node);
     _model.defaultPrim = tss::freePrimName(_model, node.getName().empty() ? "Scene" : node.getName());
     _place.body = addBody(node, "World", 1);
     if (node.asTransform()) _bodyNodes.back().node = nullptr; // the node's own frame is another
+    return counts;
 }
 
 void ConstraintVisitor::enter(osg::Node& node, const PlaceInBody& place) {
@@ -102,9 +97,7 @@ void ConstraintVisitor::enter(osg::Node& node, const PlaceInBody& place) {
     _place = place;
     _place.visible = place.visible && node.getNodeMask() != 0;
     if (_skeleton) _skeleton->addNode(node, place);
-    const osg::Material* material = materialOf(node);
-    if (material && material->getColorMode() == osg::Material::OFF)
-        _place.color = material->getDiffuse(osg::Material::FRONT);
+    if (const auto color = materialColor(node)) _place.color = color;
     for (const std::string& wrong : wrongTags(node)) warn(wrong);
     std::string group;
     if (node.getUserValue("osgTSS:collides", group)) _groups[_place.body].insert(group);
@@ -118,15 +111,11 @@ void ConstraintVisitor::enter(osg::Node& node, const PlaceInBody& place) {
 }
 
 void ConstraintVisitor::apply(osg::Node& node) {
-    if (dynamic_cast<Overlay*>(&node)) return;
-    begin(node);
-    if (leftOut(node)) return;
-    enter(node, _place);
+    if (!dynamic_cast<Overlay*>(&node) && begin(node)) enter(node, _place);
 }
 
 void ConstraintVisitor::apply(osg::Transform& node) {
-    begin(node);
-    if (leftOut(node)) return;
+    if (!begin(node)) return;
     if (dynamic_cast<osgAnimation::Skeleton*>(&node)) return applySkeleton(node);
     applyTransform(node);
 }
@@ -136,9 +125,7 @@ void ConstraintVisitor::applyTransform(osg::Transform& node) {
     if (dynamic_cast<osg::AutoTransform*>(&node) || node.getReferenceFrame() != osg::Transform::RELATIVE_RF)
         return;
     std::string why;
-    bool still = false, moved = false;
-    node.getUserValue("osgTSS:static", still);
-    node.getUserValue("osgTSS:moved", moved);
+    const bool still = hasFlag(node, "osgTSS:static"), moved = hasFlag(node, "osgTSS:moved");
     try {
         if (!still)
             if (auto found = jointsOf(node, *_channels, _model.timeCodesPerSecond, why))
@@ -177,12 +164,6 @@ void ConstraintVisitor::apply(osg::Billboard&) {}
 
 /// Of the levels the finest, seen from nearest or covering the most pixels, and what is drawn together with
 /// it at some distance.
-void ConstraintVisitor::apply(osg::LOD& node) {
-    begin(node);
-    if (leftOut(node)) return;
-    enter(node, _place);
-}
-
 void ConstraintVisitor::traverseLevels(osg::LOD& node) {
     const unsigned int levels = std::min(node.getNumChildren(), node.getNumRanges());
     const bool pixels = node.getRangeMode() == osg::LOD::PIXEL_SIZE_ON_SCREEN;
@@ -203,8 +184,7 @@ void ConstraintVisitor::traverseLevels(osg::LOD& node) {
 }
 
 void ConstraintVisitor::apply(osg::Drawable& drawable) {
-    begin(drawable);
-    if (leftOut(drawable)) return;
+    if (!begin(drawable)) return;
     const PlaceInBody place = _place;
     enter(drawable, place);
     if (addSoft(drawable)) return;
@@ -222,10 +202,8 @@ void ConstraintVisitor::addLook(const osg::Drawable& drawable, const PlaceInBody
     const bool visible = place.visible && drawable.getNodeMask() != 0;
     body.visible = first ? visible : body.visible || visible;
     if (!first) return;
-    const osg::Material* material = materialOf(drawable);
-    std::optional<osg::Vec4> color = place.color;
-    if (material && material->getColorMode() == osg::Material::OFF)
-        color = material->getDiffuse(osg::Material::FRONT);
+    std::optional<osg::Vec4> color = materialColor(drawable);
+    if (!color) color = place.color;
     if (!color) color = vertexColor(drawable);
     if (color) body.displayColor = toLinearColor(*color);
 }
@@ -294,12 +272,7 @@ void ConstraintVisitor::enterJoint(osg::Transform& node, FoundJoints found) {
         const bool last = k + 1 == found.joints.size();
         body = addJoint(joint, body, node, last ? scale * found.scale : 0);
     }
-    PlaceInBody place;
-    place.body = body;
-    place.scale = scale * found.scale;
-    place.visible = _place.visible;
-    place.color = _place.color;
-    enter(node, place);
+    enter(node, {body, osg::Matrixd(), scale * found.scale, _place.visible, _place.color});
 }
 
 /// Adds the joint and the body that it moves, and returns that. scale: of the node's children to the body; 0:
@@ -322,15 +295,13 @@ void ConstraintVisitor::enterMoved(osg::Transform& node, const osg::Matrixd& mat
     const auto similarity = toSimilarity(matrix);
     if (!similarity)
         return warn("what hangs below is left out: it moves, and shears or scales axes differently");
-    PlaceInBody place = _place;
-    place.scale = _place.scale * similarity->scale;
-    place.toBody = osg::Matrixd();
+    const double scale = _place.scale * similarity->scale;
     tss::Pose local = similarity->pose;
     local.translation() *= _place.scale;
     const tss::Pose above = _model.bodies[_place.body].placement;
-    place.body = addBody(node, "Moved", place.scale);
-    _model.bodies[place.body].placement = above * local;
-    enter(node, place);
+    const int body = addBody(node, "Moved", scale);
+    _model.bodies[body].placement = above * local;
+    enter(node, {body, osg::Matrixd(), scale, _place.visible, _place.color});
 }
 
 int ConstraintVisitor::addBody(osg::Node& node, const char* fallback, double scale) {

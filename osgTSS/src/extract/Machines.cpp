@@ -146,12 +146,10 @@ void Machines::tag(const PairPlace& place) const {
     };
     for (std::size_t k = 0; k < place.joints.size(); ++k) {
         const tss::Joint& joint = _model.joints[pair.joints[k]];
-        const bool carries = [&] {
-            const auto tagged = _tagged.find(joint.path);
-            return tagged != _tagged.end() &&
-                   std::ranges::find(tagged->second, place.joints[k]) != tagged->second.end();
-        }();
-        if (carries) continue; // it and its bodies are named already
+        if (const auto tagged = _tagged.find(joint.path);
+            tagged != _tagged.end() &&
+            std::ranges::find(tagged->second, place.joints[k]) != tagged->second.end())
+            continue; // it and its bodies are named already
         tagJoint(*place.joints[k], joint.path);
         for (std::size_t j = 0; j < nodes.size(); ++j)
             if (nodes[j] == place.joints[k]) {

@@ -9,16 +9,17 @@
 
 namespace osgTSS {
 
+bool isInstalled(const osg::Callback& callback) {
+    return dynamic_cast<const JointCallback*>(&callback) || dynamic_cast<const LimitsCallback*>(&callback) ||
+           dynamic_cast<const MuscleCallback*>(&callback) || dynamic_cast<const SkinCallback*>(&callback);
+}
+
 bool movesItself(osg::Node& node) {
     for (osg::Callback* callback = node.getUpdateCallback(); callback;
-         callback = callback->getNestedCallback()) {
-        const bool others =
-            dynamic_cast<JointCallback*>(callback) || dynamic_cast<LimitsCallback*>(callback) ||
-            dynamic_cast<MuscleCallback*>(callback) || dynamic_cast<SkinCallback*>(callback) ||
-            dynamic_cast<osgAnimation::AnimationManagerBase*>(callback) ||
-            dynamic_cast<osgAnimation::Skeleton::UpdateSkeleton*>(callback);
-        if (!others) return true;
-    }
+         callback = callback->getNestedCallback())
+        if (!isInstalled(*callback) && !dynamic_cast<osgAnimation::AnimationManagerBase*>(callback) &&
+            !dynamic_cast<osgAnimation::Skeleton::UpdateSkeleton*>(callback))
+            return true;
     return false;
 }
 

@@ -1,19 +1,18 @@
 #include "InstallSkins.h"
 #include "bake/base/UnionFind.h"
 #include "osgTSS/src/EachNode.h"
+#include "osgTSS/src/UserFlag.h"
 #include "osgTSS/src/extract/Machines.h"
+#include "osgTSS/src/extract/MovedNodes.h"
 #include "osgTSS/src/joints/JointNodes.h"
 
 #include <osg/Notify>
 #include <osg/UserDataContainer>
-#include <osg/ValueObject>
 #include <osgAnimation/Bone>
 #include <osgAnimation/Skeleton>
 #include <osgTSS/Install>
 #include <osgTSS/JointCallback>
 #include <osgTSS/LimitsCallback>
-#include <osgTSS/MuscleCallback>
-#include <osgTSS/SkinCallback>
 
 #include <algorithm>
 #include <map>
@@ -66,8 +65,7 @@ void hang(osg::Node& root, Scene& scene) {
 }
 
 void takeOffScene(osg::Node& node) {
-    bool hung = false;
-    if (!node.getUserValue(hungTag, hung)) return;
+    if (!hasFlag(node, hungTag)) return;
     osg::UserDataContainer* container = node.getUserDataContainer();
     if (container->referenceCount() > 1) { // shared by copies of the graph
         container = osg::clone(container, osg::CopyOp::SHALLOW_COPY);
@@ -84,10 +82,8 @@ void removeCallbacks(osg::Node& node) {
     osg::ref_ptr<osg::Callback> callback = node.getUpdateCallback();
     while (callback) {
         osg::ref_ptr<osg::Callback> next = callback->getNestedCallback();
-        const bool ours = dynamic_cast<JointCallback*>(callback.get()) ||
-                          dynamic_cast<LimitsCallback*>(callback.get()) ||
-                          (dynamic_cast<MuscleCallback*>(callback.get()) && !node.asDrawable()) ||
-                          dynamic_cast<SkinCallback*>(callback.get());
+        // A muscle on its own drawable plays without any table.
+        const bool ours = isInstalled(*callback) && !node.asDrawable();
         if (ours && node.getUpdateCallback() == callback)
             node.setUpdateCallback(next); // copies of the graph go on sharing what was there
         else if (ours)

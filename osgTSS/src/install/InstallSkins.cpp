@@ -8,7 +8,6 @@
 #include "osgTSS/src/extract/SoftParts.h"
 #include "osgTSS/src/extract/SoftTags.h"
 
-#include "bake/base/Error.h"
 #include "bake/model/SourceHash.h"
 #include "bake/scene/SceneLayer.h"
 

@@ -21,33 +21,30 @@ void setTo(Setting& setting, const std::string& value, const std::string& where,
                  << "\"; it is passed over" << std::endl;
 }
 
-void setClock(Clock::Source& clock, const std::string& value, const std::string& where) {
-    setTo(clock, value, where, "frame", Clock::FRAME_NUMBER, "time", Clock::SIMULATION_TIME);
-}
-
-void setFlag(bool& flag, const std::string& value, const std::string& where) {
-    setTo(flag, value, where, "on", true, "off", false);
-}
-
 } // namespace
 
 LoadOptions::LoadOptions(const std::string& optionString) {
+    const auto setClock = [&](const std::string& value, const std::string& where) {
+        setTo(clock, value, where, "frame", Clock::FRAME_NUMBER, "time", Clock::SIMULATION_TIME);
+    };
+    const auto setFlag = [](bool& flag, const std::string& key, const std::string& value) {
+        setTo(flag, value, "option " + key, "on", true, "off", false);
+    };
     if (const char* variable = std::getenv("OSGTSS_CLOCK"))
-        setClock(clock, variable, "environment variable OSGTSS_CLOCK");
+        setClock(variable, "environment variable OSGTSS_CLOCK");
     std::istringstream words(optionString);
     for (std::string word; words >> word;) {
         const std::size_t equals = word.find('=');
         const std::string key = word.substr(0, equals);
         const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
         if (key == "clock")
-            setClock(clock, value, "option clock");
+            setClock(value, "option clock");
         else if (key == "light")
-            setFlag(graph.keyLight, value, "option light");
+            setFlag(graph.keyLight, key, value);
         else if (key == "noRotation")
             graph.rotateUp = false;
         else if (key == "overlay" || key == "play")
-            setFlag(key == "overlay" ? overlay : play, equals == std::string::npos ? "on" : value,
-                    "option " + key);
+            setFlag(key == "overlay" ? overlay : play, key, equals == std::string::npos ? "on" : value);
         else if (equals != std::string::npos)
             others[key] = value;
     }

@@ -106,6 +106,13 @@ bool isCurve(const Channel& channel) {
            dynamic_cast<const Vec4CubicBezierKeyframeContainer*>(keys);
 }
 
+osg::Matrix stackMatrix(const StackedTransform& elements) {
+    osg::Matrix matrix;
+    for (const auto& element : elements)
+        if (!element->isIdentity()) element->applyToMatrix(matrix);
+    return matrix;
+}
+
 std::vector<osg::ref_ptr<Channel>> channelsOf(StackedTransformElement& element,
                                               const AnimationChannels::Channels& animation) {
     std::vector<osg::ref_ptr<Channel>> found;

@@ -3,7 +3,7 @@
 #include <osgAnimation/Animation>
 #include <osgAnimation/AnimationManagerBase>
 #include <osgAnimation/Channel>
-#include <osgAnimation/StackedTransformElement>
+#include <osgAnimation/StackedTransform>
 
 #include <map>
 #include <string>
@@ -51,6 +51,9 @@ std::vector<double> keyTimes(const osgAnimation::Channel& channel);
 
 /// These times, and so many steps from each to the next.
 std::vector<double> withSteps(const std::vector<double>& keyTimes, int steps);
+
+/// What the elements of a stack, with their values now, make together.
+osg::Matrix stackMatrix(const osgAnimation::StackedTransform& elements);
 
 /// Copies of those channels of an animation that move the element, which is their target.
 std::vector<osg::ref_ptr<osgAnimation::Channel>> channelsOf(osgAnimation::StackedTransformElement& element,

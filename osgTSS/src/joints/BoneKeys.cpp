@@ -46,21 +46,17 @@ public:
         return withSteps(all, curves ? stepsOfCurve : stepsBetweenKeys);
     }
 
-    osg::Matrixd at(double time) const {
+    osg::Matrixd at(double time) {
         for (const auto& channel : _channels) channel->reset();
         for (const auto& channel : _channels) channel->update(time, 1, 0);
-        osg::Matrix matrix;
-        for (const auto& element : _elements) {
-            element->update(static_cast<float>(time));
-            if (!element->isIdentity()) element->applyToMatrix(matrix);
-        }
-        return matrix;
+        _elements.update(static_cast<float>(time));
+        return _elements.getMatrix();
     }
 
 private:
     using Channels = std::vector<osg::ref_ptr<Channel>>;
 
-    std::vector<osg::ref_ptr<StackedTransformElement>> _elements;
+    StackedTransform _elements;
     Channels _channels;
 };
 
@@ -72,7 +68,7 @@ std::vector<std::vector<osg::Matrixd>> boneRuns(Bone& bone, const AnimationChann
     if (!stack) return runs;
     const std::vector<AnimationChannels::Channels> animations = channels.of(bone, stack->getName());
     for (const AnimationChannels::Channels& animation : animations) {
-        const StackCopy copy(*stack, animation, animations);
+        StackCopy copy(*stack, animation, animations);
         std::vector<osg::Matrixd> run;
         for (const double time : copy.times()) run.push_back(copy.at(time));
         if (!run.empty()) runs.push_back(std::move(run));
@@ -82,11 +78,7 @@ std::vector<std::vector<osg::Matrixd>> boneRuns(Bone& bone, const AnimationChann
 
 osg::Matrixd boneNow(Bone& bone) {
     UpdateMatrixTransform* stack = callbackOf<UpdateMatrixTransform>(bone.getUpdateCallback());
-    if (!stack) return bone.getMatrix();
-    osg::Matrix matrix;
-    for (const auto& element : stack->getStackedTransforms())
-        if (!element->isIdentity()) element->applyToMatrix(matrix);
-    return matrix;
+    return stack ? osg::Matrixd(stackMatrix(stack->getStackedTransforms())) : bone.getMatrix();
 }
 
 } // namespace osgTSS

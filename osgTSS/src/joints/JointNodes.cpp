@@ -77,6 +77,11 @@ std::optional<FoundJoints> jointsOf(osg::Transform& node, const AnimationChannel
     return std::nullopt;
 }
 
+bool saysJoint(osg::Node& node) {
+    return dynamic_cast<JointTransform*>(&node) || dynamic_cast<osgSim::DOFTransform*>(&node) ||
+           isTagged(node);
+}
+
 std::unique_ptr<JointNode> makeJointNode(osg::Node& node, const tss::Joint& joint) {
     if (auto* transform = dynamic_cast<JointTransform*>(&node)) {
         if (transform->getNumDofs() != joint.dofs.size()) return nullptr;

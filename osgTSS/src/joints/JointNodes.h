@@ -21,6 +21,9 @@ class AnimationChannels;
 std::optional<FoundJoints> jointsOf(osg::Transform& node, const AnimationChannels& channels,
                                     double timeCodesPerSecond, std::string& why);
 
+/// Whether a node of this kind is a joint whatever moves it: one of the first three.
+bool saysJoint(osg::Node& node);
+
 /// Of a node that jointsOf() knows and one of its joints; null for another node or for DOFs that the node
 /// does not have.
 std::unique_ptr<JointNode> makeJointNode(osg::Node& node, const tss::Joint& joint);
@@ -32,8 +35,8 @@ void tagJoint(osg::Node& node, const std::string& jointPath);
 /// Whether the node carries a joint.
 bool carriesJoint(osg::Node& node);
 
-/// The nodes at and below `root` that carry a joint, by the joint's path, in the order of the graph. Sees masked
-/// nodes.
+/// The nodes at and below `root` that carry a joint, by the joint's path, in the order of the graph. Sees
+/// masked nodes.
 std::map<std::string, std::vector<osg::Node*>> findJointNodes(osg::Node& root);
 
 } // namespace osgTSS

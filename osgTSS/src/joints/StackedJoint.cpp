@@ -70,10 +70,7 @@ private:
     std::vector<double> stateAt(const std::vector<double>& values) const override { return values; }
     void write(const std::vector<double>& values) override {
         for (std::size_t k = 0; k < _dofs.size(); ++k) _dofs[k].setValue(values[k]);
-        osg::Matrix matrix;
-        for (const auto& element : _animation->getStackedTransforms())
-            if (!element->isIdentity()) element->applyToMatrix(matrix);
-        _node->setMatrix(matrix);
+        _node->setMatrix(stackMatrix(_animation->getStackedTransforms()));
     }
 
     osg::observer_ptr<osgAnimation::UpdateMatrixTransform> _animation;

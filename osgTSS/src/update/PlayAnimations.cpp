@@ -1,6 +1,7 @@
 #include "bake/base/Error.h"
 #include "osgTSS/src/CallbackOf.h"
 #include "osgTSS/src/EachNode.h"
+#include "osgTSS/src/UserFlag.h"
 #include "osgTSS/src/joints/AnimationChannels.h"
 #include "osgTSS/src/joints/DofState.h"
 #include "osgTSS/src/joints/JointKinds.h"
@@ -11,7 +12,6 @@
 #include <osg/AnimationPath>
 #include <osg/NodeCallback>
 #include <osg/NodeVisitor>
-#include <osg/ValueObject>
 #include <osg/observer_ptr>
 #include <osgAnimation/BasicAnimationManager>
 #include <osgTSS/PlayAnimations>
@@ -102,9 +102,8 @@ std::optional<Turns> turnsOf(osgAnimation::BasicAnimationManager& manager) {
 
 /// Of a DOFTransform that nothing moves and that could.
 std::optional<Swing> swingOf(osgSim::DOFTransform& node) {
-    bool still = false;
-    node.getUserValue("osgTSS:static", still);
-    if (still || node.getAnimationOn() || node.getUpdateCallback()) return std::nullopt;
+    if (hasFlag(node, "osgTSS:static") || node.getAnimationOn() || node.getUpdateCallback())
+        return std::nullopt;
     try {
         std::vector<tss::Dof> dofs = dofTransformJoint(node, 1).joints.front().dofs;
         const auto moves = [](const tss::Dof& dof) { return dof.lower < dof.upper; };

@@ -2,8 +2,8 @@
 
 #include "PairBodies.h"
 #include "osgTSS/src/NodePaths.h"
+#include "osgTSS/src/UserFlag.h"
 #include "osgTSS/src/extract/MovedNodes.h"
-#include "osgTSS/src/joints/JointKinds.h"
 #include "osgTSS/src/joints/JointNodes.h"
 
 #include <osg/AutoTransform>
@@ -11,11 +11,8 @@
 #include <osg/Geometry>
 #include <osg/NodeVisitor>
 #include <osg/PagedLOD>
-#include <osg/ValueObject>
 #include <osgAnimation/Bone>
 #include <osgAnimation/Skeleton>
-#include <osgSim/DOFTransform>
-#include <osgTSS/JointTransform>
 #include <osgTSS/Overlay>
 
 #include <algorithm>
@@ -32,16 +29,13 @@ namespace {
 constexpr std::size_t calls = 32;
 
 bool isJoint(osg::Node& node) {
-    return dynamic_cast<JointTransform*>(&node) || dynamic_cast<osgSim::DOFTransform*>(&node) ||
-           dynamic_cast<osgAnimation::Bone*>(&node) || isTagged(node) || carriesJoint(node);
+    return saysJoint(node) || dynamic_cast<osgAnimation::Bone*>(&node) || carriesJoint(node);
 }
 
 /// What stands below does so whatever stands beside the node.
 bool movesOtherwise(osg::Node& node) {
-    bool moved = false;
     return dynamic_cast<osg::AutoTransform*>(&node) || dynamic_cast<osg::Camera*>(&node) ||
-           dynamic_cast<osgAnimation::Skeleton*>(&node) || movesItself(node) ||
-           (node.getUserValue("osgTSS:moved", moved) && moved);
+           dynamic_cast<osgAnimation::Skeleton*>(&node) || movesItself(node) || hasFlag(node, "osgTSS:moved");
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "osgTSS/src/CallbackOf.h"
 #include "osgTSS/src/SceneCache.h"
+#include "osgTSS/src/UserFlag.h"
 
 #include <osg/Stats>
 #include <osgGA/EventVisitor>
@@ -26,8 +27,7 @@ void addLine(osgViewer::View& view) {
     constexpr float milliseconds = 1000, most = 0.016f;
     for (const auto& handler : view.getEventHandlers()) {
         auto* stats = dynamic_cast<osgViewer::StatsHandler*>(handler.get());
-        bool known = false;
-        if (!stats || (stats->getUserValue("osgTSS:line", known) && known)) continue;
+        if (!stats || hasFlag(*stats, "osgTSS:line")) continue;
         stats->setUserValue("osgTSS:line", true);
         stats->addUserStatsLine(line, color, bar, taken, milliseconds, true, false, begins, ends, most);
     }
