@@ -120,21 +120,6 @@ void addApi(Prim& prim, const std::string& api) {
     list.as<Value::Array>()->emplace_back(api);
 }
 
-void moveBelow(std::string& path, const std::string& from, const std::string& to) {
-    if (path.starts_with(from) &&
-        (path.size() == from.size() || path[from.size()] == '/' || path[from.size()] == '.'))
-        path.replace(0, from.size(), to);
-}
-
-void moveBelow(Value& paths, const std::string& from, const std::string& to) {
-    if (auto* array = paths.as<Value::Array>()) {
-        for (Value& item : *array)
-            if (auto* path = item.as<std::string>()) moveBelow(*path, from, to);
-    } else if (auto* ops = paths.as<Value::Object>()) {
-        for (auto& [op, items] : *ops) moveBelow(items, from, to);
-    }
-}
-
 std::size_t numbersIn(const Property& property) {
     const auto count = [](const Value& value) {
         const Numbers* numbers = value.as<Numbers>();

@@ -71,11 +71,6 @@ bool hasApi(const Prim& prim, std::string_view api);
 /// Prepends the schema to the prim's list unless it has it.
 void addApi(Prim& prim, const std::string& api);
 
-/// A path at or below one prim as the same below another; any other path stays.
-void moveBelow(std::string& path, const std::string& from, const std::string& to);
-/// The same of each path of a list.
-void moveBelow(Value& paths, const std::string& from, const std::string& to);
-
 /// Children of a weaker prim under those of a stronger one: two of one name become one, merge(stronger,
 /// weaker), in the weaker one's place; what the stronger one alone has comes behind.
 template <class Child, class Name, class Merge>

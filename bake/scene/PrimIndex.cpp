@@ -20,6 +20,22 @@ bool flagOf(const Prim& prim, const char* key, bool fallback) {
     return flag ? *flag : fallback;
 }
 
+/// A path at or below one prim as the same below another; any other path stays.
+void moveBelow(std::string& path, const std::string& from, const std::string& to) {
+    if (path.starts_with(from) &&
+        (path.size() == from.size() || path[from.size()] == '/' || path[from.size()] == '.'))
+        path.replace(0, from.size(), to);
+}
+
+void moveBelow(Value& paths, const std::string& from, const std::string& to) {
+    if (auto* array = paths.as<Value::Array>()) {
+        for (Value& item : *array)
+            if (auto* path = item.as<std::string>()) moveBelow(*path, from, to);
+    } else if (auto* ops = paths.as<Value::Object>()) {
+        for (auto& [op, items] : *ops) moveBelow(items, from, to);
+    }
+}
+
 void moveAll(Composed& prim, const std::string& from, const std::string& to) {
     moveBelow(prim.place.path, from, to);
     for (auto& [name, property] : prim.prim.properties)

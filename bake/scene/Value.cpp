@@ -16,8 +16,6 @@ std::string elements(std::size_t count) {
     return "an array of " + std::to_string(count) + (count == 1 ? " element" : " elements");
 }
 
-constexpr double exactIntegers = 9007199254740992.0; // 2^53
-
 /// Everything that is written the same way in a float and in a double slot.
 bool appendPlain(std::string& text, double number) {
     if (std::isnan(number)) {
@@ -49,12 +47,6 @@ std::string_view shortest(char (&digits)[40], Real number) {
 } // namespace
 
 // Here and not inline: GCC 12 sees uninitialized members in the variant's inlined moves where there are none.
-Value::Value(const Value&) = default;
-Value::Value(Value&&) noexcept = default;
-Value& Value::operator=(const Value&) = default;
-Value& Value::operator=(Value&&) noexcept = default;
-Value::~Value() = default;
-
 Value Numbers::element(std::size_t index) const {
     if (width == 0) return Value(values[index]);
     const auto first = values.begin() + index * width;
@@ -62,7 +54,7 @@ Value Numbers::element(std::size_t index) const {
 }
 
 Value::Value(std::int64_t number) {
-    constexpr std::int64_t exact = std::int64_t(1) << 53;
+    constexpr auto exact = static_cast<std::int64_t>(exactIntegers);
     if (number >= -exact && number <= exact)
         data = static_cast<double>(number);
     else

@@ -10,6 +10,9 @@ namespace tss {
 
 struct Value;
 
+/// 2^53: up to here a double holds every integer.
+constexpr double exactIntegers = 9007199254740992.0;
+
 /// Many numbers in one block: an array of numbers (width 0), or an array of tuples of `width` numbers each.
 /// Never empty; each is a double, or an integer that a double holds exactly.
 struct Numbers {
@@ -33,11 +36,6 @@ struct Value {
         data;
 
     Value() = default;
-    Value(const Value&);
-    Value(Value&&) noexcept;
-    Value& operator=(const Value&);
-    Value& operator=(Value&&) noexcept;
-    ~Value();
     explicit Value(bool flag) : data(flag) {}
     Value(double number) : data(number) {}
     /// A double when it holds the integer exactly.

@@ -204,7 +204,6 @@ private:
 
     /// Integers as such, other numbers as float where that is exact.
     void number(double number) {
-        constexpr double exactIntegers = 9007199254740992.0; // 2^53
         const bool negativeZero = number == 0 && std::signbit(number);
         if (!std::isfinite(number))
             item(numberText(number));
