@@ -344,11 +344,8 @@ void store(Layer& layer, const Owned& owned, bool any, const char* type, const W
 } // namespace
 
 std::vector<SchemaType> tableSchemas() {
-    std::vector<SchemaType> types{tableFields().schema("TssTable"), proofFields().schema("TssNeverCollides"),
-                                  sphereSchema()};
-    for (const SchemaType& more : {skinTableFields().schema(""), recordFields().schema("")})
-        types[0].attributes.insert(types[0].attributes.end(), more.attributes.begin(), more.attributes.end());
-    return types;
+    return {tableFields().schema("TssTable"), skinTableFields().schema("TssTable"),
+            recordFields().schema("TssTable"), proofFields().schema("TssNeverCollides"), sphereSchema()};
 }
 
 void readTables(SceneReading& reading) {
