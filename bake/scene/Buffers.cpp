@@ -82,7 +82,7 @@ public:
     void pack(std::vector<Prim>& prims) {
         for (Prim& prim : prims) {
             for (auto& [name, property] : prim.properties) {
-                const auto type = valueType(property.typeName);
+                const ValueType* const type = valueType(property.typeName);
                 const Scalar scalar = type ? scalarOf(*type) : Scalar::None;
                 if (scalar == Scalar::None) continue;
                 if (property.defaultValue) pack(*property.defaultValue, scalar);
@@ -160,30 +160,29 @@ std::optional<std::uint64_t> BufferReader::whole(const Value::Object& keys, cons
                                                  const Place& place) {
     const auto found = keys.find(key);
     const double* number = member<double>(keys, key);
-    if (number && *number >= 0 && *number == std::trunc(*number) && *number <= 9007199254740992.0)
+    if (number && *number >= 0 && *number == std::trunc(*number) && *number <= exactIntegers)
         return static_cast<std::uint64_t>(*number);
     problems_.add(place / key, "expected ", key, ", an integer of at least 0",
                   found == keys.end() ? "" : ", found " + describe(found->second));
     return std::nullopt;
 }
 
-void BufferReader::fill(Value& value, const ValueType& type, const std::string& typeName,
-                        const Place& place) {
+void BufferReader::fill(Value& value, const ValueType& type, const Place& place) {
     const auto* keys = value.as<Value::Object>();
     if (!buffers_ || !keys || !keys->contains(bufferKey)) return;
-    auto numbers = view(*keys, type, typeName, place);
+    auto numbers = view(*keys, type, place);
     value = numbers ? std::move(*numbers) : Value(Value::Array());
 }
 
 std::optional<Value> BufferReader::view(const Value::Object& keys, const ValueType& type,
-                                        const std::string& typeName, const Place& place) {
+                                        const Place& place) {
     const auto wrong = [&](const Place& at, const auto&... parts) {
         problems_.add(at, parts...);
         return std::nullopt;
     };
     const Scalar scalar = scalarOf(type);
     if (scalar == Scalar::None)
-        return wrong(place, "expected the value itself: ", typeName, " has no form in a buffer");
+        return wrong(place, "expected the value itself: ", type.name, " has no form in a buffer");
     for (const auto& [key, value] : keys)
         if (key != bufferKey && key != offsetKey && key != countKey)
             return wrong(place / key, "expected buffer, byteOffset and count, found \"", key, "\"");

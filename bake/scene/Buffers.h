@@ -17,14 +17,13 @@ public:
 
     void readAll(const Value& list, const Place& place);
     /// Puts the numbers in the place of a value that names them.
-    void fill(Value& value, const ValueType& type, const std::string& typeName, const Place& place);
+    void fill(Value& value, const ValueType& type, const Place& place);
 
 private:
     std::optional<std::string> read(const Value::Object& keys, const Place& place);
     /// A whole number of at least 0.
     std::optional<std::uint64_t> whole(const Value::Object& keys, const char* key, const Place& place);
-    std::optional<Value> view(const Value::Object& keys, const ValueType& type, const std::string& typeName,
-                              const Place& place);
+    std::optional<Value> view(const Value::Object& keys, const ValueType& type, const Place& place);
 
     struct Loaded {
         std::optional<std::string> bytes; ///< none: it could not be read

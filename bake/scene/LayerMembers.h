@@ -33,7 +33,7 @@ void forMembers(const std::map<std::string, Property>& properties, const Visit& 
 
 template <class Visit>
 void forMembers(const Property& property, const Visit& visit) {
-    const auto type = valueType(property.typeName);
+    const ValueType* const type = valueType(property.typeName);
     const bool asFloat = type && type->isFloat();
     if (property.targetPaths) {
         visit("targetPaths", TypedValue{*property.targetPaths});

@@ -30,8 +30,7 @@ Value textsValue(const std::vector<std::string>& texts) {
 
 void conformTo(const Attribute& attribute, Value& value, const std::string& prim) {
     Problems problems("");
-    conform(value, *valueType(attribute.typeName), attribute.typeName,
-            {"", joined(prim, ".", attribute.name)}, problems);
+    conform(value, *valueType(attribute.typeName), {"", joined(prim, ".", attribute.name)}, problems);
 }
 
 } // namespace

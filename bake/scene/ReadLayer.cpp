@@ -148,10 +148,10 @@ struct LayerReader {
 
     /// A value of an attribute, in the form that its type has.
     void readValue(Value& value, const std::string& typeName, const Place& place) {
-        const auto type = valueType(typeName);
+        const ValueType* const type = valueType(typeName);
         if (!type) return;
-        if (buffers) buffers->fill(value, *type, typeName, place);
-        conform(value, *type, typeName, place, problems);
+        if (buffers) buffers->fill(value, *type, place);
+        conform(value, *type, place, problems);
     }
 
     void readAttribute(Value::Object& keys, Property& property, const Place& place) {

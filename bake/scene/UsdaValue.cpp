@@ -18,9 +18,9 @@ void appendNumberOf(std::string& out, double number, const ValueType& type) {
     type.isFloat() ? appendFloat(out, number) : appendNumber(out, number);
 }
 
-void appendSingle(std::string& out, const Value& value, const ValueType& type, std::string_view typeName) {
+void appendSingle(std::string& out, const Value& value, const ValueType& type) {
     if (const auto* text = value.as<std::string>()) {
-        if (!typeName.starts_with("asset")) return appendUsdaString(out, *text);
+        if (!type.name.starts_with("asset")) return appendUsdaString(out, *text);
         out += "@" + *text + "@";
     } else if (const auto* flag = value.as<bool>()) {
         out += *flag ? '1' : '0';
@@ -75,18 +75,16 @@ void appendUsdaString(std::string& out, std::string_view text) {
     out += '"';
 }
 
-void appendUsda(std::string& out, const Value& value, const ValueType& type, std::string_view typeName) {
+void appendUsda(std::string& out, const Value& value, const ValueType& type) {
     const auto* block = value.as<Numbers>();
     const auto* array = value.as<Value::Array>();
-    if (!block && !array) return appendSingle(out, value, type, typeName);
+    if (!block && !array) return appendSingle(out, value, type);
     const char* const brackets = type.array ? "[]" : "()";
     out += brackets[0];
     if (block) appendBlock(out, *block, type);
     for (std::size_t i = 0; array && i < array->size(); ++i) {
-        ValueType one = type;
-        one.array = false;
         if (i > 0) out += ", ";
-        appendUsda(out, (*array)[i], one, typeName);
+        appendUsda(out, (*array)[i], type.array ? *type.element : type);
     }
     out += brackets[1];
 }
@@ -105,7 +103,7 @@ void appendUsdaDictionary(std::string& out, const Value::Object& object, std::si
         else if (const auto* inner = value.as<Value::Object>())
             appendUsdaDictionary(out, *inner, indent + 4);
         else
-            appendUsda(out, value, *valueType(type), type);
+            appendUsda(out, value, *valueType(type));
         out += '\n';
     }
     out.append(indent, ' ');

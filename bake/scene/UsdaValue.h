@@ -5,7 +5,7 @@ namespace tss {
 
 /// Appends a value of this type as .usda writes it: tuples in (), arrays in [], text in quotes, None for
 /// null.
-void appendUsda(std::string& out, const Value& value, const ValueType& type, std::string_view typeName);
+void appendUsda(std::string& out, const Value& value, const ValueType& type);
 
 /// Appends a string literal: \ and quotes escaped, line breaks as \n.
 void appendUsdaString(std::string& out, std::string_view text);

@@ -14,7 +14,7 @@ namespace {
 using Base = ValueType::Base;
 
 ValueType integer(double lowest, double highest) {
-    return {Base::Integer, 1, 1, false, lowest, highest};
+    return {Base::Integer, 1, 1, lowest, highest};
 }
 
 std::map<std::string, ValueType, std::less<>> makeTypes() {
@@ -46,6 +46,15 @@ std::map<std::string, ValueType, std::less<>> makeTypes() {
         types["matrix" + std::to_string(n) + "d"] = {Base::Double, n, n};
     }
     types["frame4d"] = {Base::Double, 4, 4};
+    std::map<std::string, ValueType, std::less<>> arrays;
+    for (auto& [name, type] : types) {
+        type.name = name;
+        ValueType& array = arrays[name + "[]"] = type;
+        array.array = true;
+        array.name += "[]";
+        array.element = &type;
+    }
+    types.merge(arrays);
     return types;
 }
 
@@ -53,15 +62,14 @@ std::map<std::string, ValueType, std::less<>> makeTypes() {
 /// Brings values of one type into the form that they are kept in.
 class Conformer {
 public:
-    Conformer(const ValueType& type, std::string_view typeName, Problems& problems)
-        : type_(type), typeName_(typeName), width_(static_cast<std::size_t>(type.width)),
-          problems_(problems) {}
+    Conformer(const ValueType& type, Problems& problems)
+        : type_(type), width_(static_cast<std::size_t>(type.width)), problems_(problems) {}
 
     void conform(Value& value, const Place& place) const {
         if (type_.base == Base::Bool) return checkAll<bool>(value, "true or false", place);
         if (type_.base == Base::Text) {
             checkAll<std::string>(value, "a string", place);
-            if (typeName_.starts_with("asset")) checkAssets(value, place);
+            if (type_.name.starts_with("asset")) checkAssets(value, place);
         } else if (hasBigInteger(value)) {
             return;
         } else if (type_.rows > 1 && type_.array) {
@@ -70,7 +78,7 @@ public:
             array(value, place);
             const Numbers* rows = value.as<Numbers>();
             if (!rows || rows->count() != std::size_t(type_.rows))
-                problems_.add(place, "expected ", type_.rows, " rows (", typeName_, "), found ",
+                problems_.add(place, "expected ", type_.rows, " rows (", type_.name, "), found ",
                               describe(value));
         } else if (type_.array) {
             array(value, place);
@@ -98,7 +106,7 @@ private:
         const bool rounds = type_.base == Base::Float && std::abs(number) < 0x1.ffffffp127;
         if (std::abs(number) > limit && !rounds)
             problems_.add(place(), "expected a number of at most ", limit, " in a ",
-                          typeName_.substr(0, typeName_.find('[')), ", found ", describe(Value(number)));
+                          (type_.array ? *type_.element : type_).name, ", found ", describe(Value(number)));
         return nearestFloat(number);
     }
 
@@ -125,10 +133,10 @@ private:
         return joined("an integer from ", type_.lowest, " to ", type_.highest);
     }
 
-    std::string wantedTuple() const { return joined("an array of ", width_, " numbers (", typeName_, ")"); }
+    std::string wantedTuple() const { return joined("an array of ", width_, " numbers (", type_.name, ")"); }
 
     void notAnArray(const Value& value, const Place& place) const {
-        problems_.add(place, "expected an array (", typeName_, "), found ", describe(value));
+        problems_.add(place, "expected an array (", type_.name, "), found ", describe(value));
     }
 
     void appendTuple(const Value& value, const Place& place, std::vector<double>& out) const {
@@ -180,9 +188,7 @@ private:
     void eachMatrix(Value& value, const Place& place) const {
         auto* matrices = value.as<Value::Array>();
         if (!matrices) return notAnArray(value, place);
-        ValueType one = type_;
-        one.array = false;
-        const Conformer conformer(one, typeName_.substr(0, typeName_.size() - 2), problems_);
+        const Conformer conformer(*type_.element, problems_);
         for (std::size_t i = 0; i < matrices->size(); ++i)
             if (!(*matrices)[i].isNull()) conformer.conform((*matrices)[i], place / i);
     }
@@ -224,26 +230,20 @@ private:
     }
 
     const ValueType& type_;
-    std::string_view typeName_;
     std::size_t width_;
     Problems& problems_;
 };
 
 } // namespace
 
-std::optional<ValueType> valueType(std::string_view typeName) {
+const ValueType* valueType(std::string_view typeName) {
     static const auto types = makeTypes();
-    const bool array = typeName.ends_with("[]");
-    const auto found = types.find(array ? typeName.substr(0, typeName.size() - 2) : typeName);
-    if (found == types.end()) return std::nullopt;
-    ValueType type = found->second;
-    type.array = array;
-    return type;
+    const auto found = types.find(typeName);
+    return found == types.end() ? nullptr : &found->second;
 }
 
-void conform(Value& value, const ValueType& type, std::string_view typeName, const Place& place,
-             Problems& problems) {
-    if (!value.isNull()) Conformer(type, typeName, problems).conform(value, place);
+void conform(Value& value, const ValueType& type, const Place& place, Problems& problems) {
+    if (!value.isNull()) Conformer(type, problems).conform(value, place);
 }
 
 } // namespace tss

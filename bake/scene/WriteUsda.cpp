@@ -99,20 +99,17 @@ private:
 
     /// A list of names or, for references, of paths of this layer.
     void listOp(const std::string& word, const Value& value, bool paths) {
-        const auto items = [&](const std::string& op, const std::vector<std::string>& list) {
+        for (const auto& [op, list] : listOps(value)) {
             line(op + word + " = [");
-            bool first = true;
-            for (const std::string& item : list) {
-                if (!first) out += ", ";
-                first = false;
+            for (std::size_t i = 0; i < list.size(); ++i) {
+                if (i > 0) out += ", ";
                 if (paths)
-                    out += "<" + item + ">";
+                    out += "<" + list[i] + ">";
                 else
-                    appendUsdaString(out, item);
+                    appendUsdaString(out, list[i]);
             }
             out += "]\n";
-        };
-        for (const auto& [op, list] : listOps(value)) items(op, list);
+        }
     }
 
     /// The operations of a list op with the words before them, as OpenUSD reads them: items once in each,
@@ -169,7 +166,7 @@ private:
         else if (type == "bool")
             out += *value.as<bool>() ? "true" : "false";
         else
-            appendUsda(out, value, *valueType(type), type);
+            appendUsda(out, value, *valueType(type));
         out += '\n';
     }
 
@@ -227,7 +224,7 @@ private:
         take("variability", Value("varying"), "");
         if (property.isRelationship()) {
             relationship(prefix, name, *property.targetPaths, all);
-        } else if (const auto type = valueType(property.typeName)) {
+        } else if (const ValueType* const type = valueType(property.typeName)) {
             attribute(prefix, name, property, *type, all);
         } else {
             line("custom string " + name + " = ");
@@ -273,7 +270,7 @@ private:
             line(head);
             if (property.defaultValue) {
                 out += " = ";
-                appendUsda(out, *property.defaultValue, type, property.typeName);
+                appendUsda(out, *property.defaultValue, type);
             }
             out += '\n';
             metadata(rest, propertyMetadata, "customData");
@@ -284,7 +281,7 @@ private:
             line("    ");
             appendNumber(out, sample.time);
             out += ": ";
-            appendUsda(out, sample.value, type, property.typeName);
+            appendUsda(out, sample.value, type);
             out += ",\n";
         }
         line("}\n");

@@ -84,7 +84,7 @@ void adapt(Prim& prim, const std::string& parent, const std::string& file, LeftO
     const std::string path = parent + "/" + prim.name;
     dropLostOperations(prim, path, leftOut);
     for (auto& [name, property] : prim.properties) {
-        const auto type = valueType(plainType(property.typeName));
+        const ValueType* const type = valueType(plainType(property.typeName));
         if (!type || property.isRelationship()) continue;
         const std::string_view wanted =
             name.starts_with("xformOp:") ? operationType(*type) : schemaType(name);
@@ -92,10 +92,9 @@ void adapt(Prim& prim, const std::string& parent, const std::string& file, LeftO
             Problems problems(file);
             property.typeName = wanted;
             if (property.defaultValue)
-                conform(*property.defaultValue, *valueType(wanted), wanted, {"", path + "." + name},
-                        problems);
+                conform(*property.defaultValue, *valueType(wanted), {"", path + "." + name}, problems);
             for (Property::Sample& sample : property.timeSamples)
-                conform(sample.value, *valueType(wanted), wanted, {"", path + "." + name}, problems);
+                conform(sample.value, *valueType(wanted), {"", path + "." + name}, problems);
         }
         if (!property.typeName.starts_with("quat")) continue;
         bool changed = property.defaultValue && normalize(*property.defaultValue);

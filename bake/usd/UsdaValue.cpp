@@ -138,14 +138,14 @@ Value parseUsdaValue(UsdaCursor& cursor, int level) {
 Value parseUsdaValue(UsdaCursor& cursor, const std::string& typeName, int level) {
     const std::size_t line = cursor.line();
     Value value = parseUsdaValue(cursor, level);
-    const auto type = valueType(typeName);
+    const ValueType* const type = valueType(typeName);
     if (!type) return value;
     if (type->base == ValueType::Base::Bool) {
         if (const auto* flags = value.as<Numbers>()) cursor.spend(sizeof(Value) * flags->values.size());
         value = asFlags(value);
     }
     Problems problems(cursor.file());
-    conform(value, *type, typeName, {"line " + std::to_string(line), cursor.openPath()}, problems);
+    conform(value, *type, {"line " + std::to_string(line), cursor.openPath()}, problems);
     return value;
 }
 
