@@ -188,28 +188,38 @@ void MeshQuery::buildDipoles() {
     }
 }
 
-double MeshQuery::approximateWinding(const Vec3& local, double beta) const {
-    double sum = 0;
-    std::array<std::uint32_t, 128> stack;
+namespace {
+
+/// Calls leaf(item) for the items of nodes for which, and for all of whose ancestors, descend(index) is true.
+template <class Descend, class Leaf>
+void visitDepthFirst(const Bvh& bvh, const Descend& descend, const Leaf& leaf) {
+    std::array<std::uint32_t, 128> stack; // as deep as visitNearest's
     std::size_t top = 0;
-    if (!bvh_.empty()) stack[top++] = 0;
+    if (!bvh.empty()) stack[top++] = 0;
     while (top > 0) {
         const std::uint32_t index = stack[--top];
-        const Dipole& dipole = dipoles_[index];
+        if (!descend(index)) continue;
+        const Bvh::Node& node = bvh.nodes[index];
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) leaf(bvh.items[i]);
+        if (node.count > 0) continue;
+        stack[top++] = node.first;
+        stack[top++] = node.first + 1;
+    }
+}
+
+} // namespace
+
+double MeshQuery::approximateWinding(const Vec3& local, double beta) const {
+    double sum = 0;
+    const auto isNear = [&](std::uint32_t node) {
+        const Dipole& dipole = dipoles_[node];
         const Vec3 d = dipole.centre - local;
         const double d2 = d.squaredNorm();
-        if (d2 > beta * beta * dipole.radius * dipole.radius) {
-            sum += dipole.areaNormal.dot(d) / (d2 * std::sqrt(d2));
-            continue;
-        }
-        const Bvh::Node& node = bvh_.nodes[index];
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-            sum += solidAngleOf(bvh_.items[i], local);
-        if (node.count == 0) {
-            stack[top++] = node.first;
-            stack[top++] = node.first + 1;
-        }
-    }
+        if (!(d2 > beta * beta * dipole.radius * dipole.radius)) return true;
+        sum += dipole.areaNormal.dot(d) / (d2 * std::sqrt(d2));
+        return false;
+    };
+    visitDepthFirst(bvh_, isNear, [&](std::uint32_t triangle) { sum += solidAngleOf(triangle, local); });
     return sum / (4 * std::numbers::pi);
 }
 
@@ -228,7 +238,8 @@ double MeshQuery::exactWinding(const Vec3& local) const {
 int MeshQuery::crossings(const Vec3& local) const {
     const Vec3 along(1, 0.6180339887498949, 0.4142135623730951); // along no axis and no diagonal of a grid
     const Vec3 inverse = along.cwiseInverse();
-    const auto meets = [&](const Bvh::Node& node) {
+    const auto meets = [&](std::uint32_t index) {
+        const Bvh::Node& node = bvh_.nodes[index];
         const Eigen::Array3d low = (node.lower - local).array() * inverse.array(),
                              high = (node.upper - local).array() * inverse.array();
         const double enters = low.maxCoeff(), leaves = high.minCoeff();
@@ -257,19 +268,9 @@ int MeshQuery::crossings(const Vec3& local) const {
         return ahead * turns > 0 ? turns : 0;
     };
     int count = 0;
-    std::array<std::uint32_t, 128> stack;
-    std::size_t top = 0;
-    if (!bvh_.empty()) stack[top++] = 0;
-    while (top > 0) {
-        const Bvh::Node& node = bvh_.nodes[stack[--top]];
-        if (!meets(node)) continue;
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-            if (flat_.empty() || !flat_[bvh_.items[i]]) count += crossing(bvh_.items[i]);
-        if (node.count == 0) {
-            stack[top++] = node.first;
-            stack[top++] = node.first + 1;
-        }
-    }
+    visitDepthFirst(bvh_, meets, [&](std::uint32_t triangle) {
+        if (flat_.empty() || !flat_[triangle]) count += crossing(triangle);
+    });
     return count;
 }
 

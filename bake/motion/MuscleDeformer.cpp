@@ -150,12 +150,7 @@ Vec3 MuscleDeformer::shiftAt(const MusclePoint& point, double activation) const 
 }
 
 double MuscleDeformer::insertionShare(const Vec3& rest) const {
-    const NearestPoint near = locator_.nearest(rest, infinity);
-    if (near.triangle < 0) return 0;
-    double share = 0;
-    for (int k = 0; k < 3; ++k)
-        share += near.weights[k] * shares_[muscle_.surface.triangles[near.triangle][k]];
-    return share;
+    return bind(rest).share;
 }
 
 double MuscleDeformer::thickness(double s, const MuscleState& state) const {

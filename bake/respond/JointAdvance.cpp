@@ -141,7 +141,7 @@ double advance(const JointModel& model, const DofValues& step, DofValues& q, Res
         if (near.gap - near.threshold <= near.speed) ws.active[activeCount++] = static_cast<std::uint32_t>(i);
     }
     if (activeCount == 0) {
-        for (int l = 0; l < model.dofCount; ++l) q[l] = start[l] + step[l];
+        q = along(model, start, step, 1);
         return 1;
     }
     double t = 0;
@@ -150,7 +150,7 @@ double advance(const JointModel& model, const DofValues& step, DofValues& q, Res
         const double share = safeTime(model, q, step, 1 - t, activeCount, ws);
         if (share <= 1e-13) break;
         t = share >= 1 - t ? 1 : t + share;
-        for (int l = 0; l < model.dofCount; ++l) q[l] = start[l] + t * step[l];
+        q = along(model, start, step, t);
     }
     return t;
 }

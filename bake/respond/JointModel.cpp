@@ -307,14 +307,8 @@ QueryResult nearestTest(const JointModel& model, std::size_t g, const DofValues&
 }
 
 void narrow(const JointModel& model, double distance, ResponseBuffers& ws) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < ws.nearCount; ++i) {
-        const NearPair& near = ws.near[i];
-        if (near.gap - near.threshold > model.lever(near.pair) * distance) continue;
-        if (kept != i) ws.near[kept] = near;
-        ++kept;
-    }
-    ws.nearCount = kept;
+    ws.removeNear(
+        [&](const NearPair& near) { return near.gap - near.threshold > model.lever(near.pair) * distance; });
 }
 
 void linearise(const JointModel& model, const DofValues& q, const DofValues& step, ResponseBuffers& ws,

@@ -171,6 +171,13 @@ struct ResponseBuffers {
     std::vector<NearCache> caches;     ///< one per group, kept from one response to the next
     std::uint64_t cachesOf = 0;        ///< JointModel::id that the caches are about
 
+    /// Removes the near pairs for which a predicate holds.
+    template <class Predicate>
+    void removeNear(const Predicate& predicate) {
+        const auto end = near.begin() + std::ptrdiff_t(nearCount);
+        nearCount = std::size_t(std::remove_if(near.begin(), end, predicate) - near.begin());
+    }
+
     /// Empties the near list.
     void clearNear() {
         nearCount = 0;
@@ -219,6 +226,20 @@ inline double levelOf(const JointModel& model, double contactOffset, double gap)
 /// And back.
 inline double gapOf(const JointModel& model, double contactOffset, double level) {
     return level > 0 ? level * (contactOffset / model.leastContactOffset) : level;
+}
+
+/// q + t * step.
+inline DofValues along(const JointModel& model, DofValues q, const DofValues& step, double t) {
+    for (int l = 0; l < model.dofCount; ++l) q[l] += t * step[l];
+    return q;
+}
+
+/// share * (goal - q).
+inline DofValues partOfStep(const JointModel& model, const DofValues& q, const DofValues& goal,
+                            double share) {
+    DofValues step{};
+    for (int l = 0; l < model.dofCount; ++l) step[l] = share * (goal[l] - q[l]);
+    return step;
 }
 
 /// Largest share of its range by which any DOF changes in a step.

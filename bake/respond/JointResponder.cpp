@@ -50,12 +50,6 @@ void cullLeg(const JointModel& model, const DofValues& q, const DofValues& goal,
     cull(model, q, travel, ws);
 }
 
-DofValues partOfStep(const JointModel& model, const DofValues& q, const DofValues& goal, double share) {
-    DofValues step{};
-    for (int l = 0; l < model.dofCount; ++l) step[l] = share * (goal[l] - q[l]);
-    return step;
-}
-
 /// Lists the pairs near the first part of the way, chosen so that they are few and no DOF moves by more than
 /// `most` of its range. Returns which share of the way that part is.
 double cullAhead(const JointModel& model, const DofValues& q, const DofValues& goal, double most,
@@ -232,8 +226,7 @@ JointAnswer JointResponder::Prepared::fromCollision(const DofValues& start, cons
             if (model_.periodic[l]) free[l] = nearestTurn(free[l], start[l]);
         const double far = weightedDistance(model_, start, free);
         const double t = far > 0 ? std::min(1.0, returnShare * model_.scale / far) : 1;
-        for (int l = 0; l < model_.dofCount; ++l)
-            q[l] = t == 1 ? free[l] : start[l] + t * (free[l] - start[l]);
+        q = t == 1 ? free : along(model_, start, partOfStep(model_, start, free, 1), t);
         status = JointStatus::Returning;
     }
     cull(model_, q, model_.range, ws);

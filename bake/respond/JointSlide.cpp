@@ -204,13 +204,8 @@ Way slideStep(const JointModel& model, const DofValues& q, const DofValues& goal
 /// came near on one way will on the next.
 void keepClustered(const JointModel& model, ResponseBuffers& ws) {
     if (!model.clustered) return ws.clearNear();
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < ws.nearCount; ++i)
-        if (model.groups[model.pairs[ws.near[i].pair].group].clustered) {
-            if (kept != i) ws.near[kept] = ws.near[i];
-            ++kept;
-        }
-    ws.nearCount = kept;
+    ws.removeNear(
+        [&](const NearPair& near) { return !model.groups[model.pairs[near.pair].group].clustered; });
 }
 
 /// Culls for a round at q, `distance` from the goal. Returns true if the near list also serves all later
@@ -257,8 +252,7 @@ void slide(const JointModel& model, const DofValues& goal, DofValues& q, Respons
                 near.lift = least + liftKept * (near.lift - least);
             }
         }
-        DofValues step{};
-        for (int l = 0; l < model.dofCount; ++l) step[l] = goal[l] - q[l];
+        DofValues step = partOfStep(model, q, goal, 1);
         linearise(model, q, step, ws);
         // No later pose is farther from the goal than this one, so none is farther from this one than twice
         // that.
@@ -272,9 +266,9 @@ void slide(const JointModel& model, const DofValues& goal, DofValues& q, Respons
         }
         if (weightedLength(model, step) < least) return;
         // The near list is complete only for poses no farther from the goal than this one.
-        DofValues end = q, next = q;
-        for (int l = 0; l < model.dofCount; ++l) end[l] += step[l];
-        if (weightedDistance(model, end, goal) < distance) advance(model, step, next, ws);
+        DofValues next = q;
+        if (weightedDistance(model, along(model, q, step, 1), goal) < distance)
+            advance(model, step, next, ws);
         const double reached = weightedDistance(model, next, goal);
         if (reached < distance - 1e-3 * least) {
             q = next;
@@ -318,7 +312,7 @@ double pushOut(const JointModel& model, DofValues& q, ResponseBuffers& ws) {
         double there = smallestLevel(model, end, ws);
         for (int halving = 0; halving < 20 && there < depth + 0.25 * t * share * missing; ++halving) {
             t *= 0.5;
-            for (int l = 0; l < model.dofCount; ++l) end[l] = q[l] + t * step[l];
+            end = along(model, q, step, t);
             there = smallestLevel(model, end, ws);
         }
         if (!(there > depth + 1e-6 * share * missing)) break;

@@ -10,8 +10,8 @@ struct SkinAnatomy {
     SkinAnatomy(const TriangleMesh& mesh, const std::vector<std::shared_ptr<const MuscleDeformer>>& under,
                 const SkinParameters& parameters);
 
-    std::vector<std::uint32_t>
-        first;         ///< #V: the first vertex at the same position: texture seams duplicate vertices
+    /// #V: the first vertex at the same position: texture seams duplicate vertices.
+    std::vector<std::uint32_t> first;
     TriangleMesh skin; ///< the mesh, its triangles on first vertices only, wound outwards
     const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies;
     SkinGraph graph;
@@ -19,21 +19,21 @@ struct SkinAnatomy {
     std::vector<ClosestPointQuery> locators;       ///< one per body
     bool inverted = false;                         ///< the mesh as given is wound inwards, towards the bodies
     std::vector<std::vector<Vec3>> surfaceNormals; ///< per body: vertex normals
-    std::vector<std::vector<bool>>
-        inside;                 ///< per body #V: the vertex is inside of the muscle at rest; empty: a bone
+    /// Per body #V: the vertex is inside of the muscle at rest; empty: a bone.
+    std::vector<std::vector<bool>> inside;
     Vec3 centre = Vec3::Zero(); ///< of the bounds of the skin's triangles
-    double size = 0;            ///< diagonal of these bounds; 1 where it is 0
-    double length =
-        0; ///< length over which deformation of the skin dies away, scene units: l of the foundation
+    double size = 0;            ///< diagonal of these bounds, scene units; 1 where it is 0
+    /// Length over which deformation of the skin dies away, scene units: l of the foundation.
+    double length = 0;
 };
 
 /// What each vertex of a skin follows before any contact.
 struct SkinAttachment {
     std::vector<std::vector<double>> frames; ///< #frames of #V: skinning weights
-    std::vector<std::vector<double>>
-        muscles; ///< #bodies of #V: share of the muscle's displacement; empty: a bone
-    std::vector<std::vector<NearestPoint>> bindings; ///< #bodies of #V: the point of the muscle that a vertex
-                                                     ///< with a share is bound to
+    /// #bodies of #V: share of the muscle's displacement; empty: a bone.
+    std::vector<std::vector<double>> muscles;
+    /// #bodies of #V: the point of the muscle that a vertex with a share is bound to.
+    std::vector<std::vector<NearestPoint>> bindings;
     std::vector<double> firmness; ///< #V, >= 1: factor on the foundation's stiffness
 };
 

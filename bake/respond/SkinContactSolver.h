@@ -65,14 +65,13 @@ private:
     std::vector<Satisfied> satisfied_;
     std::vector<std::uint32_t> satisfiedRows_; ///< row of each of satisfied_
     std::vector<std::uint32_t> satisfiedOf_;   ///< #rows: 1 + its index in satisfied_, 0: none
-    std::vector<std::uint32_t>
-        deferred_; ///< violated rows that were not chosen, as one with the same key was deeper
-    std::vector<char> isDeferred_;       ///< #rows
-    std::vector<char> pushed_;           ///< #blocks: contacts may have displaced vertices of it
-    std::vector<char> displaced_;        ///< #touched: contacts have displaced the vertex
-    float farthest_ = 0;                 ///< largest of these displacements, run-time length
-    Lists<std::uint32_t> blockRows_;     ///< per block: rows about its vertices
-    std::vector<std::uint32_t> visited_; ///< #rows: the last pass over blocks that came to it
+    std::vector<std::uint32_t> deferred_;      ///< violated rows with a key of which another one was deeper
+    std::vector<char> isDeferred_;             ///< #rows
+    std::vector<char> pushed_;                 ///< #blocks: contacts may have displaced vertices of it
+    std::vector<char> displaced_;              ///< #touched: contacts have displaced the vertex
+    float farthest_ = 0;                       ///< largest of these displacements, run-time length
+    Lists<std::uint32_t> blockRows_;           ///< per block: rows about its vertices
+    std::vector<std::uint32_t> visited_;       ///< #rows: the last pass over blocks that came to it
     std::uint32_t pass_ = 0;
 };
 

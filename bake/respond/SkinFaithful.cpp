@@ -32,8 +32,8 @@ SkinSpheres skinSpheres(const SkinTable& table,
         spheres.body.push_back(table.muscleOf[b]);
         spheres.at.push_back(static_cast<std::uint32_t>(own.size()));
         spheres.radius.push_back(t.b[b].radius);
-        spheres.share.push_back(bodies[table.muscleOf[b]]->insertionShare(t.b[b].centre));
         own.push_back(bodies[table.muscleOf[b]]->bind(t.b[b].centre));
+        spheres.share.push_back(own.back().share);
     }
     for (std::size_t m = 0; m < bodies.size(); ++m) {
         const Muscle& muscle = bodies[m]->muscle();

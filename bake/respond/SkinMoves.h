@@ -6,8 +6,7 @@ namespace tss {
 /// How far muscles and bones move the vertices of a skin, as SkinSearchOptions expects it: #bodies of #V
 /// each.
 struct SkinMoves {
-    std::vector<std::vector<double>>
-        stray; ///< bound of the vertex's displacement by other muscles, scene units
+    std::vector<std::vector<double>> stray;  ///< bound of the displacement by other muscles, scene units
     std::vector<std::vector<double>> shares; ///< share of the body's motion in the vertex's; only the first
                                              ///< body of a frame has it
 };

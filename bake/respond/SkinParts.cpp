@@ -88,8 +88,7 @@ struct FreePart {
 
 struct FreeParts {
     std::vector<FreePart> parts;
-    std::vector<double>
-        ownedArea; ///< #influences: area of the skin outside of all parts that is nearest to each
+    std::vector<double> ownedArea; ///< #influences: area outside of all parts that each is nearest to
 };
 
 /// The share of a part's neighbours that are bones that move.

@@ -155,9 +155,7 @@ SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, i
         body.strain.push_back(body.strainOf(body.places.data() + body.places.size() - body.count));
     }
     if (deformer.rigid()) {
-        mesh.vertices.clear();
-        for (const Move& x : body.rest) mesh.vertices.push_back(x.head<3>().cast<double>());
-        body.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
+        body.mesh = std::make_shared<const TriangleMesh>(meshOf(body.rest, body.triangles));
         body.locator = std::make_shared<const ClosestPointQuery>(*body.mesh);
     }
     return body;
@@ -204,6 +202,12 @@ double largestRadius(const Table& table) {
 }
 
 } // namespace
+
+TriangleMesh meshOf(const std::vector<Move>& vertices, const std::vector<Tri>& triangles) {
+    TriangleMesh mesh{{}, triangles};
+    for (const Move& x : vertices) mesh.vertices.push_back(x.head<3>().cast<double>());
+    return mesh;
+}
 
 float SkinBody::strainOf(const Move* now) const {
     float most = 0;
@@ -268,8 +272,7 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     }
     if (rig.rest.empty()) return result;
     const std::vector<bool> mayBePushed = addRows(rig, candidates, indexOf);
-    TriangleMesh local{{}, rig.triangles};
-    for (const Move& x : rig.places) local.vertices.push_back(x.head<3>().cast<double>());
+    const TriangleMesh local = meshOf(rig.places, rig.triangles);
     std::vector<double> firmness;
     for (const std::uint32_t v : rig.vertices) firmness.push_back(attachment.firmness[v]);
     rig.foundation = skinFoundation(local, skinGraph(local), mayBePushed, firmness, anatomy.length / rig.size,

@@ -40,12 +40,6 @@ std::vector<Station> stationsOf(const SkinRig& rig) {
     return result;
 }
 
-TriangleMesh skinAt(const SkinRig& rig, const SkinScene& scene) {
-    TriangleMesh mesh{{}, rig.triangles};
-    for (const Move& x : scene.carried) mesh.vertices.push_back(x.head<3>().cast<double>());
-    return mesh;
-}
-
 Vec3 triangleNormal(const TriangleMesh& mesh, int t) {
     return mesh.areaNormal(static_cast<std::size_t>(t)).normalized();
 }
@@ -269,7 +263,7 @@ std::vector<bool> addRows(SkinRig& rig, const std::vector<ContactCandidate>& can
     bool atRest = true;
     for (const Station& station : stationsOf(rig)) {
         placeBodies(rig, station.activations, station.poses, {}, scene);
-        const TriangleMesh skin = skinAt(rig, scene);
+        const TriangleMesh skin = meshOf(scene.carried, rig.triangles);
         const ClosestPointQuery locator(skin);
         findBodyContacts(rig, scene, skin, locator, atRest, bodies);
         atRest = false;

@@ -21,6 +21,9 @@ std::vector<ContactCandidate> contactCandidates(const SkinAnatomy& anatomy, cons
 std::vector<bool> addRows(SkinRig& rig, const std::vector<ContactCandidate>& candidates,
                           const std::vector<std::uint32_t>& indexOf);
 
+/// A mesh in double precision.
+TriangleMesh meshOf(const std::vector<Move>& vertices, const std::vector<Tri>& triangles);
+
 /// Measures offset, facing and clearances of each row. Uses the run time's own query, or the skin would not
 /// return exactly to rest.
 void measureRows(SkinRig& rig);

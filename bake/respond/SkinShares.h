@@ -19,11 +19,10 @@ std::vector<std::vector<std::uint32_t>> seedsOf(const std::vector<SkinInfluence>
 /// Motions that the shares have to suit: where one would fold the skin, shares are made to change more
 /// slowly.
 struct ShareOptions {
-    std::vector<std::vector<DualPose>>
-        motions;                    ///< motions since rest, each of the first influences; others rest
-    std::span<const double> tether; ///< #V in [0,1], see SkinParameters; empty: 0
-    bool keepSigns = false;         ///< see PoseBlend
-    int maxRounds = 16;             ///< most solves, each after triangles that would fold were made stiffer
+    std::vector<std::vector<DualPose>> motions; ///< since rest, each of the first influences; others rest
+    std::span<const double> tether;             ///< #V in [0,1], see SkinParameters; empty: 0
+    bool keepSigns = false;                     ///< see PoseBlend
+    int maxRounds = 16;      ///< most solves, each after triangles that would fold were made stiffer
     double stiffening = 1.2; ///< factor of each round; small, as slow stiffening disturbs little around
     /// The rounds end before an influence's share at its end, its seed farthest from all others, falls below
     /// this.

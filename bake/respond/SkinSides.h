@@ -26,9 +26,8 @@ public:
 
 private:
     struct Swing {
-        std::vector<char> moved; ///< #influences
-        std::vector<double>
-            price; ///< #V: distance along the skin to the farther of both groups of seeds, scene units
+        std::vector<char> moved;     ///< #influences
+        std::vector<double> price;   ///< #V: distance along the skin to the farther group of seeds
         std::vector<SkinSide> fixed; ///< #V: sides of the seeds, Either for all others
     };
     using Sides = std::vector<std::vector<SkinSide>>; ///< #swings of #V
