@@ -130,13 +130,7 @@ void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, Pa
     search.shares = std::move(moves.shares);
     search.swings = parameters.swings;
     search.insertions = parameters.insertions;
-    SkinSearchCounts counts;
-    auto table = std::make_shared<SkinTable>(searchSkin(mesh, filled.searched, search, progress, &counts));
-    if (counts.stopped) throw InputError("stopped before the table was complete");
-    table->table.record.spheresA = counts.skinSpheres;
-    table->table.record.spheresB = counts.muscleSpheres;
-    table->table.record.candidatePairs = counts.tests;
-    skin.table = table;
+    skin.table = std::make_shared<SkinTable>(searchSkin(mesh, filled.searched, search, progress));
     skin.sourceHash = sourceHash(scene, skin);
 }
 

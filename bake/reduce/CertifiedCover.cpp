@@ -17,7 +17,10 @@ namespace {
 /// Poses with more answers than this say little about how small a table can be and cost much.
 constexpr std::size_t mostAnswers = 2000;
 
-/// How far apart bodies that never meet stay is for people to know: worth so much of a search and no more.
+/// At most so many further proofs to make a proven table smaller.
+constexpr int mostRounds = 24;
+
+/// Looks for the clearance of bodies that never meet, which is only information for people.
 constexpr std::uint64_t clearanceEffort = 20'000'000;
 
 /// One cover from the first proof to the result.
@@ -33,7 +36,6 @@ public:
 
     CoverResult run() {
         const CoverProof first = prove(owed_, cover_, 0.6);
-        result_.before = cover_.members().size();
         result_.forced = first.forced;
         if (first.complete) {
             result_.epsilon = owed_.epsilon;
@@ -62,23 +64,22 @@ private:
         result_.cells += proof.cells;
         result_.looks += proof.looks;
         if (!proof.complete && !options_.coarser) return proof;
-        // What a pose demands at a coarser epsilon it demands at the one asked for too, only of fewer pairs.
+        // A pose that needs one of its pairs at a coarser epsilon needs one at the epsilon asked for as well,
+        // and there fewer pairs answer.
         const auto more = constraintsAt(problem_, owed_, proof.facts, mostAnswers);
-        demands_.insert(demands_.end(), more.begin(), more.end());
+        constraints_.insert(constraints_.end(), more.begin(), more.end());
         return proof;
     }
 
-    /// Starts again and again from the smallest list that meets all poses known to matter; each proof finds
-    /// the poses that this list still misses, until it misses none or is as small as its bound nearly.
+    /// Starts again and again from the smallest list that answers at all poses found so far; each proof finds
+    /// poses that this list misses, until it misses none or is within 2 % of its lower bound.
     void makeSmaller() {
-        for (int round = 0; round < options_.rounds; ++round) {
-            const PairCover smallest = coverConstraints(demands_);
+        for (int round = 0; round < mostRounds; ++round) {
+            const PairCover smallest = coverConstraints(constraints_);
             if (double(cover_.members().size()) <= 1.02 * smallest.lowerBound) return;
             GrowingCover next(problem_);
             for (const SpherePair& pair : smallest.pairs) {
-                ContactPair member;
-                problem_.countsAtAll(pair, member);
-                next.add(member);
+                next.add(*problem_.contactPair(pair));
             }
             const CoverProof proof = prove(owed_, next, 1);
             if (!proof.complete) return;
@@ -90,7 +91,7 @@ private:
         }
     }
 
-    /// What the cover answers with over the cells that were left: the worst of them.
+    /// The epsilon with which the cover answers over all the cells that a proof left open.
     double epsilonLeft(const std::vector<OpenCell>& left) const {
         std::vector<double> worst(left.size());
         parallelFor(left.size(), [&](std::size_t k) {
@@ -99,8 +100,8 @@ private:
         return worst.empty() ? owed_.epsilon : *std::max_element(worst.begin(), worst.end());
     }
 
-    /// What some member answers with wherever it is: no two pairs' gaps differ by more than their spheres are
-    /// apart.
+    /// An epsilon with which some single member answers at every pose: the gaps of two pairs differ by no
+    /// more than the distances between their spheres.
     double epsilonAnywhere() const {
         double least = infinity;
         const SphereTree::Node &a = problem_.treeA[0], &b = problem_.treeB[0];
@@ -112,8 +113,8 @@ private:
         return std::max(least, owed_.epsilon);
     }
 
-    /// The budget did not reach for the epsilon asked for: proves coarser ones, each half of the last, as far
-    /// as it does reach.
+    /// Where the budget did not suffice for the epsilon asked for: proves coarser ones, each half of the
+    /// last, until the budget ends. Returns the smallest that is proven.
     double relaxEpsilon() {
         double reached = epsilonAnywhere();
         for (double epsilon = problem_.size; epsilon > owed_.epsilon; epsilon *= 0.5) {
@@ -127,16 +128,11 @@ private:
 
     CoverResult finish() {
         result_.complete = result_.epsilon <= owed_.epsilon;
-        CandidatePairs chosen;
-        for (const ContactPair& member : cover_.members()) chosen.pairs.push_back(member.pair);
-        std::sort(chosen.pairs.begin(), chosen.pairs.end());
-        countSpheres(chosen);
-        result_.pairs = chosen.pairs;
-        result_.restGaps = problem_.rule.thresholds(chosen.pairs);
-        result_.spheresA = chosen.spheresA;
-        result_.spheresB = chosen.spheresB;
-        // What is owed at a coarser epsilon may take fewer.
-        if (result_.complete) result_.lowerBound = coverConstraints(demands_).lowerBound;
+        for (const ContactPair& member : cover_.members()) result_.pairs.push_back(member.pair);
+        std::sort(result_.pairs.begin(), result_.pairs.end());
+        result_.restGaps = problem_.rule.thresholds(result_.pairs);
+        // At a coarser epsilon fewer pairs may do: the bound does not hold then.
+        if (result_.complete) result_.lowerBound = coverConstraints(constraints_).lowerBound;
         return result_;
     }
 
@@ -145,7 +141,7 @@ private:
     const CoverOptions& options_;
     CoverBudget budget_;
     GrowingCover cover_;
-    std::vector<PoseConstraint> demands_;
+    std::vector<PoseConstraint> constraints_;
     CoverResult result_;
 };
 

@@ -6,15 +6,14 @@
 namespace tss {
 
 struct CoverOptions {
-    double epsilon = 0;      ///< how far the table's answer may lag, scene units; 0: lossless
-    double gapDepth = 0;     ///< gap-true down to this depth (METHOD 3.4) ...
-    double gapMargin = 0;    ///< ... and up to this clearance; both 0: a yes/no table
-    ContactRule rule;        ///< of these spheres
-    double seconds = 0;      ///< time budget, 0: none. A search cut short by time may differ from run to run
-    std::uint64_t looks = 0; ///< the same in looks at pairs: the same result every time
-    bool coarser = true;     ///< where either ends, a larger epsilon is proven; false: nothing is, infinity
-    int rounds = 24; ///< at most so many further proofs to make a proven table smaller; it ends when the
-                     ///< table is within 2 % of its lower bound
+    double epsilon = 0;   ///< how far the table's gap may exceed that of all pairs, scene units; 0: lossless
+    double gapDepth = 0;  ///< gap-true down to this depth (METHOD 3.4) ...
+    double gapMargin = 0; ///< ... and up to this clearance; both 0: a yes/no table
+    ContactRule rule;     ///< of these spheres
+    double seconds = 0;   ///< time budget, 0: none. A search ended by time may differ from run to run
+    std::uint64_t looks = 0; ///< budget in looks at pairs, 0: none. The same result every time
+    bool coarser = true; ///< where a budget ends, prove the smallest larger epsilon that can be; false: prove
+                         ///< nothing, the epsilon reached is infinity
 };
 
 /// A cover and what is proven about it.
@@ -27,7 +26,6 @@ struct CoverResult : Reduced {
     double clearance = 0;    ///< no pairs: the sphere models stay farther apart than this (METHOD 2.3)
     std::uint64_t cells = 0; ///< cells of Q looked at, all steps together
     std::uint64_t looks = 0; ///< at pairs of spheres and of nodes in them
-    std::size_t before = 0;  ///< pairs of the first cover, before it was made smaller
     std::size_t forced = 0; ///< pairs taken in cells too small to split, without a pose that shows their need
 };
 

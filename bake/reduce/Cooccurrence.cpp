@@ -86,10 +86,8 @@ Reduced reduceCooccurrence(const CandidatePairs& candidates) {
         for (std::uint32_t j : tc.row[i])
             if (kept[j]) left.push_back(j);
         if (left.empty() || !rows.emplace(left, i).second) continue;
-        ++result.spheresA;
         for (std::uint32_t j : left) result.pairs.push_back({tc.a[i], tc.b[j]});
     }
-    result.spheresB = static_cast<std::size_t>(std::count(kept.begin(), kept.end(), true));
     if (!candidates.restGaps.empty())
         for (const SpherePair& pair : result.pairs) {
             const auto at = std::lower_bound(candidates.pairs.begin(), candidates.pairs.end(), pair);

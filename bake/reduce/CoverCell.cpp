@@ -14,16 +14,16 @@ bool deeper(const PairInCell& x, const PairInCell& y) {
     return x.gap != y.gap ? x.gap < y.gap : x.contactPair.pair < y.contactPair.pair;
 }
 
-/// Where in the cell to look for a pose at which pair p owes an answer and member k does not give it. With
-/// gaps taken as linear in the DOFs, finds the offset from the cell's centre that makes f = gap of k - weight
-/// * gap of p largest while the gap of p is at most `level`: a linear program with one constraint, solved
-/// from the corner where f is largest by turning those DOFs that lose least of f per gap won. Only f >
-/// `answer` matters, so a part of the excess is spent on getting inside the constraint. k null: the corner
-/// where p is deepest.
+/// Where in the cell a pose is most likely at which pair p needs an answer and member k does not give it.
+/// With gaps taken as linear in the DOFs, returns the offset from the cell's centre that maximises f = gap of
+/// k - weight * gap of p while the gap of p is at most `level`. This is a linear program over a box with one
+/// constraint: from the corner where f is largest, DOFs are moved towards their other end, those first that
+/// lose least of f for what the gap of p falls. Only f > `answer` matters, so that a part of what f exceeds
+/// it by is given up to get inside the constraint. k null: the corner where the gap of p is least.
 std::array<double, maxDofs> extremeOffset(const CellMotion& motion, const PairInCell* k, const PairInCell& p,
                                           double weight, double level, double answer) {
     std::array<double, maxDofs> offset{}, price{};
-    std::array<std::size_t, maxDofs> turn{};
+    std::array<std::size_t, maxDofs> flippable{}; // DOFs whose other end has a smaller gap of p
     std::size_t count = 0;
     double gap = p.gap;
     for (std::size_t l = 0; l < motion.dofs(); ++l) {
@@ -33,27 +33,28 @@ std::array<double, maxDofs> extremeOffset(const CellMotion& motion, const PairIn
         gap += slope * offset[l];
         if (slope * offset[l] <= 0) continue;
         price[l] = std::abs(wish / slope);
-        turn[count++] = l;
+        flippable[count++] = l;
     }
     if (!k) return offset;
-    std::sort(turn.begin(), turn.begin() + count, [&](auto x, auto y) { return price[x] < price[y]; });
-    const auto turned = [&](double until) {
+    std::sort(flippable.begin(), flippable.begin() + count,
+              [&](auto x, auto y) { return price[x] < price[y]; });
+    const auto flippedUntil = [&](double until) {
         auto moved = offset;
         double left = gap;
         for (std::size_t n = 0; n < count && left > until; ++n) {
-            const std::size_t l = turn[n];
+            const std::size_t l = flippable[n];
             const double fall = 2 * p.slope[l] / p.distance * offset[l];
             moved[l] *= 1 - 2 * std::min(1.0, (left - until) / fall);
             left -= std::min(fall, left - until);
         }
         return moved;
     };
-    // The extreme itself lies on the edge of what is owed; aim a part of the excess inside.
-    const auto edge = turned(level);
+    // The optimum lies on the boundary of the constraint; aim inside by a part of the excess.
+    const auto edge = flippedUntil(level);
     double excess = k->gap - weight * p.gap - answer;
     for (std::size_t l = 0; l < motion.dofs(); ++l)
         excess += (k->slope[l] / k->distance - weight * p.slope[l] / p.distance) * edge[l];
-    return excess > 0 ? turned(level - 0.25 * excess) : edge;
+    return excess > 0 ? flippedUntil(level - 0.25 * excess) : edge;
 }
 
 } // namespace
@@ -70,26 +71,26 @@ CellVerdict CellExaminer::examine(const OpenCell& whole) {
     const CellMotion motion(p_.rates, cell.box);
     const auto seen = static_cast<std::uint32_t>(members_.size());
     ++cellNumber_;
-    if (weighMembers(motion, *cell.lists)) return {};
-    here_.clear();
-    for (const ContactPair& pair : cell.lists->open) weigh(motion, pair);
-    openNodes(motion, cell.lists->nodes);
-    dropAnswered(motion);
-    if (here_.empty() && nodes_.empty()) return {};
+    if (collectMembers(motion, *cell.lists)) return {};
+    open_.clear();
+    for (const ContactPair& pair : cell.lists->open) addIfNear(motion, pair);
+    descendNodes(motion, cell.lists->nodes);
+    removeAnswered(motion);
+    if (open_.empty() && nodes_.empty()) return {};
 
     if (auto lacking = counterexampleAtCentre(motion)) return {std::move(lacking), {}};
     if (nodes_.empty()) {
         if (auto lacking = counterexampleElsewhere(motion)) return {std::move(lacking), {}};
         double widest = 0;
-        for (const PairInCell& pair : here_) widest = std::max(widest, pair.move);
+        for (const PairInCell& pair : open_) widest = std::max(widest, pair.move);
         if (widest < p_.floor || !canSplit(cell.box, widestDof(motion)))
-            return {Counterexample{here_.front().contactPair, {}}, {}};
+            return {Counterexample{open_.front().contactPair, {}}, {}};
     }
     return split(cell, motion, seen);
 }
 
-/// True: some member answers all over the cell for everything.
-bool CellExaminer::weighMembers(const CellMotion& motion, const CellLists& lists) {
+/// Collects the members that come near in the cell. True: one of them by itself answers all over the cell.
+bool CellExaminer::collectMembers(const CellMotion& motion, const CellLists& lists) {
     near_.clear();
     bestMember_ = infinity;
     const auto probe = [&](std::uint32_t k) {
@@ -127,7 +128,7 @@ const CellExaminer::Moved& CellExaminer::moved(const CellMotion& motion, std::ui
     return at;
 }
 
-void CellExaminer::weigh(const CellMotion& motion, const ContactPair& pair) {
+void CellExaminer::addIfNear(const CellMotion& motion, const ContactPair& pair) {
     ++looks_;
     if (inCover_.contains(pair.pair)) return;
     const Moved& b = moved(motion, p_.treeB.leafOf(pair.pair.b));
@@ -135,19 +136,20 @@ void CellExaminer::weigh(const CellMotion& motion, const ContactPair& pair) {
         pair.contactDistance + owed_.margin + p_.band)
         return;
     const PairInCell here(motion, b.x, b.motion, p_.a[pair.pair.a].centre, pair);
-    if (!here.staysAbove(pair.contactDistance + owed_.margin, p_.band)) here_.push_back(here);
+    if (!here.staysAbove(pair.contactDistance + owed_.margin, p_.band)) open_.push_back(here);
 }
 
-/// Goes down the trees as far as the size of the cell gives smaller balls a meaning.
-void CellExaminer::openNodes(const CellMotion& motion, const std::vector<NodePair>& nodes) {
+/// Descends the trees to the pairs of spheres that come near, and no farther than the motion in the cell
+/// allows to tell smaller balls apart.
+void CellExaminer::descendNodes(const CellMotion& motion, const std::vector<NodePair>& nodes) {
     nodes_.clear();
     stack_ = nodes;
     descend(p_.treeA, p_.treeB, stack_,
             [&](NodePair pair, const SphereTree::Node& na, const SphereTree::Node& nb) {
                 ++looks_;
                 if (na.leaf() && nb.leaf()) {
-                    ContactPair spheres;
-                    if (p_.admit({na.sphere, nb.sphere}, spheres)) weigh(motion, spheres);
+                    if (const auto spheres = p_.requiredPair({na.sphere, nb.sphere}))
+                        addIfNear(motion, *spheres);
                     return false;
                 }
                 const Moved& b = moved(motion, pair.b);
@@ -159,13 +161,13 @@ void CellExaminer::openNodes(const CellMotion& motion, const std::vector<NodePai
             });
 }
 
-/// Drops the pairs that a member answers for, then those that some deeper pair still open makes superfluous:
-/// what answers for that one answers for them.
-void CellExaminer::dropAnswered(const CellMotion& motion) {
+/// Removes the open pairs that a member dominates, then those that some deeper open pair dominates exactly: a
+/// member that answers that one answers them too.
+void CellExaminer::removeAnswered(const CellMotion& motion) {
     ranks_.clear();
     for (std::uint32_t k = 0; k < near_.size(); ++k) ranks_.emplace_back(answerRank(near_[k], owed_), k);
     std::sort(ranks_.begin(), ranks_.end());
-    std::uint32_t recent = 0;
+    std::uint32_t recent = 0; // the member that answered last, likely to answer again
     const auto answered = [&](const PairInCell& p) {
         if (recent < near_.size() && dominates(motion, near_[recent], p, owed_, p_.band)) return true;
         const double needed = rankNeeded(p, owed_);
@@ -179,21 +181,21 @@ void CellExaminer::dropAnswered(const CellMotion& motion) {
         }
         return false;
     };
-    std::erase_if(here_, answered);
+    std::erase_if(open_, answered);
 
     ErrorContract exact = owed_;
     exact.epsilon = 0;
     constexpr std::size_t leaders = 4;
-    for (std::size_t lead = 0; lead < std::min(leaders, here_.size()); ++lead) {
-        const auto place = here_.begin() + lead;
-        std::iter_swap(place, std::min_element(place, here_.end(), deeper));
+    for (std::size_t lead = 0; lead < std::min(leaders, open_.size()); ++lead) {
+        const auto place = open_.begin() + lead;
+        std::iter_swap(place, std::min_element(place, open_.end(), deeper));
         const PairInCell leader = *place;
-        looks_ += here_.size() - lead;
+        looks_ += open_.size() - lead;
         const auto first = place + 1;
-        here_.erase(
-            std::remove_if(first, here_.end(),
+        open_.erase(
+            std::remove_if(first, open_.end(),
                            [&](const PairInCell& p) { return dominates(motion, leader, p, exact, p_.band); }),
-            here_.end());
+            open_.end());
     }
 }
 
@@ -202,9 +204,9 @@ std::optional<Counterexample> CellExaminer::counterexampleAtCentre(const CellMot
     if (bestMember_ <= owed_.answer(-infinity)) return {};
     ContactPair best;
     double gap = infinity;
-    if (!here_.empty()) {
-        best = here_.front().contactPair;
-        gap = here_.front().gap;
+    if (!open_.empty()) {
+        best = open_.front().contactPair;
+        gap = open_.front().gap;
     }
     if (!nodes_.empty()) deepestBelow(motion, best, gap);
     if (gap > owed_.margin || bestMember_ <= owed_.answer(gap)) return {};
@@ -212,11 +214,12 @@ std::optional<Counterexample> CellExaminer::counterexampleAtCentre(const CellMot
     return Counterexample{best, {motion.centre().begin(), motion.centre().end()}};
 }
 
-/// The same away from the centre, where an answer is most likely to lack: where the deepest open pair is
-/// deepest, and where it just owes an answer and the member that answers there is farthest. A region without
-/// an answer that only just clips the cell would be chased down to the smallest cells otherwise.
+/// The same at the poses where an answer is most likely missing: where the deepest open pair has its least
+/// gap, and where it just needs an answer and the member that answers there has its largest. Without this, a
+/// region without an answer that just overlaps a corner of the cell would be found in the smallest cells
+/// only.
 std::optional<Counterexample> CellExaminer::counterexampleElsewhere(const CellMotion& motion) const {
-    const PairInCell& pair = here_.front();
+    const PairInCell& pair = open_.front();
     const PairInCell* answering = nullptr;
     if (auto found = counterexampleAt(motion, extremeOffset(motion, nullptr, pair, 0, 0, 0), answering))
         return found;
@@ -235,8 +238,8 @@ std::optional<Counterexample> CellExaminer::counterexampleElsewhere(const CellMo
     return {};
 }
 
-/// Whether the models touch at an offset from the centre and no member answers there; else the member that
-/// answers best.
+/// A counterexample at an offset from the centre, where there is one. answering: the member with the least
+/// gap there, or null.
 std::optional<Counterexample> CellExaminer::counterexampleAt(const CellMotion& motion,
                                                              const std::array<double, maxDofs>& offset,
                                                              const PairInCell*& answering) const {
@@ -245,7 +248,7 @@ std::optional<Counterexample> CellExaminer::counterexampleAt(const CellMotion& m
         q[k] = std::clamp(motion.centre()[k] + offset[k], p_.motion.dofs[k].lower, p_.motion.dofs[k].upper);
     answering = nullptr;
     if (!withinLimits(p_.motion, q)) return {};
-    looks_ += near_.size() + here_.size();
+    looks_ += near_.size() + open_.size();
     const Pose at = pose(p_.motion, q);
     double member = infinity;
     for (const PairInCell& pair : near_)
@@ -255,7 +258,7 @@ std::optional<Counterexample> CellExaminer::counterexampleAt(const CellMotion& m
         }
     ContactPair best;
     double gap = infinity;
-    for (const PairInCell& pair : here_)
+    for (const PairInCell& pair : open_)
         if (const double own = p_.gap(pair.contactPair, at); own < gap) {
             gap = own;
             best = pair.contactPair;
@@ -270,26 +273,27 @@ void CellExaminer::deepestBelow(const CellMotion& motion, ContactPair& best, dou
     leastBelow(p_.treeA, p_.treeB, motion.centrePose(), nodes_, atMost,
                [&](std::uint32_t i, std::uint32_t j) {
                    ++looks_;
-                   ContactPair pair;
-                   if (!p_.admit({i, j}, pair)) return infinity;
-                   const double own = p_.gap(pair, motion.centrePose());
+                   const std::optional<ContactPair> pair = p_.requiredPair({i, j});
+                   if (!pair) return infinity;
+                   const double own = p_.gap(*pair, motion.centrePose());
                    if (own < gap) {
                        gap = own;
-                       best = pair;
+                       best = *pair;
                    }
                    return own;
                });
 }
 
-/// The DOF that moves the deepest pair most; another pair when that one hardly moves at all.
+/// The DOF to halve: the one that moves the deepest pair most, or the fastest pair where the deepest moves
+/// less than half as far.
 std::size_t CellExaminer::widestDof(const CellMotion& motion) const {
-    if (here_.empty()) {
+    if (open_.empty()) {
         const SphereTree::Node& node = p_.treeB[nodes_.front().b];
         return tss::widestDof(motion, node.centre, node.radius);
     }
-    const auto fastest = std::max_element(here_.begin(), here_.end(),
+    const auto fastest = std::max_element(open_.begin(), open_.end(),
                                           [](const auto& p, const auto& q) { return p.move < q.move; });
-    const Vec3 x = here_.front().move >= 0.5 * fastest->move ? here_.front().x : fastest->x;
+    const Vec3 x = open_.front().move >= 0.5 * fastest->move ? open_.front().x : fastest->x;
     const auto share = motion.shares(x);
     return static_cast<std::size_t>(std::max_element(share.begin(), share.begin() + motion.dofs()) -
                                     share.begin());
@@ -298,8 +302,8 @@ std::size_t CellExaminer::widestDof(const CellMotion& motion) const {
 CellVerdict CellExaminer::split(const OpenCell& cell, const CellMotion& motion, std::uint32_t seen) const {
     auto lists = std::make_shared<CellLists>();
     lists->nodes = nodes_;
-    lists->open.reserve(here_.size());
-    for (const PairInCell& pair : here_) lists->open.push_back(pair.contactPair);
+    lists->open.reserve(open_.size());
+    for (const PairInCell& pair : open_) lists->open.push_back(pair.contactPair);
     lists->members.reserve(near_.size());
     for (const PairInCell& pair : near_) lists->members.push_back(pair.member);
     lists->membersSeen = seen;
@@ -314,19 +318,19 @@ double CellExaminer::epsilonOver(const OpenCell& whole) {
     if (!shrinkToPlanes(p_.motion, cell.box)) return 0;
     const CellMotion motion(p_.rates, cell.box);
     ++cellNumber_;
-    if (weighMembers(motion, *cell.lists)) return owed_.epsilon;
+    if (collectMembers(motion, *cell.lists)) return owed_.epsilon;
     double table = infinity;
     for (const ContactPair& pair : members_) {
         const Vec3 x = motion.centrePose() * p_.b[pair.pair.b].centre;
         table = std::min(table, (x - p_.a[pair.pair.a].centre).norm() - pair.contactDistance +
                                     motion.pointMotion(x).move);
     }
-    here_.clear();
-    for (const ContactPair& pair : cell.lists->open) weigh(motion, pair);
-    openNodes(motion, cell.lists->nodes);
-    dropAnswered(motion);
+    open_.clear();
+    for (const ContactPair& pair : cell.lists->open) addIfNear(motion, pair);
+    descendNodes(motion, cell.lists->nodes);
+    removeAnswered(motion);
     double models = infinity;
-    for (const PairInCell& pair : here_) models = std::min(models, pair.gap - pair.move);
+    for (const PairInCell& pair : open_) models = std::min(models, pair.gap - pair.move);
     for (const NodePair& pair : nodes_) {
         const SphereTree::Node &na = p_.treeA[pair.a], &nb = p_.treeB[pair.b];
         const Vec3 x = motion.centrePose() * nb.centre;

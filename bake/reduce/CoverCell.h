@@ -7,35 +7,37 @@
 
 namespace tss {
 
-/// What a cell inherits from its parent: what may still owe an answer in it, and who may give it.
+/// What a cell inherits from its parent: the pairs not yet answered, and the members of the cover that may
+/// answer them.
 struct CellLists {
-    std::vector<NodePair> nodes;        ///< not yet opened
+    std::vector<NodePair> nodes;        ///< pairs of nodes not yet descended into
     std::vector<ContactPair> open;      ///< sphere pairs not yet answered
-    std::vector<std::uint32_t> members; ///< members of the cover that are near
-    std::uint32_t membersSeen = 0;      ///< members up to this number are in the list if they are near
+    std::vector<std::uint32_t> members; ///< numbers of those below `membersSeen` that come near in the cell
+    std::uint32_t membersSeen = 0;      ///< later members are to be looked at as well
 };
 
-/// A cell of Q still to be shown.
+/// A cell of Q for which it is still to be shown that the cover answers.
 struct OpenCell {
     Cell box;
     std::shared_ptr<const CellLists> lists;
 };
 
-/// A pair that the cover lacks. With a pose it is a fact: there the models touch and the cover does not
-/// answer. Without one the cell is too small to split further and the pair is taken to end the search.
+/// A pair that the cover lacks.
 struct Counterexample {
     ContactPair pair;
-    std::vector<double> pose;
+    std::vector<double> pose; ///< at which the models touch by this pair and the cover does not answer;
+                              ///< empty: none was found in a cell too small to split, and the pair is added
+                              ///< all the same so that the search ends
 };
 
-/// What looking at a cell gave: answered all over (neither member below is set), a pair that the cover lacks,
-/// or two halves that inherit what is left.
+/// What came of a cell: a pair that the cover lacks, or two halves that inherit what is left; neither where
+/// the cover answers all over the cell.
 struct CellVerdict {
     std::optional<Counterexample> lacking;
     std::vector<OpenCell> halves;
 };
 
-/// Looks at cells against one cover. Holds scratch memory: one for each thread.
+/// Decides cells against one cover. Holds scratch memory: each thread needs its own.
 class CellExaminer {
 public:
     /// members: the cover; inCover: the same as a set. Neither changes while this lives.
@@ -45,18 +47,18 @@ public:
 
     CellVerdict examine(const OpenCell& cell);
 
-    /// An epsilon with which the cover answers all over a cell, however it compares with the one wanted: from
-    /// the motion of the cell alone. Infinite for an empty cover.
+    /// An epsilon with which the cover answers all over a cell, from bounds of the motion in the cell; no
+    /// less than the one asked for. Infinite for an empty cover.
     double epsilonOver(const OpenCell& cell);
 
-    /// At pairs so far, in all cells: what the work grows with.
+    /// Looks at pairs so far, in all cells: a measure of the work.
     std::uint64_t looks() const { return looks_; }
 
 private:
-    bool weighMembers(const CellMotion& motion, const CellLists& lists);
-    void openNodes(const CellMotion& motion, const std::vector<NodePair>& nodes);
-    void weigh(const CellMotion& motion, const ContactPair& pair);
-    void dropAnswered(const CellMotion& motion);
+    bool collectMembers(const CellMotion& motion, const CellLists& lists);
+    void descendNodes(const CellMotion& motion, const std::vector<NodePair>& nodes);
+    void addIfNear(const CellMotion& motion, const ContactPair& pair);
+    void removeAnswered(const CellMotion& motion);
     std::optional<Counterexample> counterexampleAtCentre(const CellMotion& motion) const;
     std::optional<Counterexample> counterexampleElsewhere(const CellMotion& motion) const;
     std::optional<Counterexample> counterexampleAt(const CellMotion& motion,
@@ -71,16 +73,17 @@ private:
     const std::vector<ContactPair>& members_;
     const ConcurrentPairs& inCover_;
 
-    std::vector<PairInCell> near_; ///< members
-    std::vector<PairInCell> here_; ///< open pairs
+    std::vector<PairInCell> near_; ///< members of the cover that come near in the cell
+    std::vector<PairInCell> open_; ///< pairs that come near and are not yet answered
     std::vector<NodePair> nodes_, stack_;
     std::vector<std::pair<double, std::uint32_t>> ranks_; ///< of near_, the best first
     double bestMember_ = 0;                               ///< smallest gap of a member at the centre
 
-    /// Where a node of B's tree is at the centre of the cell and how far it moves, worked out once a cell.
+    /// Where the centre of a node of B's tree is at the cell's centre pose and how far it moves in the cell,
+    /// calculated once a cell.
     struct Moved {
-        std::uint64_t cell = 0;
-        Vec3 x;
+        std::uint64_t cell = 0; ///< for which it was calculated
+        Vec3 x;                 ///< in A's frame
         CellMotion::PointMotion motion{};
     };
     const Moved& moved(const CellMotion& motion, std::uint32_t node);
@@ -89,7 +92,7 @@ private:
     mutable std::uint64_t looks_ = 0;
 };
 
-/// The cells that a cover of the whole problem starts from: all of Q, all of both trees.
+/// The cell that a proof starts from: all of Q, with the roots of both trees.
 OpenCell wholeProblem(const CoverProblem& problem);
 
 } // namespace tss

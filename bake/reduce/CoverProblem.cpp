@@ -4,7 +4,7 @@ namespace tss {
 
 namespace {
 
-/// For every sphere another of the set that holds it whole (of equal ones the first holds the others), or -1.
+/// For every sphere another of the set that contains it whole (of equal ones the first), or -1.
 std::vector<std::int32_t> holders(const SphereSet& set, const SphereTree& tree) {
     std::vector<std::int32_t> holder(set.size(), -1);
     for (std::uint32_t i = 0; i < set.size(); ++i) {
@@ -44,18 +44,22 @@ CoverProblem::CoverProblem(const SphereSet& a, const SphereSet& b, const Motion&
     for (const SpherePair& pair : *candidates) candidates_->insert(pair);
 }
 
-bool CoverProblem::countsAtAll(SpherePair pair, ContactPair& out) const {
-    if (!counts(pair)) return false;
-    out = {pair, a[pair.a].radius + b[pair.b].radius + rule.threshold(pair)};
-    return out.contactDistance >= 0;
+std::optional<ContactPair> CoverProblem::contactPair(SpherePair pair) const {
+    if (!counts(pair)) return std::nullopt;
+    const double contactDistance = a[pair.a].radius + b[pair.b].radius + rule.threshold(pair);
+    if (!(contactDistance >= 0)) return std::nullopt;
+    return ContactPair{pair, contactDistance};
 }
 
-bool CoverProblem::admit(SpherePair pair, ContactPair& out) const {
-    if (!countsAtAll(pair, out)) return false;
+std::optional<ContactPair> CoverProblem::requiredPair(SpherePair pair) const {
+    const std::optional<ContactPair> required = contactPair(pair);
+    if (!required) return std::nullopt;
     const auto held = [&](SpherePair by) { return counts(by) && rule.threshold(by) == 0; };
-    if (holderA_[pair.a] >= 0 && held({static_cast<std::uint32_t>(holderA_[pair.a]), pair.b})) return false;
-    if (holderB_[pair.b] >= 0 && held({pair.a, static_cast<std::uint32_t>(holderB_[pair.b])})) return false;
-    return true;
+    if (holderA_[pair.a] >= 0 && held({static_cast<std::uint32_t>(holderA_[pair.a]), pair.b}))
+        return std::nullopt;
+    if (holderB_[pair.b] >= 0 && held({pair.a, static_cast<std::uint32_t>(holderB_[pair.b])}))
+        return std::nullopt;
+    return required;
 }
 
 } // namespace tss

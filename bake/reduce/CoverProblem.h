@@ -5,22 +5,23 @@
 #include "bake/search/SphereTree.h"
 
 #include <memory>
+#include <optional>
 
 namespace tss {
 
-/// What a table owes the whole models (METHOD 3.3, 3.4): wherever their gap is <= margin, the table's gap is
-/// <= max(gap, -depth) + epsilon. depth = margin = 0: a yes/no table.
+/// What a table must guarantee (METHOD 3.3, 3.4): wherever the gap of the whole models is <= margin, the
+/// table's gap is <= max(gap, -depth) + epsilon. All in scene units. depth = margin = 0: a yes/no table.
 struct ErrorContract {
     double epsilon = 0, depth = 0, margin = 0;
     bool yesNo() const { return depth == 0 && margin == 0; }
-    /// The largest gap of the table that still answers a gap of the models.
+    /// The largest gap of the table that is allowed where the models have this gap.
     double answer(double gap) const { return std::max(gap, -depth) + epsilon; }
 };
 
 /// A sphere pair with the distance of centres at which contact begins: the radii, less the overlap at rest.
 struct ContactPair {
     SpherePair pair;
-    double contactDistance = 0;
+    double contactDistance = 0; ///< scene units
 };
 
 /// Everything about one cover that stays the same while it is searched: the models, the motion, which pairs
@@ -36,16 +37,17 @@ public:
     const ContactRule& rule;
     MotionRates rates;
     SphereTree treeA, treeB;
-    double size = 0;  ///< how far apart parts of the models can be: the unit of relative tolerances
-    double band = 0;  ///< rounding error that distances may carry
-    double floor = 0; ///< cells whose motion is smaller are not split further
+    double size = 0;  ///< scene units: sum of the two models' radii, the unit of relative tolerances
+    double band = 0;  ///< scene units: rounding error of distances
+    double floor = 0; ///< scene units: cells in which points move less are not split further
 
-    /// The pair with its distance at contact; nothing when it carries no contract: it is ignored at rest, not
-    /// a candidate, or one of its spheres lies inside another that does the same.
-    bool admit(SpherePair pair, ContactPair& out) const;
+    /// The pair with its distance at contact; nothing where no table may use it: it is no candidate, or
+    /// exempt at every depth.
+    std::optional<ContactPair> contactPair(SpherePair pair) const;
 
-    /// The same, except that spheres inside others count too: whether a table may use the pair.
-    bool countsAtAll(SpherePair pair, ContactPair& out) const;
+    /// The same, but also nothing for pairs that need no answer of their own, because one of the spheres lies
+    /// inside another sphere whose pair counts.
+    std::optional<ContactPair> requiredPair(SpherePair pair) const;
 
     /// The gap of a pair at a pose, counted from where its contact begins.
     double gap(const ContactPair& p, const Pose& pose) const {
@@ -56,7 +58,7 @@ private:
     bool counts(SpherePair pair) const { return !candidates_ || candidates_->contains(pair); }
 
     std::unique_ptr<ConcurrentPairs> candidates_;
-    std::vector<std::int32_t> holderA_, holderB_; ///< a sphere that holds this one whole, or -1
+    std::vector<std::int32_t> holderA_, holderB_; ///< #spheres: one that contains this one whole, or -1
 };
 
 } // namespace tss

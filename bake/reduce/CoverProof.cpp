@@ -10,15 +10,15 @@ namespace tss {
 
 namespace {
 
-/// What one part of a round did with its cell: the cells it left, and the pair it found lacking.
+/// What one thread of a round did with its cell: the cells it left open, and the pair that the cover lacks.
 struct PartResult {
     std::vector<OpenCell> left;
     std::optional<Counterexample> lacking;
     std::uint64_t cells = 0, looks = 0;
 };
 
-/// Depth first from one cell, for at most `steps` cells, about `looks` looks, while there is time, or until
-/// something is lacking.
+/// Depth first from one cell, until a pair is lacking, or for at most `steps` cells or about `looks` looks,
+/// or as long as there is time.
 PartResult runPart(CellExaminer& examiner, OpenCell cell, std::uint64_t steps, std::uint64_t looks,
                    const CoverBudget& budget) {
     PartResult result;
@@ -39,7 +39,7 @@ PartResult runPart(CellExaminer& examiner, OpenCell cell, std::uint64_t steps, s
     return result;
 }
 
-/// Adds what a round found lacking, unless what was added before in the same round answers it.
+/// Adds the pairs that a round found lacking, except those that a pair added before in the round answers.
 class Additions {
 public:
     Additions(const CoverProblem& problem, const ErrorContract& owed, GrowingCover& cover, CoverProof& proof)
@@ -48,7 +48,8 @@ public:
     void add(const Counterexample& lacking) {
         if (cover_.set().contains(lacking.pair.pair)) return;
         if (lacking.pose.empty()) {
-            if (cover_.members().size() > first_) return; // look again at what the new members do first
+            if (cover_.members().size() > first_)
+                return; // the new members may do: the cell is looked at again
             ++proof_.forced;
         } else {
             const Pose at = pose(problem_.motion, lacking.pose);

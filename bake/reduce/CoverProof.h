@@ -5,15 +5,17 @@
 
 namespace tss {
 
-/// When to stop a search that is not done: after so many looks or a tenth of them that shows too little (the
-/// same result every time), after so long (not the same), or when progress says so. 0: no limit.
+/// When to stop a search that is not done. 0: no limit.
 struct CoverBudget {
-    std::uint64_t looks = 0; ///< at pairs of spheres and of nodes, in all cells together
-    double seconds = 0;
+    std::uint64_t looks = 0; ///< at pairs of spheres and of nodes, in all cells together; ended by these, the
+                             ///< result is the same every time
+    double seconds = 0;      ///< since `watch` was made; ended by these, results differ
     Progress progress;
     Stopwatch watch;
 
-    bool late() const;
+    bool late() const; ///< the seconds are over
+    /// Whether to stop, where a share of Q is proven with so many looks: also early, once a tenth of the
+    /// looks shows that they will not suffice.
     bool spent(std::uint64_t looksUsed, double share) const;
 };
 
@@ -50,7 +52,7 @@ struct CoverProof {
     std::uint64_t cells = 0;    ///< cells looked at
     std::uint64_t looks = 0;    ///< at pairs in them
     std::uint64_t forced = 0;   ///< members taken in cells too small to split, without a pose that needs them
-    std::vector<std::vector<double>> facts; ///< poses where the cover lacked an answer
+    std::vector<std::vector<double>> facts; ///< DOF values of poses where the cover lacked an answer
 };
 
 /// Shows, cell by cell, that the cover answers all that is owed, adding what it lacks (METHOD 3.3). Rounds of

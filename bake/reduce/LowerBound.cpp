@@ -16,14 +16,14 @@ namespace {
 std::vector<SpherePair> answersAt(const CoverProblem& problem, const ErrorContract& owed, const Pose& at) {
     double models = std::numeric_limits<double>::infinity();
     std::vector<std::pair<double, SpherePair>> near;
-    // Gaps count from where contact begins, which at rest overlaps is deeper: none is missed by looking
-    // farther.
+    // The contract is about gaps counted from where contact begins, which are no smaller than those of the
+    // spheres: the visit misses none.
     visitPairsWithin(problem.treeA, problem.treeB, at, owed.margin + owed.epsilon,
                      [&](std::uint32_t i, std::uint32_t j, double) {
-                         ContactPair pair;
-                         if (!problem.countsAtAll({i, j}, pair)) return;
-                         const double gap = problem.gap(pair, at);
-                         near.emplace_back(gap, pair.pair);
+                         const std::optional<ContactPair> pair = problem.contactPair({i, j});
+                         if (!pair) return;
+                         const double gap = problem.gap(*pair, at);
+                         near.emplace_back(gap, pair->pair);
                          models = std::min(models, gap);
                      });
     std::vector<SpherePair> pairs;
@@ -38,12 +38,13 @@ std::vector<SpherePair> answersAt(const CoverProblem& problem, const ErrorContra
 
 std::vector<PoseConstraint> constraintsAt(const CoverProblem& problem, const ErrorContract& owed,
                                           const std::vector<std::vector<double>>& poses, std::size_t most) {
-    std::vector<PoseConstraint> demands(poses.size());
+    std::vector<PoseConstraint> constraints(poses.size());
     parallelFor(poses.size(), [&](std::size_t k) {
-        demands[k] = {poses[k], answersAt(problem, owed, pose(problem.motion, poses[k]))};
+        constraints[k] = {poses[k], answersAt(problem, owed, pose(problem.motion, poses[k]))};
     });
-    std::erase_if(demands, [&](const PoseConstraint& d) { return d.pairs.empty() || d.pairs.size() > most; });
-    return demands;
+    std::erase_if(constraints,
+                  [&](const PoseConstraint& d) { return d.pairs.empty() || d.pairs.size() > most; });
+    return constraints;
 }
 
 PairCover coverPairs(const std::vector<std::span<const SpherePair>>& rows) {
@@ -67,9 +68,9 @@ PairCover coverPairs(const std::vector<std::span<const SpherePair>>& rows) {
     return result;
 }
 
-PairCover coverConstraints(const std::vector<PoseConstraint>& demands) {
+PairCover coverConstraints(const std::vector<PoseConstraint>& constraints) {
     std::vector<std::span<const SpherePair>> rows;
-    for (const PoseConstraint& demand : demands) rows.emplace_back(demand.pairs);
+    for (const PoseConstraint& constraint : constraints) rows.emplace_back(constraint.pairs);
     return coverPairs(rows);
 }
 

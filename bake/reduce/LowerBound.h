@@ -5,25 +5,26 @@
 
 namespace tss {
 
-/// What a pose demands of every table: some one of these pairs.
+/// A pose at which every table needs at least one of these pairs.
 struct PoseConstraint {
     std::vector<double> pose;
     std::vector<SpherePair> pairs; ///< sorted
 };
 
-/// All pairs that answer at each pose; poses with more than `most` of them, or with none owed, are left out.
+/// The constraint of each pose: all pairs that answer there. Left out are poses at which nothing has to be
+/// answered, and those with more than `most` pairs.
 std::vector<PoseConstraint> constraintsAt(const CoverProblem& problem, const ErrorContract& owed,
                                           const std::vector<std::vector<double>>& poses, std::size_t most);
 
-/// The fewest pairs found that meet all demands, and the fewest there can be: a bound for every table,
-/// however it is made.
+/// A small list of pairs that satisfies constraints, and a lower bound of the length of all such lists.
 struct PairCover {
     std::vector<SpherePair> pairs; ///< sorted
     double lowerBound = 0;
 };
-PairCover coverConstraints(const std::vector<PoseConstraint>& demands);
+PairCover coverConstraints(const std::vector<PoseConstraint>& constraints);
 
-/// The same for demands without poses. rows: pairs any one of which meets a demand, not empty, sorted.
+/// The same for constraints without poses. rows: of each, the pairs any one of which satisfies it; not empty,
+/// sorted.
 PairCover coverPairs(const std::vector<std::span<const SpherePair>>& rows);
 
 } // namespace tss

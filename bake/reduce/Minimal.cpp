@@ -74,10 +74,7 @@ Reduced reduceMinimal(const SphereSet& a, const SphereSet& b, const Motion& moti
                                 .collect(exploredPoses(motion, options.samples, options.seed), progress);
 
     const PairCover cover = coverPairs({conditions.begin(), conditions.end()});
-    CandidatePairs chosen;
-    chosen.pairs = cover.pairs;
-    countSpheres(chosen);
-    return {chosen.pairs, rule.thresholds(chosen.pairs), chosen.spheresA, chosen.spheresB, cover.lowerBound};
+    return {cover.pairs, rule.thresholds(cover.pairs), cover.lowerBound};
 }
 
 } // namespace tss

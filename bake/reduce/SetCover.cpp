@@ -172,20 +172,21 @@ std::vector<bool> repair(const Lists& rows, const Lists& columns, const std::vec
 
 } // namespace
 
-SetCover coverRows(Lists input, int rounds) {
+SetCover coverRows(Lists input) {
+    constexpr int rounds = 300; // of the subgradient method
     Core core = reduceExactly(std::move(input));
     SetCover result;
     result.chosen = core.forced;
     result.lowerBound = double(core.forced.size());
     if (!core.rows.empty()) {
         const Lists columns = transpose(core.rows, core.columns.size());
-        std::vector<double> u(core.rows.size());
+        std::vector<double> u(core.rows.size()); // Lagrange multipliers
         for (std::size_t r = 0; r < u.size(); ++r) {
             std::size_t largest = 1;
             for (Index c : core.rows[r]) largest = std::max(largest, columns[c].size());
             u[r] = 1.0 / double(largest);
         }
-        std::vector<double> price(columns.size());
+        std::vector<double> price(columns.size()); // reduced costs
         std::vector<bool> best;
         std::size_t bestCount = columns.size() + 1;
         double bound = 0, step = 2;

@@ -11,8 +11,8 @@ struct SetCover {
 };
 
 /// Set cover. rows[r]: the columns any one of which answers row r, not empty, rising. Exact reductions first
-/// (dominated rows and columns, rows with one column), then the Lagrangian relaxation with a greedy repair
-/// each round (`rounds` of them), redundant columns removed. Deterministic.
-SetCover coverRows(std::vector<std::vector<std::uint32_t>> rows, int rounds = 300);
+/// (dominated rows and columns, rows with one column), then subgradient steps of the Lagrangian relaxation,
+/// each with a greedy repair and without redundant columns. Deterministic.
+SetCover coverRows(std::vector<std::vector<std::uint32_t>> rows);
 
 } // namespace tss

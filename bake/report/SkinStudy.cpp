@@ -93,12 +93,11 @@ SkinTable tableAtRest(const TriangleMesh& mesh, const SkinModel& skin, const Fil
     SkinSearchOptions search;
     search.thickness = skin.thickness;
     search.path = SkinPath::AtRest;
-    SkinSearchCounts counts;
-    SkinTable table = searchSkin(mesh, filled.searched, search, {}, &counts);
-    study.skinSpheres = counts.skinSpheres;
-    study.usedSkin = counts.usedSkin;
-    study.usedMuscle = counts.usedMuscle;
-    study.tests = counts.tests;
+    SkinTable table = searchSkin(mesh, filled.searched, search);
+    study.skinSpheres = table.table.record.spheresA;
+    study.usedSkin = table.table.a.size();
+    study.usedMuscle = table.table.b.size();
+    study.tests = table.table.testCount();
     return table;
 }
 

@@ -10,7 +10,7 @@ namespace tss {
 
 namespace {
 
-/// Where points are along a direction.
+/// The extent of points along a direction.
 struct Interval {
     double lower = std::numeric_limits<double>::infinity();
     double upper = -std::numeric_limits<double>::infinity();
@@ -21,10 +21,10 @@ struct Interval {
     }
 };
 
-/// Widens where B is along n by what one DOF may move it that way; reach: of its points from the origin,
-/// before and after. False: how far it may is not known.
-bool follow(const Dof& dof, const Vec3& n, Interval& along, double& reach) {
-    constexpr double unit = 1e-8; // by more than axes are off unit length
+/// Widens B's interval along n by how far one DOF may move it that way. reach: the largest distance of B's
+/// points from the origin, updated to that after the DOF. False: there is no bound for this kind of DOF.
+bool widenBy(const Dof& dof, const Vec3& n, Interval& along, double& reach) {
+    constexpr double axisRounding = 1e-8; // axes are unit vectors to less than this
     if (dof.kind == DofKind::Translation) {
         const double slope = n.dot(dof.axis);
         along.lower += std::min(slope * dof.lower, slope * dof.upper);
@@ -33,8 +33,8 @@ bool follow(const Dof& dof, const Vec3& n, Interval& along, double& reach) {
         return true;
     }
     if (dof.kind != DofKind::Rotation) return false;
-    // A turn takes n to what is no farther from it than twice the sine between n and the axis.
-    const double arm = reach + dof.origin.norm(), drift = 2 * (n.cross(dof.axis).norm() + unit) * arm;
+    // A turn changes the coordinate along n by at most 2 |n x axis| times the distance from the axis.
+    const double arm = reach + dof.origin.norm(), drift = 2 * (n.cross(dof.axis).norm() + axisRounding) * arm;
     along.lower -= drift;
     along.upper += drift;
     reach = arm + dof.origin.norm();
@@ -55,7 +55,7 @@ double apartAlong(const TriangleMesh& a, const TriangleMesh& b, const Motion& mo
         reachB = std::max(reachB, v.norm());
     }
     for (std::size_t k = motion.dofCount(); k-- > 0;)
-        if (!follow(motion.dofs[k], n, ofB, reach)) return 0;
+        if (!widenBy(motion.dofs[k], n, ofB, reach)) return 0;
     return std::max(ofA.lower - ofB.upper, ofB.lower - ofA.upper) -
            coordinateRounding(motion, reachA, reachB);
 }

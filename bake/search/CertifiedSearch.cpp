@@ -16,16 +16,16 @@ namespace tss {
 
 namespace {
 
-/// What every part of one search shares and none writes.
+/// What all parts of one search read.
 struct SearchInput {
     const SphereSet &a, &b;
     const SphereTree &treeA, &treeB;
     const MotionRates& rates;
     const ContactRule& rule;
-    double margin, tolerance;
+    double margin, tolerance;     ///< scene units
     const ConcurrentPairs& known; ///< pairs found before, by sampling
-    bool firstOnly;               ///< one pair is enough
-    std::uint64_t effort;         ///< looks that each part has; 0: no limit
+    bool firstOnly;               ///< stop at the first pair
+    std::uint64_t effort;         ///< looks at pairs of nodes granted to each part; 0: no limit
     double rounding = coordinateRounding(rates.motion(), treeA.extent(), treeB.extent());
 };
 
@@ -48,13 +48,13 @@ public:
         if (poll_.stopped() || done() || !shrinkToPlanes(p_.rates.motion(), inside)) return;
         ++cells_;
         const CellMotion motion(p_.rates, inside);
-        std::vector<NodePair> left = judgeAll(motion, open);
+        std::vector<NodePair> left = classify(motion, open);
         if (left.empty()) return;
         const std::size_t k = widestDof(motion, p_.treeB[0].centre, p_.treeB[0].radius);
-        if (!canSplit(inside, k)) { // what may touch counts as touching
-            finest_ = true;
-            judgeAll(motion, left);
-            finest_ = false;
+        if (!canSplit(inside, k)) {
+            smallest_ = true;
+            classify(motion, left);
+            smallest_ = false;
             return;
         }
         const auto [lower, upper] = splitCell(p_.rates, inside, k);
@@ -70,8 +70,9 @@ public:
 private:
     bool done() const { return (p_.firstOnly && any_) || spent(); }
 
-    /// Returns the pairs that only smaller cells can tell of.
-    std::vector<NodePair> judgeAll(const CellMotion& motion, const std::vector<NodePair>& open) {
+    /// Lists the pairs of spheres that touch in the cell and returns the pairs of nodes that smaller cells
+    /// have to decide.
+    std::vector<NodePair> classify(const CellMotion& motion, const std::vector<NodePair>& open) {
         std::vector<NodePair> left, stack(open);
         descend(p_.treeA, p_.treeB, stack,
                 [&](NodePair pair, const SphereTree::Node& na, const SphereTree::Node& nb) {
@@ -80,27 +81,27 @@ private:
                     const CellMotion::PointMotion moved = motion.pointMotion(x);
                     const double sum = na.radius + nb.radius;
                     if (na.leaf() && nb.leaf()) {
-                        judgeSpheres(motion, pair, x, moved, left);
+                        classifySpheres(motion, pair, x, moved, left);
                         return false;
                     }
                     if ((x - na.centre).norm() - moved.move > sum + p_.margin + p_.rounding) return false;
-                    // Smaller balls do not help where the motion is what blurs the answer.
-                    const bool blurred = sum < moved.move && moved.move > p_.tolerance && !finest_;
+                    // Where the motion in the cell exceeds the balls, splitting the balls decides nothing.
+                    const bool blurred = sum < moved.move && moved.move > p_.tolerance && !smallest_;
                     if (blurred) left.push_back(pair);
                     return !blurred;
                 });
         return left;
     }
 
-    void judgeSpheres(const CellMotion& motion, NodePair nodes, const Vec3& x,
-                      const CellMotion::PointMotion& moved, std::vector<NodePair>& left) {
+    void classifySpheres(const CellMotion& motion, NodePair nodes, const Vec3& x,
+                         const CellMotion::PointMotion& moved, std::vector<NodePair>& left) {
         const SpherePair pair{p_.treeA[nodes.a].sphere, p_.treeB[nodes.b].sphere};
         const Sphere &sa = p_.a[pair.a], &sb = p_.b[pair.b];
         const double limit = sa.radius + sb.radius + p_.rule.threshold(pair) + p_.margin;
         if (limit < -p_.rounding || found_.contains(pair) || p_.known.contains(pair)) return;
         const PairDistanceBounds at(motion, x, moved, sa.centre);
         if (at.staysAbove(std::max(limit, 0.0), p_.rounding)) return;
-        if (moved.move <= p_.tolerance || finest_ ||
+        if (moved.move <= p_.tolerance || smallest_ ||
             (at.distance <= limit && withinLimits(p_.rates.motion(), motion.centre()))) {
             found_.insert(pair);
             any_ = true;
@@ -112,12 +113,13 @@ private:
     const SearchInput& p_;
     Poll& poll_;
     ConcurrentPairs found_;
-    bool any_ = false, finest_ = false;
+    bool any_ = false;
+    bool smallest_ = false; ///< the cell cannot be split: pairs that may touch count as touching
     std::uint64_t cells_ = 0, looks_ = 0;
 };
 
-/// Q in about `count` parts of equal shape, by cutting the DOFs in turn where they have any width.
-std::vector<Cell> parts(const MotionRates& rates, std::size_t count) {
+/// Q in about `count` cells of equal shape: each DOF of any width is halved in turn.
+std::vector<Cell> cutEvenly(const MotionRates& rates, std::size_t count) {
     std::vector<Cell> cells{wholeBox(rates.motion())};
     std::vector<std::size_t> wide;
     for (std::size_t k = 0; k < rates.motion().dofCount(); ++k)
@@ -142,7 +144,7 @@ struct Found {
 
 Found search(const SearchInput& problem, const Progress& progress) {
     Found result;
-    const auto cells = parts(problem.rates, partCount);
+    const auto cells = cutEvenly(problem.rates, partCount);
     ConcurrentPairs all(problem.a.size(), problem.b.size());
     all.insertAll(problem.known);
     Poll poll(progress, "certified search");
@@ -176,7 +178,7 @@ double meanRadius(const SphereSet& a, const SphereSet& b) {
     return sum / double(a.size() + b.size());
 }
 
-/// The smallest gap at the explored poses: nothing can be proven beyond it.
+/// The smallest gap at the explored poses, an upper bound of any clearance.
 double smallestGapSeen(const SearchInput& problem) {
     double best = std::numeric_limits<double>::infinity();
     for (const auto& q : exploredPoses(problem.rates.motion(), 512, 1))
@@ -231,8 +233,18 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
             result.clearance = std::max(
                 result.clearance, provenClearance(a, b, motion, &result.explored, progress, options.effort));
     }
-    countSpheres(result);
     return result;
+}
+
+bool neverCollide(const SphereSet& a, const SphereSet& b, const Motion& motion, const ContactRule& rule,
+                  double margin, const Progress& progress) {
+    CertifiedSearchOptions options;
+    options.rule = rule;
+    options.margin = margin;
+    options.measureClearance = false;
+    options.effort = 5'000'000;
+    const CandidatePairs found = searchCertified(a, b, motion, options, progress);
+    return found.certified && found.pairs.empty();
 }
 
 double provenClearance(const SphereSet& a, const SphereSet& b, const Motion& motion, std::uint64_t* cells,
@@ -254,9 +266,7 @@ double provenClearance(const SphereSet& a, const SphereSet& b, const Motion& mot
         const Found found = search(problem, progress);
         if (cells) *cells += found.cells;
         if (!found.complete && effort == 0) return 0; // stopped
-        if (found.complete && found.pairs.empty()) {
-            return problem.margin;
-        }
+        if (found.complete && found.pairs.empty()) return problem.margin;
     }
     return 0;
 }

@@ -9,10 +9,10 @@ struct CertifiedSearchOptions {
     double tolerance = -1; ///< tau: no pair is listed whose gap stays above margin + tau; < 0: a hundredth of
                            ///< the mean radius
     ContactRule rule;      ///< of these spheres
-    bool sampleFirst = true;      ///< pairs that touch at sampled poses need no search
+    bool sampleFirst = true;      ///< find pairs that touch at sampled poses first, which need no search then
     bool measureClearance = true; ///< when nothing collides, find out how far apart the bodies stay
-    /// Gives up, not certified, after about so many looks at a pair of tree nodes (a million or so a second
-    /// and thread); 0: never. The same result every time.
+    /// The search gives up, not certified, after about so many looks at pairs of tree nodes (about a million
+    /// a second and thread); 0: never. The same result every time.
     std::uint64_t effort = 0;
 };
 
@@ -22,6 +22,11 @@ struct CertifiedSearchOptions {
 /// early by progress it is not certified. The same result for any number of threads.
 CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Motion& motion,
                                const CertifiedSearchOptions& options = {}, const Progress& progress = {});
+
+/// Whether a short search proves that no pair of spheres touches, or gets within the margin, at any pose of
+/// Q.
+bool neverCollide(const SphereSet& a, const SphereSet& b, const Motion& motion, const ContactRule& rule,
+                  double margin, const Progress& progress = {});
 
 /// A distance that two bodies which never meet are proven to keep at every pose of Q: within a few tens of
 /// percent of the true one; 0 when none could be shown. Infinite where one of them has no spheres. cells,

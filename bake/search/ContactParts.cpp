@@ -9,7 +9,8 @@
 
 namespace tss {
 
-struct ContactSurface::Probe {
+/// What meeting() was asked.
+struct ContactSurface::Query {
     const ContactSurface& other;
     const Pose& toOther;
     double reach, size;
@@ -31,79 +32,82 @@ std::vector<SurfacePart> ContactSurface::meeting(const ContactSurface& other, co
                                                  double reach, double size, const PartSet& known,
                                                  Poll& poll) const {
     std::vector<SurfacePart> found;
-    if (!tree_.empty()) visit(Probe{other, toOther, reach, size, known, poll}, 0, found);
+    if (!tree_.empty()) visitNode({other, toOther, reach, size, known, poll}, 0, found);
     std::sort(found.begin(), found.end());
     return found;
 }
 
-void ContactSurface::visit(const Probe& probe, std::uint32_t node, std::vector<SurfacePart>& found) const {
+void ContactSurface::visitNode(const Query& query, std::uint32_t node,
+                               std::vector<SurfacePart>& found) const {
     const Bvh::Node& at = tree_.nodes[node];
-    const Vec3 centre = probe.toOther * Vec3(0.5 * (at.lower + at.upper));
+    const Vec3 centre = query.toOther * Vec3(0.5 * (at.lower + at.upper));
     const double radius = 0.5 * (at.upper - at.lower).norm() * (1 + 1e-12);
-    // Where the boundary is farther away, all of it is on one side.
-    if (!probe.other.solid_.boundary().comesWithin(centre, radius + probe.reach)) {
-        if (probe.other.inside(centre)) addAll(probe, node, found);
+    // Where the boundary is farther away than that, all below the node is inside or all is outside.
+    if (!query.other.solid_.boundary().comesWithin(centre, radius + query.reach)) {
+        if (query.other.inside(centre)) addAll(query, node, found);
         return;
     }
     if (at.count == 0) {
-        visit(probe, at.first, found);
-        visit(probe, at.first + 1, found);
+        visitNode(query, at.first, found);
+        visitNode(query, at.first + 1, found);
         return;
     }
     for (std::uint32_t i = 0; i < at.count; ++i) {
         const SurfacePart whole{tree_.items[at.first + i], 1};
-        visit(probe, whole, corners(mesh(), whole), nullptr, found);
+        visitPart(query, whole, corners(mesh(), whole), nullptr, found);
     }
 }
 
-void ContactSurface::addAll(const Probe& probe, std::uint32_t node, std::vector<SurfacePart>& found) const {
+void ContactSurface::addAll(const Query& query, std::uint32_t node, std::vector<SurfacePart>& found) const {
     const Bvh::Node& at = tree_.nodes[node];
-    for (std::uint32_t child = 0; at.count == 0 && child < 2; ++child) addAll(probe, at.first + child, found);
+    for (std::uint32_t child = 0; at.count == 0 && child < 2; ++child) addAll(query, at.first + child, found);
     for (std::uint32_t i = 0; i < at.count; ++i) {
         const SurfacePart whole{tree_.items[at.first + i], 1};
-        if (!probe.known.holds(whole)) found.push_back(whole);
+        if (!query.known.holds(whole)) found.push_back(whole);
     }
 }
 
-/// A part on the way down to its halves.
-struct ContactSurface::Cut {
-    Vec3 centre;         ///< in the other body's frame
-    double distance = 0; ///< of the centre from the other's boundary is at least this
-    Cut* whole = nullptr;
-    std::optional<bool> inside = {}; ///< the centre, in the other body
+/// The centre of a part, and what is known of it.
+struct ContactSurface::Centre {
+    Vec3 position;                   ///< in the other body's frame
+    double distance = 0;             ///< scene units: the other's boundary is at least this far away
+    Centre* parent = nullptr;        ///< of the part that this one is a half of
+    std::optional<bool> inside = {}; ///< whether it is inside the other body, once that was asked
 };
 
-/// Asked of the whole where the boundary does not run between its centre and this one.
-bool ContactSurface::isInside(const Probe& probe, Cut& cut) const {
-    if (!cut.inside) {
+/// Whether the centre is inside the other body. The parent's answer holds where the parent is farther from
+/// the boundary than from this centre, for then no boundary runs between the two.
+bool ContactSurface::isInside(const Query& query, Centre& centre) const {
+    if (!centre.inside) {
+        Centre* parent = centre.parent;
         const bool same =
-            cut.whole && (cut.centre - cut.whole->centre).norm() * (1 + 1e-9) < cut.whole->distance;
-        cut.inside = same ? isInside(probe, *cut.whole) : probe.other.inside(cut.centre);
+            parent && (centre.position - parent->position).norm() * (1 + 1e-9) < parent->distance;
+        centre.inside = same ? isInside(query, *parent) : query.other.inside(centre.position);
     }
-    return *cut.inside;
+    return *centre.inside;
 }
 
-void ContactSurface::visit(const Probe& probe, SurfacePart part, const Corners& corners, Cut* whole,
-                           std::vector<SurfacePart>& found) const {
-    if (probe.poll.stopped() || probe.known.holds(part)) return;
+void ContactSurface::visitPart(const Query& query, SurfacePart part, const Corners& corners, Centre* parent,
+                               std::vector<SurfacePart>& found) const {
+    if (query.poll.stopped() || query.known.holds(part)) return;
     const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3;
     double radius = 0;
     for (const Vec3& corner : corners) radius = std::max(radius, (corner - middle).norm() * (1 + 1e-12));
-    Cut cut{probe.toOther * middle, radius + probe.reach, whole};
-    const double distance = probe.other.solid_.boundary().distance(cut.centre, cut.distance);
+    Centre centre{query.toOther * middle, radius + query.reach, parent};
+    const double distance = query.other.solid_.boundary().distance(centre.position, centre.distance);
     if (!std::isfinite(distance)) {
-        if (isInside(probe, cut)) found.push_back(part);
+        if (isInside(query, centre)) found.push_back(part);
         return;
     }
-    cut.distance = distance;
-    const bool all = distance + radius <= probe.reach && !probe.known.reaches(part);
-    if (all || radius <= probe.size || part.cuts >> (mostCuts - 1)) {
+    centre.distance = distance;
+    const bool allWithin = distance + radius <= query.reach && !query.known.reaches(part);
+    if (allWithin || radius <= query.size || part.cuts >> (mostCuts - 1)) {
         found.push_back(part);
         return;
     }
     const std::array<SurfacePart, 2> parts = halves(part);
     const std::array<Corners, 2> both = halves(corners);
-    for (int k = 0; k < 2; ++k) visit(probe, parts[k], both[k], &cut, found);
+    for (int k = 0; k < 2; ++k) visitPart(query, parts[k], both[k], &centre, found);
 }
 
 std::vector<std::vector<SurfacePart>> connected(const TriangleMesh& mesh,

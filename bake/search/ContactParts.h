@@ -16,21 +16,21 @@ public:
     const MeshQuery& surface() const { return surface_; }
     const TriangleMesh& mesh() const { return solid_.mesh(); }
 
-    /// The parts of this surface that are inside the other body or within `reach` of its boundary, some a few
-    /// `size` farther; what is left out is outside and at least `reach` away. Parts of `known` are left out
-    /// too. size: radius below which parts are not cut further, > 0. toOther: from this body's frame.
-    /// Stopped, fewer are found.
+    /// The parts of this surface that are inside the other body or within `reach` of its boundary, scene
+    /// units. Conservative: what is left out is outside and at least `reach` away, or in `known`; what is
+    /// found may be a few times `size` farther away. size: radius below which parts are not halved, scene
+    /// units, > 0. toOther: from this body's frame to the other's. Stopped through `poll`, fewer are found.
     std::vector<SurfacePart> meeting(const ContactSurface& other, const Pose& toOther, double reach,
                                      double size, const PartSet& known, Poll& poll) const;
 
 private:
-    struct Probe;
-    struct Cut;
-    void visit(const Probe& probe, std::uint32_t node, std::vector<SurfacePart>& found) const;
-    void addAll(const Probe& probe, std::uint32_t node, std::vector<SurfacePart>& found) const;
-    void visit(const Probe& probe, SurfacePart part, const Corners& corners, Cut* whole,
-               std::vector<SurfacePart>& found) const;
-    bool isInside(const Probe& probe, Cut& cut) const;
+    struct Query;
+    struct Centre;
+    void visitNode(const Query& query, std::uint32_t node, std::vector<SurfacePart>& found) const;
+    void addAll(const Query& query, std::uint32_t node, std::vector<SurfacePart>& found) const;
+    void visitPart(const Query& query, SurfacePart part, const Corners& corners, Centre* parent,
+                   std::vector<SurfacePart>& found) const;
+    bool isInside(const Query& query, Centre& centre) const;
     bool inside(const Vec3& x) const { return bounds_.contains(x) && solid_.inside(x); }
 
     const Solid& solid_;
@@ -39,7 +39,7 @@ private:
     Bvh tree_; ///< over the triangles
 };
 
-/// Parts sorted into sets that hang together: parts that share a corner do.
+/// The connected components of a set of parts: parts that share a corner are connected.
 std::vector<std::vector<SurfacePart>> connected(const TriangleMesh& mesh,
                                                 const std::vector<SurfacePart>& parts);
 

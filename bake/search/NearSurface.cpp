@@ -20,26 +20,27 @@ struct Ball {
     double radius;
 };
 
-/// What all threads share. Marks are only ever set, and whether one is set does not depend on the others:
-/// they save work alone.
-struct NearSurfaceInput {
-    Side side;
+/// One pass over the cells of Q, shared by all threads. Marks in `reached` are only ever set, and whether one
+/// gets set does not depend on the others: reading them only saves work.
+struct Pass {
+    Side side; ///< of the patches
     const MeshQuery& other;
     const MotionRates& rates;
-    Bvh tree;
-    std::vector<Ball> balls; ///< one per node; a leaf is one patch, or many where there was no time to divide
-    std::vector<MeshQuery> triangles; ///< the patches as they are; empty where balls about them tell enough
-    double resolution;                ///< the motion in a cell that is small enough to settle a patch
-    double margin;
-    std::unique_ptr<std::atomic<char>[]> reached; ///< one per node: all below it is
-    std::vector<std::uint32_t> parents;
+    double resolution; ///< scene units: cells in which the patches move less are not split further
+    double margin;     ///< scene units
     Poll& poll;
-    std::uint64_t most;                  ///< balls that one part of the tree looks at; then it counts as near
-    double rounding;                     ///< of distances between the two bodies
-    std::atomic<std::uint64_t> tests{0}; ///< balls looked at
+    std::uint64_t mostTests; ///< of one subtree; what is open then counts as near
+    double rounding;         ///< scene units: of distances between the two bodies
+
+    Bvh tree{};                ///< over the patches
+    std::vector<Ball> balls{}; ///< #nodes; a leaf is one patch, or many where there was no time to divide
+    std::vector<MeshQuery> triangles{}; ///< #patches, each its triangle; empty: balls are tested alone
+    std::unique_ptr<std::atomic<char>[]> reached {}; ///< #nodes: 1 where all patches below come near
+    std::vector<std::uint32_t> parents{};            ///< #nodes
+    std::atomic<std::uint64_t> tests{0};             ///< of balls, so far
 };
 
-void buildTree(NearSurfaceInput& p, std::span<const Patch> patches) {
+void buildTree(Pass& p, std::span<const Patch> patches) {
     std::vector<Eigen::AlignedBox3d> boxes;
     for (const Patch& patch : patches) {
         Eigen::AlignedBox3d box(patch.corners[0]);
@@ -65,14 +66,13 @@ void buildTree(NearSurfaceInput& p, std::span<const Patch> patches) {
     }
 }
 
-/// How far from the other mesh, at the cell's centre pose, a ball may be and still come within the margin
-/// somewhere in the cell.
-struct Probe {
-    Vec3 centre; ///< of the ball, in the other mesh's frame
-    double move; ///< of its points against the other mesh in the cell
+/// A ball about patches at the centre pose of a cell of Q.
+struct PlacedBall {
+    Vec3 centre; ///< in the other mesh's frame
+    double move; ///< scene units: how far its points may move against the other mesh in the cell
 };
 
-Probe probe(const NearSurfaceInput& p, const CellMotion& motion, const Pose& inverse, const Ball& ball) {
+PlacedBall placed(const Pass& p, const CellMotion& motion, const Pose& inverse, const Ball& ball) {
     const double spread = motion.relativeMove() * ball.radius;
     if (p.side == Side::B) {
         const Vec3 x = motion.centrePose() * ball.centre;
@@ -87,15 +87,16 @@ Probe probe(const NearSurfaceInput& p, const CellMotion& motion, const Pose& inv
     return {inverse * ball.centre, move};
 }
 
-class Marker {
+/// Marks the patches of one subtree that come near, cell by cell (branch and bound).
+class ReachSearch {
 public:
-    explicit Marker(NearSurfaceInput& problem) : p_(problem) {}
-    ~Marker() { p_.tests += tests_; }
+    explicit ReachSearch(Pass& pass) : p_(pass) {}
+    ~ReachSearch() { p_.tests += tests_; }
 
     void run(const CellTree& tree, const std::vector<std::uint32_t>& inherited) {
         Cell cell = tree.cell;
         if (!shrinkToPlanes(p_.rates.motion(), cell)) return;
-        if (p_.poll.stopped() || tests_ > p_.most) { // what has not been looked at may be near
+        if (p_.poll.stopped() || tests_ > p_.mostTests) { // what has not been looked at may be near
             for (const std::uint32_t n : inherited) mark(n);
             return;
         }
@@ -108,7 +109,7 @@ public:
             if (p_.reached[n].load(std::memory_order_relaxed)) continue;
             ++tests_;
             const Ball& ball = p_.balls[n];
-            const Probe at = probe(p_, motion, inverse, ball);
+            const PlacedBall at = placed(p_, motion, inverse, ball);
             const double within = (ball.radius + at.move + p_.margin) * (1 + 1e-9) + p_.rounding;
             if (std::isfinite(within) && !p_.other.comesWithin(at.centre, within)) continue;
             const Bvh::Node& node = p_.tree.nodes[n];
@@ -125,12 +126,12 @@ public:
             }
         }
         if (open.empty()) return;
-        if (!tree.parts.empty()) {
-            for (const CellTree& part : tree.parts) run(part, open);
+        if (!tree.children.empty()) {
+            for (const CellTree& child : tree.children) run(child, open);
             return;
         }
         const std::size_t k = widest(motion, p_.balls[open[0]]);
-        if (!canSplit(cell, k)) { // what may be near counts as near
+        if (!canSplit(cell, k)) { // undecided in the smallest cell: counts as near
             for (const std::uint32_t n : open) mark(n);
             return;
         }
@@ -140,9 +141,10 @@ public:
     }
 
 private:
-    /// By how far its points move, else by which way: what slides past a surface may be as near as it likes.
+    /// Whether the triangle of a leaf stays farther away than the margin all over the cell. First by how far
+    /// its points move at most, then along separating axes, which also tells apart what slides past closely.
     bool triangleApart(const Bvh::Node& leaf, const CellMotion& motion, const Pose& inverse,
-                       const Probe& at) {
+                       const PlacedBall& at) {
         constexpr std::uint64_t mostLooks = 20'000, looksPerTest = 32;
         if (p_.triangles.empty()) return false;
         const MeshQuery& triangle = p_.triangles[p_.tree.items[leaf.first]];
@@ -156,6 +158,7 @@ private:
         return apart;
     }
 
+    /// Marks a node, and its ancestors as far as both of their children are marked.
     void mark(std::uint32_t n) {
         p_.reached[n].store(1, std::memory_order_relaxed);
         while (n != 0) {
@@ -168,6 +171,7 @@ private:
         }
     }
 
+    /// The DOF to halve next: the one that moves the points of the ball most.
     std::size_t widest(const CellMotion& motion, const Ball& ball) const {
         const Vec3 x = p_.side == Side::B ? Vec3(motion.centrePose() * ball.centre) : ball.centre;
         auto share = motion.shares(x);
@@ -180,11 +184,11 @@ private:
                                         share.begin());
     }
 
-    NearSurfaceInput& p_;
+    Pass& p_;
     std::uint64_t tests_ = 0;
 };
 
-/// The nodes of the tree some levels down, to spread over threads.
+/// The nodes of the tree some levels down, about `count` of them, to be worked on in parallel.
 std::vector<std::uint32_t> topNodes(const Bvh& tree, std::size_t count) {
     std::vector<std::uint32_t> now{0};
     for (bool grown = true; grown && now.size() < count;) {
@@ -209,37 +213,26 @@ struct Kept {
     std::uint64_t tests = 0;
 };
 
-/// What a patch is judged by.
-enum class Judged { Ball, Triangle };
+/// What is tested for a patch: the ball about it, or also its triangle.
+enum class PatchTest { Ball, Triangle };
 
-/// The patches that come near, judged as they are.
+/// The patches that come near, without halving them.
 Kept reached(std::span<const Patch> patches, Side side, const MeshQuery& other, const MotionRates& rates,
-             const CellTree& cells, double resolution, double margin, Judged by, std::uint64_t most,
+             const CellTree& cells, double resolution, double margin, PatchTest test, std::uint64_t mostTests,
              Poll& poll) {
     if (patches.empty()) return {};
     double own = 0;
     for (const Patch& patch : patches)
         for (const Vec3& c : patch.corners) own = std::max(own, c.norm());
     const double inA = side == Side::A ? own : other.extent(), inB = side == Side::A ? other.extent() : own;
-    NearSurfaceInput p{side,
-                       other,
-                       rates,
-                       {},
-                       {},
-                       {},
-                       resolution,
-                       margin,
-                       {},
-                       {},
-                       poll,
-                       most,
-                       coordinateRounding(rates.motion(), inA, inB)};
+    Pass p{side,   other, rates,     resolution,
+           margin, poll,  mostTests, coordinateRounding(rates.motion(), inA, inB)};
     buildTree(p, patches);
-    if (by == Judged::Triangle)
+    if (test == PatchTest::Triangle)
         for (const Patch& patch : patches)
             p.triangles.emplace_back(TriangleMesh{{patch.corners.begin(), patch.corners.end()}, {{0, 1, 2}}});
     const std::vector<std::uint32_t> nodes = topNodes(p.tree, 64);
-    parallelFor(nodes.size(), [&](std::size_t i) { Marker(p).run(cells, {nodes[i]}); });
+    parallelFor(nodes.size(), [&](std::size_t i) { ReachSearch(p).run(cells, {nodes[i]}); });
     std::vector<char> keep(patches.size(), 0);
     for (std::uint32_t n = 0; n < p.tree.nodes.size(); ++n)
         for (std::uint32_t i = 0; i < p.tree.nodes[n].count; ++i)
@@ -251,41 +244,43 @@ Kept reached(std::span<const Patch> patches, Side side, const MeshQuery& other, 
     return kept;
 }
 
-/// How much is looked at, and how small the cells of Q may be for that.
+/// Limits the work, and remembers how small cells of Q may be for that.
 struct Effort {
-    double tests;      ///< that one pass over the cells takes at most, about
-    double finest = 0; ///< cells as small as this were too many already
-    std::uint64_t mostOfPart() const { return static_cast<std::uint64_t>(tests / 4); }
+    double tests;       ///< of one pass over the cells, at most, about
+    double tooFine = 0; ///< scene units: a resolution that took too many tests
+    std::uint64_t ofSubtree() const { return static_cast<std::uint64_t>(tests / 4); }
 };
 
-/// The same with cells of Q as small as pays: from large ones on, each time on what the last time left. With
-/// many DOFs the number of cells explodes; then larger ones decide, which keeps more surface than need be.
+/// The patches that come near, found in passes of finer and finer cells, each over what the pass before left,
+/// until `size` or the effort is reached. The number of cells grows with the power of the DOFs; with coarser
+/// cells more surface is kept than need be.
 std::vector<Patch> reachedInBudget(std::vector<Patch> patches, Side side, const MeshQuery& other,
                                    const MotionRates& rates, const CellTree& cells, double size,
-                                   double margin, Judged by, Effort& effort, Poll& poll) {
+                                   double margin, PatchTest test, Effort& effort, Poll& poll) {
     const double growth = std::pow(2.0, static_cast<double>(rates.motion().dofCount()));
     double resolution = 8 * size;
-    while (resolution < std::max(other.extent() / 16, effort.finest)) resolution *= 2;
+    while (resolution < std::max(other.extent() / 16, effort.tooFine)) resolution *= 2;
     for (; !patches.empty(); resolution /= 2) {
         Kept kept =
-            reached(patches, side, other, rates, cells, resolution, margin, by, effort.mostOfPart(), poll);
+            reached(patches, side, other, rates, cells, resolution, margin, test, effort.ofSubtree(), poll);
         patches = std::move(kept.patches);
         if (resolution <= size / 2 || poll.stopped()) break;
         if (static_cast<double>(kept.tests) * growth > effort.tests) {
-            effort.finest = resolution;
+            effort.tooFine = resolution;
             break;
         }
     }
     return patches;
 }
 
-/// Lets go of large triangles that pass by closely, as walls of fitted parts do: about such a one the ball
-/// says nothing, and patches small enough for theirs to say it are a thousand times as many. Over more than
-/// two DOFs cells as small as a clearance are too many.
-std::vector<Patch> largeReached(std::vector<Patch> patches, Side side, const MeshQuery& other,
-                                const MotionRates& rates, const CellTree& cells, double size, double margin,
-                                double share, Poll& poll) {
-    constexpr double large = 8;             // sizes
+/// Discards large triangles that stay apart but pass by closely, as the walls of fitted parts do. Balls about
+/// them are too large to show it, and patches small enough would be a thousand times as many, so the
+/// triangles themselves are tested. Not over more than two DOFs, where cells as small as the clearance are
+/// too many.
+std::vector<Patch> withoutLargeApart(std::vector<Patch> patches, Side side, const MeshQuery& other,
+                                     const MotionRates& rates, const CellTree& cells, double size,
+                                     double margin, double share, Poll& poll) {
+    constexpr double large = 8;             // times `size`
     constexpr std::ptrdiff_t most = 20'000; // some kilobytes each
     if (rates.motion().dofCount() > 2) return patches;
     const auto rest = std::stable_partition(
@@ -293,12 +288,12 @@ std::vector<Patch> largeReached(std::vector<Patch> patches, Side side, const Mes
     if (rest == patches.begin() || rest - patches.begin() > most) return patches;
     Effort effort{share * 4e5}; // tests of about ten microseconds each
     std::vector<Patch> near = reachedInBudget({patches.begin(), rest}, side, other, rates, cells, size,
-                                              margin, Judged::Triangle, effort, poll);
+                                              margin, PatchTest::Triangle, effort, poll);
     near.insert(near.end(), rest, patches.end());
     return near;
 }
 
-/// False: that makes too many.
+/// Halves a patch down to the radius. False: that makes too many patches.
 bool halveTo(const Patch& patch, double radius, std::vector<Patch>& out) {
     constexpr std::size_t most = 8'000'000;
     if (out.size() >= most) return false;
@@ -325,15 +320,15 @@ std::vector<Patch> findNearSurface(std::span<const Patch> patches, Side side, co
     std::vector<Patch> now(patches.begin(), patches.end());
     Poll poll(progress, "reach");
     Effort effort{share * 4e6}; // tests of about a microsecond each
-    // From the coarse to the fine, so that most of a mesh is let go in large pieces.
+    // From coarse to fine, so that most of a mesh is discarded in large pieces.
     for (double step = std::max(size, largestRadius(now));; step = std::max(size, step / 4)) {
         std::vector<Patch> fine;
         const bool whole = std::all_of(now.begin(), now.end(),
                                        [&](const Patch& patch) { return halveTo(patch, step, fine); });
         if (!whole) break; // larger patches than asked for keep more of the surface than need be
-        now = reachedInBudget(std::move(fine), side, other, rates, cells, step, margin, Judged::Ball, effort,
-                              poll);
-        now = largeReached(std::move(now), side, other, rates, cells, size, margin, share, poll);
+        now = reachedInBudget(std::move(fine), side, other, rates, cells, step, margin, PatchTest::Ball,
+                              effort, poll);
+        now = withoutLargeApart(std::move(now), side, other, rates, cells, size, margin, share, poll);
         if (!report(progress, "reach", size / step) || now.empty()) break;
         if (step <= size) break;
     }

@@ -17,7 +17,8 @@ struct NodePair {
     std::uint32_t a = 0, b = 0;
 };
 
-/// The two that take the place of a pair which is not one of leaves: the larger ball is opened.
+/// The two pairs that replace one which is not a pair of leaves: the node with the larger ball is replaced by
+/// its children.
 inline std::array<NodePair, 2> opened(const SphereTree& a, const SphereTree& b, NodePair pair) {
     const SphereTree::Node &na = a[pair.a], &nb = b[pair.b];
     if (!na.leaf() && (nb.leaf() || na.radius >= nb.radius))
@@ -25,8 +26,9 @@ inline std::array<NodePair, 2> opened(const SphereTree& a, const SphereTree& b, 
     return {NodePair{pair.a, pair.b + 1}, NodePair{pair.a, nb.right}};
 }
 
-/// Goes down from the pairs on the stack, the last one first, and leaves it empty: a pair for which
-/// open(pair, node of A, node of B) is true is replaced by those below it. Never true for two leaves.
+/// Depth-first traversal of both trees at once, from the pairs on the stack, which is empty afterwards. Where
+/// open(pair, node of A, node of B) is true, the pairs below are visited as well; it must be false for
+/// leaves.
 template <typename Open>
 void descend(const SphereTree& a, const SphereTree& b, std::vector<NodePair>& stack, Open&& open) {
     while (!stack.empty()) {
@@ -68,8 +70,9 @@ void visitPairsWithin(const SphereTree& a, const SphereTree& b, const Pose& pose
     });
 }
 
-/// The least value of leaf(i, j), for spheres i of A and j of B below the pairs given, or `atMost` where none
-/// is smaller. leaf(i, j) is never below the gap of the two spheres at the pose.
+/// Branch and bound: the least value of leaf(i, j) over the spheres i of A and j of B below the given pairs
+/// of nodes, or `atMost` where none is smaller. leaf(i, j) must not be below the gap of the spheres at the
+/// pose.
 template <typename Leaf>
 double leastBelow(const SphereTree& a, const SphereTree& b, const Pose& pose, std::span<const NodePair> from,
                   double atMost, Leaf&& leaf) {

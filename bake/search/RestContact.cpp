@@ -14,14 +14,14 @@ namespace {
 
 using Parts = std::vector<SurfacePart>;
 
-/// One body while its region grows.
-struct Side {
-    Side(const ContactSurface& own) : own(own), region(TriangleMesh{}) {}
+/// One body and the part of its surface that is exempt, while that grows.
+struct GrowingRegion {
+    GrowingRegion(const ContactSurface& own) : own(own), region(TriangleMesh{}) {}
 
     const ContactSurface& own;
-    PartSet parts;    ///< the region
-    MeshQuery region; ///< the same, as it was when last renewed
-    bool grown = false;
+    PartSet parts;      ///< the region
+    MeshQuery region;   ///< the same for queries, as of the last renew()
+    bool grown = false; ///< since the last renew()
 
     void join(const Parts& more) {
         for (const SurfacePart& part : more) parts.insert(part);
@@ -31,14 +31,15 @@ struct Side {
         if (std::exchange(grown, false)) region = MeshQuery(meshOf(own.mesh(), parts.merged()));
     }
     MeshQuery queryOf(const Parts& set) const { return MeshQuery(meshOf(own.mesh(), set)); }
-    bool hangsTogether(const MeshQuery& set) const {
+    /// Whether a set of parts is connected with the region on the surface.
+    bool touches(const MeshQuery& set) const {
         return region.distanceTo(set, Pose::Identity()) <= 1e-9 * own.solid().diagonal();
     }
 };
 
-/// What one pose adds to the regions; nothing where the joint is stopped there.
+/// What one pose adds to the regions.
 struct Growth {
-    bool free = true;
+    bool free = true; ///< no other contact; else the joint is stopped there and the pose adds nothing
     Parts a, b;
 };
 
@@ -56,10 +57,10 @@ public:
             result.clearance = result.apart = distance;
             return result;
         }
-        atRest();
-        alongGrid();
-        between();
-        closeBy();
+        seedAtRest();
+        growOverGrid();
+        growBetweenGridPoses();
+        addCloseParts();
         result.region.a = a_.parts.merged();
         result.region.b = b_.parts.merged();
         result.apart = options_.reach;
@@ -69,20 +70,21 @@ public:
     }
 
 private:
-    Parts meeting(const Side& side, const Side& other, const Pose& toOther) const {
+    Parts meeting(const GrowingRegion& side, const GrowingRegion& other, const Pose& toOther) const {
         return side.own.meeting(other.own, toOther, options_.reach,
                                 options_.size > 0 ? options_.size : options_.reach / 2, side.parts, poll_);
     }
 
-    void atRest() {
+    void seedAtRest() {
         const Parts meetA = meeting(a_, b_, rest_.inverse()), meetB = meeting(b_, a_, rest_);
         nearA_ = seed(a_, b_, meetA, rest_.inverse());
         nearB_ = seed(b_, a_, meetB, rest_);
-        closeBy();
+        addCloseParts();
     }
 
-    /// What touches the other body or is inside of it begins the region. Returns the rest.
-    Parts seed(Side& side, const Side& other, const Parts& met, const Pose& toOther) const {
+    /// Begins the region with the connected sets that touch the other body or are inside it. Returns the
+    /// parts of all other sets.
+    Parts seed(GrowingRegion& side, const GrowingRegion& other, const Parts& met, const Pose& toOther) const {
         Parts rest;
         for (const Parts& set : connected(side.own.mesh(), met)) {
             const MeshQuery query = side.queryOf(set);
@@ -97,8 +99,9 @@ private:
         return rest;
     }
 
-    /// What is near at rest and close to the other's region there joins: spheres of the region stick out.
-    void closeBy() {
+    /// Adds the parts that are near at rest and close to the other body's region there, since spheres of the
+    /// region stick out; again and again, as the regions grow by that.
+    void addCloseParts() {
         for (bool more = true; more && !poll_.stopped();) {
             a_.renew();
             b_.renew();
@@ -109,7 +112,8 @@ private:
         }
     }
 
-    Parts closeTo(const Side& other, const Side& side, const Parts& near, const Pose& toOther) const {
+    Parts closeTo(const GrowingRegion& other, const GrowingRegion& side, const Parts& near,
+                  const Pose& toOther) const {
         std::vector<char> close(near.size(), 0);
         if (other.region.triangleCount() > 0)
             parallelFor(near.size(), [&](std::size_t i) {
@@ -122,9 +126,10 @@ private:
         return found;
     }
 
-    /// The parts near at rest that are not of the region; apart: lowered to their distance.
-    TriangleMesh leftOver(const Side& side, const Side& other, const Parts& near, const Pose& toOther,
-                          double& apart) const {
+    /// The parts near at rest that did not become part of the region. apart: lowered to their distance from
+    /// the other body.
+    TriangleMesh leftOver(const GrowingRegion& side, const GrowingRegion& other, const Parts& near,
+                          const Pose& toOther, double& apart) const {
         Parts left;
         for (const SurfacePart& part : near)
             if (!side.parts.contains(part)) left.push_back(part);
@@ -134,20 +139,21 @@ private:
         return mesh;
     }
 
-    Growth probe(const std::vector<double>& q) const {
+    Growth growthAt(const std::vector<double>& q) const {
         Growth growth;
         const Pose bToA = pose(motion_, q);
-        growth.a = carried(a_, b_, bToA.inverse(), growth.free);
-        if (growth.free) growth.b = carried(b_, a_, bToA, growth.free);
+        growth.a = continued(a_, b_, bToA.inverse(), growth.free);
+        if (growth.free) growth.b = continued(b_, a_, bToA, growth.free);
         return growth;
     }
 
-    /// The new contact that hangs together with the region. free: false where there is other contact.
-    Parts carried(const Side& side, const Side& other, const Pose& toOther, bool& free) const {
+    /// The new contact that is connected with the region. free: becomes false where there is other contact.
+    Parts continued(const GrowingRegion& side, const GrowingRegion& other, const Pose& toOther,
+                    bool& free) const {
         Parts joining;
         for (const Parts& set : connected(side.own.mesh(), meeting(side, other, toOther))) {
             const MeshQuery query = side.queryOf(set);
-            if (side.hangsTogether(query)) {
+            if (side.touches(query)) {
                 joining.insert(joining.end(), set.begin(), set.end());
             } else if (other.own.surface().distanceTo(query, toOther, 2 * options_.reach) <= touching_) {
                 free = false;
@@ -157,13 +163,14 @@ private:
         return joining;
     }
 
-    /// Looks at poses side by side, each against the region as it is, then adds what they found in turn.
-    std::vector<char> lookAll(const std::vector<std::vector<double>>& poses) {
+    /// Looks at poses in parallel, each against the regions as they are, then adds what they found in order.
+    /// Returns for each pose whether it is free.
+    std::vector<char> grow(const std::vector<std::vector<double>>& poses) {
         std::vector<Growth> grown(poses.size());
         std::vector<char> free(poses.size(), 0);
         a_.renew();
         b_.renew();
-        parallelFor(poses.size(), [&](std::size_t i) { grown[i] = probe(poses[i]); });
+        parallelFor(poses.size(), [&](std::size_t i) { grown[i] = growthAt(poses[i]); });
         for (std::size_t i = 0; i < poses.size(); ++i) {
             free[i] = grown[i].free;
             if (!free[i]) continue;
@@ -173,7 +180,8 @@ private:
         return free;
     }
 
-    void alongGrid() {
+    /// From pose to pose over the grid, outwards from rest through free poses (breadth first).
+    void growOverGrid() {
         grid_ = PoseGrid(motion_, b_.own.mesh(), options_.reach, options_.poses);
         std::vector<std::size_t> next = grid_.neighbours(grid_.rest());
         grid_.setFree(grid_.rest());
@@ -181,7 +189,7 @@ private:
             if (!report(progress_, "contact at rest", grid_.share())) return;
             std::vector<std::vector<double>> poses;
             for (const std::size_t at : next) poses.push_back(grid_.pose(at));
-            const std::vector<char> free = lookAll(poses);
+            const std::vector<char> free = grow(poses);
             looked += static_cast<int>(poses.size());
             std::vector<std::size_t> after;
             for (std::size_t i = 0; i < next.size(); ++i)
@@ -196,8 +204,8 @@ private:
         }
     }
 
-    /// Poses between those of the grid, as far as these are free.
-    void between() {
+    /// At poses between those of the grid whose nearest grid pose is free.
+    void growBetweenGridPoses() {
         constexpr std::size_t batch = 32; // of fixed size, so that the outcome does not depend on threads
         std::vector<std::vector<double>> poses;
         for (std::vector<double>& q : exploredPoses(motion_, static_cast<std::size_t>(options_.poses), 2))
@@ -205,11 +213,11 @@ private:
         for (std::size_t first = 0; first < poses.size(); first += batch) {
             if (!report(progress_, "contact at rest", double(first) / double(poses.size()))) return;
             const std::size_t end = std::min(first + batch, poses.size());
-            lookAll({poses.begin() + first, poses.begin() + end});
+            grow({poses.begin() + first, poses.begin() + end});
         }
     }
 
-    Side a_, b_;
+    GrowingRegion a_, b_;
     const Motion& motion_;
     const double touching_;
     const RestContactOptions& options_;

@@ -21,7 +21,6 @@ CandidatePairs searchSampled(const SphereSet& a, const SphereSet& b, const Motio
     const SphereTree treeA(a, stop), treeB(b, stop);
     if (poll.stopped()) return result;
     const auto poses = exploredPoses(motion, options.samples, options.seed);
-    std::vector<char> hit(poses.size(), 0);
     ConcurrentPairs found(a.size(), b.size());
     constexpr std::size_t batch = 256;
     for (std::size_t first = 0; first < poses.size(); first += batch) {
@@ -31,10 +30,7 @@ CandidatePairs searchSampled(const SphereSet& a, const SphereSet& b, const Motio
             std::uint32_t seen = 0;
             visitPairsWithin(treeA, treeB, pose(motion, poses[first + k]), 0,
                              [&](std::uint32_t i, std::uint32_t j, double gap) {
-                                 if (rule.touches({i, j}, gap)) {
-                                     found.insert({i, j});
-                                     hit[first + k] = 1;
-                                 }
+                                 if (rule.touches({i, j}, gap)) found.insert({i, j});
                                  return ++seen % 256 != 0 || !poll.stopped();
                              });
         });
@@ -43,10 +39,8 @@ CandidatePairs searchSampled(const SphereSet& a, const SphereSet& b, const Motio
     }
     report(progress, "sampled search", 1);
 
-    result.colliding = static_cast<std::uint64_t>(std::count(hit.begin(), hit.end(), 1));
     result.pairs = found.sorted();
     result.restGaps = rule.thresholds(result.pairs);
-    countSpheres(result);
     return result;
 }
 

@@ -261,9 +261,8 @@ std::vector<double> gapsAtRest(const SphereSet& skin, const SphereSet& muscles,
 } // namespace
 
 SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscle>& muscles,
-                     const SkinSearchOptions& options, const Progress& progress, SkinSearchCounts* counts) {
+                     const SkinSearchOptions& options, const Progress& progress) {
     checkOptions(skin, muscles, options);
-    SkinSearchCounts count;
     const double thickness = options.thickness > 0 ? options.thickness : skinThickness(skin);
     const std::vector<double> radii(skin.vertices.size(), thickness);
 
@@ -272,10 +271,8 @@ SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscl
     std::vector<std::uint32_t> muscleOf;
     std::vector<SpherePair> pairs;
     for (std::size_t m = 0; m < muscles.size(); ++m) {
-        if (!report(progress, "skin", static_cast<double>(m) / static_cast<double>(muscles.size()))) {
-            count.stopped = true;
-            break;
-        }
+        if (!report(progress, "skin", static_cast<double>(m) / static_cast<double>(muscles.size())))
+            throw InputError("stopped before the table was complete");
         const MuscleSweep sweep = makeSweep(muscles[m], skin, options.path);
         const auto first = static_cast<std::uint32_t>(muscleSpheres.size());
         for (int stop = 0; stop < (insertionOf(options, m) < 0 ? 1 : spanStops); ++stop)
@@ -300,13 +297,6 @@ SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscl
     result.table.record.spheresA = skinSpheres.size();
     result.table.record.spheresB = muscleSpheres.size();
     result.table.record.candidatePairs = pairs.size();
-
-    count.skinSpheres = skinSpheres.size();
-    count.muscleSpheres = muscleSpheres.size();
-    count.usedSkin = result.table.a.size();
-    count.usedMuscle = result.table.b.size();
-    count.tests = result.table.testCount();
-    if (counts) *counts = count;
     return result;
 }
 

@@ -32,14 +32,6 @@ struct SkinSearchOptions {
                                    ///< bone, else -1; empty: none
 };
 
-/// The counts that the paper prints.
-struct SkinSearchCounts {
-    std::size_t skinSpheres = 0, muscleSpheres = 0; ///< before
-    std::size_t usedSkin = 0, usedMuscle = 0;       ///< in the table
-    std::size_t tests = 0;                          ///< a step
-    bool stopped = false;                           ///< the progress asked to stop: the table is not complete
-};
-
 /// Radius of the skin spheres where nothing else is said: half the mean edge.
 double skinThickness(const TriangleMesh& skin);
 
@@ -50,9 +42,9 @@ double skinThickness(const TriangleMesh& skin);
 /// time moves them on the same track. Bones swing one joint value at a time, the others at rest; a vertex
 /// moves with the blend of their motions by its shares, linear between the stations but for a tenth of each
 /// step. One skin sphere per vertex; rows of skin out of reach do not exist. restGaps: the negative gap of a
-/// pair that overlaps at activation 0 (2.4). Same table for any number of threads.
+/// pair that overlaps at activation 0 (2.4). The same table for any number of threads. Throws InputError
+/// where progress stops it.
 SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscle>& muscles,
-                     const SkinSearchOptions& options, const Progress& progress = {},
-                     SkinSearchCounts* counts = nullptr);
+                     const SkinSearchOptions& options, const Progress& progress = {});
 
 } // namespace tss

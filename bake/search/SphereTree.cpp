@@ -1,29 +1,11 @@
 #include "bake/search/SphereTree.h"
 
+#include "bake/spheres/BallAround.h"
+
 #include <algorithm>
 #include <numeric>
 
 namespace tss {
-
-namespace {
-
-/// The smallest ball about two balls.
-void enclose(const SphereTree::Node& x, const SphereTree::Node& y, Vec3& centre, double& radius) {
-    const Vec3 between = y.centre - x.centre;
-    const double distance = between.norm();
-    if (distance + y.radius <= x.radius) {
-        centre = x.centre;
-        radius = x.radius;
-    } else if (distance + x.radius <= y.radius) {
-        centre = y.centre;
-        radius = y.radius;
-    } else {
-        radius = 0.5 * (distance + x.radius + y.radius);
-        centre = x.centre + between * ((radius - x.radius) / distance);
-    }
-}
-
-} // namespace
 
 SphereTree::SphereTree(const SphereSet& spheres, const std::function<bool()>& stop) {
     if (spheres.empty()) return;
@@ -64,10 +46,14 @@ bool SphereTree::build(const SphereSet& spheres, std::vector<std::uint32_t>& ord
     const std::size_t right = nodes_.size();
     if (!build(spheres, order, middle, last, stop)) return false;
 
-    // The ball about the two children grows loose up the tree, the one about the box's middle does not.
+    // The smaller of two balls: that around the children's, which becomes too large higher up the tree, and
+    // that about the middle of the box.
     Node& node = nodes_[self];
     node.right = static_cast<std::uint32_t>(right);
-    enclose(nodes_[self + 1], nodes_[right], node.centre, node.radius);
+    const Node &low = nodes_[self + 1], &high = nodes_[right];
+    const Sphere around = ballAround({low.centre, low.radius}, {high.centre, high.radius});
+    node.centre = around.centre;
+    node.radius = around.radius;
     const Vec3 centre = box.center();
     double radius = 0;
     for (std::size_t k = first; k < last; ++k)

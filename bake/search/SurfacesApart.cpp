@@ -13,11 +13,12 @@ namespace tss {
 
 namespace {
 
-/// Cells that are expected at most where they are judged by how far points move, a distance of two meshes
-/// each: for a clearance near the least distance, and for half of it; and how many times more are looked at.
+/// Cells judged by how far points move take one distance of two meshes each. They are tried for 7/8 of the
+/// least distance where at most `fewExpected` of them are expected, and for half of it up to `mostExpected`;
+/// the search gives up after `slack` times as many.
 constexpr double fewExpected = 1'000, mostExpected = 10'000, slack = 4;
-/// Where more would be needed, up to so many DOFs triangles are told apart by which way they move: pairs of
-/// nodes or triangles that are looked at, some tenths of a microsecond each, in all and in one cell.
+/// Else, up to so many DOFs, separating axes of triangles are tried: with at most so many looks at pairs of
+/// nodes or triangles, some tenths of a microsecond each, in all and in one cell.
 constexpr std::size_t fewDofs = 2;
 constexpr std::uint64_t mostLooks = 40'000'000, looksPerCell = 1'000'000;
 constexpr std::size_t samples = 128;
@@ -41,7 +42,7 @@ public:
         if (a_.bvh().empty() || b_.bvh().empty() || !apartAtSamples()) return std::nullopt;
         for (const auto& [share, most] : {std::pair(0.875, fewExpected), std::pair(0.5, mostExpected)})
             if (expectedCells(share * least_) < most) return shownFor(share);
-        byDirection_ = true;
+        bySeparatingAxes_ = true;
         if (motion_.dofCount() <= fewDofs && alongAxis_ < 0.5 * least_)
             if (const auto shown = shownFor(0.5)) return shown;
         if (alongAxis_ > touching_) return SurfacesApart{alongAxis_, std::max<std::uint64_t>(cells_, 1)};
@@ -69,7 +70,7 @@ private:
         return true;
     }
 
-    /// Were all of Q like the sampled poses, and cells judged by how far points move.
+    /// How many cells a proof by the motion of points would take if all of Q were like the sampled poses.
     double expectedCells(double clearance) const {
         const CellMotion whole(rates_, wholeBox(motion_));
         const auto shares = whole.shares(whole.centrePose() * b_.centre());
@@ -85,12 +86,13 @@ private:
         return expected;
     }
 
-    /// How much of what may be done was done, 1 or more: all.
+    /// The share of the granted work that is done; from 1 on the search gives up.
     double spent() const {
-        return byDirection_ ? double(looked_) / double(mostLooks) : double(cells_) / (slack * mostExpected);
+        return bySeparatingAxes_ ? double(looked_) / double(mostLooks)
+                                 : double(cells_) / (slack * mostExpected);
     }
 
-    /// Shows this share of the least distance there is as clearance.
+    /// The proof of a clearance of this share of the least distance found.
     std::optional<SurfacesApart> shownFor(double share) {
         clearance_ = share * least_;
         std::vector<Cell> cells{wholeBox(motion_)};
@@ -117,7 +119,8 @@ private:
         const double move = motion.pointMotion(motion.centrePose() * b_.centre()).move +
                             motion.relativeMove() * b_.radius() + rounding_;
         return a_.apart(b_, motion.centrePose(), clearance_ + move) ||
-               (byDirection_ && trianglesApart(a_, b_, motion, clearance_, rounding_, looksPerCell, looked));
+               (bySeparatingAxes_ &&
+                trianglesApart(a_, b_, motion, clearance_, rounding_, looksPerCell, looked));
     }
 
     CellResult examine(Cell cell) const {
@@ -146,7 +149,7 @@ private:
     std::vector<double> distances_;                          ///< at the sampled poses
     double least_ = std::numeric_limits<double>::infinity(); ///< distance that was found
     double clearance_ = 0;                                   ///< to be shown
-    bool byDirection_ = false;
+    bool bySeparatingAxes_ = false;
     std::uint64_t cells_ = 0, looked_ = 0;
 };
 

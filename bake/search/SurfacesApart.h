@@ -10,18 +10,18 @@
 
 namespace tss {
 
-/// That two surfaces never meet, shown without a single sphere.
+/// A proof, from the triangles alone, that two surfaces never meet.
 struct SurfacesApart {
     double clearance = 0;    ///< they stay farther apart than this at every pose of Q, scene units, > 0
-    std::uint64_t cells = 0; ///< of Q that showed it
+    std::uint64_t cells = 0; ///< of Q that the proof took
 };
 
-/// Branch and bound over Q: a cell is settled where any two triangles stay farther apart than the clearance
-/// in it (METHOD 2.3). That is half of the least distance, or 7/8 of it where this is soon shown; where it is
-/// not, 7/8 of how far they stay apart along the axis of a turn, if they do (apartAlongAxis()). Nothing
-/// where they come nearer than `touching` to each other, and where it would take so long that other ways are
-/// quicker: this is for joints whose parts stand close all the way round, which would take very fine spheres.
-/// touching: see touchingDistance(). The same for any number of threads.
+/// Branch and bound over Q: a cell is done where the surfaces stay farther apart than the clearance in it
+/// (METHOD 2.3). The clearance shown is 7/8 of the least distance seen where few cells are expected to be
+/// needed, else half of it; where that is not shown, 7/8 of how far the surfaces stay apart along the axis of
+/// a turn (apartAlongAxis()). Nothing where they come nearer to each other than `touching`, scene units (see
+/// touchingDistance()), and where it would take too long: for most pairs spheres are quicker, for parts that
+/// stand close all over the motion they would have to be very small. The same for any number of threads.
 std::optional<SurfacesApart> surfacesApart(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
                                            double touching, const Progress& progress = {});
 
@@ -30,11 +30,11 @@ std::optional<SurfacesApart> surfacesApart(const TriangleMesh& a, const Triangle
 /// their layers, however many they are and however close the layers lie.
 double apartAlongAxis(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion);
 
-/// Whether any two triangles of A and B stay farther apart than `distance` all over the cell. Two are told
-/// apart along one direction: B's corners move along it by no more than the slope there says and what second
-/// order adds, so that surfaces which slide past each other may be as near as they like. false: not shown.
-/// rounding: see coordinateRounding(). looked: counts pairs of nodes and triangles; beyond `most` it gives
-/// up.
+/// Whether all pairs of triangles of A and B are shown to stay farther apart than `distance` all over the
+/// cell, each by a separating axis: B's corners move along it by no more than their first derivative there
+/// times the cell's half widths and a bound of the second order. Motion across the axis does not count, so
+/// that surfaces may slide past each other closely. rounding: see coordinateRounding(). looked: raised by the
+/// pairs of nodes and of triangles looked at; beyond `most` it gives up and returns false.
 bool trianglesApart(const MeshQuery& a, const MeshQuery& b, const CellMotion& motion, double distance,
                     double rounding, std::uint64_t most, std::uint64_t& looked);
 

@@ -11,7 +11,7 @@ namespace tss {
 
 namespace {
 
-enum class Verdict { Hit, Free, Open };
+enum class Verdict { Contact, Free, Open };
 
 struct UndecidedInput {
     const LevelSpheres &a, &b;
@@ -27,18 +27,20 @@ struct UndecidedInput {
     }
 };
 
-/// Whether the pair of inscribed spheres fires for certain all over the cell.
-bool firesEverywhere(const UndecidedInput& p, std::uint32_t i, std::uint32_t j, double distance,
-                     double move) {
-    move += p.rounding;
-    const double inA = p.a.inner[i], inB = p.b.inner[j];
-    // One of them may be a point of a surface, which the other body then has inside; two points say nothing.
-    return inA + inB > 0 && distance + move <= inA + inB - p.options.depth;
+/// Whether the inscribed balls of spheres i and j overlap at every pose of the cell. distance: of their
+/// centres at the cell's centre pose. move: how far the centre of B's sphere may move in the cell.
+bool overlapEverywhere(const UndecidedInput& p, std::uint32_t i, std::uint32_t j, double distance,
+                       double move) {
+    const double innerA = p.a.inner[i], innerB = p.b.inner[j];
+    // A ball of radius 0 is a point of the surface: inside a ball of the other body it is contact. Two points
+    // show nothing.
+    return innerA + innerB > 0 && distance + (move + p.rounding) <= innerA + innerB - p.options.depth;
 }
 
-/// Sorts out the pairs that can touch in the cell from those inherited.
-Verdict judge(const UndecidedInput& p, const CellMotion& motion, const std::vector<NodePair>& inherited,
-              std::vector<NodePair>& open, double& largestMove) {
+/// Descends from the inherited pairs of nodes to those that can touch in the cell. open: receives the pairs
+/// that a smaller cell has to decide. largestMove: raised to how far B's nodes of these may move.
+Verdict classify(const UndecidedInput& p, const CellMotion& motion, const std::vector<NodePair>& inherited,
+                 std::vector<NodePair>& open, double& largestMove) {
     std::vector<NodePair> stack(inherited);
     bool hit = false;
     descend(p.treeA, p.treeB, stack,
@@ -50,14 +52,14 @@ Verdict judge(const UndecidedInput& p, const CellMotion& motion, const std::vect
                 if (distance - move > sum + p.options.margin + p.rounding) return false;
                 const bool leaves = na.leaf() && nb.leaf();
                 if (leaves && p.excepted(na.sphere, nb.sphere)) return false;
-                hit = leaves && firesEverywhere(p, na.sphere, nb.sphere, distance, move);
-                // Smaller balls do not help where the motion is what blurs the answer.
+                hit = leaves && overlapEverywhere(p, na.sphere, nb.sphere, distance, move);
+                // Where the motion in the cell exceeds the balls, splitting the balls decides nothing.
                 if (!leaves && !(sum < move && move > p.options.resolution)) return true;
                 open.push_back(pair);
                 largestMove = std::max(largestMove, move);
                 return false;
             });
-    return hit ? Verdict::Hit : open.empty() ? Verdict::Free : Verdict::Open;
+    return hit ? Verdict::Contact : open.empty() ? Verdict::Free : Verdict::Open;
 }
 
 class Decider {
@@ -72,14 +74,14 @@ public:
         const CellMotion motion(p_.rates, left.cell);
         std::vector<NodePair> open;
         double move = 0;
-        const Verdict verdict = judge(p_, motion, inherited, open, move);
-        hits |= verdict == Verdict::Hit;
+        const Verdict verdict = classify(p_, motion, inherited, open, move);
+        hits |= verdict == Verdict::Contact;
         if (verdict != Verdict::Open) return std::nullopt;
         const std::size_t k = widestDof(motion, p_.treeB[0].centre, p_.treeB[0].radius);
-        if (tree.parts.empty() && (move <= p_.options.resolution || !canSplit(left.cell, k))) return left;
-        for (const CellTree& part : tree.parts.empty() ? halves(left.cell, k) : tree.parts)
-            if (std::optional<CellTree> kept = decide(part, open)) left.parts.push_back(std::move(*kept));
-        if (left.parts.empty()) return std::nullopt;
+        if (tree.children.empty() && (move <= p_.options.resolution || !canSplit(left.cell, k))) return left;
+        for (const CellTree& part : tree.children.empty() ? halves(left.cell, k) : tree.children)
+            if (std::optional<CellTree> kept = decide(part, open)) left.children.push_back(std::move(*kept));
+        if (left.children.empty()) return std::nullopt;
         return left;
     }
 
@@ -95,14 +97,14 @@ private:
     Poll& poll_;
 };
 
-/// The tree cut into about `count` parts of it, each of its own.
-std::vector<CellTree> pieces(const UndecidedInput& p, const CellTree& tree, std::size_t count) {
+/// Subtrees that together make up the tree, about `count` of them, to be worked on in parallel.
+std::vector<CellTree> subtrees(const UndecidedInput& p, const CellTree& tree, std::size_t count) {
     std::vector<CellTree> now{tree};
     for (int round = 0; round < 16 && now.size() < count; ++round) {
         std::vector<CellTree> next;
         for (const CellTree& piece : now) {
-            if (!piece.parts.empty()) {
-                next.insert(next.end(), piece.parts.begin(), piece.parts.end());
+            if (!piece.children.empty()) {
+                next.insert(next.end(), piece.children.begin(), piece.children.end());
                 continue;
             }
             const CellMotion motion(p.rates, piece.cell);
@@ -124,9 +126,9 @@ std::vector<CellTree> pieces(const UndecidedInput& p, const CellTree& tree, std:
 } // namespace
 
 std::size_t CellTree::leaves() const {
-    if (parts.empty()) return 1;
+    if (children.empty()) return 1;
     std::size_t count = 0;
-    for (const CellTree& part : parts) count += part.leaves();
+    for (const CellTree& child : children) count += child.leaves();
     return count;
 }
 
@@ -142,20 +144,20 @@ Undecided undecidedCells(const LevelSpheres& a, const LevelSpheres& b, const Mot
     const UndecidedInput problem{
         a, b, SphereTree(a.spheres, asked), SphereTree(b.spheres, asked), MotionRates(motion), options};
     if (poll.stopped() || !report(progress, "undecided cells", 0)) return {from, false};
-    const std::vector<CellTree> parts = pieces(problem, from, 64);
-    std::vector<std::optional<CellTree>> kept(parts.size());
-    std::vector<char> hits(parts.size(), 0);
-    parallelFor(parts.size(), [&](std::size_t k) {
+    const std::vector<CellTree> pieces = subtrees(problem, from, 64);
+    std::vector<std::optional<CellTree>> kept(pieces.size());
+    std::vector<char> hits(pieces.size(), 0);
+    parallelFor(pieces.size(), [&](std::size_t k) {
         Decider decider(problem, poll);
-        kept[k] = decider.decide(parts[k], {{0, 0}});
+        kept[k] = decider.decide(pieces[k], {{0, 0}});
         hits[k] = decider.hits;
     });
     Undecided result;
     result.hits = std::count(hits.begin(), hits.end(), 1) > 0;
     CellTree left{from.cell, {}};
     for (std::optional<CellTree>& part : kept)
-        if (part) left.parts.push_back(std::move(*part));
-    if (!left.parts.empty()) result.cells = std::move(left);
+        if (part) left.children.push_back(std::move(*part));
+    if (!left.children.empty()) result.cells = std::move(left);
     return result;
 }
 

@@ -117,12 +117,11 @@ TEST_CASE("the frontal mask slides under the skin of the dog's head and the skin
     const MuscleDeformer& muscle = *couple.muscles[0];
     SkinSearchOptions options;
     options.thickness = options.travel = skinThickness(couple.skin);
-    SkinSearchCounts counts;
-    couple.table = searchSkin(couple.skin, {{&muscle, skins::insetSpheres(mask.surface, 1.5 * mm)}}, options,
-                              {}, &counts);
-    std::cout << "dog face, frontal mask: skin " << counts.skinSpheres << " -> " << counts.usedSkin
-              << " spheres, muscle " << counts.muscleSpheres << " -> " << counts.usedMuscle << ", "
-              << counts.tests << " tests a step (the paper's couple: 1426 -> 70, 280 -> 190, 268)\n";
+    couple.table = searchSkin(couple.skin, {{&muscle, skins::insetSpheres(mask.surface, 1.5 * mm)}}, options);
+    const Table& table = couple.table.table;
+    std::cout << "dog face, frontal mask: skin " << table.record.spheresA << " -> " << table.a.size()
+              << " spheres, muscle " << table.record.spheresB << " -> " << table.b.size() << ", "
+              << table.testCount() << " tests a step (the paper's couple: 1426 -> 70, 280 -> 190, 268)\n";
     const std::vector<double> inRest = depths(couple.skin.vertices, mask.surface);
     const std::vector<double> outRest = skins::poking(mask.surface.vertices, couple.skin, 10 * mm);
 

@@ -22,9 +22,9 @@ std::vector<double> poseIn(Random& random, const Motion& motion) {
 bool contains(const CellTree& tree, const std::vector<double>& q) {
     for (std::size_t k = 0; k < q.size(); ++k)
         if (q[k] < tree.cell.lower[k] || q[k] > tree.cell.upper[k]) return false;
-    if (tree.parts.empty()) return true;
-    for (const CellTree& part : tree.parts)
-        if (contains(part, q)) return true;
+    if (tree.children.empty()) return true;
+    for (const CellTree& child : tree.children)
+        if (contains(child, q)) return true;
     return false;
 }
 

@@ -36,9 +36,6 @@ TEST_CASE("the sampled search records every pair that collides at an explored po
         const auto found = searchSampled(scene.a, scene.b, scene.motion, options);
         const auto expected = everyCollidingPair(scene, exploredPoses(scene.motion, 300, options.seed));
         CHECK(std::vector<SpherePair>(expected.begin(), expected.end()) == found.pairs);
-        std::set<std::uint32_t> usedA;
-        for (const auto& p : found.pairs) usedA.insert(p.a);
-        CHECK(found.spheresA == usedA.size());
         CHECK_FALSE(found.certified);
     }
 }
@@ -70,8 +67,7 @@ TEST_CASE("the sampled search finds the same pairs with one thread and with two"
     const ThreadLimit one(1);
     const auto single = searchSampled(scene.a, scene.b, scene.motion, options);
     CHECK(two.pairs == single.pairs);
-    CHECK(two.colliding == single.colliding);
-    CHECK(two.colliding > 0);
+    CHECK_FALSE(two.pairs.empty());
 }
 
 TEST_CASE("empty sphere sets have no candidates") {
@@ -98,5 +94,12 @@ TEST_CASE("a pair of the region that overlaps at rest counts from its depth ther
     const auto collide = searchSampled(a, b, slide, options);
     CHECK(collide.pairs.size() == 1);
     CHECK(collide.restGaps.empty());
-    CHECK(offset.colliding < collide.colliding);
+    const auto touchingPoses = [&](AtRest mode) {
+        const ContactRule rule = ruleOfSpheres(a, b, slide, mode);
+        return std::ranges::count_if(exploredPoses(slide, options.samples, options.seed), [&](const auto& q) {
+            const double apart = (pose(slide, q) * b[0].centre - a[0].centre).norm();
+            return rule.touches({0, 0}, apart - a[0].radius - b[0].radius);
+        });
+    };
+    CHECK(touchingPoses(AtRest::Offset) < touchingPoses(AtRest::Collide));
 }
