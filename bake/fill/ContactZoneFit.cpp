@@ -30,28 +30,34 @@ struct Body {
           magnitude(tss::magnitude(solid.mesh())) {}
 
     Solid solid;
-    MeshQuery surface; ///< without closing fans: contact is of the mesh itself
-    double magnitude;
-    std::vector<Patch> zone; ///< of all but the region that overlaps at rest
+    MeshQuery surface;       ///< without closing fans: contact is of the mesh itself
+    double magnitude;        ///< largest coordinate, scene units
+    std::vector<Patch> zone; ///< surface within reach, without the region that overlaps at rest
     RestSide rest;
-    MedialSet fitted;      ///< to the zone, on this level
-    double protrusion = 0; ///< of all spheres of the level
-    SphereSet coarse;      ///< inscribed spheres of the levels before
+
+    /// The spheres of a level; what fit() falls back on when a finer level takes too many.
+    struct Spheres {
+        MedialSet fitted;      ///< to the zone, on this level
+        double protrusion = 0; ///< of all spheres of the level, scene units
+        SphereSet coarse;      ///< inscribed balls of the levels before
+    };
+    Spheres spheres;
 
     void begin(RestSide side) {
         rest = std::move(side);
-        protrusion = rest.protrusion;
+        spheres.protrusion = rest.protrusion;
         for (const Patch& patch : rest.patches)
             if (!patch.region) zone.push_back(patch);
     }
     void fit(double tolerance, MedialOptions medial, const Progress& progress) {
         const double own = protrusionFor(tolerance, magnitude);
         medial.neighbour = rest.neighbour;
-        fitted = medialSpheres(solid, zone, own, medial, progress);
-        protrusion = std::max(own, rest.protrusion);
+        spheres.fitted = medialSpheres(solid, zone, own, medial, progress);
+        spheres.protrusion = std::max(own, rest.protrusion);
     }
-    std::size_t count() const { return fitted.spheres.size() + rest.region.spheres.size(); }
+    std::size_t count() const { return spheres.fitted.spheres.size() + rest.region.spheres.size(); }
     LevelSpheres level() const {
+        const MedialSet& fitted = spheres.fitted;
         LevelSpheres level{fitted.spheres, fitted.inner, std::vector<char>(fitted.spheres.size(), 0)};
         const MedialSet& region = rest.region;
         level.spheres.insert(level.spheres.end(), region.spheres.begin(), region.spheres.end());
@@ -59,18 +65,22 @@ struct Body {
         level.region.resize(level.spheres.size(), 1);
         return level;
     }
-    /// All spheres so far.
-    SphereSet spheres() const {
+    SphereSet allSpheres() const {
         SphereSet all = level().spheres;
-        all.insert(all.end(), coarse.begin(), coarse.end());
+        all.insert(all.end(), spheres.coarse.begin(), spheres.coarse.end());
         return all;
+    }
+    /// Keeps the inscribed balls of the level, which show contact where finer spheres are not looked for.
+    void keepInscribed() {
+        const SphereSet inner = inscribed(spheres.fitted);
+        spheres.coarse.insert(spheres.coarse.end(), inner.begin(), inner.end());
     }
     ContactZoneBody result(const ContactZoneOptions& options) const {
         ContactZoneBody body;
         const LevelSpheres finest = level();
         body.fit.spheres = options.conservative ? finest.spheres : inscribed({finest.spheres, finest.inner});
-        body.fit.protrusion = options.conservative ? protrusion : 0;
-        body.fit.coverage = options.conservative ? 0 : protrusion;
+        body.fit.protrusion = options.conservative ? spheres.protrusion : 0;
+        body.fit.coverage = options.conservative ? 0 : spheres.protrusion;
         body.fit.note = solid.assumptions();
         body.fit.hollow = solid.hollow();
         body.fine = body.fit.spheres.size();
@@ -78,7 +88,7 @@ struct Body {
         body.zone = zone;
         for (const Patch& patch : rest.patches)
             if (patch.region) body.zone.push_back(patch);
-        body.fit.spheres.insert(body.fit.spheres.end(), coarse.begin(), coarse.end());
+        body.fit.spheres.insert(body.fit.spheres.end(), spheres.coarse.begin(), spheres.coarse.end());
         if (rest.region.spheres.empty()) return body;
         body.fit.region = finest.region;
         body.fit.region.resize(body.fit.spheres.size(), 0);
@@ -86,7 +96,8 @@ struct Body {
     }
 };
 
-/// The tolerances of the levels, each half of the one before, from about 1/400 of the body's size.
+/// The tolerances of the levels, coarse to fine, each half of the one before, from about 1/400 of the
+/// diagonal.
 std::vector<double> levelTolerances(double finest, double diagonal) {
     std::vector<double> levels{finest};
     while (2 * levels.back() < diagonal / 300) levels.push_back(2 * levels.back());
@@ -102,7 +113,7 @@ public:
         : a_(a, hollow.a), b_(b, hollow.b), motion_(motion), options_(options), progress_(progress),
           cells_(wholeQ(motion)), clearAtRest_(clearAtRest), whole_(options.whole) {}
 
-    /// Of no use where entered() says that a body is hollow after all.
+    /// The result is not to be used where entered() says that a body is hollow after all.
     ContactZoneFit run() {
         const double smaller = std::min(a_.solid.diagonal(), b_.solid.diagonal());
         const double finest = options_.tolerance > 0 ? options_.tolerance : smaller / 500;
@@ -111,7 +122,7 @@ public:
         for (std::size_t i = 0; i < levels.size(); ++i) {
             if (!narrow(levels[i])) break;
             if (i == 0) levels = coarsened(std::move(levels));
-            // A finer level would need poses that this one decides, or be as large once more for nothing.
+            // Finer levels have no use: none is asked for, or no tolerance changes the number of spheres.
             if (whole_ || restDecides_) levels.resize(1);
             if (!fit(levels[i])) {
                 if (i > 0 && note_.empty()) fitBetween(levels[i - 1], levels[i]);
@@ -149,24 +160,24 @@ private:
 
     HollowBodies entered(double reach) const {
         if (!a_.solid.open() && !b_.solid.open()) return {};
-        const SphereSet a = a_.spheres(), b = b_.spheres();
-        return findHollow({a_.solid, a_.surface, a, a_.protrusion}, {b_.solid, b_.surface, b, b_.protrusion},
-                          motion_, reach, progress_);
+        const SphereSet a = a_.allSpheres(), b = b_.allSpheres();
+        return findHollow({a_.solid, a_.surface, a, a_.spheres.protrusion},
+                          {b_.solid, b_.surface, b, b_.spheres.protrusion}, motion_, reach, progress_);
     }
 
-    /// The zones within reach over what is left of Q. False: there are none.
+    /// Reduces the zones to the surface within reach at the poses still undecided. False: there is none.
     bool narrow(double tolerance) {
         if (whole_) return true;
         std::vector<Patch> zoneA = findNearSurface(a_.zone, Side::A, b_.surface, motion_, cells_, tolerance,
                                                    options_.margin, options_.effort, progress_);
         std::vector<Patch> zoneB = findNearSurface(b_.zone, Side::B, a_.surface, motion_, cells_, tolerance,
                                                    options_.margin, options_.effort, progress_);
-        const bool region = !result_.rest.region.empty(); // of which either zone may meet the other's
+        const bool region = !result_.rest.region.empty(); // then either zone may meet the other's region
         if (region ? zoneA.empty() && zoneB.empty() : zoneA.empty() || zoneB.empty()) {
             // The poses left are free; what was decided before stays with the inscribed spheres.
             result_.neverMeet = !hits_;
-            // Spheres of the last level may touch there yet: finer ones of the last zone show that nothing
-            // does.
+            // Spheres of the level before may still touch there: this level's spheres of the same zones show
+            // that nothing does.
             if (!hits_ && !result_.levels.empty()) return true;
             decided_ = true;
             finish(std::move(zoneA), std::move(zoneB));
@@ -177,18 +188,14 @@ private:
         return true;
     }
 
+    /// Leaves the inscribed balls alone.
     void finish(std::vector<Patch> zoneA, std::vector<Patch> zoneB) {
-        keepInner();
-        a_.fitted = b_.fitted = {};
+        for (Body* body : {&a_, &b_}) {
+            body->keepInscribed();
+            body->spheres.fitted = {};
+        }
         a_.zone = std::move(zoneA);
         b_.zone = std::move(zoneB);
-    }
-
-    void keepInner() {
-        for (Body* body : {&a_, &b_}) {
-            const SphereSet inner = inscribed(body->fitted);
-            body->coarse.insert(body->coarse.end(), inner.begin(), inner.end());
-        }
     }
 
     /// Why there are more spheres than were asked for.
@@ -208,29 +215,31 @@ private:
                             add, body.rest.neighbour->clearance, asked);
     }
 
-    /// How many spheres a body may take. What overlaps at rest has its own, whatever the level; where these
-    /// are more than half of the limit, the zone may have as many.
-    std::size_t most(const Body& body) const {
+    /// How many spheres a body may take. The region that overlaps at rest takes the same spheres on every
+    /// level; where these are more than half of the limit, the zone may take as many again.
+    std::size_t mostSpheres(const Body& body) const {
         return std::max(static_cast<std::size_t>(options_.maxSpheres), 2 * body.rest.region.spheres.size());
     }
 
-    /// How many times the spheres that it may take a body has; infinite where that was given up.
+    /// The number of spheres at a tolerance over the number allowed, of the body where that is larger;
+    /// infinity where far too many patches would be needed.
     double excess(double tolerance) {
         try {
             for (Body* body : {&a_, &b_})
-                body->fit(tolerance, forTrial(options_.medial, most(*body)), progress_);
+                body->fit(tolerance, forTrial(options_.medial, mostSpheres(*body)), progress_);
         } catch (const RestTooClose& error) { // which no tolerance changes
             throw RestTooClose(
                 fmt::format("{}, or no limit of {} spheres", error.message, options_.maxSpheres));
         } catch (const TooFine&) {
             return std::numeric_limits<double>::infinity();
         }
-        const auto share = [&](const Body& body) { return double(body.count()) / double(most(body)); };
+        const auto share = [&](const Body& body) { return double(body.count()) / double(mostSpheres(body)); };
         return std::max(share(a_), share(b_));
     }
 
-    /// The levels from the finest tolerance on with which no body takes too many spheres. Twice the tolerance
-    /// takes half as many, except where the bodies are near each other at rest: then no tolerance helps.
+    /// The levels with coarser ones put before them, until no body takes too many spheres on the first. Twice
+    /// the tolerance usually takes half as many; where it does not, the bodies are near each other at rest
+    /// and no tolerance helps.
     std::vector<double> coarsened(std::vector<double> levels) {
         if (options_.maxSpheres <= 0) return levels;
         const std::size_t planned = levels.size();
@@ -252,15 +261,14 @@ private:
         return levels;
     }
 
-    /// After a level that took too many spheres: the finest one between it and the one before that does not.
+    /// Bisects between the level before (good) and one that took too many spheres (bad) for a finer tolerance
+    /// that does not.
     void fitBetween(double good, double bad) {
-        const std::array<MedialSet, 2> before{a_.fitted, b_.fitted};
-        const std::array<SphereSet, 2> coarse{a_.coarse, b_.coarse};
-        const std::array<double, 2> protrusion{a_.protrusion, b_.protrusion};
+        const Body::Spheres beforeA = a_.spheres, beforeB = b_.spheres;
         const std::vector<ContactZoneLevel> levels = result_.levels;
         const auto refit = [&](double tolerance) {
-            a_.fitted = before[0], a_.coarse = coarse[0], a_.protrusion = protrusion[0];
-            b_.fitted = before[1], b_.coarse = coarse[1], b_.protrusion = protrusion[1];
+            a_.spheres = beforeA;
+            b_.spheres = beforeB;
             result_.levels = levels;
             return fit(tolerance);
         };
@@ -273,16 +281,14 @@ private:
 
     /// False: it took too many spheres and the level before stands.
     bool fit(double tolerance) {
-        const Body* bodies[] = {&a_, &b_};
-        std::array<MedialSet, 2> before{a_.fitted, b_.fitted};
-        const std::array<double, 2> protrusion{a_.protrusion, b_.protrusion};
-        std::array<SphereSet, 2> coarse{a_.coarse, b_.coarse};
-        if (!result_.levels.empty()) keepInner();
+        const Body::Spheres beforeA = a_.spheres, beforeB = b_.spheres;
         const auto backToLast = [&] {
-            a_.fitted = before[0], a_.coarse = coarse[0], a_.protrusion = protrusion[0];
-            b_.fitted = before[1], b_.coarse = coarse[1], b_.protrusion = protrusion[1];
+            a_.spheres = beforeA;
+            b_.spheres = beforeB;
             return false;
         };
+        if (!result_.levels.empty())
+            for (Body* body : {&a_, &b_}) body->keepInscribed();
         const auto fitBoth = [&](const MedialOptions& medial, const Progress& progress) {
             a_.fit(tolerance, medial, progress);
             b_.fit(tolerance, medial, progress);
@@ -303,9 +309,9 @@ private:
                 throw InputError(error.message);
             }
         }
-        for (const Body* body : bodies)
+        for (const Body* body : {&a_, &b_})
             if (options_.maxSpheres > 0 && !result_.levels.empty() &&
-                body->count() + body->coarse.size() > most(*body))
+                body->count() + body->spheres.coarse.size() > mostSpheres(*body))
                 return backToLast();
         result_.levels.push_back({tolerance, a_.count(), b_.count(), area(a_.zone), area(b_.zone), 0});
         return true;
@@ -326,8 +332,8 @@ private:
         return false;
     }
 
-    /// Drops the cells that the level's spheres decide, from large cells on and as small as pays: with many
-    /// DOFs their number explodes. False: none is left.
+    /// Drops the cells of Q that the level's spheres decide, from large cells to small ones, as far as their
+    /// number allows: it grows with the power of the DOFs. False: no cell is left.
     bool dropDecided(double tolerance) {
         constexpr double mostCells = 2e5;
         const double growth = std::pow(2.0, static_cast<double>(motion_.dofCount()));
@@ -354,9 +360,9 @@ private:
     HollowBodies entered_;
     const bool clearAtRest_;
     const bool whole_;         ///< no part of the surfaces is left out as out of reach
-    bool restDecides_ = false; ///< how many spheres there are, and not the tolerance
-    bool hits_ = false;
-    bool decided_ = false; ///< no pose is left whose verdict the spheres do not know
+    bool restDecides_ = false; ///< clearance at rest decides how many spheres there are, not the tolerance
+    bool hits_ = false;        ///< some cells of Q were dropped since there is contact all over them
+    bool decided_ = false;     ///< the spheres decide at every pose whether there is contact
     std::string note_;
 };
 

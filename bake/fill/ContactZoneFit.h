@@ -18,14 +18,15 @@ struct ContactZoneOptions {
     double depth = 0;     ///< gap-true tables: poses in a contact less deep than this are refined too, >= 0
     double epsilon = 0;   ///< of the table: at rest spheres are kept farther apart than that, >= 0
     AtRest atRest = AtRest::Offset;
-    int maxSpheres = 0;       ///< > 0: the finest level at which neither body takes more, nor more than twice
-                              ///< what its region that overlaps at rest takes
-    bool conservative = true; ///< else all spheres are inscribed and the zone is covered to the tolerance
+    int maxSpheres = 0; ///< > 0: of each body; the finest level that takes no more is used. Where the region
+                        ///< that overlaps at rest takes more than half of it, twice what the region takes
+    bool conservative = true; ///< false: all spheres are inscribed, and the zone is covered to the tolerance
     bool whole =
-        false; ///< all of both surfaces is filled, at once to the tolerance: nothing is looked for in Q
-    /// Of findNested() for the tolerance or a finer one, where that is known: it holds for coarser ones too.
+        false; ///< fill all of both surfaces to the tolerance, without looking for what can meet in Q
+    /// The result of findNested() for this tolerance or a finer one, where it is known: it also holds for
+    /// coarser ones.
     std::optional<Nesting> nesting = {};
-    double effort = 1; ///< share of the work that looking for what comes near takes at most, in (0, 1]
+    double effort = 1; ///< share of the usual limit of work for finding what comes near, in (0, 1]
     MedialOptions medial;
 };
 
@@ -33,7 +34,8 @@ struct ContactZoneOptions {
 struct ContactZoneBody {
     SphereFit fit;           ///< protrusion of all spheres; coverage of the zone
     std::vector<Patch> zone; ///< the surface that the finest spheres cover, in the body's frame
-    std::size_t fine = 0;    ///< the first so many spheres are the finest, the others inscribed coarser ones
+    std::size_t fine = 0;    ///< number of spheres of the finest level, which come first; the others are
+                             ///< inscribed balls of coarser levels
     std::shared_ptr<const RestNeighbour> neighbour; ///< what the spheres stay clear of at rest, or null
 };
 

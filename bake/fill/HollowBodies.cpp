@@ -16,16 +16,17 @@ bool fillable(const FilledBody& body) {
     return body.solid.open() && !body.solid.hollow();
 }
 
-/// The sphere stands for what is behind the surface, not for the surface alone.
-bool thick(const FilledBody& body, std::uint32_t sphere) {
+/// Whether the sphere fills material behind the surface: its centre is farther inside than its protrusion.
+bool fillsInterior(const FilledBody& body, std::uint32_t sphere) {
     return fillable(body) &&
            body.solid.boundary().distance(body.spheres[sphere].centre) > 0.5 * body.protrusion;
 }
 
-/// A thick sphere of `body` has a point of the other's surface near the sphere of the other that touches it.
+/// Whether the other body's surface, next to the sphere of it that touches, is inside `body` where a sphere
+/// fills it.
 bool entered(const FilledBody& body, std::uint32_t sphere, const FilledBody& other, std::uint32_t touching,
              const Pose& otherToBody) {
-    if (!thick(body, sphere)) return false;
+    if (!fillsInterior(body, sphere)) return false;
     return body.solid.inside(otherToBody * other.surface.closest(other.spheres[touching].centre).point);
 }
 
@@ -33,10 +34,10 @@ struct Trees {
     SphereTree a, b;
 };
 
-/// What one pose tells.
-HollowBodies judge(const FilledBody& a, const FilledBody& b, const Trees& trees, const Pose& bToA,
-                   double reach) {
-    constexpr std::size_t enough = 64; // pairs; they all tell about the same place
+/// Which bodies are hollow as far as one pose shows.
+HollowBodies hollowAt(const FilledBody& a, const FilledBody& b, const Trees& trees, const Pose& bToA,
+                      double reach) {
+    constexpr std::size_t enough = 64; // pairs; more are about the same place
     std::vector<SpherePair> touching;
     visitPairsWithin(trees.a, trees.b, bToA, 0, [&](std::uint32_t i, std::uint32_t j, double) {
         touching.push_back({i, j});
@@ -48,8 +49,8 @@ HollowBodies judge(const FilledBody& a, const FilledBody& b, const Trees& trees,
     for (const SpherePair& pair : touching) {
         hollow.a = hollow.a || entered(a, pair.a, b, pair.b, bToA);
         hollow.b = hollow.b || entered(b, pair.b, a, pair.a, aToB);
-        maybe.a = maybe.a || thick(a, pair.a);
-        maybe.b = maybe.b || thick(b, pair.b);
+        maybe.a = maybe.a || fillsInterior(a, pair.a);
+        maybe.b = maybe.b || fillsInterior(b, pair.b);
     }
     return hollow ? hollow : maybe;
 }
@@ -72,7 +73,7 @@ HollowBodies findHollow(const FilledBody& a, const FilledBody& b, const Motion& 
         if (!report(progress, "openings", double(first) / double(poses.size()))) break;
         const std::size_t count = std::min(batch, poses.size() - first);
         parallelFor(count, [&](std::size_t k) {
-            found[k] = judge(a, b, trees, pose(motion, poses[first + k]), reach);
+            found[k] = hollowAt(a, b, trees, pose(motion, poses[first + k]), reach);
         });
         for (std::size_t k = 0; k < count; ++k) {
             hollow.a = hollow.a || found[k].a;

@@ -14,19 +14,19 @@ struct FilledBody {
     double protrusion; ///< of the spheres, scene units
 };
 
-/// Which of two bodies are hollow: cups or sheets, whose openings may not be closed and filled as if there
-/// were material behind them.
+/// Which of two bodies are hollow: cups or sheets, whose openings must not be closed as if there were
+/// material behind them.
 struct HollowBodies {
     bool a = false, b = false;
     explicit operator bool() const { return a || b; }
 };
 
-/// An open mesh may be a bone whose scan has holes or a cup; the mesh does not tell, but the motion does:
-/// where the other body stands inside without the surfaces being near each other, there is no material.
-/// Looks at poses over all of Q (those of a sampled search, the rest pose first) at which spheres touch
-/// though the surfaces are farther apart than `reach`, > 0; only bodies with openings can be hollow. Poses
-/// between those are not looked at: not a proof, as findNested() is for what stands inside as a whole. Asked
-/// to stop, it has looked at fewer.
+/// An open mesh may be a solid whose scan has holes, or a cup. The motion tells: where the other body reaches
+/// inside while the surfaces are not near each other, there is no material. Looks for sampled poses of Q
+/// (those of a sampled search, the rest pose first) at which spheres touch though the surfaces are farther
+/// apart than `reach`, scene units, > 0. Only bodies with openings can be found hollow. Not a proof, unlike
+/// findNested() for parts that stand inside as a whole. Stopped through progress, it has looked at fewer
+/// poses.
 HollowBodies findHollow(const FilledBody& a, const FilledBody& b, const Motion& motion, double reach,
                         const Progress& progress = {});
 

@@ -15,19 +15,19 @@ namespace tss {
 
 namespace {
 
-/// Looks at a vertex before it is given up: a tenth of a microsecond each where most are far from the
-/// surface, as over many DOFs, where so many are needed. A look at two triangles counts as one.
+/// The search gives up after so many probes. A probe is a distance query of a vertex, a tenth of a
+/// microsecond where most vertices are far from the surface, or a look at two triangles.
 constexpr std::uint64_t mostProbes = 30'000'000;
 
-/// As many take the time in which a point is asked whether it is inside a solid.
+/// A query whether a point is inside a solid takes the time of so many probes.
 constexpr std::uint64_t probesOfInside = 10;
 
-/// Shares of the reach: surfaces nearer than the first are near enough for spheres to touch, as far as their
-/// protrusion may fall short of the tolerance (protrusionFor()); farther than the second they are apart. The
-/// room between lets small cells be settled.
+/// Shares of the reach. Surfaces nearer than `settled` do not count as apart: spheres on them touch, even as
+/// protrusionFor() makes them. Surfaces farther than `apart` count as apart. In between either verdict will
+/// do, so that small cells can be decided.
 constexpr double settled = 0.85, apart = 0.75;
 
-/// False: no ball of that radius, scene units, is inside the solid.
+/// Whether a ball of that radius, scene units, may fit inside the solid. False is proven.
 bool ballFits(const Solid& solid, double radius) {
     const MeshQuery& surface = solid.boundary();
     std::vector<Eigen::AlignedBox3d> boxes{bounds(solid.mesh())};
@@ -48,19 +48,21 @@ bool ballFits(const Solid& solid, double radius) {
     return false;
 }
 
-/// Does some part of the inner body's surface stand inside the outer body?
+/// Whether some part of the inner body's surface ever stands inside the outer body. Asked twice, with each
+/// body as the outer one.
 struct Question {
     const Solid& outer;
     const MeshQuery& surface; ///< of the outer body, without what closes its openings
     bool outerMoves;          ///< the outer body is B
     bool enclosing = false;   ///< one closed part: what a part inside it encloses is inside it as well
-    std::vector<PartWitnesses> parts = {}; ///< that may stand inside
-    std::vector<PartWitnesses> all = {};
+    std::vector<PartWitnesses> parts = {}; ///< of the inner body, those that may fit inside
+    std::vector<PartWitnesses> all = {};   ///< of the inner body, all
 };
 
-/// A part that may be inside, and the witness of it that was outside nearby.
+/// A part for which a cell is not yet decided.
 struct OpenPart {
-    std::uint32_t question, part, witness;
+    std::uint32_t question, part;
+    std::uint32_t witness; ///< the one that was outside in the cell before, tried first
 };
 
 struct OpenCell {
@@ -70,11 +72,12 @@ struct OpenCell {
 
 struct CellResult {
     std::vector<OpenCell> halves;
-    std::array<bool, 2> inside{}, stuck{};
+    std::array<bool, 2> inside{};    ///< per question: a part is inside with the surfaces apart
+    std::array<bool, 2> undecided{}; ///< per question: the cell is too small to split
     std::uint64_t probes = 0;
 };
 
-/// Looks at cells; asked by many threads at once.
+/// Decides cells of Q. Used by many threads at once.
 class Examiner {
 public:
     Examiner(const Solid& a, const Solid& b, const MotionRates& rates, double reach)
@@ -114,16 +117,17 @@ public:
         for (OpenPart part : given.parts)
             if (!outside(motion, inverse, part, result.probes)) left.push_back(part);
         if (left.empty()) return result;
-        std::array<bool, 2> deep{}; // some part is inside at the centre, as far as its vertices tell
+        std::array<bool, 2>
+            within{}; // per question: all witnesses of some part are inside at the centre pose
         for (const OpenPart& part : left)
-            if (!deep[part.question]) deep[part.question] = inside(motion, inverse, part, result.probes);
-        if (deep[0] || deep[1]) {
+            if (!within[part.question]) within[part.question] = inside(motion, inverse, part, result.probes);
+        if (within[0] || within[1]) {
             if (cross(motion, inverse, result.probes)) return result;
-            if (judgeSurfaces(motion, deep, result)) return result;
+            if (decidedBySurfaces(motion, within, result)) return result;
         }
         const std::size_t k = widest(motion);
-        if (motion.dofs() == 0 || !(cell.upper[k] > cell.lower[k])) { // nothing left to cut
-            for (const OpenPart& part : left) result.stuck[part.question] = true;
+        if (motion.dofs() == 0 || !(cell.upper[k] > cell.lower[k])) { // too small to split
+            for (const OpenPart& part : left) result.undecided[part.question] = true;
             return result;
         }
         const auto [lower, upper] = splitCell(rates_, cell, k);
@@ -131,8 +135,9 @@ public:
         return result;
     }
 
-    /// Whether a part comes to stand inside, surfaces apart, where it is led from the centre of a cell by
-    /// random steps, shorter where none leads farther in.
+    /// Whether random steps from the centre of a cell, each farther in than the one before, lead to a pose at
+    /// which the part stands inside with the surfaces apart. Steps become shorter where none leads farther
+    /// in.
     bool leadsInside(const OpenCell& from, const OpenPart& part, std::uint64_t seed) const {
         constexpr int mostSteps = 2000, patience = 12;
         const Motion& motion = rates_.motion();
@@ -167,8 +172,8 @@ public:
     }
 
 private:
-    /// How far out of the outer body the part's vertices are, at least `enough` where one is; < 0: all
-    /// inside.
+    /// The largest signed distance of the part's vertices from the outer body, < 0: all are inside. No more
+    /// than the first that is `enough` or more.
     double sticksOut(const OpenPart& part, const Pose& at, double enough) const {
         const Question& question = questions_[part.question];
         const Pose placed = question.outerMoves ? at.inverse() : at;
@@ -183,7 +188,8 @@ private:
         return farthest;
     }
 
-    /// However it moves: its largest ball fits nowhere in the outer body, or it is longer than that.
+    /// Whether the part fits nowhere in the outer body, however it moves: it is longer, or its largest ball
+    /// does not fit.
     bool tooLarge(const Question& question, const PartWitnesses& part) const {
         const double longest = bounds(question.outer.mesh()).diagonal().norm();
         for (const Witness& x : part)
@@ -216,8 +222,8 @@ private:
                std::min(motion.relativeMove(), 2.0) * radiusB_ + rounding_;
     }
 
-    /// Some witness of the part stays outside the outer solid, or nearer to its surface than its ball is
-    /// large, all over the cell.
+    /// Whether some witness shows that the part is not inside at any pose of the cell: its point stays
+    /// outside the outer solid, or its ball reaches through the surface.
     bool outside(const CellMotion& motion, const Pose& inverse, OpenPart& part, std::uint64_t& probes) const {
         const Question& question = questions_[part.question];
         const Solid& outer = question.outer;
@@ -228,8 +234,8 @@ private:
             if (radius > 0 && !question.enclosing) continue;
             const double move = moveOf(question, motion, centre);
             const Vec3 place = placeIn(question, motion, inverse, centre);
-            // To get in it would have to cross the boundary, which is near it then, and is surface where
-            // there are no openings.
+            // To get in, the point would have to cross the boundary, and is near it then; of a closed body
+            // the boundary is its surface.
             const double near = radius + settled * reach_ - move;
             ++probes;
             bool stays =
@@ -245,20 +251,20 @@ private:
         return false;
     }
 
-    /// No vertex of the part is outside the outer solid at the centre of the cell.
+    /// Whether all witness vertices of the part are inside the outer solid at the cell's centre pose.
     bool inside(const CellMotion& motion, const Pose& inverse, const OpenPart& part,
                 std::uint64_t& probes) const {
         const Question& question = questions_[part.question];
         const PartWitnesses& witnesses = question.parts[part.part];
         return std::all_of(witnesses.begin(), witnesses.end(), [&](const Witness& witness) {
-            if (witness.radius > 0) return true; // its vertices tell
+            if (witness.radius > 0) return true; // only vertices are asked
             probes += probesOfInside;
             return question.outer.inside(placeIn(question, motion, inverse, witness.centre));
         });
     }
 
-    /// The surfaces cross all over the cell: a connected part has a point that stays inside the other solid
-    /// and one that stays outside.
+    /// Whether the surfaces are shown to cross at every pose of the cell: a connected part has one point that
+    /// stays inside the other solid and one that stays outside.
     bool cross(const CellMotion& motion, const Pose& inverse, std::uint64_t& probes) const {
         return std::any_of(questions_.begin(), questions_.end(), [&](const Question& question) {
             if (question.outer.open()) return false; // whose openings may be crossed
@@ -280,18 +286,19 @@ private:
         });
     }
 
-    /// True: the cell is settled, since the surfaces are near each other all over it, or since they are apart
-    /// at its centre and a part is inside there.
-    bool judgeSurfaces(const CellMotion& motion, const std::array<bool, 2>& deep, CellResult& result) const {
+    /// Whether the distance of the surfaces decides the cell: they stay near each other all over it, or they
+    /// are apart at its centre pose, where a part is inside.
+    bool decidedBySurfaces(const CellMotion& motion, const std::array<bool, 2>& within,
+                           CellResult& result) const {
         const double move = moveOfB(motion);
         const auto nearer = [&](double distance) {
             return !surfaceA_.apart(surfaceB_, motion.centrePose(), distance, &result.probes);
         };
         if (move < settled * reach_ && nearer(settled * reach_ - move)) return true;
-        // Where the centre lies beyond a plane, a pose of Q is near enough once the cell is small.
+        // A centre beyond a limit plane stands for the poses of Q next to it only where the cell is small.
         if (!withinLimits(rates_.motion(), motion.centre()) && move > 0.05 * reach_) return false;
         if (nearer(apart * reach_)) return false;
-        result.inside = deep;
+        result.inside = within;
         return true;
     }
 
@@ -312,16 +319,18 @@ private:
     double radiusB_ = 0;
 };
 
-/// Nothing in a closed solid is farther from its surface than half its box is wide where it is narrowest.
+/// A bound of the distance from the surface of points inside a solid, scene units: half of the shortest side
+/// of its bounding box; infinity where it has openings.
 double deepestIn(const Solid& solid) {
     if (solid.hollow() || solid.mesh().vertices.empty()) return 0;
     return solid.open() ? std::numeric_limits<double>::infinity()
                         : (0.5 + 1e-9) * bounds(solid.mesh()).sizes().minCoeff();
 }
 
-/// What is to be said of a question that cells may be left of; `asked`: to stop.
-void judgeLeft(const Examiner& examiner, const std::vector<OpenCell>& cells, std::uint32_t question,
-               bool asked, std::array<bool, 2>& found, std::array<bool, 2>& undecided) {
+/// Tries to answer a question from the cells that the search has left when its effort ended: by random steps
+/// from some of them. interrupted: no time is left even for that.
+void answerFromLeft(const Examiner& examiner, const std::vector<OpenCell>& cells, std::uint32_t question,
+                    bool interrupted, std::array<bool, 2>& found, std::array<bool, 2>& undecided) {
     constexpr std::size_t starts = 64;
     std::vector<std::pair<const OpenCell*, OpenPart>> left;
     for (const OpenCell& cell : cells)
@@ -329,7 +338,7 @@ void judgeLeft(const Examiner& examiner, const std::vector<OpenCell>& cells, std
             if (part.question == question) left.emplace_back(&cell, part);
     if (left.empty()) return;
     undecided[question] = true;
-    if (asked) return;
+    if (interrupted) return;
     std::array<char, starts> inside{};
     parallelFor(starts, [&](std::size_t k) {
         const auto& [cell, part] = left[k * left.size() / starts];
@@ -350,7 +359,7 @@ Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double 
     std::vector<OpenCell> cells{examiner.whole()}, halves;
     std::uint64_t probes = 0;
     bool stopped = false;
-    // Breadth first: a pose that shows it comes early.
+    // Breadth first, so that a pose with a part inside is found early.
     for (; !cells.empty() && !stopped; cells = std::exchange(halves, {})) {
         for (std::size_t first = 0; first < cells.size() && !stopped; first += batch) {
             std::vector<CellResult> results(std::min(batch, cells.size() - first));
@@ -363,18 +372,19 @@ Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double 
                 probes += result.probes;
                 for (std::size_t k = 0; k < 2; ++k) {
                     found[k] = found[k] || result.inside[k];
-                    undecided[k] = undecided[k] || result.stuck[k];
+                    undecided[k] = undecided[k] || result.undecided[k];
                 }
                 for (OpenCell& half : result.halves) halves.push_back(std::move(half));
             }
-            const bool asked = !report(progress, "nested bodies", double(probes) / double(mostProbes));
-            stopped = asked || probes > mostProbes;
+            const bool interrupted = !report(progress, "nested bodies", double(probes) / double(mostProbes));
+            stopped = interrupted || probes > mostProbes;
             if (!stopped) continue;
             cells.erase(cells.begin(), cells.begin() + (first + results.size()));
             std::move(halves.begin(), halves.end(), std::back_inserter(cells));
             halves.clear();
             for (std::uint32_t question = 0; question < 2; ++question)
-                if (!found[question]) judgeLeft(examiner, cells, question, asked, found, undecided);
+                if (!found[question])
+                    answerFromLeft(examiner, cells, question, interrupted, found, undecided);
         }
     }
     return {{found[0], found[1]},

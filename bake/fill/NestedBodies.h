@@ -8,13 +8,16 @@ namespace tss {
 
 /// What is known of two bodies of which one may stand wholly inside the other.
 struct Nesting {
-    HollowBodies outer;     ///< something stands inside of it at some pose, surfaces apart
+    HollowBodies outer;     ///< a part of the other body stands inside it at some pose, surfaces apart
     HollowBodies undecided; ///< neither that nor the contrary was shown within the effort
-    double settled = 0;     ///< of the others nothing stands inside with surfaces farther apart than this
+    double settled = 0;     ///< scene units: inside a body that is neither, no part stands with the surfaces
+                        ///< farther apart than this
 
-    double deepest = std::numeric_limits<double>::infinity(); ///< that anything can be in either of the two
+    /// Scene units: no point inside a body that is not `outer` is farther from its surface than this.
+    double deepest = std::numeric_limits<double>::infinity();
 
-    /// How far apart the surfaces may be while something stands inside; infinity: not shown.
+    /// How far apart the surfaces may be while a part stands inside a body that is not `outer`, scene units;
+    /// infinity: no bound was shown.
     double apart() const { return undecided ? std::max(settled, deepest) : settled; }
 };
 

@@ -11,11 +11,12 @@ namespace tss {
 
 namespace {
 
-/// Of the smaller body's size: what is exempt at rest without touching is no farther from the other body, for
-/// then contact of it would be of another feature. RegionProof has the same share and goes by its own.
+/// Share of the smaller body's diagonal: surface that is exempt at rest without touching is no farther from
+/// the other body than this, since farther surface belongs to another contact. RegionProof checks the same
+/// share with a constant of its own.
 constexpr double closeShare = 0.02;
 
-/// Surfaces apart at rest: whether one has a part inside of what the other would be filled with.
+/// For surfaces apart at rest: whether `mesh` has a part inside the other body, its openings closed.
 bool enters(const MeshQuery& surface, const TriangleMesh& mesh, const Solid& other, const Pose& toOther,
             double touching) {
     if (other.hollow()) return false;
@@ -27,13 +28,14 @@ bool enters(const MeshQuery& surface, const TriangleMesh& mesh, const Solid& oth
     });
 }
 
-/// Half of what spheres are kept apart by at rest: more than epsilon, and a part of what is left of the
-/// clearance.
-double spareOf(double clearance, const RestPlanOptions& options) {
+/// Half of the gap that spheres must have at rest: epsilon and a quarter of what is left of the clearance, of
+/// no more than the tolerance.
+double halfGapOf(double clearance, const RestPlanOptions& options) {
     const double more = std::min(clearance - options.epsilon, options.tolerance);
     return (options.epsilon + more / 4) / 2;
 }
 
+/// The patches of a mesh, halved so that each is either in the region or outside it.
 std::vector<Patch> patchesWith(const TriangleMesh& mesh, const std::vector<SurfacePart>& region) {
     const std::vector<Patch> whole = patchesOf(mesh);
     if (region.empty()) return whole;
@@ -69,10 +71,10 @@ public:
         if (options_.atRest == AtRest::Collide)
             plan.contact.clearance = apartBy(touching);
         else
-            plan.contact = findRestContact(
-                {a_, surfaceA_}, {b_, surfaceB_}, motion_, touching,
-                {reach(), std::min(reach(), closest()), std::min(1.5 * options_.epsilon, closest()), 1000},
-                progress_);
+            plan.contact = findRestContact({a_, surfaceA_}, {b_, surfaceB_}, motion_, touching,
+                                           {reach(), std::min(reach(), mostExemptDistance()),
+                                            std::min(1.5 * options_.epsilon, mostExemptDistance()), 1000},
+                                           progress_);
         if (plan.contact.clearance > 0) {
             plan.entered = {enters(surfaceB_, b_.mesh(), a_, bToA_, touching),
                             enters(surfaceA_, a_.mesh(), b_, aToB_, touching)};
@@ -82,21 +84,24 @@ public:
         }
         plan.a.patches = patchesWith(a_.mesh(), plan.contact.region.a);
         plan.b.patches = patchesWith(b_.mesh(), plan.contact.region.b);
-        if (options_.clear && plan.contact.apart > 0 && room(plan.contact.apart)) keepApart(plan);
+        if (options_.clear && plan.contact.apart > 0 && leavesRoom(plan.contact.apart)) keepApart(plan);
         return plan;
     }
 
 private:
     double reach() const { return 2.5 * options_.tolerance + options_.epsilon; }
 
-    double closest() const { return closeShare * std::min(diagonal(a_.mesh()), diagonal(b_.mesh())); }
+    double mostExemptDistance() const {
+        return closeShare * std::min(diagonal(a_.mesh()), diagonal(b_.mesh()));
+    }
 
     double apartBy(double touching) const {
         const double distance = surfaceA_.distanceTo(surfaceB_, bToA_);
         return distance > touching ? distance : 0;
     }
 
-    bool room(double apart) const {
+    /// Whether a table with epsilon can tell the bodies apart at rest. Throws where it must.
+    bool leavesRoom(double apart) const {
         if (apart > options_.epsilon * (1 + 1e-6)) return true;
         if (options_.atRest == AtRest::Collide) return false;
         throw InputError(
@@ -106,16 +111,16 @@ private:
     }
 
     void keepApart(RestPlan& plan) const {
-        const double spare = spareOf(plan.contact.apart, options_);
+        const double halfGap = halfGapOf(plan.contact.apart, options_);
         const auto shared = [&](const MeshQuery& mesh) { return std::make_shared<const MeshQuery>(mesh); };
         RestNeighbour toB, toA;
         toB.toOther = aToB_;
         toA.toOther = bToA_;
-        toB.spare = toA.spare = spare;
+        toB.halfGap = toA.halfGap = halfGap;
         toB.clearance = toA.clearance = plan.contact.apart;
         if (!plan.contact.region.empty()) {
-            makeRegion(plan.a, a_, toB, plan.contact.region.a, plan.contact.nearB, spare);
-            makeRegion(plan.b, b_, toA, plan.contact.region.b, plan.contact.nearA, spare);
+            makeRegion(plan.a, a_, toB, plan.contact.region.a, plan.contact.nearB, halfGap);
+            makeRegion(plan.b, b_, toA, plan.contact.region.b, plan.contact.nearA, halfGap);
             toB.spheres = std::make_shared<const SphereQuery>(plan.b.region.spheres);
             toA.spheres = std::make_shared<const SphereQuery>(plan.a.region.spheres);
         }
@@ -125,9 +130,10 @@ private:
         plan.b.neighbour = std::make_shared<const RestNeighbour>(std::move(toA));
     }
 
-    /// near: what of the other is not of the region and near at rest. The spheres leave it room.
+    /// Fills the region of one body. near: the other body's surface that is near at rest and not in the
+    /// region; the spheres keep clear of it.
     void makeRegion(RestSide& side, const Solid& solid, RestNeighbour neighbour,
-                    const std::vector<SurfacePart>& parts, const TriangleMesh& near, double spare) const {
+                    const std::vector<SurfacePart>& parts, const TriangleMesh& near, double halfGap) const {
         side.protrusion = protrusionFor(options_.tolerance, magnitude(solid.mesh()));
         std::vector<Patch> region;
         for (const Patch& patch : side.patches)
@@ -135,10 +141,10 @@ private:
         MedialOptions medial = options_.medial;
         if (!near.empty()) {
             neighbour.parts = std::make_shared<const MeshQuery>(near);
-            // Half of what is left of their distance, where that is less.
+            // Sticking out by at most half of what is left of their distance.
             const double apart =
                 neighbour.parts->distanceTo(MeshQuery(meshOf(solid.mesh(), parts)), neighbour.toOther);
-            neighbour.beside = spare + std::min(options_.tolerance, std::max(apart - spare, 0.0)) / 2;
+            neighbour.partGap = halfGap + std::min(options_.tolerance, std::max(apart - halfGap, 0.0)) / 2;
             medial.neighbour = std::make_shared<const RestNeighbour>(std::move(neighbour));
         }
         side.region = medialSpheres(solid, region, side.protrusion, medial, progress_);

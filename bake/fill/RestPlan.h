@@ -6,12 +6,13 @@
 
 namespace tss {
 
-/// What fitting spheres to a body needs to know of where the joint rests.
+/// What the fitting of spheres to one body has to respect where the joint rests.
 struct RestSide {
-    std::vector<Patch> patches;                     ///< the whole surface; `region` is set where that is so
-    std::shared_ptr<const RestNeighbour> neighbour; ///< of all spheres but those of the region; null: none
-    MedialSet region;      ///< spheres of the region, made once and for all tolerances
-    double protrusion = 0; ///< what they stick out at most
+    std::vector<Patch> patches; ///< the whole surface; Patch::region is set within the region that overlaps
+    std::shared_ptr<const RestNeighbour>
+        neighbour;         ///< constraint of all spheres outside the region; null: none
+    MedialSet region;      ///< spheres of the region, the same for all tolerances
+    double protrusion = 0; ///< of these, scene units
 };
 
 /// How the spheres of two bodies are to be fitted with regard to rest (METHOD 2.4): where the meshes are
@@ -19,16 +20,16 @@ struct RestSide {
 /// region.
 struct RestPlan {
     RestContact contact;
-    HollowBodies
-        entered; ///< apart at rest, and yet one is where the other would be filled: nothing else is set
+    HollowBodies entered; ///< at rest, surfaces apart, the other body is inside it: it has to be taken for
+                          ///< hollow, and a and b are not set
     RestSide a, b;
 };
 
 struct RestPlanOptions {
     double tolerance = 0; ///< of the spheres, scene units, > 0
-    double epsilon = 0;   ///< of the table: spheres must be farther apart than that
+    double epsilon = 0;   ///< of the table, scene units: at rest spheres must be farther apart than that
     AtRest atRest = AtRest::Offset;
-    bool clear = true; ///< else the spheres are made without regard to rest where the meshes are apart
+    bool clear = true; ///< false: spheres are made without regard to the clearance at rest
     MedialOptions medial;
 };
 

@@ -5,11 +5,12 @@
 
 namespace tss {
 
-/// A point of a connected part of a body with a ball about it that the part encloses, radius 0 on the
-/// surface. The part is not inside a solid that the point is outside of, nor where the ball does not fit.
+/// A point that shows where a connected part of a body is: a vertex of it (radius 0), or the centre of a ball
+/// that the part encloses. The part is not inside a solid that the point is outside of, nor one in which the
+/// ball does not fit there.
 struct Witness {
     Vec3 centre;
-    double radius = 0;
+    double radius = 0; ///< scene units
 };
 
 /// Witnesses of one connected part: balls inside it, the largest first, then the vertices farthest out in 26

@@ -162,7 +162,7 @@ void roundToFloat(SphereFit& fit) {
 FitRecord measured(const Body& body, SphereFit& fit, const std::optional<std::vector<Patch>>& zone) {
     const Solid solid(cleaned(meshOf(body)), fit.hollow ? Interior::Hollow : Interior::Filled);
     FitMetrics metrics = measureFit(solid, fit.spheres, zone ? *zone : patchesOf(solid.mesh()));
-    if (!fit.hollow) measureVolumes(metrics, solid, fit.spheres);
+    if (!fit.hollow) metrics.volumeRatio = measureVolumeRatio(solid, fit.spheres);
     fit.coverage = std::min(fit.coverage, metrics.coverage);
     fit.protrusion = std::min(fit.protrusion, metrics.protrusion);
     FitRecord figures;

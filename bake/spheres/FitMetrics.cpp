@@ -12,13 +12,13 @@ namespace tss {
 
 namespace {
 
-/// What one look at a patch tells of the largest distance from it to the union.
-struct Probe {
+/// Bounds of the largest distance from the points of a patch to the union of the spheres.
+struct Bounds {
     double lower; ///< reached at the centre
-    double upper; ///< of all its points
+    double upper;
 };
 
-Probe probe(const SphereQuery& tree, const Patch& patch) {
+Bounds boundsOf(const SphereQuery& tree, const Patch& patch) {
     const Vec3 centre = patch.centre();
     const double radius = patch.radius();
     // A sphere that holds the ball about the patch holds the patch: no need to know the nearest one.
@@ -29,8 +29,8 @@ Probe probe(const SphereQuery& tree, const Patch& patch) {
         corner2 = std::max(corner2, (c - s.centre).squaredNorm());
         size = std::max(size, c.cwiseAbs().maxCoeff() + s.centre.cwiseAbs().maxCoeff());
     }
-    // Convex along the patch for this sphere; and for all of them no point gains more than its way from the
-    // centre.
+    // The distance to this sphere is convex on the patch, so it is largest at a corner; and the distance to
+    // the union grows by no more than the distance from the centre.
     const double upper = std::min(std::sqrt(corner2) - s.radius, nearest.gap + radius);
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * (size + s.radius);
     return {nearest.gap - rounding, upper > 0 ? upper + rounding : upper};
@@ -45,10 +45,10 @@ double refined(const SphereQuery& tree, const Patch& patch, double known) {
     for (int probes = 0; !stack.empty(); ++probes) {
         const Patch top = stack.back();
         stack.pop_back();
-        const Probe l = probe(tree, top);
-        known = std::max(known, l.lower);
-        if (l.upper <= std::max(1.02 * known, 0.0) || probes >= budget || top.radius() < settled) {
-            bound = std::max(bound, l.upper);
+        const Bounds here = boundsOf(tree, top);
+        known = std::max(known, here.lower);
+        if (here.upper <= std::max(1.02 * known, 0.0) || probes >= budget || top.radius() < settled) {
+            bound = std::max(bound, here.upper);
         } else {
             for (const Patch& half : halves(top)) stack.push_back(half);
         }
@@ -113,7 +113,7 @@ void measureProtrusion(FitMetrics& metrics, const Solid& solid, std::span<const 
 
 } // namespace
 
-void measureVolumes(FitMetrics& metrics, const Solid& solid, std::span<const Sphere> spheres) {
+double measureVolumeRatio(const Solid& solid, std::span<const Sphere> spheres) {
     constexpr std::size_t count = 1 << 16;
     Eigen::AlignedBox3d box = bounds(solid.mesh());
     for (const Sphere& s : spheres) {
@@ -131,22 +131,22 @@ void measureVolumes(FitMetrics& metrics, const Solid& solid, std::span<const Sph
         inBody[i] = solid.inside(p);
     });
     const double each = box.volume() / static_cast<double>(count);
-    metrics.sphereVolume = each * static_cast<double>(std::count(inSpheres.begin(), inSpheres.end(), 1));
-    metrics.bodyVolume = each * static_cast<double>(std::count(inBody.begin(), inBody.end(), 1));
-    metrics.volumeRatio = metrics.bodyVolume > 0 ? metrics.sphereVolume / metrics.bodyVolume : 0;
+    const double sphereVolume = each * static_cast<double>(std::count(inSpheres.begin(), inSpheres.end(), 1));
+    const double bodyVolume = each * static_cast<double>(std::count(inBody.begin(), inBody.end(), 1));
+    return bodyVolume > 0 ? sphereVolume / bodyVolume : 0;
 }
 
 double coverageBound(std::span<const Sphere> spheres, std::span<const Patch> patches) {
     if (patches.empty()) return 0;
     if (spheres.empty()) return infinity;
     const SphereQuery tree(spheres);
-    std::vector<Probe> probes(patches.size());
-    parallelFor(patches.size(), [&](std::size_t i) { probes[i] = probe(tree, patches[i]); });
+    std::vector<Bounds> first(patches.size());
+    parallelFor(patches.size(), [&](std::size_t i) { first[i] = boundsOf(tree, patches[i]); });
     double known = 0;
-    for (const Probe& l : probes) known = std::max(known, l.lower);
+    for (const Bounds& b : first) known = std::max(known, b.lower);
     std::vector<double> bounds(patches.size());
     parallelFor(patches.size(), [&](std::size_t i) {
-        bounds[i] = probes[i].upper <= 1.02 * known ? probes[i].upper : refined(tree, patches[i], known);
+        bounds[i] = first[i].upper <= 1.02 * known ? first[i].upper : refined(tree, patches[i], known);
     });
     double bound = 0;
     for (const double b : bounds) bound = std::max(bound, b);
@@ -155,8 +155,6 @@ double coverageBound(std::span<const Sphere> spheres, std::span<const Patch> pat
 
 FitMetrics measureFit(const Solid& solid, std::span<const Sphere> spheres, std::span<const Patch> zone) {
     FitMetrics metrics;
-    metrics.spheres = spheres.size();
-    metrics.assumptions = solid.assumptions();
     if (spheres.empty()) {
         metrics.coverage = metrics.coverageMean = metrics.coverageP95 = zone.empty() ? 0 : infinity;
         return metrics;
@@ -168,7 +166,7 @@ FitMetrics measureFit(const Solid& solid, std::span<const Sphere> spheres, std::
 
 FitMetrics measureFit(const Solid& solid, std::span<const Sphere> spheres) {
     FitMetrics metrics = measureFit(solid, spheres, patchesOf(solid.mesh()));
-    measureVolumes(metrics, solid, spheres);
+    metrics.volumeRatio = measureVolumeRatio(solid, spheres);
     return metrics;
 }
 

@@ -15,22 +15,18 @@ struct FitMetrics {
     double protrusion = 0;     ///< pi: no point of a sphere is farther from the body (a proven bound)
     double protrusionMean = 0; ///< of the bounds of the spheres
     double protrusionP95 = 0;
-    double sphereVolume =
-        0; ///< of the union of the spheres, sampled: right to about 1 % of the larger of the two
-    double bodyVolume = 0;  ///< of the body with its openings closed
-    double volumeRatio = 0; ///< spheres to body; 0 for a body without volume
-    std::size_t spheres = 0;
-    std::string assumptions; ///< see Solid::assumptions()
+    double volumeRatio = 0; ///< volume of the union of the spheres over that of the body with its openings
+                            ///< closed, sampled: right to about 1 %; 0 for a body without volume
 };
 
 /// The fit of spheres to all of a body. No sphere at all: the coverage is infinite.
 FitMetrics measureFit(const Solid& solid, std::span<const Sphere> spheres);
 
-/// The same with the coverage of these patches only (a contact zone) and without volumes.
+/// The same with the coverage of these patches only (a contact zone), and without the volume ratio.
 FitMetrics measureFit(const Solid& solid, std::span<const Sphere> spheres, std::span<const Patch> zone);
 
-/// Fills in the volumes.
-void measureVolumes(FitMetrics& metrics, const Solid& solid, std::span<const Sphere> spheres);
+/// FitMetrics::volumeRatio.
+double measureVolumeRatio(const Solid& solid, std::span<const Sphere> spheres);
 
 /// delta of the patches, within 2 % of the truth where that is not below 1e-6 of their size. On a patch the
 /// distance to one sphere is convex, so its largest value is at a corner; patches are halved where the bound

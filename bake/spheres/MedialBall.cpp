@@ -40,35 +40,39 @@ bool inside(const Solid& solid, const Vec3& p, const KnownInside& known) {
 
 MedialBall medialBall(const Solid& solid, const Vec3& p, const Vec3& n, double protrusion, double slackFactor,
                       double hint, KnownInside& known, const RestNeighbour* neighbour) {
-    // What a sphere about a centre with a ball of this radius inside may stick out.
+    // How far a sphere may stick out about a centre with an inscribed ball of radius `inner`.
     const auto allowed = [&](const Vec3& centre, double inner) {
-        return neighbour ? std::min(protrusion, neighbour->largest(centre, inner) - inner) : protrusion;
+        return neighbour ? std::min(protrusion, neighbour->largestRadius(centre, inner) - inner) : protrusion;
     };
     const MedialBall onSurface{{p, allowed(p, 0)}, 0, 0};
     if (solid.hollow()) return onSurface;
     const double longest = solid.diagonal() / 2;
     double slack = slackFactor * protrusion;
+    // Up to three attempts, each with a 32nd of the slack. One whose slack is too coarse for what the
+    // neighbour lets the sphere stick out does not count: it is repeated with the slack for that, at most
+    // four times.
     for (int attempt = 0, finer = 0; attempt < 3; ++attempt, slack /= 32) {
         // A misoriented triangle has its inside on the other side.
         for (const Vec3& direction : {n, Vec3(-n)}) {
-            const double free =
+            const double unconstrained =
                 largestBall(solid.boundary(), p, direction, slack, longest, attempt == 0 ? hint : 0);
-            const double r = neighbour ? neighbour->shrunk(p, direction, free, protrusion) : free;
+            const double r =
+                neighbour ? neighbour->shrunkBall(p, direction, unconstrained, protrusion) : unconstrained;
             if (!(r > 0)) continue;
             const Vec3 centre = p - r * direction;
             const double distance = solid.boundary().distance(centre, 2 * r);
-            // On the surface itself the side is a matter of rounding, and the ball about p does as well.
+            // On the surface itself rounding decides the side, and the ball about p does as well.
             if (distance <= 1e-6 * protrusion || r - distance > 2 * slack) continue;
             if (!inside(solid, centre, known)) continue;
             const double beyond = allowed(centre, distance);
             if (!(beyond > 0)) continue;
-            if (slack > 5 * slackFactor * beyond && finer < 4) { // too coarse for the little it may stick out
-                slack = 32 * slackFactor * beyond;
+            if (slack > 5 * slackFactor * beyond && finer < 4) {
+                slack = 32 * slackFactor * beyond; // the loop divides it by 32
                 --attempt, ++finer;
                 break;
             }
             known = {centre, distance};
-            return {{centre, distance + beyond}, distance, free};
+            return {{centre, distance + beyond}, distance, unconstrained};
         }
     }
     return onSurface;

@@ -5,15 +5,14 @@
 
 namespace tss {
 
-/// The largest r <= longest for which the ball about p - r n reaches at most `slack` through the boundary,
-/// r - dist(p - r n) <= slack: monotone in r, found by shrinking onto the points in the way. The distance is
-/// exact, nothing is sampled. n of unit length. hint > 0: where to start. (METHOD 1.3)
-/// Returns r, or 0 where none was found.
+/// The largest r <= longest for which the ball about p - r n with radius r reaches at most `slack` through
+/// the boundary: r - dist(p - r n) <= slack (METHOD 1.3). That is monotone in r; a ball that reaches too far
+/// is shrunk to pass through the boundary point nearest to its centre, again and again. Distances are exact.
+/// n of unit length. hint > 0: the radius to start with. Returns r, or 0 where none was found.
 double largestBall(const MeshQuery& boundary, const Vec3& p, const Vec3& n, double slack, double longest,
                    double hint);
 
-/// A ball known to lie inside the solid, empty at first. A point nearer to its centre than its radius is
-/// inside too, which spares a winding number.
+/// A ball known to lie inside the solid, empty at first. Points in it need no winding number.
 struct KnownInside {
     Vec3 centre = Vec3::Zero();
     double radius = 0;
@@ -22,8 +21,8 @@ struct KnownInside {
 /// A sphere and the ball about its centre that is inside the solid.
 struct MedialBall {
     Sphere sphere;
-    double inner = 0; ///< radius of that ball
-    double free = 0;  ///< the radius it would have without a neighbour
+    double inner = 0;         ///< radius of that ball, scene units
+    double unconstrained = 0; ///< the radius that it would have without a neighbour, scene units
     double protrusion() const { return sphere.radius - inner; }
 };
 

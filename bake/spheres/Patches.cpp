@@ -61,55 +61,57 @@ bool covers(const Sphere& sphere, const Patch& patch) {
 
 namespace {
 
-/// What splitting all patches comes to, told by a few of them.
-struct Outlook {
-    double patches = 0;                                      ///< about so many
-    double surely = 0;                                       ///< hardly fewer
-    double finest = std::numeric_limits<double>::infinity(); ///< the least that a sphere seen may stick out
+/// An estimate of how many patches splitting will make, from random descents.
+struct PatchEstimate {
+    double mean = 0;
+    double lower = 0; ///< hardly fewer: three standard errors below the trimmed mean
+    double leastProtrusion = std::numeric_limits<double>::infinity(); ///< of the spheres seen, scene units
 };
 
-/// Finds for a patch its sphere, or that it must be split.
+/// Finds the sphere of a patch, or that the patch must be split.
 class Fitter {
 public:
     Fitter(const Solid& solid, const PatchOptions& options) : solid_(solid), options_(options) {}
 
-    /// The ball of a patch that is small enough beside it; else nothing, and `expected` becomes the radius of
-    /// the balls about it, at first 0.
+    /// The ball of a patch, where it covers the patch and the patch is small enough beside it; else nothing.
+    /// expected: the radius of the balls about the patch that it was halved from, or 0; updated where nothing
+    /// is returned.
     std::optional<MedialBall> fit(const Patch& patch, double& expected) {
         const double radius = patch.radius();
-        // Not worth a ball of its own while far larger than the balls about it allow.
-        if (expected > 0 && radius > 1.5 * largest(expected, options_.protrusion)) return {};
+        // Far larger than the balls there allow: split without trying a ball.
+        if (expected > 0 && radius > 1.5 * largestPatch(expected, options_.protrusion)) return {};
         const MedialBall ball =
             medialBall(solid_, patch.centre(), patch.normal, options_.protrusion, options_.slackFactor,
                        expected > 0 ? 1.1 * expected : 4 * radius, known_, options_.neighbour);
-        finest_ = std::min(finest_, ball.protrusion());
-        if (radius <= largest(ball.sphere.radius, ball.protrusion()) && covers(ball.sphere, patch))
+        leastProtrusion_ = std::min(leastProtrusion_, ball.protrusion());
+        if (radius <= largestPatch(ball.sphere.radius, ball.protrusion()) && covers(ball.sphere, patch))
             return ball;
-        expected = std::max(ball.sphere.radius, ball.free);
+        expected = std::max(ball.sphere.radius, ball.unconstrained);
         return {};
     }
 
-    double finest() const { return finest_; }
+    double leastProtrusion() const { return leastProtrusion_; }
 
 private:
-    double largest(double ballRadius, double protrusion) const {
+    /// The radius up to which a patch is small enough beside a ball.
+    double largestPatch(double ballRadius, double protrusion) const {
         return protrusion > 0 ? options_.sizeFactor * std::sqrt(2 * ballRadius * protrusion) : 0;
     }
 
     const Solid& solid_;
     const PatchOptions& options_;
-    double finest_ = std::numeric_limits<double>::infinity();
+    double leastProtrusion_ = std::numeric_limits<double>::infinity();
     KnownInside known_;
 };
 
 // From the size of a mesh down to the rounding of its coordinates are at most about 110 halvings.
 constexpr int mostDeep = 128;
 
-/// Goes down into halves chosen at random: one found at depth d stands for 2^d (D. Knuth, "Estimating the
-/// efficiency of backtrack programs", 1975). The mean is right, however few descents there are.
-Outlook lookAhead(const Solid& solid, std::span<const Patch> patches, const PatchOptions& options,
-                  std::size_t descents) {
-    std::vector<double> upTo; // patches are chosen by the square of their radius
+/// Descends into halves chosen at random; a patch that is done at depth d counts 2^d (D. Knuth, "Estimating
+/// the efficiency of backtrack programs", 1975). The mean is unbiased, however few descents there are.
+PatchEstimate estimatePatches(const Solid& solid, std::span<const Patch> patches, const PatchOptions& options,
+                              std::size_t descents) {
+    std::vector<double> upTo; // cumulated: patches are chosen in proportion to their squared radius
     double total = 0;
     for (const Patch& patch : patches)
         upTo.push_back(total += std::max(std::pow(patch.radius(), 2), std::numeric_limits<double>::min()));
@@ -127,7 +129,8 @@ Outlook lookAhead(const Solid& solid, std::span<const Patch> patches, const Patc
         counts.push_back(count);
     }
     const double n = double(descents), mean = std::accumulate(counts.begin(), counts.end(), 0.0) / n;
-    // A few descents into a tight corner say next to all, and not surely: cut down to what others say too.
+    // A few deep descents can dominate the mean, which is then uncertain: the lower bound counts each as no
+    // more than the 15/16 quantile.
     const auto most = counts.begin() + 15 * descents / 16;
     std::nth_element(counts.begin(), most, counts.end());
     double low = 0, squares = 0;
@@ -135,35 +138,35 @@ Outlook lookAhead(const Solid& solid, std::span<const Patch> patches, const Patc
         low += std::min(count, *most) / n;
         squares += std::pow(std::min(count, *most), 2) / n;
     }
-    return {mean, low - 3 * std::sqrt(std::max(0.0, squares - low * low) / n), fitter.finest()};
+    return {mean, low - 3 * std::sqrt(std::max(0.0, squares - low * low) / n), fitter.leastProtrusion()};
 }
 
-/// What the threads share.
-class Shared {
+/// Counts the patches of all threads against the limit.
+class PatchLimit {
 public:
-    Shared(const Solid& solid, std::span<const Patch> patches, const PatchOptions& options,
-           const Progress& progress)
+    PatchLimit(const Solid& solid, std::span<const Patch> patches, const PatchOptions& options,
+               const Progress& progress)
         : solid(solid), options(options), poll(progress, "patches"), patches_(patches) {}
 
-    /// One more is split. Looks ahead once, early: most of what is too much is known to be then.
+    /// Counts one split more. Makes the estimate once, early, so that far too many are refused soon.
     void countSplit() {
         const std::size_t early = options.mostPatches / 200, count = ++splits_;
-        if (count == early + 1 && outlook().surely > double(options.mostPatches)) tooMany_ = true;
+        if (count == early + 1 && estimate().lower > double(options.mostPatches)) tooMany_ = true;
         if (tooMany_ || count > options.mostPatches) refuse();
     }
 
     [[noreturn]] void refuse() {
-        const Outlook& seen = outlook();
-        const double most = double(options.mostPatches), takes = std::max(seen.patches, most);
-        if (options.neighbour && seen.finest < 0.5 * options.protrusion) {
-            // Their number goes with the inverse of the clearance; a tenth of the most is made in minutes.
+        const PatchEstimate& seen = estimate();
+        const double most = double(options.mostPatches), takes = std::max(seen.mean, most);
+        if (options.neighbour && seen.leastProtrusion < 0.5 * options.protrusion) {
+            // Their number grows with the inverse of the clearance; a tenth of the most is made in minutes.
             const double clearance = options.neighbour->clearance;
             throw RestTooClose(
                 fmt::format("the meshes are {:.4g} scene units apart at rest: spheres that are apart there "
                             "too need a tolerance of {:.2g} and take about {:.2g} patches, more than {}: "
                             "expected a clearance of at least {:.2g} there, meshes that overlap where they "
                             "are meant to, or --at-rest collide, with which there may be contact at rest",
-                            clearance, std::max(seen.finest, 0.0), takes, options.mostPatches,
+                            clearance, std::max(seen.leastProtrusion, 0.0), takes, options.mostPatches,
                             10 * clearance * takes / most));
         }
         throw TooFine(fmt::format("a tolerance of about {:.4g} takes about {:.2g} patches, more than {}, of "
@@ -176,36 +179,36 @@ public:
     Poll poll;
 
 private:
-    const Outlook& outlook() {
-        std::call_once(looked_, [&] {
+    const PatchEstimate& estimate() {
+        std::call_once(estimated_, [&] {
             const std::size_t descents = std::clamp<std::size_t>(options.mostPatches / 10'000, 64, 1024);
-            outlook_ = lookAhead(solid, patches_, options, descents);
+            estimate_ = estimatePatches(solid, patches_, options, descents);
         });
-        return outlook_;
+        return estimate_;
     }
 
     std::span<const Patch> patches_;
     std::atomic<std::size_t> splits_{0};
     std::atomic<bool> tooMany_{false};
-    std::once_flag looked_;
-    Outlook outlook_;
+    std::once_flag estimated_;
+    PatchEstimate estimate_;
 };
 
 /// Splits one patch as far as needed.
 class Splitter {
 public:
-    explicit Splitter(Shared& shared) : shared_(shared), fitter_(shared.solid, shared.options) {}
+    explicit Splitter(PatchLimit& limit) : limit_(limit), fitter_(limit.solid, limit.options) {}
 
     void add(const Patch& patch, double expected) {
-        if (shared_.poll.stopped()) throw InputError("stopped before the spheres were made");
+        if (limit_.poll.stopped()) throw InputError("stopped before the spheres were made");
         if (const auto ball = fitter_.fit(patch, expected)) {
             result.patches.push_back(patch);
             result.candidates.push_back(ball->sphere);
             result.inner.push_back(ball->inner);
             return;
         }
-        shared_.countSplit();
-        if (depth_ >= mostDeep) shared_.refuse();
+        limit_.countSplit();
+        if (depth_ >= mostDeep) limit_.refuse();
         ++depth_;
         for (const Patch& half : halves(patch)) add(half, expected);
         --depth_;
@@ -214,7 +217,7 @@ public:
     FittedPatches result;
 
 private:
-    Shared& shared_;
+    PatchLimit& limit_;
     Fitter fitter_;
     int depth_ = 0;
 };
@@ -226,9 +229,9 @@ FittedPatches fitPatches(const Solid& solid, std::span<const Patch> patches, con
     constexpr std::size_t block = 64;
     const std::size_t blocks = (patches.size() + block - 1) / block;
     std::vector<FittedPatches> parts(blocks);
-    Shared shared(solid, patches, options, progress);
+    PatchLimit limit(solid, patches, options, progress);
     parallelFor(blocks, [&](std::size_t b) {
-        Splitter splitter(shared);
+        Splitter splitter(limit);
         for (std::size_t i = b * block; i < std::min(patches.size(), (b + 1) * block); ++i)
             splitter.add(patches[i], 0);
         parts[b] = std::move(splitter.result);

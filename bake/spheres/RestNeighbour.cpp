@@ -6,11 +6,11 @@ namespace tss {
 
 namespace {
 
-/// Of what the surface has to the other body, so much is kept by the balls inside; the rest is left to them.
+/// Balls inside keep at least this share of the distance that p itself has to the other body.
 constexpr double share = 0.75;
 
-/// Shrinks r until the ball about p - r n, its radius grown by `apart`, has no point of what `nearest` tells
-/// of: the vector from the nearest centre to p and how much closer than `apart` that centre may not be.
+/// Shrinks r until the ball about p - r n through p is at least `apart` away from an obstacle. nearest(x,
+/// within): the part of the obstacle nearest to x, a point or a sphere, if any is nearer than `within`.
 template <class Nearest>
 double shrink(const Vec3& p, const Vec3& n, double r, double apart, const Nearest& nearest) {
     if (!(apart > 0)) return r;
@@ -25,6 +25,7 @@ double shrink(const Vec3& p, const Vec3& n, double r, double apart, const Neares
     return r;
 }
 
+/// A point of an obstacle, or a sphere of it.
 struct Found {
     bool any;
     Vec3 centre;
@@ -40,29 +41,29 @@ auto nearestOf(const MeshQuery& mesh) {
 
 } // namespace
 
-double RestNeighbour::largest(const Vec3& centre, double inner) const {
+double RestNeighbour::largestRadius(const Vec3& centre, double inner) const {
     const Vec3 x = toOther * centre;
     double radius = std::numeric_limits<double>::infinity();
-    if (body) radius = std::min(radius, (body->distance(x) + inner) / 2 - spare);
-    if (parts) radius = std::min(radius, parts->distance(x) - beside);
-    if (spheres) radius = std::min(radius, spheres->nearest(x).gap - spare);
+    if (body) radius = std::min(radius, (body->distance(x) + inner) / 2 - halfGap);
+    if (parts) radius = std::min(radius, parts->distance(x) - partGap);
+    if (spheres) radius = std::min(radius, spheres->nearest(x).gap - halfGap);
     return radius;
 }
 
-double RestNeighbour::shrunk(const Vec3& p, const Vec3& n, double longest, double protrusion) const {
+double RestNeighbour::shrunkBall(const Vec3& p, const Vec3& n, double longest, double protrusion) const {
     const Vec3 at = toOther * p, along = toOther.linear() * n;
     double r = longest;
     if (body) {
-        const double apart = std::min(share * body->distance(at), 2 * (protrusion + spare));
+        const double apart = std::min(share * body->distance(at), 2 * (protrusion + halfGap));
         r = shrink(at, along, r, apart, nearestOf(*body));
     }
     if (parts) {
-        const double apart = std::min(share * parts->distance(at), protrusion + beside);
+        const double apart = std::min(share * parts->distance(at), protrusion + partGap);
         r = shrink(at, along, r, apart, nearestOf(*parts));
     }
     if (spheres) {
-        const double gap = spheres->nearest(at).gap - spare;
-        r = shrink(at, along, r, spare + std::min(share * gap, protrusion),
+        const double gap = spheres->nearest(at).gap - halfGap;
+        r = shrink(at, along, r, halfGap + std::min(share * gap, protrusion),
                    [&](const Vec3& x, double within) {
                        const SphereQuery::Nearest near = spheres->nearest(x);
                        if (near.sphere < 0 || near.gap >= within) return Found{false, x, 0};
