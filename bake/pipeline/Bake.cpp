@@ -1,30 +1,27 @@
 #include "bake/pipeline/Bake.h"
 
+#include "bake/base/Stopwatch.h"
 #include "bake/model/SourceHash.h"
 #include "bake/pipeline/BakePair.h"
 #include "bake/pipeline/BakeSkin.h"
 #include "bake/pipeline/CheckBake.h"
 
 #include <algorithm>
-#include <chrono>
 #include <new>
 
 namespace tss {
 
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-void checkPaths(const SceneModel& scene, const BakeRequest& request) {
-    for (const std::string& path : request.pairs) {
+void expectPaths(const SceneModel& scene, const std::vector<std::string>& paths, const std::string& file) {
+    for (const std::string& path : paths)
         if (findPair(scene, path) < 0 && findSkin(scene, path) < 0)
-            throw InputError(Where{"", "", path}, "no pair and no skin of this path in the scene");
-    }
+            throw InputError(Where{file, "", path}, "no pair and no skin of this path in the scene");
 }
 
-bool wanted(const BakeRequest& request, const std::string& path) {
+bool isWanted(const BakeRequest& request, const std::string& path) {
     return request.pairs.empty() || std::ranges::find(request.pairs, path) != request.pairs.end();
 }
+
+namespace {
 
 bool hasTable(const Pair& pair) {
     return pair.table || pair.proof;
@@ -40,7 +37,7 @@ void addSettings(Item& item, const BakeRequest& request) {
 
 template <class Item>
 bool isToBake(const SceneModel& scene, Item item, const BakeRequest& request) {
-    if (!wanted(request, item.path)) return false;
+    if (!isWanted(request, item.path)) return false;
     if (!request.onlyMissing || !hasTable(item)) return true;
     addSettings(item, request);
     return !staleness(scene, item).empty();
@@ -51,7 +48,7 @@ template <class Item, class Work>
 PairReport timed(Item& item, const Work& work) {
     PairReport report;
     report.path = item.path;
-    const auto start = Clock::now();
+    const Stopwatch watch;
     try {
         work(report);
     } catch (const InputError& error) {
@@ -60,7 +57,7 @@ PairReport timed(Item& item, const Work& work) {
     } catch (const std::bad_alloc&) {
         throw InputError(Where{"", "", item.path}, "not enough memory for this input");
     }
-    report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    report.seconds = watch.seconds();
     return report;
 }
 
@@ -138,8 +135,17 @@ bool toBake(const SceneModel& scene, const SkinModel& skin, const BakeRequest& r
     return isToBake(scene, skin, request);
 }
 
+std::vector<std::string> pathsToBake(const SceneModel& scene, const BakeRequest& request) {
+    std::vector<std::string> paths;
+    for (const Pair& pair : scene.pairs)
+        if (toBake(scene, pair, request)) paths.push_back(pair.path);
+    for (const SkinModel& skin : scene.skins)
+        if (toBake(scene, skin, request)) paths.push_back(skin.path);
+    return paths;
+}
+
 std::vector<PairReport> bake(SceneModel& scene, const BakeRequest& request, const Progress& progress) {
-    checkPaths(scene, request);
+    expectPaths(scene, request.pairs);
     return Baker(scene, request, progress).run();
 }
 

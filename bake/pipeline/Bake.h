@@ -20,20 +20,30 @@ struct BakeRequest {
     BakeSettings given;             ///< settings that override the scene's own
     std::vector<std::string> pairs; ///< prim paths of the pairs and skins to bake; empty: all
     bool onlyMissing = false;       ///< not those whose table fits the scene and the settings already
-    double effort = 1; ///< in (0, 1]: this share of what a bake looks at and makes patches of at most
-    /// Hears of each that is baked, once it is in the scene.
+    double effort = 1;              ///< share of the usual limits of looks and patches, in (0, 1]
+    /// Called for each that is baked, once it is in the scene.
     std::function<void(const PairReport&)> done{};
-    /// Hears of each that cannot be baked after all, and the others are baked; without it the error is
-    /// thrown.
+    /// Called for each that cannot be baked, and the others are baked; without it the error is thrown.
     std::function<void(const InputError&)> failed{};
-    /// Asked often, from one thread at a time. True: nothing more is baked, and what is half done is as it
-    /// was.
+    /// Asked often, from one thread at a time. True: nothing more is baked, and what is half done is left as
+    /// it was before.
     std::function<bool()> interrupted{};
 };
+
+/// Throws InputError where the scene has no pair and no skin of one of these prim paths. file: that of the
+/// scene, for the message.
+void expectPaths(const SceneModel& scene, const std::vector<std::string>& paths,
+                 const std::string& file = {});
+
+/// Whether a request is about the pair or skin of this prim path.
+bool isWanted(const BakeRequest& request, const std::string& path);
 
 /// Whether bake() would make this pair's or skin's table.
 bool toBake(const SceneModel& scene, const Pair& pair, const BakeRequest& request);
 bool toBake(const SceneModel& scene, const SkinModel& skin, const BakeRequest& request);
+
+/// The prim paths of all pairs and skins for which bake() would make a table.
+std::vector<std::string> pathsToBake(const SceneModel& scene, const BakeRequest& request);
 
 /// The whole pipeline on one scene (METHOD 1 to 3): for each pair spheres, search, reduction, table and
 /// bounds; for each skin the rows that its muscles can reach. Tables, proofs, hashes and settings go into the

@@ -131,6 +131,17 @@ std::string lengthText(double length, double metersPerUnit) {
     return fmt::format("{:.4g} um", 1e6 * meters);
 }
 
+std::string lengthOption(double length, double metersPerUnit) {
+    std::string text = lengthText(length, metersPerUnit);
+    std::erase(text, ' ');
+    return text;
+}
+
+double roundedDownToDigit(double value) {
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    return std::floor(value / power) * power;
+}
+
 namespace {
 
 /// "medial (default), shrinking, growth or surface".

@@ -27,16 +27,16 @@ struct BakeOptions {
     AtRest atRest = AtRest::Offset;
     bool conservative = true; ///< spheres contain the surface; otherwise they are inscribed
     bool keepSpheres = false; ///< store all generated spheres too
-    /// Seconds for each pair's cover; 0: no limit. Not given: `mostLooks`. Over more than six DOFs a cover is
-    /// not even begun (METHOD 3.3).
+    /// Seconds for each pair's cover; 0: no limit. Not given: `mostLooks` is the limit. Over more than six
+    /// DOFs no cover is looked for (METHOD 3.3).
     std::optional<double> budget;
-    /// Looks at pairs of spheres for a cover without a budget, after which all that may touch are asked:
-    /// about a minute of one core. Gap-true tables, which cannot do that, have no limit.
+    /// Without a budget: looks at pairs of spheres for a cover, after which the table tests all pairs that
+    /// may touch; about a minute of one core. Gap-true tables, which cannot do that, have no limit.
     std::uint64_t mostLooks = 2'000'000'000;
     std::size_t mostPatches = MedialOptions().mostPatches; ///< of surface that a body is cut into
-    double effort = 1; ///< share of the work that looking for the contact zone takes at most, in (0, 1]
-    /// As many pairs of spheres a table asks at most where no cover of them is found: few of them in a query,
-    /// in clusters, but each takes some 150 bytes in memory.
+    double effort = 1; ///< share of the usual limit of work for finding the contact zone, in (0, 1]
+    /// The most pairs of spheres that a table may test where no cover of them is found. A query looks at few
+    /// of them, in clusters, but each takes some 150 bytes in memory.
     std::size_t mostTests = 1'000'000;
     double metersPerUnit = 1; ///< of the scene, for what is said of lengths
 };
@@ -70,6 +70,12 @@ double parseLength(const std::string& text, double metersPerUnit);
 
 /// A length in scene units as people read it: "0.2 mm", "350 um", "1.2 m".
 std::string lengthText(double length, double metersPerUnit);
+
+/// The same as an option of the command line takes it, without a blank: "0.2mm".
+std::string lengthOption(double length, double metersPerUnit);
+
+/// Rounded down to one digit: 0.2 of 0.29. value > 0.
+double roundedDownToDigit(double value);
 
 /// A finite number and nothing else. Throws InputError that names `what`.
 double parseNumber(const std::string& text, const std::string& what);

@@ -7,6 +7,7 @@
 #include "bake/model/SourceHash.h"
 #include "bake/motion/WholeTurn.h"
 #include "bake/pipeline/SelectTests.h"
+#include "bake/search/CertifiedSearch.h"
 #include "bake/search/RestContact.h"
 #include "bake/search/SurfacesApart.h"
 
@@ -54,7 +55,7 @@ void noteFit(const Body& body, const SphereFit& fit, std::vector<std::string>& n
                         "for all poses: how early contact may be reported is not known");
 }
 
-/// Bounds that are true of next to nothing are to be known as that.
+/// Notes where nearly all of a surface is exempt, so that the bounds are about next to nothing.
 void noteExempt(const Body& body, const std::vector<SurfacePart>& parts, std::vector<std::string>& notes) {
     constexpr double most = 0.9;
     const double share = parts.empty() ? 0 : area(body.mesh, parts) / area(body.mesh);
@@ -68,14 +69,14 @@ void noteExempt(const Body& body, const std::vector<SurfacePart>& parts, std::ve
 /// A pair's table from one set of spheres.
 struct Attempt {
     PairSpheres spheres;
-    PairTable made; ///< neither: the budget ended before anything was proven, in these words
-    std::string ended;
+    PairTable made;    ///< neither table nor proof: the budget ended before anything was proven
+    std::string ended; ///< what is said of that
     PairReport report;
 
-    /// How much earlier than the surfaces touch the table may report contact, as far as the spheres tell.
+    /// A bound of how far apart the surfaces may be where the table reports contact, scene units.
     double early() const {
         const double lag = made.proof ? 0 : made.table ? made.table->epsilon : infinity;
-        return lag + spheres.stickOut;
+        return lag + spheres.protrusions;
     }
 };
 
@@ -105,10 +106,10 @@ struct PairBaker {
         return spheres;
     }
 
-    /// Fill: both bodies with spheres, and how well these fit; then the few tests that answer for all.
+    /// The usual way: fills both bodies with spheres, then selects the few tests that answer for all.
     Attempt few() const {
         Attempt attempt = tabulated(measured(fillPair(scene, pair, motion, options, progress)));
-        // No tests: nothing meets. How far apart, spheres tell that reach farther than what may touch.
+        // Without tests nothing meets. Spheres of a wider zone may show how far apart the surfaces stay.
         const Table* table = attempt.made.table.get();
         const double clearance = attempt.spheres.clearanceAtRest;
         if (!attempt.spheres.zoneA || !table || !table->certified || table->testCount() > 0 ||
@@ -135,16 +136,19 @@ struct PairBaker {
                                       apart->clearance, apart->cells, "surfaces/certified", {}, {}})};
     }
 
-    /// Where nothing but all pairs of spheres would be asked: the proof that coarser spheres never meet, if
-    /// it is soon found.
+    /// Where a table would have to test all pairs of spheres: the proof that coarser spheres never meet,
+    /// where it is found quickly.
     std::optional<Attempt> apart() const {
         if (!manyDofs(motion, options) || options.depth > 0) return std::nullopt;
         for (const double tolerance : coarserTolerances(scene, pair, options)) {
             BakeOptions coarse = options;
             coarse.tolerance = tolerance;
             PairSpheres spheres = fillSolid(scene, pair, motion, coarse, tolerance, progress);
-            if (!spheres.askAll) break; // of finer ones there are more
-            if (!neverMeet(pairTask(spheres, motion, coarse), progress)) continue;
+            if (!spheres.testAll) break; // finer ones are more
+            const PairTask task = pairTask(spheres, motion, coarse);
+            if (!neverCollide(spheres.a.spheres, spheres.b.spheres, motion, task.ruled.rule, task.margin,
+                              progress))
+                continue;
             Attempt attempt = tabulated(measured(std::move(spheres)));
             if (attempt.made.proof) return attempt;
         }
@@ -153,21 +157,22 @@ struct PairBaker {
 
     /// Where the budget ended far from the epsilon asked for: a table that tests every pair of spheres that
     /// may meet, in place of a cover. Of the same spheres, or of coarser ones where these have too many
-    /// pairs. Nothing where that table would report contact no later than the cover does.
+    /// pairs. Nothing where that table would report contact as early as the cover does.
     std::optional<Attempt> allInstead(const Attempt& few) const {
-        const bool far = few.early() > std::max(options.epsilon, few.spheres.stickOut) + few.spheres.stickOut;
-        if (!far || few.spheres.askAll) {
+        const bool far =
+            few.early() > std::max(options.epsilon, few.spheres.protrusions) + few.spheres.protrusions;
+        if (!far || few.spheres.testAll) {
             if (!few.ended.empty()) throw InputError(few.ended);
             return std::nullopt;
         }
         PairSpheres spheres = few.spheres;
-        spheres.askAll = canAskAll(spheres, options);
-        if (!spheres.askAll && canAskAllInstead(options))
-            spheres = measured(fillToAskAll(scene, pair, motion, options, progress));
-        if (spheres.askAll && spheres.stickOut < few.early()) return tabulated(std::move(spheres));
+        spheres.testAll = canTestAll(spheres, options);
+        if (!spheres.testAll && mayCoarsenToTestAll(options))
+            spheres = measured(fillToTestAll(scene, pair, motion, options, progress));
+        if (spheres.testAll && spheres.protrusions < few.early()) return tabulated(std::move(spheres));
         if (few.ended.empty()) return std::nullopt;
         if (options.budget) throw InputError(few.ended);
-        // The search ended by its work, and all that may touch are too many: it goes on to its own end.
+        // The search ended by its limit of looks, and all pairs are too many to test: search without a limit.
         BakeOptions unlimited = options;
         unlimited.budget = 0;
         return PairBaker{scene, pair, unlimited, motion, progress}.tabulated(few.spheres);

@@ -33,7 +33,8 @@ SphereFit wholeBody(const Body& body, const BakeOptions& options, double toleran
     return fitSpheres(cleaned(meshOf(body)), how, progress);
 }
 
-/// The spheres that touch without reason show it (see findHollow()).
+/// Which bodies are hollow: those known, and those found by spheres that touch where the surfaces are far
+/// apart (findHollow()).
 HollowBodies hollowBodies(const Body& a, const Body& b, const PairSpheres& spheres, const HollowBodies& known,
                           const Motion& motion, double tolerance, const Progress& progress) {
     const auto solid = [](const Body& body, bool hollow) {
@@ -56,14 +57,11 @@ double toleranceOf(const Body& a, const Body& b, const BakeOptions& options) {
     return options.tolerance.value_or(smallerSize(a, b) / 500);
 }
 
-/// Spheres of two bodies whose surfaces are known never to come near each other, as coarse as shows it: what
-/// can be proven again from the file alone.
-PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, double tolerance,
-                         HollowBodies hollow, const ContactZoneFit& fit, const Progress& progress) {
+/// Spheres of two bodies whose surfaces are known never to come near each other: the coarsest of which a
+/// search shows the same, so that the proof can be repeated with them.
+PairSpheres coarsestApart(const Body& a, const Body& b, const Motion& motion, double tolerance,
+                          HollowBodies hollow, const ContactZoneFit& fit, const Progress& progress) {
     SphereOptions how;
-    CertifiedSearchOptions apart;
-    apart.measureClearance = false;
-    apart.effort = 5'000'000;
     const double smaller = smallerSize(a, b);
     for (how.tolerance = std::max(tolerance, smaller / 30);;) {
         SphereOptions howA = how, howB = how;
@@ -72,28 +70,20 @@ PairSpheres spheresApart(const Body& a, const Body& b, const Motion& motion, dou
         howA.medial.neighbour = fit.a.neighbour;
         howB.medial.neighbour = fit.b.neighbour;
         PairSpheres spheres{fitSpheres(cleaned(meshOf(a)), howA, progress),
-                            fitSpheres(cleaned(meshOf(b)), howB, progress),
-                            {},
-                            {},
-                            0,
-                            {},
-                            {},
-                            fit.rest.clearance,
-                            {}};
-        const CandidatePairs meeting =
-            searchCertified(spheres.a.spheres, spheres.b.spheres, motion, apart, progress);
-        if (meeting.certified && meeting.pairs.empty()) return spheres;
+                            fitSpheres(cleaned(meshOf(b)), howB, progress)};
+        spheres.clearanceAtRest = fit.rest.clearance;
+        if (neverCollide(spheres.a.spheres, spheres.b.spheres, motion, {}, 0, progress)) return spheres;
         const HollowBodies now = hollowBodies(a, b, spheres, hollow, motion, how.tolerance, progress);
-        const bool news = now.a != hollow.a || now.b != hollow.b;
+        const bool moreHollow = now.a != hollow.a || now.b != hollow.b;
         hollow = now;
-        if (news) continue;
+        if (moreHollow) continue;
         if (how.tolerance <= tolerance) return spheres;
         how.tolerance = std::max(tolerance, how.tolerance / 2);
     }
 }
 
-/// Medial spheres stand in the contact zone only, fine where the verdict needs it; where `known` is given,
-/// all over the surfaces. margin: what is out of the zone stays farther away than this.
+/// Medial spheres of the contact zone. known: if given, the result of findNested(), and all of both surfaces
+/// is filled. margin: surface outside the zone stays farther from the other body than this, scene units.
 PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
                      double tolerance, const Nesting* known, double margin, const Progress& progress) {
     ContactZoneOptions zone;
@@ -111,12 +101,12 @@ PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const B
     const TriangleMesh meshA = cleaned(meshOf(a)), meshB = cleaned(meshOf(b));
     ContactZoneFit fit = fitContactZone(meshA, meshB, motion, zone, progress);
     if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
-        return spheresApart(a, b, motion, tolerance, {fit.a.fit.hollow, fit.b.fit.hollow}, fit, progress);
+        return coarsestApart(a, b, motion, tolerance, {fit.a.fit.hollow, fit.b.fit.hollow}, fit, progress);
     return {std::move(fit.a.fit),
             std::move(fit.b.fit),
             std::move(fit.a.zone),
             std::move(fit.b.zone),
-            known ? std::numeric_limits<double>::infinity() : margin, // nothing is out of all
+            known ? std::numeric_limits<double>::infinity() : margin, // no surface is outside of all
             {},
             {},
             fit.rest.clearance,
@@ -128,12 +118,12 @@ Nesting nestingOf(const Body& a, const Body& b, const Motion& motion, double tol
     return findNested(Solid(cleaned(meshOf(a))), Solid(cleaned(meshOf(b))), motion, 2 * tolerance, progress);
 }
 
-/// The paper's spheres fill the bodies.
+/// Spheres of the other methods, which fill all of the bodies.
 PairSpheres fillWhole(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
                       double tolerance, const Nesting* known, const Progress& progress) {
     PairSpheres spheres;
     Nesting nesting;
-    if (options.spheres != SphereMethod::Surface) // those stand on the surface anyway
+    if (options.spheres != SphereMethod::Surface) // these do not fill what is inside
         nesting = known ? *known : nestingOf(a, b, motion, tolerance, progress);
     spheres.a = wholeBody(a, options, tolerance, nesting.outer.a, progress);
     spheres.b = wholeBody(b, options, tolerance, nesting.outer.b, progress);
@@ -147,7 +137,7 @@ bool asksForCover(const BakeOptions& options) {
     return options.reduce == ReduceMethod::Cover && options.search == SearchMethod::Certified;
 }
 
-/// Rounds the spheres as the file stores them and adds to the protrusion what that makes them stick out more.
+/// Rounds the spheres as the file stores them, and adds to the protrusion by how much they grow.
 void roundToFloat(SphereFit& fit) {
     double grown = 0;
     for (Sphere& sphere : fit.spheres) {
@@ -174,16 +164,16 @@ FitRecord measured(const Body& body, SphereFit& fit, const std::optional<std::ve
     return figures;
 }
 
-/// As a file can hold them.
+/// The spheres as a file holds them, checked to be apart at rest as required.
 PairSpheres stored(PairSpheres spheres, const Motion& motion, const BakeOptions& options) {
     roundToFloat(spheres.a);
     roundToFloat(spheres.b);
-    spheres.stickOut = spheres.a.protrusion + spheres.b.protrusion;
+    spheres.protrusions = spheres.a.protrusion + spheres.b.protrusion;
     checkRest(spheres, motion, options);
     return spheres;
 }
 
-/// `known`: of findNested() for the tolerance; all of both surfaces is filled then.
+/// known: if given, the result of findNested(), and all of both surfaces is filled.
 PairSpheres fill(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
                  double tolerance, const Nesting* known, const Progress& progress) {
     return stored(options.spheres == SphereMethod::Medial
@@ -202,24 +192,25 @@ struct Level {
     }
 };
 
-/// The finest spheres, no finer than `least`, of which all pairs can be asked, from `first` on: of what is
-/// asked for there may be a thousand times as many. Else the coarsest tried: where coarser ones are hardly
-/// fewer, for what overlaps at rest or is near there takes most of them, no more are.
-Level finestToAskAll(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
-                     double least, double first, const Nesting& known, const Progress& progress) {
+/// The finest spheres, no finer than the tolerance `least`, of which all pairs can be tested, found from the
+/// tolerance `first` on. Where there are none, the coarsest tried: coarser ones are hardly fewer where most
+/// stand for what overlaps or is near at rest.
+Level finestToTestAll(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
+                      double least, double first, const Nesting& known, const Progress& progress) {
     constexpr int mostFills = 8;
-    constexpr double enough = 0.85, aim = 0.95; // shares of the pairs that can be asked
-    const double coarsest = std::sqrt(diagonal(a.mesh) * diagonal(b.mesh)) / 4; // of any use
+    constexpr double enough = 0.85, aim = 0.95; // shares of the pairs that can be tested
+    const double coarsest = std::sqrt(diagonal(a.mesh) * diagonal(b.mesh)) / 4; // tolerance of any use
     const auto filled = [&](double tolerance) {
         return Level{tolerance, fill(a, b, motion, options, tolerance, &known, progress)};
     };
     Level last = filled(first);
     std::optional<Level> good;
-    double tooFine = 0, power = 3; // spheres become fewer with the first to the second of it, of either body
+    double tooFine = 0; // the coarsest tolerance seen that takes too many pairs
+    double power = 3;   // the number of pairs falls with about this power of the tolerance
     for (int fills = 1;; ++fills) {
         const double tolerance = last.tolerance, pairs = last.pairs();
         const double share = pairs / static_cast<double>(options.mostTests);
-        if (canAskAll(last.spheres, options))
+        if (canTestAll(last.spheres, options))
             good = std::move(last);
         else
             tooFine = tolerance;
@@ -233,7 +224,7 @@ Level finestToAskAll(const Body& a, const Body& b, const Motion& motion, const B
         last = filled(std::max(next, least));
         if (last.tolerance == tolerance) continue;
         const double fewer = std::log(pairs / last.pairs()) / std::log(last.tolerance / tolerance);
-        if (!good && last.tolerance > tolerance && fewer < 1 && !canAskAll(last.spheres, options)) break;
+        if (!good && last.tolerance > tolerance && fewer < 1 && !canTestAll(last.spheres, options)) break;
         power = std::clamp(fewer, 2.0, 4.0);
     }
     return good ? std::move(*good) : std::move(last);
@@ -262,11 +253,11 @@ std::optional<double> boundOrUnknown(double bound) {
     return std::isfinite(bound) ? std::optional(bound) : std::nullopt;
 }
 
-bool canAskAll(const PairSpheres& spheres, const BakeOptions& options) {
+bool canTestAll(const PairSpheres& spheres, const BakeOptions& options) {
     return asksForCover(options) && spheres.a.spheres.size() * spheres.b.spheres.size() <= options.mostTests;
 }
 
-bool canAskAllInstead(const BakeOptions& options) {
+bool mayCoarsenToTestAll(const BakeOptions& options) {
     return asksForCover(options) && options.depth <= 0 && options.conservative;
 }
 
@@ -276,7 +267,7 @@ bool manyDofs(const Motion& motion, const BakeOptions& options) {
 
 PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
                      const BakeOptions& options, const Progress& progress) {
-    if (manyDofs(motion, options)) return fillToAskAll(scene, pair, motion, options, progress);
+    if (manyDofs(motion, options)) return fillToTestAll(scene, pair, motion, options, progress);
     const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
     return fill(a, b, motion, options, toleranceOf(a, b, options), nullptr, progress);
 }
@@ -302,12 +293,12 @@ PairSpheres fillSolid(const SceneModel& scene, const Pair& pair, const Motion& m
     const Nesting none;
     PairSpheres spheres =
         fill(scene.bodies[pair.bodyA], scene.bodies[pair.bodyB], motion, options, tolerance, &none, progress);
-    spheres.askAll = canAskAll(spheres, options);
+    spheres.testAll = canTestAll(spheres, options);
     return spheres;
 }
 
-PairSpheres fillToAskAll(const SceneModel& scene, const Pair& pair, const Motion& motion,
-                         const BakeOptions& options, const Progress& progress) {
+PairSpheres fillToTestAll(const SceneModel& scene, const Pair& pair, const Motion& motion,
+                          const BakeOptions& options, const Progress& progress) {
     const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
     const double asked = toleranceOf(a, b, options);
     if (!asksForCover(options)) {
@@ -315,13 +306,15 @@ PairSpheres fillToAskAll(const SceneModel& scene, const Pair& pair, const Motion
         return fill(a, b, motion, options, asked, &nesting, progress);
     }
     const double first = std::max(asked, std::sqrt(diagonal(a.mesh) * diagonal(b.mesh)) / 60);
-    Level finest = finestToAskAll(a, b, motion, options, asked, first, {}, progress);
+    Level finest = finestToTestAll(a, b, motion, options, asked, first, {}, progress);
     Nesting nesting = nestingOf(a, b, motion, finest.tolerance, progress); // holds for coarser ones too
-    // Where that was too dear to decide, spheres on the surface serve either case.
+    // Where that could not be decided, the body is taken for hollow: spheres on its surface serve either
+    // case.
     nesting.outer = {nesting.outer.a || nesting.undecided.a, nesting.outer.b || nesting.undecided.b};
     nesting.undecided = {};
-    if (nesting.outer) // it takes more then
-        finest = finestToAskAll(a, b, motion, options, finest.tolerance, finest.tolerance, nesting, progress);
+    if (nesting.outer) // hollow bodies take more spheres
+        finest =
+            finestToTestAll(a, b, motion, options, finest.tolerance, finest.tolerance, nesting, progress);
     PairSpheres spheres = std::move(finest.spheres);
     for (SphereFit* fit : {&spheres.a, &spheres.b}) {
         fit->enclosed = nesting.apart();
@@ -330,7 +323,7 @@ PairSpheres fillToAskAll(const SceneModel& scene, const Pair& pair, const Motion
                                       "spheres can be asked",
                                       finest.tolerance, asked));
     }
-    spheres.askAll = canAskAll(spheres, options);
+    spheres.testAll = canTestAll(spheres, options);
     return spheres;
 }
 

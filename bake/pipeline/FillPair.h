@@ -13,61 +13,64 @@ struct PairSpheres {
     SphereFit a, b;
     /// The surface that they stand for, where that is not all of it: the contact zone.
     std::optional<std::vector<Patch>> zoneA{}, zoneB{};
-    double zoneMargin = 0;            ///< surface out of the zone stays farther from the other body than this
+    double zoneMargin =
+        0; ///< scene units: surface outside the zone stays farther from the other body than this
     FitRecord figuresA{}, figuresB{}; ///< as far as they were measured
-    double clearanceAtRest = 0;       ///< of the surfaces; 0: they touch or overlap
-    RestRegion region{};              ///< of the meshes as loaded, where spheres are fitted to surfaces
-    double stickOut = 0;              ///< of the spheres of both together, by which they tell no depths apart
-    bool askAll = false; ///< so few that a table can ask all their pairs that are not known to stay apart
+    double clearanceAtRest = 0;       ///< of the surfaces, scene units; 0: they touch or overlap
+    RestRegion region{};              ///< exempt parts of the meshes as loaded, of medial spheres
+    double protrusions = 0; ///< scene units: the sum of both bodies' protrusions, the resolution of depths
+    bool testAll =
+        false; ///< the table is to test all pairs that are not known to stay apart, without a cover
 };
 
-/// Whether a table of so many spheres may ask all their pairs: they answer for themselves, where no cover of
-/// them is asked for by another method.
-bool canAskAll(const PairSpheres& spheres, const BakeOptions& options);
+/// Whether the spheres are so few that a table may test all their pairs in place of a certified cover.
+bool canTestAll(const PairSpheres& spheres, const BakeOptions& options);
 
-/// Whether spheres may be made so coarse that canAskAll(): a table that states a gap is verified against the
-/// very spheres that its settings make.
-bool canAskAllInstead(const BakeOptions& options);
+/// Whether coarser spheres may be made so that canTestAll(). Not for a table that states a gap, which is
+/// verified against exactly the spheres that its settings make.
+bool mayCoarsenToTestAll(const BakeOptions& options);
 
 /// How far apart the surfaces are where the joint rests; 0: they touch or overlap.
 double clearanceAtRest(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion);
 
-/// Of the whole of a body, as the options of a bake say, with this tolerance.
+/// The options for filling all of a body as a bake says, with this tolerance, scene units.
 SphereOptions sphereOptions(const BakeOptions& options, double tolerance);
 
 /// Fills the two bodies of a pair as the options say (METHOD 1). The same spheres at every call.
 PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
                      const BakeOptions& options, const Progress& progress = {});
 
-/// fillPair() for up to three DOFs, with spheres all over what comes within the margin, scene units: they
-/// tell how far apart bodies stay, up to that, where spheres of what may touch have shown that nothing does.
+/// fillPair() for up to three DOFs, with spheres over all surface that comes within the margin, scene units.
+/// Where spheres of what may touch have shown that nothing does, these show how far apart the bodies stay, up
+/// to the margin.
 PairSpheres fillWithin(const SceneModel& scene, const Pair& pair, const Motion& motion,
                        const BakeOptions& options, double margin, const Progress& progress = {});
 
 /// Over more DOFs than these no cover is looked for.
 constexpr std::size_t mostCoverDofs = 6;
 
-/// Over more DOFs than these neither what is within reach nor a cover is found in any time that people have,
-/// unless as much as they like is asked for.
+/// Whether there are more DOFs than a contact zone and a cover can be found for in usual time; with no limit
+/// of time (a budget of 0) more of them count as few.
 bool manyDofs(const Motion& motion, const BakeOptions& options);
 
-/// Coarser than the options ask for, the coarsest first, scene units: spheres that may show in a moment that
-/// two bodies never meet.
+/// Tolerances coarser than the options ask for, the coarsest first, scene units: to try whether few spheres
+/// show quickly that two bodies never meet.
 std::vector<double> coarserTolerances(const SceneModel& scene, const Pair& pair, const BakeOptions& options);
 
-/// Fills all of both surfaces to a tolerance, scene units, and what is inside of them too, whether or not
-/// the other body can stand there: apart, they show that the surfaces are.
+/// Fills all of both bodies as solids to a tolerance, scene units, whether or not the other body can stand
+/// inside: where such spheres stay apart, so do the surfaces.
 PairSpheres fillSolid(const SceneModel& scene, const Pair& pair, const Motion& motion,
                       const BakeOptions& options, double tolerance, const Progress& progress = {});
 
-/// Fills all of both surfaces, as finely as the options say or as coarsely as leaves all pairs to be asked.
-PairSpheres fillToAskAll(const SceneModel& scene, const Pair& pair, const Motion& motion,
-                         const BakeOptions& options, const Progress& progress = {});
+/// Fills all of both surfaces, as finely as the options say, but so coarsely that all pairs can be tested.
+PairSpheres fillToTestAll(const SceneModel& scene, const Pair& pair, const Motion& motion,
+                          const BakeOptions& options, const Progress& progress = {});
 
-/// Measures how well the spheres fit: their figures, and their bounds where these become better.
+/// Measures how well the spheres fit: fills in the figures, and lowers the bounds where the measured are
+/// better.
 void measureSpheres(const SceneModel& scene, const Pair& pair, PairSpheres& spheres);
 
-/// A bound as a file states it: none where there is none.
+/// A bound as a file states it: nothing where it is infinite.
 std::optional<double> boundOrUnknown(double bound);
 
 } // namespace tss

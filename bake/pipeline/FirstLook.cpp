@@ -18,17 +18,19 @@ namespace tss {
 
 namespace {
 
+/// Rounded to one digit.
 double oneDigit(double value) {
     const double digit = std::pow(10, std::floor(std::log10(value)));
     return std::round(value / digit) * digit;
 }
 
+/// Rounded down to one digit; a value that is short of a digit by rounding counts as that.
 double oneDigitBelow(double value) {
     const double digit = std::pow(10, std::floor(std::log10(value)));
     return std::floor(value / digit * (1 + 1e-6)) * digit;
 }
 
-/// Whether that is seen from the meshes, while there is time.
+/// Whether the surfaces of the pair are shown never to meet before the time is over.
 bool staysApart(const SceneModel& scene, const Pair& pair, const Stopwatch& watch) {
     constexpr double seconds = 5;
     const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;

@@ -5,23 +5,23 @@
 
 namespace tss {
 
-/// Whether a pair has more than three joint values, as those of a whole arm have: the default's spheres are
-/// then more than a first look is worth.
+/// Whether a pair has more than three joint values, as pairs of a whole arm do: spheres of the default
+/// tolerance then take too long for a first look.
 bool isLongChain(const SceneModel& scene, const Pair& pair);
 
 /// How far apart the meshes of each pair are where the joints rest, scene units: 0 where they touch or
 /// overlap, infinity where a body has no mesh.
 std::vector<double> distancesAtRest(const SceneModel& scene);
 
-/// A thirtieth of the usual body, of one digit in millimetres, scene units.
+/// A thirtieth of the median body diagonal, rounded to one digit in millimetres; scene units.
 double usualTolerance(const SceneModel& scene);
 
-/// The tolerance for a first look at such pairs: the usual one, and no more than three tenths of what meshes
-/// are apart at rest: spheres of both bodies stick out, and together they are to leave some of the room. Not
-/// of meshes that are seen, within some seconds, to stay apart: their proof needs no spheres.
+/// The tolerance for a first look at such pairs, scene units: the usual one, but no more than three tenths of
+/// the distance of any two meshes at rest, so that the spheres of both bodies together leave some of it.
+/// Pairs whose surfaces are shown within some seconds to stay apart do not count: they need no spheres.
 double firstTolerance(const SceneModel& scene, const std::vector<double>& distancesAtRest);
 
-/// The budget with which to search all pairs of a scene takes some minutes: seconds per pair.
+/// The budget, seconds per pair, with which baking all pairs of a scene takes some minutes.
 double firstBudget(const SceneModel& scene);
 
 } // namespace tss

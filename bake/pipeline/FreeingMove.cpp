@@ -10,11 +10,11 @@ namespace tss {
 
 namespace {
 
-/// Of the smaller body's diagonal: the first shift that is tried, and the last.
+/// Lengths of shifts as shares of the smaller body's diagonal: the first that is tried, and the longest.
 constexpr double firstShare = 1e-3, lastShare = 0.1;
-constexpr double lengthening = 1.3; ///< from one length to the next
+constexpr double lengthening = 1.3; ///< factor from one length to the next
 
-/// To the faces, edges and corners of a cube.
+/// Unit shifts from the centre of a cube to its faces, edges and corners.
 std::vector<JointMove> directions() {
     std::vector<JointMove> all;
     for (int x = -1; x <= 1; ++x)
@@ -28,17 +28,17 @@ std::vector<JointMove> directions() {
     return all;
 }
 
-/// The first shift, of growing lengths, that frees all that is wanted; where none does, the one that frees
-/// most of it.
+/// The shortest shift tried that frees all wanted poses; where none does, the one that frees most of them.
+/// all: whether it frees all.
 JointMove firstShift(const FreeingTrial& trial, const std::vector<char>& wanted, bool& all) {
     const auto count = static_cast<std::size_t>(std::ranges::count(wanted, char{1}));
     JointMove best = JointMove::Zero();
-    std::size_t reached = trial.freeOf(best, wanted);
+    std::size_t reached = trial.countFree(best, wanted);
     for (double length = firstShare * trial.size();
          length <= lastShare * trial.size() && reached < count && !trial.late(); length *= lengthening) {
         JointMove now = JointMove::Zero();
         for (const JointMove& direction : directions()) {
-            const std::size_t free = trial.freeOf(length * direction, wanted);
+            const std::size_t free = trial.countFree(length * direction, wanted);
             if (free > reached) reached = free, now = length * direction;
         }
         if (!now.isZero()) best = now;
@@ -47,21 +47,20 @@ JointMove firstShift(const FreeingTrial& trial, const std::vector<char>& wanted,
     return best;
 }
 
-/// Makes a move free more of what is wanted, and be smaller, by steps at random that become shorter where
-/// they do not help. axes: these move too, which is a move as far as it puts B elsewhere. all: it frees
-/// everything.
-JointMove better(FreeingTrial& trial, const std::vector<char>& wanted, const JointMove& first, bool axes,
-                 bool& all) {
+/// Improves a move by random steps that become shorter where they do not help: first it shall free more of
+/// the wanted poses, then be smaller. axes: the axes may be moved too. all: whether it frees all.
+JointMove improved(FreeingTrial& trial, const std::vector<char>& wanted, const JointMove& first, bool axes,
+                   bool& all) {
     constexpr int tries = 400;
-    constexpr double ofAxes = 0.1; // an axis that is moved is a move too
+    constexpr double axesWeight = 0.1; // moving the axes costs something of its own
     const auto cost = [&](const JointMove& move) {
-        return std::hypot(trial.moved(move), ofAxes * move.tail<3>().norm());
+        return std::hypot(trial.displacement(move), axesWeight * move.tail<3>().norm());
     };
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
     const auto count = static_cast<std::size_t>(std::ranges::count(wanted, char{1}));
     JointMove best = first;
-    std::size_t reached = all ? count : trial.freeOf(first, wanted);
+    std::size_t reached = all ? count : trial.countFree(first, wanted);
     double least = cost(best), step = 0.3 * std::max(first.head<3>().norm(), firstShare * trial.size());
     const double finest = 1e-3 * step, farthest = lastShare * trial.size();
     for (int k = 0; k < tries && step > finest && !trial.late(); ++k) {
@@ -74,10 +73,10 @@ JointMove better(FreeingTrial& trial, const std::vector<char>& wanted, const Joi
             move *= 1 - 0.05 * std::abs(normal(random));
         if (cost(move) > farthest || (reached == count && cost(move) >= least)) continue;
         std::size_t free = reached;
-        const bool better = reached == count ? trial.frees(move, wanted)
-                                             : (free = trial.freeOf(move, wanted)) > reached ||
-                                                   (free == reached && cost(move) < least);
-        if (better) {
+        const bool isBetter = reached == count ? trial.frees(move, wanted)
+                                               : (free = trial.countFree(move, wanted)) > reached ||
+                                                     (free == reached && cost(move) < least);
+        if (isBetter) {
             best = move;
             least = cost(best);
             reached = free;
@@ -90,7 +89,7 @@ JointMove better(FreeingTrial& trial, const std::vector<char>& wanted, const Joi
     return best;
 }
 
-/// The same move as long as it must be to free what is wanted.
+/// Lengthens a move by the least of some factors with which it frees all wanted poses. False: none does.
 bool lengthened(FreeingTrial& trial, const std::vector<char>& wanted, JointMove& move) {
     for (const double factor : {1.0, 1.02, 1.05, 1.1, 1.2, 1.4}) {
         if (!trial.frees(factor * move, wanted)) continue;
@@ -100,8 +99,8 @@ bool lengthened(FreeingTrial& trial, const std::vector<char>& wanted, JointMove&
     return false;
 }
 
-/// Without what slides axes that are parallel along themselves, which moves nothing.
-void settleAxes(const Motion& motion, JointMove& move) {
+/// Where all axes are parallel, removes the part of their shift along them, which changes nothing.
+void removeSliding(const Motion& motion, JointMove& move) {
     Vec3 common = Vec3::Zero();
     for (const Dof& dof : motion.dofs) {
         if (dof.kind != DofKind::Rotation) continue;
@@ -112,15 +111,14 @@ void settleAxes(const Motion& motion, JointMove& move) {
     move.tail<3>() -= common * common.dot(move.tail<3>());
 }
 
-/// A small move that frees what is wanted also between the poses that are tried. first: one that frees much
-/// of it, or nothing.
+/// A small move that frees the wanted poses, and poses between them. move: one to start from, or zero.
 JointMove smallMove(FreeingTrial& trial, std::vector<char>& wanted, JointMove move, bool axes) {
     constexpr int rounds = 3;
     for (int round = 0; round < rounds; ++round) {
         bool all = !move.isZero() && lengthened(trial, wanted, move);
         if (!all && !axes) move = firstShift(trial, wanted, all);
-        if (all || axes) move = better(trial, wanted, move, axes, all);
-        if (!all || trial.late() || trial.addMissed(move, wanted) == 0) break;
+        if (all || axes) move = improved(trial, wanted, move, axes, all);
+        if (!all || trial.late() || trial.addBlocked(move, wanted) == 0) break;
     }
     return move;
 }
@@ -145,7 +143,7 @@ FreeingMoves freeingMoves(const TriangleMesh& a, const TriangleMesh& b, const Mo
     moves.push_back(trial.measured(move));
     if (options.axes && found.complete) {
         move = smallMove(trial, wanted, move, true);
-        settleAxes(motion, move);
+        removeSliding(motion, move);
         // Where it helps little the axes stay.
         const FreeingMove turned = trial.measured(move);
         if (turned.free > moves.front().free || turned.moved < 0.9 * moves.front().moved)

@@ -24,7 +24,7 @@ struct FreeingMove {
     std::size_t free = 0;  ///< of the poses tried, those where the surfaces are apart by the margin
     std::size_t meets = 0; ///< of the poses tried, those where they touch
     std::size_t poses = 0; ///< tried: rest and others spread over the limits
-    std::size_t stops = 0; ///< of the poses tried, those where contact elsewhere than at rest is kept
+    std::size_t stops = 0; ///< of the poses tried, those that are stops of the joint and stay in contact
     bool freeAtRest = false;
     double atRest = 0; ///< distance of the surfaces there, scene units
     double least = 0;  ///< of the free poses

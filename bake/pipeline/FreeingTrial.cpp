@@ -17,7 +17,7 @@ namespace {
 constexpr double marginShare = 1e-3; ///< of the smaller body's diagonal: what counts as apart
 constexpr int steps = 16;            ///< of each DOF through its limits
 
-/// The triangles of which no part is in the region.
+/// The triangles of a mesh of which no part is in the region.
 TriangleMesh without(const TriangleMesh& mesh, const std::vector<SurfacePart>& region) {
     PartSet parts;
     for (const SurfacePart& part : region) parts.insert(part);
@@ -38,7 +38,7 @@ FreeingTrial::FreeingTrial(const TriangleMesh& a, const TriangleMesh& b, const M
     if (motion.dofCount() > 1)
         for (std::vector<double>& q : exploredPoses(motion, 20, 1)) values_.push_back(std::move(q));
     for (const std::vector<double>& q : values_) unmoved_.push_back(pose(motion, q));
-    lookedAt_ = values_.size();
+    firstPoses_ = values_.size();
     order_.resize(values_.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     if (overlapsAtRest()) findStops(a, b);
@@ -64,39 +64,39 @@ bool FreeingTrial::overlapsAtRest() const {
 }
 
 std::optional<TouchingElsewhere> FreeingTrial::touchingElsewhere() const {
-    std::vector<char> touching(lookedAt_);
-    parallelFor(lookedAt_, [&](std::size_t k) { touching[k] = touches(k); });
+    std::vector<char> touching(firstPoses_);
+    parallelFor(firstPoses_, [&](std::size_t k) { touching[k] = touches(k); });
     const auto count = static_cast<std::size_t>(std::ranges::count(touching, char{1}));
-    if (2 * count <= lookedAt_) return std::nullopt;
+    if (2 * count <= firstPoses_) return std::nullopt;
     std::vector<double> middle;
     for (std::size_t d = 0; d < motion_.dofCount(); ++d) {
         std::vector<double> values;
-        for (std::size_t k = 0; k < lookedAt_; ++k)
+        for (std::size_t k = 0; k < firstPoses_; ++k)
             if (touching[k]) values.push_back(values_[k][d]);
         std::ranges::nth_element(values, values.begin() + values.size() / 2);
         middle.push_back(values[values.size() / 2]);
     }
     std::size_t best = 0;
-    for (std::size_t k = 1; k < lookedAt_; ++k)
+    for (std::size_t k = 1; k < firstPoses_; ++k)
         if (touching[k] &&
-            (best == 0 || apartInLimits(values_[k], middle) < apartInLimits(values_[best], middle)))
+            (best == 0 || poseDistance(values_[k], middle) < poseDistance(values_[best], middle)))
             best = k;
-    return TouchingElsewhere{count, lookedAt_, values_[best]};
+    return TouchingElsewhere{count, firstPoses_, values_[best]};
 }
 
 std::optional<ApartElsewhere> FreeingTrial::apartElsewhere() const {
-    std::vector<double> distances(lookedAt_, 0.0);
-    parallelFor(lookedAt_, [&](std::size_t k) {
+    std::vector<double> distances(firstPoses_, 0.0);
+    parallelFor(firstPoses_, [&](std::size_t k) {
         if (!late()) distances[k] = a_.distanceTo(b_, unmoved_[k]);
     });
     const auto farthest = std::ranges::max_element(distances);
     if (!(*farthest > margin_)) return std::nullopt;
     const auto apart = std::ranges::count_if(distances, [&](double d) { return d > margin_; });
-    return ApartElsewhere{static_cast<std::size_t>(apart), lookedAt_, *farthest,
+    return ApartElsewhere{static_cast<std::size_t>(apart), firstPoses_, *farthest,
                           values_[std::size_t(farthest - distances.begin())]};
 }
 
-double FreeingTrial::apartInLimits(const std::vector<double>& p, const std::vector<double>& q) const {
+double FreeingTrial::poseDistance(const std::vector<double>& p, const std::vector<double>& q) const {
     double away = 0;
     for (std::size_t d = 0; d < q.size(); ++d)
         away += std::abs(p[d] - q[d]) / std::max(motion_.dofs[d].upper - motion_.dofs[d].lower, 1e-300);
@@ -124,7 +124,7 @@ void FreeingTrial::findStops(const TriangleMesh& a, const TriangleMesh& b) {
     });
 }
 
-Motion FreeingTrial::moveMotion(const JointMove& move) const {
+Motion FreeingTrial::movedMotion(const JointMove& move) const {
     Motion motion = motion_;
     motion.base = Pose(motion.base * Eigen::Translation3d(move.head<3>()));
     for (Dof& dof : motion.dofs)
@@ -132,17 +132,17 @@ Motion FreeingTrial::moveMotion(const JointMove& move) const {
     return motion;
 }
 
-double FreeingTrial::moved(const JointMove& move) const {
+double FreeingTrial::displacement(const JointMove& move) const {
     // Axes are moved without being turned, so that all of B lies elsewhere by the same.
-    const Motion motion = moveMotion(move);
+    const Motion motion = movedMotion(move);
     double sum = 0;
-    for (std::size_t k = 0; k < lookedAt_; ++k)
+    for (std::size_t k = 0; k < firstPoses_; ++k)
         sum += (pose(motion, values_[k]) * Vec3::Zero() - unmoved_[k] * Vec3::Zero()).squaredNorm();
-    return std::sqrt(sum / static_cast<double>(lookedAt_));
+    return std::sqrt(sum / static_cast<double>(firstPoses_));
 }
 
 bool FreeingTrial::frees(const JointMove& move, const std::vector<char>& wanted) {
-    const Motion motion = moveMotion(move);
+    const Motion motion = movedMotion(move);
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const std::size_t k = order_[i];
         if (!wanted[k] || (!late() && a_.apart(b_, pose(motion, values_[k]), margin_))) continue;
@@ -152,8 +152,8 @@ bool FreeingTrial::frees(const JointMove& move, const std::vector<char>& wanted)
     return true;
 }
 
-std::size_t FreeingTrial::freeOf(const JointMove& move, const std::vector<char>& wanted) const {
-    const Motion motion = moveMotion(move);
+std::size_t FreeingTrial::countFree(const JointMove& move, const std::vector<char>& wanted) const {
+    const Motion motion = movedMotion(move);
     std::vector<char> free(values_.size(), 0);
     parallelFor(values_.size(), [&](std::size_t k) {
         free[k] = wanted[k] && !late() && a_.apart(b_, pose(motion, values_[k]), margin_);
@@ -161,8 +161,8 @@ std::size_t FreeingTrial::freeOf(const JointMove& move, const std::vector<char>&
     return static_cast<std::size_t>(std::ranges::count(free, char{1}));
 }
 
-std::size_t FreeingTrial::addMissed(const JointMove& move, std::vector<char>& wanted) {
-    const Motion motion = moveMotion(move);
+std::size_t FreeingTrial::addBlocked(const JointMove& move, std::vector<char>& wanted) {
+    const Motion motion = movedMotion(move);
     std::vector<std::vector<double>> more;
     addSweeps(4 * steps, more);
     std::vector<char> blocked(more.size(), 0);
@@ -171,8 +171,8 @@ std::size_t FreeingTrial::addMissed(const JointMove& move, std::vector<char>& wa
     const auto nearest = [&](const std::vector<double>& q) {
         std::size_t best = 0;
         double least = std::numeric_limits<double>::infinity();
-        for (std::size_t k = 0; k < lookedAt_; ++k) {
-            const double away = apartInLimits(q, values_[k]);
+        for (std::size_t k = 0; k < firstPoses_; ++k) {
+            const double away = poseDistance(q, values_[k]);
             if (away < least) least = away, best = k;
         }
         return best;
@@ -182,7 +182,8 @@ std::size_t FreeingTrial::addMissed(const JointMove& move, std::vector<char>& wa
         if (!blocked[i] || !wanted[nearest(more[i])]) continue;
         // Next to a stop contact begins somewhere between.
         const std::size_t near = nearest(more[i]);
-        const bool besideStop = (near > 1 && stops_[near - 1]) || (near + 1 < lookedAt_ && stops_[near + 1]);
+        const bool besideStop =
+            (near > 1 && stops_[near - 1]) || (near + 1 < firstPoses_ && stops_[near + 1]);
         if (besideStop) continue;
         order_.push_back(values_.size());
         unmoved_.push_back(pose(motion_, more[i]));
@@ -219,18 +220,18 @@ FreeingMove FreeingTrial::measured(const JointMove& move) const {
     FreeingMove found;
     found.shift = move.head<3>();
     found.axes = move.tail<3>();
-    found.motion = moveMotion(move);
-    found.moved = moved(move);
-    found.poses = lookedAt_;
-    std::vector<double> distances(lookedAt_);
-    parallelFor(lookedAt_, [&](std::size_t k) {
+    found.motion = movedMotion(move);
+    found.moved = displacement(move);
+    found.poses = firstPoses_;
+    std::vector<double> distances(firstPoses_);
+    parallelFor(firstPoses_, [&](std::size_t k) {
         distances[k] = a_.distanceTo(b_, pose(found.motion, values_[k]), size_);
     });
     found.atRest = std::min(distances.front(), size_);
     found.freeAtRest = distances.front() > margin_;
     found.least = size_;
     found.margin = margin_;
-    for (std::size_t k = 0; k < lookedAt_; ++k) {
+    for (std::size_t k = 0; k < firstPoses_; ++k) {
         found.meets += distances[k] <= 0;
         found.stops += stops_[k] && distances[k] <= 0;
         if (distances[k] <= margin_) continue;

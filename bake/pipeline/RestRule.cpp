@@ -15,16 +15,16 @@ RuleAtRest ruleAtRest(const PairSpheres& spheres, const Motion& motion, const Ba
     if (options.atRest == AtRest::Collide || spheres.clearanceAtRest > 0) return ruled;
     if (options.spheres != SphereMethod::Medial) {
         ruled.rule = ruleOfSpheres(a.spheres, b.spheres, motion, options.atRest);
-        ruled.spheres = !ruled.rule.empty();
+        ruled.bySpheres = !ruled.rule.empty();
         return ruled;
     }
     if (a.region.empty() || b.region.empty()) return ruled;
     ruled.region = spheres.region;
-    // Spheres stick out by anything up to their tolerance: they do not tell depths apart that differ by less.
-    // Tests count from epsilon on.
+    // Spheres stick out by up to their protrusion, so that depths that differ by less are not told apart; and
+    // tests count as contact from a gap of epsilon on.
     if (options.atRest == AtRest::Offset)
         ruled.region.depth = depthAtRest(a.spheres, b.spheres, motion, a.region, b.region) +
-                             spheres.stickOut / 2 + options.epsilon;
+                             spheres.protrusions / 2 + options.epsilon;
     ruled.rule = {a.region, b.region, ruled.region.depth};
     return ruled;
 }
@@ -49,7 +49,7 @@ void checkRest(const PairSpheres& spheres, const Motion& motion, const BakeOptio
 
 void noteRest(const PairSpheres& spheres, const RuleAtRest& ruled, const Motion& motion,
               const BakeOptions& options, std::vector<std::string>& notes) {
-    if (ruled.spheres)
+    if (ruled.bySpheres)
         notes.push_back("spheres overlap where the meshes do at rest, and these spheres stand for no known "
                         "part of the surface: what contact is missed by leaving them out is not known");
     if (options.spheres == SphereMethod::Medial || !(spheres.clearanceAtRest > 0)) return;

@@ -21,7 +21,7 @@ SampledSearchOptions sampled(const PairTask& task) {
     return search;
 }
 
-/// Every pair that the search has not ruled out; all, where it did not come to an end.
+/// Every pair that the search has not ruled out; all pairs, where the search did not come to an end.
 Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes) {
     const SphereSet &a = task.spheres.a.spheres, &b = task.spheres.b.spheres;
     const ContactRule& rule = task.ruled.rule;
@@ -30,13 +30,13 @@ Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std:
     if (candidates.certified) {
         pairs = candidates.pairs;
     } else {
-        const auto canSayContact = [&](const SpherePair& pair) {
-            const double threshold = rule.threshold(pair); // -infinity: never asked
+        const auto canTouch = [&](const SpherePair& pair) {
+            const double threshold = rule.threshold(pair); // -infinity: exempt at every depth
             return std::isfinite(threshold) && a[pair.a].radius + b[pair.b].radius + threshold >= 0;
         };
         for (std::uint32_t i = 0; i < a.size(); ++i)
             for (std::uint32_t j = 0; j < b.size(); ++j)
-                if (canSayContact({i, j})) pairs.push_back({i, j});
+                if (canTouch({i, j})) pairs.push_back({i, j});
     }
     selection.reduced.restGaps = rule.thresholds(pairs);
     selection.certified = true;
@@ -50,10 +50,11 @@ Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std:
     return selection;
 }
 
-/// A search ends after so much work, where no budget is set and all pairs can be asked in place of the few.
-CoverOptions coverOptions(const PairTask& task, bool allCanBeAsked) {
+/// The limits of a search for a cover: a number of looks, where no budget is set and all pairs can be tested
+/// instead.
+CoverOptions coverOptions(const PairTask& task, bool canTestAllInstead) {
     CoverOptions cover;
-    if (task.options.budget || !allCanBeAsked) return cover;
+    if (task.options.budget || !canTestAllInstead) return cover;
     cover.looks = task.options.mostLooks;
     cover.coarser = false;
     return cover;
@@ -81,7 +82,7 @@ Selection selectionOf(const PairTask& task, const CoverResult& result) {
     return selection;
 }
 
-/// The least in place of all that may be asked, if it is found within the effort granted.
+/// A certified cover in place of all pairs, where it is found within the effort granted.
 std::optional<Selection> selectFew(const PairTask& task, const CandidatePairs& candidates,
                                    const Progress& progress) {
     if (!manyDofs(task.motion, task.options) || task.motion.dofCount() > mostCoverDofs) return std::nullopt;
@@ -92,7 +93,7 @@ std::optional<Selection> selectFew(const PairTask& task, const CandidatePairs& c
     return selectionOf(task, result);
 }
 
-/// Whether tests with the epsilon that was reached say contact at rest, where the spheres have none.
+/// Whether tests with the epsilon that was reached report contact at rest, where the spheres have none.
 bool touchesAtRest(const PairTask& task, const CoverResult& result) {
     if (!(task.spheres.clearanceAtRest > 0) || task.options.atRest == AtRest::Collide) return false;
     const Pose rest = pose(task.motion, restValues(task.motion));
@@ -103,11 +104,11 @@ bool touchesAtRest(const PairTask& task, const CoverResult& result) {
     });
 }
 
-/// The least that answers like all at every pose.
+/// A certified cover: few pairs that answer like all of them at every pose.
 Selection selectCover(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes,
                       const Progress& progress) {
     const CoverResult result =
-        coverOf(task, candidates, coverOptions(task, canAskAllInstead(task.options)), progress);
+        coverOf(task, candidates, coverOptions(task, mayCoarsenToTestAll(task.options)), progress);
     if (!std::isfinite(result.epsilon))
         throw BudgetEnded("the budget ended before any bound was proven: expected a longer --budget, or a "
                           "coarser --tolerance or --epsilon");
@@ -142,22 +143,10 @@ CandidatePairs searchPair(const PairTask& task, const Progress& progress) {
     CertifiedSearchOptions certified;
     certified.rule = task.ruled.rule;
     certified.margin = task.margin;
-    // The cover does without the list, which wide limits can make longer than anybody needs; only the others
-    // wait.
+    // The cover can do without the list, which wide limits make very long; the other reductions need it.
     if (task.options.reduce == ReduceMethod::Cover)
-        certified.effort = task.spheres.askAll ? 5'000'000 : 50'000'000;
+        certified.effort = task.spheres.testAll ? 5'000'000 : 50'000'000;
     return searchCertified(a, b, task.motion, certified, progress);
-}
-
-bool neverMeet(const PairTask& task, const Progress& progress) {
-    CertifiedSearchOptions certified;
-    certified.rule = task.ruled.rule;
-    certified.margin = task.margin;
-    certified.measureClearance = false;
-    certified.effort = 5'000'000;
-    const CandidatePairs meeting =
-        searchCertified(task.spheres.a.spheres, task.spheres.b.spheres, task.motion, certified, progress);
-    return meeting.certified && meeting.pairs.empty();
 }
 
 bool allListed(const CandidatePairs& candidates, const BakeOptions& options) {
@@ -171,7 +160,7 @@ Selection selectTests(const PairTask& task, const CandidatePairs& candidates, st
         selection.proof = NeverCollides{candidates.clearance, candidates.explored, {}, {}, {}};
         return selection;
     }
-    if (task.spheres.askAll) {
+    if (task.spheres.testAll) {
         if (auto few = selectFew(task, candidates, progress)) return *few;
         return selectAll(task, candidates, notes);
     }

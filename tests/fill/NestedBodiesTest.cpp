@@ -121,11 +121,11 @@ TEST_CASE("over many DOFs a body of which that could not be decided is hollow: c
     const auto notNested = [](std::string_view step, double) { return step != "nested bodies"; };
     BakeOptions options;
     options.tolerance = 0.05;
-    const PairSpheres spheres = fillToAskAll(scene, scene.pairs[0], motion, options, notNested);
+    const PairSpheres spheres = fillToTestAll(scene, scene.pairs[0], motion, options, notNested);
     CHECK(spheres.a.hollow);
     CHECK_FALSE(spheres.b.hollow); // which has no room for the other
     CHECK(spheres.a.enclosed < 0.5);
-    CHECK(spheres.stickOut < 0.5);
+    CHECK(spheres.protrusions < 0.5);
 }
 
 TEST_CASE("planes that keep a body out of another keep that one from being hollow") {

@@ -114,7 +114,7 @@ TEST_CASE("a budget that ends costs tests and not epsilon: all pairs that may me
         options.budget = 1e-9;
     const Motion motion = swing();
     const PairSpheres few = fillPair(scene, scene.pairs[0], motion, options);
-    CHECK(canAskAll(few, options) == !coarser);
+    CHECK(canTestAll(few, options) == !coarser);
     PairReport report;
     bakePair(scene, scene.pairs[0], options, report, {});
     REQUIRE(scene.pairs[0].table);
@@ -175,7 +175,7 @@ TEST_CASE(
     options.tolerance = 0.05;
     options.atRest = AtRest::Collide;
     const PairSpheres spheres = fillPair(scene, scene.pairs[0], motion, options);
-    CHECK(spheres.askAll);
+    CHECK(spheres.testAll);
     const auto tabulated = [&](bool allAsked) {
         PairReport report;
         const PairTable made = tabulatePair(spheres, motion, options, report, {});
@@ -201,7 +201,7 @@ TEST_CASE(
     CHECK(tabulated(true) > 2 * few);
     options.depth = 0;
     options.budget = 0;
-    CHECK_FALSE(fillPair(scene, scene.pairs[0], motion, options).askAll);
+    CHECK_FALSE(fillPair(scene, scene.pairs[0], motion, options).testAll);
 }
 
 TEST_CASE(
@@ -222,7 +222,7 @@ TEST_CASE(
     const Motion motion = pairMotion(scene, scene.pairs[0]);
     const PairSpheres spheres = fillPair(scene, scene.pairs[0], motion, options);
     const std::size_t pairs = spheres.a.spheres.size() * spheres.b.spheres.size();
-    CHECK(spheres.askAll);
+    CHECK(spheres.testAll);
     CHECK(pairs <= options.mostTests);
     CHECK(pairs > options.mostTests / 2);
     CHECK(spheres.a.note.find("instead of 1e-05 scene units") != std::string::npos);
@@ -372,8 +372,8 @@ TEST_CASE("spheres that bodies near each other at rest take are not made coarser
     BakeOptions options;
     options.tolerance = 0.1;
     options.mostTests = 100;
-    const PairSpheres spheres = fillToAskAll(scene, scene.pairs[0], motion, options);
-    CHECK_FALSE(spheres.askAll);
+    const PairSpheres spheres = fillToTestAll(scene, scene.pairs[0], motion, options);
+    CHECK_FALSE(spheres.testAll);
     CHECK(spheres.a.spheres.size() > 100); // which their distance takes, whatever the tolerance
-    CHECK(spheres.stickOut < 1);
+    CHECK(spheres.protrusions < 1);
 }
