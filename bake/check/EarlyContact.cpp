@@ -15,18 +15,14 @@ namespace tss {
 
 namespace {
 
-/// The distance of the surfaces; `most` where it is more, 0 under a thousandth of that.
+/// The distance of the surfaces, scene units, no more than `most`; 0 where it is less than a thousandth of
+/// that.
 double clearance(const MeshQuery& a, const MeshQuery& b, const Pose& bToA, double most) {
     const double distance = std::min(a.distanceTo(b, bToA, most), most);
     return distance < most / 1000 ? 0 : distance;
 }
 
-/// To one digit.
-double roundedDown(double length) {
-    const double power = std::pow(10.0, std::floor(std::log10(length)));
-    return std::floor(length / power) * power;
-}
-
+/// The share of the lengths that are below the limit.
 double shareBelow(const std::vector<double>& lengths, double limit) {
     if (lengths.empty()) return 0;
     const auto below = std::ranges::count_if(lengths, [&](double l) { return l < limit; });
@@ -39,50 +35,51 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// Whether one of the first steps from rest this way is reported: 1/1024 to 1/128 of each DOF's range.
-/// Nothing where the limits are in the way.
-std::optional<bool> stopped(const Table& table, const Motion& motion, const std::vector<double>& rest,
-                            const std::vector<int>& way) {
+/// Whether contact is reported at one of the first steps from rest in a direction: at 1/1024 to 1/128 of the
+/// range of each DOF. direction: -1, 0 or 1 for each DOF. Nothing where the steps leave the limits.
+std::optional<bool> isBlocked(const Table& table, const Motion& motion, const std::vector<double>& rest,
+                              const std::vector<int>& direction) {
     for (const double step : {1.0 / 1024, 1.0 / 512, 1.0 / 256, 1.0 / 128}) {
         std::vector<double> q = rest;
         for (std::size_t k = 0; k < q.size(); ++k)
-            q[k] += step * way[k] * (motion.dofs[k].upper - motion.dofs[k].lower);
+            q[k] += step * direction[k] * (motion.dofs[k].upper - motion.dofs[k].lower);
         if (!withinLimits(motion, q, 0)) return std::nullopt;
         if (query(table, q).hit()) return true;
     }
     return false;
 }
 
-/// All ways that turn each DOF back, on or not at all; with many DOFs one at a time.
-bool heldAtRest(const Table& table, const Motion& motion, const std::vector<double>& rest) {
-    constexpr std::size_t most = 5; // 242 ways
+/// Whether every small step from rest within the limits is reported as contact. Tries all combinations of
+/// directions of the DOFs; with many DOFs one DOF at a time.
+bool isHeldAtRest(const Table& table, const Motion& motion, const std::vector<double>& rest) {
+    constexpr std::size_t most = 5; // DOFs: 242 directions
     const std::size_t dofs = rest.size();
-    std::vector<std::vector<int>> ways;
+    std::vector<std::vector<int>> directions;
     if (dofs <= most) {
         std::size_t count = 1;
         for (std::size_t k = 0; k < dofs; ++k) count *= 3;
         for (std::size_t number = 0; number < count; ++number) {
-            std::vector<int> way;
+            std::vector<int> direction;
             for (std::size_t k = 0, digits = number; k < dofs; ++k, digits /= 3)
-                way.push_back(static_cast<int>(digits % 3) - 1);
-            ways.push_back(std::move(way));
+                direction.push_back(static_cast<int>(digits % 3) - 1);
+            directions.push_back(std::move(direction));
         }
     } else {
         for (std::size_t k = 0; k < dofs; ++k)
-            for (const int sign : {-1, 1}) ways.emplace_back(dofs, 0)[k] = sign;
+            for (const int sign : {-1, 1}) directions.emplace_back(dofs, 0)[k] = sign;
     }
     bool any = false;
-    for (const std::vector<int>& way : ways) {
-        if (std::ranges::all_of(way, [](int turn) { return turn == 0; })) continue;
-        const std::optional<bool> stop = stopped(table, motion, rest, way);
-        if (stop == false) return false;
-        any |= stop.has_value();
+    for (const std::vector<int>& direction : directions) {
+        if (std::ranges::all_of(direction, [](int sign) { return sign == 0; })) continue;
+        const std::optional<bool> blocked = isBlocked(table, motion, rest, direction);
+        if (blocked == false) return false;
+        any |= blocked.has_value();
     }
     return any;
 }
 
-/// About a hundred, evenly over Q. Of three DOFs and more a grid would be little but corners: of joints that
-/// turn all the way round all the same pose.
+/// About a hundred poses spread over Q. Over three DOFs and more they are random: a grid of so few would
+/// consist of the corners of Q, which are all the same pose for joints that turn all the way round.
 std::vector<std::vector<double>> spreadPoses(const Motion& motion) {
     constexpr std::size_t count = 100;
     return motion.dofCount() < 3 ? exploredPoses(motion, count, 1) : randomPoses(motion, count, 1);
@@ -105,14 +102,15 @@ std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const P
     const Table& table = *pair.table;
     const bool contact = query(table, rest).hit();
     result.restReported = !result.close && contact;
-    result.held = !contact && heldAtRest(table, motion, rest);
+    result.held = !contact && isHeldAtRest(table, motion, rest);
 
     const std::vector<std::vector<double>> poses = spreadPoses(motion);
     std::vector<double> distances(poses.size(), early);
     std::vector<char> reported(poses.size());
     parallelFor(poses.size(), [&](std::size_t i) {
         reported[i] = query(table, poses[i]).hit();
-        // Where no contact is reported there is none when nothing is missed; how near it is comes later.
+        // Where no contact is reported, and none can be missed, the surfaces are apart: their distance is
+        // only needed later.
         if (reported[i] || pair.table->boundMiss != 0)
             distances[i] = clearance(a, b, pose(motion, poses[i]), early);
     });
@@ -126,10 +124,10 @@ std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const P
     if (!free.empty()) result.share = static_cast<double>(wrong.size()) / static_cast<double>(free.size());
     if (!result.coarse()) return result;
 
-    // The spheres of both bodies then take at most six tenths of the play that the joint has where it is
-    // reported without reason.
+    // With it the spheres of both bodies take at most six tenths of the clearance that the joint has where
+    // contact is reported though nothing touches.
     const double play = std::min(wrong.empty() ? early : median(wrong), result.close ? early : result.atRest);
-    const double proposed = roundedDown(0.3 * play), now = (early - epsilon) / 2;
+    const double proposed = roundedDownToDigit(0.3 * play), now = (early - epsilon) / 2;
     if (proposed >= 0.9 * now) return result;
     result.tolerance = proposed;
     const double then = 2 * proposed + epsilon;

@@ -12,7 +12,7 @@ struct EarlyContact {
     double atRest = 0;         ///< scene units: the surfaces are that far apart at rest; 0: they touch
     bool close = false;        ///< by so little that no tolerance is proposed for it
     bool restReported = false; ///< contact is reported at rest, though the surfaces are apart, not close
-    bool held = false;         ///< not at rest, but every small step from there is reported, whichever way
+    bool held = false;         ///< rest is reported free, and every small step from it as contact
     int poses = 0;             ///< looked at
     int freePoses = 0;         ///< of those, where the surfaces are apart
     double share = 0;          ///< of the free ones: contact is reported
@@ -20,8 +20,8 @@ struct EarlyContact {
         0; ///< scene units: one that leaves the joint most of its clearance; 0: none needed or found
     double shareThen = 0; ///< of the free ones, with that tolerance: no more than this
 
-    /// The tolerance is coarse beside the joint's clearance: it is reported early, or sticks. Where most
-    /// poses touch, the few others are near contact whatever the tolerance.
+    /// The tolerance is too coarse for the joint's clearance: contact is reported at rest or at many free
+    /// poses. (Where most poses touch, the few others are near contact whatever the tolerance.)
     bool coarse() const { return restReported || share * freePoses > 0.1 * std::max(freePoses, poses / 2); }
 
     /// The meshes touch at most poses, though not all.

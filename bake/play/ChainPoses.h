@@ -8,34 +8,35 @@
 
 namespace tss {
 
-/// Where the bodies of a scene stand against one another, for many pairs of them at once: sine and cosine of
-/// each joint's values once, then one product a body, and one more a pair.
+/// The places of a scene's bodies, from which the poses of many pairs follow: each joint's transform is
+/// calculated once, then one product gives the place of a body and one more the pose of a pair.
 class ChainPoses {
 public:
     using Matrix = PoseRecipe::Matrix; ///< 3 by 4, row-major, rotation first
 
     ChainPoses() = default;
-    /// Of the bodies that the joints of these pairs link. pairs: indices into scene.pairs.
+    /// For the bodies that the joints of these pairs link. pairs: indices into scene.pairs.
     ChainPoses(const SceneModel& scene, const std::vector<int>& pairs);
 
-    /// All of the pair's joints are served. Not served are paths, and joints that close a loop.
+    /// Whether all of the pair's joints are supported. Paths and joints that close a loop are not.
     bool links(const Pair& pair) const;
 
-    /// How far between() may be off at points of B no farther from B's origin than `farthest`, scene units;
-    /// of a pair that is linked.
+    /// A bound of the rounding error of between(), scene units, at points of B no farther from B's origin
+    /// than `farthest`. The pair must be one for which links() is true.
     double error(const Pair& pair, double farthest) const;
 
-    /// values: one per DOF of all joints of the scene, in file order, finite. places: one per body, its frame
-    /// to that of the body that its joints lead to in the end; of a body that no pair's joint links, nothing.
+    /// values: one per DOF of all joints of the scene, in file order, finite. places: one per body, from its
+    /// frame to that of the root of its tree of joints; left as they are for bodies that no pair's joint
+    /// links.
     void evaluate(const double* values, Matrix* places) const;
 
     /// The same of poseLanes configurations at once: values of each, places one per body.
     void evaluate(const double* const* values, BodyLanes* places) const;
 
-    /// B to A, from their places.
+    /// The transform from B's frame to A's, from the places of both.
     static void between(const Matrix& a, const Matrix& b, Matrix& out);
 
-    /// Of a point of A's frame and one of B's.
+    /// Squared distance of a point of A's frame and one of B's, scene units squared.
     static double squaredDistance(const Matrix& a, const Vec3& inA, const Matrix& b, const Vec3& inB) {
         double sum = 0;
         for (int r = 0; r < 12; r += 4) {
@@ -48,7 +49,7 @@ public:
 
 private:
     struct Step {
-        int parent = -1, body = -1;      ///< parent -1: one that stands at the origin
+        int parent = -1, body = -1;      ///< parent -1: the root of a tree
         std::vector<std::size_t> values; ///< of each DOF of the recipe, its place among all values
         PoseRecipe recipe;               ///< body to parent
         PosePlan plan;                   ///< the same; empty where nothing moves
@@ -59,7 +60,7 @@ private:
     LaneKernels laneKernels_ = laneKernels(KernelTarget::Best);
     std::vector<Step> steps_;      ///< each parent before its children
     std::vector<bool> served_;     ///< per joint
-    std::vector<Motion> toOrigin_; ///< per body: its motion against the origin's
+    std::vector<Motion> toOrigin_; ///< per body: its motion against the root
 };
 
 } // namespace tss

@@ -14,15 +14,15 @@ namespace tss {
 
 namespace {
 
-/// A table with the places of its DOFs among all values.
-struct Placed {
+/// A pair with a table, and the indices of its DOFs among all values.
+struct TableSlots {
     int pair;
     std::vector<std::size_t> slots;
 };
 
 /// Adds the joints of the pair to the plan where they are not in it yet.
-Placed place(const SceneModel& scene, int pair, JointPlan& plan) {
-    Placed placed{pair, {}};
+TableSlots slotsOf(const SceneModel& scene, int pair, JointPlan& plan) {
+    TableSlots placed{pair, {}};
     for (int joint : scene.pairs[pair].joints) {
         if (std::ranges::find(plan.joints, joint) != plan.joints.end()) continue;
         plan.joints.push_back(joint);
@@ -36,14 +36,14 @@ Placed place(const SceneModel& scene, int pair, JointPlan& plan) {
     return placed;
 }
 
-void addGroup(const SceneModel& scene, const std::vector<Placed>& tables, JointPlan& plan) {
+void addGroup(const SceneModel& scene, const std::vector<TableSlots>& tables, JointPlan& plan) {
     std::vector<std::size_t> slots;
-    for (const Placed& table : tables) slots.insert(slots.end(), table.slots.begin(), table.slots.end());
+    for (const TableSlots& table : tables) slots.insert(slots.end(), table.slots.begin(), table.slots.end());
     std::ranges::sort(slots);
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
     std::vector<TableOnJoint> entries;
     std::vector<int> pairs;
-    for (const Placed& table : tables) {
+    for (const TableSlots& table : tables) {
         TableOnJoint entry{scene.pairs[table.pair].table.get(), {}};
         for (std::size_t slot : table.slots)
             entry.dofs.push_back(static_cast<int>(std::ranges::find(slots, slot) - slots.begin()));
@@ -56,10 +56,10 @@ void addGroup(const SceneModel& scene, const std::vector<Placed>& tables, JointP
 /// Puts the tables into groups that are answered together. A group holds at most maxDofs values of joints;
 /// each table goes to the group with room for it that it adds the fewest values to, or starts a new one. That
 /// gives few groups, not always the fewest.
-std::vector<std::vector<Placed>> grouped(const std::vector<Placed>& tables) {
-    std::vector<std::vector<Placed>> groups;
+std::vector<std::vector<TableSlots>> grouped(const std::vector<TableSlots>& tables) {
+    std::vector<std::vector<TableSlots>> groups;
     std::vector<std::set<std::size_t>> slots;
-    for (const Placed& table : tables) {
+    for (const TableSlots& table : tables) {
         std::size_t best = groups.size(), fewest = 0;
         for (std::size_t g = 0; g < groups.size(); ++g) {
             const auto more = static_cast<std::size_t>(std::ranges::count_if(
@@ -82,13 +82,13 @@ void warn(std::vector<std::string>* warnings, const Pair& pair, const std::strin
     if (warnings) warnings->push_back("pair " + pair.path + " is not kept apart: " + why);
 }
 
-/// What a table does to its joint that a person would not expect of it.
-void remark(std::vector<std::string>* warnings, const Pair& pair) {
+/// Warns of a table that reports contact at rest, or keeps the bodies farther apart than they are there.
+void warnAtRest(std::vector<std::string>* warnings, const Pair& pair) {
     if (!warnings) return;
     const Table& table = *pair.table;
     if (table.testCount() == 0) return;
     const double gap = query(table, restValues(table.motion)).gap, kept = 1.5 * table.epsilon;
-    // What overlaps at rest counts from there, and is at 0 but for rounding.
+    // Gaps of exempt pairs count from the depth at rest and are 0 there but for rounding.
     double size = 0;
     for (const Sphere& sphere : table.a) size = std::max(size, sphere.radius);
     const double rounding = 1e-6 * size;
@@ -103,15 +103,15 @@ void remark(std::vector<std::string>* warnings, const Pair& pair) {
     warnings->push_back("pair " + pair.path + ": " + text.str());
 }
 
-/// Where the tables do not go together, each alone.
-void addOrPart(const SceneModel& scene, const std::vector<Placed>& tables, JointPlan& plan,
+/// Adds the tables as one group, or each as a group of its own where they cannot be resolved together.
+void addGroups(const SceneModel& scene, const std::vector<TableSlots>& tables, JointPlan& plan,
                std::vector<std::string>* warnings) {
     try {
         return addGroup(scene, tables, plan);
     } catch (const InputError& error) {
         if (tables.size() == 1) return warn(warnings, scene.pairs[tables[0].pair], error.what());
     }
-    for (const Placed& table : tables) addOrPart(scene, {table}, plan, warnings);
+    for (const TableSlots& table : tables) addGroups(scene, {table}, plan, warnings);
 }
 
 } // namespace
@@ -121,18 +121,18 @@ std::shared_ptr<const JointPlan> makeJointPlan(const SceneModel& scene,
                                                std::vector<std::string>* warnings) {
     checkIndices(scene);
     auto plan = std::make_shared<JointPlan>();
-    std::vector<Placed> tables;
+    std::vector<TableSlots> tables;
     for (const std::string& path : pairPaths) {
         const int index = findPair(scene, path);
         if (index < 0 || !scene.pairs[index].table) continue;
-        const Placed table = place(scene, index, *plan);
+        const TableSlots table = slotsOf(scene, index, *plan);
         if (table.slots.size() == scene.pairs[index].table->motion.dofCount()) {
             tables.push_back(table);
-            remark(warnings, scene.pairs[index]);
+            warnAtRest(warnings, scene.pairs[index]);
         } else
             warn(warnings, scene.pairs[index], "its joints have other degrees of freedom than its table");
     }
-    for (const std::vector<Placed>& group : grouped(tables)) addOrPart(scene, group, *plan, warnings);
+    for (const std::vector<TableSlots>& group : grouped(tables)) addGroups(scene, group, *plan, warnings);
     return plan;
 }
 
@@ -181,7 +181,7 @@ std::vector<GroupAnswer> resolve(const JointPlan& plan, const std::vector<double
                 changed = changed || answer.q[k] != asked[k];
                 q[group.slots[k]] = answer.q[k];
             }
-            // The first word of a group tells whether it stopped its joints; later rounds only confirm.
+            // A group's answer is that of the first round, or of the last that changed a value.
             if (round == 0 || changed) answers[g] = {answer, heldOf(answer, workspaces[g])};
             if (changed && plan.groups.size() > 1) settled = false;
         }

@@ -16,14 +16,15 @@ namespace tss {
 
 namespace {
 
-/// What asking a table costs, in units of a look-up in its verdicts: estimates that only order the pairs.
+/// The estimated cost of asking a table, in units of a look-up in its verdict grid; only orders the pairs.
+/// placed: the pose is calculated from the bodies' places.
 double costOf(const PreparedTable& table, bool placed) {
     constexpr double pose = 20, placedPose = 4, tests = 10;
     const double asked = (placed ? placedPose : pose) + tests;
     return table.verdicts().empty() ? asked : 1 + table.verdicts().asked() * asked;
 }
 
-/// A value spread evenly, the same on every machine.
+/// A uniformly distributed value, the same on every machine.
 double between(std::mt19937_64& random, double lower, double upper) {
     return lower + (upper - lower) * (static_cast<double>(random() >> 11) * 0x1p-53);
 }
@@ -42,7 +43,7 @@ public:
     void ask(const double* values, std::size_t count, MechanismAnswer* answers, MechanismWorkspace& ws) const;
 
 private:
-    /// Configurations side by side.
+    /// Configurations that are evaluated together in vector lanes.
     struct Lanes {
         std::array<const double*, poseLanes> values;
         std::array<MechanismAnswer*, poseLanes> answers;
@@ -53,31 +54,33 @@ private:
         int pair = -1;
         Motion motion;
         std::vector<std::uint32_t> values; ///< of each DOF, its place among all values
-        bool inARow = false;               ///< these places are one after the other
+        bool contiguous = false;           ///< these places follow one another
     };
+    /// A table with what it takes to ask it.
     struct Asked {
         std::uint32_t part = 0;
         PreparedTable table;
-        bool placed = false; ///< the pose is had from the bodies' places
+        bool placed = false; ///< the pose is calculated from the bodies' places
         int bodyA = -1, bodyB = -1;
-        Vec3 a, b; ///< where these centres, each in its own body's frame, are farther apart than ...
-        double farSquared = 0; ///< ... its root, no test touches
+        Vec3 a, b;             ///< centres of two balls about the table's spheres, each in its body's frame
+        double farSquared = 0; ///< no test touches where a and b are farther apart than the root of this
     };
 
     Part partOf(const SceneModel& scene, int pair) const;
     void addTable(const SceneModel& scene, std::uint32_t part);
     void findOrder();
     bool within(const double* values) const;
-    const double* ownValues(const Part& part, const double* values, double* room) const;
+    /// The values of a part in a row: among all values, or copied to the buffer.
+    const double* ownValues(const Part& part, const double* values, double* buffer) const;
     bool beyond(const Part& part, const double* values) const;
     bool touches(const Asked& asked, const double* values, const ChainPoses::Matrix* places) const;
     bool touchesUnplaced(const Asked& asked, const double* values) const;
     /// Asks the tables that need places of all of these.
     void askPlaced(Lanes& lanes, MechanismWorkspace& ws) const;
-    /// The values, those beyond the limits replaced: for places, of which the pairs that have such a value
-    /// make no use.
+    /// The values with those beyond the limits replaced, for calculating places. Pairs that depend on a
+    /// replaced value are not asked.
     const double* limited(const double* values, MechanismWorkspace& ws) const;
-    /// Of one that no table within its limits touches.
+    /// The answer for a configuration at which no table within its limits touches.
     MechanismAnswer untouched(const double* values, bool within) const;
 
     std::size_t bodyCount_ = 0;
@@ -123,9 +126,9 @@ MechanismQuery::Prepared::Prepared(const SceneModel& scene, const std::vector<in
         planes_ = planes_ || !part.motion.planes.empty();
         for (std::size_t k = 0; k < part.values.size(); ++k) {
             const Dof& dof = part.motion.dofs[k];
-            const double hair = limitRounding(dof, fileRounding); // as beyondLimits()
-            lower_[part.values[k]] = std::max(lower_[part.values[k]], dof.lower - hair);
-            upper_[part.values[k]] = std::min(upper_[part.values[k]], dof.upper + hair);
+            const double slack = limitRounding(dof, fileRounding); // as beyondLimits()
+            lower_[part.values[k]] = std::max(lower_[part.values[k]], dof.lower - slack);
+            upper_[part.values[k]] = std::min(upper_[part.values[k]], dof.upper + slack);
         }
     }
     if (order.empty()) findOrder();
@@ -140,7 +143,7 @@ MechanismQuery::Prepared::Part MechanismQuery::Prepared::partOf(const SceneModel
     if (part.values.size() != part.motion.dofCount())
         throw InputError(Where{"", "", of.path}, "its joints have other degrees of freedom than its table");
     for (std::size_t k = 1; k < part.values.size(); ++k)
-        part.inARow = part.inARow && part.values[k] == part.values[0] + k;
+        part.contiguous = part.contiguous && part.values[k] == part.values[0] + k;
     return part;
 }
 
@@ -159,7 +162,7 @@ void MechanismQuery::Prepared::addTable(const SceneModel& scene, std::uint32_t p
         const TablePair bound = boundOf(tablePairs(table));
         asked.a = bound.a;
         asked.b = bound.b;
-        // What the table itself would count as touching by its rounding stays with the table.
+        // The rounding bands, within which the table itself counts contact, are added.
         const double far = bound.contactDistance + 2 * (asked.table.signBand() + options.poseError);
         asked.farSquared = far > 0 ? far * far : 0;
     }
@@ -179,7 +182,7 @@ void MechanismQuery::Prepared::findOrder() {
         for (std::size_t t = 0; t < tables_.size(); ++t)
             touching[t][i] = touches(tables_[t], values.data(), ws.places.data());
     }
-    // Always the one that ends most of the configurations that are still open for what it costs.
+    // Greedy: next the table that finds contact at most of the open configurations for its cost.
     std::vector<bool> open(samples, true);
     for (auto next = tables_.begin(); next != tables_.end(); ++next) {
         auto best = next;
@@ -220,15 +223,15 @@ bool MechanismQuery::Prepared::within(const double* values) const {
 }
 
 const double* MechanismQuery::Prepared::ownValues(const Part& part, const double* values,
-                                                  double* room) const {
-    if (part.inARow) return part.values.empty() ? values : values + part.values[0];
-    for (std::size_t k = 0; k < part.values.size(); ++k) room[k] = values[part.values[k]];
-    return room;
+                                                  double* buffer) const {
+    if (part.contiguous) return part.values.empty() ? values : values + part.values[0];
+    for (std::size_t k = 0; k < part.values.size(); ++k) buffer[k] = values[part.values[k]];
+    return buffer;
 }
 
 bool MechanismQuery::Prepared::beyond(const Part& part, const double* values) const {
-    DofValues room;
-    return beyondLimits(part.motion, {ownValues(part, values, room.data()), part.values.size()});
+    DofValues buffer;
+    return beyondLimits(part.motion, {ownValues(part, values, buffer.data()), part.values.size()});
 }
 
 bool MechanismQuery::Prepared::touches(const Asked& asked, const double* values,
@@ -244,8 +247,8 @@ bool MechanismQuery::Prepared::touches(const Asked& asked, const double* values,
 }
 
 bool MechanismQuery::Prepared::touchesUnplaced(const Asked& asked, const double* values) const {
-    DofValues room;
-    return asked.table.hit(ownValues(parts_[asked.part], values, room.data()));
+    DofValues buffer;
+    return asked.table.hit(ownValues(parts_[asked.part], values, buffer.data()));
 }
 
 const double* MechanismQuery::Prepared::limited(const double* values, MechanismWorkspace& ws) const {

@@ -8,12 +8,12 @@
 namespace tss {
 namespace {
 
-/// Of a way from rest to limits: joints that turn by less than a whole turn each turn by little from one to
-/// the next, so that the way round is known.
-constexpr int wayStations = 16;
-constexpr int sparse = 4;              ///< each so many of them is a place that shares are made for
-constexpr std::size_t mostWays = 64;   ///< of several joints together
-constexpr double wholeTurnNear = -0.9; ///< cosine of half the turn: 308 degrees
+/// Samples of a way from rest to limits: so many that joints that turn by less than a whole turn turn by less
+/// than half a turn from one sample to the next, which tells the way round.
+constexpr int waySamples = 16;
+constexpr int kept = 4;                ///< every so many of the samples is returned
+constexpr std::size_t mostWays = 64;   ///< combinations of several joints
+constexpr double wholeTurnNear = -0.9; ///< cosine of half the angle of a turn of 308 degrees
 
 /// Values of all DOFs of the scene at the end of a way.
 using Values = std::vector<double>;
@@ -36,7 +36,7 @@ std::vector<std::vector<Values>> jointEnds(const SceneModel& scene, const std::v
     return ends;
 }
 
-/// One value at a time, then one of each of two or more joints together.
+/// The ends of all ways: one value at a time, then, of two or more joints, one value of each together.
 std::vector<Values> waysOver(const std::vector<std::vector<Values>>& ends, const Values& rest) {
     std::vector<Values> single, together{rest};
     for (const std::vector<Values>& joint : ends) {
@@ -78,15 +78,15 @@ MuscleWays muscleWays(const SceneModel& scene, const MuscleModel& muscle) {
     Eigen::Vector4d sum = ways.side;
     for (const Values& end : waysOver(jointEnds(scene, *chain, rest), rest)) {
         Eigen::Vector4d last(0, 0, 0, 1);
-        for (int s = 1; s <= wayStations; ++s) {
+        for (int s = 1; s <= waySamples; ++s) {
             Values values = rest;
             for (std::size_t k = 0; k < rest.size(); ++k)
-                if (end[k] != rest[k]) values[k] += (end[k] - rest[k]) * s / wayStations;
+                if (end[k] != rest[k]) values[k] += (end[k] - rest[k]) * s / waySamples;
             all.push_back(
                 DualPose(insertionMotion(scene, muscle, posedBodies(scene, values))).inHemisphereOf(last));
             last = all.back().real;
             sum += last;
-            if (s % sparse == 0) ways.far.push_back(all.back());
+            if (s % kept == 0) ways.far.push_back(all.back());
         }
     }
     const auto fails = [&](const Eigen::Vector4d& side) {

@@ -8,10 +8,10 @@ namespace tss {
 
 /// Where joints take the insertion's bone of a muscle, seen from its origin's bone in the surface's frame.
 struct MuscleWays {
-    std::vector<DualPose> far;        ///< since rest; each on the way round that its joints take
+    std::vector<DualPose> far; ///< motions since rest; the sign of each tells which way round it turned
     Eigen::Vector4d side{0, 0, 0, 1}; ///< Muscle::side
-    /// Places that look alike are come to by both ways round, or a whole turn is near: Muscle::side cannot
-    /// tell how the muscle lies there.
+    /// The joints reach the same orientation turning either way, or nearly a whole turn: Muscle::side cannot
+    /// tell which way round the muscle is turned there.
     bool unclear = false;
 };
 
